@@ -1,0 +1,39 @@
+# berth_library(<folder> SOURCES ... DEPENDS ... USES ...): one target for each folder of src/berth.
+# DEPENDS are libraries that its headers need, USES are those that only its sources need.
+function(berth_compile_options target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor
+                         $<$<BOOL:${BERTH_WARNINGS_AS_ERRORS}>:-Werror>)
+  if(BERTH_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${BERTH_SANITIZE} -fno-omit-frame-pointer)
+    target_link_options(${target} PUBLIC -fsanitize=${BERTH_SANITIZE})
+  endif()
+endfunction()
+
+function(berth_library folder)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;USES" ${ARGN})
+  add_library(berth_${folder} ${ARG_SOURCES})
+  add_library(berth::${folder} ALIAS berth_${folder})
+  set_target_properties(berth_${folder} PROPERTIES EXPORT_NAME ${folder})
+  target_include_directories(berth_${folder} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_link_libraries(berth_${folder} PUBLIC ${ARG_DEPENDS} PRIVATE ${ARG_USES})
+  berth_compile_options(berth_${folder})
+  set_property(GLOBAL APPEND PROPERTY BERTH_LIBRARIES berth_${folder})
+endfunction()
+
+# berth_program(<name> SOURCES ... DEPENDS ...)
+function(berth_program name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_DEPENDS})
+  berth_compile_options(${name})
+endfunction()
+
+# berth_test(<name> SOURCES ... DEPENDS ...): a GoogleTest program, each of its tests one line of ctest.
+function(berth_test name)
+  berth_program(${name} ${ARGN})
+  target_link_libraries(${name} PRIVATE GTest::gtest_main)
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+endfunction()

@@ -1,0 +1,89 @@
+// Images: rows of pixels, (0, 0) top left, u to the right, v down.
+#pragma once
+
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace berth {
+
+/// Somebody else's pixels, read only. `stride` counts elements from one row to the next.
+template <typename T>
+struct ImageView {
+  const T* data = nullptr;
+  int width = 0;
+  int height = 0;
+  std::ptrdiff_t stride = 0;
+
+  const T* row(int v) const { return data + v * stride; }
+  const T& operator()(int u, int v) const {
+    assert(u >= 0 && u < width && v >= 0 && v < height);
+    return row(v)[u];
+  }
+};
+
+/// An image that owns its pixels, without gaps between the rows.
+template <typename T>
+class Image {
+ public:
+  Image() = default;
+  Image(int width, int height, T fill = T{})
+      : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * height, fill) {}
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  T* row(int v) { return pixels_.data() + static_cast<std::ptrdiff_t>(v) * width_; }
+  const T* row(int v) const { return pixels_.data() + static_cast<std::ptrdiff_t>(v) * width_; }
+  T& operator()(int u, int v) {
+    assert(u >= 0 && u < width_ && v >= 0 && v < height_);
+    return row(v)[u];
+  }
+  const T& operator()(int u, int v) const {
+    assert(u >= 0 && u < width_ && v >= 0 && v < height_);
+    return row(v)[u];
+  }
+  std::vector<T>& pixels() { return pixels_; }
+  const std::vector<T>& pixels() const { return pixels_; }
+
+  /// Keeps its memory where the new size needs no more.
+  void resize(int width, int height, T fill) {
+    width_ = width;
+    height_ = height;
+    pixels_.assign(static_cast<std::size_t>(width) * height, fill);
+  }
+
+  ImageView<T> view() const { return {pixels_.data(), width_, height_, width_}; }
+  operator ImageView<T>() const { return view(); }
+
+ private:
+  int width_ = 0;
+  int height_ = 0;
+  std::vector<T> pixels_;
+};
+
+/// Depth in metres along the optical axis (z, not along the ray); NaN where there is none.
+using DepthImage = Image<float>;
+using DepthView = ImageView<float>;
+
+inline constexpr float kNoDepth = std::numeric_limits<float>::quiet_NaN();
+
+/// A pixel's coordinates; (-1, -1) where there is no pixel.
+struct Pixel {
+  int u = -1;
+  int v = -1;
+  bool operator==(const Pixel&) const = default;
+};
+
+/// The pixels with u_begin <= u < u_end and v_begin <= v < v_end.
+struct PixelRect {
+  int u_begin = 0;
+  int v_begin = 0;
+  int u_end = 0;
+  int v_end = 0;
+  bool empty() const { return u_begin >= u_end || v_begin >= v_end; }
+};
+
+}  // namespace berth

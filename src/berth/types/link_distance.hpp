@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "berth/types/image.hpp"
+#include "berth/types/robot_image.hpp"
+
+namespace berth {
+
+enum class LinkStatus : std::uint8_t {
+  ok,             ///< there is a distance
+  none_in_range,  ///< the link is seen, and nothing is within the range
+  not_visible,    ///< the camera sees no pixel of the link: nothing is known
+};
+
+/// The closest pair of one link (Hirt 2.10 to 2.14). Unless status is ok, every length is NaN and every
+/// pixel (-1, -1): never 0, never a large number, never the answer before.
+struct LinkDistance {
+  LinkId id = kNoLink;
+  LinkStatus status = LinkStatus::not_visible;
+  float distance_m = std::numeric_limits<float>::quiet_NaN();
+  Pixel robot_pixel;
+  Pixel obstacle_pixel;
+  /// In the camera's optical frame C. The minimum distance vector is obstacle_point_C_m - robot_point_C_m.
+  Eigen::Vector3f robot_point_C_m = Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
+  Eigen::Vector3f obstacle_point_C_m = Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
+  /// Mean of the unit vectors from robot_pixel to the mean_count obstacle pixels in its region of
+  /// surveillance (Hirt 2.2.5), in frame C; its length is at most 1. NaN where mean_count is 0.
+  Eigen::Vector3f mean_direction_C = Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
+  std::int64_t mean_count = 0;
+  /// Pixels of the link in the robot image.
+  int robot_pixels = 0;
+};
+
+/// The answer for one image: links[i] has the id i + 1.
+struct LinkDistances {
+  std::vector<LinkDistance> links;
+  /// Pair distances that were computed (the thesis plots it).
+  std::int64_t pairs = 0;
+};
+
+}  // namespace berth

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "berth/types/image.hpp"
+
+namespace berth {
+
+/// What became of one pixel of the sensor's depth image in the self filter. The order is that of the rules.
+enum class PixelFate : std::uint8_t {
+  obstacle,     ///< kept: it may be an obstacle
+  no_reading,   ///< the sensor gave nothing here
+  robot,        ///< on the robot, or behind it
+  environment,  ///< on an environment link of the URDF, or behind it
+  padding,      ///< within the link's metric padding beside the robot, and not in front of it
+  dilation,     ///< within the silhouette grown by a number of pixels, and not in front of it
+  edge,         ///< a mixed pixel at a depth edge
+  island,       ///< a small piece that hangs on the robot's own readings and never leaves its neighbourhood
+};
+inline constexpr int kPixelFateCount = 8;
+
+/// The filtered depth image F (Hirt 2.2.1): the sensor's depth with the robot removed, NaN where there is
+/// nothing; and for each pixel why.
+struct ObstacleImage {
+  DepthImage depth_m;
+  Image<PixelFate> fate;
+  /// Pixels of each PixelFate; they add up to the image's size.
+  std::array<std::int64_t, kPixelFateCount> count{};
+
+  std::int64_t count_of(PixelFate f) const { return count[static_cast<std::size_t>(f)]; }
+};
+
+}  // namespace berth
