@@ -1,0 +1,93 @@
+#include "berth/robot/joint_trajectory.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace berth {
+namespace {
+
+std::vector<std::string> names_of(const std::vector<MovableJoint>& joints) {
+  std::vector<std::string> names;
+  for (const MovableJoint& joint : joints) names.push_back(joint.name);
+  return names;
+}
+
+/// The column of each of the robot's joints.
+std::vector<std::size_t> columns_of(const RobotModel& model, const std::string& source,
+                                    const std::vector<std::string>& names) {
+  const std::vector<std::string> known = names_of(model.joints);
+  const auto contains = [](const auto& list, const std::string& name) {
+    return std::find(list.begin(), list.end(), name) != list.end();
+  };
+  for (const std::string& name : names) {
+    if (contains(known, name) || contains(model.mimic_joints, name)) continue;
+    throw std::runtime_error(
+        fmt::format("{}: \"{}\" is no joint of robot \"{}\" that moves; expected {}", source, name,
+                    model.name, fmt::join(known, ", ")));
+  }
+  std::vector<std::size_t> columns;
+  for (const std::string& name : known) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) {
+      throw std::runtime_error(fmt::format(
+          "{}: joint \"{}\" of robot \"{}\" is missing; expected a column for each of {}", source,
+          name, model.name, fmt::join(known, ", ")));
+    }
+    columns.push_back(found - names.begin());
+  }
+  return columns;
+}
+
+}  // namespace
+
+JointTrajectory::JointTrajectory(const RobotModel& model, std::string source,
+                                 const std::vector<std::string>& names,
+                                 const std::vector<Sample>& samples)
+    : source_(std::move(source)) {
+  const std::vector<std::size_t> columns = columns_of(model, source_, names);
+  for (const MovableJoint& joint : model.joints)
+    is_continuous_.push_back(joint.type == JointType::continuous);
+  for (const Sample& sample : samples) {
+    JointState state{sample.time_s, {}};
+    for (const std::size_t column : columns) state.position.push_back(sample.positions.at(column));
+    states_.push_back(std::move(state));
+  }
+}
+
+JointState JointTrajectory::at(double time_s) const {
+  if (states_.empty() || !(time_s >= states_.front().stamp_s && time_s <= states_.back().stamp_s)) {
+    throw std::runtime_error(
+        fmt::format("{}: no joint angles for time {} s; expected a time from {} to {} s", source_,
+                    time_s, states_.empty() ? 0 : states_.front().stamp_s,
+                    states_.empty() ? 0 : states_.back().stamp_s));
+  }
+  const auto after =
+      std::lower_bound(states_.begin(), states_.end(), time_s,
+                       [](const JointState& state, double t) { return state.stamp_s < t; });
+  if (after->stamp_s == time_s) return *after;
+  const auto before = after - 1;
+  const double share = (time_s - before->stamp_s) / (after->stamp_s - before->stamp_s);
+  JointState state{time_s, before->position};
+  for (std::size_t i = 0; i < state.position.size(); ++i) {
+    double step = after->position[i] - before->position[i];
+    if (is_continuous_[i]) step = std::remainder(step, 2 * std::numbers::pi);
+    state.position[i] += share * step;
+  }
+  return state;
+}
+
+const JointState& JointTrajectory::sample(std::size_t index) const {
+  if (index < states_.size()) return states_[index];
+  throw std::runtime_error(
+      fmt::format("{}: {} rows of joint angles, but frame {} needs row {} (a frame without a stamp "
+                  "takes the row of its "
+                  "number)",
+                  source_, states_.size(), index, index));
+}
+
+}  // namespace berth

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "berth/robot/robot_model.hpp"
+#include "berth/types/joint_state.hpp"
+
+namespace berth {
+
+/// Joint states over time, in the order of a robot's joints.
+class JointTrajectory {
+ public:
+  struct Sample {
+    double time_s = 0;
+    std::vector<double> positions;  ///< one for each name
+  };
+
+  /// `names` are URDF joints in any order, `samples` at least one, with increasing times. The
+  /// positions of mimic joints are accepted and not used, since those follow their masters. Throws
+  /// std::runtime_error that begins with `source` (a file's name): a name that is no joint of the
+  /// robot or a fixed one, a joint of the robot that is missing.
+  JointTrajectory(const RobotModel& model, std::string source,
+                  const std::vector<std::string>& names, const std::vector<Sample>& samples);
+
+  /// Linear between the samples around it; a continuous joint takes the shorter way round. Throws
+  /// std::runtime_error for a time outside of the samples: nothing is extrapolated.
+  JointState at(double time_s) const;
+  /// Throws std::runtime_error where there is no such sample; the first is 0.
+  const JointState& sample(std::size_t index) const;
+  std::size_t size() const { return states_.size(); }
+
+ private:
+  std::string source_;
+  std::vector<bool> is_continuous_;
+  std::vector<JointState> states_;
+};
+
+}  // namespace berth

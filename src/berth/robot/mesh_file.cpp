@@ -1,0 +1,145 @@
+#include "berth/robot/mesh_file.hpp"
+
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <cctype>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+
+namespace berth {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& what) {
+  throw std::runtime_error(fmt::format("{}: {}", path.string(), what));
+}
+
+Eigen::Affine3d to_eigen(const aiMatrix4x4& m) {
+  Eigen::Affine3d X;
+  X.matrix() << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2,
+      m.d3, m.d4;
+  return X;
+}
+
+TriangleMesh to_mesh(const aiMesh& source) {
+  TriangleMesh mesh;
+  mesh.vertices_m.reserve(source.mNumVertices);
+  for (unsigned i = 0; i < source.mNumVertices; ++i) {
+    const aiVector3D& p = source.mVertices[i];
+    mesh.vertices_m.emplace_back(p.x, p.y, p.z);
+  }
+  mesh.triangles.reserve(source.mNumFaces);
+  for (unsigned i = 0; i < source.mNumFaces; ++i) {
+    const aiFace& face = source.mFaces[i];
+    if (face.mNumIndices == 3)
+      mesh.triangles.push_back({face.mIndices[0], face.mIndices[1], face.mIndices[2]});
+  }
+  return mesh;
+}
+
+void append_node(const aiScene& scene, const aiNode& node, const Eigen::Affine3d& X_parent,
+                 TriangleMesh& mesh) {
+  const Eigen::Affine3d X = X_parent * to_eigen(node.mTransformation);
+  for (unsigned i = 0; i < node.mNumMeshes; ++i)
+    mesh.append(to_mesh(*scene.mMeshes[node.mMeshes[i]]), X);
+  for (unsigned i = 0; i < node.mNumChildren; ++i) append_node(scene, *node.mChildren[i], X, mesh);
+}
+
+bool ends_with_endsolid(const std::string& text) {
+  const auto end = text.find_last_not_of(" \t\r\n");
+  if (end == std::string::npos) return false;
+  const auto line = text.find_last_of("\r\n", end) + 1;
+  return text.compare(text.find_first_not_of(" \t", line), 8, "endsolid") == 0;
+}
+
+/// Assimp reads a text STL that was cut as if it were whole.
+void require_whole_stl(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  constexpr std::size_t kHeader = 84;
+  constexpr std::size_t kTriangle = 50;
+  std::size_t binary_size = 0;
+  if (bytes.size() >= kHeader) {
+    std::uint32_t count = 0;
+    std::copy_n(bytes.data() + kHeader - sizeof count, sizeof count,
+                reinterpret_cast<char*>(&count));
+    binary_size = kHeader + kTriangle * count;
+  }
+  if (bytes.size() == binary_size) return;
+  if (bytes.rfind("solid", 0) == 0 && ends_with_endsolid(bytes)) return;
+  fail(path,
+       fmt::format(
+           "the STL holds {} bytes; expected text from \"solid\" to \"endsolid\", or {} bytes "
+           "as its header says",
+           bytes.size(),
+           binary_size == 0 ? std::string("at least 84") : std::to_string(binary_size)));
+}
+
+void require_finite(const std::filesystem::path& path, const aiScene& scene) {
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& mesh = *scene.mMeshes[m];
+    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+      const aiVector3D& p = mesh.mVertices[i];
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+        fail(path, fmt::format("vertex {} is {} {} {}; expected finite numbers", i, p.x, p.y, p.z));
+      }
+    }
+  }
+}
+
+void configure(Assimp::Importer& importer) {
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  // Else a file without meshes gets made-up ones.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
+  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
+                              aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+  // Without normals and texture coordinates the corners that neighbouring triangles share become
+  // one.
+  importer.SetPropertyInteger(
+      AI_CONFIG_PP_RVC_FLAGS,
+      aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
+          aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
+          aiComponent_TEXTURES | aiComponent_LIGHTS | aiComponent_CAMERAS | aiComponent_MATERIALS);
+}
+
+}  // namespace
+
+TriangleMesh read_mesh_file(const std::filesystem::path& path) {
+  if (!std::filesystem::is_regular_file(path)) fail(path, "there is no such mesh file");
+  if (std::filesystem::file_size(path) == 0) fail(path, "the mesh file is empty (0 bytes)");
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  if (extension == ".stl") require_whole_stl(path);
+
+  Assimp::Importer importer;
+  configure(importer);
+  const aiScene* scene = importer.ReadFile(path.string(), 0);
+  // Joining takes a vertex that is NaN for another one: look before.
+  if (scene != nullptr) {
+    require_finite(path, *scene);
+    scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_RemoveComponent |
+                                         aiProcess_JoinIdenticalVertices | aiProcess_SortByPType);
+  }
+  if (scene == nullptr)
+    fail(path, fmt::format("the mesh cannot be read: {}", importer.GetErrorString()));
+
+  TriangleMesh mesh;
+  if (scene->mRootNode != nullptr)
+    append_node(*scene, *scene->mRootNode, Eigen::Affine3d::Identity(), mesh);
+  if (mesh.empty()) fail(path, "the mesh has no triangle");
+  for (std::size_t i = 0; i < mesh.vertices_m.size(); ++i) {
+    if (!mesh.vertices_m[i].allFinite())
+      fail(path, fmt::format("vertex {} is not finite after its node's transform", i));
+  }
+  return mesh;
+}
+
+}  // namespace berth

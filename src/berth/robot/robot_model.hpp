@@ -1,0 +1,97 @@
+// The robot as loaded from its URDF: constant, shared by all that use it.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "berth/robot/triangle_mesh.hpp"
+#include "berth/types/camera.hpp"
+#include "berth/types/robot_image.hpp"
+
+namespace berth {
+
+enum class GeometryKind {
+  visual,     ///< what the camera sees; where a link has none, nothing
+  collision,  ///< the collision shapes; where a link has none, its visual ones, since the camera
+              ///< sees those
+};
+
+enum class JointType { fixed, revolute, continuous, prismatic };
+
+enum class LinkRole {
+  evaluated,    ///< filtered out of the image, and its distance is asked for
+  environment,  ///< scenery: filtered out, not evaluated
+  ignored,      ///< neither
+};
+
+/// What connects a link to its parent. `X_PJ` is the joint's frame in the parent link's frame; the
+/// link's own frame moves in it along or around `axis_J`.
+struct Joint {
+  std::string name;
+  JointType type = JointType::fixed;
+  Pose X_PJ = Pose::Identity();
+  Eigen::Vector3d axis_J = Eigen::Vector3d::UnitX();
+  /// Position = multiplier * JointState::position[position_index] + offset; a mimic joint has its
+  /// master's index, a fixed one none.
+  std::optional<std::size_t> position_index;
+  double multiplier = 1;
+  double offset = 0;
+};
+
+struct Link {
+  std::string name;
+  /// Index into RobotModel::links, always smaller than the link's own; none for the root.
+  std::optional<std::size_t> parent;
+  Joint joint;
+  LinkRole role = LinkRole::ignored;
+  /// 1, 2, ... for evaluated links, kEnvironmentLink for scenery, else kNoLink.
+  LinkId id = kNoLink;
+  /// All of the link's shapes in its own frame L; empty for a link without geometry.
+  TriangleMesh mesh_L;
+};
+
+/// One that a joint state has to give a position for.
+struct MovableJoint {
+  std::string name;
+  JointType type = JointType::revolute;
+};
+
+struct RobotModel {
+  std::string name;
+  /// Parents before children; links[0] is the root, whose frame is B.
+  std::vector<Link> links;
+  /// The order of JointState::position; fixed and mimic joints are not among them.
+  std::vector<MovableJoint> joints;
+  /// Joints that follow another one: known by name, but nobody gives their position.
+  std::vector<std::string> mimic_joints;
+  /// evaluated_links[i] is the index in `links` of the link with the id i + 1.
+  std::vector<std::size_t> evaluated_links;
+
+  int link_count() const { return static_cast<int>(evaluated_links.size()); }
+  std::vector<std::string> evaluated_link_names() const;
+  std::optional<std::size_t> find_link(std::string_view link_name) const;
+};
+
+struct RobotSettings {
+  std::filesystem::path urdf = {};
+  /// What package://NAME/ means. A NAME that is not here is looked for as a folder beside the URDF,
+  /// then beside each folder above it.
+  std::map<std::string, std::filesystem::path> package_paths = {};
+  GeometryKind geometry = GeometryKind::visual;
+  std::vector<std::string> environment_links = {};
+  std::vector<std::string> ignore_links = {};
+};
+
+/// Loads a URDF and its meshes. Evaluated are the links that have geometry and are neither scenery
+/// nor ignored; their ids follow the tree, parents first. Throws std::runtime_error that names the
+/// file, the link or joint, the value and what was expected: URDF missing, invalid, with a loop,
+/// without a root or with two, a joint type other than fixed, revolute, continuous and prismatic, a
+/// mesh that is missing, unreadable or empty, an unknown link in the settings.
+RobotModel load_robot(const RobotSettings& settings);
+
+}  // namespace berth

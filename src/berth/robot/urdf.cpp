@@ -1,0 +1,140 @@
+#include "berth/robot/urdf.hpp"
+
+#include <console_bridge/console.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <mutex>
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+namespace berth {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& what) {
+  throw std::runtime_error(fmt::format("{}: {}", path.string(), what));
+}
+
+/// urdfdom tells its errors to the log of the process alone: this listens while it parses.
+class LogListener : public console_bridge::OutputHandler {
+ public:
+  LogListener() : lock_(mutex()) { console_bridge::useOutputHandler(this); }
+  ~LogListener() override { console_bridge::restorePreviousOutputHandler(); }
+  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) errors_.push_back(text);
+  }
+  const std::vector<std::string>& errors() const { return errors_; }
+
+ private:
+  // The log has one listener for the whole process.
+  static std::mutex& mutex() {
+    static std::mutex one;
+    return one;
+  }
+  std::unique_lock<std::mutex> lock_;
+  std::vector<std::string> errors_;
+};
+
+std::string read_text(const std::filesystem::path& path) {
+  if (!std::filesystem::is_regular_file(path)) fail(path, "there is no such URDF file");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) fail(path, "the URDF cannot be opened for reading");
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos)
+    fail(path, "the URDF is empty; expected <robot>");
+  return text;
+}
+
+urdf::ModelInterfaceSharedPtr parse(const std::filesystem::path& path, const std::string& text) {
+  LogListener log;
+  urdf::ModelInterfaceSharedPtr model;
+  try {
+    model = urdf::parseURDF(text);
+  } catch (const std::exception& error) {
+    fail(path, fmt::format("not a valid URDF: {}", error.what()));
+  }
+  if (!model) {
+    fail(path,
+         fmt::format("not a valid URDF: {}",
+                     log.errors().empty() ? "expected one <robot> that is a tree of links"
+                                          : fmt::format("{}", fmt::join(log.errors(), "; "))));
+  }
+  if (!log.errors().empty())
+    fail(path, fmt::format("not a valid URDF: {}", fmt::join(log.errors(), "; ")));
+  return model;
+}
+
+void require_one_parent_each(const std::filesystem::path& path, const urdf::ModelInterface& model) {
+  std::map<std::string, std::string> parent_joint;
+  for (const auto& [name, joint] : model.joints_) {
+    const auto [entry, is_new] = parent_joint.emplace(joint->child_link_name, name);
+    if (!is_new) {
+      fail(path,
+           fmt::format(
+               "link \"{}\" is the child of two joints, \"{}\" and \"{}\": a loop; expected a tree",
+               joint->child_link_name, entry->second, name));
+    }
+  }
+}
+
+void require_all_reached(const std::filesystem::path& path, const urdf::ModelInterface& model) {
+  std::set<std::string> reached{model.getRoot()->name};
+  std::vector<urdf::LinkConstSharedPtr> open{model.getRoot()};
+  while (!open.empty()) {
+    const auto link = open.back();
+    open.pop_back();
+    for (const auto& child : link->child_links) {
+      if (reached.insert(child->name).second) open.push_back(child);
+    }
+  }
+  for (const auto& [name, link] : model.links_) {
+    if (reached.count(name) == 0) {
+      fail(path, fmt::format("link \"{}\" is not connected to the root \"{}\" (its joints form a "
+                             "loop); expected a tree",
+                             name, model.getRoot()->name));
+    }
+  }
+}
+
+void require_mimic_ends(const std::filesystem::path& path, const urdf::ModelInterface& model) {
+  for (const auto& [name, joint] : model.joints_) {
+    std::set<std::string> seen{name};
+    urdf::JointSharedPtr current = joint;
+    while (current->mimic) {
+      const std::string& master = current->mimic->joint_name;
+      const auto found = model.joints_.find(master);
+      if (found == model.joints_.end()) {
+        fail(path, fmt::format("joint \"{}\" mimics \"{}\"; expected the name of a joint",
+                               current->name, master));
+      }
+      if (found->second->type == urdf::Joint::FIXED) {
+        fail(path,
+             fmt::format("joint \"{}\" mimics \"{}\", which is fixed; expected a joint that moves",
+                         current->name, master));
+      }
+      if (!seen.insert(master).second) {
+        fail(path, fmt::format("joint \"{}\" mimics \"{}\", which follows it: a loop; expected a "
+                               "chain that ends",
+                               current->name, master));
+      }
+      current = found->second;
+    }
+  }
+}
+
+}  // namespace
+
+urdf::ModelInterfaceSharedPtr parse_urdf(const std::filesystem::path& path) {
+  const auto model = parse(path, read_text(path));
+  require_one_parent_each(path, *model);
+  require_all_reached(path, *model);
+  require_mimic_ends(path, *model);
+  return model;
+}
+
+}  // namespace berth
