@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+
+#include "berth/robot/kinematics.hpp"
+#include "berth/robot/robot_model.hpp"
+#include "berth/types/camera.hpp"
+#include "berth/types/robot_image.hpp"
+
+namespace berth {
+
+/// The robot's meshes, ready for rays: built once, then constant, shared by all renderers and
+/// threads.
+class LinkMeshes;
+std::shared_ptr<const LinkMeshes> build_link_meshes(const RobotModel& model);
+
+/// Renders one robot into one camera. Each thread that renders has its own.
+class RobotRenderer {
+ public:
+  /// Throws std::invalid_argument where the camera's size or focal lengths are not positive and
+  /// finite.
+  RobotRenderer(std::shared_ptr<const LinkMeshes> meshes, const Camera& camera);
+  ~RobotRenderer();
+  RobotRenderer(RobotRenderer&&) noexcept;
+  RobotRenderer& operator=(RobotRenderer&&) noexcept;
+
+  /// Writes R and I (Hirt 2.2.1) to `image`, whose memory it reuses: one ray through each pixel's
+  /// centre, traced only within the image rectangles of the links. `pose` holds all of the model's
+  /// links; X_BC is the pose of the camera's optical frame in the root link's frame. A link is seen
+  /// from z > 0 on.
+  void render(const RobotPose& pose, const Pose& X_BC, RobotImage& image);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace berth
