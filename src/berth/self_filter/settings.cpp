@@ -1,0 +1,39 @@
+#include "berth/self_filter/settings.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace berth {
+namespace {
+
+void require_not_negative(const char* key, double value) {
+  if (std::isfinite(value) && value >= 0) return;
+  throw std::invalid_argument(
+      fmt::format("self_filter.{}: {}; expected a finite number of at least 0", key, value));
+}
+
+}  // namespace
+
+double SelfFilterSettings::padding_of(LinkId id) const {
+  const std::size_t i = static_cast<std::size_t>(id) - 1;
+  return i < link_padding_m.size() && !std::isnan(link_padding_m[i]) ? link_padding_m[i]
+                                                                     : padding_m;
+}
+
+void validate(const SelfFilterSettings& settings) {
+  require_not_negative("tolerance_m", settings.tolerance_m);
+  require_not_negative("tolerance_per_m", settings.tolerance_per_m);
+  require_not_negative("tolerance_per_m2", settings.tolerance_per_m2);
+  require_not_negative("padding_m", settings.padding_m);
+  for (const double padding_m : settings.link_padding_m) {
+    if (!std::isnan(padding_m)) require_not_negative("link_padding_m", padding_m);
+  }
+  require_not_negative("dilation_px", settings.dilation_px);
+  require_not_negative("edge_jump_m", settings.edge_jump_m);
+  require_not_negative("island_radius_m", settings.island_radius_m);
+  require_not_negative("island_jump_m", settings.island_jump_m);
+}
+
+}  // namespace berth

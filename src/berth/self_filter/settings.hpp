@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+#include "berth/types/robot_image.hpp"
+
+namespace berth {
+
+/// How much of the sensor's image counts as the robot itself. The defaults are those that work on
+/// real recordings of two robots and two kinds of camera.
+struct SelfFilterSettings {
+  /// A reading belongs to the robot unless it is nearer than the model by more than
+  /// tolerance_m + tolerance_per_m z + tolerance_per_m2 z^2 (z = the model's depth): calibration,
+  /// then noise.
+  double tolerance_m = 0.04;
+  double tolerance_per_m = 0;
+  double tolerance_per_m2 = 0;
+  /// The silhouette grows by this length at the robot's depth, on all sides in the image.
+  double padding_m = 0.02;
+  /// Padding of single links: link_padding_m[i] is that of the link with the id i + 1; where the
+  /// list ends or holds NaN, padding_m.
+  std::vector<double> link_padding_m;
+  /// The silhouette also grows by this number of pixels.
+  int dilation_px = 0;
+  /// A mixed pixel lies between two flat neighbours, more than this from each; 0 turns the rule
+  /// off.
+  double edge_jump_m = 0.03;
+  /// Depth-connected pieces (steps up to island_jump_m) that hang beside the robot and lie wholly
+  /// within this distance of it are its own leftovers; 0 turns the rule off.
+  double island_radius_m = 0.08;
+  double island_jump_m = 0.02;
+
+  double padding_of(LinkId id) const;
+};
+
+/// Throws std::invalid_argument that names key, value and what was expected.
+void validate(const SelfFilterSettings& settings);
+
+}  // namespace berth
