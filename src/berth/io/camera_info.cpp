@@ -1,0 +1,59 @@
+#include "berth/io/camera_info.hpp"
+
+#include "berth/io/yaml_value.hpp"
+
+namespace berth {
+namespace {
+
+// So that an image's pixels can be counted in an int.
+constexpr int kLargestSize_px = 32768;
+
+int read_size(const YamlValue& value) {
+  const int size_px = value.count();
+  if (size_px < 1 || size_px > kLargestSize_px) value.fail("a number of pixels from 1 to 32768");
+  return size_px;
+}
+
+void check_rectified(const YamlMap& info) {
+  const YamlValue model = info.at("distortion_model");
+  // With all coefficients 0, a fisheye's "equidistant" still bends the image.
+  if (const std::string name = model.text(); name != "plumb_bob" && name != "rational_polynomial") {
+    model.fail(
+        "plumb_bob or rational_polynomial; berth works on rectified images, so rectify the images "
+        "of another model first");
+  }
+  for (const YamlValue& coefficient :
+       YamlMap(info.at("distortion_coefficients")).at("data").list()) {
+    if (coefficient.number() != 0) {
+      coefficient.fail("all zeros; berth works on rectified images, so rectify the images first");
+    }
+  }
+}
+
+/// [fx 0 cx; 0 fy cy; 0 0 1], row by row.
+void read_camera_matrix(const YamlValue& data, Camera& camera) {
+  data.numbers(9);
+  const std::vector<YamlValue> items = data.list();
+  for (const std::size_t i : {1, 3, 6, 7}) {
+    if (items[i].number() != 0) items[i].fail("0 (no skew)");
+  }
+  if (items[8].number() != 1) items[8].fail("1");
+  camera.fx_px = items[0].positive();
+  camera.fy_px = items[4].positive();
+  camera.cx_px = items[2].number();
+  camera.cy_px = items[5].number();
+}
+
+}  // namespace
+
+Camera read_camera_info(const std::filesystem::path& file) {
+  const YamlMap info(load_yaml(file));
+  Camera camera;
+  camera.width_px = read_size(info.at("image_width"));
+  camera.height_px = read_size(info.at("image_height"));
+  read_camera_matrix(YamlMap(info.at("camera_matrix")).at("data"), camera);
+  check_rectified(info);
+  return camera;
+}
+
+}  // namespace berth

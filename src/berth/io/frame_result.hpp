@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "berth/types/camera.hpp"
+#include "berth/types/link_distance.hpp"
+#include "berth/types/obstacle_image.hpp"
+
+namespace berth {
+
+/// How long one frame's evaluation took, from three images in memory to the result.
+struct EvaluateTiming {
+  int repeat = 0;
+  double min_us = 0;
+  double p50_us = 0;
+  double p99_us = 0;
+  double max_us = 0;
+};
+
+/// All that is told of one frame.
+struct FrameResult {
+  int frame = 0;
+  double stamp_s = 0;
+  std::string camera;
+  std::string method;
+  double range_m = 0;
+  /// One for each of distances->links, in the same order.
+  std::vector<std::string> link_names;
+  /// Must be set; not owned.
+  const LinkDistances* distances = nullptr;
+  /// The pose of the camera in the robot's root link. With it, points are also told in the root's
+  /// frame.
+  std::optional<Pose> X_BC;
+  std::optional<EvaluateTiming> timing;
+  /// Pixels of each PixelFate.
+  std::optional<std::array<std::int64_t, kPixelFateCount>> self_filter;
+};
+
+/// "ok", "none_in_range" or "not_visible".
+const char* status_name(LinkStatus status);
+
+/// The enumerator's own name.
+const char* fate_name(PixelFate fate);
+
+}  // namespace berth

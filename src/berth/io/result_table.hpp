@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "berth/io/frame_result.hpp"
+
+namespace berth {
+
+/// The frame's links as a table for people: a heading and one line for each link, columns aligned.
+/// A link whose status is not ok has "-" for distance and pixels.
+std::string result_table(const FrameResult& result);
+
+}  // namespace berth

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace berth {
+
+/// what() of the std::runtime_error that `run` throws; empty where it throws none.
+template <typename Run>
+std::string error_message(Run run) {
+  try {
+    run();
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+inline void expect_parts(const std::string& message, const std::vector<std::string>& parts) {
+  EXPECT_FALSE(message.empty()) << "no error";
+  for (const std::string& part : parts) {
+    EXPECT_NE(message.find(part), std::string::npos) << "'" << part << "' is not in: " << message;
+  }
+}
+
+/// A text that must be refused, and what the message must name.
+struct BadText {
+  std::string text;
+  std::vector<std::string> message_parts;
+};
+
+}  // namespace berth
