@@ -1,0 +1,47 @@
+#pragma once
+
+#include "berth/pipeline/frame.hpp"
+#include "berth/pipeline/rig.hpp"
+#include "berth/types/joint_state.hpp"
+#include "berth/types/link_distance.hpp"
+
+namespace berth {
+
+/// An answer, and what it was made from.
+struct Answer {
+  /// When the depth image was exposed, and the time of the joint angles that were asked for.
+  double frame_stamp_s = 0;
+  double joints_stamp_s = 0;
+  LinkDistances distances;
+};
+
+/// The controller's clock: questions about a frame. One for each thread; the rig has to outlive it.
+/// Several may ask one frame at the same time.
+class Asker {
+ public:
+  explicit Asker(const Rig& rig);
+
+  /// The distances of the robot as it stood when the image was exposed. Valid until the next
+  /// question.
+  const Answer& ask(const Frame& frame);
+
+  /// The distances with the robot at other joint angles, now or where it is about to go, against
+  /// what the frame saw; the camera stays where it was at the exposure. Valid until the next
+  /// question. Throws std::invalid_argument for wrong joints.
+  const Answer& ask(const Frame& frame, const JointState& joints);
+
+  /// The robot of the last question at other joint angles.
+  const RobotImage& robot_image() const { return robot_; }
+
+ private:
+  const Answer& evaluate_robot(const Frame& frame, const RobotImage& robot, double joints_stamp_s);
+
+  const Rig& rig_;
+  RobotRenderer renderer_;
+  RobotPose pose_;
+  RobotImage robot_;
+  ExactWorkspace workspace_;
+  Answer answer_;
+};
+
+}  // namespace berth

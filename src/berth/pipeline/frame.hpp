@@ -1,0 +1,21 @@
+#pragma once
+
+#include "berth/distance/obstacle_tree.hpp"
+#include "berth/types/camera.hpp"
+#include "berth/types/obstacle_image.hpp"
+#include "berth/types/robot_image.hpp"
+
+namespace berth {
+
+/// What one depth image tells, ready for any number of questions; constant while it is asked.
+struct Frame {
+  double stamp_s = 0;
+  /// The camera's pose in the robot's root link when the image was exposed.
+  Pose X_BC = Pose::Identity();
+  /// The robot at that time.
+  RobotImage robot;
+  ObstacleImage obstacles;
+  ObstacleTree obstacle_tree;
+};
+
+}  // namespace berth
