@@ -1,0 +1,37 @@
+// The picture of one frame: what the camera saw, what was filtered out of it, and how near each
+// link is.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "berth/types/image.hpp"
+#include "berth/types/link_distance.hpp"
+#include "berth/types/obstacle_image.hpp"
+#include "berth/types/robot_image.hpp"
+
+namespace berth {
+
+/// What write_picture() draws. A null pointer leaves that layer out; the images have the sensor's
+/// size.
+struct PictureInput {
+  DepthView sensor_depth_m;
+  const RobotImage* robot = nullptr;
+  const ObstacleImage* obstacles = nullptr;
+  const LinkDistances* distances = nullptr;
+  /// link_names[i] is the name of the link with the id i + 1, UTF-8; at least one for each link in
+  /// distances.
+  std::vector<std::string> link_names;
+  /// Distances were looked for up to here.
+  double range_m = 0;
+  std::string title;
+};
+
+/// Writes a PNG: the depth image with the robot, the filtered pixels and each link's closest pair
+/// on it, and a legend at its right. The file appears complete or not at all. Throws
+/// std::runtime_error with the path and the reason: no pixels, images or names that do not fit
+/// together, text that is not UTF-8, a file that cannot be written.
+void write_picture(const std::filesystem::path& path, const PictureInput& input);
+
+}  // namespace berth

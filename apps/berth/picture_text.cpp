@@ -1,0 +1,86 @@
+#include "apps/berth/picture_text.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <vector>
+
+namespace berth {
+namespace {
+
+/// Cuts UTF-8 between code points.
+std::vector<std::string> code_points(const std::string& text) {
+  std::vector<std::string> points;
+  for (const char c : text) {
+    const bool continues = (static_cast<unsigned char>(c) & 0xC0) == 0x80;
+    if (continues && !points.empty()) {
+      points.back() += c;
+    } else {
+      points.emplace_back(1, c);
+    }
+  }
+  return points;
+}
+
+}  // namespace
+
+std::string range_text(double range_m) {
+  const bool is_whole_cm = std::abs(range_m - std::round(range_m * 100) / 100) < 1e-9;
+  return fmt::format("{:.{}f} m", range_m, is_whole_cm ? 2 : 3);
+}
+
+std::string distance_text(const LinkDistance& link, double range_m) {
+  switch (link.status) {
+    case LinkStatus::ok:
+      return link.distance_m == 0 ? "contact" : fmt::format("{:.3f} m", link.distance_m);
+    case LinkStatus::none_in_range:
+      return "none within " + range_text(range_m);
+    case LinkStatus::not_visible:
+      return "not visible";
+  }
+  return "";
+}
+
+std::string fate_text(PixelFate fate) {
+  switch (fate) {
+    case PixelFate::obstacle:
+      return "kept: obstacle";
+    case PixelFate::no_reading:
+      return "no reading";
+    case PixelFate::robot:
+      return "robot";
+    case PixelFate::padding:
+      return "padding of the robot";
+    case PixelFate::dilation:
+      return "dilated silhouette";
+    case PixelFate::environment:
+      return "environment";
+    case PixelFate::edge:
+      return "mixed edge pixel";
+    case PixelFate::island:
+      return "island at the robot";
+  }
+  return "";
+}
+
+std::string grouped(std::int64_t count) {
+  std::string digits = fmt::format("{}", count);
+  for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, 1, ',');
+  return digits;
+}
+
+std::string fit_text(const Canvas& canvas, const std::string& text, const Font& font,
+                     double width_px) {
+  if (canvas.text_width_px(text, font) <= width_px) return text;
+  const std::vector<std::string> points = code_points(text);
+  for (std::size_t kept = points.size(); kept-- > 1;) {
+    std::string shorter;
+    for (std::size_t i = 0; i < (kept + 1) / 2; ++i) shorter += points[i];
+    shorter += "…";
+    for (std::size_t i = points.size() - kept / 2; i < points.size(); ++i) shorter += points[i];
+    if (canvas.text_width_px(shorter, font) <= width_px) return shorter;
+  }
+  return "…";
+}
+
+}  // namespace berth

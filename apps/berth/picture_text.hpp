@@ -1,0 +1,28 @@
+// The words and numbers of the picture.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "apps/berth/picture_canvas.hpp"
+#include "berth/types/link_distance.hpp"
+#include "berth/types/obstacle_image.hpp"
+
+namespace berth {
+
+/// "1.00 m"; a third decimal where the second would round.
+std::string range_text(double range_m);
+
+/// "0.137 m", or "contact" for exactly 0, or why there is no distance.
+std::string distance_text(const LinkDistance& link, double range_m);
+
+std::string fate_text(PixelFate fate);
+
+/// 1234567 as "1,234,567".
+std::string grouped(std::int64_t count);
+
+/// The text, or its two ends around an ellipsis so that it is not wider than width_px.
+std::string fit_text(const Canvas& canvas, const std::string& text, const Font& font,
+                     double width_px);
+
+}  // namespace berth

@@ -1,0 +1,161 @@
+// The layout, the labels' places and the words of the picture.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "apps/berth/picture_layout.hpp"
+#include "apps/berth/picture_pairs.hpp"
+#include "apps/berth/picture_pixels.hpp"
+#include "apps/berth/picture_text.hpp"
+
+namespace berth {
+namespace {
+
+bool overlap(const BoxPx& a, const BoxPx& b) {
+  return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
+}
+
+bool inside(const BoxPx& a, const BoxPx& b) {
+  return a.x >= b.x && a.y >= b.y && a.x + a.width <= b.x + b.width &&
+         a.y + a.height <= b.y + b.height;
+}
+
+PictureLayout layout_of(int width_px, int height_px, int links) {
+  const DepthImage depth_m(width_px, height_px, 1.0F);
+  const ObstacleImage obstacles{depth_m, Image<PixelFate>(width_px, height_px), {}};
+  LinkDistances distances;
+  distances.links.resize(links);
+  const std::vector<std::string> names(links, "a_name_of_usual_length");
+  return layout_picture({depth_m, nullptr, &obstacles, &distances, names, 1.0, ""});
+}
+
+TEST(PictureLayout, SmallImagesGrowByAWholeFactor) {
+  EXPECT_EQ(layout_of(320, 240, 7).factor, 3);
+  EXPECT_EQ(layout_of(640, 480, 7).factor, 2);
+  EXPECT_EQ(layout_of(1280, 720, 7).factor, 1);
+  EXPECT_EQ(layout_of(1920, 1080, 7).factor, 1);
+}
+
+TEST(PictureLayout, PartsStayWithinThePictureAndApart) {
+  for (const auto& [width, height] : {std::pair{320, 240},
+                                      {640, 480},
+                                      {1280, 720},
+                                      {1920, 1080},
+                                      {16, 12},
+                                      {2000, 50},
+                                      {50, 2000}}) {
+    for (const int links : {0, 1, 7, 12, 40, 82}) {
+      const PictureLayout layout = layout_of(width, height, links);
+      const BoxPx sheet{0, 0, double(layout.width_px), double(layout.height_px)};
+      EXPECT_TRUE(inside(layout.image, sheet) && inside(layout.legend, sheet));
+      EXPECT_FALSE(overlap(layout.image, layout.legend));
+      EXPECT_LE(layout.table.shown, layout.table.rows * layout.table.columns);
+      EXPECT_GE(layout.table.row_em * layout.em_px, 11);
+    }
+  }
+}
+
+TEST(PictureLayout, EveryLinkHasARowUpToForty) {
+  for (const auto& [width, height] : {std::pair{320, 240}, {640, 480}, {1280, 720}, {1920, 1080}}) {
+    for (const int links : {1, 7, 12, 25, 40})
+      EXPECT_EQ(layout_of(width, height, links).table.shown, links) << width;
+    EXPECT_LT(layout_of(width, height, 82).table.shown, 82);
+    EXPECT_GE(layout_of(width, height, 82).table.shown, 30);
+  }
+}
+
+TEST(PictureLabels, NeverOverlapAndStayInBounds) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> somewhere(0, 700);
+  const BoxPx bounds{10, 20, 700, 500};
+  std::vector<LabelRequest> requests(40);
+  for (LabelRequest& request : requests)
+    request = {{10 + somewhere(random), 20 + 0.7 * somewhere(random)}, 70, 22};
+  const auto boxes = place_labels(requests, bounds, {});
+  ASSERT_EQ(boxes.size(), requests.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    ASSERT_TRUE(boxes[i]) << i;
+    EXPECT_TRUE(inside(*boxes[i], bounds)) << i;
+    for (std::size_t k = 0; k < i; ++k)
+      EXPECT_FALSE(overlap(*boxes[i], *boxes[k])) << i << ", " << k;
+  }
+}
+
+TEST(PictureLabels, OneWithoutRoomIsLeftOutAndTheFirstIsServed) {
+  const std::vector<LabelRequest> requests(30, {{50, 50}, 60, 20});
+  const auto boxes = place_labels(requests, {0, 0, 130, 100}, {});
+  EXPECT_TRUE(boxes.front());
+  EXPECT_FALSE(boxes.back());
+}
+
+TEST(PictureLabels, GoBesideWhatTheyShouldNotHide) {
+  // A wall of points at the right: without it the first direction, to the right, is as good as any.
+  std::vector<PointPx> wall;
+  for (int y = 0; y < 400; y += 4) wall.push_back({240, double(y)});
+  const LabelRequest label{{200, 200}, 80, 20};
+  const BoxPx bounds{0, 0, 400, 400};
+  const auto free = place_labels({label}, bounds, {}).front();
+  const auto beside = place_labels({label}, bounds, wall).front();
+  ASSERT_TRUE(free && beside);
+  EXPECT_TRUE(overlap(*free, {240, 0, 0.1, 400}));
+  EXPECT_FALSE(overlap(*beside, {240, 0, 0.1, 400}));
+}
+
+TEST(PictureText, DistanceOrReason) {
+  LinkDistance link;
+  link.status = LinkStatus::ok;
+  link.distance_m = 0.1374F;
+  EXPECT_EQ(distance_text(link, 1), "0.137 m");
+  link.distance_m = 0;
+  EXPECT_EQ(distance_text(link, 1), "contact");
+  link.status = LinkStatus::none_in_range;
+  EXPECT_EQ(distance_text(link, 1), "none within 1.00 m");
+  EXPECT_EQ(distance_text(link, 0.125), "none within 0.125 m");
+  link.status = LinkStatus::not_visible;
+  EXPECT_EQ(distance_text(link, 1), "not visible");
+}
+
+TEST(PictureText, CountsAreGroupedByThousands) {
+  EXPECT_EQ(grouped(0), "0");
+  EXPECT_EQ(grouped(999), "999");
+  EXPECT_EQ(grouped(1000), "1,000");
+  EXPECT_EQ(grouped(1234567), "1,234,567");
+}
+
+TEST(PictureText, LongNamesKeepBothEnds) {
+  const Canvas canvas(1, 1, kBlack);
+  const Font font{20, false};
+  const std::string name = "r_gripper_motor_accelerometer_link";
+  const std::string shorter = fit_text(canvas, name, font, 150);
+  EXPECT_LE(canvas.text_width_px(shorter, font), 150);
+  EXPECT_GE(canvas.text_width_px(shorter, font), 110);
+  EXPECT_EQ(shorter.substr(0, 4), "r_gr");
+  EXPECT_EQ(shorter.substr(shorter.size() - 4), "link");
+  EXPECT_EQ(fit_text(canvas, name, font, 2000), name);
+}
+
+TEST(PictureText, NamesAreCutBetweenCodePoints) {
+  Canvas canvas(10, 10, kBlack);
+  canvas.text({0, 5}, fit_text(canvas, "ääääääääääööööööööööüüüüüüüüüü", {10, false}, 60),
+              {10, false}, kWhite);
+  EXPECT_NO_THROW(canvas.png());
+}
+
+TEST(PictureTone, NearIsBrighterThanFarWhateverTheOutliers) {
+  DepthImage depth_m(100, 100, 2.0F);
+  for (int u = 0; u < 100; ++u) {
+    for (int v = 0; v < 40; ++v) depth_m(u, v) = 1.0F;
+  }
+  depth_m(0, 0) = 60.0F;
+  depth_m(1, 0) = 0.001F;
+  depth_m(2, 0) = kNoDepth;
+  const DepthTone tone = depth_tone(depth_m);
+  EXPECT_FLOAT_EQ(tone.near_m, 1);
+  EXPECT_FLOAT_EQ(tone.far_m, 2);
+  EXPECT_GT(tone(1.0).r, tone(1.5).r + 20);
+  EXPECT_GT(tone(1.5).r, tone(2.0).r + 20);
+  EXPECT_EQ(tone(60.0), tone(2.0));
+}
+
+}  // namespace
+}  // namespace berth
