@@ -1,0 +1,67 @@
+// The command line of each command.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "berth/distance/evaluate.hpp"
+#include "berth/distance/settings.hpp"
+
+namespace berth {
+
+enum class OutputFormat { table, json };
+
+/// What the command line says about the evaluation; what it does not say is left to the scene file
+/// or, without one, to DistanceSettings.
+struct EvaluationArguments {
+  std::optional<std::string> method;
+  std::optional<double> range_m;
+  std::optional<bool> mean_direction;
+
+  /// Throws std::invalid_argument for values outside their domain.
+  DistanceSettings settings_over(DistanceSettings settings) const;
+  Method method_over(Method otherwise) const;
+};
+
+struct CommonArguments {
+  EvaluationArguments evaluation;
+  OutputFormat format = OutputFormat::table;
+  /// Nothing: standard output.
+  std::filesystem::path out;
+  /// 0: as many as there are processors.
+  int threads = 0;
+};
+
+struct RunArguments : CommonArguments {
+  std::filesystem::path scene;
+  std::filesystem::path picture_folder;
+};
+
+struct FilterArguments {
+  std::filesystem::path scene;
+  std::filesystem::path out_folder;
+  int threads = 0;
+};
+
+struct EvaluateArguments : CommonArguments {
+  std::filesystem::path camera;
+  std::filesystem::path robot_depth;
+  std::filesystem::path link_ids;
+  std::filesystem::path obstacle_depth;
+  double depth_scale_m = 0.001;
+  int repeat = 0;
+};
+
+struct DemoArguments {
+  std::filesystem::path picture_folder = "berth_demo";
+  int threads = 0;
+};
+
+void add_run_options(CLI::App& command, RunArguments& arguments);
+void add_filter_options(CLI::App& command, FilterArguments& arguments);
+void add_evaluate_options(CLI::App& command, EvaluateArguments& arguments);
+void add_demo_options(CLI::App& command, DemoArguments& arguments);
+
+}  // namespace berth

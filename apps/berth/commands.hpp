@@ -1,0 +1,14 @@
+#pragma once
+
+#include "apps/berth/arguments.hpp"
+
+namespace berth {
+
+/// Each runs one command. Throws std::exception where it cannot be done, with the message for the
+/// user, and Interrupted where the user stopped it.
+void run_command(const RunArguments& arguments);
+void filter_command(const FilterArguments& arguments);
+void evaluate_command(const EvaluateArguments& arguments);
+void demo_command(const DemoArguments& arguments);
+
+}  // namespace berth

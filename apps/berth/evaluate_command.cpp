@@ -1,0 +1,105 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <vector>
+
+#include "apps/berth/commands.hpp"
+#include "apps/berth/interrupt.hpp"
+#include "apps/berth/output.hpp"
+#include "berth/distance/evaluate.hpp"
+#include "berth/io/camera_info.hpp"
+#include "berth/io/error.hpp"
+#include "berth/io/png.hpp"
+
+namespace berth {
+namespace {
+
+struct ThreeImages {
+  Camera camera;
+  RobotImage robot;
+  DepthImage obstacle_depth_m;
+  int link_count = 0;
+};
+
+/// A link's pixel has a depth and an ID that a link can have; a depth without ID belongs to no
+/// link.
+void require_fitting_ids(ThreeImages& images, const EvaluateArguments& arguments) {
+  for (int v = 0; v < images.camera.height_px; ++v) {
+    for (int u = 0; u < images.camera.width_px; ++u) {
+      const LinkId id = images.robot.link_id(u, v);
+      const std::string pixel = fmt::format("pixel ({}, {})", u, v);
+      if (id == kEnvironmentLink) {
+        throw_bad_file({arguments.link_ids, 0, pixel}, fmt::format("link ID {}", id), "0 to 65534");
+      }
+      if (id != kNoLink && std::isnan(images.robot.depth_m(u, v))) {
+        throw_bad_file(
+            {arguments.link_ids, 0, pixel},
+            fmt::format("link ID {} where {} has no depth", id, arguments.robot_depth.string()),
+            "a depth at each pixel of a link");
+      }
+      if (id == kNoLink) images.robot.depth_m(u, v) = kNoDepth;
+      images.link_count = std::max<int>(images.link_count, id);
+    }
+  }
+}
+
+ThreeImages read_images(const EvaluateArguments& arguments) {
+  ThreeImages images;
+  images.camera = read_camera_info(arguments.camera);
+  images.robot.depth_m =
+      read_depth_png(arguments.robot_depth, images.camera, arguments.depth_scale_m);
+  images.robot.link_id = read_link_ids_png(arguments.link_ids, images.camera);
+  images.obstacle_depth_m =
+      read_depth_png(arguments.obstacle_depth, images.camera, arguments.depth_scale_m);
+  require_fitting_ids(images, arguments);
+  return images;
+}
+
+EvaluateTiming summary_of(std::vector<double> times_us) {
+  std::sort(times_us.begin(), times_us.end());
+  // The least time that this share of the evaluations did not exceed.
+  const auto percentile = [&](double share) {
+    return times_us[static_cast<std::size_t>(
+                        std::ceil(share * static_cast<double>(times_us.size()))) -
+                    1];
+  };
+  return {static_cast<int>(times_us.size()), times_us.front(), percentile(0.5), percentile(0.99),
+          times_us.back()};
+}
+
+}  // namespace
+
+void evaluate_command(const EvaluateArguments& arguments) {
+  const ThreeImages images = read_images(arguments);
+  const Method method = arguments.evaluation.method_over(Method::exact);
+  const DistanceSettings settings = arguments.evaluation.settings_over({});
+  ObstacleTree tree;
+  ExactWorkspace workspace;
+  LinkDistances distances;
+  std::vector<double> times_us;
+  for (int i = 0; i < std::max(1, arguments.repeat); ++i) {
+    stop_if_interrupted();
+    const auto start = std::chrono::steady_clock::now();
+    build_obstacle_tree(images.obstacle_depth_m, tree);
+    evaluate(method, images.camera, images.robot, images.obstacle_depth_m, tree, images.link_count,
+             settings, workspace, distances);
+    const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
+    times_us.push_back(took.count());
+  }
+
+  FrameResult result;
+  result.camera = "camera";
+  result.method = name_of(method);
+  result.range_m = settings.range_m;
+  for (int id = 1; id <= images.link_count; ++id)
+    result.link_names.push_back(fmt::format("link_{}", id));
+  result.distances = &distances;
+  if (arguments.repeat > 0) result.timing = summary_of(std::move(times_us));
+  Output output(arguments.format, arguments.out);
+  output.write(result);
+  output.finish();
+}
+
+}  // namespace berth

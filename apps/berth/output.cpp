@@ -1,0 +1,42 @@
+#include "apps/berth/output.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+
+#include "berth/io/file_bytes.hpp"
+#include "berth/io/result_json.hpp"
+#include "berth/io/result_table.hpp"
+
+namespace berth {
+namespace {
+
+std::string text_of(const FrameResult& result, OutputFormat format) {
+  if (format == OutputFormat::json) return result_json(result) + "\n";
+  return fmt::format("frame {}, {:.3f} s, camera {}, method {}, range {} m\n{}\n", result.frame,
+                     result.stamp_s, result.camera, result.method, result.range_m,
+                     result_table(result));
+}
+
+}  // namespace
+
+void Output::write(const FrameResult& result) {
+  const std::string text = text_of(result, format_);
+  if (!file_.empty()) {
+    kept_ += text;
+    return;
+  }
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+    throw std::runtime_error(
+        fmt::format("standard output: cannot be written to: {}", std::strerror(errno)));
+  }
+}
+
+void Output::finish() {
+  if (!file_.empty()) write_file_bytes(file_, kept_);
+}
+
+}  // namespace berth

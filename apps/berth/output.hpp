@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "apps/berth/arguments.hpp"
+#include "berth/io/frame_result.hpp"
+
+namespace berth {
+
+/// Where results go: standard output at once, or a file that appears complete when all is done.
+class Output {
+ public:
+  Output(OutputFormat format, std::filesystem::path file)
+      : format_(format), file_(std::move(file)) {}
+
+  /// Throws std::runtime_error where it cannot be written.
+  void write(const FrameResult& result);
+  void finish();
+
+ private:
+  OutputFormat format_;
+  std::filesystem::path file_;
+  std::string kept_;
+};
+
+}  // namespace berth
