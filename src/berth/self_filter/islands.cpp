@@ -1,40 +1,35 @@
 #include "berth/self_filter/islands.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace berth {
 namespace {
 
-// What is known of a pixel while pieces are walked.
+/// What is known of an obstacle pixel while pieces are walked; find_near writes the first two.
 enum State : std::uint8_t { kOutside, kInside, kWalked };
 
-/// Pieces of pixels, walked one by one.
+/// Pieces of pixels in the robot's neighbourhood, walked one by one.
 class Walk {
  public:
-  Walk(DepthView depth_m, const PixelRect& rect, float jump_m, IslandWorkspace& workspace,
-       Image<PixelFate>& fate)
-      : depth_m_(depth_m), rect_(rect), jump_m_(jump_m), workspace_(workspace), fate_(fate) {}
+  Walk(DepthView depth_m, float jump_m, IslandWorkspace& workspace, Image<PixelFate>& fate)
+      : depth_m_(depth_m),
+        jump_m_(jump_m),
+        state_(workspace.state),
+        piece_(workspace.piece),
+        fate_(fate) {}
 
   /// The piece that holds `start` is an island unless it is joined to an obstacle pixel outside.
   void from(Pixel start) {
-    auto& piece = workspace_.piece;
-    piece.assign(1, start);
-    state(start) = kWalked;
+    piece_.assign(1, start);
+    state_(start.u, start.v) = kWalked;
     bool leaves = false;
-    for (std::size_t next = 0; next < piece.size(); ++next) leaves |= visit_neighbours(piece[next]);
+    for (std::size_t next = 0; next < piece_.size(); ++next)
+      leaves |= visit_neighbours(piece_[next]);
     if (leaves) return;
-    for (const Pixel& p : piece) fate_(p.u, p.v) = PixelFate::island;
+    for (const Pixel& p : piece_) fate_(p.u, p.v) = PixelFate::island;
   }
 
  private:
-  std::uint8_t& state(Pixel p) {
-    return workspace_.state(p.u - rect_.u_begin, p.v - rect_.v_begin);
-  }
-  bool in_rect(Pixel p) const {
-    return p.u >= rect_.u_begin && p.u < rect_.u_end && p.v >= rect_.v_begin && p.v < rect_.v_end;
-  }
-
   /// True where a joined neighbour is an obstacle pixel outside the robot's neighbourhood.
   bool visit_neighbours(Pixel p) {
     bool leaves = false;
@@ -44,21 +39,19 @@ class Walk {
         if (n.u < 0 || n.u >= depth_m_.width || n.v < 0 || n.v >= depth_m_.height) continue;
         if (fate_(n.u, n.v) != PixelFate::obstacle) continue;
         if (std::abs(depth_m_(n.u, n.v) - depth_m_(p.u, p.v)) > jump_m_) continue;
-        if (!in_rect(n) || state(n) == kOutside) {
-          leaves = true;
-        } else if (state(n) == kInside) {
-          state(n) = kWalked;
-          workspace_.piece.push_back(n);
-        }
+        if (state_(n.u, n.v) == kOutside) leaves = true;
+        if (state_(n.u, n.v) != kInside) continue;
+        state_(n.u, n.v) = kWalked;
+        piece_.push_back(n);
       }
     }
     return leaves;
   }
 
   DepthView depth_m_;
-  PixelRect rect_;
   float jump_m_;
-  IslandWorkspace& workspace_;
+  Image<std::uint8_t>& state_;
+  std::vector<Pixel>& piece_;
   Image<PixelFate>& fate_;
 };
 
@@ -67,25 +60,21 @@ class Walk {
 void mark_islands(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,
                   const SelfFilterSettings& settings, IslandWorkspace& workspace,
                   Image<PixelFate>& fate) {
-  RobotNeighbourhood& neighbourhood = workspace.neighbourhood;
-  neighbourhood.build(camera, robot);
-  const PixelRect rect = neighbourhood.reach(settings.island_radius_m);
-  if (rect.empty()) return;
-  workspace.state.resize(rect.u_end - rect.u_begin, rect.v_end - rect.v_begin, kOutside);
-  for (int v = rect.v_begin; v < rect.v_end; ++v) {
-    for (int u = rect.u_begin; u < rect.u_end; ++u) {
-      const bool in_front_of_robot =
-          robot.link_id(u, v) != kNoLink && robot.link_id(u, v) != kEnvironmentLink;
-      if (fate(u, v) != PixelFate::obstacle || in_front_of_robot) continue;
-      if (neighbourhood.is_near(u, v, sensor_depth_m(u, v), settings.island_radius_m)) {
-        workspace.state(u - rect.u_begin, v - rect.v_begin) = kInside;
-      }
+  workspace.candidate.resize(camera.width_px, camera.height_px, 0);
+  for (int v = 0; v < camera.height_px; ++v) {
+    for (int u = 0; u < camera.width_px; ++u) {
+      const LinkId id = robot.link_id(u, v);
+      const bool in_front_of_robot = id != kNoLink && id != kEnvironmentLink;
+      workspace.candidate(u, v) = fate(u, v) == PixelFate::obstacle && !in_front_of_robot;
     }
   }
-  Walk walk(sensor_depth_m, rect, static_cast<float>(settings.island_jump_m), workspace, fate);
-  for (int v = rect.v_begin; v < rect.v_end; ++v) {
-    for (int u = rect.u_begin; u < rect.u_end; ++u) {
-      if (workspace.state(u - rect.u_begin, v - rect.v_begin) == kInside) walk.from({u, v});
+  workspace.neighbourhood.build(camera, robot);
+  workspace.neighbourhood.find_near(sensor_depth_m, workspace.candidate, settings.island_radius_m,
+                                    workspace.state);
+  Walk walk(sensor_depth_m, static_cast<float>(settings.island_jump_m), workspace, fate);
+  for (int v = 0; v < camera.height_px; ++v) {
+    for (int u = 0; u < camera.width_px; ++u) {
+      if (workspace.state(u, v) == kInside) walk.from({u, v});
     }
   }
 }

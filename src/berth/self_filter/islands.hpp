@@ -13,6 +13,7 @@ struct IslandWorkspace {
   /// Pixels of the piece that is being walked.
   std::vector<Pixel> piece;
   RobotNeighbourhood neighbourhood;
+  Image<std::uint8_t> candidate;
   Image<std::uint8_t> state;
 };
 

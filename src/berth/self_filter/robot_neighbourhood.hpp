@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "berth/types/camera.hpp"
@@ -7,35 +8,50 @@
 
 namespace berth {
 
-/// Answers whether a point in space is near the robot's visible surface (evaluated links, not
-/// scenery).
+/// What is near the robot's visible surface in space (evaluated links, not scenery). Tile by tile:
+/// the boxes around two tiles of pixels settle most questions for all of them.
 class RobotNeighbourhood {
  public:
   /// Sorts the robot's pixels into tiles. `robot` has to outlive the questions. Reuses memory.
   void build(const Camera& camera, const RobotImage& robot);
 
-  /// True where some robot pixel's centre, back-projected at its depth, lies within `radius_m`
-  /// (Euclidean) of that of pixel (u, v) at `depth_m`.
-  bool is_near(int u, int v, double depth_m, double radius_m) const;
-
-  /// The pixels that may be near a point of the robot at all; empty without a robot.
-  PixelRect reach(double radius_m) const;
+  /// For each pixel with candidate(u, v) != 0, writes to near(u, v) whether some robot pixel's
+  /// centre, back-projected at its depth, lies within `radius_m` (Euclidean) of that pixel's at
+  /// depth_m(u, v); 0 for all other pixels. All images have the camera's size.
+  void find_near(DepthView depth_m, const Image<std::uint8_t>& candidate, double radius_m,
+                 Image<std::uint8_t>& near);
 
  private:
-  struct Tile {
-    float nearest_m;
-    float farthest_m;
+  /// A robot pixel's place in the optical frame.
+  struct Point {
+    float x_m;
+    float y_m;
+    float z_m;
   };
-  bool any_pixel_near(int column, int row, const Eigen::Vector3d& p_C, double radius2_m2) const;
+  struct Tile {
+    Eigen::AlignedBox3f box_C_m;
+    std::uint32_t first_point;
+    std::uint32_t point_count;
+  };
 
-  Camera camera_;
-  const RobotImage* robot_ = nullptr;
+  Point back_project(int u, int v, float depth_m) const {
+    return {ray_x_[u] * depth_m, ray_y_[v] * depth_m, depth_m};
+  }
+  void append_tile(const RobotImage& robot, const PixelRect& pixels);
+  void collect_tiles_near(const Eigen::AlignedBox3f& box_C_m, float radius_m);
+  bool is_near(const Point& p, float radius2_m2);
+
   int columns_ = 0;
   int rows_ = 0;
+  std::vector<float> ray_x_;
+  std::vector<float> ray_y_;
+  std::vector<Point> points_;
   std::vector<Tile> tiles_;
-  PixelRect bounds_;
-  float nearest_m_ = 0;
-  float farthest_m_ = 0;
+  Eigen::AlignedBox3f bounds_C_m_;
+  /// Scratch of find_near: the tiles that a tile of candidates may be near to, and the last point
+  /// that was.
+  std::vector<const Tile*> near_tiles_;
+  Point witness_{};
 };
 
 }  // namespace berth
