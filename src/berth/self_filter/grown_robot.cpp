@@ -16,7 +16,9 @@ void lower_disc(Image<float>& depths_m, int u, int v, double radius_u_px, double
   const int last = std::min(depths_m.height() - 1, v + static_cast<int>(radius_v_px));
   for (int row = first; row <= last; ++row) {
     const double share = (row - v) / radius_v_px;
-    const int half = static_cast<int>(radius_u_px * std::sqrt(std::max(0.0, 1 - share * share)));
+    // The margin keeps a pixel that is as far away as the radius itself.
+    const int half =
+        static_cast<int>(radius_u_px * std::sqrt(std::max(0.0, 1 - share * share)) + 1e-9);
     float* begin = depths_m.row(row) + std::max(0, u - half);
     float* const end = depths_m.row(row) + std::min(depths_m.width() - 1, u + half) + 1;
     for (; begin < end; ++begin) *begin = std::min(*begin, depth_m);

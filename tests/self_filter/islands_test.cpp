@@ -1,0 +1,88 @@
+// Which pieces beside the robot are its own leftovers, and which are not.
+#include <gtest/gtest.h>
+
+#include "tests/self_filter/flat_scene.hpp"
+
+namespace berth {
+namespace {
+
+constexpr PixelRect kLink{20, 20, 30, 40};
+// At 1 m a pixel is 10 mm wide, so that this web ends 60 mm beside the link.
+constexpr PixelRect kWeb{30, 25, 36, 35};
+
+FlatScene scene_with_web(float web_depth_m) {
+  FlatScene scene;
+  scene.add_link(1, kLink, 1.0F);
+  scene.see(kLink, 1.0F);
+  scene.see(kWeb, web_depth_m);
+  return scene;
+}
+
+SelfFilterSettings island_rule() {
+  SelfFilterSettings settings = no_rules();
+  settings.tolerance_m = 0.04;
+  settings.padding_m = 0.02;
+  settings.island_radius_m = 0.08;
+  settings.island_jump_m = 0.02;
+  return settings;
+}
+
+TEST(Islands, AWebBesideTheRobotIsDropped) {
+  const ObstacleImage out = filter(scene_with_web(1.0F), island_rule());
+  EXPECT_EQ(out.fate(34, 30), PixelFate::island);
+  EXPECT_EQ(out.count_of(PixelFate::island),
+            4 * 10);  // the padding took 2 px of 6
+}
+
+TEST(Islands, RadiusZeroTurnsTheRuleOff) {
+  SelfFilterSettings settings = island_rule();
+  settings.island_radius_m = 0;
+  EXPECT_EQ(filter(scene_with_web(1.0F), settings).fate(34, 30), PixelFate::obstacle);
+}
+
+TEST(Islands, APieceThatReachesFartherThanTheRadiusIsKeptWhole) {
+  FlatScene scene = scene_with_web(1.0F);
+  scene.see({36, 29, 50, 31}, 1.0F);  // an arm that reaches in
+  const ObstacleImage out = filter(scene, island_rule());
+  EXPECT_EQ(out.count_of(PixelFate::island), 0);
+  EXPECT_EQ(out.fate(34, 26), PixelFate::obstacle);
+}
+
+TEST(Islands, AStepInDepthCutsThePiece) {
+  FlatScene scene = scene_with_web(1.0F);
+  scene.see({36, 29, 50, 31}, 1.03F);
+  EXPECT_EQ(filter(scene, island_rule()).fate(34, 30), PixelFate::island);
+  SelfFilterSettings settings = island_rule();
+  settings.island_jump_m = 0.035;
+  EXPECT_EQ(filter(scene, settings).fate(34, 30), PixelFate::obstacle);
+}
+
+TEST(Islands, APieceDeeperThanTheRadiusIsKept) {
+  EXPECT_EQ(filter(scene_with_web(1.04F), island_rule()).fate(32, 30), PixelFate::island);
+  EXPECT_EQ(filter(scene_with_web(1.07F), island_rule()).fate(32, 30), PixelFate::obstacle);
+}
+
+TEST(Islands, WhatStandsInFrontOfTheRobotIsKeptHoweverSmall) {
+  FlatScene scene = scene_with_web(1.0F);
+  scene.see({24, 28, 27, 31}, 0.94F);
+  EXPECT_EQ(filter(scene, island_rule()).fate(25, 29), PixelFate::obstacle);
+}
+
+TEST(Islands, APieceThatBeginsInFrontOfTheRobotIsKept) {
+  FlatScene scene = scene_with_web(1.0F);
+  scene.see({28, 28, 34, 31}, 0.94F);
+  const ObstacleImage out = filter(scene, island_rule());
+  EXPECT_EQ(out.fate(29, 29), PixelFate::obstacle);
+  EXPECT_EQ(out.fate(33, 29), PixelFate::obstacle);
+}
+
+TEST(Islands, SceneryHasNoIslands) {
+  FlatScene scene;
+  scene.add_link(kEnvironmentLink, kLink, 1.0F);
+  scene.see(kLink, 1.0F);
+  scene.see(kWeb, 1.0F);
+  EXPECT_EQ(filter(scene, island_rule()).count_of(PixelFate::island), 0);
+}
+
+}  // namespace
+}  // namespace berth
