@@ -183,6 +183,18 @@ TEST(SelfFilter, AMixedPixelBetweenAboveAndBelowIsDropped) {
   EXPECT_EQ(filter(scene, settings).count_of(PixelFate::edge), 60);
 }
 
+TEST(SelfFilter, TheStepsOfAFarWallAreNoMixedPixels) {
+  const auto edges_at = [](float wall_m) {
+    FlatScene scene;
+    scene.see({0, 0, kSide_px, kSide_px}, wall_m);
+    scene.see({30, 0, 31, kSide_px}, wall_m + 0.05F);
+    scene.see({31, 0, kSide_px, kSide_px}, wall_m + 0.1F);
+    return filter(scene, {}).count_of(PixelFate::edge);
+  };
+  EXPECT_EQ(edges_at(1.0F), kSide_px);
+  EXPECT_EQ(edges_at(2.0F), 0);
+}
+
 TEST(SelfFilter, ARodOfOnePixelIsNoMixedPixel) {
   FlatScene scene;
   scene.see({30, 0, 31, 60}, 1.0F);

@@ -7,7 +7,8 @@ namespace berth {
 namespace {
 
 /// The reading s and its two neighbours on both sides, along a row or a column. NaN compares false.
-bool is_mixed(const float* s, std::ptrdiff_t step, float jump_m) {
+bool is_mixed(const float* s, std::ptrdiff_t step, float jump_at_1m_m) {
+  const float jump_m = jump_at_1m_m * std::max(1.0F, *s * *s);
   const float before = s[-step];
   const float after = s[step];
   const bool flat =
