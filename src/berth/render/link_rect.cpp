@@ -6,8 +6,7 @@
 namespace berth {
 namespace {
 
-// Nearer than this a projection may overflow an int; such a box counts as reaching behind the
-// camera.
+// Nearer than this a projection is of no use: such a corner counts as one beside the camera.
 constexpr double kLeastDepth_m = 1e-3;
 
 int clamp_to(double value, int limit) {
@@ -19,18 +18,20 @@ int clamp_to(double value, int limit) {
 PixelRect project_box(const Eigen::AlignedBox3f& box_L, const Pose& X_CL, const Camera& camera) {
   Eigen::AlignedBox2d bounds_px;
   int behind = 0;
+  int too_near = 0;
   for (int corner = 0; corner < 8; ++corner) {
     const auto which = static_cast<Eigen::AlignedBox3f::CornerType>(corner);
     const Eigen::Vector3d p_C = X_CL * box_L.corner(which).cast<double>();
+    if (p_C.z() <= 0) ++behind;
     if (p_C.z() < kLeastDepth_m) {
-      ++behind;
+      ++too_near;
       continue;
     }
     bounds_px.extend(Eigen::Vector2d(camera.fx_px * p_C.x() / p_C.z() + camera.cx_px,
                                      camera.fy_px * p_C.y() / p_C.z() + camera.cy_px));
   }
   if (behind == 8) return {};
-  if (behind > 0) return {0, 0, camera.width_px, camera.height_px};
+  if (too_near > 0) return {0, 0, camera.width_px, camera.height_px};
   // One pixel more on each side: the rays are single precision.
   return {clamp_to(std::floor(bounds_px.min().x()) - 1, camera.width_px),
           clamp_to(std::floor(bounds_px.min().y()) - 1, camera.height_px),

@@ -6,6 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -209,6 +210,13 @@ RobotRenderer& RobotRenderer::operator=(RobotRenderer&&) noexcept = default;
 
 void RobotRenderer::render(const RobotPose& pose, const Pose& X_BC, RobotImage& image) {
   State& state = *state_;
+  assert(state.links->meshes().empty() ||
+         state.links->meshes().back().link_index < pose.X_BL.size());
+  if (!X_BC.matrix().allFinite()) {
+    throw std::invalid_argument(
+        fmt::format("pose of the camera at {} {} {}: expected finite numbers",
+                    X_BC.translation().x(), X_BC.translation().y(), X_BC.translation().z()));
+  }
   image.depth_m.resize(state.camera.width_px, state.camera.height_px, kNoDepth);
   image.link_id.resize(state.camera.width_px, state.camera.height_px, kNoLink);
   state.commit(pose, X_BC.inverse());

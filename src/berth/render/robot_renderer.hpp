@@ -27,7 +27,7 @@ class RobotRenderer {
   /// Writes R and I (Hirt 2.2.1) to `image`, whose memory it reuses: one ray through each pixel's
   /// centre, traced only within the image rectangles of the links. `pose` holds all of the model's
   /// links; X_BC is the pose of the camera's optical frame in the root link's frame. A link is seen
-  /// from z > 0 on.
+  /// from z > 0 on. Throws std::invalid_argument where X_BC is not finite, and leaves `image` then.
   void render(const RobotPose& pose, const Pose& X_BC, RobotImage& image);
 
  private:

@@ -20,10 +20,13 @@ namespace {
   throw std::runtime_error(fmt::format("{}: {}", path.string(), what));
 }
 
+// The log has one listener for the whole process.
+std::mutex log_mutex;
+
 /// urdfdom tells its errors to the log of the process alone: this listens while it parses.
 class LogListener : public console_bridge::OutputHandler {
  public:
-  LogListener() : lock_(mutex()) { console_bridge::useOutputHandler(this); }
+  LogListener() : lock_(log_mutex) { console_bridge::useOutputHandler(this); }
   ~LogListener() override { console_bridge::restorePreviousOutputHandler(); }
   void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
     if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) errors_.push_back(text);
@@ -31,11 +34,6 @@ class LogListener : public console_bridge::OutputHandler {
   const std::vector<std::string>& errors() const { return errors_; }
 
  private:
-  // The log has one listener for the whole process.
-  static std::mutex& mutex() {
-    static std::mutex one;
-    return one;
-  }
   std::unique_lock<std::mutex> lock_;
   std::vector<std::string> errors_;
 };

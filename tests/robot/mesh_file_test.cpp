@@ -1,0 +1,123 @@
+// STL files, whole and broken. OBJ and DAE: mesh_text_test.cpp.
+#include "berth/robot/mesh_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/robot/error_text.hpp"
+#include "tests/robot/mesh_writing.hpp"
+#include "tests/robot/temporary_folder.hpp"
+
+namespace berth {
+namespace {
+
+void expect_two_triangles(const TriangleMesh& mesh) {
+  EXPECT_EQ(mesh.triangles.size(), 2U);
+  const Eigen::AlignedBox3f box = mesh.bounding_box_m();
+  EXPECT_EQ(box.min(), Eigen::Vector3f(0, 0, 0));
+  EXPECT_EQ(box.max(), Eigen::Vector3f(1, 2, 3));
+}
+
+void expect_unreadable(const std::string& name, const std::string& bytes, const std::string& why) {
+  const TemporaryFolder folder;
+  const auto file = folder.write(name, bytes);
+  expect_error([&] { read_mesh_file(file); }, {file.string(), why});
+}
+
+TEST(StlFile, BinaryGivesItsTriangles) {
+  const TemporaryFolder folder;
+  expect_two_triangles(read_mesh_file(folder.write("part.stl", binary_stl(two_triangles()))));
+}
+
+TEST(StlFile, BinaryThatBeginsWithSolidIsBinary) {
+  const TemporaryFolder folder;
+  for (const char* header : {"solid part", "solid", "solid facet endsolid"}) {
+    const auto file = folder.write("part.stl", binary_stl(two_triangles(), header));
+    expect_two_triangles(read_mesh_file(file));
+  }
+}
+
+TEST(StlFile, TextGivesItsTriangles) {
+  const TemporaryFolder folder;
+  expect_two_triangles(read_mesh_file(folder.write("part.stl", text_stl(two_triangles()))));
+}
+
+TEST(StlFile, TextOfTwoSolidsGivesBoth) {
+  const TemporaryFolder folder;
+  const Triangles both = two_triangles();
+  const auto file = folder.write("part.stl", text_stl({both[0]}) + text_stl({both[1]}));
+  expect_two_triangles(read_mesh_file(file));
+}
+
+TEST(StlFile, CapitalEndingIsRead) {
+  const TemporaryFolder folder;
+  expect_two_triangles(read_mesh_file(folder.write("part.STL", binary_stl(two_triangles()))));
+}
+
+TEST(StlFile, TrianglesThatShareCornersShareVertices) {
+  const TemporaryFolder folder;
+  const auto mesh = read_mesh_file(folder.write("part.stl", binary_stl(two_triangles())));
+  EXPECT_EQ(mesh.vertices_m.size(), 4U);
+}
+
+TEST(StlFile, CutBinaryIsAnErrorAtEveryLength) {
+  for (const char* header : {"binary", "solid part"}) {
+    const std::string whole = binary_stl(two_triangles(), header);
+    for (const std::size_t length : {1UL, 40UL, 83UL, 84UL, 100UL, 134UL, whole.size() - 1})
+      expect_unreadable("part.stl", whole.substr(0, length), "the STL holds");
+  }
+}
+
+TEST(StlFile, CutTextIsAnErrorAtEveryLength) {
+  const std::string whole = text_stl(two_triangles());
+  for (std::size_t length = 1; length < whole.find("endsolid"); length += 7)
+    expect_unreadable("part.stl", whole.substr(0, length), "the STL holds");
+}
+
+TEST(StlFile, TextCutInItsSecondSolidIsAnError) {
+  const std::string whole = text_stl(two_triangles());
+  expect_unreadable("part.stl", whole + whole.substr(0, whole.size() / 2), "the STL holds");
+}
+
+TEST(StlFile, TrailingBytesAreAnError) {
+  expect_unreadable("part.stl", binary_stl(two_triangles()) + "more", "the STL holds");
+}
+
+TEST(StlFile, NoTriangleIsAnError) {
+  expect_unreadable("part.stl", binary_stl({}), "");
+  expect_unreadable("part.stl", text_stl({}), "");
+}
+
+TEST(StlFile, VertexThatIsNotFiniteIsAnError) {
+  for (const float bad :
+       {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    Triangles triangles = two_triangles();
+    triangles[1][2].y() = bad;
+    expect_unreadable("part.stl", binary_stl(triangles), "expected finite numbers");
+    expect_unreadable("part.stl", text_stl(triangles), "expected finite numbers");
+  }
+}
+
+TEST(MeshFile, EmptyFileIsAnError) {
+  for (const char* name : {"part.stl", "part.obj", "part.dae"})
+    expect_unreadable(name, "", "empty");
+}
+
+TEST(MeshFile, MissingFileAndFolderAreErrors) {
+  const TemporaryFolder folder;
+  const auto missing = folder.path() / "missing.stl";
+  expect_error([&] { read_mesh_file(missing); }, {missing.string(), "no such mesh file"});
+  expect_error([&] { read_mesh_file(folder.path()); },
+               {folder.path().string(), "no such mesh file"});
+}
+
+TEST(MeshFile, GarbageIsAnError) {
+  std::string garbage;
+  for (int i = 0; i < 400; ++i) garbage.push_back(static_cast<char>(i * 37 + 11));
+  for (const char* name : {"part.stl", "part.obj", "part.dae", "part.xyz", "part"})
+    expect_unreadable(name, garbage, "");
+}
+
+}  // namespace
+}  // namespace berth

@@ -1,0 +1,140 @@
+// OBJ and DAE files.
+#include <gtest/gtest.h>
+
+#include "berth/robot/mesh_file.hpp"
+#include "tests/robot/error_text.hpp"
+#include "tests/robot/mesh_writing.hpp"
+#include "tests/robot/temporary_folder.hpp"
+
+namespace berth {
+namespace {
+
+TriangleMesh read(const std::string& name, const std::string& text) {
+  const TemporaryFolder folder;
+  return read_mesh_file(folder.write(name, text));
+}
+
+void expect_box(const TriangleMesh& mesh, const Eigen::Vector3f& min, const Eigen::Vector3f& max) {
+  const Eigen::AlignedBox3f box = mesh.bounding_box_m();
+  EXPECT_TRUE(box.min().isApprox(min, 1e-6F)) << box.min().transpose();
+  EXPECT_TRUE(box.max().isApprox(max, 1e-6F)) << box.max().transpose();
+}
+
+double area_m2(const TriangleMesh& mesh) {
+  double area = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Eigen::Vector3f p = mesh.vertices_m[a];
+    area += (mesh.vertices_m[b] - p).cross(mesh.vertices_m[c] - p).norm() / 2;
+  }
+  return area;
+}
+
+TEST(ObjFile, PolygonsBecomeTriangles) {
+  const auto mesh = read("part.obj",
+                         "v 0 0 0\nv 2 0 0\nv 2 3 0\nv 0 3 0\nv -1 1 0\n"
+                         "f 1 2 3 4\nf 1 4 5\n");
+  EXPECT_EQ(mesh.triangles.size(), 3U);
+  EXPECT_NEAR(area_m2(mesh), 6 + 1.5, 1e-6);
+  expect_box(mesh, {-1, 0, 0}, {2, 3, 0});
+}
+
+TEST(ObjFile, NegativeIndicesCountFromTheEnd) {
+  const auto mesh = read("part.obj",
+                         "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 2 3\nf -3 -2 -1\n"
+                         "v 0 0 -4\nf -4 -3 -1\n");
+  EXPECT_EQ(mesh.triangles.size(), 2U);
+  expect_box(mesh, {0, 0, -4}, {1, 2, 3});
+}
+
+TEST(ObjFile, CornersWithTextureAndNormalAreRead) {
+  const auto mesh = read("part.obj",
+                         "v 0 0 0\nv 1 0 0\nv 0 2 3\nvt 0 0\nvn 0 0 1\n"
+                         "f 1/1/1 2/1/1 3/1/1\n");
+  EXPECT_EQ(mesh.triangles.size(), 1U);
+  expect_box(mesh, {0, 0, 0}, {1, 2, 3});
+}
+
+TEST(ObjFile, SeveralObjectsAllCount) {
+  const auto mesh = read("part.obj",
+                         "o one\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+                         "o two\nv 0 0 5\nv 1 0 5\nv 0 1 5\nf 4 5 6\n");
+  EXPECT_EQ(mesh.triangles.size(), 2U);
+  expect_box(mesh, {0, 0, 0}, {1, 1, 5});
+}
+
+TEST(ObjFile, WithoutAFaceIsAnError) {
+  const TemporaryFolder folder;
+  for (const char* text :
+       {"v 0 0 0\nv 1 0 0\nv 0 1 0\n", "v 0 0 0\nv 1 0 0\nl 1 2\n", "v 0 0 0\nv 1 0 0\np 1 2\n"}) {
+    const auto file = folder.write("part.obj", text);
+    expect_error([&] { read_mesh_file(file); }, {file.string(), "mesh"});
+  }
+}
+
+TEST(ObjFile, LineBesideTrianglesIsLeftOut) {
+  const auto mesh = read("part.obj", "v 0 0 0\nv 1 0 0\nv 0 2 3\nv 9 9 9\nf 1 2 3\nl 1 4\n");
+  EXPECT_EQ(mesh.triangles.size(), 1U);
+  expect_box(mesh, {0, 0, 0}, {1, 2, 3});
+}
+
+TEST(DaeFile, OnlyCornersOfTrianglesCount) {
+  expect_box(read("part.dae", dae({})), {0, 0, 0}, {1, 2, 3});
+}
+
+TEST(DaeFile, UnitIsApplied) {
+  expect_box(read("part.dae", dae({.unit = R"(<unit name="mm" meter="0.001"/>)"})), {0, 0, 0},
+             {0.001F, 0.002F, 0.003F});
+  expect_box(read("part.dae", dae({.unit = R"(<unit name="centimeter" meter="0.01"/>)"})),
+             {0, 0, 0}, {0.01F, 0.02F, 0.03F});
+  expect_box(read("part.dae", dae({.unit = R"(<unit meter="1" name="meter"/>)"})), {0, 0, 0},
+             {1, 2, 3});
+}
+
+TEST(DaeFile, UpAxisIsNotApplied) {
+  for (const char* up_axis : {"X_UP", "Y_UP", "Z_UP"})
+    expect_box(read("part.dae", dae({.up_axis = up_axis})), {0, 0, 0}, {1, 2, 3});
+}
+
+TEST(DaeFile, NestedTransformsActFromTheRootDown) {
+  // Inside out: (x, y, z) -> (2x, 2y, 2z) -> turned by 90 degrees around z -> moved by 10 in x.
+  const auto mesh = read("part.dae", dae({.nodes = R"(
+    <node id="a"><translate>10 0 0</translate><rotate>0 0 1 90</rotate>
+      <node id="b"><matrix>2 0 0 0  0 2 0 0  0 0 2 0  0 0 0 1</matrix>
+        <instance_geometry url="#shape"/></node></node>)"}));
+  expect_box(mesh, {6, 0, 0}, {10, 2, 6});
+}
+
+TEST(DaeFile, TransformsOfANodeActInTheirOrder) {
+  const auto mesh = read("part.dae", dae({.nodes = R"(
+    <node id="a"><scale>2 3 4</scale><translate>1 1 1</translate>
+      <instance_geometry url="#shape"/></node>)"}));
+  expect_box(mesh, {2, 3, 4}, {4, 9, 16});
+}
+
+TEST(DaeFile, UnitActsOnTranslationsToo) {
+  const auto mesh = read("part.dae", dae({.unit = R"(<unit meter="0.01"/>)", .nodes = R"(
+    <node id="a"><translate>100 0 0</translate><instance_geometry url="#shape"/></node>)"}));
+  expect_box(mesh, {1, 0, 0}, {1.01F, 0.02F, 0.03F});
+}
+
+TEST(DaeFile, GeometryUsedTwiceAppearsTwice) {
+  const auto mesh = read("part.dae", dae({.nodes = R"(
+    <node id="a"><instance_geometry url="#shape"/></node>
+    <node id="b"><translate>0 0 -5</translate><instance_geometry url="#shape"/></node>)"}));
+  EXPECT_EQ(mesh.triangles.size(), 2U);
+  expect_box(mesh, {0, 0, -5}, {1, 2, 3});
+}
+
+TEST(DaeFile, CutOrWithoutGeometryIsAnError) {
+  const TemporaryFolder folder;
+  const std::string whole = dae({});
+  for (const std::string& text :
+       {whole.substr(0, whole.size() / 2), whole.substr(0, 60), dae({.nodes = R"(<node id="n"/>)"}),
+        std::string("<html><body>404</body></html>")}) {
+    const auto file = folder.write("part.dae", text);
+    expect_error([&] { read_mesh_file(file); }, {file.string(), "mesh"});
+  }
+}
+
+}  // namespace
+}  // namespace berth

@@ -1,0 +1,237 @@
+// Broken URDFs and settings: each is refused with the file and the trouble, and in silence.
+#include <gtest/gtest.h>
+
+#include "tests/robot/error_text.hpp"
+#include "tests/robot/mesh_writing.hpp"
+#include "tests/robot/robot_text.hpp"
+
+namespace berth {
+namespace {
+
+void expect_refused(const std::string& xml, std::initializer_list<std::string> parts,
+                    const RobotSettings& settings = {}) {
+  const TemporaryFolder folder;
+  expect_error([&] { load_text(folder, xml, settings); }, parts);
+  expect_error([&] { load_text(folder, xml, settings); },
+               {(folder.path() / "robot.urdf").string()});
+}
+
+/// base and child with `joint_inside` in the joint between them.
+std::string pair_xml(const std::string& type, const std::string& joint_inside = "") {
+  return robot_xml(box_link_xml("base") + box_link_xml("child") +
+                   joint_xml("elbow", type, "base", "child", joint_inside));
+}
+
+std::string shape_robot_xml(const std::string& geometry) {
+  return robot_xml(link_xml("base", shape_xml(geometry)));
+}
+
+TEST(UrdfError, FileMissing) {
+  expect_error([] { load_robot({.urdf = "/nowhere/robot.urdf"}); },
+               {"/nowhere/robot.urdf", "no such URDF file"});
+}
+
+TEST(UrdfError, FileIsAFolder) {
+  const TemporaryFolder folder;
+  expect_error([&] { load_robot({.urdf = folder.path()}); },
+               {folder.path().string(), "no such URDF file"});
+}
+
+TEST(UrdfError, FileEmptyOrNotXmlOrCut) {
+  expect_refused("", {"empty"});
+  expect_refused(" \n\t\n", {"empty"});
+  expect_refused("joint: 3\n", {"not a valid URDF"});
+  expect_refused("<robot name=\"a\"><link", {"not a valid URDF"});
+  const std::string whole = pair_xml("fixed");
+  expect_refused(whole.substr(0, whole.size() * 2 / 3), {"not a valid URDF"});
+}
+
+TEST(UrdfError, NoRobotElement) {
+  expect_refused("<?xml version=\"1.0\"?><model name=\"a\"/>", {"not a valid URDF", "robot"});
+}
+
+TEST(UrdfError, NoLink) { expect_refused(robot_xml(""), {"not a valid URDF", "link"}); }
+
+TEST(UrdfError, TwoRoots) {
+  expect_refused(robot_xml(box_link_xml("one") + box_link_xml("two")),
+                 {"not a valid URDF", "one", "two"});
+}
+
+TEST(UrdfError, NoRootSinceTheLinksFormACycle) {
+  expect_refused(robot_xml(box_link_xml("a") + box_link_xml("b") +
+                           joint_xml("ab", "fixed", "a", "b") + joint_xml("ba", "fixed", "b", "a")),
+                 {"not a valid URDF", "root"});
+}
+
+TEST(UrdfError, LinkWithTwoParents) {
+  expect_refused(
+      robot_xml(box_link_xml("base") + box_link_xml("left") + box_link_xml("right") +
+                box_link_xml("bar") + joint_xml("l", "fixed", "base", "left") +
+                joint_xml("r", "fixed", "base", "right") + joint_xml("lb", "fixed", "left", "bar") +
+                joint_xml("rb", "fixed", "right", "bar")),
+      {"\"bar\"", "\"lb\"", "\"rb\"", "loop"});
+}
+
+TEST(UrdfError, CycleApartFromTheRoot) {
+  expect_refused(robot_xml(box_link_xml("base") + box_link_xml("a") + box_link_xml("b") +
+                           joint_xml("ab", "fixed", "a", "b") + joint_xml("ba", "fixed", "b", "a")),
+                 {"not connected", "\"base\""});
+}
+
+TEST(UrdfError, LinkThatIsItsOwnParent) {
+  expect_refused(
+      robot_xml(box_link_xml("base") + box_link_xml("a") + joint_xml("aa", "fixed", "a", "a")),
+      {"\"a\""});
+}
+
+TEST(UrdfError, UnknownParentOrChildLink) {
+  expect_refused(
+      robot_xml(box_link_xml("base") + box_link_xml("a") + joint_xml("j", "fixed", "nobody", "a")),
+      {"not a valid URDF", "nobody"});
+  expect_refused(robot_xml(box_link_xml("base") + joint_xml("j", "fixed", "base", "nobody")),
+                 {"not a valid URDF", "nobody"});
+}
+
+TEST(UrdfError, TwoLinksOrJointsOfOneName) {
+  expect_refused(robot_xml(box_link_xml("base") + box_link_xml("base")),
+                 {"not a valid URDF", "base"});
+  expect_refused(
+      robot_xml(box_link_xml("base") + box_link_xml("a") + box_link_xml("b") +
+                joint_xml("j", "fixed", "base", "a") + joint_xml("j", "fixed", "base", "b")),
+      {"not a valid URDF", "j"});
+}
+
+TEST(UrdfError, MimicOfAnUnknownJoint) {
+  expect_refused(pair_xml("revolute", R"(<mimic joint="nobody"/>)"),
+                 {"\"elbow\"", "\"nobody\"", "expected"});
+}
+
+TEST(UrdfError, MimicOfItselfOrInALoop) {
+  expect_refused(pair_xml("revolute", R"(<mimic joint="elbow"/>)"), {"\"elbow\"", "loop"});
+  expect_refused(robot_xml(box_link_xml("base") + box_link_xml("a") + box_link_xml("b") +
+                           joint_xml("one", "revolute", "base", "a", R"(<mimic joint="two"/>)") +
+                           joint_xml("two", "revolute", "base", "b", R"(<mimic joint="one"/>)")),
+                 {"\"one\"", "\"two\"", "loop"});
+}
+
+TEST(UrdfError, MimicOfAFixedJoint) {
+  expect_refused(robot_xml(box_link_xml("base") + box_link_xml("a") + box_link_xml("b") +
+                           joint_xml("one", "fixed", "base", "a") +
+                           joint_xml("two", "revolute", "base", "b", R"(<mimic joint="one"/>)")),
+                 {"\"two\"", "\"one\"", "fixed"});
+}
+
+TEST(UrdfError, MimicOfAFixedJointThatMimicsAnother) {
+  expect_refused(robot_xml(box_link_xml("base") + box_link_xml("a") + box_link_xml("b") +
+                           box_link_xml("c") + joint_xml("mover", "revolute", "base", "c") +
+                           joint_xml("one", "fixed", "base", "a", R"(<mimic joint="mover"/>)") +
+                           joint_xml("two", "revolute", "base", "b", R"(<mimic joint="one"/>)")),
+                 {"\"two\"", "\"one\"", "fixed"});
+}
+
+TEST(UrdfError, JointWithoutASinglePosition) {
+  for (const char* type : {"floating", "planar"})
+    expect_refused(pair_xml(type), {"\"elbow\"", "floating or planar", "expected"});
+}
+
+TEST(UrdfError, UnknownJointType) {
+  expect_refused(pair_xml("screw"), {"not a valid URDF", "elbow"});
+}
+
+TEST(UrdfError, AxisOfNoDirection) {
+  expect_refused(pair_xml("revolute", R"(<axis xyz="0 0 0"/>)"), {"\"elbow\"", "axis", "0 0 0"});
+}
+
+TEST(UrdfError, NumbersThatAreNone) {
+  expect_refused(pair_xml("revolute", R"(<axis xyz="0 0 nan"/>)"), {"elbow"});
+  expect_refused(pair_xml("revolute", R"(<axis xyz="0 0"/>)"), {"elbow"});
+  expect_refused(pair_xml("fixed", R"(<origin xyz="0 0 inf"/>)"), {"elbow"});
+  expect_refused(pair_xml("fixed", R"(<origin rpy="0 one 0"/>)"), {"elbow"});
+  expect_refused(robot_xml(link_xml(
+                     "base", shape_xml(R"(<box size="1 1 1"/>)", R"(<origin xyz="nan 0 0"/>)"))),
+                 {"base"});
+}
+
+TEST(UrdfError, PrimitivesWithoutExtent) {
+  expect_refused(shape_robot_xml(R"(<box size="1 0 1"/>)"), {"\"base\"", "side is 0", "expected"});
+  expect_refused(shape_robot_xml(R"(<box size="1 1 -2"/>)"), {"\"base\"", "side is -2"});
+  expect_refused(shape_robot_xml(R"(<cylinder radius="-1" length="1"/>)"),
+                 {"\"base\"", "radius is -1"});
+  expect_refused(shape_robot_xml(R"(<cylinder radius="1" length="0"/>)"),
+                 {"\"base\"", "length is 0"});
+  expect_refused(shape_robot_xml(R"(<sphere radius="0"/>)"), {"\"base\"", "radius is 0"});
+}
+
+TEST(UrdfError, PrimitivesWithNumbersThatAreNone) {
+  expect_refused(shape_robot_xml(R"(<box size="1 nan 1"/>)"), {"base"});
+  expect_refused(shape_robot_xml(R"(<box size="inf 1 1"/>)"), {"base"});
+  expect_refused(shape_robot_xml(R"(<box size="1 1"/>)"), {"base"});
+  expect_refused(shape_robot_xml(R"(<sphere radius="big"/>)"), {"base"});
+  expect_refused(shape_robot_xml(R"(<sphere radius="1e999"/>)"), {"base"});
+}
+
+TEST(UrdfError, ShapeOfUnknownKind) {
+  expect_refused(shape_robot_xml(R"(<capsule radius="1" length="1"/>)"), {"not a valid URDF"});
+  expect_refused(robot_xml(link_xml("base", "<visual/>")), {"not a valid URDF"});
+}
+
+TEST(UrdfError, MeshScaleOfZero) {
+  const TemporaryFolder folder;
+  folder.write("part.stl", binary_stl(two_triangles()));
+  for (const char* scale : {"0 1 1", "1 1 0"}) {
+    const std::string xml =
+        shape_robot_xml(std::string(R"(<mesh filename="part.stl" scale=")") + scale + R"("/>)");
+    expect_error([&] { load_text(folder, xml); }, {"robot.urdf", "\"base\"", "scale is", scale});
+  }
+}
+
+TEST(UrdfError, MeshMissing) {
+  const TemporaryFolder folder;
+  const std::string path = (folder.path() / "meshes/part.stl").string();
+  expect_error([&] { load_text(folder, shape_robot_xml(R"(<mesh filename="meshes/part.stl"/>)")); },
+               {"robot.urdf", "\"base\"", path, "no such mesh file"});
+}
+
+TEST(UrdfError, MeshUnreadable) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("part.stl", binary_stl(two_triangles()).substr(0, 120));
+  expect_error([&] { load_text(folder, shape_robot_xml(R"(<mesh filename="part.stl"/>)")); },
+               {"robot.urdf", "\"base\"", file.string()});
+}
+
+TEST(UrdfError, MeshWithoutAName) {
+  expect_refused(shape_robot_xml(R"(<mesh filename=""/>)"), {"base"});
+  expect_refused(shape_robot_xml("<mesh/>"), {"base"});
+}
+
+TEST(UrdfError, UnknownPackage) {
+  expect_refused(shape_robot_xml(R"(<mesh filename="package://gone/part.stl"/>)"),
+                 {"\"base\"", "package://gone/part.stl", "\"gone\"", "package_paths [other]"},
+                 {.package_paths = {{"other", "/somewhere"}}});
+  expect_refused(shape_robot_xml(R"(<mesh filename="package://part.stl"/>)"),
+                 {"\"base\"", "package://part.stl", "expected"});
+  expect_refused(shape_robot_xml(R"(<mesh filename="package:///part.stl"/>)"),
+                 {"\"base\"", "package:///part.stl", "expected package://NAME/PATH"});
+}
+
+TEST(UrdfError, UnknownLinkInTheSettings) {
+  expect_refused(pair_xml("fixed"), {"environment_links", "\"table\"", "base, child"},
+                 {.environment_links = {"table"}});
+  expect_refused(pair_xml("fixed"), {"ignore_links", "\"table\"", "base, child"},
+                 {.ignore_links = {"table"}});
+}
+
+TEST(UrdfError, NothingToEvaluate) {
+  expect_refused(robot_xml(link_xml("base")), {"no link with geometry"});
+  expect_refused(pair_xml("fixed"), {"no link with geometry"},
+                 {.environment_links = {"base"}, .ignore_links = {"child"}});
+}
+
+TEST(UrdfError, LoadingAfterAnErrorWorks) {
+  const TemporaryFolder folder;
+  expect_error([&] { load_text(folder, robot_xml("")); }, {"robot.urdf"});
+  EXPECT_EQ(load_text(folder, pair_xml("fixed")).link_count(), 2);
+}
+
+}  // namespace
+}  // namespace berth

@@ -1,0 +1,225 @@
+// What a valid URDF becomes. Broken ones: urdf_error_test.cpp; poses: kinematics_test.cpp.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "berth/robot/primitives.hpp"
+#include "tests/robot/mesh_writing.hpp"
+#include "tests/robot/robot_text.hpp"
+
+namespace berth {
+namespace {
+
+RobotModel load(const std::string& xml, const RobotSettings& settings = {}) {
+  const TemporaryFolder folder;
+  return load_text(folder, xml, settings);
+}
+
+Eigen::AlignedBox3f box_of(const RobotModel& model, const std::string& link) {
+  return model.links.at(model.find_link(link).value()).mesh_L.bounding_box_m();
+}
+
+void expect_box(const Eigen::AlignedBox3f& box, const Eigen::Vector3f& min,
+                const Eigen::Vector3f& max, float tolerance_m = 1e-6F) {
+  EXPECT_LE((box.min() - min).cwiseAbs().maxCoeff(), tolerance_m) << box.min().transpose();
+  EXPECT_LE((box.max() - max).cwiseAbs().maxCoeff(), tolerance_m) << box.max().transpose();
+}
+
+/// base -> left -> tip, base -> right; joints named after their child.
+std::string tree_xml(const std::string& left_joint = "revolute",
+                     const std::string& right_joint = "prismatic") {
+  return robot_xml(box_link_xml("tip") + box_link_xml("right") + box_link_xml("left") +
+                   box_link_xml("base") + joint_xml("to_tip", "continuous", "left", "tip") +
+                   joint_xml("to_left", left_joint, "base", "left") +
+                   joint_xml("to_right", right_joint, "base", "right"));
+}
+
+TEST(Urdf, LinksFollowTheTreeParentsFirst) {
+  const RobotModel model = load(tree_xml());
+  EXPECT_EQ(model.name, "test");
+  ASSERT_EQ(model.links.size(), 4U);
+  EXPECT_EQ(model.links[0].name, "base");
+  EXPECT_FALSE(model.links[0].parent);
+  for (std::size_t i = 1; i < model.links.size(); ++i) EXPECT_LT(model.links[i].parent.value(), i);
+  EXPECT_EQ(model.links[model.links[*model.find_link("tip")].parent.value()].name, "left");
+  EXPECT_FALSE(model.find_link("nobody"));
+}
+
+TEST(Urdf, IdsCountTheEvaluatedLinksInTheOrderOfTheLinks) {
+  const RobotModel model = load(tree_xml());
+  ASSERT_EQ(model.link_count(), 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(model.evaluated_links[i], i);
+    EXPECT_EQ(model.links[i].id, i + 1);
+    EXPECT_EQ(model.links[i].role, LinkRole::evaluated);
+    EXPECT_EQ(model.evaluated_link_names()[i], model.links[i].name);
+  }
+}
+
+TEST(Urdf, EveryJointTypeIsKnownAndFixedOnesHaveNoPosition) {
+  for (const auto& [text, type] : {std::pair{"revolute", JointType::revolute},
+                                   {"continuous", JointType::continuous},
+                                   {"prismatic", JointType::prismatic}}) {
+    const RobotModel model = load(tree_xml(text, "fixed"));
+    ASSERT_EQ(model.joints.size(), 2U);
+    const Joint& joint = model.links[*model.find_link("left")].joint;
+    EXPECT_EQ(joint.type, type);
+    EXPECT_EQ(model.joints[joint.position_index.value()].name, "to_left");
+    EXPECT_EQ(model.joints[*joint.position_index].type, type);
+    const Joint& fixed = model.links[*model.find_link("right")].joint;
+    EXPECT_EQ(fixed.type, JointType::fixed);
+    EXPECT_FALSE(fixed.position_index);
+  }
+}
+
+TEST(Urdf, AxisIsOfUnitLengthAndXWithoutOne) {
+  const RobotModel model =
+      load(robot_xml(box_link_xml("base") + link_xml("a") + link_xml("b") +
+                     joint_xml("to_a", "revolute", "base", "a", R"(<axis xyz="0 -3 4"/>)") +
+                     joint_xml("to_b", "revolute", "base", "b")));
+  EXPECT_TRUE(model.links[*model.find_link("a")].joint.axis_J.isApprox(
+      Eigen::Vector3d(0, -0.6, 0.8), 1e-12));
+  EXPECT_EQ(model.links[*model.find_link("b")].joint.axis_J, Eigen::Vector3d::UnitX());
+}
+
+TEST(Urdf, MimicJointFollowsItsMasterThroughAChain) {
+  const std::string mimic_a = R"(<mimic joint="to_a" multiplier="-2" offset="0.5"/>)";
+  const std::string mimic_b = R"(<mimic joint="to_b" multiplier="3" offset="1"/>)";
+  const RobotModel model =
+      load(robot_xml(box_link_xml("base") + link_xml("a") + link_xml("b") + link_xml("c") +
+                     link_xml("d") + joint_xml("to_c", "revolute", "base", "c", mimic_b) +
+                     joint_xml("to_b", "revolute", "base", "b", mimic_a) +
+                     joint_xml("to_a", "revolute", "base", "a") +
+                     joint_xml("to_d", "revolute", "base", "d", R"(<mimic joint="to_a"/>)")));
+  ASSERT_EQ(model.joints.size(), 1U);
+  EXPECT_EQ(model.joints[0].name, "to_a");
+  EXPECT_EQ(model.mimic_joints.size(), 3U);
+  const auto joint = [&](const char* link) { return model.links[*model.find_link(link)].joint; };
+  EXPECT_EQ(joint("b").position_index, 0U);
+  EXPECT_DOUBLE_EQ(joint("b").multiplier, -2);
+  EXPECT_DOUBLE_EQ(joint("b").offset, 0.5);
+  EXPECT_EQ(joint("c").position_index, 0U);
+  EXPECT_DOUBLE_EQ(joint("c").multiplier, -6);
+  EXPECT_DOUBLE_EQ(joint("c").offset, 3 * 0.5 + 1);
+  EXPECT_DOUBLE_EQ(joint("d").multiplier, 1);
+  EXPECT_DOUBLE_EQ(joint("d").offset, 0);
+}
+
+TEST(Urdf, ShapesOfALinkAreJoinedInItsFrame) {
+  const std::string shapes = shape_xml(R"(<box size="2 4 6"/>)",
+                                       R"(<origin xyz="10 0 0" rpy="0 0 1.5707963267948966"/>)") +
+                             shape_xml(R"(<box size="1 1 1"/>)", R"(<origin xyz="0 0 -5"/>)");
+  const RobotModel model = load(robot_xml(link_xml("base", shapes)));
+  expect_box(box_of(model, "base"), {-0.5F, -1, -5.5F}, {12, 1, 3});
+  EXPECT_EQ(model.links[0].mesh_L.triangles.size(), 24U);
+}
+
+TEST(Urdf, RpyTurnsAroundTheFixedAxesXThenYThenZ) {
+  // The box's long side x stays x after the roll, becomes -z after the pitch and stays it.
+  const std::string origin = R"(<origin xyz="0 0 0" rpy="0 1.5707963267948966 0.7"/>)";
+  const RobotModel pitch =
+      load(robot_xml(link_xml("base", shape_xml(R"(<box size="8 1e-6 1e-6"/>)", origin))));
+  expect_box(box_of(pitch, "base"), {0, 0, -4}, {0, 0, 4}, 1e-5F);
+  // z -> -y by the roll, then x by the yaw: the other order leaves it at z or y.
+  const std::string roll_yaw = R"(<origin rpy="1.5707963267948966 0 1.5707963267948966"/>)";
+  const RobotModel rolled =
+      load(robot_xml(link_xml("base", shape_xml(R"(<box size="1e-6 1e-6 8"/>)", roll_yaw))));
+  expect_box(box_of(rolled, "base"), {-4, 0, 0}, {4, 0, 0}, 1e-5F);
+}
+
+TEST(Urdf, PrimitivesHaveTheirSizeUpToTheStatedExcess) {
+  const RobotModel model =
+      load(robot_xml(link_xml("base", shape_xml(R"(<cylinder radius="0.5" length="3"/>)")) +
+                     link_xml("ball", shape_xml(R"(<sphere radius="2"/>)")) +
+                     joint_xml("to_ball", "fixed", "base", "ball")));
+  const float cylinder_excess = static_cast<float>(0.5 * kMaxPrimitiveExcess);
+  expect_box(box_of(model, "base"), {-0.5F, -0.5F, -1.5F}, {0.5F, 0.5F, 1.5F}, cylinder_excess);
+  expect_box(box_of(model, "ball"), {-2, -2, -2}, {2, 2, 2},
+             static_cast<float>(2 * kMaxPrimitiveExcess));
+}
+
+TEST(Urdf, CollisionModeTakesVisualShapesWhereALinkHasNoOthers) {
+  const std::string xml =
+      robot_xml(link_xml("base", shape_xml(R"(<box size="1 1 1"/>)") +
+                                     shape_xml(R"(<box size="2 2 2"/>)", "", "collision") +
+                                     shape_xml(R"(<box size="4 1 1"/>)", "", "collision")) +
+                box_link_xml("seen") +
+                link_xml("hidden", shape_xml(R"(<box size="1 1 1"/>)", "", "collision")) +
+                joint_xml("to_seen", "fixed", "base", "seen") +
+                joint_xml("to_hidden", "fixed", "base", "hidden"));
+  const RobotModel visual = load(xml);
+  expect_box(box_of(visual, "base"), {-0.5F, -0.5F, -0.5F}, {0.5F, 0.5F, 0.5F});
+  EXPECT_TRUE(visual.links[*visual.find_link("hidden")].mesh_L.empty());
+  EXPECT_EQ(visual.links[*visual.find_link("hidden")].id, kNoLink);
+
+  const RobotModel collision = load(xml, {.geometry = GeometryKind::collision});
+  expect_box(box_of(collision, "base"), {-2, -1, -1}, {2, 1, 1});
+  expect_box(box_of(collision, "seen"), {-0.5F, -0.5F, -0.5F}, {0.5F, 0.5F, 0.5F});
+  expect_box(box_of(collision, "hidden"), {-0.5F, -0.5F, -0.5F}, {0.5F, 0.5F, 0.5F});
+}
+
+TEST(Urdf, MeshIsScaledThenPlaced) {
+  const TemporaryFolder folder;
+  folder.write("part.stl", binary_stl(two_triangles()));
+  const auto box = [&](const std::string& scale) {
+    const std::string mesh = R"(<mesh filename="part.stl" scale=")" + scale + R"("/>)";
+    return box_of(load_text(folder, robot_xml(link_xml(
+                                        "base", shape_xml(mesh, R"(<origin xyz="10 0 0"/>)")))),
+                  "base");
+  };
+  expect_box(box("1 1 1"), {10, 0, 0}, {11, 2, 3});
+  expect_box(box("0.001 0.001 0.001"), {10, 0, 0}, {10.001F, 0.002F, 0.003F});
+  expect_box(box("1 -2 3"), {10, -4, 0}, {11, 0, 9});
+  expect_box(box("-1 -1 -1"), {9, -2, -3}, {10, 0, 0});
+}
+
+TEST(Urdf, MeshPathsAreRelativeOrAbsoluteOrOfAPackage) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("here/my_robot/meshes/part.stl", binary_stl(two_triangles()));
+  folder.write("elsewhere/meshes/part.stl", binary_stl({two_triangles()[0]}));
+  const auto triangles = [&](const std::string& name, const RobotSettings& settings = {}) {
+    RobotSettings with_urdf = settings;
+    with_urdf.urdf =
+        folder.write("here/my_robot/urdf/robot.urdf",
+                     robot_xml(link_xml("base", shape_xml("<mesh filename=\"" + name + "\"/>"))));
+    return load_robot(with_urdf).links[0].mesh_L.triangles.size();
+  };
+  EXPECT_EQ(triangles("../meshes/part.stl"), 2U);
+  EXPECT_EQ(triangles(file.string()), 2U);
+  EXPECT_EQ(triangles("file://" + file.string()), 2U);
+  EXPECT_EQ(triangles("package://my_robot/meshes/part.stl"), 2U);
+  EXPECT_EQ(triangles("package://my_robot/meshes/part.stl",
+                      {.package_paths = {{"my_robot", folder.path() / "elsewhere"}}}),
+            1U);
+  EXPECT_EQ(triangles("package://other/meshes/part.stl",
+                      {.package_paths = {{"other", folder.path() / "elsewhere"}}}),
+            1U);
+}
+
+TEST(Urdf, EnvironmentAndIgnoredLinksAreNotCounted) {
+  const RobotModel model =
+      load(tree_xml(), {.environment_links = {"base"}, .ignore_links = {"left"}});
+  const Link& base = model.links[*model.find_link("base")];
+  EXPECT_EQ(base.role, LinkRole::environment);
+  EXPECT_EQ(base.id, kEnvironmentLink);
+  EXPECT_FALSE(base.mesh_L.empty());
+  const Link& left = model.links[*model.find_link("left")];
+  EXPECT_EQ(left.role, LinkRole::ignored);
+  EXPECT_EQ(left.id, kNoLink);
+  EXPECT_TRUE(left.mesh_L.empty());
+  ASSERT_EQ(model.link_count(), 2);
+  EXPECT_EQ(model.links[*model.find_link("tip")].id, 1);
+  EXPECT_EQ(model.links[*model.find_link("right")].id, 2);
+  EXPECT_EQ(model.joints.size(), 3U) << "an ignored link still carries its children";
+}
+
+TEST(Urdf, MeshOfAnIgnoredLinkMayBeMissing) {
+  const std::string xml =
+      robot_xml(box_link_xml("base") +
+                link_xml("lost", shape_xml(R"(<mesh filename="package://gone/part.stl"/>)")) +
+                joint_xml("to_lost", "fixed", "base", "lost"));
+  EXPECT_EQ(load(xml, {.ignore_links = {"lost"}}).link_count(), 1);
+}
+
+}  // namespace
+}  // namespace berth
