@@ -37,3 +37,13 @@ function(berth_test name)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
 endfunction()
+
+# berth_vector_code(<folder>): its sources compile parts of themselves once for each instruction set (Highway). Without
+# contraction of a * b + c all of them compute the same bits. Vectors without a fixed size (SVE, RVV) cannot be members of
+# a struct; such machines use NEON.
+function(berth_vector_code folder)
+  target_compile_options(berth_${folder} PRIVATE -ffp-contract=off)
+  target_compile_definitions(berth_${folder} PRIVATE
+    "HWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128|HWY_RVV)"
+    $<$<BOOL:${BERTH_SCALAR}>:HWY_COMPILE_ONLY_SCALAR>)
+endfunction()

@@ -2,10 +2,19 @@
 
 #include <algorithm>
 #include <map>
+#include <string>
 #include <vector>
+
+#include "berth/io/number.hpp"
 
 namespace berth {
 namespace {
+
+/// CLI::PositiveNumber lets NaN and infinity through.
+std::string require_positive_finite(const std::string& text) {
+  const std::optional<double> value = parse_finite(text);
+  return value && *value > 0 ? "" : text + " is no finite number above 0";
+}
 
 void add_threads(CLI::App& command, int& threads) {
   command.add_option("--threads", threads, "Threads to use (default: one for each processor)")
@@ -21,7 +30,7 @@ void add_evaluation(CLI::App& command, EvaluationArguments& arguments) {
   command
       .add_option("--range", arguments.range_m,
                   "Distances are looked for up to here, in metres (default: 1)")
-      ->check(CLI::PositiveNumber)
+      ->check(require_positive_finite)
       ->type_name("M");
   command
       .add_option_function<std::string>(
@@ -98,7 +107,7 @@ void add_evaluate_options(CLI::App& command, EvaluateArguments& arguments) {
   command
       .add_option("--depth-scale", arguments.depth_scale_m,
                   "Metres per unit of the depth images (default: 0.001)")
-      ->check(CLI::PositiveNumber)
+      ->check(require_positive_finite)
       ->type_name("M");
   command.add_option("--repeat", arguments.repeat, "Evaluate so often, and tell the times")
       ->check(CLI::Range(1, 1000000000))

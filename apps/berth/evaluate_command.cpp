@@ -29,13 +29,15 @@ void require_fitting_ids(ThreeImages& images, const EvaluateArguments& arguments
   for (int v = 0; v < images.camera.height_px; ++v) {
     for (int u = 0; u < images.camera.width_px; ++u) {
       const LinkId id = images.robot.link_id(u, v);
-      const std::string pixel = fmt::format("pixel ({}, {})", u, v);
+      const auto place = [&] {
+        return FilePlace{arguments.link_ids, 0, fmt::format("pixel ({}, {})", u, v)};
+      };
       if (id == kEnvironmentLink) {
-        throw_bad_file({arguments.link_ids, 0, pixel}, fmt::format("link ID {}", id), "0 to 65534");
+        throw_bad_file(place(), fmt::format("link ID {}", id), "0 to 65534");
       }
       if (id != kNoLink && std::isnan(images.robot.depth_m(u, v))) {
         throw_bad_file(
-            {arguments.link_ids, 0, pixel},
+            place(),
             fmt::format("link ID {} where {} has no depth", id, arguments.robot_depth.string()),
             "a depth at each pixel of a link");
       }
@@ -75,6 +77,7 @@ void evaluate_command(const EvaluateArguments& arguments) {
   const ThreeImages images = read_images(arguments);
   const Method method = arguments.evaluation.method_over(Method::exact);
   const DistanceSettings settings = arguments.evaluation.settings_over({});
+  Output output(arguments.format, arguments.out);
   ObstacleTree tree;
   ExactWorkspace workspace;
   LinkDistances distances;
@@ -97,7 +100,6 @@ void evaluate_command(const EvaluateArguments& arguments) {
     result.link_names.push_back(fmt::format("link_{}", id));
   result.distances = &distances;
   if (arguments.repeat > 0) result.timing = summary_of(std::move(times_us));
-  Output output(arguments.format, arguments.out);
   output.write(result);
   output.finish();
 }

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "apps/berth/arguments.hpp"
+#include "apps/berth/bench_command.hpp"
 #include "apps/berth/commands.hpp"
 #include "apps/berth/interrupt.hpp"
 
@@ -43,13 +44,15 @@ int main(int argc, char** argv) {
       "distance, the two\n"
       "closest points and the mean direction of what is near. What an obstacle hides counts as "
       "obstacle.");
-  app.require_subcommand(1);
+  // None at all is found below: CLI11 would tell of that before it tells of an unknown word.
+  app.require_subcommand(0, 1);
   app.failure_message(CLI::FailureMessage::simple);
   app.set_version_flag("--version", BERTH_VERSION);
   berth::DemoArguments demo;
   berth::RunArguments run;
   berth::FilterArguments filter;
   berth::EvaluateArguments evaluate;
+  berth::BenchArguments bench;
   CLI::App* demo_app = app.add_subcommand(
       "demo", "Run the bundled scene: a table of links and distances, and pictures");
   CLI::App* run_app =
@@ -58,16 +61,20 @@ int main(int argc, char** argv) {
       "filter", "Write the robot's depth, its link IDs and the obstacles as images");
   CLI::App* evaluate_app =
       app.add_subcommand("evaluate", "Distances from these three images alone");
+  CLI::App* bench_app =
+      app.add_subcommand("bench", "Measure berth beside what else a user could take");
   berth::add_demo_options(*demo_app, demo);
   berth::add_run_options(*run_app, run);
   berth::add_filter_options(*filter_app, filter);
   berth::add_evaluate_options(*evaluate_app, evaluate);
+  berth::add_bench_options(*bench_app, bench);
   app.footer(
       "Examples:\n  berth demo\n  berth run scene.yaml --picture pictures\nberth COMMAND --help "
       "tells more.");
 
   try {
     app.parse(argc, argv);
+    if (app.get_subcommands().empty()) throw CLI::RequiredError("A command");
   } catch (const CLI::ParseError& error) {
     const bool asked_for_text = error.get_exit_code() == kDone;
     app.exit(error);
@@ -76,5 +83,6 @@ int main(int argc, char** argv) {
   if (*demo_app) return carry_out(demo.threads, [&] { berth::demo_command(demo); });
   if (*run_app) return carry_out(run.threads, [&] { berth::run_command(run); });
   if (*filter_app) return carry_out(filter.threads, [&] { berth::filter_command(filter); });
+  if (*bench_app) return carry_out(0, [&] { berth::bench_command(bench); });
   return carry_out(evaluate.threads, [&] { berth::evaluate_command(evaluate); });
 }

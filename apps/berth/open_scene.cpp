@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "apps/berth/interrupt.hpp"
 #include "berth/io/camera_info.hpp"
 #include "berth/io/joints_csv.hpp"
 #include "berth/io/png.hpp"
@@ -73,6 +74,7 @@ OpenCamera open_camera(const SceneFile& scene, const SceneCamera& source, const 
   for (std::size_t frame = 0; frame < source.depth.size(); ++frame) {
     camera.at_exposure.push_back(source.stamps_s.empty() ? joints.sample(frame)
                                                          : joints.at(source.stamps_s[frame]));
+    stop_if_interrupted();
     camera.read_depth(frame);
   }
   return camera;

@@ -28,7 +28,7 @@ struct OpenScene {
 
 /// Reads a scene and all that it names, each depth image included, so that nothing that can be
 /// known to be bad is found only after results were given. The arguments win over the scene file.
-/// Throws std::runtime_error with file, place, value and what was expected.
+/// Throws std::runtime_error with file, place, value and what was expected, and Interrupted.
 OpenScene open_scene(const std::filesystem::path& file, const EvaluationArguments& arguments);
 
 }  // namespace berth

@@ -7,12 +7,15 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "berth/io/error.hpp"
 #include "berth/io/file_bytes.hpp"
 #include "berth/io/result_json.hpp"
 #include "berth/io/result_table.hpp"
 
 namespace berth {
 namespace {
+
+namespace fs = std::filesystem;
 
 std::string text_of(const FrameResult& result, OutputFormat format) {
   if (format == OutputFormat::json) return result_json(result) + "\n";
@@ -21,7 +24,24 @@ std::string text_of(const FrameResult& result, OutputFormat format) {
                      result_table(result));
 }
 
+/// An empty path is standard output.
+void require_place(const fs::path& file) {
+  if (file.empty()) return;
+  if (fs::exists(file) && !fs::is_regular_file(file)) {
+    throw_bad_file({file}, "is there and no regular file", "a file or a free name to write to");
+  }
+  const fs::path folder = fs::absolute(file).parent_path();
+  if (!fs::is_directory(folder)) {
+    throw_bad_file({file}, fmt::format("there is no folder {}", folder.string()),
+                   "a file in an existing folder");
+  }
+}
+
 }  // namespace
+
+Output::Output(OutputFormat format, fs::path file) : format_(format), file_(std::move(file)) {
+  require_place(file_);
+}
 
 void Output::write(const FrameResult& result) {
   const std::string text = text_of(result, format_);

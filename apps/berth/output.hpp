@@ -11,8 +11,9 @@ namespace berth {
 /// Where results go: standard output at once, or a file that appears complete when all is done.
 class Output {
  public:
-  Output(OutputFormat format, std::filesystem::path file)
-      : format_(format), file_(std::move(file)) {}
+  /// Throws std::runtime_error where the file could not be written at the end, so that nobody waits
+  /// for results in vain.
+  Output(OutputFormat format, std::filesystem::path file);
 
   /// Throws std::runtime_error where it cannot be written.
   void write(const FrameResult& result);

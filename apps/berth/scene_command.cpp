@@ -35,6 +35,11 @@ fs::path folder_of(const OpenScene& scene, const OpenCamera& camera, const fs::p
   return scene.cameras.size() > 1 ? folder / camera.source.name : folder;
 }
 
+/// All of them, before the first result.
+void make_folders(const OpenScene& scene, const fs::path& folder) {
+  for (const OpenCamera& camera : scene.cameras) make_folder(folder_of(scene, camera, folder));
+}
+
 FrameResult result_of(const OpenCamera& camera, std::size_t frame_number, const Frame& frame,
                       const Answer& answer) {
   FrameResult result;
@@ -85,10 +90,11 @@ void write_images(const fs::path& folder, std::size_t frame_number, double depth
 void run_command(const RunArguments& arguments) {
   const OpenScene scene = open_scene(arguments.scene, arguments.evaluation);
   Output output(arguments.format, arguments.out);
+  const bool draws = !arguments.picture_folder.empty();
+  if (draws) make_folders(scene, arguments.picture_folder);
   ProgressBar progress("run", scene.frame_count);
   for (const OpenCamera& camera : scene.cameras) {
     const fs::path pictures = folder_of(scene, camera, arguments.picture_folder);
-    if (!arguments.picture_folder.empty()) make_folder(pictures);
     Observer observer(*camera.rig);
     Asker asker(*camera.rig);
     Frame frame;
@@ -97,7 +103,7 @@ void run_command(const RunArguments& arguments) {
       const DepthImage depth_m = camera.read_depth(i);
       observer.observe(depth_m, camera.at_exposure[i], frame);
       const FrameResult result = result_of(camera, i, frame, asker.ask(frame));
-      if (!arguments.picture_folder.empty()) {
+      if (draws) {
         draw(pictures / fmt::format("frame_{:06}.png", i), camera, depth_m, frame, result);
       }
       progress.clear();
@@ -110,10 +116,10 @@ void run_command(const RunArguments& arguments) {
 
 void filter_command(const FilterArguments& arguments) {
   const OpenScene scene = open_scene(arguments.scene, {});
+  make_folders(scene, arguments.out_folder);
   ProgressBar progress("filter", scene.frame_count);
   for (const OpenCamera& camera : scene.cameras) {
     const fs::path folder = folder_of(scene, camera, arguments.out_folder);
-    make_folder(folder);
     Observer observer(*camera.rig);
     Frame frame;
     for (std::size_t i = 0; i < camera.source.depth.size(); ++i) {

@@ -109,8 +109,8 @@ TEST_F(ResultText, TimingAndFilterCountsAreToldWhereTheyAreGiven) {
   const std::string text = result_json(result);
   EXPECT_TRUE(text.ends_with(
       R"("timing":{"repeat":50,"evaluate_us":{"min":1.5,"p50":2.0,"p99":3.0,"max":4.25}},)"
-      R"("self_filter":{"obstacle":10,"no_reading":11,"robot":12,"padding":13,"dilation":14,)"
-      R"("environment":15,"edge":16,"island":17}})"))
+      R"("self_filter":{"obstacle":10,"no_reading":11,"robot":12,"environment":13,"padding":14,)"
+      R"("dilation":15,"edge":16,"island":17}})"))
       << text;
 }
 

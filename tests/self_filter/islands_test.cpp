@@ -68,12 +68,20 @@ TEST(Islands, WhatStandsInFrontOfTheRobotIsKeptHoweverSmall) {
   EXPECT_EQ(filter(scene, island_rule()).fate(25, 29), PixelFate::obstacle);
 }
 
-TEST(Islands, APieceThatBeginsInFrontOfTheRobotIsKept) {
+TEST(Islands, APieceOfWhichMoreThanATenthStandsInFrontOfTheRobotIsKept) {
   FlatScene scene = scene_with_web(1.0F);
   scene.see({28, 28, 34, 31}, 0.94F);
   const ObstacleImage out = filter(scene, island_rule());
   EXPECT_EQ(out.fate(29, 29), PixelFate::obstacle);
   EXPECT_EQ(out.fate(33, 29), PixelFate::obstacle);
+}
+
+TEST(Islands, AWebThatTouchesTheRobotsRimIsDroppedAllTheSame) {
+  FlatScene scene = scene_with_web(0.955F);
+  scene.see({29, 30, 30, 31}, 0.955F);
+  SelfFilterSettings settings = island_rule();
+  settings.padding_m = 0;
+  EXPECT_EQ(filter(scene, settings).count_of(PixelFate::island), 61);
 }
 
 TEST(Islands, SceneryHasNoIslands) {

@@ -36,7 +36,7 @@ TEST(RobotNeighbourhood, AgreesWithEveryRobotPixel) {
     RobotImage robot{DepthImage(camera.width_px, camera.height_px, kNoDepth),
                      Image<LinkId>(camera.width_px, camera.height_px, kNoLink)};
     DepthImage depth_m(camera.width_px, camera.height_px, kNoDepth);
-    Image<std::uint8_t> candidate(camera.width_px, camera.height_px, 0);
+    Image<PixelFate> fate(camera.width_px, camera.height_px, PixelFate::no_reading);
     for (int v = 0; v < camera.height_px; ++v) {
       for (int u = 0; u < camera.width_px; ++u) {
         if (uniform(0, 1) < 0.05 * (round % 5)) {
@@ -44,7 +44,7 @@ TEST(RobotNeighbourhood, AgreesWithEveryRobotPixel) {
           robot.depth_m(u, v) = static_cast<float>(uniform(0.3, 1.5));
         }
         if (uniform(0, 1) < 0.5) {
-          candidate(u, v) = 1;
+          fate(u, v) = PixelFate::obstacle;
           depth_m(u, v) = static_cast<float>(uniform(0.2, 2));
         }
       }
@@ -53,11 +53,11 @@ TEST(RobotNeighbourhood, AgreesWithEveryRobotPixel) {
     RobotNeighbourhood neighbourhood;
     Image<std::uint8_t> near;
     neighbourhood.build(camera, robot);
-    neighbourhood.find_near(depth_m, candidate, radius_m, near);
+    neighbourhood.find_near(depth_m, fate, radius_m, near);
     for (int v = 0; v < camera.height_px; ++v) {
       for (int u = 0; u < camera.width_px; ++u) {
         const bool expected =
-            candidate(u, v) != 0 &&
+            fate(u, v) == PixelFate::obstacle &&
             is_near_any(camera, robot, point_C(camera, u, v, depth_m(u, v)), radius_m);
         EXPECT_EQ(near(u, v) != 0, expected) << "round " << round << ", pixel " << u << ", " << v;
       }

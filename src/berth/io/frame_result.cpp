@@ -9,7 +9,7 @@ const char* status_name(LinkStatus status) {
 
 const char* fate_name(PixelFate fate) {
   constexpr std::array<const char*, kPixelFateCount> kNames = {
-      "obstacle", "no_reading", "robot", "padding", "dilation", "environment", "edge", "island"};
+      "obstacle", "no_reading", "robot", "environment", "padding", "dilation", "edge", "island"};
   return kNames.at(static_cast<std::size_t>(fate));
 }
 

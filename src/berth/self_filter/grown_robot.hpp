@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "berth/self_filter/settings.hpp"
 #include "berth/types/camera.hpp"
 #include "berth/types/image.hpp"
@@ -13,8 +15,10 @@ namespace berth {
 struct GrownRobot {
   /// By the link's metric padding, as a disc of that radius around each outline pixel at its depth.
   Image<float> padded_depth_m;
-  /// By dilation_px pixels.
+  /// By dilation_px pixels; without pixels where that is 0.
   Image<float> dilated_depth_m;
+  /// Scratch: the half widths of a disc's rows, from its centre row outward.
+  std::vector<int> half_width_px;
 };
 
 /// Only evaluated links grow; scenery does not. Reuses the memory of `out`.

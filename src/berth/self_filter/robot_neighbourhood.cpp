@@ -60,21 +60,26 @@ void RobotNeighbourhood::append_tile(const RobotImage& robot, const PixelRect& p
   bounds_C_m_.extend(tile.box_C_m);
 }
 
-void RobotNeighbourhood::find_near(DepthView depth_m, const Image<std::uint8_t>& candidate,
-                                   double radius_m, Image<std::uint8_t>& near) {
+void RobotNeighbourhood::find_near(DepthView depth_m, const Image<PixelFate>& fate, double radius_m,
+                                   Image<std::uint8_t>& near) {
   near.resize(depth_m.width, depth_m.height, 0);
+  if (tiles_.empty()) return;
   witness_ = {kNowhere, kNowhere, kNowhere};
   const auto radius = static_cast<float>(radius_m);
+  const float nearest_m = bounds_C_m_.min().z() - radius;
+  const float farthest_m = bounds_C_m_.max().z() + radius;
+  const auto may_be_near = [&](int u, int v) {
+    return fate(u, v) == PixelFate::obstacle && depth_m(u, v) >= nearest_m &&
+           depth_m(u, v) <= farthest_m;
+  };
   for (int row = 0; row < rows_; ++row) {
     for (int column = 0; column < columns_; ++column) {
       const PixelRect pixels = tile_pixels(column, row, depth_m.width, depth_m.height);
       Eigen::AlignedBox3f box_C_m;
       for (int v = pixels.v_begin; v < pixels.v_end; ++v) {
         for (int u = pixels.u_begin; u < pixels.u_end; ++u) {
-          if (candidate(u, v) == 0) continue;
+          if (!may_be_near(u, v)) continue;
           const Point p = back_project(u, v, depth_m(u, v));
-          if (p.z_m < bounds_C_m_.min().z() - radius || p.z_m > bounds_C_m_.max().z() + radius)
-            continue;
           box_C_m.extend(Eigen::Vector3f(p.x_m, p.y_m, p.z_m));
         }
       }
@@ -82,8 +87,8 @@ void RobotNeighbourhood::find_near(DepthView depth_m, const Image<std::uint8_t>&
       if (near_tiles_.empty()) continue;
       for (int v = pixels.v_begin; v < pixels.v_end; ++v) {
         for (int u = pixels.u_begin; u < pixels.u_end; ++u) {
-          if (candidate(u, v) != 0)
-            near(u, v) = is_near(back_project(u, v, depth_m(u, v)), radius * radius) ? 1 : 0;
+          if (!may_be_near(u, v)) continue;
+          near(u, v) = is_near(back_project(u, v, depth_m(u, v)), radius * radius) ? 1 : 0;
         }
       }
     }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "berth/types/camera.hpp"
+#include "berth/types/obstacle_image.hpp"
 #include "berth/types/robot_image.hpp"
 
 namespace berth {
@@ -15,10 +16,10 @@ class RobotNeighbourhood {
   /// Sorts the robot's pixels into tiles. `robot` has to outlive the questions. Reuses memory.
   void build(const Camera& camera, const RobotImage& robot);
 
-  /// For each pixel with candidate(u, v) != 0, writes to near(u, v) whether some robot pixel's
-  /// centre, back-projected at its depth, lies within `radius_m` (Euclidean) of that pixel's at
-  /// depth_m(u, v); 0 for all other pixels. All images have the camera's size.
-  void find_near(DepthView depth_m, const Image<std::uint8_t>& candidate, double radius_m,
+  /// For each pixel whose fate is obstacle, writes to near(u, v) whether some robot pixel's centre,
+  /// back-projected at its depth, lies within `radius_m` (Euclidean) of that pixel's at depth_m(u,
+  /// v); 0 for all other pixels. All images have the camera's size.
+  void find_near(DepthView depth_m, const Image<PixelFate>& fate, double radius_m,
                  Image<std::uint8_t>& near);
 
  private:

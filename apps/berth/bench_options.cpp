@@ -1,0 +1,18 @@
+#include "apps/berth/bench_command.hpp"
+
+namespace berth {
+
+void add_bench_options(CLI::App& command, BenchArguments& arguments) {
+  command.add_flag("--quick", arguments.quick, "A thinned run of less than half a minute");
+  command
+      .add_option("--out", arguments.out_folder,
+                  "Folder for results.md and bench.csv; made if it is not there")
+      ->type_name("DIR");
+  command
+      .add_option("--scene", arguments.scenes,
+                  "A recording to measure as well; may stand several times")
+      ->type_name("SCENE.yaml");
+  command.footer("Example:\n  berth bench --quick --out bench_results --scene scene.yaml");
+}
+
+}  // namespace berth

@@ -1,0 +1,133 @@
+// Ctrl-C: exit status 130, no file left half-written.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <functional>
+#include <sstream>
+#include <thread>
+
+#include "berth/io/file_bytes.hpp"
+#include "tests/apps/command_scene.hpp"
+
+namespace berth {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kManyFrames = 5000;
+
+/// Far more frames than berth can draw before a test interrupts it.
+void make_long(CommandScene& scene) {
+  scene.lines.depth = "[depth/000000.png";
+  scene.lines.more_camera = "stamps: [0";
+  for (int i = 1; i < kManyFrames; ++i) {
+    scene.lines.depth += ", depth/000000.png";
+    scene.lines.more_camera += ", " + std::to_string(i * 0.0003);
+  }
+  scene.lines.depth += "]";
+  scene.lines.more_camera += "]";
+  scene.write_scene();
+}
+
+bool becomes_true(const std::function<bool()>& condition) {
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > deadline) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return true;
+}
+
+/// No result and no temporary file beside the scene's own.
+void expect_nothing_new(std::vector<std::string> before, const CommandScene& scene,
+                        const std::string& allowed_folder) {
+  for (const std::string& name : scene.all_names()) {
+    if (std::find(before.begin(), before.end(), name) != before.end()) continue;
+    const bool allowed = name == allowed_folder ||
+                         (name.starts_with(allowed_folder + "/") && name.ends_with(".png"));
+    EXPECT_TRUE(allowed) << name;
+  }
+}
+
+TEST(Interrupt, RunLeavesNoResultFile) {
+  CommandScene scene;
+  make_long(scene);
+  const auto before = scene.all_names();
+  BerthProgram run(scene.folder(),
+                   {"run", "scene.yaml", "--out", "result.txt", "--picture", "pictures"});
+  ASSERT_TRUE(becomes_true([&] { return fs::exists(scene / "pictures/frame_000001.png"); }));
+  run.interrupt();
+  const Outcome outcome = run.wait();
+  EXPECT_EQ(outcome.exit_status, 130);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(outcome.err, "berth: interrupted\n");
+  EXPECT_FALSE(fs::exists(scene / "result.txt"));
+  expect_nothing_new(before, scene, "pictures");
+}
+
+TEST(Interrupt, PrintedLinesAreWholeJsonObjects) {
+  CommandScene scene;
+  make_long(scene);
+  BerthProgram run(scene.folder(),
+                   {"run", "scene.yaml", "--format", "json", "--picture", "pictures"});
+  ASSERT_TRUE(becomes_true([&] { return fs::exists(scene / "pictures/frame_000002.png"); }));
+  run.interrupt();
+  const Outcome outcome = run.wait();
+  EXPECT_EQ(outcome.exit_status, 130);
+  ASSERT_TRUE(outcome.out.ends_with("\n"));
+  std::istringstream lines(outcome.out);
+  int frames = 0;
+  for (std::string line; std::getline(lines, line); ++frames) {
+    EXPECT_EQ(Json::parse(line)["frame"], frames);
+  }
+  EXPECT_GE(frames, 2);
+  EXPECT_LT(frames, kManyFrames);
+}
+
+TEST(Interrupt, FilterLeavesWholeImagesOnly) {
+  CommandScene scene;
+  make_long(scene);
+  const auto before = scene.all_names();
+  BerthProgram filter(scene.folder(), {"filter", "scene.yaml", "--out", "filtered"});
+  ASSERT_TRUE(becomes_true([&] { return fs::exists(scene / "filtered/link_ids_000000.png"); }));
+  filter.interrupt();
+  EXPECT_EQ(filter.wait().exit_status, 130);
+  expect_nothing_new(before, scene, "filtered");
+  // The images of a frame belong together.
+  const auto count = [&](const std::string& kind) {
+    const auto names = scene.all_names();
+    return std::count_if(names.begin(), names.end(), [&](const std::string& name) {
+      return name.starts_with("filtered/" + kind);
+    });
+  };
+  EXPECT_EQ(count("robot_depth"), count("link_ids"));
+  EXPECT_EQ(count("robot_depth"), count("obstacle_depth"));
+  EXPECT_LT(count("robot_depth"), kManyFrames);
+}
+
+TEST(Interrupt, IsHeardWhileTheImagesAreRead) {
+  CommandScene scene;
+  // berth waits for the pipe's bytes; the image after it is one that it would complain about.
+  ASSERT_EQ(::mkfifo((scene / "pipe.png").c_str(), 0600), 0);
+  scene.lines.depth = "[pipe.png, missing.png]";
+  scene.write_scene();
+  const std::string image = read_file_bytes(scene / "depth/000000.png");
+  BerthProgram run(scene.folder(), {"run", "scene.yaml"});
+  int pipe = -1;
+  ASSERT_TRUE(becomes_true([&] {
+    pipe = ::open((scene / "pipe.png").c_str(), O_WRONLY | O_NONBLOCK);
+    return pipe >= 0;
+  }));
+  run.interrupt();
+  EXPECT_EQ(::write(pipe, image.data(), image.size()), static_cast<ssize_t>(image.size()));
+  ::close(pipe);
+  const Outcome outcome = run.wait();
+  EXPECT_EQ(outcome.exit_status, 130) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+}
+
+}  // namespace
+}  // namespace berth

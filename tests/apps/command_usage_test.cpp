@@ -1,0 +1,110 @@
+// Exit status 2 and nothing on standard output for a wrong command line; help on standard output.
+#include <gtest/gtest.h>
+
+#include "tests/apps/berth_program.hpp"
+
+namespace berth {
+namespace {
+
+using Words = std::vector<std::string>;
+
+struct WrongUsage {
+  Words arguments;
+  std::string told;  ///< a part of the message
+};
+
+const Words kEvaluate = {"evaluate",   "--camera", "c.yaml",           "--robot-depth", "r.png",
+                         "--link-ids", "i.png",    "--obstacle-depth", "f.png"};
+
+Words evaluate_with(const Words& more) {
+  Words arguments = kEvaluate;
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+TEST(Usage, WrongCommandLineIsRefused) {
+  const std::vector<WrongUsage> table = {
+      {{}, "A command is required"},
+      {{"fly"}, "fly"},
+      {{"--fast"}, "--fast"},
+      {{"fly", "run", "scene.yaml"}, "fly"},
+      {{"run", "scene.yaml", "filter"}, "filter"},
+      {{"run"}, "scene"},
+      {{"run", "scene.yaml", "other.yaml"}, "other.yaml"},
+      {{"run", "scene.yaml", "--fast"}, "--fast"},
+      {{"run", "scene.yaml", "--method", "nonsense"}, "nonsense"},
+      {{"run", "scene.yaml", "--range", "0"}, "--range"},
+      {{"run", "scene.yaml", "--range", "-1"}, "--range"},
+      {{"run", "scene.yaml", "--range", "nan"}, "--range"},
+      {{"run", "scene.yaml", "--range", "inf"}, "--range"},
+      {{"run", "scene.yaml", "--range", "near"}, "--range"},
+      {{"run", "scene.yaml", "--range"}, "--range"},
+      {{"run", "scene.yaml", "--threads", "0"}, "--threads"},
+      {{"run", "scene.yaml", "--threads", "1.5"}, "--threads"},
+      {{"run", "scene.yaml", "--mean-direction", "maybe"}, "--mean-direction"},
+      {{"run", "scene.yaml", "--format", "xml"}, "--format"},
+      {{"filter", "scene.yaml"}, "--out"},
+      {{"filter", "--out", "f"}, "scene"},
+      {{"filter", "scene.yaml", "--out", "f", "--range", "1"}, "--range"},
+      {{"evaluate"}, "--camera"},
+      {{"evaluate", "--camera", "c", "--robot-depth", "r", "--link-ids", "i"}, "--obstacle-depth"},
+      {evaluate_with({"--repeat", "0"}), "--repeat"},
+      {evaluate_with({"--repeat", "-3"}), "--repeat"},
+      {evaluate_with({"--depth-scale", "0"}), "--depth-scale"},
+      {evaluate_with({"--depth-scale", "nan"}), "--depth-scale"},
+      {evaluate_with({"--depth-scale", "inf"}), "--depth-scale"},
+      {evaluate_with({"--range", "nan"}), "--range"},
+      {evaluate_with({"--method", "nonsense"}), "nonsense"},
+      {evaluate_with({"--threads", "0"}), "--threads"},
+      {{"demo", "--threads", "0"}, "--threads"},
+      {{"demo", "scene.yaml"}, "scene.yaml"},
+  };
+  const TemporaryFolder folder;
+  for (const WrongUsage& wrong : table) {
+    const Outcome outcome = run_berth(folder / "", wrong.arguments);
+    std::string words;
+    for (const std::string& word : wrong.arguments) words += word + " ";
+    SCOPED_TRACE("berth " + words + "\n" + outcome.err);
+    EXPECT_EQ(outcome.exit_status, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_NE(outcome.err.find(wrong.told), std::string::npos);
+    EXPECT_NE(outcome.err.find("--help"), std::string::npos);
+  }
+  EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(Usage, HelpIsOnStandardOutputAndHasAnExample) {
+  const TemporaryFolder folder;
+  const std::vector<Words> table = {{"--help"},
+                                    {"run", "--help"},
+                                    {"filter", "--help"},
+                                    {"evaluate", "--help"},
+                                    {"demo", "--help"}};
+  for (const Words& arguments : table) {
+    const Outcome outcome = run_berth(folder / "", arguments);
+    SCOPED_TRACE(arguments[0]);
+    EXPECT_EQ(outcome.exit_status, 0);
+    EXPECT_EQ(outcome.err, "");
+    EXPECT_NE(outcome.out.find("Example"), std::string::npos);
+    EXPECT_NE(outcome.out.find("berth " + (arguments.size() > 1 ? arguments[0] : "run")),
+              std::string::npos);
+  }
+}
+
+TEST(Usage, HelpNamesEveryCommand) {
+  const TemporaryFolder folder;
+  const std::string out = run_berth(folder / "", {"--help"}).out;
+  for (const char* command : {"demo", "run", "filter", "evaluate"}) {
+    EXPECT_NE(out.find(command), std::string::npos) << command;
+  }
+}
+
+TEST(Usage, VersionIsANumber) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run_berth(folder / "", {"--version"});
+  EXPECT_EQ(outcome.exit_status, 0);
+  EXPECT_TRUE(!outcome.out.empty() && std::isdigit(static_cast<unsigned char>(outcome.out[0])));
+}
+
+}  // namespace
+}  // namespace berth
