@@ -1,9 +1,12 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 
 #include "apps/berth/commands.hpp"
+#include "apps/berth/run_frames.hpp"
+#include "berth/io/result_table.hpp"
 
 namespace berth {
 namespace {
@@ -23,15 +26,30 @@ fs::path find_bundled_scene() {
                   places[0].string(), places[1].string()));
 }
 
+/// The least distance of any link; none where no link has one.
+std::optional<float> least_distance_m(const FrameResult& result) {
+  std::optional<float> least;
+  for (const LinkDistance& link : result.distances->links) {
+    if (link.status == LinkStatus::ok && (!least || link.distance_m < *least))
+      least = link.distance_m;
+  }
+  return least;
+}
+
 }  // namespace
 
 void demo_command(const DemoArguments& arguments) {
-  RunArguments run;
-  run.scene = find_bundled_scene();
-  run.picture_folder = arguments.picture_folder;
-  run.threads = arguments.threads;
-  run_command(run);
-  fmt::print("The pictures are in {}\n",
+  const OpenScene scene = open_scene(find_bundled_scene(), {});
+  std::optional<float> least_m;
+  std::string closest;
+  run_frames(scene, arguments.picture_folder, [&](const FrameResult& result) {
+    const auto distance_m = least_distance_m(result);
+    if (!distance_m || (least_m && *least_m <= *distance_m)) return;
+    least_m = distance_m;
+    closest = fmt::format("The closest approach in {} frames is in frame {}, {:.3f} s:\n\n{}",
+                          scene.frame_count, result.frame, result.stamp_s, result_table(result));
+  });
+  fmt::print("{}\nPictures of all frames: {}\n", closest,
              fs::absolute(arguments.picture_folder).lexically_normal().string());
 }
 

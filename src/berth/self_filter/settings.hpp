@@ -12,7 +12,7 @@ struct SelfFilterSettings {
   /// A reading belongs to the robot unless it is nearer than the model by more than
   /// tolerance_m + tolerance_per_m z + tolerance_per_m2 z^2 (z = the model's depth): calibration,
   /// then noise.
-  double tolerance_m = 0.04;
+  double tolerance_m = 0.05;
   double tolerance_per_m = 0;
   double tolerance_per_m2 = 0;
   /// The silhouette grows by this length at the robot's depth, on all sides in the image.

@@ -1,0 +1,127 @@
+// Two real recordings with what is known of them: masks of the robot, and the range of each link's
+// distance.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <sstream>
+
+#include "apps/berth/open_scene.hpp"
+#include "berth/io/png.hpp"
+#include "berth/pipeline/asker.hpp"
+#include "berth/pipeline/observer.hpp"
+
+namespace berth {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path data_folder() {
+  const char* set = std::getenv("BERTH_DATA");
+  return set != nullptr ? fs::path(set) : fs::path(BERTH_SOURCE_DIR) / "../shared/data";
+}
+
+/// One line of expected.tsv.
+struct Range {
+  double min_m;
+  double max_m;
+  bool is_checked;
+};
+using Ranges = std::map<std::pair<int, std::string>, Range>;
+
+Ranges read_ranges(const fs::path& file) {
+  std::ifstream stream(file);
+  std::string line;
+  std::getline(stream, line);
+  Ranges ranges;
+  while (std::getline(stream, line)) {
+    std::istringstream fields(line);
+    int frame = 0;
+    std::string link;
+    Range range{};
+    fields >> frame >> link >> range.min_m >> range.max_m;
+    range.is_checked = line.find("[checked") != std::string::npos;
+    ranges[{frame, link}] = range;
+  }
+  return ranges;
+}
+
+/// The share of the mask's pixels with a reading that were filtered out.
+double filtered_share(const Image<LinkId>& mask, const ObstacleImage& obstacles) {
+  std::int64_t with_reading = 0;
+  std::int64_t filtered = 0;
+  for (std::size_t i = 0; i < mask.pixels().size(); ++i) {
+    const PixelFate fate = obstacles.fate.pixels()[i];
+    if (mask.pixels()[i] == 0 || fate == PixelFate::no_reading) continue;
+    ++with_reading;
+    filtered += fate != PixelFate::obstacle;
+  }
+  return static_cast<double>(filtered) / static_cast<double>(with_reading);
+}
+
+class Recording : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    folder_ = data_folder() / "recordings" / GetParam();
+    if (!fs::exists(folder_ / "scene.yaml"))
+      GTEST_SKIP() << "needs the recordings; BERTH_DATA names their folder";
+  }
+  fs::path folder_;
+};
+
+TEST_P(Recording, AtLeast99PercentOfTheRobotIsFiltered) {
+  const OpenScene scene = open_scene(folder_ / "scene.yaml", {});
+  const OpenCamera& camera = scene.cameras.front();
+  Observer observer(*camera.rig);
+  Frame frame;
+  for (std::size_t i = 0; i < camera.source.depth.size(); ++i) {
+    observer.observe(camera.read_depth(i), camera.at_exposure[i], frame);
+    const auto mask = read_link_ids_png(folder_ / fmt::format("reference/robot_mask_{:06}.png", i),
+                                        camera.rig->camera());
+    const double share = filtered_share(mask, frame.obstacles);
+    fmt::print("{} frame {}: {:.2f} % of the mask filtered\n", GetParam(), i, 100 * share);
+    EXPECT_GE(share, 0.99) << "frame " << i;
+  }
+}
+
+TEST_P(Recording, NoLinkIsTooFarAndMostAreInTheirRange) {
+  const OpenScene scene = open_scene(folder_ / "scene.yaml", {});
+  const OpenCamera& camera = scene.cameras.front();
+  const Ranges ranges = read_ranges(folder_ / "expected.tsv");
+  const std::vector<std::string> names = camera.rig->model().evaluated_link_names();
+  Observer observer(*camera.rig);
+  Asker asker(*camera.rig);
+  Frame frame;
+  int checked = 0;
+  int inside = 0;
+  int free_links_at_contact = 0;
+  for (std::size_t i = 0; i < camera.source.depth.size(); ++i) {
+    observer.observe(camera.read_depth(i), camera.at_exposure[i], frame);
+    for (const LinkDistance& link : asker.ask(frame).distances.links) {
+      const auto range = ranges.find({static_cast<int>(i), names[link.id - 1]});
+      ASSERT_NE(range, ranges.end()) << names[link.id - 1];
+      const auto& [min_m, max_m, is_checked] = range->second;
+      const bool is_inside = link.distance_m >= min_m && link.distance_m <= max_m;
+      fmt::print("{} frame {} {:<11} {:.4f} m, expected {:.3f} to {:.3f} m ({}){}\n", GetParam(), i,
+                 names[link.id - 1], link.distance_m, min_m, max_m,
+                 is_checked ? "checked" : "estimate", is_inside ? "" : "  <- outside");
+      EXPECT_EQ(link.status, LinkStatus::ok) << "frame " << i << ", " << names[link.id - 1];
+      EXPECT_LE(link.distance_m, max_m + 0.01) << "frame " << i << ", " << names[link.id - 1];
+      free_links_at_contact += min_m >= 0.05 && link.distance_m < 0.03;
+      checked += is_checked;
+      inside += is_checked && is_inside;
+    }
+  }
+  EXPECT_GE(inside, 0.8 * checked);
+  EXPECT_EQ(free_links_at_contact, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Real, Recording, testing::Values("xarm7_realsense", "lbr_med7_zed2i"),
+                         [](const auto& test) { return test.param; });
+
+}  // namespace
+}  // namespace berth
