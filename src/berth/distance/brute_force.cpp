@@ -1,0 +1,103 @@
+#include "berth/distance/brute_force.hpp"
+
+#include <cassert>
+#include <cmath>
+
+#include "berth/distance/closest_pair.hpp"
+
+// Compiles the rest of this file once for each instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "berth/distance/brute_force.cpp"
+#include "hwy/foreach_target.h"
+
+#include "berth/distance/lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace berth {
+namespace HWY_NAMESPACE {
+
+/// The least D^2 of a robot pixel and the obstacle pixels of one row; +inf if there are none.
+float least_in_row_m2(const Metric& metric, float ru, float rv, float robot_depth_m, float ov,
+                      const float* obstacle_depth_m, int width) {
+  const BasicMetric<Lanes> metrics = broadcast(metric);
+  Lanes least_m2(HUGE_VALF);
+  for (int u = 0; u < width; u += kLanes) {
+    const Lanes squared_m2 = squared_distance_m2(
+        metrics, Lanes(ru), Lanes(rv), Lanes(robot_depth_m), count_up(static_cast<float>(u)),
+        Lanes(ov), load_first(obstacle_depth_m + u, width - u));
+    least_m2 = lesser_or_first(least_m2, squared_m2);
+  }
+  return least_lane(least_m2);
+}
+
+/// Tries the robot pixel (ru, rv) against every obstacle pixel.
+void try_robot_pixel(const Metric& metric, float ru, float rv, float robot_depth_m,
+                     const DepthView& obstacle_depth_m, ClosestPair& best) {
+  for (int v = 0; v < obstacle_depth_m.height; ++v) {
+    const auto ov = static_cast<float>(v);
+    const float* row_m = obstacle_depth_m.row(v);
+    const float least_m2 =
+        least_in_row_m2(metric, ru, rv, robot_depth_m, ov, row_m, obstacle_depth_m.width);
+    if (!(least_m2 < best.squared_m2)) continue;
+    int u = 0;
+    while (berth::squared_distance_m2(metric, ru, rv, robot_depth_m, static_cast<float>(u), ov,
+                                      row_m[u]) != least_m2) {
+      ++u;
+    }
+    best = {least_m2, ru, rv, robot_depth_m, static_cast<float>(u), ov, row_m[u]};
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace berth
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace berth {
+
+HWY_EXPORT(try_robot_pixel);
+
+namespace {
+
+std::int64_t count_readings(DepthView depth_m) {
+  std::int64_t count = 0;
+  for (int v = 0; v < depth_m.height; ++v) {
+    for (int u = 0; u < depth_m.width; ++u) count += !std::isnan(depth_m(u, v));
+  }
+  return count;
+}
+
+}  // namespace
+
+void brute_force(const Camera& camera, const RobotImage& robot, DepthView obstacle_depth_m,
+                 int link_count, const DistanceSettings& settings, LinkDistances& out) {
+  validate(settings);
+  assert(robot.depth_m.width() == obstacle_depth_m.width);
+  assert(robot.depth_m.height() == obstacle_depth_m.height);
+  const Metric metric = metric_of(camera);
+  const auto range_m = static_cast<float>(settings.range_m);
+  std::vector<ClosestPair> best(link_count, no_pair_within(range_m));
+  std::vector<int> pixels(link_count, 0);
+
+  std::int64_t robot_pixels = 0;
+  for (int v = 0; v < robot.depth_m.height(); ++v) {
+    for (int u = 0; u < robot.depth_m.width(); ++u) {
+      const LinkId id = robot.link_id(u, v);
+      if (id == kNoLink || id == kEnvironmentLink) continue;
+      assert(id <= link_count);
+      ++pixels[id - 1];
+      ++robot_pixels;
+      HWY_DYNAMIC_DISPATCH(try_robot_pixel)
+      (metric, static_cast<float>(u), static_cast<float>(v), robot.depth_m(u, v), obstacle_depth_m,
+       best[id - 1]);
+    }
+  }
+  out.pairs = robot_pixels * count_readings(obstacle_depth_m);
+  out.links.resize(link_count);
+  for (int i = 0; i < link_count; ++i) {
+    out.links[i] = link_distance(static_cast<LinkId>(i + 1), pixels[i], metric, best[i], range_m);
+  }
+}
+
+}  // namespace berth
+#endif  // HWY_ONCE

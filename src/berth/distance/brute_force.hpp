@@ -1,0 +1,20 @@
+#pragma once
+
+#include "berth/distance/settings.hpp"
+#include "berth/types/camera.hpp"
+#include "berth/types/link_distance.hpp"
+
+namespace berth {
+
+/// Per link the closest pair of all its pixels and all obstacle pixels: **the definition of
+/// correct** (Hirt 2.10 to 2.14), and the baseline of benchmarks.
+///
+/// Both images have the camera's size; obstacle_depth_m is NaN where nothing is. Link ids go from 1
+/// to link_count; pixels of kEnvironmentLink are not evaluated, any other id is a programming
+/// error. Of several pairs equally close, the first by rows. Fills everything but the mean
+/// direction (see mean_direction.hpp); out.pairs counts robot pixels times obstacle pixels with a
+/// depth. Throws std::invalid_argument for bad settings.
+void brute_force(const Camera& camera, const RobotImage& robot, DepthView obstacle_depth_m,
+                 int link_count, const DistanceSettings& settings, LinkDistances& out);
+
+}  // namespace berth

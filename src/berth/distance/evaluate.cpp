@@ -1,0 +1,50 @@
+#include "berth/distance/evaluate.hpp"
+
+#include "berth/distance/brute_force.hpp"
+#include "berth/distance/mean_direction.hpp"
+
+namespace berth {
+
+std::string_view name_of(Method method) {
+  switch (method) {
+    case Method::exact:
+      return "exact";
+    case Method::brute_force:
+      return "brute_force";
+  }
+  return {};
+}
+
+std::optional<Method> method_from_name(std::string_view name) {
+  for (const Method method : kMethods) {
+    if (name_of(method) == name) return method;
+  }
+  return std::nullopt;
+}
+
+std::string method_names() {
+  std::string names;
+  for (const Method method : kMethods) {
+    if (!names.empty()) names += ", ";
+    names += name_of(method);
+  }
+  return names;
+}
+
+void evaluate(Method method, const Camera& camera, const RobotImage& robot,
+              DepthView obstacle_depth_m, const ObstacleTree& obstacles, int link_count,
+              const DistanceSettings& settings, ExactWorkspace& workspace, LinkDistances& out) {
+  switch (method) {
+    case Method::exact:
+      exact(camera, robot, obstacles, link_count, settings, workspace, out);
+      break;
+    case Method::brute_force:
+      brute_force(camera, robot, obstacle_depth_m, link_count, settings, out);
+      break;
+  }
+  if (settings.mean_direction) {
+    fill_mean_directions(camera, robot, obstacle_depth_m, settings, out);
+  }
+}
+
+}  // namespace berth

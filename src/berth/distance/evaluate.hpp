@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "berth/distance/exact.hpp"
+
+namespace berth {
+
+/// The ways to find the closest pairs. Each has the name of its enumerator.
+enum class Method { exact, brute_force };
+
+inline constexpr std::array<Method, 2> kMethods = {Method::exact, Method::brute_force};
+
+std::string_view name_of(Method method);
+/// Nothing if no method has this name.
+std::optional<Method> method_from_name(std::string_view name);
+/// "exact, brute_force", for messages.
+std::string method_names();
+
+/// Per link the closest pair by one method, and where asked for the mean direction.
+///
+/// obstacle_depth_m and the tree built from it are the same image; both images have the camera's
+/// size. Link ids go from 1 to link_count; pixels of kEnvironmentLink are not evaluated, any other
+/// id is a programming error. Throws std::invalid_argument for bad settings.
+void evaluate(Method method, const Camera& camera, const RobotImage& robot,
+              DepthView obstacle_depth_m, const ObstacleTree& obstacles, int link_count,
+              const DistanceSettings& settings, ExactWorkspace& workspace, LinkDistances& out);
+
+}  // namespace berth

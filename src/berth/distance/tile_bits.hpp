@@ -1,0 +1,28 @@
+// Sets of pixels of an 8 x 8 tile: bit 8 v + u is the pixel (u, v) of the tile.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "berth/distance/lower_bound.hpp"
+
+namespace berth {
+
+/// The lowest of at least one bit.
+inline int lowest_bit(std::uint64_t bits) { return std::countr_zero(bits); }
+
+/// The box of at least one pixel of the tile with the corner (u, v), with an empty depth range.
+inline PixelBox box_of_bits(std::uint64_t bits, float u, float v) {
+  std::uint64_t columns = bits | bits >> 32;
+  columns |= columns >> 16;
+  columns = (columns | columns >> 8) & 0xFF;
+  return {u + static_cast<float>(std::countr_zero(columns)),
+          u + static_cast<float>(std::bit_width(columns)),
+          v + static_cast<float>(std::countr_zero(bits) / 8),
+          v + static_cast<float>((std::bit_width(bits) + 7) / 8),
+          HUGE_VALF,
+          -HUGE_VALF};
+}
+
+}  // namespace berth

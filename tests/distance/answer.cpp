@@ -1,0 +1,80 @@
+#include "tests/distance/answer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/distance/plain_definition.hpp"
+
+namespace berth::testing {
+namespace {
+
+double tolerance_m(double distance_m) { return 1e-5 * std::max(1.0, distance_m); }
+
+void expect_own_pair(const LinkDistance& link, const ImagePair& images) {
+  const Pixel r = link.robot_pixel;
+  const Pixel o = link.obstacle_pixel;
+  ASSERT_EQ(images.robot.link_id(r.u, r.v), link.id);
+  const double pair_m = plain_distance_m(images.camera, r, images.robot.depth_m(r.u, r.v), o,
+                                         images.obstacle_depth_m(o.u, o.v));
+  EXPECT_NEAR(link.distance_m, pair_m, tolerance_m(pair_m));
+  const double points_m = (link.obstacle_point_C_m - link.robot_point_C_m).norm();
+  EXPECT_NEAR(points_m, pair_m, tolerance_m(link.obstacle_point_C_m.norm()));
+}
+
+}  // namespace
+
+LinkDistances answer(Method method, const ImagePair& images, double range_m) {
+  ObstacleTree tree;
+  build_obstacle_tree(images.obstacle_depth_m, tree);
+  ExactWorkspace workspace;
+  LinkDistances out;
+  evaluate(method, images.camera, images.robot, images.obstacle_depth_m, tree, images.link_count,
+           {range_m, false}, workspace, out);
+  return out;
+}
+
+void expect_no_distance(const LinkDistance& link) {
+  EXPECT_NE(link.status, LinkStatus::ok);
+  EXPECT_TRUE(std::isnan(link.distance_m));
+  EXPECT_EQ(link.robot_pixel, Pixel{});
+  EXPECT_EQ(link.obstacle_pixel, Pixel{});
+  EXPECT_TRUE(link.robot_point_C_m.array().isNaN().all());
+  EXPECT_TRUE(link.obstacle_point_C_m.array().isNaN().all());
+  EXPECT_TRUE(link.mean_direction_C.array().isNaN().all());
+  EXPECT_EQ(link.mean_count, 0);
+}
+
+void expect_same_answer(const LinkDistances& expected, const LinkDistances& actual,
+                        const ImagePair& images) {
+  ASSERT_EQ(expected.links.size(), actual.links.size());
+  for (std::size_t i = 0; i < expected.links.size(); ++i) {
+    SCOPED_TRACE("link " + std::to_string(i + 1));
+    const LinkDistance& link = actual.links[i];
+    EXPECT_EQ(link.id, i + 1);
+    EXPECT_EQ(link.robot_pixels, expected.links[i].robot_pixels);
+    ASSERT_EQ(link.status, expected.links[i].status);
+    if (link.status != LinkStatus::ok) {
+      expect_no_distance(link);
+      continue;
+    }
+    EXPECT_NEAR(link.distance_m, expected.links[i].distance_m, tolerance_m(link.distance_m));
+    expect_own_pair(link, images);
+  }
+}
+
+void put_robot(ImagePair& images, int u, int v, float depth_m, LinkId link) {
+  images.robot.depth_m(u, v) = depth_m;
+  images.robot.link_id(u, v) = link;
+}
+
+void put_obstacle(ImagePair& images, PixelRect rect, float depth_m) {
+  for (int v = rect.v_begin; v < rect.v_end; ++v) {
+    for (int u = rect.u_begin; u < rect.u_end; ++u) images.obstacle_depth_m(u, v) = depth_m;
+  }
+}
+
+std::string method_test_name(const ::testing::TestParamInfo<Method>& info) {
+  return std::string(name_of(info.param));
+}
+
+}  // namespace berth::testing

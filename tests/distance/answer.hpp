@@ -1,0 +1,30 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "berth/distance/evaluate.hpp"
+#include "testing/random_images.hpp"
+
+namespace berth::testing {
+
+/// The answer of a method with a fresh tree and workspace, without mean directions.
+LinkDistances answer(Method method, const ImagePair& images, double range_m = 1.0);
+
+/// Fails the test unless both answers have the same statuses and pixel counts, distances within
+/// 1e-5 m (relative above 1 m), each distance is that of its own pair, and all else is unset.
+void expect_same_answer(const LinkDistances& expected, const LinkDistances& actual,
+                        const ImagePair& images);
+
+/// Fails the test unless the link has no distance at all.
+void expect_no_distance(const LinkDistance& link);
+
+/// Sets a robot pixel.
+void put_robot(ImagePair& images, int u, int v, float depth_m, LinkId link = 1);
+
+/// Fills a rectangle of the obstacle image.
+void put_obstacle(ImagePair& images, PixelRect rect, float depth_m);
+
+/// Names the tests of a suite that takes methods.
+std::string method_test_name(const ::testing::TestParamInfo<Method>& info);
+
+}  // namespace berth::testing

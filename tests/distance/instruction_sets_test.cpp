@@ -1,0 +1,48 @@
+// Every instruction set that this machine has computes the same bits.
+#include <hwy/targets.h>
+
+#include <bit>
+
+#include "tests/distance/answer.hpp"
+
+namespace berth::testing {
+namespace {
+
+/// Makes the library use this instruction set until the end of the scope.
+class OnlyTarget {
+ public:
+  explicit OnlyTarget(std::int64_t target) { use(target); }
+  ~OnlyTarget() { use(0); }
+  OnlyTarget(const OnlyTarget&) = delete;
+  OnlyTarget& operator=(const OnlyTarget&) = delete;
+
+ private:
+  static void use(std::int64_t target) {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  }
+};
+
+class InstructionSets : public ::testing::TestWithParam<Method> {};
+INSTANTIATE_TEST_SUITE_P(Methods, InstructionSets, ::testing::ValuesIn(kMethods), method_test_name);
+
+TEST_P(InstructionSets, GiveTheSameDistances) {
+  for (std::uint32_t seed = 0; seed < 10; ++seed) {
+    const ImagePair images = random_images(seed, 90, 70, 4);
+    const LinkDistances best = answer(GetParam(), images);
+    std::int64_t targets = hwy::SupportedTargets();
+    for (; targets != 0; targets &= targets - 1) {
+      const OnlyTarget only(targets & -targets);
+      SCOPED_TRACE(hwy::TargetName(targets & -targets));
+      const LinkDistances found = answer(GetParam(), images);
+      for (std::size_t i = 0; i < best.links.size(); ++i) {
+        ASSERT_EQ(found.links[i].status, best.links[i].status);
+        EXPECT_EQ(std::bit_cast<std::uint32_t>(found.links[i].distance_m),
+                  std::bit_cast<std::uint32_t>(best.links[i].distance_m));
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace berth::testing
