@@ -29,7 +29,7 @@ struct SceneCamera {
   std::filesystem::path info;
   std::string parent_link;
   /// The pose of the optical frame C in the parent link's frame P; NaN until it is read.
-  Pose X_PC{Eigen::Matrix4d::Constant(std::numeric_limits<double>::quiet_NaN())};
+  Pose X_PC = unset_pose();
   std::vector<std::filesystem::path> depth;
   double depth_scale_m = 0.001;
   /// One for each image, increasing. Empty: image k belongs to row k of the joints.

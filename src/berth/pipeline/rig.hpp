@@ -1,6 +1,5 @@
 #pragma once
 
-#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -18,7 +17,7 @@ struct CameraMount {
   Camera camera;
   std::string parent_link;
   /// The pose of the optical frame C in the parent link's frame P; to be set, NaN is refused.
-  Pose X_PC{Eigen::Matrix4d::Constant(std::numeric_limits<double>::quiet_NaN())};
+  Pose X_PC = unset_pose();
 };
 
 struct RigSettings {

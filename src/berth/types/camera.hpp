@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <limits>
 
 namespace berth {
 
@@ -21,7 +22,14 @@ struct Camera {
   double corner_cy_px() const { return cy_px + 0.5; }
 };
 
-/// The pose of the camera's optical frame C in the frame B of the robot's root link.
+/// X_BC: the pose of frame C in frame B.
 using Pose = Eigen::Isometry3d;
+
+/// A pose that nobody has set: NaN, so that it cannot pass for one.
+inline Pose unset_pose() {
+  Pose X = Pose::Identity();
+  X.matrix().topRows<3>().setConstant(std::numeric_limits<double>::quiet_NaN());
+  return X;
+}
 
 }  // namespace berth
