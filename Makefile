@@ -1,7 +1,9 @@
 # Thin fronts of CMake. Each target does all set-up that it needs, on a bare Debian 12 too.
 .PHONY: demo test build setup format clean
 
-demo: build
+demo: setup
+	cmake --preset release
+	cmake --build --preset release --target berth
 	build/release/berth demo --picture build/demo
 
 test: build
