@@ -34,13 +34,19 @@ struct Sample {
   float depth_m;
 };
 
-/// Often at the box's ends, where the bound is tight.
+/// Often one of the ends, where the bound is tight.
+float whole_in(Sampler& sample, float lo, float hi) {
+  const float end = sample.whole(0, 2);
+  return end == 0 ? lo : end == 1 ? hi : sample.whole(static_cast<int>(lo), static_cast<int>(hi));
+}
+
 Sample random_pixel(Sampler& sample, const PixelBox& box) {
-  const float depth_m = sample.whole(0, 1) == 0
-                            ? sample.real(box.depth_lo_m, box.depth_hi_m)
-                            : (sample.whole(0, 1) == 0 ? box.depth_lo_m : box.depth_hi_m);
-  return {sample.whole(static_cast<int>(box.u_lo), static_cast<int>(box.u_hi) - 1),
-          sample.whole(static_cast<int>(box.v_lo), static_cast<int>(box.v_hi) - 1), depth_m};
+  const float end = sample.whole(0, 2);
+  const float depth_m = end == 0   ? box.depth_lo_m
+                        : end == 1 ? box.depth_hi_m
+                                   : sample.real(box.depth_lo_m, box.depth_hi_m);
+  return {whole_in(sample, box.u_lo, box.u_hi - 1), whole_in(sample, box.v_lo, box.v_hi - 1),
+          depth_m};
 }
 
 TEST(LowerBound, IsNeverAboveTheComputedDistanceOfAnyPair) {
@@ -51,7 +57,10 @@ TEST(LowerBound, IsNeverAboveTheComputedDistanceOfAnyPair) {
                         1 / sample.real(20, 90)};
     const PixelBox robot = random_box(sample);
     const PixelBox obstacle = random_box(sample);
-    const float max_gap_m = sample.whole(0, 1) == 0 ? HUGE_VALF : sample.real(0, 3);
+    // The exact gap of some pair, as the search's best distance would be; or none at all.
+    const float some_gap_m =
+        depth_gap_m(robot.depth_lo_m, sample.real(obstacle.depth_lo_m, obstacle.depth_hi_m));
+    const float max_gap_m = sample.whole(0, 3) == 0 ? HUGE_VALF : some_gap_m;
     const float bound_m2 = lower_bound_m2(metric, robot, obstacle, max_gap_m);
     for (int k = 0; k < 50; ++k) {
       const Sample r = random_pixel(sample, robot);
