@@ -7,6 +7,7 @@ namespace berth {
 namespace {
 
 constexpr int kTilePx = 8;
+constexpr int kGroupTiles = 4;
 constexpr float kNowhere = std::numeric_limits<float>::infinity();
 
 PixelRect tile_pixels(int column, int row, int width, int height) {
@@ -35,12 +36,27 @@ void RobotNeighbourhood::build(const Camera& camera, const RobotImage& robot) {
     ray_y_[v] = static_cast<float>((v - camera.cy_px) / camera.fy_px);
   points_.clear();
   tiles_.clear();
+  groups_.clear();
   bounds_C_m_.setEmpty();
-  for (int row = 0; row < rows_; ++row) {
-    for (int column = 0; column < columns_; ++column) {
-      append_tile(robot, tile_pixels(column, row, camera.width_px, camera.height_px));
+  for (int row = 0; row < rows_; row += kGroupTiles) {
+    for (int column = 0; column < columns_; column += kGroupTiles) append_group(robot, column, row);
+  }
+}
+
+void RobotNeighbourhood::append_group(const RobotImage& robot, int first_column, int first_row) {
+  Group group{{}, static_cast<std::uint32_t>(tiles_.size()), 0};
+  for (int row = first_row; row < std::min(rows_, first_row + kGroupTiles); ++row) {
+    for (int column = first_column; column < std::min(columns_, first_column + kGroupTiles);
+         ++column) {
+      append_tile(robot, tile_pixels(column, row, robot.link_id.width(), robot.link_id.height()));
     }
   }
+  group.tile_count = static_cast<std::uint32_t>(tiles_.size()) - group.first_tile;
+  if (group.tile_count == 0) return;
+  for (std::uint32_t i = 0; i < group.tile_count; ++i)
+    group.box_C_m.extend(tiles_[group.first_tile + i].box_C_m);
+  groups_.push_back(group);
+  bounds_C_m_.extend(group.box_C_m);
 }
 
 void RobotNeighbourhood::append_tile(const RobotImage& robot, const PixelRect& pixels) {
@@ -57,7 +73,6 @@ void RobotNeighbourhood::append_tile(const RobotImage& robot, const PixelRect& p
   tile.point_count = static_cast<std::uint32_t>(points_.size()) - tile.first_point;
   if (tile.point_count == 0) return;
   tiles_.push_back(tile);
-  bounds_C_m_.extend(tile.box_C_m);
 }
 
 void RobotNeighbourhood::find_near(DepthView depth_m, const Image<PixelFate>& fate, double radius_m,
@@ -101,8 +116,14 @@ void RobotNeighbourhood::collect_tiles_near(const Eigen::AlignedBox3f& box_C_m, 
   if (box_C_m.isEmpty() || tiles_.empty() ||
       bounds_C_m_.squaredExteriorDistance(box_C_m) > radius2_m2)
     return;
-  for (const Tile& tile : tiles_) {
-    if (tile.box_C_m.squaredExteriorDistance(box_C_m) <= radius2_m2) near_tiles_.push_back(&tile);
+  const auto may_be_near = [&](const Eigen::AlignedBox3f& box) {
+    return box.squaredExteriorDistance(box_C_m) <= radius2_m2;
+  };
+  for (const Group& group : groups_) {
+    if (!may_be_near(group.box_C_m)) continue;
+    for (std::uint32_t i = group.first_tile; i < group.first_tile + group.tile_count; ++i) {
+      if (may_be_near(tiles_[i].box_C_m)) near_tiles_.push_back(&tiles_[i]);
+    }
   }
 }
 

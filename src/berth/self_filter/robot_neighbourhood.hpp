@@ -35,9 +35,17 @@ class RobotNeighbourhood {
     std::uint32_t point_count;
   };
 
+  /// The tiles of a square of 4 x 4, which lie together.
+  struct Group {
+    Eigen::AlignedBox3f box_C_m;
+    std::uint32_t first_tile;
+    std::uint32_t tile_count;
+  };
+
   Point back_project(int u, int v, float depth_m) const {
     return {ray_x_[u] * depth_m, ray_y_[v] * depth_m, depth_m};
   }
+  void append_group(const RobotImage& robot, int first_column, int first_row);
   void append_tile(const RobotImage& robot, const PixelRect& pixels);
   void collect_tiles_near(const Eigen::AlignedBox3f& box_C_m, float radius_m);
   bool is_near(const Point& p, float radius2_m2);
@@ -48,6 +56,7 @@ class RobotNeighbourhood {
   std::vector<float> ray_y_;
   std::vector<Point> points_;
   std::vector<Tile> tiles_;
+  std::vector<Group> groups_;
   Eigen::AlignedBox3f bounds_C_m_;
   /// Scratch of find_near: the tiles that a tile of candidates may be near to, and the last point
   /// that was.
