@@ -1,5 +1,5 @@
 # Thin fronts of CMake. Each target does all set-up that it needs, on a bare Debian 12 too.
-.PHONY: demo test build setup format clean
+.PHONY: demo test build bench setup format clean
 
 demo: setup
 	cmake --preset release
@@ -12,6 +12,15 @@ test: build
 build: setup
 	cmake --preset release
 	cmake --build --preset release
+
+# Recordings to measure as well, where BERTH_DATA names a folder of them.
+recordings = $(addprefix --scene ,$(wildcard $(BERTH_DATA)/recordings/*/scene.yaml))
+bench:
+	scripts/setup.sh packages.txt packages-bench.txt
+	cmake --preset bench
+	cmake --build --preset bench
+	build/bench/berth bench --out build/bench_results $(if $(BERTH_DATA),$(recordings))
+	bench/plot.py build/bench_results/bench.csv build/bench_results/results.svg
 
 setup:
 	scripts/setup.sh

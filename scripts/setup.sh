@@ -1,9 +1,11 @@
 #!/bin/sh
 # Installs the Debian packages that are missing; silent where nothing is.
+# setup.sh [LIST...]: lists of packages in this folder; packages.txt where none is named.
 set -eu
-folder=$(dirname "$0")
+cd "$(dirname "$0")"
+[ $# -gt 0 ] || set -- packages.txt
 missing=
-for package in $(grep -v '^#' "$folder/packages.txt"); do
+for package in $(cat "$@" | grep -v '^#'); do
   dpkg-query -W -f '${db:Status-Abbrev}' "$package" 2>/dev/null | grep -q '^ii' || missing="$missing $package"
 done
 [ -z "$missing" ] && exit 0

@@ -5,8 +5,8 @@
 namespace berth {
 
 void bench_command(const BenchArguments& arguments) {
-  bench::run_benchmarks(
-      {arguments.quick, arguments.out_folder, BERTH_BUNDLED_SCENE "/scene.yaml", arguments.scenes});
+  bench::run_benchmarks({arguments.quick, arguments.random_scenes, arguments.out_folder,
+                         BERTH_BUNDLED_SCENE "/scene.yaml", arguments.scenes});
 }
 
 }  // namespace berth

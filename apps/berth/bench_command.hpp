@@ -8,6 +8,7 @@ namespace berth {
 
 struct BenchArguments {
   bool quick = false;
+  int random_scenes = 200;
   std::filesystem::path out_folder;
   std::vector<std::filesystem::path> scenes;
 };

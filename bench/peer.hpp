@@ -1,0 +1,47 @@
+// A way to find the distances: berth's own, or what a user could take instead.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/bench_scene.hpp"
+
+namespace berth::bench {
+
+/// Per link the distance in metres; nothing where none lies within the scene's range.
+using PeerDistances = std::vector<std::optional<float>>;
+
+/// Runs on one thread. A method has a file of its own, peer_<name>.cpp.
+class Peer {
+ public:
+  Peer() = default;
+  virtual ~Peer() = default;
+  Peer(const Peer&) = delete;
+  Peer& operator=(const Peer&) = delete;
+
+  virtual std::string name() const = 0;
+  /// What its answer lacks beside that of brute_force, for the table; empty if nothing.
+  virtual std::string lacks() const = 0;
+  /// What can be made ready before any frame comes; not timed.
+  virtual void load(const BenchScene&) {}
+  /// What has to be made anew for each obstacle image; timed.
+  virtual void prepare(const BenchScene& scene) = 0;
+  /// All links; timed. `scene` is the one of the last prepare().
+  virtual void evaluate(const BenchScene& scene, PeerDistances& distances_m) = 0;
+};
+
+std::unique_ptr<Peer> make_berth_exact();
+/// berth's exact method, kept from using more than AVX2; nothing where that is no restriction.
+std::unique_ptr<Peer> make_berth_exact_avx2();
+std::unique_ptr<Peer> make_brute_force();
+std::unique_ptr<Peer> make_nanoflann();
+std::unique_ptr<Peer> make_flann();
+std::unique_ptr<Peer> make_embree();
+std::unique_ptr<Peer> make_fcl_octomap(double resolution_m);
+
+/// All but brute_force, which is the measure of the others.
+std::vector<std::unique_ptr<Peer>> make_peers();
+
+}  // namespace berth::bench

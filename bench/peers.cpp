@@ -1,0 +1,17 @@
+#include "bench/peer.hpp"
+
+namespace berth::bench {
+
+std::vector<std::unique_ptr<Peer>> make_peers() {
+  std::vector<std::unique_ptr<Peer>> peers;
+  peers.push_back(make_berth_exact());
+  if (auto avx2 = make_berth_exact_avx2()) peers.push_back(std::move(avx2));
+  peers.push_back(make_nanoflann());
+  peers.push_back(make_flann());
+  peers.push_back(make_embree());
+  peers.push_back(make_fcl_octomap(0.02));
+  peers.push_back(make_fcl_octomap(0.01));
+  return peers;
+}
+
+}  // namespace berth::bench

@@ -1,0 +1,149 @@
+#include "bench/stages.hpp"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include "apps/berth/interrupt.hpp"
+#include "apps/berth/progress_bar.hpp"
+#include "bench/statistics.hpp"
+#include "bench/stopwatch.hpp"
+#include "berth/distance/mean_direction.hpp"
+#include "berth/pipeline/asker.hpp"
+#include "berth/pipeline/observer.hpp"
+
+namespace berth::bench {
+namespace {
+
+/// The runs of one stage.
+struct Stage {
+  std::string name;
+  std::vector<double> times_ms = {};
+};
+
+/// The pipeline taken apart. Each run fills the frame as Observer and Asker do.
+class Stages {
+ public:
+  explicit Stages(const OpenCamera& camera)
+      : camera_(camera),
+        rig_(*camera.rig),
+        renderer_(rig_.meshes(), rig_.camera()),
+        observer_(rig_),
+        asker_(rig_),
+        settings_(rig_.settings().distance) {
+    settings_.mean_direction = false;
+  }
+
+  void run(DepthView depth_m, std::size_t frame_number) {
+    const JointState& joints = camera_.at_exposure[frame_number];
+    const JointState& other_joints =
+        camera_.at_exposure[(frame_number + 1) % camera_.at_exposure.size()];
+    run_apart(depth_m, joints);
+    take(whole_, [&] {
+      observer_.observe(depth_m, joints, frame_);
+      asker_.ask(frame_);
+    });
+    take(question_, [&] { asker_.ask(frame_, other_joints); });
+  }
+
+  void forget_times() {
+    for (Stage* stage : all()) stage->times_ms.clear();
+  }
+
+  std::vector<Stage*> all() {
+    return {&render_, &self_filter_, &tree_, &exact_, &mean_, &whole_, &question_};
+  }
+
+ private:
+  template <class Call>
+  static void take(Stage& stage, Call call) {
+    const Stopwatch watch;
+    call();
+    stage.times_ms.push_back(watch.ms());
+  }
+
+  void run_apart(DepthView depth_m, const JointState& joints) {
+    take(render_, [&] {
+      forward_kinematics(rig_.model(), joints.position, pose_);
+      renderer_.render(pose_, rig_.camera_pose(pose_), frame_.robot);
+    });
+    take(self_filter_, [&] {
+      self_filter(rig_.camera(), depth_m, frame_.robot, rig_.settings().self_filter, filter_,
+                  frame_.obstacles);
+    });
+    take(tree_, [&] { build_obstacle_tree(frame_.obstacles.depth_m, frame_.obstacle_tree); });
+    take(exact_, [&] {
+      evaluate(Method::exact, rig_.camera(), frame_.robot, frame_.obstacles.depth_m,
+               frame_.obstacle_tree, rig_.model().link_count(), settings_, workspace_, distances_);
+    });
+    take(mean_, [&] {
+      fill_mean_directions(rig_.camera(), frame_.robot, frame_.obstacles.depth_m, settings_,
+                           distances_);
+    });
+  }
+
+  const OpenCamera& camera_;
+  const Rig& rig_;
+  RobotRenderer renderer_;
+  RobotPose pose_;
+  SelfFilterWorkspace filter_;
+  ExactWorkspace workspace_;
+  LinkDistances distances_;
+  Observer observer_;
+  Asker asker_;
+  Frame frame_;
+  DistanceSettings settings_;
+  Stage render_{"render"};
+  Stage self_filter_{"self filter"};
+  Stage tree_{"obstacle tree"};
+  Stage exact_{"exact"};
+  Stage mean_{"mean direction"};
+  Stage whole_{"depth image to result"};
+  Stage question_{"question at new joint angles"};
+};
+
+std::size_t triangle_count(const RobotModel& model) {
+  std::size_t count = 0;
+  for (const Link& link : model.links) count += link.mesh_L.triangles.size();
+  return count;
+}
+
+}  // namespace
+
+Table measure_stages(const Recording& recording, int threads, int rounds) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+  const OpenCamera& camera = recording.camera();
+  const std::size_t frames = camera.source.depth.size();
+  const std::string title =
+      fmt::format("Stages, {}, {} thread{}", recording.title, threads, threads == 1 ? "" : "s");
+  Stages stages(camera);
+  ProgressBar progress(title, frames);
+  // Frame by frame, since the images of all of them together are large.
+  for (std::size_t i = 0; i < frames; ++i) {
+    const DepthImage depth_m = camera.read_depth(i);
+    for (int round = 0; round <= rounds; ++round) {
+      stop_if_interrupted();
+      stages.run(depth_m, i);
+      if (i == 0 && round == 0) stages.forget_times();
+    }
+    progress.step();
+  }
+
+  Table table{title,
+              fmt::format("{} x {}, {} triangles, {} links, {} frames, each {} times; the last two "
+                          "rows are the whole pipeline.",
+                          camera.rig->camera().width_px, camera.rig->camera().height_px,
+                          triangle_count(camera.rig->model()), camera.rig->model().link_count(),
+                          frames, rounds + 1),
+              "stage",
+              {"median ms", "p99 ms", "max ms"},
+              {}};
+  for (const Stage* stage : stages.all()) {
+    table.rows.push_back({stage->name,
+                          {median(stage->times_ms), percentile(stage->times_ms, 0.99),
+                           percentile(stage->times_ms, 1)},
+                          ""});
+  }
+  return table;
+}
+
+}  // namespace berth::bench

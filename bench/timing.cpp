@@ -1,0 +1,34 @@
+#include "bench/timing.hpp"
+
+#include "bench/statistics.hpp"
+#include "bench/stopwatch.hpp"
+
+namespace berth::bench {
+namespace {
+
+PeerTime run_once(Peer& peer, const BenchScene& scene, PeerDistances& distances_m) {
+  const ProcessorStopwatch watch;
+  peer.prepare(scene);
+  const double build_ms = watch.ms();
+  peer.evaluate(scene, distances_m);
+  return {build_ms, watch.ms()};
+}
+
+}  // namespace
+
+PeerTime time_peer(Peer& peer, const BenchScene& scene, const RunLimits& limits,
+                   PeerDistances& distances_m) {
+  const PeerTime first = run_once(peer, scene, distances_m);
+  if (first.total_ms > limits.once_above_ms) return first;
+  std::vector<double> build_ms;
+  std::vector<double> total_ms;
+  const ProcessorStopwatch watch;
+  do {
+    const PeerTime run = run_once(peer, scene, distances_m);
+    build_ms.push_back(run.build_ms);
+    total_ms.push_back(run.total_ms);
+  } while (static_cast<int>(total_ms.size()) < limits.max_runs && watch.ms() < limits.enough_ms);
+  return {median(build_ms).value(), median(total_ms).value()};
+}
+
+}  // namespace berth::bench
