@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/io/temporary_folder.hpp"
+#include "testing/temporary_folder.hpp"
 
 namespace berth {
 

@@ -9,7 +9,7 @@
 #include "apps/berth/picture_palette.hpp"
 #include "berth/io/file_bytes.hpp"
 #include "tests/apps/picture_scene.hpp"
-#include "tests/io/temporary_folder.hpp"
+#include "testing/temporary_folder.hpp"
 
 namespace berth {
 namespace {

@@ -7,7 +7,7 @@
 #include <csignal>
 
 #include "tests/io/error_message.hpp"
-#include "tests/io/temporary_folder.hpp"
+#include "testing/temporary_folder.hpp"
 
 namespace berth {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/io/error_message.hpp"
-#include "tests/io/temporary_folder.hpp"
+#include "testing/temporary_folder.hpp"
 
 namespace berth {
 namespace {

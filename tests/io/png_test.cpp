@@ -10,7 +10,7 @@
 
 #include "berth/io/file_bytes.hpp"
 #include "tests/io/error_message.hpp"
-#include "tests/io/temporary_folder.hpp"
+#include "testing/temporary_folder.hpp"
 
 namespace berth {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "berth/io/scene.hpp"
-#include "tests/io/temporary_folder.hpp"
+#include "testing/temporary_folder.hpp"
 
 namespace berth {
 

@@ -7,7 +7,7 @@
 
 #include "tests/robot/error_text.hpp"
 #include "tests/robot/mesh_writing.hpp"
-#include "tests/robot/temporary_folder.hpp"
+#include "testing/temporary_folder.hpp"
 
 namespace berth {
 namespace {

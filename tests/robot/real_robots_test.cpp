@@ -10,7 +10,7 @@
 #include "testing/mesh_reading.hpp"
 #include "testing/urdf_reading.hpp"
 #include "tests/robot/error_text.hpp"
-#include "tests/robot/temporary_folder.hpp"
+#include "testing/temporary_folder.hpp"
 
 namespace berth {
 namespace {
