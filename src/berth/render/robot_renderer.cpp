@@ -126,18 +126,23 @@ struct RobotRenderer::State {
     require_no_error(links->device(), "making the scene of a camera");
   }
 
-  void commit(const RobotPose& pose, const Pose& X_CB) {
+  /// Returns where the robot may be seen.
+  PixelRect commit(const RobotPose& pose, const Pose& X_CB) {
+    PixelRect extent;
     std::fill(tile_in_view.begin(), tile_in_view.end(), std::uint8_t{0});
     for (std::size_t i = 0; i < links->meshes().size(); ++i) {
       const auto& mesh = links->meshes()[i];
       const Pose X_CL = X_CB * pose.X_BL[mesh.link_index];
-      mark_tiles(project_box(mesh.box_L, X_CL, camera));
+      const PixelRect rect = project_box(mesh.box_L, X_CL, camera);
+      extent = united(extent, rect);
+      mark_tiles(rect);
       const Eigen::Matrix<float, 3, 4> transform = X_CL.matrix().topRows<3>().cast<float>();
       RTCGeometry instance = rtcGetGeometry(scene.get(), static_cast<unsigned>(i));
       rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, transform.data());
       rtcCommitGeometry(instance);
     }
     rtcCommitScene(scene.get());
+    return extent;
   }
 
   void mark_tiles(const PixelRect& rect) {
@@ -219,7 +224,7 @@ void RobotRenderer::render(const RobotPose& pose, const Pose& X_BC, RobotImage& 
   }
   image.depth_m.resize(state.camera.width_px, state.camera.height_px, kNoDepth);
   image.link_id.resize(state.camera.width_px, state.camera.height_px, kNoLink);
-  state.commit(pose, X_BC.inverse());
+  image.extent = state.commit(pose, X_BC.inverse());
   tbb::parallel_for(tbb::blocked_range<int>(0, state.tile_rows),
                     [&](const tbb::blocked_range<int>& rows) {
                       for (int row = rows.begin(); row != rows.end(); ++row)

@@ -1,6 +1,7 @@
 // Images: rows of pixels, (0, 0) top left, u to the right, v down.
 #pragma once
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
@@ -84,6 +85,25 @@ struct PixelRect {
   int u_end = 0;
   int v_end = 0;
   bool empty() const { return u_begin >= u_end || v_begin >= v_end; }
+  bool operator==(const PixelRect&) const = default;
 };
+
+/// Every pixel of every image.
+inline constexpr PixelRect kEverywhere{0, 0, std::numeric_limits<int>::max(),
+                                       std::numeric_limits<int>::max()};
+
+/// The part of `rect` that lies in an image of this size.
+inline PixelRect clip(const PixelRect& rect, int width, int height) {
+  return {std::clamp(rect.u_begin, 0, width), std::clamp(rect.v_begin, 0, height),
+          std::clamp(rect.u_end, 0, width), std::clamp(rect.v_end, 0, height)};
+}
+
+/// The least rectangle that holds both.
+inline PixelRect united(const PixelRect& a, const PixelRect& b) {
+  if (a.empty()) return b;
+  if (b.empty()) return a;
+  return {std::min(a.u_begin, b.u_begin), std::min(a.v_begin, b.v_begin),
+          std::max(a.u_end, b.u_end), std::max(a.v_end, b.v_end)};
+}
 
 }  // namespace berth
