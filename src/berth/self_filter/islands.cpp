@@ -1,11 +1,13 @@
 #include "berth/self_filter/islands.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace berth {
 namespace {
 
-/// What is known of an obstacle pixel while pieces are walked; find_near writes the first two.
+/// find_near writes the first two.
 enum State : std::uint8_t { kOutside, kInside, kWalked };
 
 /// A piece that begins beside the robot may have a few pixels in front of its rim, where the model
@@ -17,14 +19,23 @@ constexpr double kMostInFront = 0.1;
 class Walk {
  public:
   Walk(DepthView depth_m, const RobotImage& robot, float jump_m, IslandWorkspace& workspace,
-       Image<PixelFate>& fate)
+       ObstacleImage& out)
       : depth_m_(depth_m),
         robot_(robot),
         jump_m_(jump_m),
         state_(workspace.state),
         piece_(workspace.piece),
-        fate_(fate) {}
+        out_(out) {}
 
+  void through(const PixelRect& tile) {
+    for (int v = tile.v_begin; v < tile.v_end; ++v) {
+      for (int u = tile.u_begin; u < tile.u_end; ++u) {
+        if (state_(u, v) == kInside) from({u, v});
+      }
+    }
+  }
+
+ private:
   /// The piece that holds `start` is an island unless it is joined to an obstacle pixel outside, or
   /// stands in front.
   void from(Pixel start) {
@@ -38,10 +49,14 @@ class Walk {
     }
     if (leaves || static_cast<double>(in_front) > kMostInFront * static_cast<double>(piece_.size()))
       return;
-    for (const Pixel& p : piece_) fate_(p.u, p.v) = PixelFate::island;
+    for (const Pixel& p : piece_) {
+      out_.fate(p.u, p.v) = PixelFate::island;
+      out_.depth_m(p.u, p.v) = kNoDepth;
+    }
+    out_.count[static_cast<std::size_t>(PixelFate::obstacle)] -= std::ssize(piece_);
+    out_.count[static_cast<std::size_t>(PixelFate::island)] += std::ssize(piece_);
   }
 
- private:
   bool is_in_front(Pixel p) const {
     const LinkId id = robot_.link_id(p.u, p.v);
     return id != kNoLink && id != kEnvironmentLink;
@@ -50,16 +65,18 @@ class Walk {
   /// True where a joined neighbour is an obstacle pixel outside the robot's neighbourhood.
   bool visit_neighbours(Pixel p) {
     bool leaves = false;
-    for (int dv = -1; dv <= 1; ++dv) {
-      for (int du = -1; du <= 1; ++du) {
-        const Pixel n{p.u + du, p.v + dv};
-        if (n.u < 0 || n.u >= depth_m_.width || n.v < 0 || n.v >= depth_m_.height) continue;
-        if (fate_(n.u, n.v) != PixelFate::obstacle) continue;
-        if (std::abs(depth_m_(n.u, n.v) - depth_m_(p.u, p.v)) > jump_m_) continue;
-        if (state_(n.u, n.v) == kOutside) leaves = true;
-        if (state_(n.u, n.v) != kInside) continue;
-        state_(n.u, n.v) = kWalked;
-        piece_.push_back(n);
+    const float depth_m = depth_m_(p.u, p.v);
+    for (int v = std::max(0, p.v - 1); v <= std::min(depth_m_.height - 1, p.v + 1); ++v) {
+      for (int u = std::max(0, p.u - 1); u <= std::min(depth_m_.width - 1, p.u + 1); ++u) {
+        std::uint8_t& state = state_(u, v);
+        if (state == kWalked || out_.fate(u, v) != PixelFate::obstacle) continue;
+        if (std::abs(depth_m_(u, v) - depth_m) > jump_m_) continue;
+        if (state == kOutside) {
+          leaves = true;
+        } else {
+          state = kWalked;
+          piece_.push_back({u, v});
+        }
       }
     }
     return leaves;
@@ -70,23 +87,28 @@ class Walk {
   float jump_m_;
   Image<std::uint8_t>& state_;
   std::vector<Pixel>& piece_;
-  Image<PixelFate>& fate_;
+  ObstacleImage& out_;
 };
+
+template <class Call>
+void for_near_tiles(const RobotNeighbourhood& neighbourhood, const Call& call) {
+  for (int row = 0; row < neighbourhood.tile_rows(); ++row) {
+    for (const PixelRect& tile : neighbourhood.near_tiles(row)) call(tile);
+  }
+}
 
 }  // namespace
 
-void mark_islands(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,
-                  const SelfFilterSettings& settings, IslandWorkspace& workspace,
-                  Image<PixelFate>& fate) {
-  workspace.neighbourhood.build(camera, robot);
-  workspace.neighbourhood.find_near(sensor_depth_m, fate, settings.island_radius_m,
-                                    workspace.state);
-  Walk walk(sensor_depth_m, robot, static_cast<float>(settings.island_jump_m), workspace, fate);
-  for (int v = 0; v < camera.height_px; ++v) {
-    for (int u = 0; u < camera.width_px; ++u) {
-      if (workspace.state(u, v) == kInside) walk.from({u, v});
+void drop_islands(DepthView sensor_depth_m, const RobotImage& robot, float jump_m,
+                  IslandWorkspace& workspace, ObstacleImage& out) {
+  Walk walk(sensor_depth_m, robot, jump_m, workspace, out);
+  for_near_tiles(workspace.neighbourhood, [&](const PixelRect& tile) { walk.through(tile); });
+  for_near_tiles(workspace.neighbourhood, [&](const PixelRect& tile) {
+    for (int v = tile.v_begin; v < tile.v_end; ++v) {
+      std::fill(workspace.state.row(v) + tile.u_begin, workspace.state.row(v) + tile.u_end,
+                kOutside);
     }
-  }
+  });
 }
 
 }  // namespace berth

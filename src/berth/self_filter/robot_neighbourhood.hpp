@@ -1,8 +1,8 @@
 #pragma once
 
-#include <Eigen/Geometry>
 #include <vector>
 
+#include "berth/self_filter/near_surface.hpp"
 #include "berth/types/camera.hpp"
 #include "berth/types/obstacle_image.hpp"
 #include "berth/types/robot_image.hpp"
@@ -10,58 +10,64 @@
 namespace berth {
 
 /// What is near the robot's visible surface in space (evaluated links, not scenery). Tile by tile:
-/// the boxes around two tiles of pixels settle most questions for all of them.
+/// the boxes around two tiles of pixels settle most questions for all of them. A robot pixel is
+/// the point at its centre, back-projected at its depth, and so is an obstacle's.
 class RobotNeighbourhood {
  public:
-  /// Sorts the robot's pixels into tiles. `robot` has to outlive the questions. Reuses memory.
-  void build(const Camera& camera, const RobotImage& robot);
+  /// `camera` and `robot` have to outlive the questions.
+  void begin(const Camera& camera, const RobotImage& robot, double radius_m);
 
-  /// For each pixel whose fate is obstacle, writes to near(u, v) whether some robot pixel's centre,
-  /// back-projected at its depth, lies within `radius_m` (Euclidean) of that pixel's at depth_m(u,
-  /// v); 0 for all other pixels. All images have the camera's size.
-  void find_near(DepthView depth_m, const Image<PixelFate>& fate, double radius_m,
+  /// Sorts the robot's pixels in one row of tiles. Each row is added once, by any thread.
+  void add_robot(int tile_row);
+
+  /// After all rows are added.
+  void end_robot();
+
+  /// For each obstacle pixel in one row of tiles that some robot pixel is within `radius_m` of
+  /// (Euclidean), writes 1 to near(u, v); leaves 0 elsewhere. Each row is searched once, by any
+  /// thread.
+  void find_near(int tile_row, DepthView sensor_depth_m, const Image<PixelFate>& fate,
                  Image<std::uint8_t>& near);
 
+  /// The tiles in one row that hold such a pixel.
+  const std::vector<PixelRect>& near_tiles(int tile_row) const { return rows_[tile_row].near; }
+  int tile_rows() const { return grid_.rows(); }
+
  private:
-  /// A robot pixel's place in the optical frame.
-  struct Point {
-    float x_m;
-    float y_m;
-    float z_m;
+  struct Row {
+    std::vector<PixelRect> near;
+    /// Scratch of find_near.
+    std::vector<RobotTile> robot;
   };
-  struct Tile {
-    Eigen::AlignedBox3f box_C_m;
-    std::uint32_t first_point;
-    std::uint32_t point_count;
-  };
-
-  /// The tiles of a square of 4 x 4, which lie together.
-  struct Group {
-    Eigen::AlignedBox3f box_C_m;
-    std::uint32_t first_tile;
-    std::uint32_t tile_count;
+  /// The boxes of sixteen groups, and which groups they are.
+  struct GroupPack {
+    BoxPack boxes;
+    std::size_t group[kPackSize];
   };
 
-  Point back_project(int u, int v, float depth_m) const {
-    return {ray_x_[u] * depth_m, ray_y_[v] * depth_m, depth_m};
-  }
-  void append_group(const RobotImage& robot, int first_column, int first_row);
-  void append_tile(const RobotImage& robot, const PixelRect& pixels);
-  void collect_tiles_near(const Eigen::AlignedBox3f& box_C_m, float radius_m);
-  bool is_near(const Point& p, float radius2_m2);
+  RobotSurface surface() const { return {*robot_, ray_x_.data(), ray_y_.data()}; }
+  PixelRect pixels_of(std::size_t group, int i) const;
+  void set_range();
+  PixelRect candidate_tiles() const;
+  bool find_near_in_tile(const PixelRect& pixels, const Candidates& candidates,
+                         std::vector<RobotTile>& robot_tiles, Image<std::uint8_t>& near) const;
 
-  int columns_ = 0;
-  int rows_ = 0;
+  const Camera* camera_ = nullptr;
+  const RobotImage* robot_ = nullptr;
+  float radius_m_ = 0;
+  TileGrid grid_;
+  int group_columns_ = 0;
   std::vector<float> ray_x_;
   std::vector<float> ray_y_;
-  std::vector<Point> points_;
-  std::vector<Tile> tiles_;
-  std::vector<Group> groups_;
-  Eigen::AlignedBox3f bounds_C_m_;
-  /// Scratch of find_near: the tiles that a tile of candidates may be near to, and the last point
-  /// that was.
-  std::vector<const Tile*> near_tiles_;
-  Point witness_{};
+  /// The boxes of the robot's pixels in 4 x 4 tiles each.
+  std::vector<BoxPack> groups_;
+  /// The groups that show the robot, and the box of them all.
+  std::vector<GroupPack> packs_;
+  BoxC bounds_;
+  /// No pixel elsewhere is near.
+  DepthRange range_{};
+  PixelRect candidate_tiles_;
+  std::vector<Row> rows_;
 };
 
 }  // namespace berth

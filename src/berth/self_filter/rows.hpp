@@ -3,47 +3,40 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
-#include "berth/self_filter/settings.hpp"
+#include "berth/self_filter/tolerance.hpp"
 #include "berth/types/obstacle_image.hpp"
 #include "berth/types/robot_image.hpp"
 
 namespace berth {
 
-/// A reading belongs to a surface of depth z if it is not nearer than z by more than
-/// constant_m + per_m z + per_m2 z^2.
-struct Tolerance {
-  float constant_m;
-  float per_m;
-  float per_m2;
-};
-
-inline Tolerance tolerance_of(const SelfFilterSettings& settings) {
-  return {static_cast<float>(settings.tolerance_m), static_cast<float>(settings.tolerance_per_m),
-          static_cast<float>(settings.tolerance_per_m2)};
-}
-
-/// The pixels of one row of all images that the self filter sees.
+/// The pixels of one row of all images that the self filter sees, and of those that it writes.
 struct FilterRow {
   const float* reading_m;
   const float* robot_depth_m;
   const LinkId* link_id;
-  const float* padded_depth_m;
-  const float* dilated_depth_m;
-  int width;
+  PixelFate* fate;
+  float* obstacle_depth_m;
 };
 
-/// The fate of each pixel by the robot's surface, its padding and dilation, and the environment.
-void classify_row(const FilterRow& row, const Tolerance& tolerance, PixelFate* fate);
+/// Writes fate and obstacle depth of the pixels u_begin <= u < u_end by the reading alone: no
+/// reading, or obstacle.
+void copy_row(const FilterRow& row, int u_begin, int u_end);
 
-/// The rule of mark_mixed_pixels for one row. `step` counts elements to the neighbour: 1 across,
-/// the stride along. The pixels u_begin <= u < u_end have two neighbours on both sides.
-void mark_mixed_row(const float* reading_m, std::ptrdiff_t step, int u_begin, int u_end,
-                    float jump_at_1m_m, PixelFate* fate);
+/// Writes fate and obstacle depth of the pixels u_begin <= u < u_end by the reading, the robot's
+/// surface and the environment's.
+void classify_row(const FilterRow& row, int u_begin, int u_end, const Tolerance& tolerance);
 
-/// Writes the readings whose fate is obstacle, NaN elsewhere, and adds to the count of each fate.
-void keep_obstacle_row(const float* reading_m, const PixelFate* fate, int width,
-                       float* obstacle_depth_m, std::array<std::int64_t, kPixelFateCount>& count);
+/// Turns obstacles into edges, by the rule of mark_mixed_pixels in one direction. `step` counts
+/// elements to the neighbour: 1 across, the stride along. The pixels u_begin <= u < u_end have two
+/// neighbours on both sides.
+void mark_mixed_row(const FilterRow& row, std::ptrdiff_t step, int u_begin, int u_end,
+                    float jump_at_1m_m);
+
+/// Adds to the count of each fate.
+void count_fates(const PixelFate* fate, int width,
+                 std::array<std::int64_t, kPixelFateCount>& count);
 
 }  // namespace berth

@@ -1,33 +1,119 @@
 #include "berth/self_filter/self_filter.hpp"
 
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
 #include <cassert>
 
 #include "berth/self_filter/edges.hpp"
 #include "berth/self_filter/rows.hpp"
+#include "berth/self_filter/tiles.hpp"
 
 namespace berth {
 namespace {
 
-void classify(DepthView sensor_depth_m, const RobotImage& robot, const GrownRobot& grown,
-              const SelfFilterSettings& settings, Image<PixelFate>& fate) {
-  const Tolerance tolerance = tolerance_of(settings);
-  // Where nothing is dilated, the padding says no more a second time.
-  const Image<float>& dilated_depth_m =
-      settings.dilation_px > 0 ? grown.dilated_depth_m : grown.padded_depth_m;
-  for (int v = 0; v < fate.height(); ++v) {
-    classify_row({sensor_depth_m.row(v), robot.depth_m.row(v), robot.link_id.row(v),
-                  grown.padded_depth_m.row(v), dilated_depth_m.row(v), fate.width()},
-                 tolerance, fate.row(v));
-  }
+/// New pixels only for a new size.
+template <class T>
+void set_size(const Camera& camera, Image<T>& image) {
+  if (image.width() == camera.width_px && image.height() == camera.height_px) return;
+  image.resize(camera.width_px, camera.height_px, T{});
 }
 
-void keep_obstacles(DepthView sensor_depth_m, ObstacleImage& out) {
-  out.count.fill(0);
-  for (int v = 0; v < sensor_depth_m.height; ++v) {
-    keep_obstacle_row(sensor_depth_m.row(v), out.fate.row(v), sensor_depth_m.width,
-                      out.depth_m.row(v), out.count);
+/// One image's way through the rules. Between two rounds over the rows of tiles all threads meet:
+/// growth and neighbourhood need the robot of other rows.
+class Filter {
+ public:
+  Filter(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,
+         const SelfFilterSettings& settings, SelfFilterWorkspace& workspace, ObstacleImage& out)
+      : grid_(tiles_of(camera)),
+        sensor_depth_m_(sensor_depth_m),
+        robot_(robot),
+        extent_(clip(robot.extent, camera.width_px, camera.height_px)),
+        settings_(settings),
+        tolerance_(tolerance_of(settings)),
+        workspace_(workspace),
+        out_(out) {
+    workspace.padding.begin(camera, robot, settings, PixelFate::padding);
+    if (dilates()) workspace.dilation.begin(camera, robot, settings, PixelFate::dilation);
+    if (!has_islands()) return;
+    workspace.islands.neighbourhood.begin(camera, robot, settings.island_radius_m);
+    set_size(camera, workspace.islands.state);
   }
-}
+
+  void run() {
+    workspace_.counts.resize(grid_.rows());
+    tbb::parallel_for(0, grid_.rows(), [this](int tile_row) { look_at_pixels(tile_row); });
+    workspace_.padding.end_outline();
+    if (dilates()) workspace_.dilation.end_outline();
+    if (has_islands()) workspace_.islands.neighbourhood.end_robot();
+    tbb::parallel_for(0, grid_.rows(), [this](int tile_row) { look_around(tile_row); });
+    add_counts();
+    if (has_islands()) {
+      drop_islands(sensor_depth_m_, robot_, static_cast<float>(settings_.island_jump_m),
+                   workspace_.islands, out_);
+    }
+  }
+
+ private:
+  bool dilates() const { return settings_.dilation_px > 0; }
+  bool has_islands() const { return settings_.island_radius_m > 0; }
+  int v_begin(int tile_row) const { return tile_row * kTileHeight_px; }
+  int v_end(int tile_row) const { return std::min(grid_.height_px, v_begin(tile_row + 1)); }
+
+  void look_at_pixels(int tile_row) {
+    for (int v = v_begin(tile_row); v < v_end(tile_row); ++v) {
+      const FilterRow row{sensor_depth_m_.row(v), robot_.depth_m.row(v), robot_.link_id.row(v),
+                          out_.fate.row(v), out_.depth_m.row(v)};
+      classify(v, row);
+      if (settings_.edge_jump_m > 0) {
+        mark_mixed_pixels(sensor_depth_m_, v, static_cast<float>(settings_.edge_jump_m), row);
+      }
+    }
+    workspace_.padding.find_outline(tile_row);
+    if (dilates()) workspace_.dilation.find_outline(tile_row);
+    if (has_islands()) workspace_.islands.neighbourhood.add_robot(tile_row);
+  }
+
+  void classify(int v, const FilterRow& row) {
+    if (v < extent_.v_begin || v >= extent_.v_end) {
+      copy_row(row, 0, grid_.width_px);
+      return;
+    }
+    copy_row(row, 0, extent_.u_begin);
+    classify_row(row, extent_.u_begin, extent_.u_end, tolerance_);
+    copy_row(row, extent_.u_end, grid_.width_px);
+  }
+
+  void look_around(int tile_row) {
+    const GrownImages images{sensor_depth_m_, out_.fate, out_.depth_m};
+    workspace_.padding.grow(tile_row, images);
+    if (dilates()) workspace_.dilation.grow(tile_row, images);
+    if (has_islands()) {
+      workspace_.islands.neighbourhood.find_near(tile_row, sensor_depth_m_, out_.fate,
+                                                 workspace_.islands.state);
+    }
+    auto& count = workspace_.counts[tile_row];
+    count.fill(0);
+    for (int v = v_begin(tile_row); v < v_end(tile_row); ++v)
+      count_fates(out_.fate.row(v), grid_.width_px, count);
+  }
+
+  void add_counts() {
+    out_.count.fill(0);
+    for (const auto& count : workspace_.counts) {
+      for (int fate = 0; fate < kPixelFateCount; ++fate) out_.count[fate] += count[fate];
+    }
+  }
+
+  TileGrid grid_;
+  DepthView sensor_depth_m_;
+  const RobotImage& robot_;
+  PixelRect extent_;
+  const SelfFilterSettings& settings_;
+  Tolerance tolerance_;
+  SelfFilterWorkspace& workspace_;
+  ObstacleImage& out_;
+};
 
 }  // namespace
 
@@ -36,18 +122,9 @@ void self_filter(const Camera& camera, DepthView sensor_depth_m, const RobotImag
                  ObstacleImage& out) {
   assert(sensor_depth_m.width == camera.width_px && sensor_depth_m.height == camera.height_px);
   assert(robot.link_id.width() == camera.width_px && robot.link_id.height() == camera.height_px);
-  out.depth_m.resize(camera.width_px, camera.height_px, kNoDepth);
-  out.fate.resize(camera.width_px, camera.height_px, PixelFate::obstacle);
-
-  grow_robot(camera, robot, settings, workspace.grown);
-  classify(sensor_depth_m, robot, workspace.grown, settings, out.fate);
-  if (settings.edge_jump_m > 0) {
-    mark_mixed_pixels(sensor_depth_m, static_cast<float>(settings.edge_jump_m), out.fate);
-  }
-  if (settings.island_radius_m > 0) {
-    mark_islands(camera, sensor_depth_m, robot, settings, workspace.islands, out.fate);
-  }
-  keep_obstacles(sensor_depth_m, out);
+  set_size(camera, out.depth_m);
+  set_size(camera, out.fate);
+  Filter(camera, sensor_depth_m, robot, settings, workspace, out).run();
 }
 
 }  // namespace berth

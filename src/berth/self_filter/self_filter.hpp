@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "berth/self_filter/grown_robot.hpp"
 #include "berth/self_filter/islands.hpp"
 #include "berth/self_filter/settings.hpp"
@@ -9,16 +12,19 @@
 
 namespace berth {
 
-/// Scratch of self_filter, one for each thread that filters.
+/// Scratch of self_filter, one for each caller at a time.
 struct SelfFilterWorkspace {
-  GrownRobot grown;
+  GrownRobot padding;
+  GrownRobot dilation;
   IslandWorkspace islands;
+  /// Of each row of tiles.
+  std::vector<std::array<std::int64_t, kPixelFateCount>> counts;
 };
 
-/// Removes the robot from the sensor's image (Hirt 2.2.1). `robot` is rendered at the pose that it
-/// had when the image was exposed; both images have the camera's size; `sensor_depth_m` holds NaN
-/// where there is no reading. Writes F, and for each pixel its fate, to `out`, whose memory it
-/// reuses.
+/// Removes the robot from the sensor's image (Hirt 2.2.1), on all threads that TBB gives; the
+/// result does not depend on their number. `robot` is rendered at the pose that it had when the
+/// image was exposed; both images have the camera's size; `sensor_depth_m` holds NaN where there is
+/// no reading. Writes F, and for each pixel its fate, to `out`, whose memory it reuses.
 void self_filter(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,
                  const SelfFilterSettings& settings, SelfFilterWorkspace& workspace,
                  ObstacleImage& out);

@@ -1,0 +1,120 @@
+#include "berth/self_filter/discs.hpp"
+
+#include <algorithm>
+
+// Compiles the rest of this file once for each instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "berth/self_filter/discs.cpp"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "berth/self_filter/pixels-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace berth {
+namespace HWY_NAMESPACE {
+
+template <class D>
+HWY_INLINE hn::Mask<D> is_open(D d, FatesOf<D> fate) {
+  return hn::Or(has_fate(d, fate, PixelFate::obstacle), has_fate(d, fate, PixelFate::edge));
+}
+
+bool has_open(const PixelRect& rect, const Image<PixelFate>& fate) {
+  bool found = false;
+  for (int v = rect.v_begin; v < rect.v_end && !found; ++v) {
+    for_pixels(rect.u_begin, rect.u_end, [&](auto d, int u) HWY_ATTR {
+      found |= !hn::AllFalse(d, is_open(d, load_fate(d, fate.row(v) + u)));
+    });
+  }
+  return found;
+}
+
+/// Some pixels of one row that may be covered.
+template <class D>
+struct Pixels {
+  int v;
+  hn::Vec<D> u;
+  hn::Vec<D> reading_m;
+  hn::Mask<D> open;
+};
+
+template <class D>
+HWY_INLINE bool may_reach(D d, const Pixels<D>& pixels, const DiscTile& tile) {
+  const PixelRect& bounds = tile.bounds;
+  const auto dv =
+      static_cast<float>(std::max({0, bounds.v_begin - pixels.v, pixels.v - (bounds.v_end - 1)}));
+  const auto left = hn::Sub(hn::Set(d, static_cast<float>(bounds.u_begin)), pixels.u);
+  const auto right = hn::Sub(pixels.u, hn::Set(d, static_cast<float>(bounds.u_end - 1)));
+  const auto du = hn::Max(hn::Zero(d), hn::Max(left, right));
+  const auto in_reach =
+      hn::Le(hn::Mul(du, du), hn::Set(d, tile.reach_px * tile.reach_px - dv * dv));
+  const auto deep_enough = hn::Ge(pixels.reading_m, hn::Set(d, tile.least_m));
+  return !hn::AllFalse(d, hn::And(pixels.open, hn::And(in_reach, deep_enough)));
+}
+
+/// Closes the pixels that the disc covers.
+template <class D>
+HWY_INLINE void cover(D d, const Disc& disc, Pixels<D>& pixels) {
+  const double dv = pixels.v - static_cast<double>(disc.v_px);
+  const double width2 = disc.radius2_px2 - disc.squash * dv * dv;
+  if (width2 < 0) return;
+  const auto du = hn::Sub(pixels.u, hn::Set(d, disc.u_px));
+  // Squares of whole numbers: rounding down to one makes the comparison of floats exact.
+  const auto whole = static_cast<float>(static_cast<std::int64_t>(width2));
+  const auto inside = hn::Le(hn::Mul(du, du), hn::Set(d, whole));
+  const auto belongs = hn::Ge(pixels.reading_m, hn::Set(d, disc.least_m));
+  pixels.open = hn::AndNot(hn::And(inside, belongs), pixels.open);
+}
+
+template <class D>
+HWY_INLINE void cover_all(D d, const std::vector<NearDiscTile>& tiles, Pixels<D>& pixels) {
+  for (const NearDiscTile& near : tiles) {
+    if (!may_reach(d, pixels, *near.tile)) continue;
+    for (std::uint32_t i = 0; i < near.tile->count; ++i) {
+      cover(d, near.discs[i], pixels);
+      if (hn::AllFalse(d, pixels.open)) return;
+    }
+  }
+}
+
+void cover_tile(const PixelRect& rect, const std::vector<NearDiscTile>& tiles, PixelFate grown,
+                const GrownImages& images) {
+  for (int v = rect.v_begin; v < rect.v_end; ++v) {
+    for_pixels(rect.u_begin, rect.u_end, [&](auto d, int u) HWY_ATTR {
+      using D = decltype(d);
+      PixelFate* const fate = images.fate.row(v) + u;
+      float* const depth_m = images.obstacle_depth_m.row(v) + u;
+      const auto was = load_fate(d, fate);
+      const auto open = is_open(d, was);
+      if (hn::AllFalse(d, open)) return;
+      Pixels<D> pixels{v, hn::Iota(d, static_cast<float>(u)),
+                       hn::LoadU(d, images.sensor_depth_m.row(v) + u), open};
+      cover_all(d, tiles, pixels);
+      const auto covered = hn::AndNot(pixels.open, open);
+      store_fate(d, choose(d, covered, code(d, grown), was), fate);
+      hn::StoreU(hn::IfThenElse(covered, hn::Set(d, kNoDepth), hn::LoadU(d, depth_m)), d, depth_m);
+    });
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace berth
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace berth {
+
+HWY_EXPORT(cover_tile);
+HWY_EXPORT(has_open);
+
+bool may_be_covered(const PixelRect& pixels, const Image<PixelFate>& fate) {
+  return HWY_DYNAMIC_DISPATCH(has_open)(pixels, fate);
+}
+
+void cover_with_discs(const PixelRect& pixels, const std::vector<NearDiscTile>& tiles,
+                      PixelFate grown, const GrownImages& images) {
+  HWY_DYNAMIC_DISPATCH(cover_tile)(pixels, tiles, grown, images);
+}
+
+}  // namespace berth
+#endif  // HWY_ONCE

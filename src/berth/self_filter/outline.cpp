@@ -1,0 +1,90 @@
+#include "berth/self_filter/outline.hpp"
+
+#include <algorithm>
+
+// Compiles the rest of this file once for each instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "berth/self_filter/outline.cpp"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "berth/self_filter/pixels-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace berth {
+namespace HWY_NAMESPACE {
+
+/// A row of the robot image, and those above and below: the row itself at the image's border.
+struct OutlineRow {
+  const float* depth_m[3];
+  const LinkId* link_id[3];
+
+  OutlineRow(const RobotImage& robot, int v) {
+    for (int i = 0; i < 3; ++i) {
+      const int n = std::clamp(v - 1 + i, 0, robot.depth_m.height() - 1);
+      depth_m[i] = robot.depth_m.row(n);
+      link_id[i] = robot.link_id.row(n);
+    }
+  }
+};
+
+/// `left` and `right` are the steps to the neighbours, 0 at the image's border.
+template <class D>
+HWY_INLINE std::uint32_t outline_bits(D d, const OutlineRow& row, int u, int left, int right,
+                                      float deeper) {
+  const auto z = load_link_depth(d, row.depth_m[1] + u, row.link_id[1] + u);
+  const auto is_robot = hn::Eq(z, z);
+  if (hn::AllFalse(d, is_robot)) return 0;
+  const auto most = hn::Mul(z, hn::Set(d, deeper));
+  const auto goes_on = [&](int i, int step) HWY_ATTR {
+    return hn::Le(load_link_depth(d, row.depth_m[i] + u + step, row.link_id[i] + u + step), most);
+  };
+  const auto goes_on_all_around =
+      hn::And(hn::And(goes_on(1, left), goes_on(1, right)), hn::And(goes_on(0, 0), goes_on(2, 0)));
+  return bits_of(d, hn::AndNot(goes_on_all_around, is_robot));
+}
+
+bool shows_robot(const RobotImage& robot, const PixelRect& tile) {
+  bool found = false;
+  for (int v = tile.v_begin; v < tile.v_end; ++v) {
+    for_pixels(tile.u_begin, tile.u_end, [&](auto d, int u) HWY_ATTR {
+      const auto z = hn::LoadU(d, robot.depth_m.row(v) + u);
+      found |= !hn::AllFalse(d, hn::Eq(z, z));
+    });
+  }
+  return found;
+}
+
+TileBits outline_of_tile(const RobotImage& robot, const PixelRect& tile, float pixel_rad) {
+  TileBits bits{};
+  if (!shows_robot(robot, tile)) return bits;
+  const int last = robot.depth_m.width() - 1;
+  const float deeper = 1 + pixel_rad;
+  for (int v = tile.v_begin; v < tile.v_end; ++v) {
+    const OutlineRow row(robot, v);
+    std::uint32_t& row_bits = bits[v - tile.v_begin];
+    for_pixels(std::max(1, tile.u_begin), std::min(last, tile.u_end), [&](auto d, int u) HWY_ATTR {
+      row_bits |= outline_bits(d, row, u, -1, 1, deeper) << (u - tile.u_begin);
+    });
+    if (tile.u_begin == 0) row_bits |= outline_bits(OneFloat(), row, 0, 0, last > 0, deeper);
+    if (tile.u_end == last + 1 && last > 0)
+      row_bits |= outline_bits(OneFloat(), row, last, -1, 0, deeper) << (last - tile.u_begin);
+  }
+  return bits;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace berth
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace berth {
+
+HWY_EXPORT(outline_of_tile);
+
+TileBits outline_of(const RobotImage& robot, const PixelRect& tile, float pixel_rad) {
+  return HWY_DYNAMIC_DISPATCH(outline_of_tile)(robot, tile, pixel_rad);
+}
+
+}  // namespace berth
+#endif  // HWY_ONCE

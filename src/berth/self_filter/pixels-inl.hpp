@@ -1,0 +1,93 @@
+// Pixels of the self filter's images as vectors, for the instruction set that the including file is
+// being compiled for.
+#if defined(BERTH_SELF_FILTER_PIXELS_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef BERTH_SELF_FILTER_PIXELS_INL_HPP
+#undef BERTH_SELF_FILTER_PIXELS_INL_HPP
+#else
+#define BERTH_SELF_FILTER_PIXELS_INL_HPP
+#endif
+
+#include <cstdint>
+
+#include "berth/types/obstacle_image.hpp"
+#include "berth/types/robot_image.hpp"
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace berth {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Floats = hn::CappedTag<float, 16>;
+using OneFloat = hn::CappedTag<float, 1>;
+static_assert(sizeof(PixelFate) == 1);
+
+/// Calls action(tag, u) for whole vectors, then pixel by pixel.
+template <class Action>
+HWY_INLINE void for_pixels(int u_begin, int u_end, const Action& action) {
+  const int lanes = static_cast<int>(hn::Lanes(Floats()));
+  int u = u_begin;
+  for (; u + lanes <= u_end; u += lanes) action(Floats(), u);
+  for (; u < u_end; ++u) action(OneFloat(), u);
+}
+
+template <class D>
+using FatesOf = hn::Vec<hn::Rebind<std::int32_t, D>>;
+
+template <class D>
+HWY_INLINE FatesOf<D> load_fate([[maybe_unused]] D d, const PixelFate* fate) {
+  const hn::Rebind<std::int32_t, D> di;
+  const hn::Rebind<std::uint8_t, D> db;
+  return hn::PromoteTo(di, hn::LoadU(db, reinterpret_cast<const std::uint8_t*>(fate)));
+}
+
+template <class D>
+HWY_INLINE void store_fate([[maybe_unused]] D d, FatesOf<D> value, PixelFate* fate) {
+  const hn::Rebind<std::uint8_t, D> db;
+  hn::StoreU(hn::DemoteTo(db, value), db, reinterpret_cast<std::uint8_t*>(fate));
+}
+
+template <class D>
+HWY_INLINE FatesOf<D> code([[maybe_unused]] D d, PixelFate fate) {
+  return hn::Set(hn::Rebind<std::int32_t, D>(), static_cast<std::int32_t>(fate));
+}
+
+template <class D>
+HWY_INLINE hn::Mask<D> has_fate(D d, FatesOf<D> value, PixelFate fate) {
+  return hn::RebindMask(d, hn::Eq(value, code(d, fate)));
+}
+
+template <class D>
+HWY_INLINE FatesOf<D> choose([[maybe_unused]] D d, hn::Mask<D> where, FatesOf<D> yes,
+                             FatesOf<D> no) {
+  return hn::IfThenElse(hn::RebindMask(hn::Rebind<std::int32_t, D>(), where), yes, no);
+}
+
+template <class D>
+HWY_INLINE hn::Mask<D> is_scenery(D d, const LinkId* link_id) {
+  const hn::Rebind<std::int32_t, D> di;
+  const hn::Rebind<LinkId, D> dl;
+  const auto id = hn::PromoteTo(di, hn::LoadU(dl, link_id));
+  return hn::RebindMask(d, hn::Eq(id, hn::Set(di, std::int32_t{kEnvironmentLink})));
+}
+
+/// The depth of evaluated links, NaN elsewhere.
+template <class D>
+HWY_INLINE hn::Vec<D> load_link_depth(D d, const float* robot_depth_m, const LinkId* link_id) {
+  return hn::IfThenElse(is_scenery(d, link_id), hn::Set(d, kNoDepth), hn::LoadU(d, robot_depth_m));
+}
+
+/// Bit i is lane i.
+template <class D>
+HWY_INLINE std::uint32_t bits_of(D d, hn::Mask<D> mask) {
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(d, mask, bytes);
+  const std::uint32_t bits = bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8;
+  return bits & ((1U << hn::Lanes(d)) - 1);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace berth
+HWY_AFTER_NAMESPACE();
+
+#endif  // BERTH_SELF_FILTER_PIXELS_INL_HPP

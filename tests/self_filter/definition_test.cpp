@@ -1,0 +1,93 @@
+// The whole filter against its plain definition on random scenes, however many threads there are
+// and whatever instructions the machine has.
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "berth/self_filter/self_filter.hpp"
+#include "tests/self_filter/plain_definition.hpp"
+#include "tests/self_filter/random_scene.hpp"
+
+namespace berth {
+namespace {
+
+/// Makes the library use this instruction set until the end of the scope.
+class OnlyTarget {
+ public:
+  explicit OnlyTarget(std::int64_t target) { use(target); }
+  ~OnlyTarget() { use(0); }
+  OnlyTarget(const OnlyTarget&) = delete;
+  OnlyTarget& operator=(const OnlyTarget&) = delete;
+
+ private:
+  static void use(std::int64_t target) {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  }
+};
+
+void filter_scene(const RandomScene& scene, SelfFilterWorkspace& workspace, ObstacleImage& out) {
+  self_filter(scene.camera, scene.sensor_depth_m, scene.robot, scene.settings, workspace, out);
+}
+
+void expect_same(const ObstacleImage& found, const ObstacleImage& expected) {
+  ASSERT_EQ(found.fate.pixels().size(), expected.fate.pixels().size());
+  for (int v = 0; v < expected.fate.height(); ++v) {
+    for (int u = 0; u < expected.fate.width(); ++u)
+      ASSERT_EQ(found.fate(u, v), expected.fate(u, v)) << "pixel " << u << ", " << v;
+  }
+  EXPECT_EQ(found.count, expected.count);
+  EXPECT_EQ(std::memcmp(found.depth_m.pixels().data(), expected.depth_m.pixels().data(),
+                        expected.depth_m.pixels().size() * sizeof(float)),
+            0);
+}
+
+/// One workspace for scenes of all sizes, so that nothing of a former one may show.
+void expect_definition(std::uint32_t first_seed, std::uint32_t end_seed) {
+  SelfFilterWorkspace workspace;
+  ObstacleImage out;
+  for (std::uint32_t seed = first_seed; seed < end_seed; ++seed) {
+    SCOPED_TRACE(seed);
+    const RandomScene scene = random_scene(seed);
+    filter_scene(scene, workspace, out);
+    expect_same(out,
+                plain_self_filter(scene.camera, scene.sensor_depth_m, scene.robot, scene.settings));
+    if (::testing::Test::HasFatalFailure()) return;
+  }
+}
+
+TEST(Definition, HoldsWithOneThread) {
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  expect_definition(0, 200);
+}
+
+TEST(Definition, HoldsWithTwoThreads) {
+  const tbb::global_control two(tbb::global_control::max_allowed_parallelism, 2);
+  expect_definition(200, 400);
+}
+
+TEST(Definition, HoldsWithEveryInstructionSet) {
+  for (std::int64_t targets = hwy::SupportedTargets(); targets != 0; targets &= targets - 1) {
+    const OnlyTarget only(targets & -targets);
+    SCOPED_TRACE(hwy::TargetName(targets & -targets));
+    expect_definition(400, 440);
+  }
+}
+
+TEST(Definition, IsTriedOnScenesWhereEveryRuleAppliesOften) {
+  std::array<int, kPixelFateCount> scenes{};
+  for (std::uint32_t seed = 0; seed < 200; ++seed) {
+    const RandomScene scene = random_scene(seed);
+    SelfFilterWorkspace workspace;
+    ObstacleImage out;
+    filter_scene(scene, workspace, out);
+    for (int fate = 0; fate < kPixelFateCount; ++fate) scenes[fate] += out.count[fate] > 0;
+  }
+  EXPECT_GE(*std::min_element(scenes.begin(), scenes.end()), 40);
+}
+
+}  // namespace
+}  // namespace berth

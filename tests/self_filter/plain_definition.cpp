@@ -1,0 +1,182 @@
+#include "tests/self_filter/plain_definition.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace berth {
+namespace {
+
+class PlainFilter {
+ public:
+  PlainFilter(const Camera& camera, const DepthImage& sensor_depth_m, const RobotImage& robot,
+              const SelfFilterSettings& settings)
+      : camera_(camera), sensor_(sensor_depth_m), robot_(robot), settings_(settings) {
+    fate_ = Image<PixelFate>(camera.width_px, camera.height_px, PixelFate::obstacle);
+    for_each([&](int u, int v) {
+      if (is_outline(u, v)) outline_.push_back({u, v});
+      if (is_link(u, v)) surface_C_.push_back(point_C(u, v, robot_.depth_m(u, v)));
+    });
+  }
+
+  ObstacleImage run() {
+    for_each([&](int u, int v) { fate_(u, v) = fate_alone(u, v); });
+    if (settings_.island_radius_m > 0) drop_islands();
+    ObstacleImage out;
+    out.fate = fate_;
+    out.depth_m = DepthImage(camera_.width_px, camera_.height_px, kNoDepth);
+    for_each([&](int u, int v) {
+      ++out.count[static_cast<std::size_t>(fate_(u, v))];
+      if (fate_(u, v) == PixelFate::obstacle) out.depth_m(u, v) = sensor_(u, v);
+    });
+    return out;
+  }
+
+ private:
+  template <class Call>
+  void for_each(const Call& call) const {
+    for (int v = 0; v < camera_.height_px; ++v) {
+      for (int u = 0; u < camera_.width_px; ++u) call(u, v);
+    }
+  }
+
+  bool is_inside(int u, int v) const {
+    return u >= 0 && v >= 0 && u < camera_.width_px && v < camera_.height_px;
+  }
+
+  bool is_link(int u, int v) const {
+    return robot_.link_id(u, v) != kNoLink && robot_.link_id(u, v) != kEnvironmentLink;
+  }
+
+  Eigen::Vector3d point_C(int u, int v, double z) const {
+    return {(u - camera_.cx_px) * z / camera_.fx_px, (v - camera_.cy_px) * z / camera_.fy_px, z};
+  }
+
+  PixelFate fate_alone(int u, int v) const {
+    if (std::isnan(sensor_(u, v))) return PixelFate::no_reading;
+    if (robot_.link_id(u, v) != kNoLink && belongs(u, v, robot_.depth_m(u, v)))
+      return is_link(u, v) ? PixelFate::robot : PixelFate::environment;
+    if (is_padding(u, v)) return PixelFate::padding;
+    if (is_dilation(u, v)) return PixelFate::dilation;
+    return is_mixed(u, v, 1, 0) || is_mixed(u, v, 0, 1) ? PixelFate::edge : PixelFate::obstacle;
+  }
+
+  bool belongs(int u, int v, float z) const {
+    const auto a = static_cast<float>(settings_.tolerance_m);
+    const auto b = static_cast<float>(settings_.tolerance_per_m);
+    const auto c = static_cast<float>(settings_.tolerance_per_m2);
+    return sensor_(u, v) >= z - (a + (b * z + c * z * z));
+  }
+
+  bool is_outline(int u, int v) const {
+    if (!is_link(u, v)) return false;
+    const auto pixel_rad = static_cast<float>(1 / std::max(camera_.fx_px, camera_.fy_px));
+    const auto ends_at = [&](int nu, int nv) {
+      if (!is_inside(nu, nv)) return false;
+      return !is_link(nu, nv) || robot_.depth_m(nu, nv) > robot_.depth_m(u, v) * (1 + pixel_rad);
+    };
+    return ends_at(u - 1, v) || ends_at(u + 1, v) || ends_at(u, v - 1) || ends_at(u, v + 1);
+  }
+
+  /// Whole pixels to the side and along, by the ellipse's rows.
+  static bool in_disc(int du, int dv, double radius_u_px, double radius_v_px) {
+    if (std::abs(dv) > static_cast<int>(radius_v_px)) return false;
+    const double share = dv / radius_v_px;
+    const double half_px = radius_u_px * std::sqrt(std::max(0.0, 1 - share * share));
+    return std::abs(du) <= static_cast<int>(half_px + 1e-9);
+  }
+
+  bool is_padding(int u, int v) const {
+    const double longest_px = std::max(camera_.width_px, camera_.height_px);
+    return std::any_of(outline_.begin(), outline_.end(), [&](const Pixel& p) {
+      const float z = robot_.depth_m(p.u, p.v);
+      const double padding_m = settings_.padding_of(robot_.link_id(p.u, p.v));
+      return padding_m > 0 && belongs(u, v, z) &&
+             in_disc(u - p.u, v - p.v, std::min(longest_px, padding_m * camera_.fx_px / z),
+                     std::min(longest_px, padding_m * camera_.fy_px / z));
+    });
+  }
+
+  bool is_dilation(int u, int v) const {
+    if (settings_.dilation_px == 0) return false;
+    return std::any_of(outline_.begin(), outline_.end(), [&](const Pixel& p) {
+      return belongs(u, v, robot_.depth_m(p.u, p.v)) &&
+             in_disc(u - p.u, v - p.v, settings_.dilation_px, settings_.dilation_px);
+    });
+  }
+
+  bool is_mixed(int u, int v, int du, int dv) const {
+    const auto jump_at_1m = static_cast<float>(settings_.edge_jump_m);
+    if (jump_at_1m <= 0 || !is_inside(u - 2 * du, v - 2 * dv) || !is_inside(u + 2 * du, v + 2 * dv))
+      return false;
+    const float z = sensor_(u, v);
+    const float before = sensor_(u - du, v - dv);
+    const float after = sensor_(u + du, v + dv);
+    const float jump = jump_at_1m * std::max(1.0F, z * z);
+    const bool is_flat = std::abs(before - sensor_(u - 2 * du, v - 2 * dv)) <= jump &&
+                         std::abs(after - sensor_(u + 2 * du, v + 2 * dv)) <= jump;
+    return is_flat &&
+           ((z - before > jump && after - z > jump) || (z - after > jump && before - z > jump));
+  }
+
+  bool is_near(int u, int v) const {
+    const Eigen::Vector3d p_C = point_C(u, v, sensor_(u, v));
+    return std::any_of(surface_C_.begin(), surface_C_.end(), [&](const Eigen::Vector3d& q_C) {
+      return (p_C - q_C).norm() <= settings_.island_radius_m;
+    });
+  }
+
+  void drop_islands() {
+    const Image<PixelFate> before = fate_;
+    Image<std::uint8_t> walked(camera_.width_px, camera_.height_px, 0);
+    for_each([&](int u, int v) {
+      if (before(u, v) != PixelFate::obstacle || walked(u, v) != 0) return;
+      const std::vector<Pixel> piece = piece_at(u, v, before, walked);
+      const bool stays = std::all_of(piece.begin(), piece.end(),
+                                     [&](const Pixel& p) { return is_near(p.u, p.v); });
+      const auto in_front = std::count_if(piece.begin(), piece.end(),
+                                          [&](const Pixel& p) { return is_link(p.u, p.v); });
+      if (!stays || 10 * in_front > std::ssize(piece)) return;
+      for (const Pixel& p : piece) fate_(p.u, p.v) = PixelFate::island;
+    });
+  }
+
+  /// All that is joined by depth, wherever it goes.
+  std::vector<Pixel> piece_at(int u, int v, const Image<PixelFate>& fate,
+                              Image<std::uint8_t>& walked) const {
+    std::vector<Pixel> piece{{u, v}};
+    walked(u, v) = 1;
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      const Pixel p = piece[i];
+      for (int n = 0; n < 9; ++n) {
+        const Pixel q{p.u + n % 3 - 1, p.v + n / 3 - 1};
+        if (!is_inside(q.u, q.v) || walked(q.u, q.v) != 0) continue;
+        if (fate(q.u, q.v) != PixelFate::obstacle) continue;
+        if (std::abs(sensor_(q.u, q.v) - sensor_(p.u, p.v)) >
+            static_cast<float>(settings_.island_jump_m))
+          continue;
+        walked(q.u, q.v) = 1;
+        piece.push_back(q);
+      }
+    }
+    return piece;
+  }
+
+  const Camera& camera_;
+  const DepthImage& sensor_;
+  const RobotImage& robot_;
+  const SelfFilterSettings& settings_;
+  Image<PixelFate> fate_;
+  std::vector<Pixel> outline_;
+  std::vector<Eigen::Vector3d> surface_C_;
+};
+
+}  // namespace
+
+ObstacleImage plain_self_filter(const Camera& camera, const DepthImage& sensor_depth_m,
+                                const RobotImage& robot, const SelfFilterSettings& settings) {
+  return PlainFilter(camera, sensor_depth_m, robot, settings).run();
+}
+
+}  // namespace berth
