@@ -56,7 +56,7 @@ class BerthPeer : public Peer {
   std::string name_;
   std::optional<std::int64_t> target_;
   ObstacleTree tree_;
-  ExactWorkspace workspace_;
+  EvaluateWorkspace workspace_;
   LinkDistances answer_;
 };
 

@@ -76,8 +76,8 @@ class Stages {
                frame_.obstacle_tree, rig_.model().link_count(), settings_, workspace_, distances_);
     });
     take(mean_, [&] {
-      fill_mean_directions(rig_.camera(), frame_.robot, frame_.obstacles.depth_m, settings_,
-                           distances_);
+      fill_mean_directions(rig_.camera(), frame_.robot, frame_.obstacle_tree, settings_,
+                           workspace_.directions, distances_);
     });
   }
 
@@ -86,7 +86,7 @@ class Stages {
   RobotRenderer renderer_;
   RobotPose pose_;
   SelfFilterWorkspace filter_;
-  ExactWorkspace workspace_;
+  EvaluateWorkspace workspace_;
   LinkDistances distances_;
   Observer observer_;
   Asker asker_;

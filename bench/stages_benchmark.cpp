@@ -28,7 +28,7 @@ struct Example {
   DistanceSettings settings = rig.settings().distance;
   RobotPose pose;
   Frame frame;
-  ExactWorkspace workspace;
+  EvaluateWorkspace workspace;
   LinkDistances distances;
 
   Example() {
@@ -39,7 +39,8 @@ struct Example {
   }
 
   void run_exact() {
-    exact(rig.camera(), frame.robot, frame.obstacle_tree, links, settings, workspace, distances);
+    exact(rig.camera(), frame.robot, frame.obstacle_tree, links, settings, workspace.exact,
+          distances);
   }
 };
 
@@ -92,8 +93,8 @@ void exact_search(benchmark::State& state) {
 void mean_direction(benchmark::State& state) {
   Example e;
   repeat(state, [&] {
-    fill_mean_directions(e.rig.camera(), e.frame.robot, e.frame.obstacles.depth_m, e.settings,
-                         e.distances);
+    fill_mean_directions(e.rig.camera(), e.frame.robot, e.frame.obstacle_tree, e.settings,
+                         e.workspace.directions, e.distances);
   });
 }
 

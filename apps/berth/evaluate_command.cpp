@@ -79,7 +79,7 @@ void evaluate_command(const EvaluateArguments& arguments) {
   const DistanceSettings settings = arguments.evaluation.settings_over({});
   Output output(arguments.format, arguments.out);
   ObstacleTree tree;
-  ExactWorkspace workspace;
+  EvaluateWorkspace workspace;
   LinkDistances distances;
   std::vector<double> times_us;
   for (int i = 0; i < std::max(1, arguments.repeat); ++i) {

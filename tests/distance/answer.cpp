@@ -26,7 +26,7 @@ void expect_own_pair(const LinkDistance& link, const ImagePair& images) {
 LinkDistances answer(Method method, const ImagePair& images, double range_m) {
   ObstacleTree tree;
   build_obstacle_tree(images.obstacle_depth_m, tree);
-  ExactWorkspace workspace;
+  EvaluateWorkspace workspace;
   LinkDistances out;
   evaluate(method, images.camera, images.robot, images.obstacle_depth_m, tree, images.link_count,
            {range_m, false}, workspace, out);

@@ -164,7 +164,7 @@ TEST_P(Answer, AUsedWorkspaceGivesTheAnswerOfAFreshOne) {
                               empty_images(9, 5, 1),         random_images(4, 160, 120, 8),
                               random_images(1, 160, 120, 8), random_images(7, 20, 20, 64)};
   ObstacleTree tree;
-  ExactWorkspace workspace;
+  EvaluateWorkspace workspace;
   LinkDistances out;
   for (const ImagePair& images : scenes) {
     build_obstacle_tree(images.obstacle_depth_m, tree);

@@ -192,7 +192,7 @@ TEST_P(Exactness, AnObstacleImageWithGapsBetweenItsRowsCountsWithoutThem) {
   const DepthView view{wide.row(0), 61, 40, 80};
   ObstacleTree tree;
   build_obstacle_tree(view, tree);
-  ExactWorkspace workspace;
+  EvaluateWorkspace workspace;
   LinkDistances out;
   evaluate(GetParam(), images.camera, images.robot, view, tree, 3, {1.0, false}, workspace, out);
   expect_same_answer(answer(Method::brute_force, images), out, images);

@@ -1,27 +1,11 @@
 // Every instruction set that this machine has computes the same bits.
-#include <hwy/targets.h>
-
 #include <bit>
 
 #include "tests/distance/answer.hpp"
+#include "tests/distance/only_target.hpp"
 
 namespace berth::testing {
 namespace {
-
-/// Makes the library use this instruction set until the end of the scope.
-class OnlyTarget {
- public:
-  explicit OnlyTarget(std::int64_t target) { use(target); }
-  ~OnlyTarget() { use(0); }
-  OnlyTarget(const OnlyTarget&) = delete;
-  OnlyTarget& operator=(const OnlyTarget&) = delete;
-
- private:
-  static void use(std::int64_t target) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  }
-};
 
 class InstructionSets : public ::testing::TestWithParam<Method> {};
 INSTANTIATE_TEST_SUITE_P(Methods, InstructionSets, ::testing::ValuesIn(kMethods), method_test_name);

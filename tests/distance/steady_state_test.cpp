@@ -31,7 +31,7 @@ namespace {
 TEST(SteadyState, ExactAllocatesNothingOnceItHasSeenTheScene) {
   const ImagePair images[] = {random_images(1, 160, 120, 8), random_images(2, 160, 120, 8)};
   ObstacleTree tree;
-  ExactWorkspace workspace;
+  EvaluateWorkspace workspace;
   LinkDistances out;
   const auto answer_both = [&] {
     for (const ImagePair& pair : images) {

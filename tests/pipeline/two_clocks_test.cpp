@@ -53,7 +53,7 @@ TEST_F(TwoClocks, OtherJointsGiveTheRobotOfThatPoseAgainstWhatTheFrameSaw) {
   forward_kinematics(camera_.rig->model(), next.position, pose);
   RobotImage robot;
   RobotRenderer(camera_.rig->meshes(), camera_.rig->camera()).render(pose, frame.X_BC, robot);
-  ExactWorkspace workspace;
+  EvaluateWorkspace workspace;
   LinkDistances expected;
   evaluate(Method::exact, camera_.rig->camera(), robot, frame.obstacles.depth_m,
            frame.obstacle_tree, camera_.rig->model().link_count(), {}, workspace, expected);

@@ -1,51 +1,94 @@
 #include "berth/distance/direction_sum.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 // Compiles the rest of this file once for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "berth/distance/direction_sum.cpp"
 #include "hwy/foreach_target.h"
 
-#include "berth/distance/lanes-inl.hpp"
+#include "berth/distance/direction_block_sum-inl.hpp"
+#include "berth/distance/direction_pixel_sum-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace berth {
 namespace HWY_NAMESPACE {
 
-/// A row is short enough for sums in float.
-void add_row(const Metric& metric, const DirectionStart& start, float ov, const float* row_m,
-             const PixelRect& rect, DirectionSum& sum) {
-  const FloatTag d;
-  const BasicMetric<Lanes> metrics = broadcast(metric);
-  Lanes x(0);
-  Lanes y(0);
-  Lanes z(0);
-  Lanes count(0);
-  for (int u = rect.u_begin; u < rect.u_end; u += kLanes) {
-    const Lanes depth_m = load_first(row_m + u, rect.u_end - u);
-    const auto vector = pair_vector(metrics, Lanes(start.u), Lanes(start.v), Lanes(start.depth_m),
-                                    count_up(static_cast<float>(u)), Lanes(ov), depth_m);
-    const Lanes squared_m2 = squared_length_m2(vector);
-    const auto counts = hn::And(hn::Le(depth_m.v, hn::Set(d, start.max_depth_m)),
-                                hn::Gt(squared_m2.v, hn::Zero(d)));
-    const auto inverse_length = hn::Div(hn::Set(d, 1.0f), hn::Sqrt(squared_m2.v));
-    x = x + hn::IfThenElseZero(counts, hn::Mul(vector.x_m.v, inverse_length));
-    y = y + hn::IfThenElseZero(counts, hn::Mul(vector.y_m.v, inverse_length));
-    z = z + hn::IfThenElseZero(counts, hn::Mul(vector.z_m.v, inverse_length));
-    count = count + hn::IfThenElseZero(counts, hn::Set(d, 1.0f));
-  }
-  sum.x += sum_of_lanes(x);
-  sum.y += sum_of_lanes(y);
-  sum.z += sum_of_lanes(z);
-  sum.count += sum_of_lanes(count);
+HWY_INLINE Start broadcast(const DirectionSum& sum, const ObstacleTree& obstacles) {
+  PixelRect rect = sum.rect;
+  const bool is_cut = rect != PixelRect{0, 0, obstacles.width, obstacles.height};
+  // The last tiles reach beyond the image, where nothing is.
+  if (rect.u_end == obstacles.width) rect.u_end += ObstacleTree::kTilePx;
+  if (rect.v_end == obstacles.height) rect.v_end += ObstacleTree::kTilePx;
+  return {Lanes(sum.u), Lanes(sum.v), Lanes(sum.depth_m), Lanes(sum.max_depth_m), rect, is_cut};
 }
 
-DirectionSum add_rows(const Metric& metric, const DirectionStart& start,
-                      const DepthView& obstacle_depth_m, const PixelRect& rect) {
-  DirectionSum sum;
-  for (int v = rect.v_begin; v < rect.v_end; ++v) {
-    add_row(metric, start, static_cast<float>(v), obstacle_depth_m.row(v), rect, sum);
+/// The blocks of a chunk whose bits are set, pixel by pixel.
+LaneSums sum_pixels_of_blocks(const BasicMetric<Lanes>& metric, const Start& start,
+                              const float* tiles_m, const Chunk& c, std::uint64_t blocks) {
+  LaneSums sums = no_directions();
+  const float robot_u = hn::GetLane(start.u.v);
+  const float robot_v = hn::GetLane(start.v.v);
+  for (; blocks != 0; blocks &= blocks - 1) {
+    const int i = std::countr_zero(blocks);
+    const int u = static_cast<int>(c.u[i]);
+    const int v = static_cast<int>(c.v[i]);
+    const std::uint64_t pixels =
+        c.pixels[i] & pixels_within(start.rect.u_begin - u, start.rect.v_begin - v,
+                                    start.rect.u_end - u, start.rect.v_end - v);
+    const float* const tile_m = tiles_m + c.tile[i] * ObstacleTree::kTilePixels;
+    const bool may_touch =
+        std::abs(robot_u - c.u[i] - 3.5f) < 5 && std::abs(robot_v - c.v[i] - 3.5f) < 5;
+    if (may_touch) {
+      add_pixels<true>(metric, start, tile_m, pixels, Lanes(c.u[i]), Lanes(c.v[i]), sums);
+    } else {
+      add_pixels<false>(metric, start, tile_m, pixels, Lanes(c.u[i]), Lanes(c.v[i]), sums);
+    }
   }
-  return sum;
+  return sums;
+}
+
+/// So few chunks that they stay in the cache until all links have seen them, and that sums in float
+/// are good.
+constexpr int kChunksAtOnce = 12;
+
+void add_chunks(const Metric& metric, const ObstacleTree& obstacles, const Chunk* begin,
+                const Chunk* end, float max_error, DirectionSum& sum) {
+  const BasicMetric<Lanes> metrics = broadcast(metric);
+  const Start start = broadcast(sum, obstacles);
+  LaneSums sums = no_directions();
+  for (const Chunk* c = begin; c != end; ++c) {
+    std::uint64_t near = 0;
+    for (int i = 0; i < Chunk::kBlocks; i += kLanes) {
+      near |= add_blocks(metrics, start, Lanes(max_error), *c, i, sums) << i;
+    }
+    if (near == 0) continue;
+    const LaneSums more =
+        sum_pixels_of_blocks(metrics, start, obstacles.tile_depth_m.data(), *c, near);
+    sums.x = sums.x + more.x;
+    sums.y = sums.y + more.y;
+    sums.z = sums.z + more.z;
+    sums.pixels += more.pixels;
+  }
+  sum.x += sum_of_lanes(sums.x);
+  sum.y += sum_of_lanes(sums.y);
+  sum.z += sum_of_lanes(sums.z);
+  sum.count += sum_of_lanes(sums.count) + static_cast<double>(sums.pixels);
+  sum.error += sum_of_lanes(sums.error);
+}
+
+void add_all_chunks(const Metric& metric, const ObstacleTree& obstacles,
+                    const DirectionBlocks& blocks, float max_error, DirectionSum* sums,
+                    int sum_count) {
+  const Chunk* const chunks = blocks.chunks.data();
+  for (int begin = 0; begin < blocks.chunk_count; begin += kChunksAtOnce) {
+    const int end = std::min(begin + kChunksAtOnce, blocks.chunk_count);
+    for (int i = 0; i < sum_count; ++i) {
+      if (sums[i].is_done) continue;
+      add_chunks(metric, obstacles, chunks + begin, chunks + end, max_error, sums[i]);
+    }
+  }
 }
 
 }  // namespace HWY_NAMESPACE
@@ -55,11 +98,29 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace berth {
 
-HWY_EXPORT(add_rows);
+HWY_EXPORT(add_all_chunks);
 
-DirectionSum sum_directions(const Metric& metric, const DirectionStart& start,
-                            DepthView obstacle_depth_m, PixelRect rect) {
-  return HWY_DYNAMIC_DISPATCH(add_rows)(metric, start, obstacle_depth_m, rect);
+namespace {
+
+/// Empties the sum unless its mean is good enough.
+void judge(float max_error, DirectionSum& sum) {
+  sum.is_done = sum.is_done || sum.error <= max_error * sum.count;
+  if (!sum.is_done) sum.x = sum.y = sum.z = sum.count = sum.error = 0;
+}
+
+}  // namespace
+
+void sum_directions(const Metric& metric, const ObstacleTree& obstacles,
+                    const DirectionBlocks& blocks, float max_error, DirectionSum* sums,
+                    int sum_count) {
+  const auto add = HWY_DYNAMIC_DISPATCH(add_all_chunks);
+  // Few blocks are near, so that a larger error of theirs does little to the mean.
+  for (const float factor : {15.0f, 4.0f}) {
+    add(metric, obstacles, blocks, factor * max_error, sums, sum_count);
+    for (int i = 0; i < sum_count; ++i) judge(max_error, sums[i]);
+  }
+  // What no block exceeds, the mean does not exceed.
+  add(metric, obstacles, blocks, max_error, sums, sum_count);
 }
 
 }  // namespace berth

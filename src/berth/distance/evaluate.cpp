@@ -1,7 +1,6 @@
 #include "berth/distance/evaluate.hpp"
 
 #include "berth/distance/brute_force.hpp"
-#include "berth/distance/mean_direction.hpp"
 
 namespace berth {
 
@@ -33,17 +32,17 @@ std::string method_names() {
 
 void evaluate(Method method, const Camera& camera, const RobotImage& robot,
               DepthView obstacle_depth_m, const ObstacleTree& obstacles, int link_count,
-              const DistanceSettings& settings, ExactWorkspace& workspace, LinkDistances& out) {
+              const DistanceSettings& settings, EvaluateWorkspace& workspace, LinkDistances& out) {
   switch (method) {
     case Method::exact:
-      exact(camera, robot, obstacles, link_count, settings, workspace, out);
+      exact(camera, robot, obstacles, link_count, settings, workspace.exact, out);
       break;
     case Method::brute_force:
       brute_force(camera, robot, obstacle_depth_m, link_count, settings, out);
       break;
   }
   if (settings.mean_direction) {
-    fill_mean_directions(camera, robot, obstacle_depth_m, settings, out);
+    fill_mean_directions(camera, robot, obstacles, settings, workspace.directions, out);
   }
 }
 

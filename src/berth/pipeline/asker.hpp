@@ -40,7 +40,7 @@ class Asker {
   RobotRenderer renderer_;
   RobotPose pose_;
   RobotImage robot_;
-  ExactWorkspace workspace_;
+  EvaluateWorkspace workspace_;
   Answer answer_;
 };
 

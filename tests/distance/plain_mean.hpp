@@ -1,0 +1,22 @@
+#pragma once
+
+#include "tests/distance/answer.hpp"
+
+namespace berth::testing {
+
+/// The answer of exact with its mean directions.
+LinkDistances with_mean(const ImagePair& images, double range_m);
+
+struct PlainMean {
+  Eigen::Vector3d direction_C = Eigen::Vector3d::Zero();
+  std::int64_t count = 0;
+};
+
+/// Section 6 of the definition, pixel by pixel in double: the slow twin of fill_mean_directions().
+PlainMean plain_mean(const ImagePair& images, Pixel robot_pixel, double range_m);
+
+/// Fails the test unless every link has the plain count, and a mean direction within
+/// kMeanDirectionError. Returns how many links have one.
+int expect_plain_means(const ImagePair& images, double range_m);
+
+}  // namespace berth::testing
