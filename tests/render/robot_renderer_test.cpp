@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 #include <thread>
 
 #include "berth/robot/primitives.hpp"
+#include "tests/render/same_bits.hpp"
 #include "tests/render/small_robot.hpp"
 
 namespace berth {
@@ -30,14 +30,6 @@ RobotImage render(const RobotModel& model, const std::vector<Pose>& X_CL,
 int count(const RobotImage& image, LinkId id) {
   const auto& ids = image.link_id.pixels();
   return static_cast<int>(std::count(ids.begin(), ids.end(), id));
-}
-
-bool equal(const RobotImage& a, const RobotImage& b) {
-  const auto& p = a.depth_m.pixels();
-  const auto& q = b.depth_m.pixels();
-  // Bytes, since NaN is not equal to itself.
-  return a.link_id.pixels() == b.link_id.pixels() && p.size() == q.size() &&
-         std::memcmp(p.data(), q.data(), p.size() * sizeof(float)) == 0;
 }
 
 TEST(RobotRenderer, DepthIsAlongTheOpticalAxisNotAlongTheRay) {
@@ -121,10 +113,10 @@ TEST(RobotRenderer, NothingOfTheImageBeforeRemains) {
   image.depth_m.resize(100, 70, 1.5F);
   image.link_id.resize(3, 3, LinkId{9});
   for (const RobotPose* pose : {&b, &a, &b}) renderer.render(*pose, Pose::Identity(), image);
-  EXPECT_FALSE(equal(image, first));
+  EXPECT_FALSE(same_bits(image, first));
   EXPECT_EQ(count(image, 2), 0);
   renderer.render(a, Pose::Identity(), image);
-  EXPECT_TRUE(equal(image, first));
+  EXPECT_TRUE(same_bits(image, first));
 }
 
 TEST(RobotRenderer, ThreadsThatShareMeshesGetTheSameImages) {
@@ -155,8 +147,8 @@ TEST(RobotRenderer, ThreadsThatShareMeshesGetTheSameImages) {
   left_thread.join();
   right_thread.join();
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    EXPECT_TRUE(equal(left[i], alone[i])) << i;
-    EXPECT_TRUE(equal(right[i], alone[i])) << i;
+    EXPECT_TRUE(same_bits(left[i], alone[i])) << i;
+    EXPECT_TRUE(same_bits(right[i], alone[i])) << i;
   }
 }
 
@@ -195,7 +187,7 @@ TEST(RobotRenderer, CameraPoseThatIsNotFiniteThrowsAndLeavesTheImage) {
   Pose bad = Pose::Identity();
   bad.translation().z() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(renderer.render(pose, bad, image), std::invalid_argument);
-  EXPECT_TRUE(equal(image, before));
+  EXPECT_TRUE(same_bits(image, before));
 }
 
 }  // namespace

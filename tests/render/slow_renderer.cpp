@@ -3,9 +3,6 @@
 namespace berth {
 namespace {
 
-constexpr double kDepthTolerance = 1e-4;
-constexpr double kEdge_px = 0.02;
-
 /// Möller and Trumbore, from both sides; infinity where the ray t * direction misses.
 double ray_triangle(const Eigen::Vector3d& direction, const std::array<Eigen::Vector3d, 3>& p) {
   constexpr double kMiss = std::numeric_limits<double>::infinity();
@@ -20,21 +17,6 @@ double ray_triangle(const Eigen::Vector3d& direction, const std::array<Eigen::Ve
   if (s < 0 || r < 0 || s + r > 1) return kMiss;
   const double t = ac.dot(m) / determinant;
   return t > 0 ? t : kMiss;
-}
-
-bool same(const RayHit& a, const RayHit& b) {
-  if (a.id != b.id) return false;
-  return a.id == kNoLink || std::abs(a.depth_m - b.depth_m) <= kDepthTolerance * a.depth_m;
-}
-
-bool is_edge(const SlowRenderer& twin, const RayHit& centre, int u, int v) {
-  for (const auto& [du, dv] : {std::pair{kEdge_px, kEdge_px},
-                               {kEdge_px, -kEdge_px},
-                               {-kEdge_px, kEdge_px},
-                               {-kEdge_px, -kEdge_px}}) {
-    if (!same(centre, twin.hit(u + du, v + dv))) return true;
-  }
-  return false;
 }
 
 }  // namespace
@@ -65,29 +47,6 @@ RayHit SlowRenderer::hit(double u, double v) const {
     if (depth_m < nearest.depth_m) nearest = {triangle.id, depth_m};
   }
   return nearest;
-}
-
-Comparison compare(const RobotImage& image, const SlowRenderer& twin) {
-  Comparison result;
-  for (int v = 0; v < image.depth_m.height(); ++v) {
-    for (int u = 0; u < image.depth_m.width(); ++u) {
-      const RayHit expected = twin.hit(u, v);
-      const LinkId id = image.link_id(u, v);
-      const float depth_m = image.depth_m(u, v);
-      ++result.pixels;
-      if (expected.id != kNoLink) ++result.robot_pixels;
-      if (std::isnan(depth_m) != (id == kNoLink)) {
-        result.wrong.push_back({u, v});
-      } else if (!same(expected, {id, depth_m})) {
-        if (is_edge(twin, expected, u, v)) {
-          ++result.at_edges;
-        } else {
-          result.wrong.push_back({u, v});
-        }
-      }
-    }
-  }
-  return result;
 }
 
 }  // namespace berth

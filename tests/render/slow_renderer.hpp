@@ -7,14 +7,9 @@
 #include "berth/robot/kinematics.hpp"
 #include "berth/robot/robot_model.hpp"
 #include "berth/types/camera.hpp"
-#include "berth/types/robot_image.hpp"
+#include "testing/ray_hit.hpp"
 
 namespace berth {
-
-struct RayHit {
-  LinkId id = kNoLink;
-  double depth_m = std::numeric_limits<double>::infinity();
-};
 
 class SlowRenderer {
  public:
@@ -32,17 +27,5 @@ class SlowRenderer {
   Camera camera_;
   std::vector<Triangle> triangles_;
 };
-
-/// How an image differs from the twin's.
-struct Comparison {
-  int pixels = 0;
-  int robot_pixels = 0;
-  /// Differences within 0.02 px of an outline or a crease, where rounding decides.
-  int at_edges = 0;
-  /// All others: id, depth by more than 1e-4 of itself, or a depth where no link is.
-  std::vector<Pixel> wrong;
-};
-
-Comparison compare(const RobotImage& image, const SlowRenderer& twin);
 
 }  // namespace berth

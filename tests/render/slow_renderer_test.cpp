@@ -6,6 +6,7 @@
 #include "berth/render/robot_renderer.hpp"
 #include "berth/robot/primitives.hpp"
 #include "testing/data_folder.hpp"
+#include "tests/render/comparison.hpp"
 #include "tests/render/small_robot.hpp"
 
 namespace berth {
@@ -19,9 +20,11 @@ Comparison render_both(const RobotModel& model, const RobotPose& pose, const Pos
   RobotRenderer(build_link_meshes(model), camera).render(pose, X_BC, image);
   EXPECT_EQ(image.depth_m.width(), camera.width_px);
   EXPECT_EQ(image.link_id.height(), camera.height_px);
-  const Comparison result = compare(image, SlowRenderer(model, pose, X_BC, camera));
+  const SlowRenderer twin(model, pose, X_BC, camera);
+  const Comparison result = compare(image, [&](double u, double v) { return twin.hit(u, v); });
   EXPECT_TRUE(result.wrong.empty()) << result.wrong.size() << " pixels, the first at "
                                     << result.wrong[0].u << " " << result.wrong[0].v;
+  EXPECT_EQ(result.ties, 0);
   return result;
 }
 
@@ -86,6 +89,30 @@ TEST(RendererAndTwin, AgreeWithTheCameraInsideALink) {
     const Comparison result = render_one(mesh, at(0.05, -0.1, 0.02));
     EXPECT_EQ(result.robot_pixels, result.pixels);
   }
+}
+
+TEST(RendererAndTwin, AgreeOnTrianglesThroughTheCamerasPlane) {
+  std::mt19937 random(8);
+  int robot_pixels = 0;
+  int at_edges = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    SCOPED_TRACE(trial);
+    // All three corners of a triangle lie anywhere around the camera, near ones among them.
+    TriangleMesh mesh;
+    std::normal_distribution<float> normal;
+    for (std::uint32_t i = 0; i < 6; ++i) {
+      const float size_m = std::pow(10.0F, -static_cast<float>(random() % 4));
+      for (int corner = 0; corner < 3; ++corner)
+        mesh.vertices_m.push_back(size_m *
+                                  Eigen::Vector3f(normal(random), normal(random), normal(random)));
+      mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    const Comparison result = render_one(mesh, Pose::Identity());
+    robot_pixels += result.robot_pixels;
+    at_edges += result.at_edges;
+  }
+  EXPECT_GT(robot_pixels, 10000);
+  EXPECT_LE(at_edges, robot_pixels / 1000);
 }
 
 TEST(RendererAndTwin, AgreeOnALinkVeryNearTheCamera) {

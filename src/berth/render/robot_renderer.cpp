@@ -1,199 +1,129 @@
 #include "berth/render/robot_renderer.hpp"
 
-#include <embree3/rtcore.h>
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <cmath>
-#include <limits>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
+#include "berth/render/draw_triangles.hpp"
+#include "berth/render/link_meshes.hpp"
 #include "berth/render/link_rect.hpp"
+#include "berth/render/show_keys.hpp"
 
 namespace berth {
 namespace {
 
-struct ReleaseDevice {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct ReleaseScene {
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-using Device = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
-using Scene = std::unique_ptr<RTCSceneTy, ReleaseScene>;
+/// What a thread takes at a time, large enough to be worth taking.
+constexpr std::size_t kChunkBlocks = 64;
+constexpr std::size_t kChunksPerThread = 4;
+constexpr std::size_t kMostThreads = 8;
+constexpr int kShownRows = 64;
 
-// A packet of rays is 4 x 4 pixels, a tile 2 x 2 packets.
-constexpr int kPacketSide = 4;
-constexpr int kPacketRays = kPacketSide * kPacketSide;
-constexpr int kTileSide = 8;
+struct Chunk {
+  std::size_t link;
+  std::span<const TriangleBlock> blocks;
+};
 
-void require_no_error(RTCDevice device, const char* doing) {
-  const RTCError error = rtcGetDeviceError(device);
-  if (error != RTC_ERROR_NONE)
-    throw std::runtime_error(fmt::format("Embree: {}: error {}", doing, static_cast<int>(error)));
+std::vector<Chunk> chunks_of(const LinkMeshes& meshes) {
+  std::vector<Chunk> chunks;
+  for (std::size_t link = 0; link < meshes.links().size(); ++link) {
+    const std::span<const TriangleBlock> blocks(meshes.links()[link].blocks);
+    for (std::size_t i = 0; i < blocks.size(); i += kChunkBlocks) {
+      chunks.push_back({link, blocks.subspan(i, std::min(kChunkBlocks, blocks.size() - i))});
+    }
+  }
+  return chunks;
 }
 
-Scene build_scene(RTCDevice device, const TriangleMesh& mesh) {
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                               RTC_FORMAT_FLOAT3, 3 * sizeof(float),
-                                                               mesh.vertices_m.size()));
-  auto* indices = static_cast<std::uint32_t*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                              3 * sizeof(std::uint32_t), mesh.triangles.size()));
-  require_no_error(device, "allocating a mesh");
-  for (const auto& p : mesh.vertices_m) vertices = std::copy(p.data(), p.data() + 3, vertices);
-  for (const auto& triangle : mesh.triangles)
-    indices = std::copy(triangle.begin(), triangle.end(), indices);
-  rtcCommitGeometry(geometry);
-  Scene scene(rtcNewScene(device));
-  rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
-  rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_HIGH);
-  rtcAttachGeometry(scene.get(), geometry);
-  rtcReleaseGeometry(geometry);
-  rtcCommitScene(scene.get());
-  require_no_error(device, "building a mesh");
-  return scene;
+/// Gives the image its size. One that has it stays as it is.
+void fit(const Camera& camera, RobotImage& image) {
+  const auto fits = [&](const auto& pixels) {
+    return pixels.width() == camera.width_px && pixels.height() == camera.height_px;
+  };
+  if (fits(image.depth_m) && fits(image.link_id)) return;
+  image.depth_m.resize(camera.width_px, camera.height_px, kNoDepth);
+  image.link_id.resize(camera.width_px, camera.height_px, kNoLink);
+  image.extent = {};
 }
 
 }  // namespace
-
-class LinkMeshes {
- public:
-  struct LinkMesh {
-    std::size_t link_index;
-    LinkId id;
-    Eigen::AlignedBox3f box_L;
-    Scene scene;
-  };
-
-  explicit LinkMeshes(const RobotModel& model) : device_(rtcNewDevice(nullptr)) {
-    if (!device_) require_no_error(nullptr, "making a device");
-    for (std::size_t i = 0; i < model.links.size(); ++i) {
-      const Link& link = model.links[i];
-      if (link.role == LinkRole::ignored) continue;
-      meshes_.push_back(
-          {i, link.id, link.mesh_L.bounding_box_m(), build_scene(device_.get(), link.mesh_L)});
-    }
-  }
-
-  RTCDevice device() const { return device_.get(); }
-  const std::vector<LinkMesh>& meshes() const { return meshes_; }
-
- private:
-  Device device_;
-  std::vector<LinkMesh> meshes_;
-};
 
 std::shared_ptr<const LinkMeshes> build_link_meshes(const RobotModel& model) {
   return std::make_shared<const LinkMeshes>(model);
 }
 
-/// The scene's frame is the camera's optical frame C and rays are (x, y, 1) t: t is the depth.
 struct RobotRenderer::State {
-  std::shared_ptr<const LinkMeshes> links;
+  std::shared_ptr<const LinkMeshes> meshes;
   Camera camera;
-  Scene scene;
-  std::vector<float> ray_x;
-  std::vector<float> ray_y;
-  int tile_columns;
-  int tile_rows;
-  std::vector<std::uint8_t> tile_in_view;
+  std::vector<Chunk> chunks;
+  std::vector<LinkView> views;
+  /// One for each thread; the first of them have been drawn on.
+  std::vector<Canvas> canvases;
 
   State(std::shared_ptr<const LinkMeshes> link_meshes, const Camera& c)
-      : links(std::move(link_meshes)),
+      : meshes(std::move(link_meshes)),
         camera(c),
-        scene(rtcNewScene(links->device())),
-        tile_columns((c.width_px + kTileSide - 1) / kTileSide),
-        tile_rows((c.height_px + kTileSide - 1) / kTileSide),
-        tile_in_view(static_cast<std::size_t>(tile_columns) * tile_rows) {
-    for (int u = 0; u < c.width_px; ++u)
-      ray_x.push_back(static_cast<float>((u - c.cx_px) / c.fx_px));
-    for (int v = 0; v < c.height_px; ++v)
-      ray_y.push_back(static_cast<float>((v - c.cy_px) / c.fy_px));
-    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST);
-    rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_LOW);
-    for (std::size_t i = 0; i < links->meshes().size(); ++i) {
-      RTCGeometry instance = rtcNewGeometry(links->device(), RTC_GEOMETRY_TYPE_INSTANCE);
-      rtcSetGeometryInstancedScene(instance, links->meshes()[i].scene.get());
-      rtcAttachGeometryByID(scene.get(), instance, static_cast<unsigned>(i));
-      rtcReleaseGeometry(instance);
-    }
-    require_no_error(links->device(), "making the scene of a camera");
-  }
+        chunks(chunks_of(*meshes)),
+        views(meshes->links().size()) {}
 
   /// Returns where the robot may be seen.
-  PixelRect commit(const RobotPose& pose, const Pose& X_CB) {
+  PixelRect look(const RobotPose& pose, const Pose& X_CB) {
     PixelRect extent;
-    std::fill(tile_in_view.begin(), tile_in_view.end(), std::uint8_t{0});
-    for (std::size_t i = 0; i < links->meshes().size(); ++i) {
-      const auto& mesh = links->meshes()[i];
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      const LinkMeshes::LinkMesh& mesh = meshes->links()[i];
+      assert(mesh.link_index < pose.X_BL.size());
       const Pose X_CL = X_CB * pose.X_BL[mesh.link_index];
-      const PixelRect rect = project_box(mesh.box_L, X_CL, camera);
-      extent = united(extent, rect);
-      mark_tiles(rect);
-      const Eigen::Matrix<float, 3, 4> transform = X_CL.matrix().topRows<3>().cast<float>();
-      RTCGeometry instance = rtcGetGeometry(scene.get(), static_cast<unsigned>(i));
-      rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, transform.data());
-      rtcCommitGeometry(instance);
+      views[i] = {mesh.id, project_box(mesh.box_L_m, X_CL, camera), to_pixel(camera, X_CL),
+                  single_precision_from_m(camera, mesh.box_L_m)};
+      extent = united(extent, views[i].rect);
     }
-    rtcCommitScene(scene.get());
     return extent;
   }
 
-  void mark_tiles(const PixelRect& rect) {
-    if (rect.empty()) return;
-    for (int row = rect.v_begin / kTileSide; row <= (rect.v_end - 1) / kTileSide; ++row) {
-      const auto first = tile_in_view.begin() + row * tile_columns;
-      std::fill(first + rect.u_begin / kTileSide, first + (rect.u_end - 1) / kTileSide + 1,
-                std::uint8_t{1});
-    }
+  /// No more than the work and the putting together of their images are worth.
+  int threads() const {
+    const auto allowed =
+        tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    const auto in_arena = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+    const std::size_t most = std::min({allowed, in_arena, kMostThreads});
+    return static_cast<int>(std::clamp<std::size_t>(chunks.size() / kChunksPerThread, 1, most));
   }
 
-  void trace_packet(int u0, int v0, RobotImage& image) const {
-    alignas(64) int valid[kPacketRays];
-    alignas(64) RTCRayHit16 packet;
-    for (int i = 0; i < kPacketRays; ++i) {
-      const int u = u0 + i % kPacketSide;
-      const int v = v0 + i / kPacketSide;
-      const bool inside = u < camera.width_px && v < camera.height_px;
-      valid[i] = inside ? -1 : 0;
-      packet.ray.org_x[i] = packet.ray.org_y[i] = packet.ray.org_z[i] = 0;
-      packet.ray.dir_x[i] = inside ? ray_x[u] : 0;
-      packet.ray.dir_y[i] = inside ? ray_y[v] : 0;
-      packet.ray.dir_z[i] = 1;
-      packet.ray.tnear[i] = packet.ray.time[i] = 0;
-      packet.ray.tfar[i] = std::numeric_limits<float>::infinity();
-      packet.ray.mask[i] = ~0U;
-      packet.ray.id[i] = packet.ray.flags[i] = 0;
-      packet.hit.geomID[i] = packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  void draw(int threads) {
+    while (canvases.size() < static_cast<std::size_t>(threads)) {
+      canvases.push_back({KeyImage(camera.width_px, camera.height_px), false, {}, {}});
     }
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    rtcIntersect16(valid, scene.get(), &context, &packet);
-    for (int i = 0; i < kPacketRays; ++i) {
-      if (valid[i] == 0 || packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
-      const int u = u0 + i % kPacketSide;
-      const int v = v0 + i / kPacketSide;
-      image.depth_m(u, v) = packet.ray.tfar[i];
-      image.link_id(u, v) = links->meshes()[packet.hit.instID[0][i]].id;
-    }
-  }
-
-  void trace_tile_row(int row, RobotImage& image) const {
-    for (int column = 0; column < tile_columns; ++column) {
-      if (tile_in_view[static_cast<std::size_t>(row) * tile_columns + column] == 0) continue;
-      for (int dv = 0; dv < kTileSide; dv += kPacketSide) {
-        for (int du = 0; du < kTileSide; du += kPacketSide) {
-          trace_packet(column * kTileSide + du, row * kTileSide + dv, image);
-        }
+    std::atomic<std::size_t> next = 0;
+    const auto draw_on = [&](Canvas& canvas) {
+      for (std::size_t i = next++; i < chunks.size(); i = next++) {
+        const LinkView& view = views[chunks[i].link];
+        if (!view.rect.empty()) draw_triangles(chunks[i].blocks, view, canvas);
       }
-    }
+    };
+    // The automatic partitioner may give all canvases to one thread.
+    tbb::parallel_for(
+        0, threads, [&](int thread) { draw_on(canvases[thread]); }, tbb::simple_partitioner());
+  }
+
+  void show(int threads, const PixelRect& extent, RobotImage& image) {
+    const PixelRect before = clip(image.extent, camera.width_px, camera.height_px);
+    const PixelRect all = united(extent, before);
+    const auto drawn = std::span(canvases).first(threads);
+    tbb::parallel_for(tbb::blocked_range<int>(all.v_begin, all.v_end, kShownRows),
+                      [&](const tbb::blocked_range<int>& rows) {
+                        for (int v = rows.begin(); v != rows.end(); ++v)
+                          show_row(drawn, v, extent, before, image);
+                      });
+    for (Canvas& canvas : drawn) canvas.used = false;
   }
 };
 
@@ -214,22 +144,18 @@ RobotRenderer::RobotRenderer(RobotRenderer&&) noexcept = default;
 RobotRenderer& RobotRenderer::operator=(RobotRenderer&&) noexcept = default;
 
 void RobotRenderer::render(const RobotPose& pose, const Pose& X_BC, RobotImage& image) {
-  State& state = *state_;
-  assert(state.links->meshes().empty() ||
-         state.links->meshes().back().link_index < pose.X_BL.size());
   if (!X_BC.matrix().allFinite()) {
     throw std::invalid_argument(
         fmt::format("pose of the camera at {} {} {}: expected finite numbers",
                     X_BC.translation().x(), X_BC.translation().y(), X_BC.translation().z()));
   }
-  image.depth_m.resize(state.camera.width_px, state.camera.height_px, kNoDepth);
-  image.link_id.resize(state.camera.width_px, state.camera.height_px, kNoLink);
-  image.extent = state.commit(pose, X_BC.inverse());
-  tbb::parallel_for(tbb::blocked_range<int>(0, state.tile_rows),
-                    [&](const tbb::blocked_range<int>& rows) {
-                      for (int row = rows.begin(); row != rows.end(); ++row)
-                        state.trace_tile_row(row, image);
-                    });
+  State& state = *state_;
+  const PixelRect extent = state.look(pose, X_BC.inverse());
+  const int threads = state.threads();
+  fit(state.camera, image);
+  state.draw(threads);
+  state.show(threads, extent, image);
+  image.extent = extent;
 }
 
 }  // namespace berth

@@ -1,0 +1,96 @@
+// An image that went through other hands, and its extent.
+#include <gtest/gtest.h>
+
+#include "berth/render/robot_renderer.hpp"
+#include "berth/robot/primitives.hpp"
+#include "tests/render/same_bits.hpp"
+#include "tests/render/small_robot.hpp"
+
+namespace berth {
+namespace {
+
+const Camera kCamera{61, 47, 50, 52, 30.2, 22.7};
+const Camera kOtherCamera{47, 61, 50, 52, 22.7, 30.2};
+
+/// A few links that are seldom seen all, and sometimes none.
+struct Scene {
+  RobotModel model;
+  RobotPose pose;
+
+  explicit Scene(std::mt19937& random) {
+    std::vector<TriangleMesh> meshes;
+    std::vector<Pose> X_CL;
+    for (int link = 0; link < 2; ++link) {
+      meshes.push_back(random_mesh(random));
+      X_CL.push_back(random_pose(random, {Eigen::Vector3d(-2, -2, -2), Eigen::Vector3d(2, 2, 4)}));
+    }
+    model = robot_of(std::move(meshes));
+    pose = pose_seen_at(Pose::Identity(), X_CL);
+  }
+
+  void render(const Camera& camera, RobotImage& image) const {
+    RobotRenderer(build_link_meshes(model), camera).render(pose, Pose::Identity(), image);
+  }
+  RobotImage fresh(const Camera& camera) const {
+    RobotImage image;
+    render(camera, image);
+    return image;
+  }
+};
+
+TEST(RobotImageReuse, OneImageServesRobotsAndCamerasInTurn) {
+  std::mt19937 random(4);
+  RobotImage image;
+  for (int trial = 0; trial < 300; ++trial) {
+    const Scene scene(random);
+    const Camera& camera = random() % 4 == 0 ? kOtherCamera : kCamera;
+    scene.render(camera, image);
+    ASSERT_TRUE(same_bits(image, scene.fresh(camera))) << trial;
+  }
+}
+
+TEST(RobotImageReuse, SomebodyElsesImageIsClearedInFull) {
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Scene scene(random);
+    RobotImage image;
+    image.depth_m.resize(kCamera.width_px, kCamera.height_px, 0.25F);
+    image.link_id.resize(kCamera.width_px, kCamera.height_px, LinkId{7});
+    scene.render(kCamera, image);
+    EXPECT_TRUE(same_bits(image, scene.fresh(kCamera))) << trial;
+  }
+}
+
+TEST(RobotImageExtent, HoldsAllRobotPixels) {
+  std::mt19937 random(6);
+  int robot_pixels = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const RobotImage image = Scene(random).fresh(kCamera);
+    const PixelRect& extent = image.extent;
+    for (int v = 0; v < kCamera.height_px; ++v) {
+      for (int u = 0; u < kCamera.width_px; ++u) {
+        if (image.link_id(u, v) == kNoLink) continue;
+        ++robot_pixels;
+        ASSERT_TRUE(u >= extent.u_begin && u < extent.u_end && v >= extent.v_begin &&
+                    v < extent.v_end)
+            << trial << ": " << u << " " << v;
+      }
+    }
+  }
+  EXPECT_GT(robot_pixels, 10000);
+}
+
+TEST(RobotImageExtent, IsNotMuchLargerThanTheRobot) {
+  // From 0.7 m to 0.9 m to the right and 0.1 m to both sides of the axis, at 1.9 m to 2.1 m.
+  const RobotModel model = robot_of({make_box({0.2, 0.2, 0.2})});
+  RobotImage image;
+  RobotRenderer(build_link_meshes(model), kCamera)
+      .render({{Pose(Eigen::Translation3d(0.8, 0, 2))}}, Pose::Identity(), image);
+  EXPECT_GE(image.extent.u_begin, 30.2 + 50 * 0.7 / 2.1 - 3);
+  EXPECT_LE(image.extent.u_end, 30.2 + 50 * 0.9 / 1.9 + 3);
+  EXPECT_GE(image.extent.v_begin, 22.7 - 52 * 0.1 / 1.9 - 3);
+  EXPECT_LE(image.extent.v_end, 22.7 + 52 * 0.1 / 1.9 + 3);
+}
+
+}  // namespace
+}  // namespace berth

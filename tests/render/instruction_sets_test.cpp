@@ -1,0 +1,31 @@
+// Every instruction set that this machine has computes the same bits.
+#include <gtest/gtest.h>
+
+#include "berth/render/robot_renderer.hpp"
+#include "testing/only_target.hpp"
+#include "tests/render/crowded_robot.hpp"
+#include "tests/render/same_bits.hpp"
+
+namespace berth {
+namespace {
+
+const Camera kCamera{203, 157, 180, 175, 99.4, 80.1};
+
+TEST(InstructionSets, GiveTheSameRobotImages) {
+  for (std::uint32_t seed = 0; seed < 5; ++seed) {
+    const CrowdedRobot robot(seed);
+    RobotRenderer renderer(build_link_meshes(robot.model), kCamera);
+    RobotImage best;
+    renderer.render(robot.pose, Pose::Identity(), best);
+    for (std::int64_t targets = hwy::SupportedTargets(); targets != 0; targets &= targets - 1) {
+      const OnlyTarget only(targets & -targets);
+      SCOPED_TRACE(hwy::TargetName(targets & -targets));
+      RobotImage image;
+      renderer.render(robot.pose, Pose::Identity(), image);
+      EXPECT_TRUE(same_bits(image, best));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace berth
