@@ -76,8 +76,8 @@ class Stages {
                frame_.obstacle_tree, rig_.model().link_count(), settings_, workspace_, distances_);
     });
     take(mean_, [&] {
-      fill_mean_directions(rig_.camera(), frame_.robot, frame_.obstacle_tree, settings_,
-                           workspace_.directions, distances_);
+      fill_mean_directions(rig_.camera(), frame_.robot, frame_.obstacles.depth_m,
+                           frame_.obstacle_tree, settings_, workspace_.directions, distances_);
     });
   }
 

@@ -39,8 +39,8 @@ struct Example {
   }
 
   void run_exact() {
-    exact(rig.camera(), frame.robot, frame.obstacle_tree, links, settings, workspace.exact,
-          distances);
+    exact(rig.camera(), frame.robot, frame.obstacles.depth_m, frame.obstacle_tree, links, settings,
+          workspace.exact, distances);
   }
 };
 
@@ -93,8 +93,8 @@ void exact_search(benchmark::State& state) {
 void mean_direction(benchmark::State& state) {
   Example e;
   repeat(state, [&] {
-    fill_mean_directions(e.rig.camera(), e.frame.robot, e.frame.obstacle_tree, e.settings,
-                         e.workspace.directions, e.distances);
+    fill_mean_directions(e.rig.camera(), e.frame.robot, e.frame.obstacles.depth_m,
+                         e.frame.obstacle_tree, e.settings, e.workspace.directions, e.distances);
   });
 }
 

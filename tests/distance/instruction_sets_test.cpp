@@ -1,8 +1,8 @@
 // Every instruction set that this machine has computes the same bits.
 #include <bit>
 
+#include "testing/only_target.hpp"
 #include "tests/distance/answer.hpp"
-#include "tests/distance/only_target.hpp"
 
 namespace berth::testing {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <random>
 
-#include "tests/distance/only_target.hpp"
+#include "testing/only_target.hpp"
 #include "tests/distance/plain_mean.hpp"
 
 namespace berth::testing {

@@ -57,18 +57,6 @@ TEST(ObstacleTree, EveryChildHasItsPixelsDepthRange) {
   }
 }
 
-TEST(ObstacleTree, KeepsThePixelsAfterTheImageIsGone) {
-  ObstacleTree tree;
-  DepthImage depth_m(50, 40, 1.0f);
-  depth_m(49, 39) = 2.5f;
-  build_obstacle_tree(depth_m, tree);
-  depth_m.resize(1, 1, 0);
-  // Node (1, 1), tile (2, 0) in it, pixel (1, 7) in that.
-  EXPECT_EQ(tree.tile_depth_m[(3 * 16 + 2) * 64 + 7 * 8 + 1], 2.5f);
-  // One to the right lies outside of the image.
-  EXPECT_TRUE(std::isnan(tree.tile_depth_m[(3 * 16 + 2) * 64 + 7 * 8 + 2]));
-}
-
 TEST(ObstacleTree, AnImageWithoutReadingsIsEmpty) {
   ObstacleTree tree;
   const DepthImage depth_m(40, 30, kNoDepth);

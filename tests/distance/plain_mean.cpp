@@ -10,7 +10,8 @@ LinkDistances with_mean(const ImagePair& images, double range_m) {
   ObstacleTree tree;
   build_obstacle_tree(images.obstacle_depth_m, tree);
   DirectionWorkspace workspace;
-  fill_mean_directions(images.camera, images.robot, tree, {range_m, true}, workspace, found);
+  fill_mean_directions(images.camera, images.robot, images.obstacle_depth_m, tree, {range_m, true},
+                       workspace, found);
   return found;
 }
 

@@ -2,24 +2,22 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "testing/random_images.hpp"
 
 namespace berth {
 namespace {
 
 /// Puts the pixels of a link's tiles back into an image, and checks that each lies in its boxes.
-void draw_link(const RobotTiles& tiles, LinkId id, RobotImage& out) {
+void draw_link(const RobotImage& robot, const RobotTiles& tiles, LinkId id, RobotImage& out) {
   for (int n = tiles.links[id - 1].last_node; n >= 0; n = tiles.nodes[n].next) {
     const RobotTiles::Node& node = tiles.nodes[n];
     for (int t = 0; t < node.tile_count; ++t) {
       const RobotTiles::Tile& tile = tiles.tiles[node.tile[t]];
-      for (int i = 0; i < RobotTiles::kTilePixels; ++i) {
-        const float z = tile.depth_m[i];
-        if (std::isnan(z)) continue;
-        const float u = tile.u + static_cast<float>(i % 8);
-        const float v = tile.v + static_cast<float>(i / 8);
+      for (int i = 0; i < kTilePixels; ++i) {
+        if ((tile.bits >> i & 1) == 0) continue;
+        const auto u = static_cast<float>(tile.u + i % 8);
+        const auto v = static_cast<float>(tile.v + i / 8);
+        const float z = robot.depth_m(tile.u + i % 8, tile.v + i / 8);
         EXPECT_TRUE(node.u_lo[t] <= u && u + 1 <= node.u_hi[t]);
         EXPECT_TRUE(node.v_lo[t] <= v && v + 1 <= node.v_hi[t]);
         EXPECT_TRUE(node.depth_lo_m[t] <= z && z <= node.depth_hi_m[t]);
@@ -41,7 +39,7 @@ void expect_all_pixels(const RobotImage& robot, int link_count, RobotTiles& tile
   RobotImage drawn = testing::empty_images(width, height, 0).robot;
   int pixels = 0;
   for (int id = 1; id <= link_count; ++id) {
-    draw_link(tiles, static_cast<LinkId>(id), drawn);
+    draw_link(robot, tiles, static_cast<LinkId>(id), drawn);
     pixels += tiles.links[id - 1].pixels;
   }
   int expected = 0;

@@ -1,29 +1,6 @@
-// A program of its own, because it replaces the global operator new.
-#include <cstdlib>
-#include <new>
-
+// A program of its own, because allocation_count replaces the global operator new.
+#include "testing/allocation_count.hpp"
 #include "tests/distance/answer.hpp"
-
-namespace {
-std::size_t allocations = 0;
-
-void* count_and_allocate(std::size_t size, std::size_t alignment) {
-  ++allocations;
-  const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
-  void* memory = std::aligned_alloc(alignment, rounded);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-}  // namespace
-
-void* operator new(std::size_t size) { return count_and_allocate(size, alignof(std::max_align_t)); }
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  return count_and_allocate(size, static_cast<std::size_t>(alignment));
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 
 namespace berth::testing {
 namespace {
@@ -41,9 +18,9 @@ TEST(SteadyState, ExactAllocatesNothingOnceItHasSeenTheScene) {
     }
   };
   answer_both();
-  const std::size_t before = allocations;
+  const std::size_t before = allocation_count();
   answer_both();
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(allocation_count(), before);
   EXPECT_GT(before, 0u);
 }
 

@@ -25,11 +25,13 @@ LinkDistance link_distance(LinkId id, int robot_pixels, const Metric& metric,
   link.robot_pixels = robot_pixels;
   if (robot_pixels == 0) return link;
   link.status = LinkStatus::none_in_range;
+  link.lower_bound_m = range_m;
   const float distance_m = std::sqrt(pair.squared_m2);
   if (pair.ru < 0 || distance_m > range_m) return link;
 
   link.status = LinkStatus::ok;
   link.distance_m = distance_m;
+  link.lower_bound_m = distance_m;
   link.robot_pixel = pixel_of(pair.ru, pair.rv);
   link.obstacle_pixel = pixel_of(pair.ou, pair.ov);
   const PairPoints points = pair_points(metric, pair.ru, pair.rv, pair.robot_depth_m, pair.ou,

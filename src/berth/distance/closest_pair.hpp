@@ -20,8 +20,8 @@ struct ClosestPair {
 /// that the comparison D <= L is made once, in link_distance().
 ClosestPair no_pair_within(float range_m);
 
-/// A link's answer from its closest pair. `robot_pixels` is the number of its pixels in the robot
-/// image.
+/// A link's answer from its closest pair, for a search that left nothing out. `robot_pixels` is the
+/// number of its pixels in the robot image.
 LinkDistance link_distance(LinkId id, int robot_pixels, const Metric& metric,
                            const ClosestPair& pair, float range_m);
 

@@ -124,7 +124,7 @@ HWY_INLINE void cut(const PixelRect& rect, Lanes u, Lanes v, LaneMask& some, Lan
   const Lanes v_begin(static_cast<float>(rect.v_begin));
   const Lanes u_end(static_cast<float>(rect.u_end));
   const Lanes v_end(static_cast<float>(rect.v_end));
-  const Lanes size(ObstacleTree::kTilePx);
+  const Lanes size(kTilePx);
   const LaneMask touches_u = hn::And(hn::Gt((u + size).v, u_begin.v), hn::Lt(u.v, u_end.v));
   const LaneMask touches_v = hn::And(hn::Gt((v + size).v, v_begin.v), hn::Lt(v.v, v_end.v));
   const LaneMask within_u = hn::And(hn::Ge(u.v, u_begin.v), hn::Le((u + size).v, u_end.v));

@@ -1,8 +1,12 @@
 #include "berth/distance/direction_blocks.hpp"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "berth/distance/depth_tile.hpp"
 #include "berth/distance/grid.hpp"
 #include "berth/distance/metric.hpp"
 #include "berth/distance/pixel_moments.hpp"
@@ -19,8 +23,6 @@ namespace berth {
 namespace HWY_NAMESPACE {
 
 constexpr int kBlocks = DirectionBlocks::Chunk::kBlocks;
-constexpr int kTilePx = ObstacleTree::kTilePx;
-constexpr int kTilePixels = ObstacleTree::kTilePixels;
 
 /// Sums over the pixels of each block: of their places (see PixelSums), and with the gap of their
 /// depth to the block's least one, which keeps the differences of large numbers out. The latter are
@@ -57,7 +59,7 @@ HWY_INLINE void add_up_lanes(float* sums) {
 }
 
 /// The sums of one block in its own lanes; returns its pixels.
-HWY_INLINE std::uint64_t sum_pixels(const float* tile_m, float lo_m, float hi_m, int block,
+HWY_INLINE std::uint64_t sum_pixels(const TileDepths& tile, float lo_m, float hi_m, int block,
                                     BlockSums& sums) {
   Lanes gap(0);
   Lanes u_gap(0);
@@ -65,7 +67,7 @@ HWY_INLINE std::uint64_t sum_pixels(const float* tile_m, float lo_m, float hi_m,
   Lanes squared_gap(0);
   std::uint64_t pixels = 0;
   for (int i = 0; i < kTilePixels; i += kLanes) {
-    const Lanes depth_m = load(tile_m + i);
+    const Lanes depth_m = load_tile(tile, i);
     const LaneMask within =
         hn::And(hn::Ge(depth_m.v, Lanes(lo_m).v), hn::Le(depth_m.v, Lanes(hi_m).v));
     const Lanes gap_m = zero_unless(within, depth_m - Lanes(lo_m));
@@ -136,11 +138,14 @@ HWY_INLINE void finish_blocks(const BasicMetric<Lanes>& metric, const BlockSums&
 }
 
 /// Fills a chunk whose tiles and depth ranges are set.
-void sum_up_chunk(const Metric& metric, const float* tiles_m, DirectionBlocks::Chunk& c) {
+void sum_up_chunk(const Metric& metric, const DepthView& obstacle_depth_m,
+                  DirectionBlocks::Chunk& c) {
   BlockSums sums;
+  TileCopy copy;
   for (int i = 0; i < kBlocks; ++i) {
-    const std::uint64_t pixels =
-        sum_pixels(tiles_m + c.tile[i] * kTilePixels, c.depth_lo_m[i], c.depth_hi_m[i], i, sums);
+    const TileDepths tile =
+        tile_depths(obstacle_depth_m, static_cast<int>(c.u[i]), static_cast<int>(c.v[i]), copy);
+    const std::uint64_t pixels = sum_pixels(tile, c.depth_lo_m[i], c.depth_hi_m[i], i, sums);
     const PixelSums places = pixel_sums(pixels);
     c.pixels[i] = pixels;
     sums.count[i] = places.count;
@@ -155,11 +160,11 @@ void sum_up_chunk(const Metric& metric, const float* tiles_m, DirectionBlocks::C
 }
 
 /// The readings on both sides of the middle of a tile's depth range.
-void find_edge(const float* tile_m, float middle_m, float& near_hi_m, float& far_lo_m) {
+void find_edge(const TileDepths& tile, float middle_m, float& near_hi_m, float& far_lo_m) {
   Lanes near_m(-HUGE_VALF);
   Lanes far_m(HUGE_VALF);
   for (int i = 0; i < kTilePixels; i += kLanes) {
-    const Lanes depth_m = load(tile_m + i);
+    const Lanes depth_m = load_tile(tile, i);
     const LaneMask is_near = hn::Le(depth_m.v, Lanes(middle_m).v);
     const LaneMask is_far = hn::Gt(depth_m.v, Lanes(middle_m).v);
     near_m = greatest(near_m, choose(is_near, depth_m, near_m));
@@ -188,65 +193,65 @@ constexpr float kEdge = 0.05f;
 
 class Builder {
  public:
-  Builder(const Metric& metric, const ObstacleTree& obstacles, DirectionBlocks& blocks)
-      : metric_(metric), tiles_m_(obstacles.tile_depth_m.data()), blocks_(blocks) {}
+  Builder(DepthView obstacle_depth_m, DirectionBlocks& blocks)
+      : obstacle_depth_m_(obstacle_depth_m), blocks_(blocks) {}
 
-  void add_tile(int tile, int u, int v, float lo_m, float hi_m) {
+  void add_tile(int u, int v, float lo_m, float hi_m) {
     if (!(hi_m - lo_m > kEdge * lo_m)) {
-      add_block(tile, u, v, lo_m, hi_m);
+      add_block(u, v, lo_m, hi_m);
       return;
     }
     float near_hi_m = 0;
     float far_lo_m = 0;
-    find_edge_(tiles_m_ + tile * ObstacleTree::kTilePixels, 0.5f * (lo_m + hi_m), near_hi_m,
+    TileCopy copy;
+    find_edge_(tile_depths(obstacle_depth_m_, u, v, copy), 0.5f * (lo_m + hi_m), near_hi_m,
                far_lo_m);
-    add_block(tile, u, v, lo_m, near_hi_m);
-    add_block(tile, u, v, far_lo_m, hi_m);
+    add_block(u, v, lo_m, near_hi_m);
+    add_block(u, v, far_lo_m, hi_m);
   }
 
-  /// Fills what is left of the last chunk with blocks that nobody sees.
-  void finish() {
-    if (used_ == 0) return;
+  /// Fills what is left of the last chunk. Returns how many blocks of it are there.
+  int finish() {
+    if (used_ == 0) return Chunk::kBlocks;
     Chunk& last = blocks_.chunks[blocks_.chunk_count];
-    const int begin = used_;
-    while (used_ > 0) add_block(last.tile[0], 0, 0, last.depth_lo_m[0], last.depth_hi_m[0]);
-    std::fill(last.depth_lo_m + begin, last.depth_lo_m + Chunk::kBlocks, kNoDepth);
-    std::fill(last.depth_hi_m + begin, last.depth_hi_m + Chunk::kBlocks, kNoDepth);
+    const int used = used_;
+    // Copies, so that their numbers are finite.
+    while (used_ > 0) {
+      add_block(static_cast<int>(last.u[0]), static_cast<int>(last.v[0]), last.depth_lo_m[0],
+                last.depth_hi_m[0]);
+    }
+    return used;
   }
 
  private:
-  void add_block(int tile, int u, int v, float lo_m, float hi_m) {
+  void add_block(int u, int v, float lo_m, float hi_m) {
     Chunk& chunk = blocks_.chunks[blocks_.chunk_count];
-    chunk.tile[used_] = tile;
     chunk.u[used_] = static_cast<float>(u);
     chunk.v[used_] = static_cast<float>(v);
     chunk.depth_lo_m[used_] = lo_m;
     chunk.depth_hi_m[used_] = hi_m;
     if (++used_ < Chunk::kBlocks) return;
-    sum_up_chunk_(metric_, tiles_m_, chunk);
     used_ = 0;
     ++blocks_.chunk_count;
   }
 
-  Metric metric_;
-  const float* tiles_m_;
+  DepthView obstacle_depth_m_;
   DirectionBlocks& blocks_;
   int used_ = 0;
-  decltype(HWY_DYNAMIC_DISPATCH(sum_up_chunk)) sum_up_chunk_ = HWY_DYNAMIC_DISPATCH(sum_up_chunk);
   decltype(HWY_DYNAMIC_DISPATCH(find_edge)) find_edge_ = HWY_DYNAMIC_DISPATCH(find_edge);
 };
 
 }  // namespace
 
-void build_direction_blocks(const Camera& camera, const ObstacleTree& obstacles,
-                            const PixelRect& rect, float max_depth_m, DirectionBlocks& blocks) {
-  constexpr int kTilePx = ObstacleTree::kTilePx;
+void build_direction_blocks(const Camera& camera, DepthView obstacle_depth_m,
+                            const ObstacleTree& obstacles, const PixelRect& rect, float max_depth_m,
+                            DirectionBlocks& blocks) {
   const ObstacleTree::Level& level = obstacles.levels[0];
   const int tiles = static_cast<int>(level.nodes.size()) * ObstacleTree::kChildren;
   // Each tile makes two blocks at most.
   blocks.chunks.resize(2 * tiles / Chunk::kBlocks + 1);
   blocks.chunk_count = 0;
-  Builder builder(metric_of(camera), obstacles, blocks);
+  Builder builder(obstacle_depth_m, blocks);
   for (int tile = 0; tile < tiles; ++tile) {
     const int n = tile / ObstacleTree::kChildren;
     const int c = tile % ObstacleTree::kChildren;
@@ -257,9 +262,22 @@ void build_direction_blocks(const Camera& camera, const ObstacleTree& obstacles,
         u + kTilePx <= rect.u_begin || v + kTilePx <= rect.v_begin) {
       continue;
     }
-    builder.add_tile(tile, u, v, lo_m, level.nodes[n].depth_hi_m[c]);
+    builder.add_tile(u, v, lo_m, level.nodes[n].depth_hi_m[c]);
   }
-  builder.finish();
+  const int last_blocks = builder.finish();
+
+  const Metric metric = metric_of(camera);
+  const auto sum_up = HWY_DYNAMIC_DISPATCH(sum_up_chunk);
+  tbb::parallel_for(tbb::blocked_range<int>(0, blocks.chunk_count, 16),
+                    [&](const tbb::blocked_range<int>& range) {
+                      for (int i = range.begin(); i < range.end(); ++i)
+                        sum_up(metric, obstacle_depth_m, blocks.chunks[i]);
+                    });
+  if (blocks.chunk_count == 0) return;
+  // Nobody shall see the blocks that only fill the last chunk.
+  Chunk& last = blocks.chunks[blocks.chunk_count - 1];
+  std::fill(last.depth_lo_m + last_blocks, last.depth_lo_m + Chunk::kBlocks, kNoDepth);
+  std::fill(last.depth_hi_m + last_blocks, last.depth_hi_m + Chunk::kBlocks, kNoDepth);
 }
 
 }  // namespace berth

@@ -13,7 +13,7 @@ namespace berth {
 /// so that far away it can stand for its pixels.
 struct DirectionBlocks {
   /// Blocks that lie side by side, so that a vector takes them at once. A lane without a block has
-  /// NaN for its depth range, and elsewhere numbers without a meaning.
+  /// NaN for its depth range, and elsewhere finite numbers without a meaning.
   struct Chunk {
     static constexpr int kBlocks = 16;
 
@@ -43,8 +43,7 @@ struct DirectionBlocks {
     alignas(64) float tangent_xy[kBlocks];
     alignas(64) float tangent_yy[kBlocks];
     alignas(64) float tangent_reach[kBlocks];
-    /// The tile's number in the tree, and its pixels that belong to the block (see tile_bits.hpp).
-    std::int32_t tile[kBlocks];
+    /// The tile's pixels that belong to the block (see tile_bits.hpp).
     std::uint64_t pixels[kBlocks];
   };
 
@@ -55,7 +54,8 @@ struct DirectionBlocks {
 
 /// Sums up the tiles of the tree that have a pixel in the rectangle and a reading no deeper than
 /// max_depth_m; reuses the blocks' memory.
-void build_direction_blocks(const Camera& camera, const ObstacleTree& obstacles,
-                            const PixelRect& rect, float max_depth_m, DirectionBlocks& blocks);
+void build_direction_blocks(const Camera& camera, DepthView obstacle_depth_m,
+                            const ObstacleTree& obstacles, const PixelRect& rect, float max_depth_m,
+                            DirectionBlocks& blocks);
 
 }  // namespace berth

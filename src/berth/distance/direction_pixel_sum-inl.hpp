@@ -11,7 +11,6 @@
 
 #include "berth/distance/direction_start-inl.hpp"
 #include "berth/distance/grid.hpp"
-#include "berth/distance/obstacle_tree.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace berth {
@@ -56,17 +55,17 @@ HWY_INLINE std::size_t add_pairs(const Start& start, const AxisTerms& across, co
 /// touch holds a pixel next to the robot pixel, or that one itself.
 template <bool kMayTouch>
 HWY_INLINE void add_pixels(const BasicMetric<Lanes>& metric, const Start& start,
-                           const float* tile_m, std::uint64_t pixels, Lanes u, Lanes v,
+                           const TileDepths& tile, std::uint64_t pixels, Lanes u, Lanes v,
                            LaneSums& sums) {
-  constexpr int kTilePx = ObstacleTree::kTilePx;
   std::size_t count = 0;
   for (int column = 0; column < kTilePx; column += kLanes) {
     const AxisTerms across = axis_terms(start.u, u + load(kTileGrid.column + column), metric.cx_px,
                                         start.depth_m, metric.inv_fx);
-    for (int i = column; i < ObstacleTree::kTilePixels; i += std::max(kLanes, kTilePx)) {
+    for (int i = column; i < kTilePixels; i += std::max(kLanes, kTilePx)) {
       const AxisTerms down = axis_terms(start.v, v + load(kTileGrid.row + i), metric.cy_px,
                                         start.depth_m, metric.inv_fy);
-      count += add_pairs<kMayTouch>(start, across, down, load_where(pixels >> i, tile_m + i), sums);
+      count += add_pairs<kMayTouch>(start, across, down,
+                                    keep_where(pixels >> i, load_tile(tile, i)), sums);
     }
   }
   sums.pixels += count;

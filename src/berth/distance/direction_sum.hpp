@@ -30,8 +30,7 @@ struct DirectionSum {
 /// Fills new sums with all obstacle pixels, without those at distance 0. The directions to the
 /// pixels of a block far away are taken from its mean and covariance, as long as the mean of all
 /// directions is wrong by max_error at most.
-void sum_directions(const Metric& metric, const ObstacleTree& obstacles,
-                    const DirectionBlocks& blocks, float max_error, DirectionSum* sums,
-                    int sum_count);
+void sum_directions(const Metric& metric, DepthView obstacle_depth_m, const DirectionBlocks& blocks,
+                    float max_error, DirectionSum* sums, int sum_count);
 
 }  // namespace berth

@@ -35,14 +35,15 @@ void evaluate(Method method, const Camera& camera, const RobotImage& robot,
               const DistanceSettings& settings, EvaluateWorkspace& workspace, LinkDistances& out) {
   switch (method) {
     case Method::exact:
-      exact(camera, robot, obstacles, link_count, settings, workspace.exact, out);
+      exact(camera, robot, obstacle_depth_m, obstacles, link_count, settings, workspace.exact, out);
       break;
     case Method::brute_force:
       brute_force(camera, robot, obstacle_depth_m, link_count, settings, out);
       break;
   }
   if (settings.mean_direction) {
-    fill_mean_directions(camera, robot, obstacles, settings, workspace.directions, out);
+    fill_mean_directions(camera, robot, obstacle_depth_m, obstacles, settings, workspace.directions,
+                         out);
   }
 }
 

@@ -54,13 +54,13 @@ struct Bounds {
 
 HWY_INLINE void put(const Search& search, Lanes bound_m2, int i, Bounds& out) {
   store(bound_m2, out.squared_m2 + i);
-  out.may_improve |= bits_less(bound_m2, Lanes(search.best.squared_m2)) << i;
+  out.may_improve |= bits_less(bound_m2, Lanes(search.limit_m2)) << i;
 }
 
 /// The bound of a robot box and each child of an obstacle square.
 inline Bounds bound_children(const Search& search, const PixelBox& robot, Square square) {
-  const ObstacleTree::Node& node = node_of(search.obstacles, square);
-  const auto side = static_cast<float>(search.obstacles.levels[square.level].child_px);
+  const ObstacleTree::Node& node = node_of(search.input.obstacles, square);
+  const auto side = static_cast<float>(search.input.obstacles.levels[square.level].child_px);
   const Lanes u_begin(side * static_cast<float>(4 * square.column));
   const Lanes v_begin(side * static_cast<float>(4 * square.row));
   const Lanes sides(side);
@@ -109,27 +109,108 @@ inline Candidates nearest_first(const Bounds& bounds) {
   return out;
 }
 
-inline LeafTile obstacle_tile(const ObstacleTree& tree, Square square, int i) {
-  const PixelBox box = child_box(tree, square, i);
-  const std::size_t tile = index_of(tree, square) * kChildren + i;
-  return {box, box.u_lo, box.v_lo, tree.tile_depth_m.data() + tile * kTilePixels};
-}
-
-inline LeafTile robot_tile(const RobotTiles& robot, const RobotTiles::Node& node, int i) {
-  const RobotTiles::Tile& tile = robot.tiles[node.tile[i]];
+inline LeafTile robot_tile(const Search& search, const RobotTiles::Node& node, int i,
+                           TileCopy& copy) {
+  const RobotTiles::Tile& tile = search.input.robot.tiles[node.tile[i]];
   const PixelBox box{node.u_lo[i], node.u_hi[i],       node.v_lo[i],
                      node.v_hi[i], node.depth_lo_m[i], node.depth_hi_m[i]};
-  return {box, tile.u, tile.v, tile.depth_m};
+  return {box, static_cast<float>(tile.u), static_cast<float>(tile.v),
+          tile_depths(search.input.robot_depth_m, tile.u, tile.v, copy), tile.bits};
 }
 
-/// A robot node against the child `i`, a tile, of a square of the lowest level.
-inline void search_tile(Search& search, const RobotTiles::Node& robot, Square square, int i) {
-  const LeafTile obstacle = obstacle_tile(search.obstacles, square, i);
-  const Bounds bounds = bound_robot_tiles(search, robot, obstacle.box);
+inline LeafTile obstacle_tile(const Search& search, const PixelBox& box, TileCopy& copy) {
+  return {box, box.u_lo, box.v_lo,
+          tile_depths(search.input.obstacle_depth_m, static_cast<int>(box.u_lo),
+                      static_cast<int>(box.v_lo), copy),
+          ~std::uint64_t{0}};
+}
+
+void align_tile(const Search& search, const LeafTile& tile, AlignedTile& out) {
+  out.axes = axes_along(search.input.metric, fit_plane(tile), tile.u, tile.v);
+  const AlignedView view(search.input.metric, out.axes, tile, {0, 0});
+  out.box = view.box_of(~std::uint64_t{0});
+  for (int q = 0; q < 4; ++q) out.quarters[q] = view.box_of(kQuarters[q]);
+}
+
+void align_boxes(const Search& search, const RobotTiles::Node& node, const Axes& axes,
+                 AlignedBoxes& out) {
+  out.axes = axes;
+  TileCopy copy;
+  for (int i = 0; i < RobotTiles::kNodeTiles; ++i) {
+    AlignedBox box{{HUGE_VALF, HUGE_VALF, HUGE_VALF}, {HUGE_VALF, HUGE_VALF, HUGE_VALF}};
+    if (i < node.tile_count) {
+      const LeafTile tile = robot_tile(search, node, i, copy);
+      box = AlignedView(search.input.metric, axes, tile, {0, 0}).box_of(tile.bits);
+    }
+    for (int k = 0; k < 3; ++k) {
+      out.lo_m[k][i] = box.lo_m[k];
+      out.hi_m[k][i] = box.hi_m[k];
+    }
+  }
+}
+
+/// The direction of the closest pair so far.
+inline Normal direction_of(const Metric& metric, const ClosestPair& pair) {
+  const auto vector = berth::pair_vector(metric, pair.ru, pair.rv, pair.robot_depth_m, pair.ou,
+                                         pair.ov, pair.obstacle_depth_m);
+  return {vector.x_m, vector.y_m, vector.z_m};
+}
+
+void align(Search& search, const RobotTiles::Node& node) {
+  AlignedNode& aligned = search.aligned;
+  TileCopy copy;
+  Normal normals;
+  for (int i = 0; i < node.tile_count; ++i) {
+    align_tile(search, robot_tile(search, node, i, copy), aligned.tiles[i]);
+    add_normal(aligned.tiles[i].axes, normals);
+  }
+  align_boxes(search, node, axes_of(direction_of(search.input.metric, search.best)),
+              aligned.along_pair);
+  align_boxes(search, node, axes_of(normals), aligned.along_surface);
+  search.is_aligned = true;
+}
+
+/// Sharpens the bounds of a robot node's tiles and an obstacle tile.
+HWY_INLINE void sharpen(const Search& search, const RobotTiles::Node& robot,
+                        const AlignedBoxes& aligned, const LeafTile& obstacle, Bounds& bounds) {
+  if (bounds.may_improve == 0) return;
+  const AlignedView view(search.input.metric, aligned.axes, obstacle,
+                         {robot.box.depth_lo_m, robot.box.depth_hi_m});
+  const AlignedBox box = view.box_of(~std::uint64_t{0});
+  bounds.may_improve = 0;
+  for (int i = 0; i < kChildren; i += kLanes) {
+    const Lanes bound_m2 =
+        aligned_bound_m2(box, {aligned.lo_m[0] + i, aligned.lo_m[1] + i, aligned.lo_m[2] + i},
+                         {aligned.hi_m[0] + i, aligned.hi_m[1] + i, aligned.hi_m[2] + i});
+    put(search, greatest(load(bounds.squared_m2 + i), bound_m2), i, bounds);
+  }
+}
+
+/// A robot node against one obstacle tile.
+inline void search_tile(Search& search, const RobotTiles::Node& robot, const PixelBox& box) {
+  Bounds bounds = bound_robot_tiles(search, robot, box);
+  if (bounds.may_improve == 0) return;
+  TileCopy obstacle_copy;
+  const LeafTile obstacle = obstacle_tile(search, box, obstacle_copy);
+  if (!search.is_aligned && search.best.ru >= 0 && work_of(search) >= search.align_at)
+    align(search, robot);
+  if (search.is_aligned) {
+    sharpen(search, robot, search.aligned.along_pair, obstacle, bounds);
+    sharpen(search, robot, search.aligned.along_surface, obstacle, bounds);
+  }
+  TileCopy robot_copy;
   const Candidates near = nearest_first(bounds);
   for (int k = 0; k < near.count; ++k) {
-    if (!(bounds.squared_m2[near.index[k]] < search.best.squared_m2)) return;
-    search_leaf(search, robot_tile(search.robot, robot, near.index[k]), obstacle);
+    const int i = near.index[k];
+    if (!(bounds.squared_m2[i] < search.limit_m2)) return;
+    if (is_out_of_time(search)) return;
+    ++search.leaves;
+    const LeafTile tile = robot_tile(search, robot, i, robot_copy);
+    if (search.is_aligned) {
+      search_leaf_aligned(search, i, tile, obstacle);
+    } else {
+      search_leaf(search, tile, obstacle);
+    }
   }
 }
 
@@ -139,9 +220,10 @@ void search_square(Search& search, const RobotTiles::Node& robot, Square square)
   const Candidates near = nearest_first(bounds);
   for (int k = 0; k < near.count; ++k) {
     const int i = near.index[k];
-    if (!(bounds.squared_m2[i] < search.best.squared_m2)) return;
+    if (!(bounds.squared_m2[i] < search.limit_m2)) return;
+    if (search.stopped) return;
     if (square.level == 0) {
-      search_tile(search, robot, square, i);
+      search_tile(search, robot, child_box(search.input.obstacles, square, i));
     } else {
       search_square(search, robot, child_of(square, i));
     }
@@ -162,7 +244,7 @@ inline int nearest_of(const Bounds& bounds) {
 /// where nothing below the root can improve on the best pair; a descent that ends early proves
 /// nothing.
 float promise_of(const Search& search, const RobotTiles::Node& robot) {
-  Square square = root_of(search.obstacles);
+  Square square = root_of(search.input.obstacles);
   float promise_m2 = HUGE_VALF;
   while (true) {
     const Bounds bounds = bound_children(search, robot.box, square);
@@ -174,19 +256,57 @@ float promise_of(const Search& search, const RobotTiles::Node& robot) {
   }
 }
 
-std::int64_t search_nodes(const SearchInput& input, int last_node, ClosestPair& best) {
-  Search search{
-      broadcast(input.metric), input.robot, input.obstacles, best, max_gap_of(best.squared_m2), 0};
+/// The nodes that may improve on the best pair, most promising first. Returns how many.
+int order_nodes(const Search& search, int last_node) {
+  ExactWorkspace::NodeOrder* order = search.input.order;
   int count = 0;
-  for (int n = last_node; n >= 0; n = input.robot.nodes[n].next) {
-    const float promise_m2 = promise_of(search, input.robot.nodes[n]);
-    if (promise_m2 < HUGE_VALF) input.order[count++] = {promise_m2, n};
+  for (int n = last_node; n >= 0; n = search.input.robot.nodes[n].next) {
+    const float promise_m2 = promise_of(search, search.input.robot.nodes[n]);
+    if (promise_m2 < HUGE_VALF) order[count++] = {promise_m2, n};
   }
-  sort_by_bound(input.order, count);
-  for (int k = 0; k < count; ++k) {
+  sort_by_bound(order, count);
+  return count;
+}
+
+/// The least bound of a robot node and any tile below a square, where it is less than `least_m2`.
+float least_tile_bound_m2(const Search& search, const RobotTiles::Node& robot, Square square,
+                          float least_m2) {
+  const Bounds bounds = bound_children(search, robot.box, square);
+  const Candidates near = nearest_first(bounds);
+  for (int k = 0; k < near.count; ++k) {
+    const float bound_m2 = bounds.squared_m2[near.index[k]];
+    if (!(bound_m2 < least_m2)) break;
+    least_m2 = square.level == 0
+                   ? bound_m2
+                   : least_tile_bound_m2(search, robot, child_of(square, near.index[k]), least_m2);
+  }
+  return least_m2;
+}
+
+/// A node whose search takes more than this is aligned, which takes about as long.
+constexpr std::int64_t kWorkBeforeAligned = 12000;
+
+SearchResult search_nodes(const SearchInput& input, int last_node, const SearchLimits& limits,
+                          ClosestPair& best) {
+  AlignedNode aligned;
+  Search search{input, limits, best, broadcast(input.metric), aligned};
+  update_limit(search);
+  const int count = order_nodes(search, last_node);
+  int k = 0;
+  for (; k < count && !search.stopped; ++k) {
+    search.is_aligned = false;
+    search.align_at = work_of(search) + (limits.tolerance_m > 0 ? 0 : kWorkBeforeAligned);
     search_square(search, input.robot.nodes[input.order[k].node], root_of(input.obstacles));
   }
-  return search.pairs;
+  float bound_m2 = search.limit_m2;
+  if (search.stopped) {
+    // The last node was left half searched.
+    for (--k; k < count; ++k) {
+      bound_m2 = least_tile_bound_m2(search, input.robot.nodes[input.order[k].node],
+                                     root_of(input.obstacles), bound_m2);
+    }
+  }
+  return {root_below(bound_m2), !search.stopped, search.pairs};
 }
 
 }  // namespace HWY_NAMESPACE
@@ -198,8 +318,9 @@ namespace berth {
 
 HWY_EXPORT(search_nodes);
 
-std::int64_t search_link(const SearchInput& input, int last_node, ClosestPair& best) {
-  return HWY_DYNAMIC_DISPATCH(search_nodes)(input, last_node, best);
+SearchResult search_link(const SearchInput& input, int last_node, const SearchLimits& limits,
+                         ClosestPair& best) {
+  return HWY_DYNAMIC_DISPATCH(search_nodes)(input, last_node, limits, best);
 }
 
 }  // namespace berth

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 
+#include "berth/distance/depth_tile.hpp"
 #include "berth/distance/lower_bound.hpp"
 #include "berth/types/image.hpp"
 #include "hwy/highway.h"
@@ -53,10 +54,43 @@ HWY_INLINE Lanes load_first(const float* x, int count) {
   return load(padded);
 }
 
-/// The numbers whose bit is set, NaN in the other lanes.
-HWY_INLINE Lanes load_where(std::uint64_t bits, const float* x) {
+/// The lanes whose bit is set; NaN in the others.
+HWY_INLINE Lanes keep_where(std::uint64_t bits, Lanes x) {
   const auto mask = hn::LoadMaskBits(FloatTag(), reinterpret_cast<const std::uint8_t*>(&bits));
-  return hn::IfThenElse(mask, load(x).v, Lanes(kNoDepth).v);
+  return hn::IfThenElse(mask, x.v, Lanes(kNoDepth).v);
+}
+
+/// Numbers 0, 2, 4, ... of the 2 kLanes from x on.
+HWY_INLINE Lanes load_even(const float* x) {
+#if HWY_TARGET == HWY_SCALAR
+  return load(x);
+#else
+  return hn::ConcatEven(FloatTag(), load(x + kLanes).v, load(x).v);
+#endif
+}
+
+/// Numbers 1, 3, 5, ... of the 2 kLanes from x on.
+HWY_INLINE Lanes load_odd(const float* x) {
+#if HWY_TARGET == HWY_SCALAR
+  return load(x + 1);
+#else
+  return hn::ConcatOdd(FloatTag(), load(x + kLanes).v, load(x).v);
+#endif
+}
+
+/// The numbers i, i + 1, ... of a tile by rows.
+HWY_INLINE Lanes load_tile(const TileDepths& tile, int i) {
+  const float* x = tile.depth_m + i / kTilePx * tile.stride + i % kTilePx;
+#if HWY_TARGET == HWY_SCALAR
+  return load(x);
+#else
+  if constexpr (kLanes <= kTilePx) {
+    return load(x);
+  } else {
+    const hn::Half<FloatTag> half;
+    return hn::Combine(FloatTag(), hn::LoadU(half, x + tile.stride), hn::LoadU(half, x));
+  }
+#endif
 }
 
 /// first, first + 1, first + 2, ...
@@ -71,14 +105,22 @@ HWY_INLINE BasicPixelBox<Lanes> broadcast(const PixelBox& box) {
           Lanes(box.v_hi), Lanes(box.depth_lo_m), Lanes(box.depth_hi_m)};
 }
 
-/// Lane by lane b where it is less than a, and a where it is not or is NaN.
+/// Lane by lane b where it is less than a, and a where it is not or either is NaN.
 HWY_INLINE Lanes lesser_or_first(Lanes a, Lanes b) {
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_EMU128 && HWY_TARGET != HWY_SCALAR
+  return hn::Min(b.v, a.v);  // Of a pair with NaN, x86 takes the second.
+#else
   return hn::IfThenElse(hn::Lt(b.v, a.v), b.v, a.v);
+#endif
 }
 
-/// Lane by lane b where it is greater than a, and a where it is not or is NaN.
+/// Lane by lane b where it is greater than a, and a where it is not or either is NaN.
 HWY_INLINE Lanes greater_or_first(Lanes a, Lanes b) {
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_EMU128 && HWY_TARGET != HWY_SCALAR
+  return hn::Max(b.v, a.v);
+#else
   return hn::IfThenElse(hn::Gt(b.v, a.v), b.v, a.v);
+#endif
 }
 
 HWY_INLINE float least_lane(Lanes x) { return hn::GetLane(hn::MinOfLanes(FloatTag(), x.v)); }

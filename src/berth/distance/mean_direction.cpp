@@ -23,7 +23,7 @@ void fill(const DirectionSum& sum, LinkDistance& link) {
 
 }  // namespace
 
-void fill_mean_directions(const Camera& camera, const RobotImage& robot,
+void fill_mean_directions(const Camera& camera, const RobotImage& robot, DepthView obstacle_depth_m,
                           const ObstacleTree& obstacles, const DistanceSettings& settings,
                           DirectionWorkspace& workspace, LinkDistances& distances) {
   validate(settings);
@@ -42,8 +42,8 @@ void fill_mean_directions(const Camera& camera, const RobotImage& robot,
     rect = united(rect, sum.rect);
     max_depth_m = std::max(max_depth_m, sum.max_depth_m);
   }
-  build_direction_blocks(camera, obstacles, rect, max_depth_m, workspace.blocks);
-  sum_directions(metric_of(camera), obstacles, workspace.blocks, kMeanDirectionError,
+  build_direction_blocks(camera, obstacle_depth_m, obstacles, rect, max_depth_m, workspace.blocks);
+  sum_directions(metric_of(camera), obstacle_depth_m, workspace.blocks, kMeanDirectionError,
                  workspace.sums.data(), static_cast<int>(workspace.sums.size()));
   auto sum = workspace.sums.begin();
   for (LinkDistance& link : distances.links) {

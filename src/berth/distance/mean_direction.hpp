@@ -29,7 +29,7 @@ struct DirectionWorkspace {
 /// not count. The count is exact, the direction within kMeanDirectionError. NaN and 0 for a link
 /// that is not ok, or that nothing counts for. Allocates nothing once the workspace has grown to
 /// the scene. The images have the camera's size.
-void fill_mean_directions(const Camera& camera, const RobotImage& robot,
+void fill_mean_directions(const Camera& camera, const RobotImage& robot, DepthView obstacle_depth_m,
                           const ObstacleTree& obstacles, const DistanceSettings& settings,
                           DirectionWorkspace& workspace, LinkDistances& distances);
 

@@ -3,47 +3,68 @@
 #include <algorithm>
 #include <cmath>
 
+#include "berth/distance/depth_tile.hpp"
+
 // Compiles the rest of this file once for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "berth/distance/obstacle_tree.cpp"
 #include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+
+#include "berth/distance/lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace berth {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr int kTilePx = ObstacleTree::kTilePx;
-constexpr int kTilePixels = ObstacleTree::kTilePixels;
 constexpr int kChildren = ObstacleTree::kChildren;
+constexpr int kNodePx = 4 * kTilePx;
 
-/// Copies tile c of a node and takes its depth range. A NaN fails both comparisons.
-HWY_INLINE void fill_tile(const float* depth_m, std::ptrdiff_t stride, int c, float* tile_m,
-                          ObstacleTree::Node& node) {
-  const hn::CappedTag<float, kTilePx> d;
-  constexpr int kStep = static_cast<int>(hn::MaxLanes(d));
-  auto lo_m = hn::Set(d, HUGE_VALF);
-  auto hi_m = hn::Set(d, -HUGE_VALF);
-  for (int v = 0; v < kTilePx; ++v) {
-    for (int u = 0; u < kTilePx; u += kStep) {
-      const auto x = hn::LoadU(d, depth_m + v * stride + u);
-      hn::StoreU(x, d, tile_m + v * kTilePx + u);
-      lo_m = hn::IfThenElse(hn::Lt(x, lo_m), x, lo_m);
-      hi_m = hn::IfThenElse(hn::Gt(x, hi_m), x, hi_m);
+/// The depth range of each column of 8 pixels, in a node's 4 rows of tiles.
+struct ColumnRanges {
+  alignas(64) float lo_m[4 * kNodePx];
+  alignas(64) float hi_m[4 * kNodePx];
+};
+
+HWY_INLINE void take_columns(const float* depth_m, std::ptrdiff_t stride, ColumnRanges& out) {
+  for (int i = 0; i < 4 * kNodePx; i += kLanes) {
+    const float* column_m = depth_m + (i / kNodePx) * kTilePx * stride + i % kNodePx;
+    Lanes lo_m(HUGE_VALF);
+    Lanes hi_m(-HUGE_VALF);
+    for (int v = 0; v < kTilePx; ++v) {
+      const Lanes x = load(column_m + v * stride);
+      lo_m = lesser_or_first(lo_m, x);
+      hi_m = greater_or_first(hi_m, x);
     }
+    store(lo_m, out.lo_m + i);
+    store(hi_m, out.hi_m + i);
   }
-  node.depth_lo_m[c] = hn::GetLane(hn::MinOfLanes(d, lo_m));
-  node.depth_hi_m[c] = hn::GetLane(hn::MaxOfLanes(d, hi_m));
+}
+
+/// Replaces 2 n numbers by the lesser, or greater, of each two neighbours.
+template <bool lesser>
+HWY_INLINE void halve(int n, const float* x, float* out) {
+  for (int i = 0; i < n; i += kLanes) {
+    const Lanes even = load_even(x + 2 * i);
+    const Lanes odd = load_odd(x + 2 * i);
+    store(lesser ? least(even, odd) : greatest(even, odd), out + i);
+  }
+}
+
+template <bool lesser>
+HWY_INLINE void reduce_tiles(const float* columns_m, float* tiles_m) {
+  alignas(64) float half_m[2 * kNodePx];
+  alignas(64) float quarter_m[kNodePx];
+  halve<lesser>(2 * kNodePx, columns_m, half_m);
+  halve<lesser>(kNodePx, half_m, quarter_m);
+  halve<lesser>(kChildren, quarter_m, tiles_m);
 }
 
 /// One node of 32 x 32 pixels, all of which can be read.
-void fill_tiles(const float* depth_m, std::ptrdiff_t stride, float* tiles_m,
-                ObstacleTree::Node& node) {
-  for (int c = 0; c < kChildren; ++c) {
-    fill_tile(depth_m + (c / 4) * kTilePx * stride + (c % 4) * kTilePx, stride, c,
-              tiles_m + c * kTilePixels, node);
-  }
+void fill_tiles(const float* depth_m, std::ptrdiff_t stride, ObstacleTree::Node& node) {
+  ColumnRanges columns;
+  take_columns(depth_m, stride, columns);
+  reduce_tiles<true>(columns.lo_m, node.depth_lo_m);
+  reduce_tiles<false>(columns.hi_m, node.depth_hi_m);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -57,7 +78,7 @@ HWY_EXPORT(fill_tiles);
 
 namespace {
 
-constexpr int kNodePx = 4 * ObstacleTree::kTilePx;
+constexpr int kNodePx = 4 * kTilePx;
 
 int divide_up(int a, int b) { return (a + b - 1) / b; }
 
@@ -65,7 +86,7 @@ void size_levels(DepthView depth_m, ObstacleTree& tree) {
   tree.width = depth_m.width;
   tree.height = depth_m.height;
   tree.level_count = 0;
-  int child_px = ObstacleTree::kTilePx;
+  int child_px = kTilePx;
   ObstacleTree::Level* level = nullptr;
   do {
     if (static_cast<int>(tree.levels.size()) == tree.level_count) tree.levels.emplace_back();
@@ -76,13 +97,10 @@ void size_levels(DepthView depth_m, ObstacleTree& tree) {
     level->nodes.resize(static_cast<std::size_t>(level->columns) * level->rows);
     child_px *= 4;
   } while (level->nodes.size() > 1);
-  tree.tile_depth_m.resize(tree.levels[0].nodes.size() * ObstacleTree::kChildren *
-                           ObstacleTree::kTilePixels);
 }
 
 /// Fills a node that the image's border cuts, from a copy with NaN beyond the border.
-void fill_border_node(DepthView depth_m, int u_begin, int v_begin, float* tiles_m,
-                      ObstacleTree::Node& node) {
+void fill_border_node(DepthView depth_m, int u_begin, int v_begin, ObstacleTree::Node& node) {
   float padded_m[kNodePx * kNodePx];
   std::fill_n(padded_m, kNodePx * kNodePx, kNoDepth);
   const int width = std::min(kNodePx, depth_m.width - u_begin);
@@ -90,22 +108,20 @@ void fill_border_node(DepthView depth_m, int u_begin, int v_begin, float* tiles_
   for (int v = 0; v < height; ++v) {
     std::copy_n(depth_m.row(v_begin + v) + u_begin, width, padded_m + v * kNodePx);
   }
-  HWY_DYNAMIC_DISPATCH(fill_tiles)(padded_m, kNodePx, tiles_m, node);
+  HWY_DYNAMIC_DISPATCH(fill_tiles)(padded_m, kNodePx, node);
 }
 
 void fill_lowest_level(DepthView depth_m, ObstacleTree& tree) {
   ObstacleTree::Level& level = tree.levels[0];
   const auto fill_inner_node = HWY_DYNAMIC_DISPATCH(fill_tiles);
-  float* tiles_m = tree.tile_depth_m.data();
   ObstacleTree::Node* node = level.nodes.data();
   for (int v = 0; v < level.rows * kNodePx; v += kNodePx) {
     for (int u = 0; u < level.columns * kNodePx; u += kNodePx) {
       if (u + kNodePx <= depth_m.width && v + kNodePx <= depth_m.height) {
-        fill_inner_node(depth_m.row(v) + u, depth_m.stride, tiles_m, *node);
+        fill_inner_node(depth_m.row(v) + u, depth_m.stride, *node);
       } else {
-        fill_border_node(depth_m, u, v, tiles_m, *node);
+        fill_border_node(depth_m, u, v, *node);
       }
-      tiles_m += ObstacleTree::kChildren * ObstacleTree::kTilePixels;
       ++node;
     }
   }

@@ -7,12 +7,10 @@
 
 namespace berth {
 
-/// The obstacle depth image as a 16-ary tree of squares: tiles of 8 x 8 pixels, above them nodes of
-/// 32, 128, 512 ... pixels, each with 4 x 4 children, up to one root that covers the image. It
-/// holds a copy of the pixels, so the image need not outlive it.
+/// The depth ranges of an obstacle image as a 16-ary tree of squares: tiles of 8 x 8 pixels, above
+/// them nodes of 32, 128, 512 ... pixels, each with 4 x 4 children, up to one root that covers the
+/// image. The pixels themselves stay in the image.
 struct ObstacleTree {
-  static constexpr int kTilePx = 8;
-  static constexpr int kTilePixels = kTilePx * kTilePx;
   static constexpr int kChildren = 16;
 
   /// The depth ranges of a node's children, which lie by rows; [+inf, -inf] for one without a
@@ -36,9 +34,6 @@ struct ObstacleTree {
   /// spare.
   std::vector<Level> levels;
   int level_count = 0;
-  /// 64 depths by rows for each tile, NaN where there is none; child c of nodes[n] in levels[0] is
-  /// tile 16 n + c.
-  std::vector<float> tile_depth_m;
 };
 
 /// Builds the tree of an image (NaN = no reading) of any size, 0 x 0 included; reuses the tree's

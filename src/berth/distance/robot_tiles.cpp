@@ -1,11 +1,11 @@
 #include "berth/distance/robot_tiles.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
 
+#include "berth/distance/link_tile.hpp"
 #include "berth/distance/tile_bits.hpp"
 
 // Compiles the rest of this file once for each instruction set.
@@ -19,8 +19,6 @@ HWY_BEFORE_NAMESPACE();
 namespace berth {
 namespace HWY_NAMESPACE {
 
-constexpr int kTilePx = RobotTiles::kTilePx;
-constexpr int kTilePixels = RobotTiles::kTilePixels;
 constexpr int kSquarePx = 4 * kTilePx;
 
 using IdTag = hn::CappedTag<LinkId, 32>;
@@ -34,7 +32,7 @@ HWY_INLINE std::uint64_t bits_of(Mask mask) {
 }
 
 /// Bit c is set where tile c of a square of 32 x 32 ids has any that is not kNoLink.
-std::uint32_t tiles_with_ids(const LinkId* ids, std::ptrdiff_t stride) {
+HWY_INLINE std::uint32_t tiles_with_ids(const LinkId* ids, std::ptrdiff_t stride) {
   std::uint32_t tiles = 0;
   for (int row = 0; row < 4; ++row) {
     std::uint64_t columns = 0;
@@ -52,28 +50,89 @@ std::uint32_t tiles_with_ids(const LinkId* ids, std::ptrdiff_t stride) {
   return tiles;
 }
 
-/// The pixels of a tile that show this id.
-std::uint64_t pixels_of(const LinkId* ids, LinkId id) {
-  std::uint64_t bits = 0;
-  for (int i = 0; i < kTilePixels; i += kIdLanes) {
-    bits |= bits_of(hn::Eq(hn::LoadU(IdTag(), ids + i), hn::Set(IdTag(), id))) << i;
-  }
-  return bits;
-}
+/// The ids of a tile.
+struct TileIds {
+  static constexpr int kVectors = kTilePixels / kIdLanes;
+  hn::Vec<IdTag> ids[kVectors];
 
-/// Copies the depths of the pixels in `bits`, NaN elsewhere, and gives their range.
-void copy_depths(std::uint64_t bits, const float* depth_m, float* link_depth_m, float* lo_m,
-                 float* hi_m) {
+  HWY_INLINE TileIds(const LinkId* corner, std::ptrdiff_t stride) {
+    for (int i = 0; i < kVectors; ++i) ids[i] = load_rows(corner, i, stride);
+  }
+
+  /// The pixels that show this id.
+  HWY_INLINE std::uint64_t pixels_of(LinkId id) const {
+    std::uint64_t bits = 0;
+    for (int i = 0; i < kVectors; ++i) {
+      bits |= bits_of(hn::Eq(ids[i], hn::Set(IdTag(), id))) << (i * kIdLanes);
+    }
+    return bits;
+  }
+
+ private:
+  /// Vector i of the tile by rows; a vector holds part of a row or several rows.
+  static HWY_INLINE hn::Vec<IdTag> load_rows(const LinkId* corner, int i, std::ptrdiff_t stride) {
+    const int first = i * kIdLanes;
+    const LinkId* x = corner + first / kTilePx * stride + first % kTilePx;
+#if HWY_TARGET == HWY_SCALAR
+    return hn::LoadU(IdTag(), x);
+#else
+    if constexpr (kIdLanes <= kTilePx) {
+      return hn::LoadU(IdTag(), x);
+    } else {
+      const hn::Half<IdTag> two;
+      if constexpr (kIdLanes == 2 * kTilePx) {
+        return hn::Combine(IdTag(), hn::LoadU(two, x + stride), hn::LoadU(two, x));
+      } else {
+        const hn::Half<decltype(two)> one;
+        return hn::Combine(
+            IdTag(),
+            hn::Combine(two, hn::LoadU(one, x + 3 * stride), hn::LoadU(one, x + 2 * stride)),
+            hn::Combine(two, hn::LoadU(one, x + stride), hn::LoadU(one, x)));
+      }
+    }
+#endif
+  }
+};
+
+HWY_INLINE void find_depth_range(LinkTile& tile, const TileDepths& depths) {
   Lanes lo(HUGE_VALF);
   Lanes hi(-HUGE_VALF);
   for (int i = 0; i < kTilePixels; i += kLanes) {
-    const Lanes x = load_where(bits >> i, depth_m + i);
-    store(x, link_depth_m + i);
+    const Lanes x = keep_where(tile.bits >> i, load_tile(depths, i));
     lo = lesser_or_first(lo, x);
     hi = greater_or_first(hi, x);
   }
-  *lo_m = least_lane(lo);
-  *hi_m = greatest_lane(hi);
+  tile.depth_lo_m = least_lane(lo);
+  tile.depth_hi_m = greatest_lane(hi);
+}
+
+/// Splits one tile by links. Returns how many there are.
+HWY_INLINE int split_tile(const LinkId* corner, const TileDepths& depths, int tile, LinkTile* out) {
+  const TileIds ids(corner, depths.stride);
+  int count = 0;
+  std::uint64_t rest = ~(ids.pixels_of(kNoLink) | ids.pixels_of(kEnvironmentLink));
+  while (rest != 0) {
+    const int first = lowest_bit(rest);
+    LinkTile& found = out[count++];
+    found.id = corner[first / kTilePx * depths.stride + first % kTilePx];
+    found.tile = tile;
+    found.bits = ids.pixels_of(found.id);
+    found.pixels = __builtin_popcountll(found.bits);
+    find_depth_range(found, depths);
+    rest &= ~found.bits;
+  }
+  return count;
+}
+
+/// Splits 32 x 32 pixels, all of which can be read, by tiles and links. Returns how many there are.
+int split_square(const LinkId* ids, const float* depth_m, std::ptrdiff_t stride, LinkTile* out) {
+  int count = 0;
+  for (std::uint64_t tiles = tiles_with_ids(ids, stride); tiles != 0; tiles &= tiles - 1) {
+    const int tile = lowest_bit(tiles);
+    const std::ptrdiff_t corner = tile / 4 * kTilePx * stride + tile % 4 * kTilePx;
+    count += split_tile(ids + corner, {depth_m + corner, stride}, tile, out + count);
+  }
+  return count;
 }
 
 }  // namespace HWY_NAMESPACE
@@ -83,69 +142,38 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace berth {
 
-HWY_EXPORT(tiles_with_ids);
-HWY_EXPORT(pixels_of);
-HWY_EXPORT(copy_depths);
+HWY_EXPORT(split_square);
 
 namespace {
 
-constexpr int kTilePx = RobotTiles::kTilePx;
-constexpr int kTilePixels = RobotTiles::kTilePixels;
 constexpr int kSquarePx = 4 * kTilePx;
 
-/// 32 x 32 pixels of the robot image, with the first one at (u, v).
-struct Square {
-  int u;
-  int v;
-  ImageView<LinkId> ids;
-  DepthView depth_m;
-};
-
-/// 8 x 8 pixels by rows.
-struct SquareTile {
-  float u;
-  float v;
-  alignas(64) LinkId ids[kTilePixels];
-  alignas(64) float depth_m[kTilePixels];
-};
-
-/// What pads a square that the image's border cuts.
-struct Padding {
+/// A copy of a square that the image's border cuts, with no robot beyond it.
+struct SquareCopy {
   LinkId ids[kSquarePx * kSquarePx];
   float depth_m[kSquarePx * kSquarePx];
 };
 
-Square square_at(const RobotImage& robot, int u, int v, Padding& padding) {
+void copy_square(const RobotImage& robot, int u, int v, SquareCopy& copy) {
   const int width = std::min(kSquarePx, robot.link_id.width() - u);
   const int height = std::min(kSquarePx, robot.link_id.height() - v);
-  if (width == kSquarePx && height == kSquarePx) {
-    const int stride = robot.link_id.width();
-    return {u,
-            v,
-            {robot.link_id.row(v) + u, width, height, stride},
-            {robot.depth_m.row(v) + u, width, height, stride}};
-  }
-  std::fill_n(padding.ids, kSquarePx * kSquarePx, kNoLink);
-  std::fill_n(padding.depth_m, kSquarePx * kSquarePx, kNoDepth);
+  std::fill_n(copy.ids, kSquarePx * kSquarePx, kNoLink);
+  std::fill_n(copy.depth_m, kSquarePx * kSquarePx, kNoDepth);
   for (int row = 0; row < height; ++row) {
-    std::copy_n(robot.link_id.row(v + row) + u, width, padding.ids + row * kSquarePx);
-    std::copy_n(robot.depth_m.row(v + row) + u, width, padding.depth_m + row * kSquarePx);
+    std::copy_n(robot.link_id.row(v + row) + u, width, copy.ids + row * kSquarePx);
+    std::copy_n(robot.depth_m.row(v + row) + u, width, copy.depth_m + row * kSquarePx);
   }
-  return {u,
-          v,
-          {padding.ids, kSquarePx, kSquarePx, kSquarePx},
-          {padding.depth_m, kSquarePx, kSquarePx, kSquarePx}};
 }
 
-void read_tile(const Square& square, int c, SquareTile& tile) {
-  const int u = c % 4 * kTilePx;
-  const int v = c / 4 * kTilePx;
-  tile.u = static_cast<float>(square.u + u);
-  tile.v = static_cast<float>(square.v + v);
-  for (int row = 0; row < kTilePx; ++row) {
-    std::copy_n(square.ids.row(v + row) + u, kTilePx, tile.ids + row * kTilePx);
-    std::copy_n(square.depth_m.row(v + row) + u, kTilePx, tile.depth_m + row * kTilePx);
+int split_square_at(const RobotImage& robot, int u, int v, LinkTile* out) {
+  const auto split = HWY_DYNAMIC_DISPATCH(split_square);
+  const int width = robot.link_id.width();
+  if (u + kSquarePx <= width && v + kSquarePx <= robot.link_id.height()) {
+    return split(robot.link_id.row(v) + u, robot.depth_m.row(v) + u, width, out);
   }
+  SquareCopy copy;
+  copy_square(robot, u, v, copy);
+  return split(copy.ids, copy.depth_m, kSquarePx, out);
 }
 
 void start_node(RobotTiles::Node& node, int next) {
@@ -176,44 +204,23 @@ void append(const PixelBox& box, int tile, RobotTiles::Node& node) {
               std::max(node.box.depth_hi_m, box.depth_hi_m)};
 }
 
-/// Adds the pixels `bits` of one link. `square_begin` is the first node of the present square.
-void add_link_tile(const SquareTile& tile, std::uint64_t bits, LinkId id, int square_begin,
-                   RobotTiles& out) {
-  RobotTiles::Link& link = out.links[id - 1];
-  link.pixels += std::popcount(bits);
+/// Adds a tile of the square at (u, v), whose first node is square_begin.
+void add_tile(const LinkTile& found, int u, int v, int square_begin, RobotTiles& out) {
+  assert(found.id <= out.links.size());
+  RobotTiles::Link& link = out.links[found.id - 1];
+  link.pixels += found.pixels;
   if (link.last_node < square_begin) {
     start_node(out.nodes.emplace_back(), link.last_node);
     link.last_node = static_cast<int>(out.nodes.size()) - 1;
+    ++link.node_count;
   }
-  RobotTiles::Tile& link_tile = out.tiles.emplace_back();
-  link_tile.u = tile.u;
-  link_tile.v = tile.v;
-  PixelBox box = box_of_bits(bits, tile.u, tile.v);
-  HWY_DYNAMIC_DISPATCH(copy_depths)
-  (bits, tile.depth_m, link_tile.depth_m, &box.depth_lo_m, &box.depth_hi_m);
+  const RobotTiles::Tile tile{found.bits, u + found.tile % 4 * kTilePx,
+                              v + found.tile / 4 * kTilePx};
+  out.tiles.push_back(tile);
+  PixelBox box = box_of_bits(tile.bits, static_cast<float>(tile.u), static_cast<float>(tile.v));
+  box.depth_lo_m = found.depth_lo_m;
+  box.depth_hi_m = found.depth_hi_m;
   append(box, static_cast<int>(out.tiles.size()) - 1, out.nodes[link.last_node]);
-}
-
-void add_tile(const SquareTile& tile, int square_begin, RobotTiles& out) {
-  const auto find = HWY_DYNAMIC_DISPATCH(pixels_of);
-  std::uint64_t rest = ~(find(tile.ids, kNoLink) | find(tile.ids, kEnvironmentLink));
-  while (rest != 0) {
-    const LinkId id = tile.ids[lowest_bit(rest)];
-    assert(id <= out.links.size());
-    const std::uint64_t bits = find(tile.ids, id);
-    add_link_tile(tile, bits, id, square_begin, out);
-    rest &= ~bits;
-  }
-}
-
-void add_square(const Square& square, RobotTiles& out) {
-  const int square_begin = static_cast<int>(out.nodes.size());
-  std::uint64_t tiles = HWY_DYNAMIC_DISPATCH(tiles_with_ids)(square.ids.data, square.ids.stride);
-  SquareTile tile;
-  for (; tiles != 0; tiles &= tiles - 1) {
-    read_tile(square, lowest_bit(tiles), tile);
-    add_tile(tile, square_begin, out);
-  }
 }
 
 }  // namespace
@@ -222,10 +229,13 @@ void build_robot_tiles(const RobotImage& robot, int link_count, RobotTiles& out)
   out.tiles.clear();
   out.nodes.clear();
   out.links.assign(link_count, {});
-  Padding padding;
-  for (int v = 0; v < robot.link_id.height(); v += kSquarePx) {
-    for (int u = 0; u < robot.link_id.width(); u += kSquarePx) {
-      add_square(square_at(robot, u, v, padding), out);
+  LinkTile found[kSquarePx * kSquarePx];
+  const PixelRect extent = clip(robot.extent, robot.link_id.width(), robot.link_id.height());
+  for (int v = extent.v_begin / kSquarePx * kSquarePx; v < extent.v_end; v += kSquarePx) {
+    for (int u = extent.u_begin / kSquarePx * kSquarePx; u < extent.u_end; u += kSquarePx) {
+      const int count = split_square_at(robot, u, v, found);
+      const int square_begin = static_cast<int>(out.nodes.size());
+      for (int i = 0; i < count; ++i) add_tile(found[i], u, v, square_begin, out);
     }
   }
 }

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
+#include "berth/distance/depth_tile.hpp"
 #include "berth/distance/lower_bound.hpp"
 #include "berth/types/robot_image.hpp"
 
@@ -10,8 +12,6 @@ namespace berth {
 /// The robot image link by link: tiles of 8 x 8 pixels with the pixels of one link, and nodes that
 /// group the up to 16 tiles of a link in a square of 32 x 32 pixels.
 struct RobotTiles {
-  static constexpr int kTilePx = 8;
-  static constexpr int kTilePixels = kTilePx * kTilePx;
   static constexpr int kNodeTiles = 16;
 
   struct Node {
@@ -31,15 +31,16 @@ struct RobotTiles {
     int next;
   };
 
-  /// Corner (u, v) of a tile and its depths by rows: NaN except at the link's pixels.
+  /// Corner (u, v) of a tile in the image, and the link's pixels in it: bit 8 v + u.
   struct Tile {
-    alignas(64) float depth_m[kTilePixels];
-    float u;
-    float v;
+    std::uint64_t bits;
+    int u;
+    int v;
   };
 
   struct Link {
     int pixels = 0;
+    int node_count = 0;
     int last_node = -1;
   };
 
@@ -50,7 +51,7 @@ struct RobotTiles {
 };
 
 /// Sorts the robot image into tiles; reuses the memory of `out`. Pixels of kEnvironmentLink are
-/// left out; any other id above link_count is a programming error.
+/// left out; any other id above link_count is a programming error. The depths stay in the image.
 void build_robot_tiles(const RobotImage& robot, int link_count, RobotTiles& out);
 
 }  // namespace berth

@@ -9,6 +9,10 @@
 
 namespace berth {
 
+/// The four squares of 4 x 4 pixels.
+inline constexpr std::uint64_t kQuarters[4] = {0x0F0F0F0F, 0xF0F0F0F0, 0x0F0F0F0F00000000,
+                                               0xF0F0F0F000000000};
+
 /// The lowest of at least one bit.
 inline int lowest_bit(std::uint64_t bits) { return std::countr_zero(bits); }
 

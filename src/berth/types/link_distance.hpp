@@ -14,14 +14,19 @@ enum class LinkStatus : std::uint8_t {
   ok,             ///< there is a distance
   none_in_range,  ///< the link is seen, and nothing is within the range
   not_visible,    ///< the camera sees no pixel of the link: nothing is known
+  cut_short,      ///< the search was stopped before it found a pair within the range
 };
 
-/// The closest pair of one link (Hirt 2.10 to 2.14). Unless status is ok, every length is NaN and every
-/// pixel (-1, -1): never 0, never a large number, never the answer before.
+/// The closest pair of one link (Hirt 2.10 to 2.14). Unless status is ok, every length but the lower
+/// bound is NaN and every pixel (-1, -1): never 0, never a large number, never the answer before.
 struct LinkDistance {
   LinkId id = kNoLink;
   LinkStatus status = LinkStatus::not_visible;
   float distance_m = std::numeric_limits<float>::quiet_NaN();
+  /// No pair is closer than this: distance_m itself unless the search was allowed to end early
+  /// (DistanceSettings::tolerance_m, deadline_us); the range where there is none within it. NaN only
+  /// where the link is not visible.
+  float lower_bound_m = std::numeric_limits<float>::quiet_NaN();
   Pixel robot_pixel;
   Pixel obstacle_pixel;
   /// In the camera's optical frame C. The minimum distance vector is obstacle_point_C_m - robot_point_C_m.
