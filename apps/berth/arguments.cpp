@@ -1,7 +1,10 @@
 #include "apps/berth/arguments.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -14,6 +17,11 @@ namespace {
 std::string require_positive_finite(const std::string& text) {
   const std::optional<double> value = parse_finite(text);
   return value && *value > 0 ? "" : text + " is no finite number above 0";
+}
+
+std::string require_not_negative(const std::string& text) {
+  const std::optional<double> value = parse_finite(text);
+  return value && *value >= 0 ? "" : text + " is no finite number of at least 0";
 }
 
 void add_threads(CLI::App& command, int& threads) {
@@ -38,6 +46,17 @@ void add_evaluation(CLI::App& command, EvaluationArguments& arguments) {
           [&arguments](const std::string& value) { arguments.mean_direction = value == "on"; },
           "Whether to give the mean direction of what is near each link (default: on)")
       ->check(CLI::IsMember({"on", "off"}));
+  command
+      .add_option("--tolerance-m", arguments.tolerance_m,
+                  "exact may stop once a link's distance is known to this, in metres (default: 0)")
+      ->check(require_not_negative)
+      ->type_name("E");
+  command
+      .add_option("--deadline-us", arguments.deadline_us,
+                  "exact stops after so many microseconds, mean directions not counted, and tells "
+                  "what it knows by then: distance and lower bound (default: none)")
+      ->check(require_not_negative)
+      ->type_name("N");
 }
 
 void add_output(CLI::App& command, CommonArguments& arguments) {
@@ -56,7 +75,15 @@ void add_output(CLI::App& command, CommonArguments& arguments) {
 
 }  // namespace
 
-DistanceSettings EvaluationArguments::settings_over(DistanceSettings settings) const {
+DistanceSettings EvaluationArguments::settings_over(DistanceSettings settings,
+                                                    Method method_used) const {
+  if ((tolerance_m || deadline_us) && method_used != Method::exact) {
+    throw std::invalid_argument(
+        fmt::format("method {}: has neither --tolerance-m nor --deadline-us; expected method exact",
+                    name_of(method_used)));
+  }
+  if (tolerance_m) settings.tolerance_m = *tolerance_m;
+  if (deadline_us) settings.deadline_us = *deadline_us;
   if (range_m) settings.range_m = *range_m;
   if (mean_direction) settings.mean_direction = *mean_direction;
   validate(settings);

@@ -19,9 +19,12 @@ struct EvaluationArguments {
   std::optional<std::string> method;
   std::optional<double> range_m;
   std::optional<bool> mean_direction;
+  std::optional<double> tolerance_m;
+  std::optional<double> deadline_us;
 
-  /// Throws std::invalid_argument for values outside their domain.
-  DistanceSettings settings_over(DistanceSettings settings) const;
+  /// Throws std::invalid_argument for values outside their domain, and for those that the method
+  /// does not have.
+  DistanceSettings settings_over(DistanceSettings settings, Method method_used) const;
   Method method_over(Method otherwise) const;
 };
 

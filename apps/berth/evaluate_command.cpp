@@ -76,7 +76,7 @@ EvaluateTiming summary_of(std::vector<double> times_us) {
 void evaluate_command(const EvaluateArguments& arguments) {
   const ThreeImages images = read_images(arguments);
   const Method method = arguments.evaluation.method_over(Method::exact);
-  const DistanceSettings settings = arguments.evaluation.settings_over({});
+  const DistanceSettings settings = arguments.evaluation.settings_over({}, method);
   Output output(arguments.format, arguments.out);
   ObstacleTree tree;
   EvaluateWorkspace workspace;
@@ -84,6 +84,8 @@ void evaluate_command(const EvaluateArguments& arguments) {
   std::vector<double> times_us;
   for (int i = 0; i < std::max(1, arguments.repeat); ++i) {
     stop_if_interrupted();
+    // Each evaluation as if it were the first: exact would begin with the last answer.
+    distances.links.clear();
     const auto start = std::chrono::steady_clock::now();
     build_obstacle_tree(images.obstacle_depth_m, tree);
     evaluate(method, images.camera, images.robot, images.obstacle_depth_m, tree, images.link_count,
@@ -96,6 +98,7 @@ void evaluate_command(const EvaluateArguments& arguments) {
   result.camera = "camera";
   result.method = name_of(method);
   result.range_m = settings.range_m;
+  result.has_bounds = settings.tolerance_m > 0 || settings.deadline_us;
   for (int id = 1; id <= images.link_count; ++id)
     result.link_names.push_back(fmt::format("link_{}", id));
   result.distances = &distances;

@@ -48,7 +48,7 @@ RigSettings rig_settings(const SceneFile& scene, const EvaluationArguments& argu
     settings.method = *method;
   }
   settings.method = arguments.method_over(settings.method);
-  settings.distance = arguments.settings_over(settings.distance);
+  settings.distance = arguments.settings_over(settings.distance, settings.method);
   return settings;
 }
 

@@ -37,6 +37,8 @@ std::string distance_text(const LinkDistance& link, double range_m) {
       return "none within " + range_text(range_m);
     case LinkStatus::not_visible:
       return "not visible";
+    case LinkStatus::cut_short:
+      return "not known in time";
   }
   return "";
 }

@@ -33,7 +33,9 @@ FrameResult result_of(const OpenCamera& camera, std::size_t frame_number, const 
   result.stamp_s = frame.stamp_s;
   result.camera = camera.source.name;
   result.method = name_of(camera.rig->settings().method);
-  result.range_m = camera.rig->settings().distance.range_m;
+  const DistanceSettings& settings = camera.rig->settings().distance;
+  result.range_m = settings.range_m;
+  result.has_bounds = settings.tolerance_m > 0 || settings.deadline_us;
   result.link_names = camera.rig->model().evaluated_link_names();
   result.distances = &answer.distances;
   result.X_BC = frame.X_BC;

@@ -3,7 +3,7 @@
 namespace berth {
 
 const char* status_name(LinkStatus status) {
-  constexpr std::array<const char*, 3> kNames = {"ok", "none_in_range", "not_visible"};
+  constexpr std::array<const char*, 4> kNames = {"ok", "none_in_range", "not_visible", "cut_short"};
   return kNames.at(static_cast<std::size_t>(status));
 }
 

@@ -28,6 +28,8 @@ struct FrameResult {
   std::string camera;
   std::string method;
   double range_m = 0;
+  /// Whether the search was allowed to end early, and so each link's lower bound is told as well.
+  bool has_bounds = false;
   /// One for each of distances->links, in the same order.
   std::vector<std::string> link_names;
   /// Must be set; not owned.
@@ -40,7 +42,7 @@ struct FrameResult {
   std::optional<std::array<std::int64_t, kPixelFateCount>> self_filter;
 };
 
-/// "ok", "none_in_range" or "not_visible".
+/// The enumerator's own name.
 const char* status_name(LinkStatus status);
 
 /// The enumerator's own name.

@@ -35,7 +35,8 @@ Json json_of(const EvaluateTiming& timing) {
             {"max", timing.max_us}}}};
 }
 
-Json link_json(const LinkDistance& link, const std::string& name, const std::optional<Pose>& X_BC) {
+Json link_json(const LinkDistance& link, const std::string& name, const FrameResult& result) {
+  const std::optional<Pose>& X_BC = result.X_BC;
   const bool ok = link.status == LinkStatus::ok;
   const auto if_ok = [ok](const auto& value) { return ok ? json_of(value) : Json(); };
   const auto in_base = [&](const Eigen::Vector3f& p_C) -> Eigen::Vector3f {
@@ -46,6 +47,10 @@ Json link_json(const LinkDistance& link, const std::string& name, const std::opt
   json["link"] = name;
   json["status"] = status_name(link.status);
   json["distance_m"] = ok ? Json(shortest(link.distance_m)) : Json();
+  if (result.has_bounds) {
+    const bool known = !std::isnan(link.lower_bound_m);
+    json["lower_bound_m"] = known ? Json(shortest(link.lower_bound_m)) : Json();
+  }
   json["robot_pixel"] = if_ok(link.robot_pixel);
   json["obstacle_pixel"] = if_ok(link.obstacle_pixel);
   json["robot_point_m"] = if_ok(link.robot_point_C_m);
@@ -74,7 +79,7 @@ std::string result_json(const FrameResult& result) {
   json["range_m"] = result.range_m;
   json["links"] = Json::array();
   for (std::size_t i = 0; i < links.size(); ++i) {
-    json["links"].push_back(link_json(links[i], result.link_names[i], result.X_BC));
+    json["links"].push_back(link_json(links[i], result.link_names[i], result));
   }
   json["pairs"] = result.distances->pairs;
   if (result.timing) json["timing"] = json_of(*result.timing);

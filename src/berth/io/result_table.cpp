@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 
 namespace berth {
 namespace {
@@ -14,11 +15,23 @@ using Line = std::array<std::string, kColumns>;
 
 std::string pixel_text(Pixel pixel) { return fmt::format("({}, {})", pixel.u, pixel.v); }
 
-Line line_of(const LinkDistance& link, const std::string& name) {
+std::string distance_text(const LinkDistance& link, bool has_bounds) {
+  const bool ok = link.status == LinkStatus::ok;
+  const std::string distance = ok ? fmt::format("{:.4f}", link.distance_m) : "-";
+  const bool is_known = !has_bounds || link.status == LinkStatus::not_visible ||
+                        (ok && link.lower_bound_m == link.distance_m);
+  if (is_known) return distance;
+  // Cut, not rounded: a bound must not be told as more than it is.
+  const double bound_m = std::floor(1e4 * link.lower_bound_m) / 1e4;
+  return ok ? fmt::format("{:.4f} to {}", bound_m, distance)
+            : fmt::format("{:.4f} or more", bound_m);
+}
+
+Line line_of(const LinkDistance& link, const std::string& name, bool has_bounds) {
   const bool ok = link.status == LinkStatus::ok;
   return {name,
           status_name(link.status),
-          ok ? fmt::format("{:.4f}", link.distance_m) : "-",
+          distance_text(link, has_bounds),
           ok ? pixel_text(link.robot_pixel) : "-",
           ok ? pixel_text(link.obstacle_pixel) : "-",
           fmt::format("{}", link.robot_pixels)};
@@ -40,7 +53,7 @@ std::string result_table(const FrameResult& result) {
   std::vector<Line> lines = {
       {"link", "status", "distance [m]", "robot pixel", "obstacle pixel", "robot pixels"}};
   for (std::size_t i = 0; i < links.size(); ++i) {
-    lines.push_back(line_of(links[i], result.link_names[i]));
+    lines.push_back(line_of(links[i], result.link_names[i], result.has_bounds));
   }
   const auto width = widths_of(lines);
   std::string table;

@@ -7,7 +7,8 @@
 namespace berth {
 
 /// The frame's links as a table for people: a heading and one line for each link, columns aligned.
-/// A link whose status is not ok has "-" for distance and pixels.
+/// A link whose status is not ok has "-" for distance and pixels. With bounds, a distance that is
+/// not known for sure stands as "bound to distance", and a bound alone as "bound or more".
 std::string result_table(const FrameResult& result);
 
 }  // namespace berth
