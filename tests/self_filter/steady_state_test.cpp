@@ -1,33 +1,10 @@
-// A program of its own, because it replaces the global operator new.
+// A program of its own, because allocation_count replaces the global operator new.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include <cstdlib>
-#include <new>
-
 #include "berth/self_filter/self_filter.hpp"
+#include "testing/allocation_count.hpp"
 #include "tests/self_filter/random_scene.hpp"
-
-namespace {
-std::size_t allocations = 0;
-
-void* count_and_allocate(std::size_t size, std::size_t alignment) {
-  ++allocations;
-  const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
-  void* memory = std::aligned_alloc(alignment, rounded);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-}  // namespace
-
-void* operator new(std::size_t size) { return count_and_allocate(size, alignof(std::max_align_t)); }
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  return count_and_allocate(size, static_cast<std::size_t>(alignment));
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 
 namespace berth {
 namespace {
@@ -43,9 +20,9 @@ TEST(SteadyState, TheSelfFilterAllocatesNothingOnceItHasSeenTheImages) {
       self_filter(scene.camera, scene.sensor_depth_m, scene.robot, scene.settings, workspace, out);
     };
     filter();
-    const std::size_t before = allocations;
+    const std::size_t before = allocation_count();
     filter();
-    EXPECT_EQ(allocations, before);
+    EXPECT_EQ(allocation_count(), before);
     EXPECT_GT(before, 0u);
   }
 }

@@ -1,0 +1,39 @@
+// A program of its own, because allocation_count replaces the global operator new.
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "apps/berth/open_scene.hpp"
+#include "berth/pipeline/asker.hpp"
+#include "berth/pipeline/observer.hpp"
+#include "testing/allocation_count.hpp"
+
+namespace berth {
+namespace {
+
+/// From the depth image to the answer, and the answer at other joint angles.
+TEST(SteadyState, TheWholeWayAllocatesNothingOnceItHasSeenTheImages) {
+  const OpenScene scene = open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml", {});
+  const OpenCamera& camera = scene.cameras.front();
+  const DepthImage images[] = {camera.read_depth(3), camera.read_depth(17), camera.read_depth(30)};
+  const std::size_t numbers[] = {3, 17, 30};
+  for (const int threads : {1, 2}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    Observer observer(*camera.rig);
+    Asker asker(*camera.rig);
+    Frame frame;
+    const auto go_through = [&] {
+      for (int i = 0; i < 3; ++i) {
+        observer.observe(images[i], camera.at_exposure[numbers[i]], frame);
+        asker.ask(frame);
+        for (const std::size_t other : numbers) asker.ask(frame, camera.at_exposure[other]);
+      }
+    };
+    go_through();
+    const std::size_t before = allocation_count();
+    for (int round = 0; round < 20; ++round) go_through();
+    EXPECT_EQ(allocation_count(), before) << threads << " threads";
+  }
+}
+
+}  // namespace
+}  // namespace berth
