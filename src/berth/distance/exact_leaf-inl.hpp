@@ -185,11 +185,10 @@ inline void search_leaf(Search& search, const LeafTile& robot_tile, const LeafTi
   try_pairs(search, robot, obstacle);
 }
 
-/// The same along the surface of the node's tile i, then quarter by quarter: the smaller the box,
-/// the fewer pixels are near to it.
-inline void search_leaf_aligned(Search& search, int i, const LeafTile& robot_tile,
-                                const LeafTile& obstacle_tile) {
-  const AlignedTile& aligned = search.aligned.tiles[i];
+/// The same along the surface of the robot tile, then quarter by quarter: the smaller the box, the
+/// fewer pixels are near to it.
+inline void search_leaf_aligned(Search& search, const AlignedTile& aligned,
+                                const LeafTile& robot_tile, const LeafTile& obstacle_tile) {
   const AlignedView view(search.input.metric, aligned.axes, obstacle_tile,
                          {robot_tile.box.depth_lo_m, robot_tile.box.depth_hi_m});
   if (view.pixels_near(aligned.box, search.limit_m2) == 0) return;

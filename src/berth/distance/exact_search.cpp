@@ -125,22 +125,47 @@ inline LeafTile obstacle_tile(const Search& search, const PixelBox& box, TileCop
           ~std::uint64_t{0}};
 }
 
-void align_tile(const Search& search, const LeafTile& tile, AlignedTile& out) {
+const AlignedTile& aligned_tile(Search& search, int i, const LeafTile& tile) {
+  AlignedTile& out = search.aligned.tiles[i];
+  if ((search.aligned.tiles_made >> i & 1) != 0) return out;
+  search.aligned.tiles_made |= 1U << i;
   out.axes = axes_along(search.input.metric, fit_plane(tile), tile.u, tile.v);
   const AlignedView view(search.input.metric, out.axes, tile, {0, 0});
   out.box = view.box_of(~std::uint64_t{0});
   for (int q = 0; q < 4; ++q) out.quarters[q] = view.box_of(kQuarters[q]);
+  return out;
 }
 
-void align_boxes(const Search& search, const RobotTiles::Node& node, const Axes& axes,
-                 AlignedBoxes& out) {
-  out.axes = axes;
+/// The normal of a node's surface: the mean of a few of its tiles'.
+Normal normal_of(const Search& search, const RobotTiles::Node& node) {
+  constexpr int kSamples = 4;
+  TileCopy copy;
+  Normal sum;
+  for (int k = 0; k < kSamples; ++k) {
+    const int i = k * (node.tile_count - 1) / (kSamples - 1);
+    const LeafTile tile = robot_tile(search, node, i, copy);
+    add_normal(axes_along(search.input.metric, fit_plane(tile), tile.u, tile.v), sum);
+  }
+  return sum;
+}
+
+/// The direction of the closest pair so far.
+Normal direction_of(const Metric& metric, const ClosestPair& pair) {
+  const auto vector = berth::pair_vector(metric, pair.ru, pair.rv, pair.robot_depth_m, pair.ou,
+                                         pair.ov, pair.obstacle_depth_m);
+  return {vector.x_m, vector.y_m, vector.z_m};
+}
+
+void make_boxes(const Search& search, const RobotTiles::Node& node, const Normal& normal,
+                AlignedBoxes& out) {
+  out.is_made = true;
+  out.axes = axes_of(normal);
   TileCopy copy;
   for (int i = 0; i < RobotTiles::kNodeTiles; ++i) {
     AlignedBox box{{HUGE_VALF, HUGE_VALF, HUGE_VALF}, {HUGE_VALF, HUGE_VALF, HUGE_VALF}};
     if (i < node.tile_count) {
       const LeafTile tile = robot_tile(search, node, i, copy);
-      box = AlignedView(search.input.metric, axes, tile, {0, 0}).box_of(tile.bits);
+      box = AlignedView(search.input.metric, out.axes, tile, {0, 0}).box_of(tile.bits);
     }
     for (int k = 0; k < 3; ++k) {
       out.lo_m[k][i] = box.lo_m[k];
@@ -149,31 +174,9 @@ void align_boxes(const Search& search, const RobotTiles::Node& node, const Axes&
   }
 }
 
-/// The direction of the closest pair so far.
-inline Normal direction_of(const Metric& metric, const ClosestPair& pair) {
-  const auto vector = berth::pair_vector(metric, pair.ru, pair.rv, pair.robot_depth_m, pair.ou,
-                                         pair.ov, pair.obstacle_depth_m);
-  return {vector.x_m, vector.y_m, vector.z_m};
-}
-
-void align(Search& search, const RobotTiles::Node& node) {
-  AlignedNode& aligned = search.aligned;
-  TileCopy copy;
-  Normal normals;
-  for (int i = 0; i < node.tile_count; ++i) {
-    align_tile(search, robot_tile(search, node, i, copy), aligned.tiles[i]);
-    add_normal(aligned.tiles[i].axes, normals);
-  }
-  align_boxes(search, node, axes_of(direction_of(search.input.metric, search.best)),
-              aligned.along_pair);
-  align_boxes(search, node, axes_of(normals), aligned.along_surface);
-  search.is_aligned = true;
-}
-
-/// Sharpens the bounds of a robot node's tiles and an obstacle tile.
-HWY_INLINE void sharpen(const Search& search, const RobotTiles::Node& robot,
-                        const AlignedBoxes& aligned, const LeafTile& obstacle, Bounds& bounds) {
-  if (bounds.may_improve == 0) return;
+/// Sharpens the bounds of a robot node's tiles and an obstacle tile by boxes along the same axes.
+void sharpen_along(const Search& search, const RobotTiles::Node& robot, const AlignedBoxes& aligned,
+                   const LeafTile& obstacle, Bounds& bounds) {
   const AlignedView view(search.input.metric, aligned.axes, obstacle,
                          {robot.box.depth_lo_m, robot.box.depth_hi_m});
   const AlignedBox box = view.box_of(~std::uint64_t{0});
@@ -186,18 +189,30 @@ HWY_INLINE void sharpen(const Search& search, const RobotTiles::Node& robot,
   }
 }
 
+/// Along the robot's surface first, which is right where surfaces tie; then along the closest pair,
+/// which is right where much of the robot lies before one plane.
+void sharpen(Search& search, const RobotTiles::Node& robot, const LeafTile& obstacle,
+             Bounds& bounds) {
+  AlignedNode& aligned = search.aligned;
+  if (!aligned.along_surface.is_made) {
+    make_boxes(search, robot, normal_of(search, robot), aligned.along_surface);
+  }
+  sharpen_along(search, robot, aligned.along_surface, obstacle, bounds);
+  if (bounds.may_improve == 0) return;
+  if (!aligned.along_pair.is_made) {
+    make_boxes(search, robot, direction_of(search.input.metric, search.best), aligned.along_pair);
+  }
+  sharpen_along(search, robot, aligned.along_pair, obstacle, bounds);
+}
+
 /// A robot node against one obstacle tile.
 inline void search_tile(Search& search, const RobotTiles::Node& robot, const PixelBox& box) {
   Bounds bounds = bound_robot_tiles(search, robot, box);
   if (bounds.may_improve == 0) return;
   TileCopy obstacle_copy;
   const LeafTile obstacle = obstacle_tile(search, box, obstacle_copy);
-  if (!search.is_aligned && search.best.ru >= 0 && work_of(search) >= search.align_at)
-    align(search, robot);
-  if (search.is_aligned) {
-    sharpen(search, robot, search.aligned.along_pair, obstacle, bounds);
-    sharpen(search, robot, search.aligned.along_surface, obstacle, bounds);
-  }
+  search.is_aligned |= search.best.ru >= 0 && work_of(search) >= search.align_at;
+  if (search.is_aligned) sharpen(search, robot, obstacle, bounds);
   TileCopy robot_copy;
   const Candidates near = nearest_first(bounds);
   for (int k = 0; k < near.count; ++k) {
@@ -207,7 +222,7 @@ inline void search_tile(Search& search, const RobotTiles::Node& robot, const Pix
     ++search.leaves;
     const LeafTile tile = robot_tile(search, robot, i, robot_copy);
     if (search.is_aligned) {
-      search_leaf_aligned(search, i, tile, obstacle);
+      search_leaf_aligned(search, aligned_tile(search, i, tile), tile, obstacle);
     } else {
       search_leaf(search, tile, obstacle);
     }
@@ -294,7 +309,8 @@ SearchResult search_nodes(const SearchInput& input, int last_node, const SearchL
   const int count = order_nodes(search, last_node);
   int k = 0;
   for (; k < count && !search.stopped; ++k) {
-    search.is_aligned = false;
+    search.is_aligned = aligned.along_surface.is_made = aligned.along_pair.is_made = false;
+    aligned.tiles_made = 0;
     search.align_at = work_of(search) + (limits.tolerance_m > 0 ? 0 : kWorkBeforeAligned);
     search_square(search, input.robot.nodes[input.order[k].node], root_of(input.obstacles));
   }

@@ -22,8 +22,9 @@ struct AlignedTile {
   AlignedBox quarters[4];
 };
 
-/// The boxes around a node's tiles along some axes.
+/// The boxes around a node's tiles along some axes; made when they are first needed.
 struct AlignedBoxes {
+  bool is_made = false;
   Axes axes;
   alignas(64) float lo_m[3][RobotTiles::kNodeTiles];
   alignas(64) float hi_m[3][RobotTiles::kNodeTiles];
@@ -32,9 +33,11 @@ struct AlignedBoxes {
 /// A robot node seen along the link's closest pair so far, along its own surface, and its tiles
 /// along theirs: for searches that turn out to be long.
 struct AlignedNode {
-  AlignedBoxes along_pair;
   AlignedBoxes along_surface;
+  AlignedBoxes along_pair;
   AlignedTile tiles[RobotTiles::kNodeTiles];
+  /// Bit i is set where tiles[i] has been made.
+  std::uint32_t tiles_made = 0;
 };
 
 struct Search {
