@@ -20,6 +20,9 @@ struct BadInput {
   std::vector<std::string> told;
 };
 
+/// What a test of it is called.
+void PrintTo(const BadInput& input, std::ostream* out) { *out << input.name; }
+
 class BadScene : public ::testing::TestWithParam<BadInput> {};
 
 TEST_P(BadScene, IsRefusedByRunAndFilter) {

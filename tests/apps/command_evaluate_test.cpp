@@ -141,6 +141,38 @@ TEST_F(Evaluate, RepeatTellsTheTimesAndChangesNoResult) {
   EXPECT_EQ(timed, once);
 }
 
+TEST_F(Evaluate, AToleranceOrADeadlineAddsLowerBounds) {
+  const Json exact = evaluate(2);
+  for (const std::vector<std::string>& limit :
+       {std::vector<std::string>{"--tolerance-m", "0.05"},
+        {"--deadline-us", "0"},
+        {"--deadline-us", "1000000", "--tolerance-m", "0"}}) {
+    std::vector<std::string> more = {"--range", "2"};
+    more.insert(more.end(), limit.begin(), limit.end());
+    const Json limited = evaluate(2, more);
+    for (std::size_t i = 0; i < exact["links"].size(); ++i) {
+      const Json& link = limited["links"][i];
+      EXPECT_FALSE(exact["links"][i].contains("lower_bound_m"));
+      ASSERT_TRUE(link.contains("lower_bound_m"));
+      if (exact["links"][i]["status"] != "ok") continue;
+      EXPECT_LE(link["lower_bound_m"], exact["links"][i]["distance_m"]);
+      EXPECT_GE(link["distance_m"], exact["links"][i]["distance_m"]);
+    }
+  }
+}
+
+TEST_F(Evaluate, LimitsAreRefusedForAMethodThatHasNone) {
+  for (const std::string limit : {"--tolerance-m", "--deadline-us"}) {
+    std::vector<std::string> arguments = command(0);
+    arguments.insert(arguments.end(), {"--method", "brute_force", limit, "1"});
+    const Outcome outcome = scene.berth(arguments);
+    EXPECT_EQ(outcome.exit_status, 1);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_NE(outcome.err.find("brute_force"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find(limit), std::string::npos) << outcome.err;
+  }
+}
+
 TEST_F(Evaluate, RangeIsUsed) {
   const Json frame = evaluate(0, {"--range", "0.2"});
   EXPECT_EQ(frame["range_m"], 0.2);

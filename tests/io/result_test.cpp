@@ -114,6 +114,25 @@ TEST_F(ResultText, TimingAndFilterCountsAreToldWhereTheyAreGiven) {
       << text;
 }
 
+TEST_F(ResultText, LowerBoundsAreToldWhereASearchMayEndEarly) {
+  distances.links[0].lower_bound_m = 0.12099F;
+  distances.links[1].status = LinkStatus::cut_short;
+  distances.links[1].lower_bound_m = 0.5F;
+  EXPECT_FALSE(Json::parse(result_json(result))["links"][0].contains("lower_bound_m"));
+  result.has_bounds = true;
+  const Json links = Json::parse(result_json(result))["links"];
+  EXPECT_EQ(links[0]["lower_bound_m"], 0.12099);
+  EXPECT_EQ(links[1]["status"], "cut_short");
+  EXPECT_EQ(links[1]["lower_bound_m"], 0.5);
+  EXPECT_TRUE(links[1]["distance_m"].is_null());
+  EXPECT_TRUE(links[2]["lower_bound_m"].is_null());
+  EXPECT_EQ(result_table(result),
+            "link    status           distance [m]  robot pixel  obstacle pixel  robot pixels\n"
+            "link_1  ok           0.1209 to 0.1234   (312, 200)      (340, 211)          4012\n"
+            "link_2  cut_short      0.5000 or more            -               -            12\n"
+            "a \"b\"   not_visible                 -            -               -             0\n");
+}
+
 TEST_F(ResultText, FloatsCanBeReadBackExactlyAndHaveFewDigits) {
   std::mt19937 random(7);
   constexpr int kFloats = 20'000;
