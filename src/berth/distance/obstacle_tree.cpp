@@ -1,5 +1,8 @@
 #include "berth/distance/obstacle_tree.hpp"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -111,20 +114,28 @@ void fill_border_node(DepthView depth_m, int u_begin, int v_begin, ObstacleTree:
   HWY_DYNAMIC_DISPATCH(fill_tiles)(padded_m, kNodePx, node);
 }
 
-void fill_lowest_level(DepthView depth_m, ObstacleTree& tree) {
-  ObstacleTree::Level& level = tree.levels[0];
+void fill_row(DepthView depth_m, int row, ObstacleTree::Level& level) {
   const auto fill_inner_node = HWY_DYNAMIC_DISPATCH(fill_tiles);
-  ObstacleTree::Node* node = level.nodes.data();
-  for (int v = 0; v < level.rows * kNodePx; v += kNodePx) {
-    for (int u = 0; u < level.columns * kNodePx; u += kNodePx) {
-      if (u + kNodePx <= depth_m.width && v + kNodePx <= depth_m.height) {
-        fill_inner_node(depth_m.row(v) + u, depth_m.stride, *node);
-      } else {
-        fill_border_node(depth_m, u, v, *node);
-      }
-      ++node;
+  ObstacleTree::Node* node = level.nodes.data() + static_cast<std::ptrdiff_t>(row) * level.columns;
+  const int v = row * kNodePx;
+  for (int u = 0; u < level.columns * kNodePx; u += kNodePx) {
+    if (u + kNodePx <= depth_m.width && v + kNodePx <= depth_m.height) {
+      fill_inner_node(depth_m.row(v) + u, depth_m.stride, *node);
+    } else {
+      fill_border_node(depth_m, u, v, *node);
     }
+    ++node;
   }
+}
+
+void fill_lowest_level(DepthView depth_m, ObstacleTree::Level& level) {
+  constexpr int kRowsAtOnce = 4;
+  tbb::parallel_for(tbb::blocked_range<int>(0, level.rows, kRowsAtOnce),
+                    [&](const tbb::blocked_range<int>& rows) {
+                      for (int row = rows.begin(); row < rows.end(); ++row) {
+                        fill_row(depth_m, row, level);
+                      }
+                    });
 }
 
 void fill_level(const ObstacleTree::Level& children, ObstacleTree::Level& level) {
@@ -147,7 +158,7 @@ void fill_level(const ObstacleTree::Level& children, ObstacleTree::Level& level)
 
 void build_obstacle_tree(DepthView depth_m, ObstacleTree& tree) {
   size_levels(depth_m, tree);
-  fill_lowest_level(depth_m, tree);
+  fill_lowest_level(depth_m, tree.levels[0]);
   for (int i = 1; i < tree.level_count; ++i) fill_level(tree.levels[i - 1], tree.levels[i]);
 }
 
