@@ -13,13 +13,13 @@ build: setup
 	cmake --preset release
 	cmake --build --preset release
 
-# Recordings to measure as well, where BERTH_DATA names a folder of them.
+# BERTH_DATA: a folder with recordings to measure as well. BENCH_OPTIONS: of `berth bench`, such as --quick.
 recordings = $(addprefix --scene ,$(wildcard $(BERTH_DATA)/recordings/*/scene.yaml))
 bench:
 	scripts/setup.sh packages.txt packages-bench.txt
 	cmake --preset bench
 	cmake --build --preset bench
-	build/bench/berth bench --out build/bench_results $(if $(BERTH_DATA),$(recordings))
+	build/bench/berth bench --out build/bench_results $(if $(BERTH_DATA),$(recordings)) $(BENCH_OPTIONS)
 	bench/plot.py build/bench_results/bench.csv build/bench_results/results.svg
 
 setup:

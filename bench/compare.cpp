@@ -1,9 +1,11 @@
 #include "bench/compare.hpp"
 
+#include <fmt/format.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "apps/berth/interrupt.hpp"
 #include "apps/berth/progress_bar.hpp"
@@ -14,15 +16,16 @@
 namespace berth::bench {
 namespace {
 
-const std::vector<std::string> kColumns = {"median ms",   "p99 ms",     "max ms",
-                                           "build ms",    "memory MB",  "error median mm",
-                                           "too near mm", "too far mm", "links missed"};
+const std::vector<std::string> kColumns = {
+    "median ms",   "p99 ms",          "max ms",      "build ms",   "speed-up",    "memory MB",
+    "known to mm", "error median mm", "too near mm", "too far mm", "links missed"};
 
 /// What one method did on all scenes so far.
 struct Record {
   std::vector<double> total_ms;
   std::vector<double> build_ms;
   std::vector<double> error_mm;
+  std::optional<double> known_to_mm;
   double too_near_mm = 0;
   double too_far_mm = 0;
   double links_missed = 0;
@@ -41,9 +44,11 @@ void take_errors(const PeerDistances& truth_m, const PeerDistances& answer_m, Re
   }
 }
 
-/// The times, and the memory that the method holds afterwards.
+/// The times, what the method certifies, and the memory that it holds afterwards.
 void take_all(Peer& peer, const BenchScene& scene, const RunLimits& limits, Record& record,
               PeerDistances& answer_m) {
+  stop_if_interrupted();
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, peer.threads());
   answer_m.reserve(scene.link_count);
   const std::int64_t before = heap_bytes();
   peer.load(scene);
@@ -52,6 +57,9 @@ void take_all(Peer& peer, const BenchScene& scene, const RunLimits& limits, Reco
   record.most_bytes = std::max(record.most_bytes, record.held_bytes);
   record.build_ms.push_back(time.build_ms);
   record.total_ms.push_back(time.total_ms);
+  if (const auto known_to_m = peer.known_to_m()) {
+    record.known_to_mm = std::max(record.known_to_mm.value_or(0), 1000 * *known_to_m);
+  }
 }
 
 /// Nothing for brute force, which has no errors.
@@ -59,35 +67,68 @@ std::optional<double> if_compared(const Record& record, double value) {
   return record.error_mm.empty() ? std::nullopt : std::optional(value);
 }
 
-Table::Row row_of(const Peer& peer, const Record& record) {
+Table::Row row_of(const Peer& peer, const Record& record, const Record& truth) {
   const std::string lacks = peer.lacks();
   return {
       peer.name(),
       {median(record.total_ms), percentile(record.total_ms, 0.99), percentile(record.total_ms, 1),
-       median(record.build_ms), static_cast<double>(record.most_bytes) / 1e6,
-       median(record.error_mm), if_compared(record, record.too_near_mm),
-       if_compared(record, record.too_far_mm), if_compared(record, record.links_missed)},
+       median(record.build_ms), median(truth.total_ms).value() / median(record.total_ms).value(),
+       static_cast<double>(record.most_bytes) / 1e6, record.known_to_mm, median(record.error_mm),
+       if_compared(record, record.too_near_mm), if_compared(record, record.too_far_mm),
+       if_compared(record, record.links_missed)},
       lacks.empty() ? "" : "lacks: " + lacks};
+}
+
+double image_bytes(const BenchScene& scene) {
+  const auto bytes = [](const auto& pixels) {
+    return static_cast<double>(pixels.size() * sizeof(pixels[0]));
+  };
+  return bytes(scene.robot.depth_m.pixels()) + bytes(scene.robot.link_id.pixels()) +
+         bytes(scene.obstacle_depth_m.pixels());
+}
+
+/// The floor, with how much of memory's speed it is.
+Table::Row reader_row(const Peer& reader, const Record& record, double bytes) {
+  const double median_ms = median(record.total_ms).value();
+  Table::Row row{reader.name(), {}, ""};
+  row.values = {median_ms, percentile(record.total_ms, 0.99), percentile(record.total_ms, 1),
+                median(record.build_ms)};
+  row.values.resize(kColumns.size());
+  row.remark = fmt::format("{:.1f} MB at {:.0f} GB/s", bytes / 1e6, bytes / 1e6 / median_ms);
+  return row;
+}
+
+/// The methods in the order of scene i. Nobody always comes after the same other one, whose data
+/// fills the caches; after those with several threads come none, since threads of TBB that wait
+/// for more work would be billed to the next.
+std::vector<std::size_t> order_of(const std::vector<std::unique_ptr<Peer>>& peers, int i) {
+  std::vector<std::size_t> order(peers.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::rotate(order.begin(), order.begin() + i % order.size(), order.end());
+  std::stable_partition(order.begin(), order.end(),
+                        [&](std::size_t p) { return peers[p]->threads() == 1; });
+  return order;
 }
 
 }  // namespace
 
 Table compare_peers(const SceneSet& scenes, const RunLimits& limits) {
-  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   const std::unique_ptr<Peer> brute_force = make_brute_force();
+  const std::unique_ptr<Peer> reader = make_reader();
   const std::vector<std::unique_ptr<Peer>> peers = make_peers();
-  Record truth_record;
+  Record truth;
+  Record read;
   std::vector<Record> records(peers.size());
   PeerDistances truth_m;
   PeerDistances answer_m;
+  double bytes = 0;
   ProgressBar progress(scenes.title, scenes.count);
   for (int i = 0; i < scenes.count; ++i) {
     const BenchScene scene = scenes.make(i);
-    take_all(*brute_force, scene, limits, truth_record, truth_m);
-    // Nobody always comes after the same other one, whose data fills the caches.
-    for (std::size_t k = 0; k < peers.size(); ++k) {
-      stop_if_interrupted();
-      const std::size_t p = (k + i) % peers.size();
+    bytes = image_bytes(scene);
+    take_all(*brute_force, scene, limits, truth, truth_m);
+    take_all(*reader, scene, limits, read, answer_m);
+    for (const std::size_t p : order_of(peers, i)) {
       take_all(*peers[p], scene, limits, records[p], answer_m);
       take_errors(truth_m, answer_m, records[p]);
     }
@@ -95,10 +136,11 @@ Table compare_peers(const SceneSet& scenes, const RunLimits& limits) {
   }
 
   Table table{scenes.title, scenes.note, "method", kColumns, {}};
+  table.rows.push_back(reader_row(*reader, read, bytes));
   for (std::size_t p = 0; p < peers.size(); ++p) {
-    table.rows.push_back(row_of(*peers[p], records[p]));
+    table.rows.push_back(row_of(*peers[p], records[p], truth));
   }
-  table.rows.push_back(row_of(*brute_force, truth_record));
+  table.rows.push_back(row_of(*brute_force, truth, truth));
   return table;
 }
 

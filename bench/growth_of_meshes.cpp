@@ -4,10 +4,13 @@
 #include "apps/berth/interrupt.hpp"
 #include "apps/berth/open_scene.hpp"
 #include "apps/berth/progress_bar.hpp"
+#include "bench/coarsen.hpp"
+#include "bench/embree_rays.hpp"
 #include "bench/growth.hpp"
 #include "bench/statistics.hpp"
 #include "bench/stopwatch.hpp"
 #include "bench/subdivide.hpp"
+#include "bench/triangle_count.hpp"
 #include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/observer.hpp"
 
@@ -15,22 +18,29 @@ namespace berth::bench {
 namespace {
 
 constexpr int kThreads = 2;
-constexpr std::size_t kFewest = 3'000;
-constexpr std::size_t kMost = 600'000;
-
-std::size_t triangle_count(const RobotModel& model) {
-  std::size_t count = 0;
-  for (const Link& link : model.links) count += link.mesh_L.triangles.size();
-  return count;
-}
-
-void refine(RobotModel& model) {
-  for (Link& link : model.links) link.mesh_L = subdivide(link.mesh_L);
-}
+/// Leaves 4 500 triangles of the bundled robot's collision shapes.
+constexpr float kCell_m = 0.02f;
+/// Of each edge.
+constexpr int kParts[] = {1, 2, 5, 8, 16};
 
 RobotModel load_coarse_robot(const SceneRobot& robot) {
-  return load_robot({robot.urdf, robot.package_paths, GeometryKind::collision,
-                     robot.environment_links, robot.ignore_links});
+  RobotModel model = load_robot({robot.urdf, robot.package_paths, GeometryKind::collision,
+                                 robot.environment_links, robot.ignore_links});
+  for (Link& link : model.links) link.mesh_L = coarsen(link.mesh_L, kCell_m);
+  return model;
+}
+
+/// The robot with each triangle in parts * parts.
+RobotModel subdivided(RobotModel model, int parts) {
+  for (Link& link : model.links) link.mesh_L = subdivide(link.mesh_L, parts);
+  return model;
+}
+
+template <class Call>
+void take(std::vector<double>& times_ms, Call call) {
+  const Stopwatch watch;
+  call();
+  times_ms.push_back(watch.ms());
 }
 
 Table::Row measure(const OpenCamera& camera, const RobotModel& model, int rounds) {
@@ -41,23 +51,31 @@ Table::Row measure(const OpenCamera& camera, const RobotModel& model, int rounds
   Observer observer(rig);
   Asker asker(rig);
   RobotRenderer renderer(rig.meshes(), rig.camera());
+  EmbreeRays rays(model, rig.camera());
   RobotPose pose;
   RobotImage image;
+  RobotImage traced;
   Frame frame;
   forward_kinematics(model, joints.position, pose);
+  const Pose X_BC = rig.camera_pose(pose);
   std::vector<double> render_ms;
   std::vector<double> whole_ms;
+  std::vector<double> embree_ms;
   for (int round = 0; round < rounds; ++round) {
     stop_if_interrupted();
-    const Stopwatch render_watch;
-    renderer.render(pose, rig.camera_pose(pose), image);
-    render_ms.push_back(render_watch.ms());
-    const Stopwatch whole_watch;
-    observer.observe(depth_m, joints, frame);
-    asker.ask(frame);
-    whole_ms.push_back(whole_watch.ms());
+    take(render_ms, [&] { renderer.render(pose, X_BC, image); });
+    take(whole_ms, [&] {
+      observer.observe(depth_m, joints, frame);
+      asker.ask(frame);
+    });
   }
-  return {fmt::format("{}", triangle_count(model)), {median(render_ms), median(whole_ms)}, ""};
+  for (int round = 0; round < rounds; ++round) {
+    take(embree_ms, [&] { rays.render(pose, X_BC, traced); });
+  }
+  return {fmt::format("{}", triangle_count(model)),
+          {median(render_ms), percentile(render_ms, 0.99), median(whole_ms),
+           percentile(whole_ms, 0.99), median(embree_ms)},
+          ""};
 }
 
 }  // namespace
@@ -65,24 +83,21 @@ Table::Row measure(const OpenCamera& camera, const RobotModel& model, int rounds
 Table measure_growth_of_meshes(const std::filesystem::path& scene_file, int rounds) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, kThreads);
   const OpenScene scene = open_scene(scene_file, {});
-  RobotModel model = load_coarse_robot(read_scene(scene_file).robot);
+  const RobotModel model = load_coarse_robot(read_scene(scene_file).robot);
   Table table{"Growth with the meshes",
-              fmt::format("The robot of the bundled scene, its collision shapes subdivided; {} "
-                          "threads, {} runs.",
+              fmt::format("The robot of the bundled scene, its collision shapes made coarse and "
+                          "then subdivided, the same surface in each row; {} threads, {} runs.",
                           kThreads, rounds),
               "triangles",
-              {"render ms", "depth image to result ms"},
+              {"render ms", "render p99 ms", "depth image to result ms",
+               "depth image to result p99 ms", "Embree rays, same pixels ms"},
               {}};
-  ProgressBar progress(table.title, 5);
-  for (;;) {
-    const std::size_t triangles = triangle_count(model);
-    if (triangles >= kFewest) {
-      table.rows.push_back(measure(scene.cameras.front(), model, rounds));
-      progress.step();
-    }
-    if (triangles > kMost) return table;
-    refine(model);
+  ProgressBar progress(table.title, std::size(kParts));
+  for (const int parts : kParts) {
+    table.rows.push_back(measure(scene.cameras.front(), subdivided(model, parts), rounds));
+    progress.step();
   }
+  return table;
 }
 
 }  // namespace berth::bench

@@ -39,9 +39,8 @@ std::vector<std::string> describe_machine() {
       fmt::format("processor: {}, {} threads in hardware", processor_name(),
                   std::thread::hardware_concurrency()),
       fmt::format("instruction set: {}", best_instruction_set()),
-      "times: of methods, processor time of their one thread; of stages and meshes, by the clock "
-      "on the "
-      "wall with the threads named",
+      "times: of methods with one thread, its processor time; of the method with two threads, of "
+      "stages and of meshes, by the clock on the wall",
       fmt::format("compiler: {}, {}", compiler(), BERTH_BENCH_BUILD),
       fmt::format("libraries: Highway {}, Embree {}, Eigen {}.{}.{}, TBB {}.{}, nanoflann {:x}, "
                   "FLANN {}, FCL "

@@ -5,7 +5,7 @@ namespace berth::bench {
 std::vector<std::unique_ptr<Peer>> make_peers() {
   std::vector<std::unique_ptr<Peer>> peers;
   peers.push_back(make_berth_exact());
-  if (auto avx2 = make_berth_exact_avx2()) peers.push_back(std::move(avx2));
+  for (auto& variant : make_berth_variants()) peers.push_back(std::move(variant));
   peers.push_back(make_nanoflann());
   peers.push_back(make_flann());
   peers.push_back(make_embree());

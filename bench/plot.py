@@ -2,7 +2,8 @@
 """Draws the CSV of `berth bench` as a chart: plot.py bench.csv bench.svg
 
 Left, the time of each method in each set of scenes: a dot at the median, a line to the greatest;
-the same logarithmic scale in each. Right, the greatest error of the same rows that makes a distance too large, the dangerous side.
+the same logarithmic scale in each. Right, the greatest error of the same rows that makes a distance
+too large, the dangerous side.
 """
 import csv
 import sys
@@ -42,12 +43,16 @@ def draw_times(axes, title, rows):
 
 
 def draw_errors(axes, rows):
-    too_far = [rows[m].get("too far mm", 0) for m in rows]
-    axes.barh(list(rows), too_far, color=OTHERS)
-    for place, value in enumerate(too_far):
-        axes.text(value, place, f" {value:.0f}", va="center", fontsize=8)
+    for place, row in enumerate(rows.values()):
+        if "too far mm" not in row:
+            continue
+        value = row["too far mm"]
+        axes.barh(place, value, color=OTHERS)
+        text = f"{value:.0f}" if value >= 10 else f"{value:.2g}"
+        axes.text(value, place, f" {text}", va="center", fontsize=8)
     axes.set_yticks([])
     axes.margins(x=0.2)
+    axes.set_xlim(left=0, right=max(1, axes.get_xlim()[1]))
     axes.set_xlabel("greatest error to the far side, mm", fontsize=8)
 
 
@@ -55,7 +60,7 @@ def main():
     if len(sys.argv) != 3:
         sys.exit("usage: plot.py bench.csv bench.svg")
     tables = read_tables(sys.argv[1])
-    figure, axes = pyplot.subplots(len(tables), 2, figsize=(10, 2.6 * len(tables)), squeeze=False,
+    figure, axes = pyplot.subplots(len(tables), 2, figsize=(10, 2.9 * len(tables)), squeeze=False,
                                    width_ratios=[3, 1], layout="constrained")
     for (title, rows), (left, right) in zip(tables.items(), axes):
         draw_times(left, title, rows)

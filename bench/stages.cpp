@@ -5,8 +5,10 @@
 
 #include "apps/berth/interrupt.hpp"
 #include "apps/berth/progress_bar.hpp"
+#include "bench/embree_rays.hpp"
 #include "bench/statistics.hpp"
 #include "bench/stopwatch.hpp"
+#include "bench/triangle_count.hpp"
 #include "berth/distance/mean_direction.hpp"
 #include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/observer.hpp"
@@ -27,6 +29,7 @@ class Stages {
       : camera_(camera),
         rig_(*camera.rig),
         renderer_(rig_.meshes(), rig_.camera()),
+        rays_(rig_.model(), rig_.camera()),
         observer_(rig_),
         asker_(rig_),
         settings_(rig_.settings().distance) {
@@ -45,12 +48,18 @@ class Stages {
     take(question_, [&] { asker_.ask(frame_, other_joints); });
   }
 
+  void run_embree(std::size_t frame_number) {
+    forward_kinematics(rig_.model(), camera_.at_exposure[frame_number].position, pose_);
+    take(embree_, [&] { rays_.render(pose_, rig_.camera_pose(pose_), traced_); });
+  }
+
   void forget_times() {
     for (Stage* stage : all()) stage->times_ms.clear();
   }
 
   std::vector<Stage*> all() {
-    return {&render_, &self_filter_, &tree_, &exact_, &mean_, &whole_, &question_};
+    return {&render_, &self_filter_, &both_,     &tree_,  &exact_,
+            &mean_,   &whole_,       &question_, &embree_};
   }
 
  private:
@@ -70,7 +79,9 @@ class Stages {
       self_filter(rig_.camera(), depth_m, frame_.robot, rig_.settings().self_filter, filter_,
                   frame_.obstacles);
     });
+    both_.times_ms.push_back(render_.times_ms.back() + self_filter_.times_ms.back());
     take(tree_, [&] { build_obstacle_tree(frame_.obstacles.depth_m, frame_.obstacle_tree); });
+    distances_.links.clear();
     take(exact_, [&] {
       evaluate(Method::exact, rig_.camera(), frame_.robot, frame_.obstacles.depth_m,
                frame_.obstacle_tree, rig_.model().link_count(), settings_, workspace_, distances_);
@@ -84,6 +95,8 @@ class Stages {
   const OpenCamera& camera_;
   const Rig& rig_;
   RobotRenderer renderer_;
+  EmbreeRays rays_;
+  RobotImage traced_;
   RobotPose pose_;
   SelfFilterWorkspace filter_;
   EvaluateWorkspace workspace_;
@@ -94,18 +107,14 @@ class Stages {
   DistanceSettings settings_;
   Stage render_{"render"};
   Stage self_filter_{"self filter"};
+  Stage both_{"render and self filter"};
   Stage tree_{"obstacle tree"};
-  Stage exact_{"exact"};
-  Stage mean_{"mean direction"};
+  Stage exact_{"exact, cold"};
+  Stage mean_{"mean direction, on top"};
   Stage whole_{"depth image to result"};
   Stage question_{"question at new joint angles"};
+  Stage embree_{"Embree rays, same pixels"};
 };
-
-std::size_t triangle_count(const RobotModel& model) {
-  std::size_t count = 0;
-  for (const Link& link : model.links) count += link.mesh_L.triangles.size();
-  return count;
-}
 
 }  // namespace
 
@@ -127,10 +136,15 @@ Table measure_stages(const Recording& recording, int threads, int rounds) {
     }
     progress.step();
   }
+  // Apart, since its meshes would drive berth's out of the caches.
+  for (std::size_t i = 0; i < frames; ++i) {
+    for (int round = 0; round <= rounds; ++round) stages.run_embree(i);
+  }
 
   Table table{title,
-              fmt::format("{} x {}, {} triangles, {} links, {} frames, each {} times; the last two "
-                          "rows are the whole pipeline.",
+              fmt::format("{} x {}, {} triangles, {} links, {} frames, each {} times. The image to "
+                          "result and the question are the whole pipeline, with mean directions; "
+                          "Embree is beside it.",
                           camera.rig->camera().width_px, camera.rig->camera().height_px,
                           triangle_count(camera.rig->model()), camera.rig->model().link_count(),
                           frames, rounds + 1),

@@ -1,36 +1,26 @@
 #pragma once
 
-#include <chrono>
 #include <ctime>
 
 namespace berth::bench {
 
-/// Time since it was made, by the clock on the wall.
+/// Time since it was made, by the clock on the wall unless another clock is named.
 class Stopwatch {
  public:
-  double ms() const {
-    const std::chrono::duration<double, std::milli> took = Clock::now() - start_;
-    return took.count();
-  }
+  /// CLOCK_PROCESS_CPUTIME_ID: processor time of the whole program; what one thread would take by
+  /// the clock on the wall, had it a processor to itself.
+  explicit Stopwatch(clockid_t clock = CLOCK_MONOTONIC) : clock_(clock) {}
 
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
-};
-
-/// Processor time of the whole program since it was made: what one thread would take by the clock
-/// on the wall, had it a processor to itself.
-class ProcessorStopwatch {
- public:
   double ms() const { return now_ms() - start_ms_; }
 
  private:
-  static double now_ms() {
+  double now_ms() const {
     timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    clock_gettime(clock_, &now);
     return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
   }
 
+  clockid_t clock_;
   double start_ms_ = now_ms();
 };
 

@@ -1,43 +1,36 @@
 #include "bench/subdivide.hpp"
 
-#include <map>
-
 namespace berth::bench {
 namespace {
 
-/// The middle of each edge once, so that neighbours share it.
-class Middles {
- public:
-  explicit Middles(std::vector<Eigen::Vector3f>& vertices_m) : vertices_m_(vertices_m) {}
-
-  std::uint32_t operator()(std::uint32_t a, std::uint32_t b) {
-    const auto next = static_cast<std::uint32_t>(vertices_m_.size());
-    const auto [place, is_new] = middles_.try_emplace(std::minmax(a, b), next);
-    if (is_new) {
-      const Eigen::Vector3f middle_m = 0.5f * (vertices_m_[a] + vertices_m_[b]);
-      vertices_m_.push_back(middle_m);
-    }
-    return place->second;
-  }
-
- private:
-  std::vector<Eigen::Vector3f>& vertices_m_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles_;
-};
+/// Rows of points from corner a to the edge b c: row i has i + 1 points.
+std::uint32_t point_index(int row, int place) {
+  return static_cast<std::uint32_t>(row * (row + 1) / 2 + place);
+}
 
 }  // namespace
 
-TriangleMesh subdivide(const TriangleMesh& mesh) {
-  TriangleMesh fine{mesh.vertices_m, {}};
-  Middles middle(fine.vertices_m);
+TriangleMesh subdivide(const TriangleMesh& mesh, int parts) {
+  TriangleMesh fine;
   for (const auto& [a, b, c] : mesh.triangles) {
-    const std::uint32_t ab = middle(a, b);
-    const std::uint32_t bc = middle(b, c);
-    const std::uint32_t ca = middle(c, a);
-    fine.triangles.push_back({a, ab, ca});
-    fine.triangles.push_back({ab, b, bc});
-    fine.triangles.push_back({ca, bc, c});
-    fine.triangles.push_back({ab, bc, ca});
+    const auto first = static_cast<std::uint32_t>(fine.vertices_m.size());
+    for (int row = 0; row <= parts; ++row) {
+      for (int place = 0; place <= row; ++place) {
+        // Symmetric in the corners, so that a neighbour rounds alike.
+        const Eigen::Vector3d sum_m = (parts - row) * mesh.vertices_m[a].cast<double>() +
+                                      (row - place) * mesh.vertices_m[b].cast<double>() +
+                                      place * mesh.vertices_m[c].cast<double>();
+        fine.vertices_m.push_back((sum_m / parts).cast<float>());
+      }
+    }
+    for (int row = 0; row < parts; ++row) {
+      for (int place = 0; place <= row; ++place) {
+        const std::uint32_t above = first + point_index(row, place);
+        const std::uint32_t below = first + point_index(row + 1, place);
+        fine.triangles.push_back({above, below, below + 1});
+        if (place < row) fine.triangles.push_back({above, below + 1, above + 1});
+      }
+    }
   }
   return fine;
 }

@@ -4,7 +4,8 @@
 
 namespace berth::bench {
 
-/// Each triangle cut into four at the middles of its sides; the surface stays the same.
-TriangleMesh subdivide(const TriangleMesh& mesh);
+/// The same surface with parts * parts triangles in place of each one: every edge in `parts` equal
+/// parts. Neighbours share positions to the bit, though not vertices.
+TriangleMesh subdivide(const TriangleMesh& mesh, int parts);
 
 }  // namespace berth::bench

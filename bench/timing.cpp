@@ -6,8 +6,13 @@
 namespace berth::bench {
 namespace {
 
+clockid_t clock_for(const Peer& peer) {
+  return peer.threads() == 1 ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_MONOTONIC;
+}
+
 PeerTime run_once(Peer& peer, const BenchScene& scene, PeerDistances& distances_m) {
-  const ProcessorStopwatch watch;
+  peer.begin();
+  const Stopwatch watch(clock_for(peer));
   peer.prepare(scene);
   const double build_ms = watch.ms();
   peer.evaluate(scene, distances_m);
@@ -22,7 +27,7 @@ PeerTime time_peer(Peer& peer, const BenchScene& scene, const RunLimits& limits,
   if (first.total_ms > limits.once_above_ms) return first;
   std::vector<double> build_ms;
   std::vector<double> total_ms;
-  const ProcessorStopwatch watch;
+  const Stopwatch watch;
   do {
     const PeerTime run = run_once(peer, scene, distances_m);
     build_ms.push_back(run.build_ms);

@@ -13,7 +13,8 @@ struct RunLimits {
   double once_above_ms = 100;
 };
 
-/// Processor time, which another program on the machine lengthens least; medians of the runs.
+/// Medians of the runs: of a method with one thread processor time, which another program on the
+/// machine lengthens least; of one with more, by the clock on the wall.
 struct PeerTime {
   double build_ms;
   /// With the build.
