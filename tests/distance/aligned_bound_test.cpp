@@ -61,7 +61,7 @@ Metric random_metric(Sampler& sample) {
 
 Axes random_axes(Sampler& sample, const Metric& metric, const RandomTile& robot) {
   if (sample.whole(0, 1) == 0)
-    return axes_of({sample.real(-1, 1), sample.real(-1, 1), sample.real(-1, 1)});
+    return axes_of(metric, {sample.real(-1, 1), sample.real(-1, 1), sample.real(-1, 1)});
   return axes_along(metric, simd::fit_plane(robot.tile), robot.tile.u, robot.tile.v);
 }
 
@@ -102,7 +102,7 @@ TEST(AlignedBound, PixelsFarFromTheBoxAreNotNear) {
   Sampler sample;
   const Metric metric{80, 60, 1 / 100.0f, 1 / 100.0f};
   const RandomTile tile(sample, 1);
-  const simd::AlignedView view(metric, axes_of({0, 0, 1}), tile.tile, {0, 0});
+  const simd::AlignedView view(metric, axes_of(metric, {0, 0, 1}), tile.tile, {0, 0});
   EXPECT_EQ(view.pixels_near({{-0.1f, -0.1f, 9}, {0.1f, 0.1f, 9.1f}}, 1), 0u);
 }
 
@@ -124,12 +124,13 @@ TEST(SurfaceAxes, ThePlaneOfATileGivesItsNormal) {
 }
 
 TEST(SurfaceAxes, AreOrthonormalForEveryNormal) {
+  const Metric metric{80, 60, 1 / 100.0f, 1 / 120.0f};
   Sampler sample;
   for (int i = 0; i < 1000; ++i) {
     const float scale = std::exp(sample.real(-20, 20));
-    const Axes a = i == 0 ? axes_of({0, 0, 0})
-                          : axes_of({scale * sample.real(-1, 1), scale * sample.real(-1, 1),
-                                     scale * sample.real(-1, 1)});
+    const Axes a = i == 0 ? axes_of(metric, {0, 0, 0})
+                          : axes_of(metric, {scale * sample.real(-1, 1), scale * sample.real(-1, 1),
+                                             scale * sample.real(-1, 1)});
     for (int j = 0; j < 3; ++j) {
       for (int k = 0; k < 3; ++k) {
         EXPECT_NEAR(a.x[j] * a.x[k] + a.y[j] * a.y[k] + a.z[j] * a.z[k], j == k ? 1 : 0, 1e-6);

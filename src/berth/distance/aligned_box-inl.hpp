@@ -40,7 +40,8 @@ class AlignedView {
   HWY_INLINE AlignedView(const Metric& metric, const Axes& axes, const LeafTile& tile,
                          Interval<float> raise_m)
       : tile_(tile), raise_m_(raise_m), is_raised_(tile.box.depth_lo_m < raise_m.hi) {
-    for (int k = 0; k < 3; ++k) rate_[k] = rate_along(metric, axes, k, tile.u, tile.v);
+    const TileCorner corner = tile_corner(metric, tile.u, tile.v);
+    for (int k = 0; k < 3; ++k) rate_[k] = rate_along(axes, k, corner);
   }
 
   /// The box around the pixels in `bits`.

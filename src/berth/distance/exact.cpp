@@ -70,7 +70,9 @@ void start(const Question& question, const LinkDistances& last, ExactWorkspace& 
 void search_on(const Question& question, const SearchLimits& limits, ExactWorkspace& workspace,
                std::size_t i) {
   ExactWorkspace::LinkSearch& link = workspace.links[i];
-  if (link.is_done) return;
+  const bool is_late = limits.deadline != Clock::time_point::max() && link.best.ru >= 0 &&
+                       link.lower_bound_m > 0 && Clock::now() >= limits.deadline;
+  if (link.is_done || is_late) return;
   const SearchResult result =
       search_link({question.metric, workspace.robot, question.robot.depth_m, question.obstacles,
                    question.obstacle_depth_m, workspace.order.data() + link.first_order},
@@ -88,13 +90,14 @@ void search_all(const Question& question, const SearchLimits& limits, ExactWorks
 /// Against a deadline: first what is easy, then the rest ever more exactly. A search that is cut
 /// leaves bounds of all sizes behind; one that ends within a tolerance, a bound near its answer.
 void search_until(Clock::time_point deadline, const Question& question, ExactWorkspace& workspace) {
-  constexpr std::int64_t kEasyWork = 40000;
-  constexpr std::int64_t kAnyWork = std::numeric_limits<std::int64_t>::max();
-  search_all(question, {question.tolerance_m, kEasyWork, deadline}, workspace);
+  constexpr std::int64_t kEasyWork = 20000;
+  SearchLimits limits{question.tolerance_m, kEasyWork, deadline};
+  search_all(question, limits, workspace);
+  limits.most_work = std::numeric_limits<std::int64_t>::max();
+  limits.most_work_unaligned = 0;
   for (const float tolerance_m : {4e-3f, 1e-3f, 2e-4f, 0.0f}) {
-    if (Clock::now() >= deadline) return;
-    search_all(question, {std::max(tolerance_m, question.tolerance_m), kAnyWork, deadline},
-               workspace);
+    limits.tolerance_m = std::max(tolerance_m, question.tolerance_m);
+    search_all(question, limits, workspace);
   }
 }
 
@@ -139,7 +142,9 @@ void exact(const Camera& camera, const RobotImage& robot, DepthView obstacle_dep
   if (settings.deadline_us) {
     search_until(time_after(begin, *settings.deadline_us), question, workspace);
   } else {
-    search_all(question, {question.tolerance_m}, workspace);
+    SearchLimits limits{question.tolerance_m};
+    if (question.tolerance_m > 0) limits.most_work_unaligned /= 2;
+    search_all(question, limits, workspace);
   }
 
   out.pairs = 0;

@@ -16,6 +16,7 @@ namespace HWY_NAMESPACE {
 
 /// A robot node against one obstacle tile.
 inline void search_tile(Search& search, const RobotTiles::Node& robot, const PixelBox& box) {
+  if (is_out_of_time(search)) return;
   Bounds bounds = bound_robot_tiles(search, robot, box);
   if (bounds.may_improve == 0) return;
   TileCopy obstacle_copy;
@@ -107,9 +108,6 @@ float least_tile_bound_m2(const Search& search, const RobotTiles::Node& robot, S
   return least_m2;
 }
 
-/// A node whose search takes more than this is aligned, which takes about as long.
-constexpr std::int64_t kWorkBeforeAligned = 12000;
-
 SearchResult search_nodes(const SearchInput& input, int last_node, const SearchLimits& limits,
                           ClosestPair& best) {
   AlignedNode aligned;
@@ -120,7 +118,7 @@ SearchResult search_nodes(const SearchInput& input, int last_node, const SearchL
   for (; k < count && !search.stopped; ++k) {
     search.is_aligned = aligned.along_surface.is_made = aligned.along_pair.is_made = false;
     aligned.tiles_made = 0;
-    search.align_at = work_of(search) + (limits.tolerance_m > 0 ? 0 : kWorkBeforeAligned);
+    search.align_at = work_of(search) + limits.most_work_unaligned;
     search_square(search, input.robot.nodes[input.order[k].node], root_of(input.obstacles));
   }
   float bound_m2 = search.limit_m2;

@@ -62,7 +62,7 @@ inline Normal direction_of(const Metric& metric, const ClosestPair& pair) {
 inline void make_boxes(const Search& search, const RobotTiles::Node& node, const Normal& normal,
                        AlignedBoxes& out) {
   out.is_made = true;
-  out.axes = axes_of(normal);
+  out.axes = axes_of(search.input.metric, normal);
   TileCopy copy;
   for (int i = 0; i < RobotTiles::kNodeTiles; ++i) {
     AlignedBox box{{HUGE_VALF, HUGE_VALF, HUGE_VALF}, {HUGE_VALF, HUGE_VALF, HUGE_VALF}};

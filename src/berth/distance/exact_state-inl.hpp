@@ -82,10 +82,10 @@ inline void update_limit(Search& search) {
   search.max_gap_m = root_above(search.limit_m2);
 }
 
-/// Whether to stop; asked before each pair of tiles, which take about as long as a look at the
-/// clock.
+/// Whether to stop; asked before each tile, which takes about as long as a look at the clock.
 inline bool is_out_of_time(Search& search) {
-  if (search.stopped || search.leaves == 0) return search.stopped;
+  if (search.stopped) return true;
+  if (search.best.ru < 0 && search.leaves == 0) return false;
   search.stopped = work_of(search) >= search.limits.most_work ||
                    (search.limits.deadline != std::chrono::steady_clock::time_point::max() &&
                     std::chrono::steady_clock::now() >= search.limits.deadline);

@@ -3,7 +3,7 @@
 #include <cmath>
 
 namespace berth {
-Axes axes_of(const Normal& towards) {
+Axes axes_of(const Metric& metric, const Normal& towards) {
   const Eigen::Vector3f direction(towards.x, towards.y, towards.z);
   const float length = direction.norm();
   const Eigen::Vector3f normal = std::isfinite(length) && length > 0
@@ -14,9 +14,17 @@ Axes axes_of(const Normal& towards) {
       std::abs(normal.x()) < 0.9f ? Eigen::Vector3f::UnitX() : Eigen::Vector3f::UnitY();
   const Eigen::Vector3f second = (row - row.dot(normal) * normal).normalized();
   const Eigen::Vector3f third = normal.cross(second);
-  return {{normal.x(), second.x(), third.x()},
-          {normal.y(), second.y(), third.y()},
-          {normal.z(), second.z(), third.z()}};
+  Axes axes;
+  const Eigen::Vector3f* const directions[3] = {&normal, &second, &third};
+  for (int k = 0; k < 3; ++k) {
+    axes.x[k] = directions[k]->x();
+    axes.y[k] = directions[k]->y();
+    axes.z[k] = directions[k]->z();
+    axes.per_u[k] = axes.x[k] * metric.inv_fx;
+    axes.per_v[k] = axes.y[k] * metric.inv_fy;
+    axes.half[k] = 0.5f * (std::abs(axes.per_u[k]) + std::abs(axes.per_v[k]));
+  }
+  return axes;
 }
 
 InversePlane solve_plane(const float (&sum)[9]) {
@@ -41,7 +49,7 @@ Axes axes_along(const Metric& metric, const InversePlane& plane, float u, float 
   // The tile counts pixel centres, the metric corners.
   const float c =
       plane.c + plane.a * (metric.cx_px - 0.5f - u) + plane.b * (metric.cy_px - 0.5f - v);
-  return axes_of({plane.a / metric.inv_fx, plane.b / metric.inv_fy, c});
+  return axes_of(metric, {plane.a / metric.inv_fx, plane.b / metric.inv_fy, c});
 }
 
 void add_normal(const Axes& axes, Normal& sum) {

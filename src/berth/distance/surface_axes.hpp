@@ -12,6 +12,11 @@ struct Axes {
   float x[3];
   float y[3];
   float z[3];
+  /// How a point at depth 1 moves along each axis from one pixel to the next; and half of what its
+  /// pixel's square fills.
+  float per_u[3];
+  float per_v[3];
+  float half[3];
 };
 
 /// Sides along three axes.
@@ -33,20 +38,27 @@ struct AxisRate {
 /// for a few roundings of 2^-24.
 inline constexpr float kOrthonormal = 1 - 0x1p-18f;
 
-/// The rates of the tile with the corner pixel (u, v) along axis k. They are widened by 32
-/// roundings of the largest coordinate, at depth 1, in the tile: 12 that are made here and in the
-/// product with the depth, and those of the metric, so that a bound from them is never above the
-/// metric's own, rounded, result.
-inline AxisRate rate_along(const Metric& metric, const Axes& axes, int k, float u, float v) {
-  constexpr float kRoundings = 0x1p-19f;
-  const float per_u = axes.x[k] * metric.inv_fx;
-  const float per_v = axes.y[k] * metric.inv_fy;
+/// The centre of a tile's corner pixel, from the principal point.
+struct TileCorner {
+  float x_px;
+  float y_px;
+  /// 32 roundings of the largest coordinate, at depth 1, in the tile: 12 that are made from here to
+  /// the product with the depth, and those of the metric; so that a bound from rates that are
+  /// widened by it is never above the metric's own, rounded, result.
+  float rounding;
+};
+
+inline TileCorner tile_corner(const Metric& metric, float u, float v) {
   const float x_px = u + 0.5f - metric.cx_px;
   const float y_px = v + 0.5f - metric.cy_px;
   const float reach =
       (std::abs(x_px) + 8) * metric.inv_fx + (std::abs(y_px) + 8) * metric.inv_fy + 1;
-  return {x_px * per_u + y_px * per_v + axes.z[k], per_u, per_v,
-          0.5f * (std::abs(per_u) + std::abs(per_v)) + kRoundings * reach};
+  return {x_px, y_px, 0x1p-19f * reach};
+}
+
+inline AxisRate rate_along(const Axes& axes, int k, const TileCorner& corner) {
+  return {corner.x_px * axes.per_u[k] + corner.y_px * axes.per_v[k] + axes.z[k], axes.per_u[k],
+          axes.per_v[k], axes.half[k] + corner.rounding};
 }
 
 /// 1 / depth = a u + b v + c in a tile's own columns and rows, counted from its corner: the form of
@@ -72,7 +84,7 @@ struct Normal {
 };
 
 /// Axes with this normal; the camera's own where it has no direction.
-Axes axes_of(const Normal& normal);
+Axes axes_of(const Metric& metric, const Normal& normal);
 
 /// Adds the axes' normal to the sum, on the side that the sum is on: a surface has two.
 void add_normal(const Axes& axes, Normal& sum);
