@@ -16,13 +16,14 @@ namespace {
 struct Extent {
   int random_scenes = 0;
   int hard_scenes = kHardScenes;
+  int bowl_scenes = kBowlScenes;
   int recorded_frames = 12;
   int growth_scenes = 40;
   int stage_rounds = 20;
   RunLimits limits = {};
 };
 
-constexpr Extent kQuick{2, 1, 1, 2, 1, {3, 5, 50}};
+constexpr Extent kQuick{2, 1, 1, 1, 2, 1, {3, 5, 50}};
 
 /// The name of the folder that a scene stands in.
 std::string title_of(const std::filesystem::path& scene_file) {
@@ -49,6 +50,7 @@ void run_benchmarks(const BenchSettings& settings) {
 
   report.add(compare_peers(random_scenes(extent.random_scenes), extent.limits));
   report.add(compare_peers(hard_scenes(extent.hard_scenes), extent.limits));
+  report.add(compare_peers(bowl_scenes(extent.bowl_scenes), extent.limits));
   measure_recording(bundled, extent, report);
   for (const auto& recording : recordings) measure_recording(recording, extent, report);
   report.add(measure_growth_of_image(extent.growth_scenes, extent.limits));

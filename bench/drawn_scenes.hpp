@@ -14,7 +14,11 @@ SceneSet random_scenes(int count);
 
 /// Smooth surfaces everywhere equally far, where every pair ties, at 640 x 480;
 /// `count` is at most kHardScenes.
-inline constexpr int kHardScenes = 7;
+inline constexpr int kHardScenes = 5;
 SceneSet hard_scenes(int count);
+
+/// Harder still: bowls in shells; `count` is at most kBowlScenes.
+inline constexpr int kBowlScenes = 2;
+SceneSet bowl_scenes(int count);
 
 }  // namespace berth::bench

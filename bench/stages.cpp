@@ -16,6 +16,9 @@
 namespace berth::bench {
 namespace {
 
+/// Questions between two images: a controller asks more often than a camera sees.
+constexpr std::size_t kQuestions = 5;
+
 /// The runs of one stage.
 struct Stage {
   std::string name;
@@ -38,14 +41,16 @@ class Stages {
 
   void run(DepthView depth_m, std::size_t frame_number) {
     const JointState& joints = camera_.at_exposure[frame_number];
-    const JointState& other_joints =
-        camera_.at_exposure[(frame_number + 1) % camera_.at_exposure.size()];
     run_apart(depth_m, joints);
     take(whole_, [&] {
       observer_.observe(depth_m, joints, frame_);
       asker_.ask(frame_);
     });
-    take(question_, [&] { asker_.ask(frame_, other_joints); });
+    const std::vector<JointState>& joints_of = camera_.at_exposure;
+    for (std::size_t k = 1; k <= kQuestions; ++k) {
+      take(question_,
+           [&] { asker_.ask(frame_, joints_of[(frame_number + k) % joints_of.size()]); });
+    }
   }
 
   void run_embree(std::size_t frame_number) {
