@@ -25,13 +25,6 @@ struct Question {
   float tolerance_m;
 };
 
-/// Later than any clock will show, for a time too long to be counted.
-Clock::time_point time_after(Clock::time_point begin, double wait_us) {
-  const std::chrono::duration<double, std::micro> wait(wait_us);
-  return wait < std::chrono::hours(1) ? begin + std::chrono::duration_cast<Clock::duration>(wait)
-                                      : Clock::time_point::max();
-}
-
 /// The last answer's pair as it is in the new images; a pair at the range where it is no more.
 ClosestPair first_guess(const Question& question, const LinkDistance& last, LinkId id) {
   const ClosestPair none = no_pair_within(question.range_m);
@@ -87,18 +80,20 @@ void search_all(const Question& question, const SearchLimits& limits, ExactWorks
                     [&](std::size_t i) { search_on(question, limits, workspace, i); });
 }
 
-/// Against a deadline: first what is easy, then the rest ever more exactly. A search that is cut
-/// leaves bounds of all sizes behind; one that ends within a tolerance, a bound near its answer.
-void search_until(Clock::time_point deadline, const Question& question, ExactWorkspace& workspace) {
-  constexpr std::int64_t kEasyWork = 20000;
-  SearchLimits limits{question.tolerance_m, kEasyWork, deadline};
+/// Against a deadline: a search that is cut leaves bounds of all sizes behind, but one that ends
+/// within a tolerance a bound near its answer. So what is not easy gets such a bound first.
+void search_until(Clock::time_point begin, Clock::duration wait, const Question& question,
+                  ExactWorkspace& workspace) {
+  constexpr double kEasyPart = 0.3;
+  constexpr float kFirstTolerance_m = 4e-3f;
+  SearchLimits limits{question.tolerance_m};
+  limits.deadline = begin + std::chrono::duration_cast<Clock::duration>(kEasyPart * wait);
   search_all(question, limits, workspace);
-  limits.most_work = std::numeric_limits<std::int64_t>::max();
-  limits.most_work_unaligned = 0;
-  for (const float tolerance_m : {4e-3f, 1e-3f, 2e-4f, 0.0f}) {
-    limits.tolerance_m = std::max(tolerance_m, question.tolerance_m);
-    search_all(question, limits, workspace);
+  limits.deadline = begin + wait;
+  if (question.tolerance_m < kFirstTolerance_m) {
+    search_all(question, {kFirstTolerance_m, limits.deadline, 0}, workspace);
   }
+  search_all(question, limits, workspace);
 }
 
 LinkDistance answer_of(const Question& question, LinkId id, int robot_pixels,
@@ -140,7 +135,8 @@ void exact(const Camera& camera, const RobotImage& robot, DepthView obstacle_dep
   build_robot_tiles(robot, link_count, workspace.robot);
   start(question, out, workspace);
   if (settings.deadline_us) {
-    search_until(time_after(begin, *settings.deadline_us), question, workspace);
+    const std::chrono::duration<double, std::micro> wait(std::min(*settings.deadline_us, 1e12));
+    search_until(begin, std::chrono::duration_cast<Clock::duration>(wait), question, workspace);
   } else {
     SearchLimits limits{question.tolerance_m};
     if (question.tolerance_m > 0) limits.most_work_unaligned /= 2;

@@ -24,11 +24,10 @@ struct SearchInput {
 struct SearchLimits {
   /// As soon as no pair can be closer than the best one by more than this.
   float tolerance_m = 0;
-  /// After this much work, counted about in pairs, and at this time; but never before a first pair,
-  /// or the first look for one.
-  std::int64_t most_work = std::numeric_limits<std::int64_t>::max();
+  /// At this time; but never before a first pair, or the first look for one.
   std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
-  /// A robot node whose search takes more work than this is looked at along its surface.
+  /// A robot node whose search takes more work than this, counted about in pairs, is looked at
+  /// along its surface.
   std::int64_t most_work_unaligned = 12000;
 };
 

@@ -86,9 +86,8 @@ inline void update_limit(Search& search) {
 inline bool is_out_of_time(Search& search) {
   if (search.stopped) return true;
   if (search.best.ru < 0 && search.leaves == 0) return false;
-  search.stopped = work_of(search) >= search.limits.most_work ||
-                   (search.limits.deadline != std::chrono::steady_clock::time_point::max() &&
-                    std::chrono::steady_clock::now() >= search.limits.deadline);
+  search.stopped = search.limits.deadline != std::chrono::steady_clock::time_point::max() &&
+                   std::chrono::steady_clock::now() >= search.limits.deadline;
   return search.stopped;
 }
 
