@@ -1,8 +1,10 @@
 #include "apps/berth/arguments.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -24,6 +26,19 @@ std::string require_not_negative(const std::string& text) {
   return value && *value >= 0 ? "" : text + " is no finite number of at least 0";
 }
 
+template <class T, std::size_t n>
+std::vector<std::string> names_of(const std::array<T, n>& all) {
+  std::vector<std::string> names;
+  for (const T one : all) names.emplace_back(name_of(one));
+  return names;
+}
+
+/// `name` is one of them.
+template <class T, std::size_t n>
+T named(const std::array<T, n>& all, const std::string& name) {
+  return *std::find_if(all.begin(), all.end(), [&](T one) { return name_of(one) == name; });
+}
+
 void add_threads(CLI::App& command, int& threads) {
   command.add_option("--threads", threads, "Threads to use (default: one for each processor)")
       ->check(CLI::Range(1, 1024))
@@ -31,10 +46,8 @@ void add_threads(CLI::App& command, int& threads) {
 }
 
 void add_evaluation(CLI::App& command, EvaluationArguments& arguments) {
-  std::vector<std::string> methods;
-  for (const Method method : kMethods) methods.emplace_back(name_of(method));
   command.add_option("--method", arguments.method, "How to find the distances (default: exact)")
-      ->check(CLI::IsMember(methods));
+      ->check(CLI::IsMember(names_of(kMethods)));
   command
       .add_option("--range", arguments.range_m,
                   "Distances are looked for up to here, in metres (default: 1)")
@@ -59,6 +72,37 @@ void add_evaluation(CLI::App& command, EvaluationArguments& arguments) {
       ->type_name("N");
 }
 
+void add_surveillance(CLI::App& command, EvaluationArguments& arguments) {
+  command
+      .add_option("--region", arguments.region,
+                  "brute_force and lattice: where obstacles of a robot pixel are looked for "
+                  "(default: image for brute_force, cube_projection for lattice)")
+      ->check(CLI::IsMember(names_of(kSurveillanceRegions)));
+  command
+      .add_option("--depth-interval", arguments.depth_interval,
+                  "brute_force and lattice: whether obstacles in front of the cube around a robot "
+                  "pixel count (default: gray_area, they do)")
+      ->check(CLI::IsMember(names_of(kDepthIntervals)));
+  command
+      .add_option("--search-pattern", arguments.search_pattern,
+                  "brute_force and lattice: the order of obstacle pixels (default: row_major)")
+      ->check(CLI::IsMember(names_of(kSearchPatterns)));
+}
+
+void add_lattice(CLI::App& command, EvaluationArguments& arguments) {
+  const auto pixels = [&command](const char* name, std::optional<int>& value, const char* what) {
+    command.add_option(name, value, what)->check(CLI::Range(1, kMaxLatticePx))->type_name("PX");
+  };
+  pixels("--step-x", arguments.step_x,
+         "lattice: tries every so many columns of obstacle pixels (default: 1)");
+  pixels("--step-y", arguments.step_y,
+         "lattice: tries every so many rows of obstacle pixels (default: 1)");
+  pixels("--initial-grid-radius-px", arguments.initial_grid_radius_px,
+         "lattice: radius around the robot pixels that are tried first (default: 40)");
+  pixels("--final-grid-radius-px", arguments.final_grid_radius_px,
+         "lattice: radius within which all robot pixels are tried last (default: 2)");
+}
+
 void add_output(CLI::App& command, CommonArguments& arguments) {
   const std::map<std::string, OutputFormat> formats{{"table", OutputFormat::table},
                                                     {"json", OutputFormat::json}};
@@ -73,19 +117,63 @@ void add_output(CLI::App& command, CommonArguments& arguments) {
   add_threads(command, arguments.threads);
 }
 
+/// Throws if an option was given that belongs to other methods.
+template <class T>
+void require_method(const std::optional<T>& option, const char* name, Method used,
+                    std::initializer_list<Method> expected) {
+  if (!option || std::find(expected.begin(), expected.end(), used) != expected.end()) return;
+  std::vector<std::string_view> names;
+  for (const Method method : expected) names.push_back(name_of(method));
+  throw std::invalid_argument(fmt::format("method {}: has no {}; expected method {}", name_of(used),
+                                          name, fmt::join(names, " or ")));
+}
+
+void require_methods(const EvaluationArguments& arguments, Method used) {
+  const auto exact = {Method::exact};
+  const auto lattice = {Method::lattice};
+  const auto watching = {Method::brute_force, Method::lattice};
+  require_method(arguments.tolerance_m, "--tolerance-m", used, exact);
+  require_method(arguments.deadline_us, "--deadline-us", used, exact);
+  require_method(arguments.region, "--region", used, watching);
+  require_method(arguments.depth_interval, "--depth-interval", used, watching);
+  require_method(arguments.search_pattern, "--search-pattern", used, watching);
+  require_method(arguments.step_x, "--step-x", used, lattice);
+  require_method(arguments.step_y, "--step-y", used, lattice);
+  require_method(arguments.initial_grid_radius_px, "--initial-grid-radius-px", used, lattice);
+  require_method(arguments.final_grid_radius_px, "--final-grid-radius-px", used, lattice);
+}
+
+template <class T>
+void set_if(T& setting, const std::optional<T>& given) {
+  if (given) setting = *given;
+}
+
+SurveillanceSettings surveillance_over(SurveillanceSettings settings,
+                                       const EvaluationArguments& arguments) {
+  if (arguments.region) settings.region = named(kSurveillanceRegions, *arguments.region);
+  if (arguments.depth_interval) {
+    settings.depth_interval = named(kDepthIntervals, *arguments.depth_interval);
+  }
+  if (arguments.search_pattern) {
+    settings.search_pattern = named(kSearchPatterns, *arguments.search_pattern);
+  }
+  return settings;
+}
+
 }  // namespace
 
 DistanceSettings EvaluationArguments::settings_over(DistanceSettings settings,
                                                     Method method_used) const {
-  if ((tolerance_m || deadline_us) && method_used != Method::exact) {
-    throw std::invalid_argument(
-        fmt::format("method {}: has neither --tolerance-m nor --deadline-us; expected method exact",
-                    name_of(method_used)));
-  }
-  if (tolerance_m) settings.tolerance_m = *tolerance_m;
+  require_methods(*this, method_used);
+  set_if(settings.tolerance_m, tolerance_m);
   if (deadline_us) settings.deadline_us = *deadline_us;
-  if (range_m) settings.range_m = *range_m;
-  if (mean_direction) settings.mean_direction = *mean_direction;
+  set_if(settings.range_m, range_m);
+  set_if(settings.mean_direction, mean_direction);
+  settings.surveillance = surveillance_over(settings.surveillance, *this);
+  set_if(settings.lattice.step_x, step_x);
+  set_if(settings.lattice.step_y, step_y);
+  set_if(settings.lattice.initial_grid_radius_px, initial_grid_radius_px);
+  set_if(settings.lattice.final_grid_radius_px, final_grid_radius_px);
   validate(settings);
   return settings;
 }
@@ -102,6 +190,8 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
   command.add_option("--picture", arguments.picture_folder, "Draw each frame into this folder")
       ->type_name("DIR");
   add_evaluation(command, arguments.evaluation);
+  add_surveillance(command, arguments.evaluation);
+  add_lattice(command, arguments.evaluation);
   add_output(command, arguments);
   command.footer(
       "Example:\n  berth run scene.yaml --format json --out result.jsonl --picture pictures");
@@ -140,6 +230,8 @@ void add_evaluate_options(CLI::App& command, EvaluateArguments& arguments) {
       ->check(CLI::Range(1, 1000000000))
       ->type_name("N");
   add_evaluation(command, arguments.evaluation);
+  add_surveillance(command, arguments.evaluation);
+  add_lattice(command, arguments.evaluation);
   add_output(command, arguments);
   command.footer(
       "Example:\n  berth evaluate --camera camera_info.yaml --robot-depth robot_depth_000000.png "

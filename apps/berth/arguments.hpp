@@ -21,6 +21,13 @@ struct EvaluationArguments {
   std::optional<bool> mean_direction;
   std::optional<double> tolerance_m;
   std::optional<double> deadline_us;
+  std::optional<std::string> region;
+  std::optional<std::string> depth_interval;
+  std::optional<std::string> search_pattern;
+  std::optional<int> step_x;
+  std::optional<int> step_y;
+  std::optional<int> initial_grid_radius_px;
+  std::optional<int> final_grid_radius_px;
 
   /// Throws std::invalid_argument for values outside their domain, and for those that the method
   /// does not have.

@@ -23,14 +23,18 @@ void expect_own_pair(const LinkDistance& link, const ImagePair& images) {
 
 }  // namespace
 
-LinkDistances answer(Method method, const ImagePair& images, double range_m) {
+LinkDistances answer(Method method, const ImagePair& images, const DistanceSettings& settings) {
   ObstacleTree tree;
   build_obstacle_tree(images.obstacle_depth_m, tree);
   EvaluateWorkspace workspace;
   LinkDistances out;
   evaluate(method, images.camera, images.robot, images.obstacle_depth_m, tree, images.link_count,
-           {range_m, false}, workspace, out);
+           settings, workspace, out);
   return out;
+}
+
+LinkDistances answer(Method method, const ImagePair& images, double range_m) {
+  return answer(method, images, {range_m, false});
 }
 
 void expect_no_distance(const LinkDistance& link) {
@@ -59,6 +63,40 @@ void expect_same_answer(const LinkDistances& expected, const LinkDistances& actu
     }
     EXPECT_NEAR(link.distance_m, expected.links[i].distance_m, tolerance_m(link.distance_m));
     expect_own_pair(link, images);
+  }
+}
+
+void expect_possible_answer(const LinkDistances& truth, const LinkDistances& actual,
+                            const ImagePair& images) {
+  ASSERT_EQ(truth.links.size(), actual.links.size());
+  for (std::size_t i = 0; i < truth.links.size(); ++i) {
+    SCOPED_TRACE("link " + std::to_string(i + 1));
+    const LinkDistance& link = actual.links[i];
+    const LinkDistance& true_link = truth.links[i];
+    EXPECT_EQ(link.id, i + 1);
+    EXPECT_EQ(link.robot_pixels, true_link.robot_pixels);
+    if (link.status != LinkStatus::ok) {
+      EXPECT_EQ(link.status,
+                true_link.robot_pixels == 0 ? LinkStatus::not_visible : LinkStatus::none_in_range);
+      expect_no_distance(link);
+    } else {
+      ASSERT_EQ(true_link.status, LinkStatus::ok);
+      EXPECT_GE(link.distance_m, true_link.distance_m - tolerance_m(true_link.distance_m));
+      expect_own_pair(link, images);
+    }
+    EXPECT_EQ(std::isnan(link.lower_bound_m), link.status == LinkStatus::not_visible);
+    if (link.status != LinkStatus::not_visible) {
+      EXPECT_EQ(link.lower_bound_m, 0);
+    }
+  }
+}
+
+void expect_answer_of(Method method, const LinkDistances& brute_force, const LinkDistances& actual,
+                      const ImagePair& images) {
+  if (method == Method::lattice) {
+    expect_possible_answer(brute_force, actual, images);
+  } else {
+    expect_same_answer(brute_force, actual, images);
   }
 }
 

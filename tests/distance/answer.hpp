@@ -7,13 +7,28 @@
 
 namespace berth::testing {
 
-/// The answer of a method with a fresh tree and workspace, without mean directions.
+/// The methods that find the closest pair; the others may take another one for it.
+inline constexpr std::array kExactMethods = {Method::exact, Method::brute_force};
+
+/// The answer of a method with a fresh tree and workspace.
+LinkDistances answer(Method method, const ImagePair& images, const DistanceSettings& settings);
+/// Without mean directions.
 LinkDistances answer(Method method, const ImagePair& images, double range_m = 1.0);
 
 /// Fails the test unless both answers have the same statuses and pixel counts, distances within
 /// 1e-5 m (relative above 1 m), each distance is that of its own pair, and all else is unset.
 void expect_same_answer(const LinkDistances& expected, const LinkDistances& actual,
                         const ImagePair& images);
+
+/// Fails the test unless the answer may be an approximation of the true one: the same pixel counts,
+/// ok only where that is, no distance below the true one by more than 1e-5 m (relative above 1 m),
+/// each distance that of its own pair, nothing certified, and all else unset.
+void expect_possible_answer(const LinkDistances& truth, const LinkDistances& actual,
+                            const ImagePair& images);
+
+/// Fails the test unless the answer is what the method promises beside brute force's.
+void expect_answer_of(Method method, const LinkDistances& brute_force, const LinkDistances& actual,
+                      const ImagePair& images);
 
 /// Fails the test unless the link has no distance at all.
 void expect_no_distance(const LinkDistance& link);

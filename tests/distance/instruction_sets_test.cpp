@@ -28,5 +28,30 @@ TEST_P(InstructionSets, GiveTheSameDistances) {
   }
 }
 
+/// Even where the order of the search decides what is found.
+TEST(InstructionSetsOfASearch, SearchTheSamePairsAroundARobotPixel) {
+  const ImagePair images = random_images(3, 131, 70, 4);
+  for (const Method method : {Method::brute_force, Method::lattice}) {
+    for (const SearchPattern pattern : kSearchPatterns) {
+      DistanceSettings settings;
+      settings.mean_direction = false;
+      settings.surveillance = {SurveillanceRegion::flacco, DepthInterval::cube, pattern};
+      settings.lattice.step_x = 3;
+      const LinkDistances best = answer(method, images, settings);
+      std::int64_t targets = hwy::SupportedTargets();
+      for (; targets != 0; targets &= targets - 1) {
+        const OnlyTarget only(targets & -targets);
+        SCOPED_TRACE(hwy::TargetName(targets & -targets));
+        const LinkDistances found = answer(method, images, settings);
+        EXPECT_EQ(found.pairs, best.pairs);
+        for (std::size_t i = 0; i < best.links.size(); ++i) {
+          EXPECT_EQ(found.links[i].robot_pixel, best.links[i].robot_pixel);
+          EXPECT_EQ(found.links[i].obstacle_pixel, best.links[i].obstacle_pixel);
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace berth::testing

@@ -117,6 +117,22 @@ TEST(RegionOfSurveillance, LiesInTheImageForRangesOfAnySize) {
   }
 }
 
+TEST(FlaccoRegion, IsTheFrontSideAroundTheRobotPixel) {
+  const Camera camera{200, 150, 180, 90, 99.5, 74.5};
+  // Half sides of 180 * 0.1 / 0.9 = 20 and 10 pixels.
+  EXPECT_EQ(flacco_region(camera, {100, 70}, 1.0f, 0.1), (PixelRect{80, 60, 121, 81}));
+  EXPECT_EQ(flacco_region(camera, {190, 2}, 1.0f, 0.1), (PixelRect{170, 0, 200, 13}));
+  EXPECT_EQ(flacco_region(camera, {100, 70}, 1.0f, 1.0), (PixelRect{0, 0, 200, 150}));
+}
+
+TEST(FlaccoRegion, LacksAPartOfTheCubeAwayFromTheAxis) {
+  const Camera camera{200, 150, 60, 60, 99.5, 74.5};
+  const PixelRect flacco = flacco_region(camera, {180, 74}, 1.0f, 0.1);
+  const PixelRect cube = region_of_surveillance(camera, {180, 74}, 1.0f, 0.1);
+  EXPECT_GT(flacco.u_begin, cube.u_begin);
+  EXPECT_LT(flacco.u_end, cube.u_end);
+}
+
 TEST(RegionOfSurveillance, HoldsEveryObstaclePixelWithinTheRange) {
   std::mt19937 engine(5);
   for (int i = 0; i < 100; ++i) {

@@ -5,7 +5,11 @@
 namespace berth::testing {
 namespace {
 
-TEST(SteadyState, ExactAllocatesNothingOnceItHasSeenTheScene) {
+class SteadyState : public ::testing::TestWithParam<Method> {};
+INSTANTIATE_TEST_SUITE_P(Methods, SteadyState, ::testing::Values(Method::exact, Method::lattice),
+                         method_test_name);
+
+TEST_P(SteadyState, NothingIsAllocatedOnceTheSceneWasSeen) {
   const ImagePair images[] = {random_images(1, 160, 120, 8), random_images(2, 160, 120, 8)};
   ObstacleTree tree;
   EvaluateWorkspace workspace;
@@ -13,7 +17,7 @@ TEST(SteadyState, ExactAllocatesNothingOnceItHasSeenTheScene) {
   const auto answer_both = [&] {
     for (const ImagePair& pair : images) {
       build_obstacle_tree(pair.obstacle_depth_m, tree);
-      evaluate(Method::exact, pair.camera, pair.robot, pair.obstacle_depth_m, tree, 8, {1.0, true},
+      evaluate(GetParam(), pair.camera, pair.robot, pair.obstacle_depth_m, tree, 8, {1.0, true},
                workspace, out);
     }
   };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "berth/distance/closest_pair.hpp"
+#include "berth/distance/surveillance.hpp"
 
 // Compiles the rest of this file once for each instruction set.
 #undef HWY_TARGET_INCLUDE
@@ -67,6 +68,11 @@ std::int64_t count_readings(DepthView depth_m) {
   return count;
 }
 
+bool loses_pairs(const Surveillance& surveillance) {
+  return surveillance.region == SurveillanceRegion::flacco ||
+         surveillance.depth_interval == DepthInterval::cube;
+}
+
 }  // namespace
 
 void brute_force(const Camera& camera, const RobotImage& robot, DepthView obstacle_depth_m,
@@ -75,27 +81,42 @@ void brute_force(const Camera& camera, const RobotImage& robot, DepthView obstac
   assert(robot.depth_m.width() == obstacle_depth_m.width);
   assert(robot.depth_m.height() == obstacle_depth_m.height);
   const Metric metric = metric_of(camera);
+  const SurveillanceSettings& watched = settings.surveillance;
+  const Surveillance surveillance{camera,
+                                  metric,
+                                  obstacle_depth_m,
+                                  watched.region.value_or(SurveillanceRegion::image),
+                                  watched.depth_interval,
+                                  watched.search_pattern};
+  const bool tries_all = surveillance.region == SurveillanceRegion::image &&
+                         surveillance.depth_interval == DepthInterval::gray_area;
+  const std::int64_t readings = count_readings(obstacle_depth_m);
+  const auto try_pixel = [&](Pixel pixel, ClosestPair& best) -> std::int64_t {
+    const float depth_m = robot.depth_m(pixel.u, pixel.v);
+    if (!tries_all) return search_around(surveillance, pixel, depth_m, {1, 1}, best);
+    HWY_DYNAMIC_DISPATCH(try_robot_pixel)
+    (metric, static_cast<float>(pixel.u), static_cast<float>(pixel.v), depth_m, obstacle_depth_m,
+     best);
+    return readings;
+  };
+
   const auto range_m = static_cast<float>(settings.range_m);
   std::vector<ClosestPair> best(link_count, no_pair_within(range_m));
   std::vector<int> pixels(link_count, 0);
-
-  std::int64_t robot_pixels = 0;
+  out.pairs = 0;
   for (int v = 0; v < robot.depth_m.height(); ++v) {
     for (int u = 0; u < robot.depth_m.width(); ++u) {
       const LinkId id = robot.link_id(u, v);
       if (id == kNoLink || id == kEnvironmentLink) continue;
       assert(id <= link_count);
       ++pixels[id - 1];
-      ++robot_pixels;
-      HWY_DYNAMIC_DISPATCH(try_robot_pixel)
-      (metric, static_cast<float>(u), static_cast<float>(v), robot.depth_m(u, v), obstacle_depth_m,
-       best[id - 1]);
+      out.pairs += try_pixel({u, v}, best[id - 1]);
     }
   }
-  out.pairs = robot_pixels * count_readings(obstacle_depth_m);
   out.links.resize(link_count);
   for (int i = 0; i < link_count; ++i) {
     out.links[i] = link_distance(static_cast<LinkId>(i + 1), pixels[i], metric, best[i], range_m);
+    if (loses_pairs(surveillance) && pixels[i] > 0) out.links[i].lower_bound_m = 0;
   }
 }
 

@@ -13,7 +13,15 @@ namespace berth {
 /// to link_count; pixels of kEnvironmentLink are not evaluated, any other id is a programming
 /// error. Of several pairs equally close, the first by rows. Fills everything but the mean
 /// direction (see mean_direction.hpp); out.pairs counts robot pixels times obstacle pixels with a
-/// depth. Throws std::invalid_argument for bad settings.
+/// depth.
+///
+/// With another region than `image` in settings.surveillance, or the depth interval `cube`, each
+/// robot pixel is tried against its region of surveillance only, which shrinks with the link's
+/// closest pair (the thesis's baseline, figure 3.5), and out.pairs counts what was tried.
+/// cube_projection and image change no distance. flacco and cube can lose pairs: lower_bound_m is
+/// then 0.
+///
+/// Throws std::invalid_argument for bad settings.
 void brute_force(const Camera& camera, const RobotImage& robot, DepthView obstacle_depth_m,
                  int link_count, const DistanceSettings& settings, LinkDistances& out);
 

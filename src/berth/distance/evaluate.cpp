@@ -10,6 +10,8 @@ std::string_view name_of(Method method) {
       return "exact";
     case Method::brute_force:
       return "brute_force";
+    case Method::lattice:
+      return "lattice";
   }
   return {};
 }
@@ -39,6 +41,9 @@ void evaluate(Method method, const Camera& camera, const RobotImage& robot,
       break;
     case Method::brute_force:
       brute_force(camera, robot, obstacle_depth_m, link_count, settings, out);
+      break;
+    case Method::lattice:
+      lattice(camera, robot, obstacle_depth_m, link_count, settings, workspace.lattice, out);
       break;
   }
   if (settings.mean_direction) {

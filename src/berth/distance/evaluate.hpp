@@ -6,34 +6,36 @@
 #include <string_view>
 
 #include "berth/distance/exact.hpp"
+#include "berth/distance/lattice.hpp"
 #include "berth/distance/mean_direction.hpp"
 
 namespace berth {
 
 /// The ways to find the closest pairs. Each has the name of its enumerator.
-enum class Method { exact, brute_force };
+enum class Method { exact, brute_force, lattice };
 
-inline constexpr std::array<Method, 2> kMethods = {Method::exact, Method::brute_force};
+inline constexpr std::array kMethods = {Method::exact, Method::brute_force, Method::lattice};
 
 std::string_view name_of(Method method);
 /// Nothing if no method has this name.
 std::optional<Method> method_from_name(std::string_view name);
-/// "exact, brute_force", for messages.
+/// "exact, brute_force, lattice", for messages.
 std::string method_names();
 
 /// The memory of evaluate(), made once and used for every question; one for each thread. It carries
 /// nothing from one answer to the next.
 struct EvaluateWorkspace {
   ExactWorkspace exact;
+  LatticeWorkspace lattice;
   DirectionWorkspace directions;
 };
 
 /// Per link the closest pair by one method, and where asked for the mean direction.
 ///
-/// obstacle_depth_m and the tree built from it are the same image; only brute_force without mean
-/// directions does without the tree. Both images have the camera's size. Link ids go from 1 to
-/// link_count; pixels of kEnvironmentLink are not evaluated, any other id is a programming error.
-/// Throws std::invalid_argument for bad settings.
+/// obstacle_depth_m and the tree built from it are the same image; only brute_force and lattice
+/// do without the tree, unless mean directions are asked for. Both images have the camera's size.
+/// Link ids go from 1 to link_count; pixels of kEnvironmentLink are not evaluated, any other id is
+/// a programming error. Throws std::invalid_argument for bad settings.
 void evaluate(Method method, const Camera& camera, const RobotImage& robot,
               DepthView obstacle_depth_m, const ObstacleTree& obstacles, int link_count,
               const DistanceSettings& settings, EvaluateWorkspace& workspace, LinkDistances& out);

@@ -28,11 +28,19 @@ Range project(double x_lo_px_m, double x_hi_px_m, double f_range_px_m, double z_
           static_cast<int>(std::clamp(std::floor(upper_px + kBorderPx) + 1, 0.0, last))};
 }
 
+Range around(int pixel, double half_side_px, int size_px) {
+  const double last = size_px;
+  return {static_cast<int>(std::clamp(std::ceil(pixel - half_side_px), 0.0, last)),
+          static_cast<int>(std::clamp(std::floor(pixel + half_side_px) + 1, 0.0, last))};
+}
+
+PixelRect whole_image(const Camera& camera) { return {0, 0, camera.width_px, camera.height_px}; }
+
 }  // namespace
 
 PixelRect region_of_surveillance(const Camera& camera, Pixel robot_pixel, float depth_m,
                                  double range_m) {
-  if (depth_m <= range_m) return {0, 0, camera.width_px, camera.height_px};
+  if (depth_m <= range_m) return whole_image(camera);
   const double z_m = depth_m;
   const double cx_px = camera.corner_cx_px();
   const double cy_px = camera.corner_cy_px();
@@ -41,6 +49,27 @@ PixelRect region_of_surveillance(const Camera& camera, Pixel robot_pixel, float 
   const Range v = project((robot_pixel.v - cy_px) * z_m, (robot_pixel.v + 1 - cy_px) * z_m,
                           camera.fy_px * range_m, z_m, range_m, cy_px, camera.height_px);
   return {u.begin, v.begin, u.end, v.end};
+}
+
+PixelRect flacco_region(const Camera& camera, Pixel robot_pixel, float depth_m, double range_m) {
+  if (depth_m <= range_m) return whole_image(camera);
+  const double range_per_depth = range_m / (depth_m - range_m);
+  const Range u = around(robot_pixel.u, camera.fx_px * range_per_depth, camera.width_px);
+  const Range v = around(robot_pixel.v, camera.fy_px * range_per_depth, camera.height_px);
+  return {u.begin, v.begin, u.end, v.end};
+}
+
+PixelRect region_of_surveillance(SurveillanceRegion region, const Camera& camera, Pixel robot_pixel,
+                                 float depth_m, double range_m) {
+  switch (region) {
+    case SurveillanceRegion::image:
+      break;
+    case SurveillanceRegion::cube_projection:
+      return region_of_surveillance(camera, robot_pixel, depth_m, range_m);
+    case SurveillanceRegion::flacco:
+      return flacco_region(camera, robot_pixel, depth_m, range_m);
+  }
+  return whole_image(camera);
 }
 
 }  // namespace berth

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "berth/distance/surveillance_settings.hpp"
 #include "berth/types/camera.hpp"
 #include "berth/types/image.hpp"
 
@@ -12,5 +13,14 @@ namespace berth {
 /// plane.
 PixelRect region_of_surveillance(const Camera& camera, Pixel robot_pixel, float depth_m,
                                  double range_m);
+
+/// Flacco's approximation (Hirt 2.15, 2.16): the cube's front side, projected as if it lay on the
+/// optical axis, around the robot pixel; clipped to the image. Away from the axis obstacle pixels
+/// within range_m may lie outside. The whole image where depth_m <= range_m.
+PixelRect flacco_region(const Camera& camera, Pixel robot_pixel, float depth_m, double range_m);
+
+/// The one that is named.
+PixelRect region_of_surveillance(SurveillanceRegion region, const Camera& camera, Pixel robot_pixel,
+                                 float depth_m, double range_m);
 
 }  // namespace berth

@@ -14,6 +14,22 @@ void require(bool holds, const char* key, double value, const char* expected) {
                               expected);
 }
 
+void require_pixels(const char* key, int value, int most_px = kMaxLatticePx,
+                    const char* of_what = "") {
+  if (value >= 1 && value <= most_px) return;
+  throw std::invalid_argument(std::string(key) + " is " + std::to_string(value) +
+                              ", expected a whole number from 1 to " + std::to_string(most_px) +
+                              of_what);
+}
+
+void validate(const LatticeSettings& lattice) {
+  require_pixels("step_x", lattice.step_x);
+  require_pixels("step_y", lattice.step_y);
+  require_pixels("initial_grid_radius_px", lattice.initial_grid_radius_px);
+  require_pixels("final_grid_radius_px", lattice.final_grid_radius_px,
+                 lattice.initial_grid_radius_px, ", the initial_grid_radius_px");
+}
+
 }  // namespace
 
 void validate(const DistanceSettings& settings) {
@@ -23,6 +39,7 @@ void validate(const DistanceSettings& settings) {
           settings.tolerance_m, "a finite number of at least 0");
   const double deadline_us = settings.deadline_us.value_or(0);
   require(deadline_us >= 0, "deadline_us", deadline_us, "a number of at least 0");
+  validate(settings.lattice);
 }
 
 }  // namespace berth

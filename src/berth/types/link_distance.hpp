@@ -24,8 +24,9 @@ struct LinkDistance {
   LinkStatus status = LinkStatus::not_visible;
   float distance_m = std::numeric_limits<float>::quiet_NaN();
   /// No pair is closer than this: distance_m itself unless the search was allowed to end early
-  /// (DistanceSettings::tolerance_m, deadline_us); the range where there is none within it. NaN only
-  /// where the link is not visible.
+  /// (DistanceSettings::tolerance_m, deadline_us); the range where there is none within it; 0 by a
+  /// method that certifies nothing (lattice, and brute_force in a region that may miss pairs). NaN
+  /// only where the link is not visible.
   float lower_bound_m = std::numeric_limits<float>::quiet_NaN();
   Pixel robot_pixel;
   Pixel obstacle_pixel;

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+
+#include "berth/distance/closest_pair.hpp"
+#include "berth/distance/search_pattern.hpp"
+#include "berth/types/camera.hpp"
+#include "berth/types/image.hpp"
+
+namespace berth {
+
+/// What all searches around the robot pixels of one question have in common. The obstacle image has
+/// the camera's size.
+struct Surveillance {
+  const Camera& camera;
+  const Metric& metric;
+  DepthView obstacle_depth_m;
+  SurveillanceRegion region;
+  DepthInterval depth_interval;
+  SearchPattern search_pattern;
+};
+
+/// Replaces `best` by the closest pair of the robot pixel and every step-th obstacle pixel of its
+/// region of surveillance, where that is closer. The region's L is the distance of `best` and
+/// shrinks with it, after each run of the pattern (Hirt algorithm 2). Returns the number of pairs
+/// computed: obstacle pixels visited that have a depth in the interval.
+std::int64_t search_around(const Surveillance& surveillance, Pixel robot_pixel, float robot_depth_m,
+                           PixelStep step, ClosestPair& best);
+
+}  // namespace berth

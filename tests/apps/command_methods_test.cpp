@@ -1,0 +1,115 @@
+// The options of `run` and `evaluate` that belong to some methods only.
+#include <gtest/gtest.h>
+
+#include "tests/apps/command_scene.hpp"
+
+namespace berth {
+namespace {
+
+using Words = std::vector<std::string>;
+
+Words run_with(const Words& more) {
+  Words arguments = {"run", "scene.yaml"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+std::int64_t pairs(const std::vector<Json>& frames) {
+  std::int64_t sum = 0;
+  for (const Json& frame : frames) sum += frame["pairs"].get<std::int64_t>();
+  return sum;
+}
+
+TEST(Methods, LatticeIsNeverCloserThanExact) {
+  const CommandScene scene;
+  const std::vector<Json> exact = scene.json(run_with({}));
+  const std::vector<Json> lattice = scene.json(
+      run_with({"--method", "lattice", "--step-x", "2", "--step-y", "3", "--search-pattern",
+                "spiral", "--initial-grid-radius-px", "20", "--final-grid-radius-px", "3"}));
+  int found = 0;
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    EXPECT_EQ(lattice[i]["method"], "lattice");
+    for (std::size_t k = 0; k < exact[i]["links"].size(); ++k) {
+      const Json& link = lattice[i]["links"][k];
+      EXPECT_EQ(link["robot_pixels"], exact[i]["links"][k]["robot_pixels"]);
+      if (link["status"] != "ok") continue;
+      ++found;
+      EXPECT_GE(link["distance_m"].get<double>(),
+                exact[i]["links"][k]["distance_m"].get<double>() - 1e-6);
+    }
+  }
+  EXPECT_GT(found, 6);
+}
+
+TEST(Methods, EachOptionOfLatticeChangesTheSearch) {
+  const CommandScene scene;
+  const auto pairs_with = [&](Words more) {
+    more.insert(more.begin(), {"--method", "lattice"});
+    return pairs(scene.json(run_with(more)));
+  };
+  const std::int64_t without = pairs_with({});
+  EXPECT_LT(pairs_with({"--step-x", "3"}), without);
+  EXPECT_LT(pairs_with({"--step-y", "3"}), without);
+  EXPECT_NE(pairs_with({"--initial-grid-radius-px", "4"}), without);
+  EXPECT_GT(pairs_with({"--final-grid-radius-px", "8"}), without);
+  EXPECT_NE(pairs_with({"--search-pattern", "spiral"}), without);
+  EXPECT_GT(pairs_with({"--region", "image"}), without);
+  EXPECT_NE(pairs_with({"--depth-interval", "cube"}), without);
+}
+
+TEST(Methods, BruteForceWithARegionGivesWhatItGivesWithout) {
+  const CommandScene scene;
+  const std::vector<Json> all = scene.json(run_with({"--method", "brute_force"}));
+  const std::vector<Json> region =
+      scene.json(run_with({"--method", "brute_force", "--region", "cube_projection",
+                           "--search-pattern", "oscillating"}));
+  EXPECT_LT(pairs(region), pairs(all));
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t k = 0; k < all[i]["links"].size(); ++k) {
+      EXPECT_EQ(region[i]["links"][k]["distance_m"], all[i]["links"][k]["distance_m"]);
+    }
+  }
+}
+
+TEST(Methods, OptionsAreRefusedForAMethodThatDoesNotHaveThem) {
+  struct Wrong {
+    std::string method;
+    std::string option;
+    std::string value;
+  };
+  std::vector<Wrong> table = {{"exact", "--region", "image"},
+                              {"exact", "--depth-interval", "cube"},
+                              {"exact", "--search-pattern", "spiral"},
+                              {"lattice", "--tolerance-m", "0.1"},
+                              {"lattice", "--deadline-us", "5"}};
+  for (const std::string option :
+       {"--step-x", "--step-y", "--initial-grid-radius-px", "--final-grid-radius-px"}) {
+    table.push_back({"exact", option, "2"});
+    table.push_back({"brute_force", option, "2"});
+  }
+  const CommandScene scene;
+  for (const Wrong& wrong : table) {
+    const Outcome outcome =
+        scene.berth(run_with({"--method", wrong.method, wrong.option, wrong.value}));
+    EXPECT_EQ(outcome.exit_status, 1) << wrong.method << wrong.option;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_NE(
+        outcome.err.find("method " + wrong.method + ": has no " + wrong.option + "; expected"),
+        std::string::npos)
+        << outcome.err;
+  }
+}
+
+TEST(Methods, AFinalRadiusAboveTheInitialOneIsRefused) {
+  const CommandScene scene;
+  const Outcome outcome = scene.berth(run_with(
+      {"--method", "lattice", "--initial-grid-radius-px", "10", "--final-grid-radius-px", "11"}));
+  EXPECT_EQ(outcome.exit_status, 1);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_NE(outcome.err.find("final_grid_radius_px is 11, expected a whole number from 1 to 10"),
+            std::string::npos)
+      << outcome.err;
+}
+
+}  // namespace
+}  // namespace berth
