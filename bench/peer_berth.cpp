@@ -42,7 +42,9 @@ class BerthPeer : public Peer {
   explicit BerthPeer(Variant variant) : variant_(std::move(variant)) {}
 
   std::string name() const override { return variant_.name; }
-  std::string lacks() const override { return ""; }
+  std::string lacks() const override {
+    return variant_.method == Method::lattice ? "certainty: misses what its lattice does" : "";
+  }
   int threads() const override { return variant_.threads; }
 
   void load(const BenchScene& scene) override {
@@ -57,7 +59,7 @@ class BerthPeer : public Peer {
   void begin() override { answer_ = before_; }
 
   void prepare(const BenchScene& scene) override {
-    if (variant_.method == Method::brute_force) return;
+    if (variant_.method != Method::exact) return;
     const Limit limit(variant_.instruction_set);
     build_obstacle_tree(scene.obstacle_depth_m, tree_);
   }
@@ -73,7 +75,7 @@ class BerthPeer : public Peer {
   }
 
   std::optional<double> known_to_m() const override {
-    if (variant_.method == Method::brute_force) return std::nullopt;
+    if (variant_.method != Method::exact) return std::nullopt;
     double most_m = 0;
     for (const LinkDistance& link : answer_.links) {
       if (link.status == LinkStatus::not_visible) continue;
@@ -129,6 +131,7 @@ std::vector<std::unique_ptr<Peer>> make_berth_variants() {
   add({.name = "berth exact, to 1 mm", .tolerance_m = 1e-3});
   add({.name = "berth exact, deadline 0.5 ms", .deadline_us = 500});
   add({.name = "berth exact, 2 threads", .threads = 2});
+  add({.name = "berth lattice", .method = Method::lattice});
   return peers;
 }
 
