@@ -21,4 +21,15 @@ class OnlyTarget {
   }
 };
 
+/// Calls action(name) with each instruction set that this machine has.
+template <class Action>
+void on_every_target(Action action) {
+  std::int64_t targets = hwy::SupportedTargets();
+  for (; targets != 0; targets &= targets - 1) {
+    const std::int64_t target = targets & -targets;
+    const OnlyTarget only(target);
+    action(hwy::TargetName(target));
+  }
+}
+
 }  // namespace berth

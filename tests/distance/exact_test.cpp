@@ -5,6 +5,7 @@
 #include <tbb/global_control.h>
 
 #include "berth/distance/brute_force.hpp"
+#include "testing/only_target.hpp"
 #include "testing/random_images.hpp"
 #include "tests/distance/smooth_images.hpp"
 
@@ -45,7 +46,10 @@ TEST(Exact, IsBruteForceWhereAllTilesTie) {
     LinkDistances truth;
     brute_force(images.camera, images.robot, images.obstacle_depth_m, images.link_count,
                 {1.0, false}, truth);
-    expect_same_distances(truth, fresh_answer(images));
+    on_every_target([&](const char* target) {
+      SCOPED_TRACE(target);
+      expect_same_distances(truth, fresh_answer(images));
+    });
   }
 }
 
