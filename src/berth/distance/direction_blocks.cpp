@@ -204,8 +204,8 @@ class Builder {
     float near_hi_m = 0;
     float far_lo_m = 0;
     TileCopy copy;
-    find_edge_(tile_depths(obstacle_depth_m_, u, v, copy), 0.5f * (lo_m + hi_m), near_hi_m,
-               far_lo_m);
+    HWY_DYNAMIC_DISPATCH(find_edge)
+    (tile_depths(obstacle_depth_m_, u, v, copy), 0.5f * (lo_m + hi_m), near_hi_m, far_lo_m);
     add_block(u, v, lo_m, near_hi_m);
     add_block(u, v, far_lo_m, hi_m);
   }
@@ -238,7 +238,6 @@ class Builder {
   DepthView obstacle_depth_m_;
   DirectionBlocks& blocks_;
   int used_ = 0;
-  decltype(HWY_DYNAMIC_DISPATCH(find_edge)) find_edge_ = HWY_DYNAMIC_DISPATCH(find_edge);
 };
 
 }  // namespace
