@@ -14,17 +14,15 @@ TEST_P(InstructionSets, GiveTheSameDistances) {
   for (std::uint32_t seed = 0; seed < 10; ++seed) {
     const ImagePair images = random_images(seed, 90, 70, 4);
     const LinkDistances best = answer(GetParam(), images);
-    std::int64_t targets = hwy::SupportedTargets();
-    for (; targets != 0; targets &= targets - 1) {
-      const OnlyTarget only(targets & -targets);
-      SCOPED_TRACE(hwy::TargetName(targets & -targets));
+    on_every_target([&](const char* target) {
+      SCOPED_TRACE(target);
       const LinkDistances found = answer(GetParam(), images);
       for (std::size_t i = 0; i < best.links.size(); ++i) {
         ASSERT_EQ(found.links[i].status, best.links[i].status);
         EXPECT_EQ(std::bit_cast<std::uint32_t>(found.links[i].distance_m),
                   std::bit_cast<std::uint32_t>(best.links[i].distance_m));
       }
-    }
+    });
   }
 }
 
@@ -38,17 +36,15 @@ TEST(InstructionSetsOfASearch, SearchTheSamePairsAroundARobotPixel) {
       settings.surveillance = {SurveillanceRegion::flacco, DepthInterval::cube, pattern};
       settings.lattice.step_x = 3;
       const LinkDistances best = answer(method, images, settings);
-      std::int64_t targets = hwy::SupportedTargets();
-      for (; targets != 0; targets &= targets - 1) {
-        const OnlyTarget only(targets & -targets);
-        SCOPED_TRACE(hwy::TargetName(targets & -targets));
+      on_every_target([&](const char* target) {
+        SCOPED_TRACE(target);
         const LinkDistances found = answer(method, images, settings);
         EXPECT_EQ(found.pairs, best.pairs);
         for (std::size_t i = 0; i < best.links.size(); ++i) {
           EXPECT_EQ(found.links[i].robot_pixel, best.links[i].robot_pixel);
           EXPECT_EQ(found.links[i].obstacle_pixel, best.links[i].obstacle_pixel);
         }
-      }
+      });
     }
   }
 }

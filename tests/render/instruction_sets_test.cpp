@@ -17,13 +17,12 @@ TEST(InstructionSets, GiveTheSameRobotImages) {
     RobotRenderer renderer(build_link_meshes(robot.model), kCamera);
     RobotImage best;
     renderer.render(robot.pose, Pose::Identity(), best);
-    for (std::int64_t targets = hwy::SupportedTargets(); targets != 0; targets &= targets - 1) {
-      const OnlyTarget only(targets & -targets);
-      SCOPED_TRACE(hwy::TargetName(targets & -targets));
+    on_every_target([&](const char* target) {
+      SCOPED_TRACE(target);
       RobotImage image;
       renderer.render(robot.pose, Pose::Identity(), image);
       EXPECT_TRUE(same_bits(image, best));
-    }
+    });
   }
 }
 

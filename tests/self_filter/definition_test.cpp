@@ -1,33 +1,18 @@
 // The whole filter against its plain definition on random scenes, however many threads there are
 // and whatever instructions the machine has.
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cstring>
 
 #include "berth/self_filter/self_filter.hpp"
+#include "testing/only_target.hpp"
 #include "tests/self_filter/plain_definition.hpp"
 #include "tests/self_filter/random_scene.hpp"
 
 namespace berth {
 namespace {
-
-/// Makes the library use this instruction set until the end of the scope.
-class OnlyTarget {
- public:
-  explicit OnlyTarget(std::int64_t target) { use(target); }
-  ~OnlyTarget() { use(0); }
-  OnlyTarget(const OnlyTarget&) = delete;
-  OnlyTarget& operator=(const OnlyTarget&) = delete;
-
- private:
-  static void use(std::int64_t target) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  }
-};
 
 void filter_scene(const RandomScene& scene, SelfFilterWorkspace& workspace, ObstacleImage& out) {
   self_filter(scene.camera, scene.sensor_depth_m, scene.robot, scene.settings, workspace, out);
@@ -70,11 +55,10 @@ TEST(Definition, HoldsWithTwoThreads) {
 }
 
 TEST(Definition, HoldsWithEveryInstructionSet) {
-  for (std::int64_t targets = hwy::SupportedTargets(); targets != 0; targets &= targets - 1) {
-    const OnlyTarget only(targets & -targets);
-    SCOPED_TRACE(hwy::TargetName(targets & -targets));
+  on_every_target([](const char* target) {
+    SCOPED_TRACE(target);
     expect_definition(400, 440);
-  }
+  });
 }
 
 TEST(Definition, IsTriedOnScenesWhereEveryRuleAppliesOften) {
