@@ -10,31 +10,17 @@
 #include <stdexcept>
 
 #include "berth/render/link_rect.hpp"
+#include "testing/embree_handles.hpp"
 
 namespace berth::bench {
 namespace {
-
-struct ReleaseDevice {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct ReleaseScene {
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-using Device = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
-using Scene = std::unique_ptr<RTCSceneTy, ReleaseScene>;
 
 // A packet of rays is 4 x 4 pixels, a tile 2 x 2 packets.
 constexpr int kPacketSide = 4;
 constexpr int kPacketRays = kPacketSide * kPacketSide;
 constexpr int kTileSide = 8;
 
-void require_no_error(RTCDevice device, const char* doing) {
-  const RTCError error = rtcGetDeviceError(device);
-  if (error != RTC_ERROR_NONE)
-    throw std::runtime_error(fmt::format("Embree: {}: error {}", doing, static_cast<int>(error)));
-}
-
-Scene build_scene(RTCDevice device, const TriangleMesh& mesh) {
+EmbreeScene build_scene(RTCDevice device, const TriangleMesh& mesh) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
                                                                RTC_FORMAT_FLOAT3, 3 * sizeof(float),
@@ -42,17 +28,17 @@ Scene build_scene(RTCDevice device, const TriangleMesh& mesh) {
   auto* indices = static_cast<std::uint32_t*>(
       rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                               3 * sizeof(std::uint32_t), mesh.triangles.size()));
-  require_no_error(device, "allocating a mesh");
+  require_no_embree_error(device, "allocating a mesh");
   for (const auto& p : mesh.vertices_m) vertices = std::copy(p.data(), p.data() + 3, vertices);
   for (const auto& triangle : mesh.triangles)
     indices = std::copy(triangle.begin(), triangle.end(), indices);
   rtcCommitGeometry(geometry);
-  Scene scene(rtcNewScene(device));
+  EmbreeScene scene(rtcNewScene(device));
   rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_HIGH);
   rtcAttachGeometry(scene.get(), geometry);
   rtcReleaseGeometry(geometry);
   rtcCommitScene(scene.get());
-  require_no_error(device, "building a mesh");
+  require_no_embree_error(device, "building a mesh");
   return scene;
 }
 
@@ -61,7 +47,7 @@ struct LinkInstance {
   std::size_t link_index;
   LinkId id;
   Eigen::AlignedBox3f box_L_m;
-  Scene mesh;
+  EmbreeScene mesh;
 };
 
 }  // namespace
@@ -69,9 +55,9 @@ struct LinkInstance {
 /// The scene's frame is the camera's optical frame C and rays are (x, y, 1) t: t is the depth.
 struct EmbreeRays::State {
   Camera camera;
-  Device device;
+  EmbreeDevice device;
   std::vector<LinkInstance> links;
-  Scene scene;
+  EmbreeScene scene;
   std::vector<float> ray_x;
   std::vector<float> ray_y;
   /// 1 where a link's rectangle reaches into the tile.
@@ -82,7 +68,7 @@ struct EmbreeRays::State {
         device(rtcNewDevice(nullptr)),
         is_in_view((c.width_px + kTileSide - 1) / kTileSide,
                    (c.height_px + kTileSide - 1) / kTileSide) {
-    if (!device) require_no_error(nullptr, "making a device");
+    if (!device) require_no_embree_error(nullptr, "making a device");
     for (int u = 0; u < c.width_px; ++u)
       ray_x.push_back(static_cast<float>((u - c.cx_px) / c.fx_px));
     for (int v = 0; v < c.height_px; ++v)
@@ -103,7 +89,7 @@ struct EmbreeRays::State {
       rtcAttachGeometryByID(scene.get(), instance, static_cast<unsigned>(links.size() - 1));
       rtcReleaseGeometry(instance);
     }
-    require_no_error(device.get(), "making the scene of a camera");
+    require_no_embree_error(device.get(), "making the scene of a camera");
   }
 
   void move_links(const RobotPose& pose, const Pose& X_CB) {

@@ -5,16 +5,10 @@
 
 #include "bench/peer.hpp"
 #include "bench/points.hpp"
+#include "testing/embree_handles.hpp"
 
 namespace berth::bench {
 namespace {
-
-struct ReleaseDevice {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct ReleaseScene {
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
 
 void point_bounds(const RTCBoundsFunctionArguments* arguments) {
   const Point& p = static_cast<const Point*>(arguments->geometryUserPtr)[arguments->primID];
@@ -86,8 +80,8 @@ class EmbreePeer : public Peer {
   }
 
   std::vector<Point> points_C_m_;
-  std::unique_ptr<RTCDeviceTy, ReleaseDevice> device_{rtcNewDevice(nullptr)};
-  std::unique_ptr<RTCSceneTy, ReleaseScene> scene_;
+  EmbreeDevice device_{rtcNewDevice(nullptr)};
+  EmbreeScene scene_;
   std::vector<std::vector<Point>> robot_C_m_;
 };
 

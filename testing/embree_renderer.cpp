@@ -1,4 +1,5 @@
 #include "testing/embree_renderer.hpp"
+#include "testing/embree_handles.hpp"
 
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
@@ -8,21 +9,6 @@
 
 namespace berth {
 namespace {
-
-struct ReleaseDevice {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct ReleaseScene {
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-using Device = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
-using Scene = std::unique_ptr<RTCSceneTy, ReleaseScene>;
-
-void require_no_error(RTCDevice device, const char* doing) {
-  const RTCError error = rtcGetDeviceError(device);
-  if (error != RTC_ERROR_NONE)
-    throw std::runtime_error(fmt::format("Embree: {}: error {}", doing, static_cast<int>(error)));
-}
 
 /// The mesh in the camera's frame.
 void add_mesh(RTCDevice device, RTCScene scene, unsigned index, const TriangleMesh& mesh_L,
@@ -34,7 +20,7 @@ void add_mesh(RTCDevice device, RTCScene scene, unsigned index, const TriangleMe
   auto* indices = static_cast<std::uint32_t*>(
       rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                               3 * sizeof(std::uint32_t), mesh_L.triangles.size()));
-  require_no_error(device, "allocating a mesh");
+  require_no_embree_error(device, "allocating a mesh");
   for (const auto& p_L : mesh_L.vertices_m) {
     const Eigen::Vector3f p_C = (X_CL * p_L.cast<double>()).cast<float>();
     vertices = std::copy(p_C.data(), p_C.data() + 3, vertices);
@@ -50,8 +36,8 @@ void add_mesh(RTCDevice device, RTCScene scene, unsigned index, const TriangleMe
 
 struct EmbreeRenderer::State {
   Camera camera;
-  Device device;
-  Scene scene;
+  EmbreeDevice device;
+  EmbreeScene scene;
   /// By the index of a link, which is Embree's geomID.
   std::vector<LinkId> ids;
 };
@@ -61,7 +47,7 @@ EmbreeRenderer::EmbreeRenderer(const RobotModel& model, const RobotPose& pose, c
     : state_(std::make_unique<State>()) {
   state_->camera = camera;
   state_->device.reset(rtcNewDevice(nullptr));
-  if (!state_->device) require_no_error(nullptr, "making a device");
+  if (!state_->device) require_no_embree_error(nullptr, "making a device");
   state_->scene.reset(rtcNewScene(state_->device.get()));
   rtcSetSceneFlags(state_->scene.get(), RTC_SCENE_FLAG_ROBUST);
   for (std::size_t i = 0; i < model.links.size(); ++i) {
@@ -72,7 +58,7 @@ EmbreeRenderer::EmbreeRenderer(const RobotModel& model, const RobotPose& pose, c
              X_BC.inverse() * pose.X_BL[i]);
   }
   rtcCommitScene(state_->scene.get());
-  require_no_error(state_->device.get(), "building a scene");
+  require_no_embree_error(state_->device.get(), "building a scene");
 }
 
 EmbreeRenderer::~EmbreeRenderer() = default;
