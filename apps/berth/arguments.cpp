@@ -39,12 +39,6 @@ T named(const std::array<T, n>& all, const std::string& name) {
   return *std::find_if(all.begin(), all.end(), [&](T one) { return name_of(one) == name; });
 }
 
-void add_threads(CLI::App& command, int& threads) {
-  command.add_option("--threads", threads, "Threads to use (default: one for each processor)")
-      ->check(CLI::Range(1, 1024))
-      ->type_name("N");
-}
-
 void add_evaluation(CLI::App& command, EvaluationArguments& arguments) {
   command.add_option("--method", arguments.method, "How to find the distances (default: exact)")
       ->check(CLI::IsMember(names_of(kMethods)));
@@ -168,6 +162,12 @@ SurveillanceSettings surveillance_over(SurveillanceSettings settings,
 }
 
 }  // namespace
+
+void add_threads(CLI::App& command, int& threads) {
+  command.add_option("--threads", threads, "Threads to use (default: one for each processor)")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
+}
 
 DistanceSettings EvaluationArguments::settings_over(DistanceSettings settings,
                                                     Method method_used) const {

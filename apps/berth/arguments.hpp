@@ -70,6 +70,9 @@ struct DemoArguments {
   int threads = 0;
 };
 
+/// For every command that works on several threads.
+void add_threads(CLI::App& command, int& threads);
+
 void add_run_options(CLI::App& command, RunArguments& arguments);
 void add_filter_options(CLI::App& command, FilterArguments& arguments);
 void add_evaluate_options(CLI::App& command, EvaluateArguments& arguments);

@@ -2,9 +2,9 @@
 
 #include <filesystem>
 #include <optional>
-#include <stdexcept>
 
 #include "apps/berth/commands.hpp"
+#include "apps/berth/data_folders.hpp"
 #include "apps/berth/run_frames.hpp"
 #include "berth/io/result_table.hpp"
 
@@ -12,19 +12,6 @@ namespace berth {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Beside an installed program, or in the source tree of a program that was only built.
-fs::path find_bundled_scene() {
-  const fs::path program = fs::read_symlink("/proc/self/exe");
-  const fs::path places[] = {program.parent_path().parent_path() / "share/berth/bundled",
-                             BERTH_BUNDLED_SCENE};
-  for (const fs::path& folder : places) {
-    if (fs::is_regular_file(folder / "scene.yaml")) return folder / "scene.yaml";
-  }
-  throw std::runtime_error(
-      fmt::format("the bundled scene is not there; expected scene.yaml in {} or {}",
-                  places[0].string(), places[1].string()));
-}
 
 /// The least distance of any link; none where no link has one.
 std::optional<float> least_distance_m(const FrameResult& result) {
@@ -39,7 +26,7 @@ std::optional<float> least_distance_m(const FrameResult& result) {
 }  // namespace
 
 void demo_command(const DemoArguments& arguments) {
-  const OpenScene scene = open_scene(find_bundled_scene(), {});
+  const OpenScene scene = open_scene(bundled_scene_file(), {});
   std::optional<float> least_m;
   std::string closest;
   run_frames(scene, arguments.picture_folder, [&](const FrameResult& result) {

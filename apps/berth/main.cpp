@@ -11,6 +11,7 @@
 #include "apps/berth/bench_command.hpp"
 #include "apps/berth/commands.hpp"
 #include "apps/berth/interrupt.hpp"
+#include "apps/berth/study_command.hpp"
 
 namespace {
 
@@ -53,6 +54,7 @@ int main(int argc, char** argv) {
   berth::FilterArguments filter;
   berth::EvaluateArguments evaluate;
   berth::BenchArguments bench;
+  berth::StudyArguments study;
   CLI::App* demo_app = app.add_subcommand(
       "demo", "Run the bundled scene: a table of links and distances, and pictures");
   CLI::App* run_app =
@@ -63,11 +65,14 @@ int main(int argc, char** argv) {
       app.add_subcommand("evaluate", "Distances from these three images alone");
   CLI::App* bench_app =
       app.add_subcommand("bench", "Measure berth beside what else a user could take");
+  CLI::App* study_app =
+      app.add_subcommand("study", "Make the experiments of the thesis again: figures and a page");
   berth::add_demo_options(*demo_app, demo);
   berth::add_run_options(*run_app, run);
   berth::add_filter_options(*filter_app, filter);
   berth::add_evaluate_options(*evaluate_app, evaluate);
   berth::add_bench_options(*bench_app, bench);
+  berth::add_study_options(*study_app, study);
   app.footer(
       "Examples:\n  berth demo\n  berth run scene.yaml --picture pictures\nberth COMMAND --help "
       "tells more.");
@@ -84,5 +89,6 @@ int main(int argc, char** argv) {
   if (*run_app) return carry_out(run.threads, [&] { berth::run_command(run); });
   if (*filter_app) return carry_out(filter.threads, [&] { berth::filter_command(filter); });
   if (*bench_app) return carry_out(0, [&] { berth::bench_command(bench); });
+  if (*study_app) return carry_out(study.threads, [&] { berth::study_command(study); });
   return carry_out(evaluate.threads, [&] { berth::evaluate_command(evaluate); });
 }

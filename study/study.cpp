@@ -1,0 +1,110 @@
+#include "study/study.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <set>
+#include <stdexcept>
+
+#include "measure/instruction_set.hpp"
+#include "measure/machine.hpp"
+#include "study/page.hpp"
+#include "study/sweep.hpp"
+
+namespace berth::study {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kDrawnScenes = 20;
+constexpr int kQuickDrawnScenes = 3;
+/// Brute force takes seconds for each of its points.
+constexpr int kDrawnScenesOfBruteForce = 2;
+
+std::vector<StudyScene> scenes_of(const StudySettings& settings) {
+  const auto bundled = open_recording(settings.bundled_scene, "Bundled scene");
+  std::vector<StudyScene> scenes = {recorded_scene(bundled, SceneKind::bundled)};
+  // The quick ones are smaller, since even one brute force over large images takes seconds.
+  const auto drawn = settings.quick
+                         ? drawn_scenes(*bundled, settings.seed, kQuickDrawnScenes, 320, 240)
+                         : drawn_scenes(*bundled, settings.seed, kDrawnScenes, 640, 480);
+  scenes.insert(scenes.end(), drawn.begin(), drawn.end());
+  for (const fs::path& file : settings.scenes) {
+    scenes.push_back(
+        recorded_scene(open_recording(file, recording_title(file)), SceneKind::recording));
+  }
+  scenes.push_back(worst_case_scene());
+  std::set<std::string> names;
+  for (const StudyScene& scene : scenes) {
+    if (names.insert(scene.name).second) continue;
+    throw std::runtime_error(fmt::format(
+        "--scene: \"{}\" is there twice; expected scene files in folders of different names",
+        scene.name));
+  }
+  return scenes;
+}
+
+/// Whether the part is measured on the n-th scene of this kind.
+bool has_part(Part part, SceneKind kind, int n, bool quick) {
+  switch (part) {
+    case Part::brute_force:
+      return (kind == SceneKind::bundled && !quick) ||
+             (kind == SceneKind::drawn && n < kDrawnScenesOfBruteForce);
+    case Part::surveillance_length:
+      return kind != SceneKind::worst_case;
+    case Part::every_pair:
+      return kind == SceneKind::worst_case;
+    case Part::parameters:
+    case Part::exact:
+      return true;
+  }
+  return false;
+}
+
+std::vector<Task> tasks_of(const std::vector<StudyScene>& scenes, bool quick) {
+  const Extent extent = quick ? quick_extent() : full_extent();
+  std::vector<Task> tasks;
+  for (const Part part : kParts) {
+    const std::vector<ParameterSet> sets = sets_of(part, extent);
+    std::map<SceneKind, int> scenes_of_kind;
+    for (std::size_t s = 0; s < scenes.size(); ++s) {
+      const int n = scenes_of_kind[scenes[s].kind]++;
+      if (!has_part(part, scenes[s].kind, n, quick)) continue;
+      for (const ParameterSet& set : sets) tasks.push_back({s, set});
+    }
+  }
+  return tasks;
+}
+
+Identity identity_of(const StudySettings& settings) {
+  std::vector<std::string> scenes;
+  for (const fs::path& file : settings.scenes) scenes.push_back(fs::canonical(file).string());
+  return {{"commit", commit_name()},
+          {"compiler", compiler_name()},
+          {"extent", settings.quick ? "quick" : "full"},
+          {"instruction set", best_instruction_set()},
+          {"processor", processor_name()},
+          {"recordings", scenes.empty() ? "none" : fmt::format("{}", fmt::join(scenes, ", "))},
+          {"seed", std::to_string(settings.seed)}};
+}
+
+}  // namespace
+
+void run_study(const StudySettings& settings) {
+  require_page_program();
+  const std::vector<StudyScene> scenes = scenes_of(settings);
+  std::vector<Task> tasks = tasks_of(scenes, settings.quick);
+  {
+    Journal journal(settings.out_folder, identity_of(settings), journal_header(),
+                    journal_key_columns());
+    fmt::print("{} measurements on {} scenes; {} are there already\n", tasks.size(), scenes.size(),
+               journal.found_lines());
+    std::fflush(stdout);
+    sweep(scenes, std::move(tasks), settings.threads, settings.seed, journal);
+  }
+  make_page(settings.scripts_folder, settings.out_folder);
+  fmt::print("The figures and what became of the findings: {}\n",
+             (fs::absolute(settings.out_folder) / "index.html").lexically_normal().string());
+}
+
+}  // namespace berth::study
