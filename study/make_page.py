@@ -1,0 +1,192 @@
+#!/usr/bin/python3
+"""Makes the figures and the page of a study: make_page.py DIR, the folder given to
+`berth study --out`."""
+import csv
+import html
+import io
+import sys
+from pathlib import Path
+
+import numpy
+
+import figures_error
+import figures_gpu
+import figures_length
+import figures_sets
+from findings import FAILS, FINDINGS, HOLDS, IN_PART, judge
+from measurements import missed_share, read, scenes_of, set_means
+from style import pyplot
+
+# Number: (title, table, drawing, what else has to be known to read it).
+FIGURES = {
+    "3.5": ("Brute force", figures_length.table_3_05, figures_length.draw_3_05,
+            "Every pair within the region around each robot pixel; nothing shrinks."),
+    "3.6": ("Search pattern", figures_length.table_3_06, figures_length.draw_3_06,
+            "Bars: deviation over steps and grid radii."),
+    "3.7": ("Object skipping, pairs", figures_length.table_of_steps, figures_length.draw_3_07,
+            "Bars: deviation over search patterns and grid radii."),
+    "3.8": ("Object skipping, time", figures_length.table_of_steps, figures_length.draw_3_08,
+            "Bars: deviation over search patterns and grid radii."),
+    "3.9": ("Object skipping, error", figures_error.table_3_09, figures_error.draw_3_09,
+            "Against brute force, over all links that both found; bars: deviation. Links that the "
+            "lattice did not find have no error: they are counted on the right."),
+    "3.10": ("Grid radii, error", figures_error.table_3_10, figures_error.draw_3_10,
+             "Bars: deviation over links, steps and the other radius."),
+    "3.11": ("Grid radii, time", figures_error.table_3_11, figures_error.draw_3_11,
+             "(b): deviation over the steps."),
+    "3.12": ("The fastest parameters", figures_length.table_3_12, figures_length.draw_3_12,
+             "(b): solid, the mean over all radii; dotted, the fastest set."),
+    "3.13": ("GPU: object skipping", *figures_gpu.FIGURES["3.13"], ""),
+    "3.14": ("GPU: robot and obstacle points", *figures_gpu.FIGURES["3.14"], ""),
+    "3.15": ("GPU: initial radius and tile size, time", *figures_gpu.FIGURES["3.15"], ""),
+    "3.16": ("GPU: tile size and initial radius, error", *figures_gpu.FIGURES["3.16"], ""),
+    "3.17": ("All parameter sets", figures_sets.table_3_17, figures_sets.draw_3_17,
+             "Each averaged over the scenes; the thesis shows the GPU's, here they are lattice's."),
+    "3.18": ("The fastest sets", figures_sets.table_3_18, figures_sets.draw_3_18,
+             "The thesis shows the GPU's, here they are lattice's."),
+    "3.19": ("The worst case", figures_sets.table_3_19, figures_sets.draw_3_19,
+             "Every pixel an obstacle, the robot behind every pixel. Its own distances are 0, so "
+             "the errors are those of the same sets elsewhere, as in the thesis."),
+}
+CLASSES = {HOLDS: "holds", IN_PART: "part", FAILS: "fails"}
+
+
+def file_name(number, ending):
+    chapter, figure = number.split(".")
+    return f"figure_{chapter}_{int(figure):02}.{ending}"
+
+
+def write_table(path, table):
+    columns = list(dict.fromkeys(name for row in table for name in row))
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, columns, lineterminator="\n")
+        writer.writeheader()
+        for row in table:
+            writer.writerow({name: "" if value is None or value != value else
+                             f"{value:.6g}" if isinstance(value, float) else value
+                             for name, value in row.items()})
+
+
+def make_figure(folder, number, rows):
+    """Writes the figure's files; returns its SVG for the page. None where nothing was measured."""
+    _, make_table, draw, _ = FIGURES[number]
+    table = make_table(rows)
+    if not table:
+        return None
+    write_table(folder / file_name(number, "csv"), table)
+    figure = draw(table)
+    figure.savefig(folder / file_name(number, "png"))
+    svg = io.StringIO()
+    # The prefix keeps the names inside one picture apart from those of the others on the page.
+    pyplot.rcParams["svg.hashsalt"] = number
+    figure.savefig(svg, format="svg", metadata={"Date": None})
+    pyplot.close(figure)
+    (folder / file_name(number, "svg")).write_text(svg.getvalue(), encoding="utf-8")
+    return svg.getvalue()[svg.getvalue().index("<svg"):]
+
+
+def badge(verdict):
+    return f'<span class="badge {CLASSES[verdict]}">{verdict}</span>'
+
+
+def finding_item(verdict):
+    return (f"<tr><td>{html.escape(verdict.finding.claim)}</td><td>{badge(verdict.verdict)} "
+            f"{html.escape(verdict.number)} <small>({verdict.holds} of {verdict.scenes} "
+            f"{'scene' if verdict.scenes == 1 else 'scenes'})</small></td></tr>")
+
+
+def section(number, svg, verdicts):
+    title, _, _, note = FIGURES[number]
+    name = file_name(number, "svg")[:-4]
+    text = f'<section id="{name}"><h2>Figure {number}: {html.escape(title)}</h2>'
+    if svg is None:
+        return text + ('<p class="absent">This figure needs the OpenGL methods gl_lattice and '
+                       "gl_hybrid, which this study did not measure.</p></section>")
+    text += f'<div class="figure">{svg}</div><p class="note">{html.escape(note)} '
+    text += f'<a href="{name}.csv">table</a> · <a href="{name}.png">picture</a></p>'
+    own = [verdict for verdict in verdicts if verdict.finding.figure == number]
+    if own:
+        text += ('<table class="findings"><tr><th>The thesis, 2015</th><th>Here</th></tr>' +
+                 "".join(map(finding_item, own)) + "</table>")
+    return text + "</section>"
+
+
+def advice(rows):
+    """What to choose, from the numbers."""
+    compared = rows.take(rows["kind"] != "worst_case")
+    sets = list(set_means(compared.where(part="parameters")))
+    length = compared.where(part="parameters").values("surveillance_length_m")[0]
+    exact = compared.where(part="exact", surveillance_length_m=length)["time_ms"]
+    quickest = min(sets, key=lambda found: found["time_ms"])
+    best = min(sets, key=lambda found: (found["links_missed_percent"],
+                                        found["distance_error_mm"]))
+    faster = sum(found["time_ms"] < exact.mean() for found in sets)
+    def words(found):
+        return (f"{found['time_ms']:.2f} ms in the mean, with a mean error of "
+                f"{found['distance_error_mm']:.2f} mm, at most "
+                f"{found['distance_error_greatest_mm']:.0f} mm, and "
+                f"{found['links_missed_percent']:.2g} % of the links in range not found")
+    return [
+        f"<code>exact</code> takes {exact.mean():.3f} ms in the mean over {len(exact)} scenes "
+        f"({exact.max():.3f} ms on the slowest) at 2L = {length:g} m, and makes no error.",
+        f"The fastest of {len(sets)} lattice sets takes {words(quickest)}.",
+        f"The most accurate of them takes {words(best)}.",
+        f"{faster} of the {len(sets)} lattice sets are faster than <code>exact</code>. " +
+        ("There is no reason to choose a lattice on this machine." if faster == 0 else
+         "A lattice is worth a look only where an error of its size does no harm."),
+    ]
+
+
+def page(study, rows, svgs, verdicts):
+    style = (Path(__file__).parent / "page.css").read_text(encoding="utf-8")
+    facts = "".join(f"<tr><th>{html.escape(name)}</th><td>{html.escape(str(value))}</td></tr>"
+                    for name, value in study.items())
+    counts = ", ".join(f"{sum(found.verdict == kind for found in verdicts)} "
+                       f"{kind if kind != HOLDS else 'hold'}" if kind != FAILS else
+                       f"{sum(found.verdict == kind for found in verdicts)} do not"
+                       for kind in (HOLDS, IN_PART, FAILS))
+    contents = "".join(
+        f'<li><a href="#{file_name(number, "svg")[:-4]}">{number} {html.escape(figure[0])}</a> ' +
+        "".join(badge(found.verdict) for found in verdicts if found.finding.figure == number) +
+        "</li>" for number, figure in FIGURES.items())
+    missed = 100 * missed_share(rows.where(part="parameters"))
+    return f"""<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>berth study: the thesis's experiments again</title><style>{style}</style></head><body>
+<header><h1>The thesis's experiments again</h1>
+<p>Fabian Hirt, <i>Fast Robot-Obstacles Distance Evaluation in the Depth Space</i> (TU Munich,
+2015), chapter 3.2, made again by <code>berth study</code> on {len(scenes_of(rows))} scenes and a
+worst case. Of {len(verdicts)} findings {counts}.</p>
+{'<p class="warning">This was a quick study: few values of each parameter, few and small '
+ 'scenes. Its verdicts are rough.</p>' if study["extent"] == "quick" else ""}</header>
+<section id="choice"><h2>What to choose</h2><ul>{''.join(f'<li>{line}</li>'
+for line in advice(rows))}</ul></section>
+<nav><h2>Figures</h2><ol>{contents}</ol></nav>
+<section id="how"><h2>How it was measured</h2>
+<p>A time is processor time of one thread, from three images in memory to the distances of all
+links, the least of three runs, or of one where it takes longer than 30 ms;
+several such threads ran side by side. Errors are against brute force, per link: the distance's difference, and
+how far robot and obstacle point lie from the right ones. {missed:.2g} % of the links in range were
+not found by a lattice and have no error. A finding is judged on each scene by itself: it holds
+where it holds on nine of ten scenes, in part where it does on half of them; the number beside it
+is the median over the scenes. Hirt measured on one scene, an i7-4790K and a GTX 660.</p>
+<table class="facts">{facts}</table></section>
+{"".join(section(number, svgs[number], verdicts) for number in FIGURES)}
+</body></html>
+"""
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit("usage: make_page.py DIR, the folder given to berth study --out")
+    folder = Path(sys.argv[1])
+    study, rows = read(folder)
+    numpy.seterr(all="raise", under="ignore")
+    svgs = {number: make_figure(folder, number, rows) for number in FIGURES}
+    verdicts = [found for found in (judge(finding, rows) for finding in FINDINGS) if found]
+    (folder / "index.html").write_text(page(study, rows, svgs, verdicts), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

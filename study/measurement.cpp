@@ -10,7 +10,7 @@ namespace berth::study {
 namespace {
 
 constexpr int kRuns = 3;
-constexpr double kOnceAbove_ms = 100;
+constexpr double kOnceAbove_ms = 30;
 
 std::string columns_of(const Spread& spread) {
   if (spread.count == 0) return ",,";

@@ -35,7 +35,7 @@ struct MeasureWorkspace {
 };
 
 /// The time is processor time of the calling thread, from three images in memory to the answer,
-/// the tree of `exact` included: the least of three runs, or of one that takes longer than 0.1 s.
+/// the tree of `exact` included: the least of three runs, or of one that takes longer than 30 ms.
 /// TBB is to be held to one thread.
 Measurement measure(const ParameterSet& set, const testing::ImagePair& images,
                     const LinkDistances& truth, MeasureWorkspace& workspace);

@@ -104,7 +104,7 @@ std::string_view name_of(Part part) {
 
 Extent full_extent() {
   return {
-      .brute_force_lengths_m = {0.2, 0.4, 0.8, 1.2, 1.6, 2.0, 3.0, 4.0, 5.0, 6.0},
+      .brute_force_lengths_m = {0.2, 0.4, 0.8, 1.2, 1.6, 2.0, 3.0, 4.0, 6.0, 8.0},
       .lengths_m = {0.2, 0.4, 0.6, 0.8, 1.2, 1.6, 2.0, 3.0},
       .equal_steps = {1, 2, 3, 4, 8, 16, 24, 32},
       .few_initial_radii_px = {40, 100},
@@ -117,7 +117,7 @@ Extent full_extent() {
 
 Extent quick_extent() {
   return {
-      .brute_force_lengths_m = {0.4, 2.0, 4.0, 6.0},
+      .brute_force_lengths_m = {0.4, 2.0, 6.0, 8.0},
       .lengths_m = {0.4, 0.8, 2.0, 3.0},
       .equal_steps = {1, 4, 8, 32},
       .few_initial_radii_px = {40},

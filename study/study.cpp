@@ -49,7 +49,7 @@ bool has_part(Part part, SceneKind kind, int n, bool quick) {
   switch (part) {
     case Part::brute_force:
       return (kind == SceneKind::bundled && !quick) ||
-             (kind == SceneKind::drawn && n < kDrawnScenesOfBruteForce);
+             (kind == SceneKind::drawn && n < (quick ? 1 : kDrawnScenesOfBruteForce));
     case Part::surveillance_length:
       return kind != SceneKind::worst_case;
     case Part::every_pair:

@@ -1,0 +1,143 @@
+"""Figures 3.17 to 3.19: all parameter sets by their time, and the fastest of them."""
+import numpy
+
+from measurements import SET, groups, set_means
+from style import (ERROR_NAMES, EXACT, MISSED, TIME, from_zero, legend_above, panels, select,
+                   values)
+from style import ERRORS as ERROR_COLOURS
+
+FASTEST = 30
+COLUMNS = ("time_ms", "distance_error_mm", "distance_error_greatest_mm", "robot_point_error_mm",
+           "obstacle_point_error_mm", "links_missed_percent")
+
+
+def exact_time_ms(rows):
+    """At the 2L of the parameter sets, mean over the scenes."""
+    length = rows.where(part="parameters").values("surveillance_length_m")[0]
+    return float(rows.where(part="exact", surveillance_length_m=length)["time_ms"].mean())
+
+
+def ranked(rows, group, count=None):
+    """The sets by ascending time, over the scenes, and exact as rank 0, which makes no error."""
+    sets = sorted(set_means(rows.where(part="parameters")), key=lambda found: found["time_ms"])
+    table = [{"scenes": group, "rank": 0, "method": "exact", "time_ms": exact_time_ms(rows)} |
+             {name: 0.0 for name in COLUMNS[1:]}]
+    for rank, found in enumerate(sets[:count], 1):
+        table.append({"scenes": group, "rank": rank, "method": "lattice"} |
+                     {name: found[name] for name in SET + COLUMNS})
+    return table
+
+
+def table_3_17(rows):
+    return [line for group, of_group in groups(rows) for line in ranked(of_group, group)]
+
+
+def draw_3_17(table):
+    names = values(table, "scenes")
+    figure, axes = panels(len(names), 3)
+    for place, group in enumerate(names):
+        lattice = select(table, scenes=group, method="lattice")
+        exact = select(table, scenes=group, method="exact")[0]
+        rank = [row["rank"] for row in lattice]
+        time = [row["time_ms"] for row in lattice]
+        error = [row["distance_error_mm"] for row in lattice]
+        first, second, third = axes[place]
+        first.plot(rank, time, ".", color=TIME, markersize=2.5, label="lattice", rasterized=True)
+        first.axhline(exact["time_ms"], color=EXACT, linewidth=1.4, label="exact")
+        first.set(ylabel="time [ms]", xlabel="parameter sets by time", title=f"(a) {group}")
+        second.plot(rank, error, ".", color=ERROR_COLOURS["distance"], markersize=2.5,
+                    rasterized=True, label="mean error")
+        width = max(1, len(error) // 20)
+        if len(error) > width:
+            running = numpy.convolve(error, numpy.ones(width) / width, "valid")
+            second.plot(numpy.arange(len(running)) + width / 2 + 0.5, running, color=MISSED,
+                        label=f"mean of {width} neighbours")
+        second.set(ylabel="distance error [mm]", xlabel="parameter sets by time",
+                   title=f"(b) {group}")
+        third.plot(time, error, ".", color=ERROR_COLOURS["distance"], markersize=2.5,
+                   rasterized=True, label="lattice")
+        third.plot(exact["time_ms"], 0, "*", color=EXACT, markersize=13, clip_on=False, zorder=5,
+                   label=f"exact: {exact['time_ms']:.3g} ms")
+        third.set(xlabel="time [ms]", ylabel="distance error [mm]", title=f"(c) {group}")
+        third.set_xlim(left=0)
+        for axis in axes[place]:
+            from_zero(axis)
+        legend_above(third)
+        if place == 0:
+            legend_above(first)
+            legend_above(second)
+    return figure
+
+
+def table_3_18(rows):
+    return [line for group, of_group in groups(rows) for line in ranked(of_group, group, FASTEST)]
+
+
+def draw_ranks(axes, lines, title):
+    """Time, and errors, of sets by rank."""
+    rank = [row["rank"] for row in lines]
+    axes[0].plot(rank, [row["time_ms"] for row in lines], "o", color=TIME, markersize=4,
+                 label="lattice")
+    for what, colour in ERROR_COLOURS.items():
+        axes[1].plot(rank, [row[f"{what}_error_mm"] for row in lines], "o", color=colour,
+                     markersize=4, label=f"{ERROR_NAMES[what]}, mean")
+    axes[1].plot(rank, [row["distance_error_greatest_mm"] for row in lines], "_",
+                 color=ERROR_COLOURS["distance"], markersize=7, label="distance, greatest")
+    axes[1].set_yscale("symlog", linthresh=1)
+    axes[1].axhline(5, color=MISSED, linewidth=1, linestyle="--")
+    axes[0].set(xlabel="the fastest parameter sets", ylabel="time [ms]", title=f"(a) {title}")
+    axes[1].set(xlabel="the fastest parameter sets", ylabel="error [mm]; dashed: 5 mm",
+                title=f"(b) {title}")
+
+
+def draw_exact(axes, exact):
+    axes[0].axhline(exact["time_ms"], color=EXACT, linewidth=1.4)
+    for axis, value in zip(axes, (exact["time_ms"], 0)):
+        axis.plot(0, value, "*", color=EXACT, markersize=13, clip_on=False, zorder=5,
+                  label=f"exact: {exact['time_ms']:.3g} ms, no error")
+        from_zero(axis)
+
+
+def draw_3_18(table):
+    names = values(table, "scenes")
+    figure, axes = panels(len(names), 2, 3.2)
+    for place, group in enumerate(names):
+        lines = select(table, scenes=group)
+        draw_ranks(axes[place], lines[1:], group)
+        draw_exact(axes[place], lines[0])
+        legend_above(axes[place][0])
+        if place == 0:
+            legend_above(axes[place][1])
+    return figure
+
+
+def table_3_19(rows):
+    """The fastest sets of the worst case, with their errors on the scenes that are compared."""
+    table = []
+    name, normal = groups(rows)[0]
+    errors = {tuple(found[key] for key in SET): found
+              for found in set_means(normal.where(part="parameters"))}
+    worst = rows.where(kind="worst_case")
+    for part, search in (("every_pair", "every pair"), ("parameters", "shrinking region")):
+        sets = sorted(set_means(worst.where(part=part)), key=lambda found: found["time_ms"])
+        table.append({"search": search, "errors_on": name, "rank": 0, "method": "exact",
+                      "time_ms": exact_time_ms(worst)} | {key: 0.0 for key in COLUMNS[1:]})
+        for rank, found in enumerate(sets[:FASTEST], 1):
+            there = errors[tuple(found[key] for key in SET)]
+            table.append({"search": search, "errors_on": name, "rank": rank, "method": "lattice",
+                          "time_ms": found["time_ms"]} | {key: there[key] for key in COLUMNS[1:]} |
+                         {key: found[key] for key in SET})
+    return table
+
+
+def draw_3_19(table):
+    figure, axes = panels(2, 2, 3.2)
+    for place, search in enumerate(values(table, "search")):
+        lines = select(table, search=search)
+        draw_ranks(axes[place], lines[1:], search)
+        axes[place][1].set_title(f"(b) {search}; errors on {lines[0]['errors_on']}")
+        draw_exact(axes[place], lines[0])
+        legend_above(axes[place][0])
+        if place == 0:
+            legend_above(axes[place][1])
+    return figure
