@@ -3,7 +3,7 @@ import numpy
 
 from measurements import ERRORS, groups, missed_share, over_sets, pooled_error, set_means
 from style import (ERROR_NAMES, EXACT, LENGTH, PAIRS, PATTERNS, TIME, bars, from_zero, legend_above,
-                   panels, select, shades, values)
+                   many, panels, select, shades, values)
 from style import ERRORS as ERROR_COLOURS
 
 
@@ -47,6 +47,7 @@ def draw_3_05(table):
         counts.set_ylabel("pairs computed", color=PAIRS)
         from_zero(axis)
         from_zero(counts)
+        many(counts)
         if place == 0:
             legend_above(axis)
     return figure
@@ -67,6 +68,7 @@ def draw_3_06(table):
             axis.set(xlabel=LENGTH, title=f"({letter}) {group}",
                      ylabel="time [ms]" if column == "time_ms" else "pairs computed")
             from_zero(axis)
+        many(axes[place][1])
         if place == 0:
             legend_above(axes[0][0], 3)
     return figure
@@ -87,6 +89,8 @@ def draw_steps(table, column, label):
                      column, color=colour, label=f"{step:.0f}")
             axis.set(xlabel=LENGTH, ylabel=label, title=f"({letter}) {group}")
             from_zero(axis)
+            if column == "pairs":
+                many(axis)
             if place == 0:
                 legend_above(axis, 4, "step in x and y [px]")
     return figure
@@ -154,13 +158,18 @@ def draw_3_12(table):
         for what, colour in ERROR_COLOURS.items():
             x = [row["x"] for row in lines]
             right.plot(x, [row[f"{what}_error_mm"] for row in lines], "-", color=colour,
-                       label=f"{ERROR_NAMES[what]}, mean")
+                       label=f"{ERROR_NAMES[what]}, mean of all")
             right.plot(x, [row[f"fastest_{what}_error_mm"] for row in lines], ":", color=colour,
-                       label=f"{ERROR_NAMES[what]}, fastest")
+                       label="… the fastest")
         right.set(xlabel="step_x + step_y [px]", ylabel="error [mm]", title=f"(b) {group}")
         for axis in (left, right, counts):
             from_zero(axis)
+        many(counts)
         if place == 0:
             legend_above(left, 2)
-            legend_above(right, 3)
+            # By columns: the means, then the fastest.
+            handles, labels = right.get_legend_handles_labels()
+            order = [0, 2, 4, 1, 3, 5]
+            legend_above(right, 2, handles=[handles[i] for i in order],
+                         labels=[labels[i] for i in order])
     return figure

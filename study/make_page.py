@@ -4,6 +4,7 @@
 import csv
 import html
 import io
+import re
 import sys
 from pathlib import Path
 
@@ -76,6 +77,8 @@ def make_figure(folder, number, rows):
     write_table(folder / file_name(number, "csv"), table)
     figure = draw(table)
     figure.savefig(folder / file_name(number, "png"))
+    # Laid out once; a second time takes as long as the first.
+    figure.set_layout_engine("none")
     svg = io.StringIO()
     # The prefix keeps the names inside one picture apart from those of the others on the page.
     pyplot.rcParams["svg.hashsalt"] = number
@@ -102,7 +105,9 @@ def section(number, svg, verdicts):
     if svg is None:
         return text + ('<p class="absent">This figure needs the OpenGL methods gl_lattice and '
                        "gl_hybrid, which this study did not measure.</p></section>")
-    text += f'<div class="figure">{svg}</div><p class="note">{html.escape(note)} '
+    width_pt = float(re.search(r'width="([0-9.]+)pt"', svg).group(1))
+    text += (f'<div class="figure" style="--natural:{width_pt * 4 / 3:.0f}px">{svg}</div>'
+             f'<p class="note">{html.escape(note)} ')
     text += f'<a href="{name}.csv">table</a> · <a href="{name}.png">picture</a></p>'
     own = [verdict for verdict in verdicts if verdict.finding.figure == number]
     if own:
@@ -165,8 +170,8 @@ for line in advice(rows))}</ul></section>
 <nav><h2>Figures</h2><ol>{contents}</ol></nav>
 <section id="how"><h2>How it was measured</h2>
 <p>A time is processor time of one thread, from three images in memory to the distances of all
-links, the least of three runs, or of one where it takes longer than 30 ms;
-several such threads ran side by side. Errors are against brute force, per link: the distance's difference, and
+links, the least of three runs (of more where they are short, of one where it takes longer than
+30 ms); several such threads ran side by side. Errors are against brute force, per link: the distance's difference, and
 how far robot and obstacle point lie from the right ones. {missed:.2g} % of the links in range were
 not found by a lattice and have no error. A finding is judged on each scene by itself: it holds
 where it holds on nine of ten scenes, in part where it does on half of them; the number beside it

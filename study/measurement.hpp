@@ -35,7 +35,8 @@ struct MeasureWorkspace {
 };
 
 /// The time is processor time of the calling thread, from three images in memory to the answer,
-/// the tree of `exact` included: the least of three runs, or of one that takes longer than 30 ms.
+/// the tree of `exact` included: the least of three runs, of up to 20 as long as they are short
+/// together, or of one that takes longer than 30 ms.
 /// TBB is to be held to one thread.
 Measurement measure(const ParameterSet& set, const testing::ImagePair& images,
                     const LinkDistances& truth, MeasureWorkspace& workspace);

@@ -124,7 +124,7 @@ Extent quick_extent() {
       .few_final_radii_px = {1, 3},
       .steps = {1, 4, 16, 32},
       .initial_radii_px = {10, 40, 100},
-      .final_radii_px = {1, 2, 4},
+      .final_radii_px = {1, 3},
   };
 }
 

@@ -8,6 +8,7 @@ matplotlib.rcParams.update({
     "legend.frameon": False, "legend.fontsize": 8.5, "axes.titlesize": 10, "axes.titlelocation":
     "left", "errorbar.capsize": 2.5, "savefig.dpi": 130})
 from matplotlib import pyplot  # noqa: E402 (after the backend is chosen)
+from matplotlib.ticker import EngFormatter  # noqa: E402
 
 PATTERNS = {"row_major": "#0072B2", "oscillating": "#E69F00", "spiral": "#009E73"}
 ERRORS = {"distance": "#222222", "robot_point": "#CC79A7", "obstacle_point": "#56B4E9"}
@@ -33,14 +34,19 @@ def panels(rows, columns, height=3.0):
 
 
 def from_zero(axes):
-    """Where all is 0 the axis is not to have a range of its own."""
-    axes.set_ylim(bottom=0, top=None if axes.get_ylim()[1] > 1e-9 else 1)
+    """Where all is 0 the axis would have a range without a meaning."""
+    axes.set_ylim(bottom=0, top=None if axes.dataLim.ymax > 0 else 1)
 
 
-def legend_above(axes, columns=2, title=None):
+def many(axes):
+    """A vertical axis of large numbers: 50 k, 2 M."""
+    axes.yaxis.set_major_formatter(EngFormatter(sep="\N{THIN SPACE}"))
+
+
+def legend_above(axes, columns=2, title=None, **entries):
     """Outside, where it covers no data."""
     axes.legend(loc="lower left", bbox_to_anchor=(0, 1.08), ncols=columns, borderaxespad=0,
-                title=title, title_fontsize=8.5, alignment="left")
+                title=title, title_fontsize=8.5, alignment="left", **entries)
 
 
 def bars(axes, table, x, name, **style):
