@@ -1,31 +1,37 @@
 """Figures 3.17 to 3.19: all parameter sets by their time, and the fastest of them."""
 import numpy
 
-from measurements import SET, groups, set_means
+from measurements import groups, set_means
 from style import (ERROR_NAMES, EXACT, MISSED, TIME, from_zero, legend_above, panels, select,
                    values)
 from style import ERRORS as ERROR_COLOURS
 
 FASTEST = 30
+PARAMETERS = ("surveillance_length_m", "step_x", "step_y", "initial_grid_radius_px",
+              "final_grid_radius_px")
 COLUMNS = ("time_ms", "distance_error_mm", "distance_error_greatest_mm", "robot_point_error_mm",
            "obstacle_point_error_mm", "links_missed_percent")
 
 
-def exact_time_ms(rows):
-    """At the 2L of the parameter sets, mean over the scenes."""
+def exact(rows):
+    """What exact did at the 2L of the parameter sets, over the scenes."""
     length = rows.where(part="parameters").values("surveillance_length_m")[0]
-    return float(rows.where(part="exact", surveillance_length_m=length)["time_ms"].mean())
+    found, = set_means(rows.where(part="exact", surveillance_length_m=length))
+    return {"rank": 0, "method": "exact"} | {name: found[name] for name in COLUMNS}
 
 
 def ranked(rows, group, count=None):
-    """The sets by ascending time, over the scenes, and exact as rank 0, which makes no error."""
+    """The sets by ascending time, over the scenes, and exact as rank 0."""
     sets = sorted(set_means(rows.where(part="parameters")), key=lambda found: found["time_ms"])
-    table = [{"scenes": group, "rank": 0, "method": "exact", "time_ms": exact_time_ms(rows)} |
-             {name: 0.0 for name in COLUMNS[1:]}]
+    table = [{"scenes": group} | exact(rows)]
     for rank, found in enumerate(sets[:count], 1):
         table.append({"scenes": group, "rank": rank, "method": "lattice"} |
-                     {name: found[name] for name in SET + COLUMNS})
+                     {name: found[name] for name in PARAMETERS + COLUMNS})
     return table
+
+
+def words_of(right):
+    return f"exact: {right['time_ms']:.3g} ms, error {right['distance_error_mm']:.1g} mm"
 
 
 def table_3_17(rows):
@@ -37,13 +43,13 @@ def draw_3_17(table):
     figure, axes = panels(len(names), 3)
     for place, group in enumerate(names):
         lattice = select(table, scenes=group, method="lattice")
-        exact = select(table, scenes=group, method="exact")[0]
+        right = select(table, scenes=group, method="exact")[0]
         rank = [row["rank"] for row in lattice]
         time = [row["time_ms"] for row in lattice]
         error = [row["distance_error_mm"] for row in lattice]
         first, second, third = axes[place]
         first.plot(rank, time, ".", color=TIME, markersize=2.5, label="lattice", rasterized=True)
-        first.axhline(exact["time_ms"], color=EXACT, linewidth=1.4, label="exact")
+        first.axhline(right["time_ms"], color=EXACT, linewidth=1.4, label="exact")
         first.set(ylabel="time [ms]", xlabel="parameter sets by time", title=f"(a) {group}")
         second.plot(rank, error, ".", color=ERROR_COLOURS["distance"], markersize=2.5,
                     rasterized=True, label="mean error")
@@ -56,8 +62,8 @@ def draw_3_17(table):
                    title=f"(b) {group}")
         third.plot(time, error, ".", color=ERROR_COLOURS["distance"], markersize=2.5,
                    rasterized=True, label="lattice")
-        third.plot(exact["time_ms"], 0, "*", color=EXACT, markersize=13, clip_on=False, zorder=5,
-                   label=f"exact: {exact['time_ms']:.3g} ms")
+        third.plot(right["time_ms"], right["distance_error_mm"], "*", color=EXACT, markersize=13,
+                   clip_on=False, zorder=5, label=words_of(right))
         third.set(xlabel="time [ms]", ylabel="distance error [mm]", title=f"(c) {group}")
         third.set_xlim(left=0)
         for axis in axes[place]:
@@ -90,11 +96,11 @@ def draw_ranks(axes, lines, title):
                 title=f"(b) {title}")
 
 
-def draw_exact(axes, exact):
-    axes[0].axhline(exact["time_ms"], color=EXACT, linewidth=1.4)
-    for axis, value in zip(axes, (exact["time_ms"], 0)):
-        axis.plot(0, value, "*", color=EXACT, markersize=13, clip_on=False, zorder=5,
-                  label=f"exact: {exact['time_ms']:.3g} ms, no error")
+def draw_exact(axes, right):
+    axes[0].axhline(right["time_ms"], color=EXACT, linewidth=1.4)
+    for axis, name in zip(axes, ("time_ms", "distance_error_mm")):
+        axis.plot(0, right[name], "*", color=EXACT, markersize=13, clip_on=False, zorder=5,
+                  label=words_of(right))
         from_zero(axis)
 
 
@@ -115,18 +121,18 @@ def table_3_19(rows):
     """The fastest sets of the worst case, with their errors on the scenes that are compared."""
     table = []
     name, normal = groups(rows)[0]
-    errors = {tuple(found[key] for key in SET): found
+    errors = {tuple(found[key] for key in PARAMETERS): found
               for found in set_means(normal.where(part="parameters"))}
     worst = rows.where(kind="worst_case")
     for part, search in (("every_pair", "every pair"), ("parameters", "shrinking region")):
         sets = sorted(set_means(worst.where(part=part)), key=lambda found: found["time_ms"])
-        table.append({"search": search, "errors_on": name, "rank": 0, "method": "exact",
-                      "time_ms": exact_time_ms(worst)} | {key: 0.0 for key in COLUMNS[1:]})
+        table.append({"search": search, "errors_on": name} | exact(normal) |
+                     {"time_ms": exact(worst)["time_ms"]})
         for rank, found in enumerate(sets[:FASTEST], 1):
-            there = errors[tuple(found[key] for key in SET)]
+            there = errors[tuple(found[key] for key in PARAMETERS)]
             table.append({"search": search, "errors_on": name, "rank": rank, "method": "lattice",
                           "time_ms": found["time_ms"]} | {key: there[key] for key in COLUMNS[1:]} |
-                         {key: found[key] for key in SET})
+                         {key: found[key] for key in PARAMETERS})
     return table
 
 

@@ -5,8 +5,6 @@ import json
 import numpy
 
 TEXT = ("scene", "kind", "part", "method", "region", "shrinking", "search_pattern")
-SET = ("surveillance_length_m", "search_pattern", "step_x", "step_y", "initial_grid_radius_px",
-       "final_grid_radius_px")
 ERRORS = ("distance", "robot_point", "obstacle_point")
 
 
@@ -21,6 +19,11 @@ class Rows:
 
     def __getitem__(self, name):
         return self.columns[name]
+
+    def parameters(self):
+        """The columns that tell a parameter set: those from the method to the first result."""
+        names = list(self.columns)
+        return names[names.index("method"):names.index("time_ms")]
 
     def take(self, mask):
         return Rows({name: values[mask] for name, values in self.columns.items()})
@@ -41,11 +44,14 @@ class Rows:
 
     def by(self, *names):
         """(values, rows) for each different combination of the columns' values, sorted."""
-        keys = list(zip(*(self[name].tolist() for name in names)))
+        keys = zip(*(self[name].tolist() for name in names))
         order = {}
         for place, key in enumerate(keys):
-            order.setdefault(key, []).append(place)
-        for key in sorted(order):
+            # NaN differs from itself: a parameter that a method does not have.
+            order.setdefault(tuple(None if cell != cell else cell for cell in key), []).append(place)
+        def place_of(key):
+            return [(cell is None, "" if cell is None else cell) for cell in key]
+        for key in sorted(order, key=place_of):
             yield key, self.take(numpy.array(order[key]))
 
 
@@ -81,7 +87,7 @@ def groups(rows):
 
 def over_sets(rows, column):
     """(mean, deviation) over the parameter sets, each first averaged over the scenes."""
-    means = [each[column].mean() for _, each in rows.by(*SET)]
+    means = [each[column].mean() for _, each in rows.by(*rows.parameters())]
     return float(numpy.mean(means)), float(numpy.std(means))
 
 
@@ -116,8 +122,9 @@ def rank_correlation(a, b):
 
 def set_means(rows):
     """One dictionary for each parameter set, over the scenes: its parameters, time, errors."""
-    for key, each in rows.by(*SET):
-        found = dict(zip(SET, key))
+    names = rows.parameters()
+    for key, each in rows.by(*names):
+        found = dict(zip(names, key))
         found["time_ms"] = float(each["time_ms"].mean())
         found["pairs"] = float(each["pairs"].mean())
         found["links_missed_percent"] = 100 * missed_share(each)

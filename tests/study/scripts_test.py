@@ -13,6 +13,7 @@ from measurements import (Rows, groups, missed_share, over_sets, pooled_error,  
                           rank_correlation, set_means)
 
 USUAL = {"scene": "a", "kind": "bundled", "part": "parameters", "method": "lattice",
+         "initial_tile_px": numpy.nan,
          "region": "cube_projection", "shrinking": "per_link", "search_pattern": "row_major",
          "surveillance_length_m": 2.0, "step_x": 1.0, "step_y": 1.0,
          "initial_grid_radius_px": 40.0, "final_grid_radius_px": 2.0, "time_ms": 1.0, "pairs": 10.0,
@@ -63,6 +64,11 @@ class Averages(unittest.TestCase):
         found = list(set_means(rows({"time_ms": 1.0}, {"time_ms": 3.0, "scene": "b"})))
         self.assertEqual(len(found), 1)
         self.assertEqual(found[0]["time_ms"], 2)
+
+    def test_sets_without_a_parameter_are_one_set(self):
+        table = rows({"final_grid_radius_px": numpy.nan},
+                     {"final_grid_radius_px": numpy.nan, "scene": "b"}, {})
+        self.assertEqual(len(list(set_means(table))), 2)
 
     def test_the_worst_case_is_in_no_group(self):
         table = rows({}, {"scene": "b", "kind": "drawn"}, {"scene": "w", "kind": "worst_case"})
