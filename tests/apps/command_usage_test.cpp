@@ -91,11 +91,9 @@ TEST(Usage, WrongCommandLineIsRefused) {
 
 TEST(Usage, HelpIsOnStandardOutputAndHasAnExample) {
   const TemporaryFolder folder;
-  const std::vector<Words> table = {{"--help"},
-                                    {"run", "--help"},
-                                    {"filter", "--help"},
-                                    {"evaluate", "--help"},
-                                    {"demo", "--help"}};
+  const std::vector<Words> table = {{"--help"},           {"run", "--help"},
+                                    {"filter", "--help"}, {"evaluate", "--help"},
+                                    {"demo", "--help"},   {"study", "--help"}};
   for (const Words& arguments : table) {
     const Outcome outcome = run_berth(folder / "", arguments);
     SCOPED_TRACE(arguments[0]);
@@ -110,7 +108,7 @@ TEST(Usage, HelpIsOnStandardOutputAndHasAnExample) {
 TEST(Usage, HelpNamesEveryCommand) {
   const TemporaryFolder folder;
   const std::string out = run_berth(folder / "", {"--help"}).out;
-  for (const char* command : {"demo", "run", "filter", "evaluate"}) {
+  for (const char* command : {"demo", "run", "filter", "evaluate", "study"}) {
     EXPECT_NE(out.find(command), std::string::npos) << command;
   }
 }
