@@ -1,5 +1,5 @@
-"""What the thesis found, figure by figure, and whether it holds here: where its rule does on nine of
-ten scenes, and in part where it does on half of them.
+"""What the thesis found, figure by figure, and whether it holds here: where its rule does on nine
+of ten scenes, and in part where it does on half of them.
 """
 from dataclasses import dataclass
 from typing import Callable
@@ -29,7 +29,8 @@ class Finding:
 FINDINGS = [
     Finding("3.5", "Brute force computes more pairs the larger 2L is, until the region is the "
             "whole image; then no more.",
-            "pairs at the greatest 2L are {:.3g} times those at the one before", rules.pairs_grow_then_stay),
+            "pairs at the greatest 2L are {:.3g} times those at the one before",
+            rules.pairs_grow_then_stay),
     Finding("3.5", "Its time does what the pairs do.",
             "rank correlation of time and pairs {:.2f}", rules.time_grows_with_pairs),
     Finding("3.6", "The spiral is the slowest search pattern.",
@@ -55,7 +56,8 @@ FINDINGS = [
             "the error with the greatest is {:.2f} times that with the least",
             rules.final_radius_saves_error),
     Finding("3.11", "Initial radii of 40 to 100 px take about the same time.",
-            "the slowest takes {:.2f} times as long as the fastest", rules.initial_radius_hardly_matters),
+            "the slowest takes {:.2f} times as long as the fastest",
+            rules.initial_radius_hardly_matters),
     Finding("3.11", "The final radius matters more to the time than the initial one.",
             "the slowest final radius takes {:.2f} times as long as the fastest",
             rules.final_radius_matters_more),
@@ -68,7 +70,8 @@ FINDINGS = [
     Finding("3.17", "The slower a parameter set, the more accurate.",
             "rank correlation of time and error {:.2f}", rules.slower_is_more_accurate),
     Finding("3.17", "The scatter is wide: sets of the same time differ much in error.",
-            "the deviation among sets of like time is {:.2f} of that of all", rules.scatter_is_wide),
+            "the deviation among sets of like time is {:.2f} of that of all",
+            rules.scatter_is_wide),
     Finding("3.18", "2.2 ms are enough for at most 5 mm at every link (on the GTX 660).",
             "the fastest set that keeps to it on a scene takes {:.2f} ms", rules.fast_within_5_mm),
     Finding("3.19", "The worst case takes little more, 1 to 10 ms (on the GTX 660; judged: the 30 "

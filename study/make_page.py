@@ -174,8 +174,8 @@ for line in advice(rows))}</ul></section>
 <section id="how"><h2>How it was measured</h2>
 <p>A time is processor time of one thread, from three images in memory to the distances of all
 links, the least of three runs (of more where they are short, of one where it takes longer than
-30 ms); several such threads ran side by side. Errors are against brute force, per link: the distance's difference, and
-how far robot and obstacle point lie from the right ones. {missed:.2g} % of the links in range were
+30 ms); several such threads ran side by side. Errors are against brute force, per link: the
+distance's difference, and how far robot and obstacle point lie from the right ones. {missed:.2g} % of the links in range were
 not found by a lattice and have no error. A finding is judged on each scene by itself: it holds
 where it holds on nine of ten scenes, in part where it does on half of them; the number beside it
 is the median over the scenes. Hirt measured on one scene, an i7-4790K and a GTX 660.</p>

@@ -48,7 +48,8 @@ class Rows:
         order = {}
         for place, key in enumerate(keys):
             # NaN differs from itself: a parameter that a method does not have.
-            order.setdefault(tuple(None if cell != cell else cell for cell in key), []).append(place)
+            key = tuple(None if cell != cell else cell for cell in key)
+            order.setdefault(key, []).append(place)
         def place_of(key):
             return [(cell is None, "" if cell is None else cell) for cell in key]
         for key in sorted(order, key=place_of):

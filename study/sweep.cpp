@@ -66,6 +66,8 @@ MadeScene make_scene(const StudyScene& scene, double range_m) {
   }
   DistanceSettings settings;
   settings.range_m = range_m;
+  // Leaves out only pairs that are farther than one that was found.
+  settings.surveillance.region = SurveillanceRegion::cube_projection;
   brute_force(made.images.camera, made.images.robot, made.images.obstacle_depth_m,
               made.images.link_count, settings, made.truth);
   return made;

@@ -1,5 +1,5 @@
-"""check_files.py DIR: fails unless DIR is a whole study: every figure measured on the CPU as well-formed CSV, SVG and PNG, and
-a page that needs no other file."""
+"""check_files.py DIR: fails unless DIR is a whole study: every figure measured on the CPU as
+well-formed CSV, SVG and PNG, and a page that needs no other file."""
 import csv
 import sys
 import zlib
