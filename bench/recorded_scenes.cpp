@@ -56,7 +56,10 @@ class Frames {
 
 std::shared_ptr<const Recording> open_recording(const std::filesystem::path& file,
                                                 std::string title) {
-  return std::make_shared<const Recording>(Recording{std::move(title), open_scene(file, {})});
+  EvaluationArguments arguments;
+  arguments.visibility = false;
+  return std::make_shared<const Recording>(
+      Recording{std::move(title), open_scene(file, arguments)});
 }
 
 SceneSet recorded_scenes(std::shared_ptr<const Recording> recording, int max_count) {

@@ -16,7 +16,7 @@ struct Recording {
   const OpenCamera& camera() const { return scene.cameras.front(); }
 };
 
-/// Throws as open_scene does.
+/// Answers go without visibility, which no peer tells. Throws as open_scene does.
 std::shared_ptr<const Recording> open_recording(const std::filesystem::path& file,
                                                 std::string title);
 
