@@ -36,6 +36,13 @@ TEST_F(Space, BehindAnObstacleItIsItsShadowAndNotUnknown) {
   EXPECT_EQ(link.space_unknown, 0);
 }
 
+TEST_F(Space, ObstacleInFrontOffTheAxisReachesIntoTheBallOfItsDistance) {
+  // By Hirt 2.14 it is taken at the robot point's depth: (0.5 - 0.4) 2 m beside it.
+  world_.put({309, 0, 320, 240}, 1.8F);
+  const LinkVisibility link = world_.around({0.8F, 0, 2}, 0.2F);
+  EXPECT_GT(link.space.hidden_by_obstacles, 0);
+}
+
 TEST_F(Space, BehindTheRobotItIsUnknown) {
   const LinkVisibility link = world_.around({0, 0, 2.3F}, 0.1F);
   EXPECT_EQ(link.space.hidden_by_robot, 1);
