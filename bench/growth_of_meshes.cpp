@@ -7,6 +7,7 @@
 #include "bench/coarsen.hpp"
 #include "bench/embree_rays.hpp"
 #include "bench/growth.hpp"
+#include "bench/recorded_scenes.hpp"
 #include "bench/statistics.hpp"
 #include "measure/stopwatch.hpp"
 #include "bench/subdivide.hpp"
@@ -82,7 +83,7 @@ Table::Row measure(const OpenCamera& camera, const RobotModel& model, int rounds
 
 Table measure_growth_of_meshes(const std::filesystem::path& scene_file, int rounds) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, kThreads);
-  const OpenScene scene = open_scene(scene_file, {});
+  const auto recording = open_recording(scene_file, "bundled");
   const RobotModel model = load_coarse_robot(read_scene(scene_file).robot);
   Table table{"Growth with the meshes",
               fmt::format("The robot of the bundled scene, its collision shapes made coarse and "
@@ -94,7 +95,7 @@ Table measure_growth_of_meshes(const std::filesystem::path& scene_file, int roun
               {}};
   ProgressBar progress(table.title, std::size(kParts));
   for (const int parts : kParts) {
-    table.rows.push_back(measure(scene.cameras.front(), subdivided(model, parts), rounds));
+    table.rows.push_back(measure(recording->camera(), subdivided(model, parts), rounds));
     progress.step();
   }
   return table;

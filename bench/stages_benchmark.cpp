@@ -100,6 +100,19 @@ void mean_direction(benchmark::State& state) {
   });
 }
 
+void visibility(benchmark::State& state) {
+  Example e;
+  const SamplePoints points = sample_points(e.rig.model());
+  const SeenFrame seen{e.rig.camera(), e.frame.robot, e.frame.obstacles,
+                       tolerance_of(e.rig.settings().self_filter)};
+  VisibilityWorkspace workspace;
+  std::vector<LinkVisibility> links;
+  repeat(state, [&] {
+    find_visibility(e.rig.model(), points, seen, {e.pose, e.frame.X_BC, e.frame.robot}, e.distances,
+                    e.settings.range_m, workspace, links);
+  });
+}
+
 void all_pairs(benchmark::State& state) {
   Example e;
   repeat(state, [&] {
@@ -131,6 +144,7 @@ BENCHMARK(obstacle_tree)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMicros
 BENCHMARK(robot_tiles)->Arg(1)->Unit(benchmark::kMicrosecond);
 BENCHMARK(exact_search)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMicrosecond);
 BENCHMARK(mean_direction)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMicrosecond);
+BENCHMARK(visibility)->Arg(1)->Unit(benchmark::kMicrosecond);
 BENCHMARK(all_pairs)->Arg(1)->Iterations(1)->Unit(benchmark::kMillisecond);
 BENCHMARK(depth_image_to_result)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMicrosecond);
 BENCHMARK(question_at_new_joints)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMicrosecond);

@@ -4,7 +4,10 @@ namespace berth {
 
 std::shared_ptr<const Recording> open_recording(const std::filesystem::path& file,
                                                 std::string title) {
-  return std::make_shared<const Recording>(Recording{std::move(title), open_scene(file, {})});
+  EvaluationArguments arguments;
+  arguments.visibility = false;
+  return std::make_shared<const Recording>(
+      Recording{std::move(title), open_scene(file, arguments)});
 }
 
 std::string recording_title(const std::filesystem::path& scene_file) {

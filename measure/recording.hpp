@@ -21,7 +21,8 @@ struct Recording {
   }
 };
 
-/// Throws as open_scene does.
+/// Answers go without visibility, which nothing that is measured beside them tells. Throws as
+/// open_scene does.
 std::shared_ptr<const Recording> open_recording(const std::filesystem::path& file,
                                                 std::string title);
 

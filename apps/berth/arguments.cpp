@@ -66,6 +66,16 @@ void add_evaluation(CLI::App& command, EvaluationArguments& arguments) {
       ->type_name("N");
 }
 
+void add_visibility(CLI::App& command, EvaluationArguments& arguments) {
+  command
+      .add_option_function<std::string>(
+          "--visibility",
+          [&arguments](const std::string& value) { arguments.visibility = value == "on"; },
+          "Whether to give how much of each link and of the space around its answer the camera "
+          "sees (default: on)")
+      ->check(CLI::IsMember({"on", "off"}));
+}
+
 void add_surveillance(CLI::App& command, EvaluationArguments& arguments) {
   command
       .add_option("--region", arguments.region,
@@ -197,6 +207,7 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
   command.add_option("--picture", arguments.picture_folder, "Draw each frame into this folder")
       ->type_name("DIR");
   add_evaluation(command, arguments.evaluation);
+  add_visibility(command, arguments.evaluation);
   add_surveillance(command, arguments.evaluation);
   add_lattice(command, arguments.evaluation);
   add_output(command, arguments);

@@ -19,6 +19,8 @@ struct EvaluationArguments {
   std::optional<std::string> method;
   std::optional<double> range_m;
   std::optional<bool> mean_direction;
+  /// Of `run` alone: three images without meshes and fates cannot tell.
+  std::optional<bool> visibility;
   std::optional<double> tolerance_m;
   std::optional<double> deadline_us;
   std::optional<std::string> region;

@@ -39,6 +39,8 @@ RigSettings rig_settings(const SceneFile& scene, const EvaluationArguments& argu
   settings.link_padding_m = scene.self_filter.link_padding_m;
   set_if(settings.distance.range_m, scene.evaluation.range_m);
   set_if(settings.distance.mean_direction, scene.evaluation.mean_direction);
+  set_if(settings.visibility, scene.evaluation.visibility);
+  set_if(settings.visibility, arguments.visibility);
   if (scene.evaluation.method && !arguments.method) {
     const auto method = method_from_name(*scene.evaluation.method);
     if (!method) {

@@ -38,6 +38,7 @@ FrameResult result_of(const OpenCamera& camera, std::size_t frame_number, const 
   result.has_bounds = settings.tolerance_m > 0 || settings.deadline_us;
   result.link_names = camera.rig->model().evaluated_link_names();
   result.distances = &answer.distances;
+  if (camera.rig->settings().visibility) result.visibility = &answer.visibility;
   result.X_BC = frame.X_BC;
   result.self_filter = frame.obstacles.count;
   return result;

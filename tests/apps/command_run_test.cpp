@@ -37,11 +37,11 @@ TEST(Run, JsonHasTheKeysOfTheSchemaAndNoOthers) {
     EXPECT_EQ(frame["range_m"], 2);
     EXPECT_GT(frame["pairs"].get<int>(), 0);
     for (const Json& link : frame["links"]) {
-      EXPECT_EQ(keys_of(link),
-                (std::set<std::string>{"id", "link", "status", "distance_m", "robot_pixel",
-                                       "obstacle_pixel", "robot_point_m", "obstacle_point_m",
-                                       "robot_point_base_m", "obstacle_point_base_m",
-                                       "mean_direction", "mean_count", "robot_pixels"}));
+      EXPECT_EQ(keys_of(link), (std::set<std::string>{
+                                   "id", "link", "status", "distance_m", "robot_pixel",
+                                   "obstacle_pixel", "robot_point_m", "obstacle_point_m",
+                                   "robot_point_base_m", "obstacle_point_base_m", "mean_direction",
+                                   "mean_count", "robot_pixels", "visibility"}));
     }
   }
 }

@@ -221,6 +221,14 @@ TEST(SceneKey, MeanDirectionCanBeTurnedOff) {
   EXPECT_TRUE(link["mean_direction"].is_null());
 }
 
+TEST(SceneKey, VisibilityCanBeTurnedOff) {
+  CommandScene scene;
+  scene.lines.evaluation = "{range_m: 2, visibility: false}";
+  EXPECT_FALSE(link_of(scene.run().at(0), "upper").contains("visibility"));
+  const Json on = scene.json({"run", "scene.yaml", "--visibility", "on"}).at(0);
+  EXPECT_TRUE(link_of(on, "upper").contains("visibility"));
+}
+
 TEST(SceneKey, CommandLineWinsOverTheScene) {
   CommandScene scene;
   scene.lines.evaluation = "{method: brute_force, range_m: 0.2, mean_direction: false}";
@@ -242,9 +250,9 @@ TEST(SceneKey, SelfFilterAndEvaluationHaveDefaults) {
   EXPECT_EQ(frame["method"], "exact");
   EXPECT_EQ(frame["range_m"], 1);
   scene.lines.self_filter =
-      "{tolerance_m: 0.04, padding_m: 0.02, dilation_px: 0, edge_jump_m: 0.03, "
+      "{tolerance_m: 0.05, padding_m: 0.02, dilation_px: 0, edge_jump_m: 0.03, "
       "island_radius_m: 0.08, island_jump_m: 0.02}";
-  scene.lines.evaluation = "{method: exact, range_m: 1, mean_direction: true}";
+  scene.lines.evaluation = "{method: exact, range_m: 1, mean_direction: true, visibility: true}";
   EXPECT_EQ(scene.run().at(0), frame);
 }
 

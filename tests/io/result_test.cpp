@@ -133,6 +133,35 @@ TEST_F(ResultText, LowerBoundsAreToldWhereASearchMayEndEarly) {
             "a \"b\"   not_visible                 -            -               -             0\n");
 }
 
+TEST_F(ResultText, VisibilityIsToldWhereItIsGiven) {
+  EXPECT_FALSE(Json::parse(result_json(result))["links"][0].contains("visibility"));
+  const std::vector<LinkVisibility> visibility = {
+      {1, {0.41F, 0.02F, 0.5525F, 0.0175F, 0}, {0.5F, 0.1F, 0.2F, 0.15F, 0.05F}, 0.4F},
+      {2, {0, 0, 0, 0, 1}, {}},
+      {3, {}, {}}};
+  result.visibility = &visibility;
+  const std::string text = result_json(result);
+  EXPECT_NE(
+      text.find(
+          R"("robot_pixels":4012,"visibility":{"surface":{"seen":0.41,"hidden_by_obstacles":0.02,)"
+          R"("hidden_by_robot":0.5525,"no_reading":0.0175,"outside_image":0.0},)"
+          R"("space":{"seen":0.5,"hidden_by_obstacles":0.1,"hidden_by_robot":0.2,)"
+          R"("no_reading":0.15,"outside_image":0.05},"space_unknown":0.4}})"),
+      std::string::npos)
+      << text;
+  const Json links = Json::parse(text)["links"];
+  EXPECT_EQ(links[1]["visibility"]["surface"]["outside_image"], 1);
+  EXPECT_TRUE(links[1]["visibility"]["space"].is_null());
+  EXPECT_TRUE(links[1]["visibility"]["space_unknown"].is_null());
+  EXPECT_TRUE(links[2]["visibility"]["surface"].is_null());
+  EXPECT_EQ(
+      result_table(result),
+      "link    status         distance [m]  robot pixel  obstacle pixel  robot pixels  seen\n"
+      "link_1  ok                   0.1234   (312, 200)      (340, 211)          4012  41 %\n"
+      "link_2  none_in_range             -            -               -            12   0 %\n"
+      "a \"b\"   not_visible               -            -               -             0     -\n");
+}
+
 TEST_F(ResultText, FloatsCanBeReadBackExactlyAndHaveFewDigits) {
   std::mt19937 random(7);
   constexpr int kFloats = 20'000;

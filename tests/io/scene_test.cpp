@@ -48,7 +48,7 @@ self_filter:
   edge_jump_m: 0.07
   island_radius_m: 0.08
   island_jump_m: 0.09
-evaluation: {method: lattice, range_m: 0.5, mean_direction: off}
+evaluation: {method: lattice, range_m: 0.5, mean_direction: off, visibility: false}
 )");
   const SceneFile scene = read_scene(file);
   EXPECT_EQ(scene.file, file);
@@ -88,6 +88,7 @@ evaluation: {method: lattice, range_m: 0.5, mean_direction: off}
   EXPECT_EQ(scene.evaluation.method, "lattice");
   EXPECT_EQ(scene.evaluation.range_m, 0.5);
   EXPECT_EQ(scene.evaluation.mean_direction, false);
+  EXPECT_EQ(scene.evaluation.visibility, false);
 }
 
 TEST(Scene, LeavesDefaultsToThoseWhoOwnThem) {
@@ -101,7 +102,7 @@ TEST(Scene, LeavesDefaultsToThoseWhoOwnThem) {
   EXPECT_FALSE(scene.self_filter.tolerance_m || scene.self_filter.dilation_px);
   EXPECT_TRUE(scene.self_filter.link_padding_m.empty());
   EXPECT_FALSE(scene.evaluation.method || scene.evaluation.range_m ||
-               scene.evaluation.mean_direction);
+               scene.evaluation.mean_direction || scene.evaluation.visibility);
 }
 
 TEST(Scene, PoseOfTheCameraTurnsAndMovesAsWritten) {

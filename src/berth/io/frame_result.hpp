@@ -8,6 +8,7 @@
 
 #include "berth/types/camera.hpp"
 #include "berth/types/link_distance.hpp"
+#include "berth/types/link_visibility.hpp"
 #include "berth/types/obstacle_image.hpp"
 
 namespace berth {
@@ -34,6 +35,8 @@ struct FrameResult {
   std::vector<std::string> link_names;
   /// Must be set; not owned.
   const LinkDistances* distances = nullptr;
+  /// Where it is told, one for each of distances->links, in the same order; not owned.
+  const std::vector<LinkVisibility>* visibility = nullptr;
   /// The pose of the camera in the robot's root link. With it, points are also told in the root's
   /// frame.
   std::optional<Pose> X_BC;

@@ -26,6 +26,22 @@ Json json_of(const Eigen::Vector3f& p) {
   return {shortest(p.x()), shortest(p.y()), shortest(p.z())};
 }
 
+Json json_of(const SightShares& shares) {
+  if (!shares.is_known()) return Json();
+  return {{"seen", shortest(shares.seen)},
+          {"hidden_by_obstacles", shortest(shares.hidden_by_obstacles)},
+          {"hidden_by_robot", shortest(shares.hidden_by_robot)},
+          {"no_reading", shortest(shares.no_reading)},
+          {"outside_image", shortest(shares.outside_image)}};
+}
+
+Json json_of(const LinkVisibility& visibility) {
+  const bool is_known = visibility.space.is_known();
+  return {{"surface", json_of(visibility.surface)},
+          {"space", json_of(visibility.space)},
+          {"space_unknown", is_known ? Json(shortest(visibility.space_unknown)) : Json()}};
+}
+
 Json json_of(const EvaluateTiming& timing) {
   return {{"repeat", timing.repeat},
           {"evaluate_us",
@@ -70,6 +86,7 @@ Json link_json(const LinkDistance& link, const std::string& name, const FrameRes
 std::string result_json(const FrameResult& result) {
   const std::vector<LinkDistance>& links = result.distances->links;
   assert(result.link_names.size() == links.size());
+  assert(!result.visibility || result.visibility->size() == links.size());
   Json json;
   json["schema"] = "berth/result/1";
   json["frame"] = result.frame;
@@ -80,6 +97,7 @@ std::string result_json(const FrameResult& result) {
   json["links"] = Json::array();
   for (std::size_t i = 0; i < links.size(); ++i) {
     json["links"].push_back(link_json(links[i], result.link_names[i], result));
+    if (result.visibility) json["links"].back()["visibility"] = json_of((*result.visibility)[i]);
   }
   json["pairs"] = result.distances->pairs;
   if (result.timing) json["timing"] = json_of(*result.timing);

@@ -3,15 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 
 namespace berth {
 namespace {
 
-constexpr std::size_t kColumns = 6;
-using Line = std::array<std::string, kColumns>;
+using Line = std::vector<std::string>;
+/// The others are numbers, and stand at the right of their column.
+constexpr std::size_t kTextColumns = 2;
 
 std::string pixel_text(Pixel pixel) { return fmt::format("({}, {})", pixel.u, pixel.v); }
 
@@ -37,12 +37,26 @@ Line line_of(const LinkDistance& link, const std::string& name, bool has_bounds)
           fmt::format("{}", link.robot_pixels)};
 }
 
-std::array<std::size_t, kColumns> widths_of(const std::vector<Line>& lines) {
-  std::array<std::size_t, kColumns> widths{};
+std::string seen_text(const LinkVisibility& link) {
+  return link.surface.is_known() ? fmt::format("{:.0f} %", 100 * link.surface.seen) : "-";
+}
+
+std::vector<std::size_t> widths_of(const std::vector<Line>& lines) {
+  std::vector<std::size_t> widths(lines.front().size());
   for (const Line& line : lines) {
-    for (std::size_t i = 0; i < kColumns; ++i) widths[i] = std::max(widths[i], line[i].size());
+    for (std::size_t i = 0; i < widths.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
   }
   return widths;
+}
+
+std::string padded(const Line& line, const std::vector<std::size_t>& widths) {
+  std::string text;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (i > 0) text += "  ";
+    text += i < kTextColumns ? fmt::format("{:<{}}", line[i], widths[i])
+                             : fmt::format("{:>{}}", line[i], widths[i]);
+  }
+  return text + "\n";
 }
 
 }  // namespace
@@ -52,16 +66,14 @@ std::string result_table(const FrameResult& result) {
   assert(result.link_names.size() == links.size());
   std::vector<Line> lines = {
       {"link", "status", "distance [m]", "robot pixel", "obstacle pixel", "robot pixels"}};
+  if (result.visibility) lines.front().push_back("seen");
   for (std::size_t i = 0; i < links.size(); ++i) {
     lines.push_back(line_of(links[i], result.link_names[i], result.has_bounds));
+    if (result.visibility) lines.back().push_back(seen_text((*result.visibility)[i]));
   }
-  const auto width = widths_of(lines);
+  const std::vector<std::size_t> widths = widths_of(lines);
   std::string table;
-  for (const Line& line : lines) {
-    table += fmt::format("{:<{}}  {:<{}}  {:>{}}  {:>{}}  {:>{}}  {:>{}}\n", line[0], width[0],
-                         line[1], width[1], line[2], width[2], line[3], width[3], line[4], width[4],
-                         line[5], width[5]);
-  }
+  for (const Line& line : lines) table += padded(line, widths);
   return table;
 }
 

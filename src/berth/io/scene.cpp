@@ -65,7 +65,7 @@ SceneSelfFilter read_self_filter(const YamlValue& value) {
 }
 
 SceneEvaluation read_evaluation(const YamlValue& value) {
-  const YamlMap map(value, {"method", "range_m", "mean_direction"});
+  const YamlMap map(value, {"method", "range_m", "mean_direction", "visibility"});
   SceneEvaluation evaluation;
   if (const auto method = map.find("method")) {
     evaluation.method =
@@ -73,6 +73,7 @@ SceneEvaluation read_evaluation(const YamlValue& value) {
   }
   evaluation.range_m = map.get("range_m", &YamlValue::positive);
   evaluation.mean_direction = map.get("mean_direction", &YamlValue::boolean);
+  evaluation.visibility = map.get("visibility", &YamlValue::boolean);
   return evaluation;
 }
 

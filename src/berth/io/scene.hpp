@@ -57,6 +57,7 @@ struct SceneEvaluation {
   std::optional<std::string> method;
   std::optional<double> range_m;
   std::optional<bool> mean_direction;
+  std::optional<bool> visibility;
 };
 
 struct SceneFile {

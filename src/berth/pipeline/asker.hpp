@@ -4,6 +4,8 @@
 #include "berth/pipeline/rig.hpp"
 #include "berth/types/joint_state.hpp"
 #include "berth/types/link_distance.hpp"
+#include "berth/types/link_visibility.hpp"
+#include "berth/visibility/visibility.hpp"
 
 namespace berth {
 
@@ -13,6 +15,9 @@ struct Answer {
   double frame_stamp_s = 0;
   double joints_stamp_s = 0;
   LinkDistances distances;
+  /// What the camera cannot know: visibility[i] belongs to the link with the id i + 1. Empty unless
+  /// RigSettings::visibility is set.
+  std::vector<LinkVisibility> visibility;
 };
 
 /// The controller's clock: questions about a frame. One for each thread; the rig has to outlive it.
@@ -34,13 +39,14 @@ class Asker {
   const RobotImage& robot_image() const { return robot_; }
 
  private:
-  const Answer& evaluate_robot(const Frame& frame, const RobotImage& robot, double joints_stamp_s);
+  const Answer& evaluate_robot(const Frame& frame, const AskedRobot& robot, double joints_stamp_s);
 
   const Rig& rig_;
   RobotRenderer renderer_;
   RobotPose pose_;
   RobotImage robot_;
   EvaluateWorkspace workspace_;
+  VisibilityWorkspace visibility_;
   Answer answer_;
 };
 

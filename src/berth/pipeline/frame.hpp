@@ -1,6 +1,7 @@
 #pragma once
 
 #include "berth/distance/obstacle_tree.hpp"
+#include "berth/robot/kinematics.hpp"
 #include "berth/types/camera.hpp"
 #include "berth/types/obstacle_image.hpp"
 #include "berth/types/robot_image.hpp"
@@ -13,6 +14,7 @@ struct Frame {
   /// The camera's pose in the robot's root link when the image was exposed.
   Pose X_BC = Pose::Identity();
   /// The robot at that time.
+  RobotPose pose;
   RobotImage robot;
   ObstacleImage obstacles;
   ObstacleTree obstacle_tree;

@@ -21,7 +21,6 @@ class Observer {
  private:
   const Rig& rig_;
   RobotRenderer renderer_;
-  RobotPose pose_;
   SelfFilterWorkspace workspace_;
 };
 

@@ -9,6 +9,7 @@
 #include "berth/robot/robot_model.hpp"
 #include "berth/self_filter/settings.hpp"
 #include "berth/types/camera.hpp"
+#include "berth/visibility/sample_points.hpp"
 
 namespace berth {
 
@@ -26,6 +27,8 @@ struct RigSettings {
   std::map<std::string, double> link_padding_m;
   Method method = Method::exact;
   DistanceSettings distance;
+  /// Whether answers tell what the camera cannot know (Answer::visibility).
+  bool visibility = true;
 };
 
 /// One robot and one camera that sees it: constant once made, shared by the two clocks and their
@@ -40,6 +43,8 @@ class Rig {
   const Camera& camera() const { return mount_.camera; }
   const RigSettings& settings() const { return settings_; }
   const std::shared_ptr<const LinkMeshes>& meshes() const { return meshes_; }
+  /// Where find_visibility() looks.
+  const SamplePoints& sample_points() const { return sample_points_; }
   /// The camera's pose X_BC in the robot's root link, with the robot in this pose.
   Pose camera_pose(const RobotPose& pose) const { return pose.X_BL[parent_] * mount_.X_PC; }
 
@@ -49,6 +54,7 @@ class Rig {
   RigSettings settings_;
   std::size_t parent_ = 0;
   std::shared_ptr<const LinkMeshes> meshes_;
+  SamplePoints sample_points_;
 };
 
 }  // namespace berth
