@@ -5,6 +5,7 @@
 #include <string>
 
 #include "berth/distance/evaluate.hpp"
+#include "berth/pipeline/timeliness.hpp"
 #include "berth/render/robot_renderer.hpp"
 #include "berth/robot/robot_model.hpp"
 #include "berth/self_filter/settings.hpp"
@@ -26,6 +27,7 @@ struct RigSettings {
   std::map<std::string, double> link_padding_m;
   Method method = Method::exact;
   DistanceSettings distance;
+  TimeSettings time;
 };
 
 /// One robot and one camera that sees it: constant once made, shared by the two clocks and their
