@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <initializer_list>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -47,6 +49,9 @@ class Guard {
                          name, digits, text_.size()));
       }
     }
+    require_only(node, {"p", "v", "vcount"}, " \t\r\n0123456789");
+    require_only(node, {"float_array", "matrix", "translate", "rotate", "scale", "lookat", "skew"},
+                 " \t\r\n0123456789+-.eE");
     if (std::string_view(node.name()) == "visual_scene") scenes_.push_back(node);
     if (const auto id = node.attribute("id"); id && std::string_view(node.name()) == "node") {
       if (!by_id_.emplace(id.value(), node).second)
@@ -54,6 +59,16 @@ class Guard {
              fmt::format("a second one has the id \"{}\"; expected ids that differ", id.value()));
     }
     for (const pugi::xml_node& child : node.children()) check_numbers(child);
+  }
+
+  /// Assimp reads a list of numbers on and on where one does not begin with a digit.
+  void require_only(const pugi::xml_node& node, std::initializer_list<std::string_view> names,
+                    std::string_view allowed) const {
+    if (std::find(names.begin(), names.end(), std::string_view(node.name())) == names.end()) return;
+    const std::string_view text = node.child_value();
+    const std::size_t bad = text.find_first_not_of(allowed);
+    if (bad == std::string_view::npos) return;
+    fail(node, fmt::format("holds \"{}\"; expected numbers", text.substr(bad, 12)));
   }
 
   /// How many nodes stand below this one once each reference is replaced by what it names.
