@@ -1,6 +1,7 @@
-// Two clocks: the camera's thread makes frames, the controller's asks, a thousand times a second, how far the
-// robot would be where it is now or is about to go. Usage: two_clocks robot.urdf
+// Two clocks: the camera's thread makes frames of images and the joints at their exposure, the controller's asks,
+// a thousand times a second, how far the robot is. Usage: two_clocks robot.urdf
 #include <atomic>
+#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <thread>
@@ -8,32 +9,59 @@
 #include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/observer.hpp"
 
+namespace {
+
+/// The clock of all stamps.
+double now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+void sleep_ms(int ms) { std::this_thread::sleep_for(std::chrono::milliseconds(ms)); }
+
+}  // namespace
+
 int main(int argc, char** argv) {
   if (argc != 2) return std::fprintf(stderr, "usage: two_clocks robot.urdf\n"), 2;
   const berth::RobotModel robot = berth::load_robot({.urdf = argv[1]});
   berth::CameraMount mount{{640, 480, 525, 525, 319.5, 239.5}, robot.links.front().name};
   mount.X_PC.linear() << 0, 0, -1, 1, 0, 0, 0, -1, 0;
   mount.X_PC.translation() << 2, 0, 0.5;
-  const berth::Rig rig(robot, mount, {});
-  const std::vector<double> home(robot.joints.size(), 0.0);
+  berth::RigSettings settings;
+  settings.time.max_joints_age_s = 0.1;  // this is no real-time system
+  const berth::Rig rig(robot, mount, settings);
+  berth::JointBuffer joints(robot, 500);
 
+  // A frame is swapped as a whole: who asks the old one keeps it alive until the answer is there.
   std::atomic<std::shared_ptr<const berth::Frame>> latest;
+  std::atomic<bool> stop = false;
+  std::thread encoders([&] {
+    std::vector<std::string> names;
+    for (const auto& joint : robot.joints) names.push_back(joint.name);
+    for (; !stop; sleep_ms(1)) joints.push(now_s(), names, std::vector<double>(names.size(), 0.0));
+  });
   std::thread camera([&] {
     berth::Observer observer(rig);
-    for (int i = 0; i < 10; ++i) {
+    while (!stop) {
+      const double exposure_s = now_s();
+      sleep_ms(33);  // the image is on its way
       auto frame = std::make_shared<berth::Frame>();
-      observer.observe(berth::DepthImage(640, 480, 2.6F), {i / 30.0, home}, *frame);
+      observer.observe(berth::DepthImage(640, 480, 2.6F), exposure_s, joints, *frame);
       latest = std::move(frame);
     }
   });
-  while (!latest.load()) std::this_thread::yield();
   berth::Asker asker(rig);
-  for (int i = 0; i < 5; ++i) {
-    std::vector<double> next = home;
-    for (double& position : next) position += 0.05 * i;
-    const berth::Answer& answer = asker.ask(*latest.load(), {i / 1000.0, next});
-    const berth::LinkDistance& last = answer.distances.links.back();
-    std::printf("frame of %.3f s, last link: %.3f m\n", answer.frame_stamp_s, last.distance_m);
+  while (!latest.load()) sleep_ms(1);
+  for (int i = 0; i < 100; ++i, sleep_ms(1)) {
+    const std::shared_ptr<const berth::Frame> frame = latest;
+    const berth::Answer& answer = asker.ask(*frame, joints, now_s());
+    if (answer.time.status != berth::TimeStatus::ok) continue;  // a controller would slow down
+    if (i % 20 == 0) {
+      std::printf("image %.0f ms old, joints %.1f ms old, last link: %.3f m\n",
+                  1e3 * answer.time.frame_age_s, 1e3 * answer.time.joints_age_s,
+                  answer.distances.links.back().distance_m);
+    }
   }
+  stop = true;
   camera.join();
+  encoders.join();
 }

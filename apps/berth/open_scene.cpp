@@ -36,6 +36,9 @@ RigSettings rig_settings(const SceneFile& scene, const EvaluationArguments& argu
   set_if(settings.self_filter.edge_jump_m, scene.self_filter.edge_jump_m);
   set_if(settings.self_filter.island_radius_m, scene.self_filter.island_radius_m);
   set_if(settings.self_filter.island_jump_m, scene.self_filter.island_jump_m);
+  settings.time.joints = kOnlyBetweenSamples;
+  set_if(settings.time.joints.max_skew_s, scene.time.max_skew_s);
+  set_if(settings.time.joints.max_extrapolation_s, scene.time.max_extrapolation_s);
   settings.link_padding_m = scene.self_filter.link_padding_m;
   set_if(settings.distance.range_m, scene.evaluation.range_m);
   set_if(settings.distance.mean_direction, scene.evaluation.mean_direction);
@@ -61,6 +64,29 @@ JointTrajectory read_trajectory(const RobotModel& model, const std::filesystem::
   return JointTrajectory(model, file.string(), table.names, samples);
 }
 
+/// The joints at each exposure. Throws where none of the stamps can be meant for these joints.
+void find_joints(const JointTrajectory& joints, OpenCamera& camera) {
+  const SceneCamera& source = camera.source;
+  camera.at_exposure.resize(source.depth.size());
+  camera.exposure_time.resize(source.depth.size());
+  bool any_ok = false;
+  for (std::size_t frame = 0; frame < source.depth.size(); ++frame) {
+    if (source.stamps_s.empty()) {
+      camera.at_exposure[frame] = joints.sample(frame);
+    } else {
+      camera.exposure_time[frame] = joints.at(
+          source.stamps_s[frame], camera.rig->settings().time.joints, camera.at_exposure[frame]);
+    }
+    any_ok |= camera.exposure_time[frame].status == TimeStatus::ok;
+  }
+  if (any_ok) return;
+  throw std::runtime_error(
+      fmt::format("{}: no joint angles for any stamp of camera {}, from {} to {} s; expected "
+                  "times from {} to {} s",
+                  joints.source(), source.name, source.stamps_s.front(), source.stamps_s.back(),
+                  joints.first_s(), joints.last_s()));
+}
+
 OpenCamera open_camera(const SceneFile& scene, const SceneCamera& source, const RobotModel& model,
                        const JointTrajectory& joints, const EvaluationArguments& arguments) {
   OpenCamera camera;
@@ -73,9 +99,8 @@ OpenCamera open_camera(const SceneFile& scene, const SceneCamera& source, const 
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(fmt::format("{}: {}", scene.file.string(), error.what()));
   }
+  find_joints(joints, camera);
   for (std::size_t frame = 0; frame < source.depth.size(); ++frame) {
-    camera.at_exposure.push_back(source.stamps_s.empty() ? joints.sample(frame)
-                                                         : joints.at(source.stamps_s[frame]));
     stop_if_interrupted();
     camera.read_depth(frame);
   }

@@ -17,6 +17,8 @@ struct OpenCamera {
   std::unique_ptr<const Rig> rig;
   /// The joint angles when each image was exposed.
   std::vector<JointState> at_exposure;
+  /// And how they were found: all NaN where this is not ok.
+  std::vector<FrameTime> exposure_time;
 
   DepthImage read_depth(std::size_t frame) const;
 };
@@ -28,6 +30,8 @@ struct OpenScene {
 
 /// Reads a scene and all that it names, each depth image included, so that nothing that can be
 /// known to be bad is found only after results were given. The arguments win over the scene file.
+/// A frame whose stamp the joints do not reach is no error but has that status, unless all of a
+/// camera's frames are so.
 /// Throws std::runtime_error with file, place, value and what was expected, and Interrupted.
 OpenScene open_scene(const std::filesystem::path& file, const EvaluationArguments& arguments);
 

@@ -19,8 +19,11 @@ namespace fs = std::filesystem;
 
 std::string text_of(const FrameResult& result, OutputFormat format) {
   if (format == OutputFormat::json) return result_json(result) + "\n";
-  return fmt::format("frame {}, {:.3f} s, camera {}, method {}, range {} m\n{}\n", result.frame,
-                     result.stamp_s, result.camera, result.method, result.range_m,
+  const bool timely = !result.time || result.time->status == TimeStatus::ok;
+  const std::string trouble =
+      timely ? "" : fmt::format(", no answer: {}", status_name(result.time->status));
+  return fmt::format("frame {}, {:.3f} s, camera {}, method {}, range {} m{}\n{}\n", result.frame,
+                     result.stamp_s, result.camera, result.method, result.range_m, trouble,
                      result_table(result));
 }
 

@@ -39,6 +39,8 @@ std::string distance_text(const LinkDistance& link, double range_m) {
       return "not visible";
     case LinkStatus::cut_short:
       return "not known in time";
+    case LinkStatus::untimely:
+      return "untimely";
   }
   return "";
 }

@@ -40,6 +40,7 @@ FrameResult result_of(const OpenCamera& camera, std::size_t frame_number, const 
   result.distances = &answer.distances;
   if (camera.rig->settings().visibility) result.visibility = &answer.visibility;
   result.X_BC = frame.X_BC;
+  result.time = answer.time;
   result.self_filter = frame.obstacles.count;
   return result;
 }
@@ -77,7 +78,7 @@ void run_frames(const OpenScene& scene, const fs::path& picture_folder,
     for (std::size_t i = 0; i < camera.source.depth.size(); ++i) {
       stop_if_interrupted();
       const DepthImage depth_m = camera.read_depth(i);
-      observer.observe(depth_m, camera.at_exposure[i], frame);
+      observer.observe(depth_m, camera.at_exposure[i], frame, camera.exposure_time[i]);
       const FrameResult result = result_of(camera, i, frame, asker.ask(frame));
       if (draws)
         draw(pictures / fmt::format("frame_{:06}.png", i), scene, camera, depth_m, frame, result);

@@ -56,7 +56,8 @@ void filter_command(const FilterArguments& arguments) {
     Frame frame;
     for (std::size_t i = 0; i < camera.source.depth.size(); ++i) {
       stop_if_interrupted();
-      observer.observe(camera.read_depth(i), camera.at_exposure[i], frame);
+      observer.observe(camera.read_depth(i), camera.at_exposure[i], frame,
+                       camera.exposure_time[i]);
       write_images(folder, i, camera.source.depth_scale_m, frame);
       progress.step();
     }

@@ -28,7 +28,12 @@ TEST(Run, JsonHasTheKeysOfTheSchemaAndNoOthers) {
     const Json& frame = frames[i];
     EXPECT_EQ(keys_of(frame),
               (std::set<std::string>{"schema", "frame", "stamp_s", "camera", "method", "range_m",
-                                     "links", "pairs", "self_filter"}));
+                                     "links", "pairs", "self_filter", "time"}));
+    EXPECT_EQ(keys_of(frame["time"]),
+              (std::set<std::string>{"status", "frame_age_s", "joints_age_s", "skew_s"}));
+    EXPECT_EQ(frame["time"]["status"], "ok");
+    EXPECT_EQ(frame["time"]["skew_s"], 0);
+    EXPECT_TRUE(frame["time"]["frame_age_s"].is_null());
     EXPECT_EQ(frame["schema"], "berth/result/1");
     EXPECT_EQ(frame["frame"], i);
     EXPECT_EQ(frame["stamp_s"], i);

@@ -105,7 +105,9 @@ TEST(SceneKey, StampsAreAnsweredBetweenRows) {
   scene.lines.more_camera = "stamps: [0.5]";
   const Json between = scene.run().at(0);
   EXPECT_EQ(between["stamp_s"], 0.5);
-  EXPECT_EQ(between, at_row);
+  EXPECT_EQ(between["time"]["skew_s"], 0.5);
+  EXPECT_EQ(between["links"], at_row["links"]);
+  EXPECT_EQ(between["self_filter"], at_row["self_filter"]);
   scene.lines.more_camera = "stamps: [0.9]";
   EXPECT_NE(scene.run().at(0)["links"], at_row["links"]);
 }

@@ -54,6 +54,9 @@ void expect_certified(const LinkDistance& link, const LinkDistance& true_link, f
       EXPECT_TRUE(std::isnan(link.distance_m));
       EXPECT_EQ(link.robot_pixel, Pixel{});
       break;
+    case LinkStatus::untimely:
+      ADD_FAILURE() << "the evaluators know of no time";
+      break;
   }
 }
 

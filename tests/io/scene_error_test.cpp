@@ -151,7 +151,7 @@ TEST(SceneErrors, RefusesABadValueAndSaysWhere) {
        "joints: j\nself_filter: {dilation_px: 1.5}",
        {"self_filter.dilation_px: 1.5; expected a whole number"}},
       {&S::end, "joints: j\n? [a, b]\n: c", {"scene.yaml:9: a list of 2; expected a text"}},
-      {&S::end, "joints: j\n---\njoints: k", {"scene.yaml: 2 YAML documents; expected one"}},
+      {&S::end, "joints: j\n---\njoints: k", {"scene.yaml: several YAML documents; expected one"}},
       {&S::end, "joints: j\n  wrong: k", {"scene.yaml:9", "expected valid YAML"}},
   };
   for (const Case& bad : table) {
@@ -186,7 +186,7 @@ TEST(SceneErrors, RefusesMissingOrSharedCameras) {
       {"robot: {urdf: r}\njoints: j\ncameras:\n" + camera + camera,
        {"scene.yaml:5: cameras[1]: a second camera is named a; expected names that differ"}},
       {"joints: j\ncameras:\n" + camera, {"scene.yaml:1: the key robot is missing"}},
-      {"", {"scene.yaml: 0 YAML documents; expected one"}},
+      {"", {"scene.yaml: no YAML document; expected one"}},
       {"~", {"scene.yaml:1: nothing; expected a map"}},
   };
   for (const BadText& bad : table) {

@@ -49,6 +49,7 @@ self_filter:
   island_radius_m: 0.08
   island_jump_m: 0.09
 evaluation: {method: lattice, range_m: 0.5, mean_direction: off, visibility: false}
+time: {max_skew_s: 0.01, max_extrapolation_s: 0.02}
 )");
   const SceneFile scene = read_scene(file);
   EXPECT_EQ(scene.file, file);
@@ -89,6 +90,8 @@ evaluation: {method: lattice, range_m: 0.5, mean_direction: off, visibility: fal
   EXPECT_EQ(scene.evaluation.range_m, 0.5);
   EXPECT_EQ(scene.evaluation.mean_direction, false);
   EXPECT_EQ(scene.evaluation.visibility, false);
+  EXPECT_EQ(scene.time.max_skew_s, 0.01);
+  EXPECT_EQ(scene.time.max_extrapolation_s, 0.02);
 }
 
 TEST(Scene, LeavesDefaultsToThoseWhoOwnThem) {

@@ -35,5 +35,35 @@ TEST(SteadyState, TheWholeWayAllocatesNothingOnceItHasSeenTheImages) {
   }
 }
 
+/// Joints pushed and looked up, frames that are refused, answers that are withheld.
+TEST(SteadyState, TheRunningRobotsWayAllocatesNothingOnceItsBufferIsFull) {
+  const OpenScene scene = open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml", {});
+  const OpenCamera& camera = scene.cameras.front();
+  const DepthImage depth_m = camera.read_depth(3);
+  std::vector<std::string> names;
+  for (const MovableJoint& joint : camera.rig->model().joints) names.push_back(joint.name);
+  JointBuffer joints(camera.rig->model(), 50);
+  Observer observer(*camera.rig);
+  Asker asker(*camera.rig);
+  Frame frame;
+  int ms = 0;
+  const auto run_100_ms = [&] {
+    for (const int end_ms = ms + 100; ms < end_ms; ++ms) {
+      joints.push(1e-3 * ms, names, camera.at_exposure[3 + ms % 3].position);
+    }
+    const double exposure_s = 1e-3 * (ms - 10);
+    observer.observe(depth_m, exposure_s, joints, frame);
+    EXPECT_EQ(frame.time.status, TimeStatus::ok);
+    EXPECT_EQ(asker.ask(frame, joints, 1e-3 * ms).time.status, TimeStatus::ok);
+    EXPECT_EQ(asker.ask(frame, 1e-3 * ms + 1).time.status, TimeStatus::stale_frame);
+    observer.observe(depth_m, exposure_s, joints, frame);
+    EXPECT_EQ(asker.ask(frame).time.status, TimeStatus::stamp_went_back);
+  };
+  for (int round = 0; round < 3; ++round) run_100_ms();
+  const std::size_t before = allocation_count();
+  for (int round = 0; round < 20; ++round) run_100_ms();
+  EXPECT_EQ(allocation_count(), before);
+}
+
 }  // namespace
 }  // namespace berth

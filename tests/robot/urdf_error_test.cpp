@@ -175,6 +175,24 @@ TEST(UrdfError, ShapeOfUnknownKind) {
   expect_refused(robot_xml(link_xml("base", "<visual/>")), {"not a valid URDF"});
 }
 
+TEST(UrdfError, SeveralShapesInOneGeometryOfWhichOnlyOneWouldBeTaken) {
+  for (const std::string kind : {"visual", "collision"}) {
+    expect_refused(robot_xml(box_link_xml("base") +
+                             link_xml("two", shape_xml(R"(<box size="1 1 1"/><sphere radius="1"/>)",
+                                                       "", kind)) +
+                             joint_xml("j", "fixed", "base", "two")),
+                   {":4: link \"two\": <geometry> holds 2 shapes; expected one"});
+  }
+}
+
+TEST(UrdfError, ElementsNestedWithoutEnd) {
+  std::string deep;
+  for (int i = 0; i < 300; ++i) deep += "<a>\n";
+  for (int i = 0; i < 300; ++i) deep += "</a>";
+  expect_refused(robot_xml(deep + box_link_xml("base")),
+                 {"not a valid URDF: <a> is nested 201 deep; expected less than that"});
+}
+
 TEST(UrdfError, MeshScaleOfZero) {
   const TemporaryFolder folder;
   folder.write("part.stl", binary_stl(two_triangles()));

@@ -10,6 +10,7 @@
 #include "berth/types/link_distance.hpp"
 #include "berth/types/link_visibility.hpp"
 #include "berth/types/obstacle_image.hpp"
+#include "berth/types/time_status.hpp"
 
 namespace berth {
 
@@ -40,6 +41,8 @@ struct FrameResult {
   /// The pose of the camera in the robot's root link. With it, points are also told in the root's
   /// frame.
   std::optional<Pose> X_BC;
+  /// How the frame's stamp and joints go together.
+  std::optional<Timeliness> time;
   std::optional<EvaluateTiming> timing;
   /// Pixels of each PixelFate.
   std::optional<std::array<std::int64_t, kPixelFateCount>> self_filter;
@@ -47,6 +50,7 @@ struct FrameResult {
 
 /// The enumerator's own name.
 const char* status_name(LinkStatus status);
+const char* status_name(TimeStatus status);
 
 /// The enumerator's own name.
 const char* fate_name(PixelFate fate);

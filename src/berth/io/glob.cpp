@@ -21,6 +21,14 @@ std::string escape(const std::string& text) {
 
 }  // namespace
 
+bool is_quick_pattern(const std::string& pattern) {
+  int parts = 0;
+  for (const std::filesystem::path& part : std::filesystem::path(pattern)) {
+    parts += part.string().find_first_of("*?[") != std::string::npos;
+  }
+  return parts <= 2 && std::count(pattern.begin(), pattern.end(), '*') <= 8;
+}
+
 std::vector<std::filesystem::path> glob_files(const std::filesystem::path& folder,
                                               const std::string& pattern) {
   const bool absolute = pattern.starts_with('/');

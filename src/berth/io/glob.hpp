@@ -12,4 +12,8 @@ namespace berth {
 std::vector<std::filesystem::path> glob_files(const std::filesystem::path& folder,
                                               const std::string& pattern);
 
+/// Whether looking for the pattern's files is quick wherever it stands: wildcards in two parts of the
+/// path at most, and eight stars.
+bool is_quick_pattern(const std::string& pattern);
+
 }  // namespace berth

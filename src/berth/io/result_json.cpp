@@ -51,6 +51,16 @@ Json json_of(const EvaluateTiming& timing) {
             {"max", timing.max_us}}}};
 }
 
+/// Seconds; null where they are not known.
+Json json_of(double value_s) { return std::isfinite(value_s) ? Json(value_s) : Json(); }
+
+Json json_of(const Timeliness& time) {
+  return {{"status", status_name(time.status)},
+          {"frame_age_s", json_of(time.frame_age_s)},
+          {"joints_age_s", json_of(time.joints_age_s)},
+          {"skew_s", json_of(time.skew_s)}};
+}
+
 Json link_json(const LinkDistance& link, const std::string& name, const FrameResult& result) {
   const std::optional<Pose>& X_BC = result.X_BC;
   const bool ok = link.status == LinkStatus::ok;
@@ -94,6 +104,7 @@ std::string result_json(const FrameResult& result) {
   json["camera"] = result.camera;
   json["method"] = result.method;
   json["range_m"] = result.range_m;
+  if (result.time) json["time"] = json_of(*result.time);
   json["links"] = Json::array();
   for (std::size_t i = 0; i < links.size(); ++i) {
     json["links"].push_back(link_json(links[i], result.link_names[i], result));

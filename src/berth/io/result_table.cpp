@@ -18,7 +18,7 @@ std::string pixel_text(Pixel pixel) { return fmt::format("({}, {})", pixel.u, pi
 std::string distance_text(const LinkDistance& link, bool has_bounds) {
   const bool ok = link.status == LinkStatus::ok;
   const std::string distance = ok ? fmt::format("{:.4f}", link.distance_m) : "-";
-  const bool is_known = !has_bounds || link.status == LinkStatus::not_visible ||
+  const bool is_known = !has_bounds || std::isnan(link.lower_bound_m) ||
                         (ok && link.lower_bound_m == link.distance_m);
   if (is_known) return distance;
   // Cut, not rounded: a bound must not be told as more than it is.

@@ -77,10 +77,16 @@ SceneEvaluation read_evaluation(const YamlValue& value) {
   return evaluation;
 }
 
+SceneTime read_time(const YamlValue& value) {
+  const YamlMap map(value, {"max_skew_s", "max_extrapolation_s"});
+  return {map.get("max_skew_s", &YamlValue::non_negative),
+          map.get("max_extrapolation_s", &YamlValue::non_negative)};
+}
+
 }  // namespace
 
 SceneFile read_scene(const std::filesystem::path& file) {
-  const YamlMap map(load_yaml(file), {"robot", "cameras", "joints", "self_filter", "evaluation"});
+  const YamlMap map(load_yaml(file), {"robot", "cameras", "joints", "self_filter", "evaluation", "time"});
   SceneFile scene;
   scene.file = file;
   scene.robot = read_robot(map.at("robot"));
@@ -90,6 +96,7 @@ SceneFile read_scene(const std::filesystem::path& file) {
   if (const auto evaluation = map.find("evaluation")) {
     scene.evaluation = read_evaluation(*evaluation);
   }
+  if (const auto time = map.find("time")) scene.time = read_time(*time);
   return scene;
 }
 

@@ -60,6 +60,12 @@ struct SceneEvaluation {
   std::optional<bool> visibility;
 };
 
+/// How near the joint samples have to be to an image, as far as the file says.
+struct SceneTime {
+  std::optional<double> max_skew_s;
+  std::optional<double> max_extrapolation_s;
+};
+
 struct SceneFile {
   std::filesystem::path file;
   SceneRobot robot;
@@ -67,6 +73,7 @@ struct SceneFile {
   std::filesystem::path joints;
   SceneSelfFilter self_filter;
   SceneEvaluation evaluation;
+  SceneTime time;
 };
 
 /// Reads SCENE.yaml; paths in it are relative to the file. Opens none of the files that it names,

@@ -58,6 +58,9 @@ std::vector<std::filesystem::path> read_depth_files(const YamlValue& value) {
     if (files.empty()) value.fail("one image at least");
     return files;
   }
+  if (!is_quick_pattern(value.text())) {
+    value.fail("a pattern with wildcards in two parts of the path at most, and eight stars");
+  }
   files = glob_files(value.place().file.parent_path(), value.text());
   if (files.empty()) value.fail("a pattern that some file matches, or a list of files");
   return files;

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <yaml-cpp/eventhandler.h>
+
 #include <algorithm>
+#include <sstream>
 
 #include "berth/io/edit_distance.hpp"
 #include "berth/io/file_bytes.hpp"
@@ -22,6 +25,32 @@ int line_of(const YAML::Node& node) { return node.Mark().line + 1; }
 
 std::string join_keys(const std::string& outer, const std::string& key) {
   return outer.empty() ? key : outer + "." + key;
+}
+
+struct IgnoreEvents : YAML::EventHandler {
+  using Mark = YAML::Mark;
+  using Anchor = YAML::anchor_t;
+  using Style = YAML::EmitterStyle::value;
+  using Tag = const std::string&;
+  void OnDocumentStart(const Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const Mark&, Anchor) override {}
+  void OnAlias(const Mark&, Anchor) override {}
+  void OnScalar(const Mark&, Tag, Anchor, Tag) override {}
+  void OnSequenceStart(const Mark&, Tag, Anchor, Style) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const Mark&, Tag, Anchor, Style) override {}
+  void OnMapEnd() override {}
+};
+
+/// 0, 1, or 2 for more: YAML::LoadAll() finds documents without end behind some wrong commas.
+int count_documents(const std::string& text) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  IgnoreEvents ignore;
+  int count = 0;
+  while (count < 2 && parser.HandleNextDocument(ignore)) ++count;
+  return count;
 }
 
 }  // namespace
@@ -146,9 +175,12 @@ YamlValue YamlMap::at(std::string_view key) const {
 
 YamlValue load_yaml(const std::filesystem::path& file) {
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(read_file_bytes(file));
-    if (documents.size() == 1) return {documents[0], {file, line_of(documents[0]), ""}};
-    throw_bad_file({file}, fmt::format("{} YAML documents", documents.size()), "one");
+    const std::string text = read_file_bytes(file);
+    if (const int documents = count_documents(text); documents != 1) {
+      throw_bad_file({file}, documents == 0 ? "no YAML document" : "several YAML documents", "one");
+    }
+    const YAML::Node document = YAML::Load(text);
+    return {document, {file, line_of(document), ""}};
   } catch (const YAML::Exception& error) {
     throw_bad_file({file, error.mark.line + 1, ""}, error.msg, "valid YAML");
   }

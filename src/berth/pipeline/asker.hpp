@@ -1,7 +1,11 @@
 #pragma once
 
+#include <optional>
+
 #include "berth/pipeline/frame.hpp"
 #include "berth/pipeline/rig.hpp"
+#include "berth/pipeline/timeliness.hpp"
+#include "berth/robot/joint_buffer.hpp"
 #include "berth/types/joint_state.hpp"
 #include "berth/types/link_distance.hpp"
 #include "berth/types/link_visibility.hpp"
@@ -14,6 +18,8 @@ struct Answer {
   /// When the depth image was exposed, and the time of the joint angles that were asked for.
   double frame_stamp_s = 0;
   double joints_stamp_s = 0;
+  /// Unless its status is ok, every link is LinkStatus::untimely.
+  Timeliness time;
   LinkDistances distances;
   /// What the camera cannot know: visibility[i] belongs to the link with the id i + 1. Empty unless
   /// RigSettings::visibility is set.
@@ -26,25 +32,33 @@ class Asker {
  public:
   explicit Asker(const Rig& rig);
 
-  /// The distances of the robot as it stood when the image was exposed. Valid until the next
-  /// question.
-  const Answer& ask(const Frame& frame);
+  /// The distances of the robot as it stood when the image was exposed. With the time of the
+  /// question the frame's age is told and judged by RigSettings::time, here and below. Valid until
+  /// the next question.
+  const Answer& ask(const Frame& frame, std::optional<double> now_s = {});
 
   /// The distances with the robot at other joint angles, now or where it is about to go, against
   /// what the frame saw; the camera stays where it was at the exposure. Valid until the next
   /// question. Throws std::invalid_argument for wrong joints.
-  const Answer& ask(const Frame& frame, const JointState& joints);
+  const Answer& ask(const Frame& frame, const JointState& joints, std::optional<double> now_s = {});
+
+  /// The same with the buffer's newest joints. Trouble with them is a status, never an exception.
+  const Answer& ask(const Frame& frame, const JointBuffer& joints, double now_s);
 
   /// The robot of the last question at other joint angles.
   const RobotImage& robot_image() const { return robot_; }
 
  private:
-  const Answer& evaluate_robot(const Frame& frame, const AskedRobot& robot, double joints_stamp_s);
+  /// Begins an answer; whether it is in time.
+  bool begin(const Frame& frame, double joints_stamp_s, const Timeliness& time);
+  const Answer& withhold();
+  const Answer& evaluate_robot(const Frame& frame, const AskedRobot& robot);
 
   const Rig& rig_;
   RobotRenderer renderer_;
   RobotPose pose_;
   RobotImage robot_;
+  JointState newest_;
   EvaluateWorkspace workspace_;
   VisibilityWorkspace visibility_;
   Answer answer_;

@@ -2,6 +2,8 @@
 
 #include "berth/pipeline/frame.hpp"
 #include "berth/pipeline/rig.hpp"
+#include "berth/pipeline/timeliness.hpp"
+#include "berth/robot/joint_buffer.hpp"
 #include "berth/self_filter/self_filter.hpp"
 #include "berth/types/joint_state.hpp"
 
@@ -15,13 +17,20 @@ class Observer {
   /// Renders the robot at the joint angles of the exposure, removes it from the image, and writes
   /// all of `frame`, whose memory it reuses. `depth_m` is as large as the camera's image, NaN where
   /// there is no reading. Throws std::invalid_argument for a wrong size or wrong joints and then
-  /// leaves no valid frame.
-  void observe(DepthView depth_m, const JointState& at_exposure, Frame& frame);
+  /// leaves no valid frame. `time` is how the joints were found (joints_at_time); where it is not
+  /// ok they are not looked at, and nothing stays in `frame` but the stamp and this.
+  void observe(DepthView depth_m, const JointState& at_exposure, Frame& frame, FrameTime time = {});
+
+  /// The same for a running camera and robot: the joints are those of the buffer at the exposure,
+  /// and stamps have to go forward from call to call (FrameClock).
+  void observe(DepthView depth_m, double stamp_s, const JointBuffer& joints, Frame& frame);
 
  private:
   const Rig& rig_;
   RobotRenderer renderer_;
   SelfFilterWorkspace workspace_;
+  FrameClock clock_;
+  JointState at_exposure_;
 };
 
 }  // namespace berth

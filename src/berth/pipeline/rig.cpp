@@ -55,6 +55,7 @@ Rig::Rig(RobotModel model, CameraMount mount, RigSettings settings)
   }
   validate(settings_.self_filter);
   validate(settings_.distance);
+  validate(settings_.time);
   if (settings_.visibility) sample_points_ = berth::sample_points(model_);
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "berth/distance/evaluate.hpp"
+#include "berth/pipeline/timeliness.hpp"
 #include "berth/render/robot_renderer.hpp"
 #include "berth/robot/robot_model.hpp"
 #include "berth/self_filter/settings.hpp"
@@ -29,6 +30,7 @@ struct RigSettings {
   DistanceSettings distance;
   /// Whether answers tell what the camera cannot know (Answer::visibility).
   bool visibility = true;
+  TimeSettings time;
 };
 
 /// One robot and one camera that sees it: constant once made, shared by the two clocks and their

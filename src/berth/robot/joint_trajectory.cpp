@@ -4,8 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 namespace berth {
@@ -59,26 +57,9 @@ JointTrajectory::JointTrajectory(const RobotModel& model, std::string source,
   }
 }
 
-JointState JointTrajectory::at(double time_s) const {
-  if (states_.empty() || !(time_s >= states_.front().stamp_s && time_s <= states_.back().stamp_s)) {
-    throw std::runtime_error(
-        fmt::format("{}: no joint angles for time {} s; expected a time from {} to {} s", source_,
-                    time_s, states_.empty() ? 0 : states_.front().stamp_s,
-                    states_.empty() ? 0 : states_.back().stamp_s));
-  }
-  const auto after =
-      std::lower_bound(states_.begin(), states_.end(), time_s,
-                       [](const JointState& state, double t) { return state.stamp_s < t; });
-  if (after->stamp_s == time_s) return *after;
-  const auto before = after - 1;
-  const double share = (time_s - before->stamp_s) / (after->stamp_s - before->stamp_s);
-  JointState state{time_s, before->position};
-  for (std::size_t i = 0; i < state.position.size(); ++i) {
-    double step = after->position[i] - before->position[i];
-    if (is_continuous_[i]) step = std::remainder(step, 2 * std::numbers::pi);
-    state.position[i] += share * step;
-  }
-  return state;
+FrameTime JointTrajectory::at(double time_s, const JointTimeLimits& limits,
+                              JointState& joints) const {
+  return joints_at_time(states_, is_continuous_, time_s, limits, joints);
 }
 
 const JointState& JointTrajectory::sample(std::size_t index) const {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "berth/robot/joints_at_time.hpp"
 #include "berth/robot/robot_model.hpp"
 #include "berth/types/joint_state.hpp"
 
@@ -23,9 +24,12 @@ class JointTrajectory {
   JointTrajectory(const RobotModel& model, std::string source,
                   const std::vector<std::string>& names, const std::vector<Sample>& samples);
 
-  /// Linear between the samples around it; a continuous joint takes the shorter way round. Throws
-  /// std::runtime_error for a time outside of the samples: nothing is extrapolated.
-  JointState at(double time_s) const;
+  /// See joints_at_time().
+  FrameTime at(double time_s, const JointTimeLimits& limits, JointState& joints) const;
+  /// What the constructor was given.
+  const std::string& source() const { return source_; }
+  double first_s() const { return states_.front().stamp_s; }
+  double last_s() const { return states_.back().stamp_s; }
   /// Throws std::runtime_error where there is no such sample; the first is 0.
   const JointState& sample(std::size_t index) const;
   std::size_t size() const { return states_.size(); }

@@ -14,6 +14,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "berth/robot/collada_guard.hpp"
+
 namespace berth {
 namespace {
 
@@ -27,6 +29,9 @@ Eigen::Affine3d to_eigen(const aiMatrix4x4& m) {
       m.d3, m.d4;
   return X;
 }
+
+/// Above what any robot has; a few nodes can repeat a mesh without end.
+constexpr std::size_t kMostTriangles = 10'000'000;
 
 TriangleMesh to_mesh(const aiMesh& source) {
   TriangleMesh mesh;
@@ -44,12 +49,17 @@ TriangleMesh to_mesh(const aiMesh& source) {
   return mesh;
 }
 
-void append_node(const aiScene& scene, const aiNode& node, const Eigen::Affine3d& X_parent,
-                 TriangleMesh& mesh) {
+void append_node(const std::filesystem::path& path, const aiScene& scene, const aiNode& node,
+                 const Eigen::Affine3d& X_parent, TriangleMesh& mesh) {
   const Eigen::Affine3d X = X_parent * to_eigen(node.mTransformation);
-  for (unsigned i = 0; i < node.mNumMeshes; ++i)
-    mesh.append(to_mesh(*scene.mMeshes[node.mMeshes[i]]), X);
-  for (unsigned i = 0; i < node.mNumChildren; ++i) append_node(scene, *node.mChildren[i], X, mesh);
+  for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+    const aiMesh& part = *scene.mMeshes[node.mMeshes[i]];
+    if (mesh.triangles.size() + part.mNumFaces > kMostTriangles)
+      fail(path, fmt::format("the mesh has more than {} triangles; expected less", kMostTriangles));
+    mesh.append(to_mesh(part), X);
+  }
+  for (unsigned i = 0; i < node.mNumChildren; ++i)
+    append_node(path, scene, *node.mChildren[i], X, mesh);
 }
 
 bool ends_with_endsolid(const std::string& text) {
@@ -59,10 +69,14 @@ bool ends_with_endsolid(const std::string& text) {
   return text.compare(text.find_first_not_of(" \t", line), 8, "endsolid") == 0;
 }
 
+std::string read_bytes(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
 /// Assimp reads a text STL that was cut as if it were whole.
 void require_whole_stl(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  const std::string bytes = read_bytes(path);
   constexpr std::size_t kHeader = 84;
   constexpr std::size_t kTriangle = 50;
   std::size_t binary_size = 0;
@@ -118,6 +132,7 @@ TriangleMesh read_mesh_file(const std::filesystem::path& path) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return std::tolower(c); });
   if (extension == ".stl") require_whole_stl(path);
+  if (extension == ".dae") require_harmless_collada(path, read_bytes(path));
 
   Assimp::Importer importer;
   configure(importer);
@@ -133,7 +148,7 @@ TriangleMesh read_mesh_file(const std::filesystem::path& path) {
 
   TriangleMesh mesh;
   if (scene->mRootNode != nullptr)
-    append_node(*scene, *scene->mRootNode, Eigen::Affine3d::Identity(), mesh);
+    append_node(path, *scene, *scene->mRootNode, Eigen::Affine3d::Identity(), mesh);
   if (mesh.empty()) fail(path, "the mesh has no triangle");
   for (std::size_t i = 0; i < mesh.vertices_m.size(); ++i) {
     if (!mesh.vertices_m[i].allFinite())

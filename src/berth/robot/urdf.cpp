@@ -11,7 +11,10 @@
 #include <mutex>
 #include <set>
 #include <stdexcept>
+#include <string_view>
 #include <vector>
+
+#include "berth/robot/xml.hpp"
 
 namespace berth {
 namespace {
@@ -125,10 +128,32 @@ void require_mimic_ends(const std::filesystem::path& path, const urdf::ModelInte
   }
 }
 
+/// urdfdom's own XML parser recurses, and takes the first of several shapes in silence.
+void require_usable_xml(const std::filesystem::path& path, const std::string& text) {
+  pugi::xml_document document;
+  parse_xml(path, text, "not a valid URDF", document);
+  const pugi::xml_node robot = document.document_element();
+  if (std::string_view(robot.name()) != "robot")
+    fail(path, fmt::format("not a valid URDF: the root is <{}>; expected <robot>", robot.name()));
+  for (const pugi::xml_node& link : robot.children("link")) {
+    for (const pugi::xml_node& part : link.children()) {
+      const pugi::xml_node geometry = part.child("geometry");
+      const auto shapes = geometry.select_nodes("*");
+      if (shapes.size() <= 1) continue;
+      throw std::runtime_error(
+          fmt::format("{}:{}: link \"{}\": <geometry> holds {} shapes; expected one", path.string(),
+                      line_of(text, geometry.offset_debug()), link.attribute("name").value(),
+                      shapes.size()));
+    }
+  }
+}
+
 }  // namespace
 
 urdf::ModelInterfaceSharedPtr parse_urdf(const std::filesystem::path& path) {
-  const auto model = parse(path, read_text(path));
+  const std::string text = read_text(path);
+  require_usable_xml(path, text);
+  const auto model = parse(path, text);
   require_one_parent_each(path, *model);
   require_all_reached(path, *model);
   require_mimic_ends(path, *model);

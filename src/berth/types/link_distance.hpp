@@ -15,6 +15,7 @@ enum class LinkStatus : std::uint8_t {
   none_in_range,  ///< the link is seen, and nothing is within the range
   not_visible,    ///< the camera sees no pixel of the link: nothing is known
   cut_short,      ///< the search was stopped before it found a pair within the range
+  untimely,       ///< stamps or ages allow no answer (Answer::time): nothing is known
 };
 
 /// The closest pair of one link (Hirt 2.10 to 2.14). Unless status is ok, every length but the lower
@@ -26,7 +27,7 @@ struct LinkDistance {
   /// No pair is closer than this: distance_m itself unless the search was allowed to end early
   /// (DistanceSettings::tolerance_m, deadline_us); the range where there is none within it; 0 by a
   /// method that certifies nothing (lattice, and brute_force in a region that may miss pairs). NaN
-  /// only where the link is not visible.
+  /// only where the link is not visible or the answer untimely.
   float lower_bound_m = std::numeric_limits<float>::quiet_NaN();
   Pixel robot_pixel;
   Pixel obstacle_pixel;

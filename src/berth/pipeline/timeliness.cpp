@@ -1,0 +1,62 @@
+#include "berth/pipeline/timeliness.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace berth {
+
+void validate(const TimeSettings& settings) {
+  const std::pair<const char*, double> limits[] = {
+      {"max_skew_s", settings.joints.max_skew_s},
+      {"max_extrapolation_s", settings.joints.max_extrapolation_s},
+      {"max_frame_age_s", settings.max_frame_age_s},
+      {"max_joints_age_s", settings.max_joints_age_s},
+      {"max_frame_gap_s", settings.max_frame_gap_s},
+      {"max_clock_offset_s", settings.max_clock_offset_s}};
+  for (const auto& [name, limit_s] : limits) {
+    if (limit_s >= 0) continue;
+    throw std::invalid_argument(
+        fmt::format("time.{} is {}; expected a number of at least 0", name, limit_s));
+  }
+}
+
+TimeStatus FrameClock::next(double stamp_s, const TimeSettings& settings) {
+  // A stamp that is no time tells nothing of the next one.
+  if (!std::isfinite(stamp_s)) return TimeStatus::stamp_jumped;
+  const std::optional<double> last_s = std::exchange(last_s_, stamp_s);
+  if (!last_s) return TimeStatus::ok;
+  if (stamp_s <= *last_s) return TimeStatus::stamp_went_back;
+  return stamp_s - *last_s <= settings.max_frame_gap_s ? TimeStatus::ok : TimeStatus::stamp_jumped;
+}
+
+Timeliness timeliness_of(const Frame& frame, std::optional<double> now_s,
+                         const TimeSettings& settings) {
+  Timeliness time;
+  time.status = frame.time.status;
+  time.skew_s = frame.time.skew_s;
+  if (!now_s) return time;
+  time.frame_age_s = time.joints_age_s = *now_s - frame.stamp_s;
+  if (time.status != TimeStatus::ok) return time;
+  if (time.frame_age_s < -settings.max_clock_offset_s) {
+    time.status = TimeStatus::frame_in_future;
+  } else if (!(time.frame_age_s <= settings.max_frame_age_s)) {
+    // So is an age that is NaN.
+    time.status = TimeStatus::stale_frame;
+  }
+  return time;
+}
+
+Timeliness timeliness_of(const Frame& frame, double joints_stamp_s, std::optional<double> now_s,
+                         const TimeSettings& settings) {
+  Timeliness time = timeliness_of(frame, now_s, settings);
+  if (!now_s) return time;
+  time.joints_age_s = *now_s - joints_stamp_s;
+  const bool fresh = time.joints_age_s <= settings.max_joints_age_s;
+  if (time.status == TimeStatus::ok && !fresh) time.status = TimeStatus::stale_joints;
+  return time;
+}
+
+}  // namespace berth

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+
+#include "berth/pipeline/frame.hpp"
+#include "berth/robot/joints_at_time.hpp"
+
+namespace berth {
+
+/// How old is too old. An answer that is not in time has no distance (LinkStatus::untimely),
+/// because a controller that forgets to look at an age must not take yesterday's free space for
+/// today's. Who can use an older one sets the limit to infinity and looks at the ages in
+/// Answer::time.
+struct TimeSettings {
+  JointTimeLimits joints;
+  /// From the exposure to the question: at 30 Hz the transfer, the next frame, and one that is
+  /// lost.
+  double max_frame_age_s = 0.15;
+  /// From the joints' stamp to the question. Joints ahead of it, where the robot is about to go,
+  /// have a negative age and are within any limit.
+  double max_joints_age_s = 0.02;
+  /// From one frame's stamp to the next; beyond it, one of the two may be wrong.
+  double max_frame_gap_s = 1;
+  /// How far a frame's stamp may lie after the question, where the camera's clock goes ahead.
+  double max_clock_offset_s = 0.005;
+};
+
+/// Throws std::invalid_argument with name, value and what was expected: a limit that is negative or
+/// NaN.
+void validate(const TimeSettings& settings);
+
+/// The stamps of one camera's frames, each judged by the one before, whatever became of that: a
+/// clock that was set costs one frame.
+class FrameClock {
+ public:
+  /// ok, stamp_went_back (an image that comes a second time, too) or stamp_jumped.
+  TimeStatus next(double stamp_s, const TimeSettings& settings);
+
+ private:
+  std::optional<double> last_s_;
+};
+
+/// How an answer stands at `now_s` for the joints of the exposure, whose age is the frame's.
+/// Without now_s no age is known and none is judged.
+Timeliness timeliness_of(const Frame& frame, std::optional<double> now_s,
+                         const TimeSettings& settings);
+
+/// The same for joints of another stamp.
+Timeliness timeliness_of(const Frame& frame, double joints_stamp_s, std::optional<double> now_s,
+                         const TimeSettings& settings);
+
+}  // namespace berth

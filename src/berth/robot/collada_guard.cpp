@@ -1,0 +1,117 @@
+#include "berth/robot/collada_guard.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <initializer_list>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+#include "berth/robot/xml.hpp"
+
+namespace berth {
+namespace {
+
+constexpr std::size_t kMostNodes = 100'000;
+constexpr std::size_t kDeepestUnfolding = 200;
+
+class Guard {
+ public:
+  Guard(const std::filesystem::path& path, const std::string& text) : path_(path), text_(text) {
+    parse_xml(path, text, "the mesh cannot be read", document_);
+  }
+
+  void check() {
+    check_numbers(document_);
+    for (const pugi::xml_node& scene : scenes_) unfolded(scene);
+  }
+
+ private:
+  [[noreturn]] void fail(const pugi::xml_node& node, const std::string& what) const {
+    throw std::runtime_error(fmt::format("{}:{}: <{}>: {}", path_.string(),
+                                         line_of(text_, node.offset_debug()), node.name(), what));
+  }
+
+  /// Nothing can be there more often than the file has bytes.
+  void check_numbers(const pugi::xml_node& node) {
+    for (const char* name : {"count", "stride", "offset", "set"}) {
+      const pugi::xml_attribute value = node.attribute(name);
+      if (!value) continue;
+      const std::string_view digits = value.value();
+      if (digits.empty() || digits.size() > 9 ||
+          digits.find_first_not_of("0123456789") != std::string_view::npos ||
+          value.as_uint() > text_.size()) {
+        fail(node,
+             fmt::format("{} is \"{}\"; expected a whole number of at most the file's {} bytes",
+                         name, digits, text_.size()));
+      }
+    }
+    require_only(node, {"p", "v", "vcount"}, " \t\r\n0123456789");
+    require_only(node, {"float_array", "matrix", "translate", "rotate", "scale", "lookat", "skew"},
+                 " \t\r\n0123456789+-.eE");
+    if (std::string_view(node.name()) == "visual_scene") scenes_.push_back(node);
+    if (const auto id = node.attribute("id"); id && std::string_view(node.name()) == "node") {
+      if (!by_id_.emplace(id.value(), node).second)
+        fail(node,
+             fmt::format("a second one has the id \"{}\"; expected ids that differ", id.value()));
+    }
+    for (const pugi::xml_node& child : node.children()) check_numbers(child);
+  }
+
+  /// Assimp reads a list of numbers on and on where one does not begin with a digit.
+  void require_only(const pugi::xml_node& node, std::initializer_list<std::string_view> names,
+                    std::string_view allowed) const {
+    if (std::find(names.begin(), names.end(), std::string_view(node.name())) == names.end()) return;
+    const std::string_view text = node.child_value();
+    const std::size_t bad = text.find_first_not_of(allowed);
+    if (bad == std::string_view::npos) return;
+    fail(node, fmt::format("holds \"{}\"; expected numbers", text.substr(bad, 12)));
+  }
+
+  /// How many nodes stand below this one once each reference is replaced by what it names.
+  std::size_t unfolded(const pugi::xml_node& node) {
+    const auto known = unfolded_.find(node.hash_value());
+    if (known != unfolded_.end()) return known->second;
+    if (!open_.insert(node.hash_value()).second) fail(node, "holds itself; expected a tree");
+    if (open_.size() > kDeepestUnfolding) {
+      fail(node, fmt::format("nodes unfold deeper than {}; expected less", kDeepestUnfolding));
+    }
+    std::size_t count = 1;
+    for (const pugi::xml_node& child : node.children()) {
+      const std::string_view name = child.name();
+      if (name == "node") count += unfolded(child);
+      if (name == "instance_node") count += unfolded_reference(child);
+      if (count > kMostNodes) {
+        fail(child, fmt::format("nodes unfold to more than {}; expected less", kMostNodes));
+      }
+    }
+    open_.erase(node.hash_value());
+    return unfolded_[node.hash_value()] = count;
+  }
+
+  std::size_t unfolded_reference(const pugi::xml_node& reference) {
+    const std::string_view url = reference.attribute("url").value();
+    const auto target = by_id_.find(std::string(url.substr(url.starts_with('#') ? 1 : 0)));
+    if (target == by_id_.end()) fail(reference, fmt::format("\"{}\"; expected a node's id", url));
+    return unfolded(target->second);
+  }
+
+  const std::filesystem::path& path_;
+  const std::string& text_;
+  pugi::xml_document document_;
+  std::vector<pugi::xml_node> scenes_;
+  std::map<std::string, pugi::xml_node> by_id_;
+  std::map<std::size_t, std::size_t> unfolded_;
+  std::set<std::size_t> open_;
+};
+
+}  // namespace
+
+void require_harmless_collada(const std::filesystem::path& path, const std::string& text) {
+  Guard(path, text).check();
+}
+
+}  // namespace berth

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <mutex>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "berth/robot/joints_at_time.hpp"
+#include "berth/robot/robot_model.hpp"
+
+namespace berth {
+
+/// The newest joint samples of a running robot, for images whose exposure lies among them. One
+/// thread may push while others look up. Its memory is bounded; once it is full, nothing allocates.
+class JointBuffer {
+ public:
+  /// `capacity` samples are kept, at least 2: at 1000 Hz, 500 are half a second. Throws
+  /// std::invalid_argument for less.
+  JointBuffer(const RobotModel& model, std::size_t capacity);
+
+  /// Adds a sample; positions in rad or m, one for each name, in any order. Names that are no
+  /// joints of the robot are passed over. A sample without one of the robot's joints, or with a
+  /// position that is not finite, is not kept: missing_joint, and missing_joint() names it. So is
+  /// one whose stamp is not above the newest: stamp_went_back. A clock that was set needs clear(),
+  /// since only the caller knows it from a sample that came late. Throws std::invalid_argument
+  /// where names and positions are not equally many.
+  TimeStatus push(double stamp_s, std::span<const std::string> names,
+                  std::span<const double> positions);
+
+  /// The joints at a time among the samples: see joints_at_time(). Where the time lies after the
+  /// newest sample because the one pushed last lacked a joint, that is the status.
+  FrameTime at(double time_s, const JointTimeLimits& limits, JointState& joints) const;
+
+  /// The newest sample with its own stamp; its status is ok, no_joints or, where the one pushed
+  /// last lacked a joint, missing_joint, and then `joints` is NaN.
+  TimeStatus newest(JointState& joints) const;
+
+  /// The joint that the sample pushed last lacked; empty where it lacked none.
+  std::string missing_joint() const;
+
+  void clear();
+
+ private:
+  void keep(double stamp_s);
+
+  mutable std::mutex mutex_;
+  std::vector<std::string> names_;
+  std::vector<bool> is_continuous_;
+  std::size_t capacity_;
+  /// Increasing stamps.
+  std::vector<JointState> samples_;
+  std::vector<double> incoming_;
+  std::string_view missing_;
+};
+
+}  // namespace berth

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "berth/types/joint_state.hpp"
+#include "berth/types/time_status.hpp"
+
+namespace berth {
+
+struct JointTimeLimits {
+  /// From the time asked for to the nearest sample: farther away, a straight line between two
+  /// samples is a guess.
+  double max_skew_s = 0.02;
+  /// Beyond the first or the last sample.
+  double max_extrapolation_s = 0;
+};
+
+/// No limit but that nothing is extrapolated: for recordings whose joints are rare.
+inline constexpr JointTimeLimits kOnlyBetweenSamples{std::numeric_limits<double>::infinity(), 0};
+
+/// The joints at `time_s`: linear between the two samples around it or, within the limit, beyond
+/// the two at the end (one sample alone is held); a continuous joint takes the shorter way round.
+/// `samples` have increasing stamps. Where the status is not ok, all of `joints` is NaN, as many as
+/// is_continuous. Reuses the memory of `joints`.
+FrameTime joints_at_time(std::span<const JointState> samples,
+                         const std::vector<bool>& is_continuous, double time_s,
+                         const JointTimeLimits& limits, JointState& joints);
+
+}  // namespace berth

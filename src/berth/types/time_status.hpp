@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+namespace berth {
+
+/// Whether stamps and joints allow an answer. What is not ok gives none: see Timeliness.
+enum class TimeStatus : std::uint8_t {
+  ok,
+  no_joints,             ///< nobody has given a joint sample yet
+  missing_joint,         ///< the newest joint sample lacked one of the robot's joints
+  extrapolated_too_far,  ///< the exposure lies outside of the joint samples by more than the limit
+  skewed,                ///< no joint sample lies near enough to the exposure
+  stamp_went_back,       ///< the frame's stamp is not above that of the frame before
+  stamp_jumped,     ///< the frame's stamp is too far above that of the frame before, or not finite
+  frame_in_future,  ///< the frame's stamp lies after the time of the question
+  stale_frame,      ///< the frame is too old
+  stale_joints,     ///< the joints are too old
+};
+inline constexpr int kTimeStatusCount = 10;
+
+/// What is known of a frame's time before anybody asks it.
+struct FrameTime {
+  TimeStatus status = TimeStatus::ok;
+  /// From the exposure to the nearest joint sample; NaN where there is none.
+  double skew_s = 0;
+};
+
+/// How an answer stands in time. Unless status is ok, the answer has no distance. An age is that at
+/// the question; NaN where nobody told the time of the question.
+struct Timeliness {
+  TimeStatus status = TimeStatus::ok;
+  double frame_age_s = std::numeric_limits<double>::quiet_NaN();
+  double joints_age_s = std::numeric_limits<double>::quiet_NaN();
+  double skew_s = std::numeric_limits<double>::quiet_NaN();
+};
+
+}  // namespace berth

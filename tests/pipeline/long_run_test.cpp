@@ -1,0 +1,218 @@
+// Days of running, thinned: BERTH_LONG_RUN=full in the environment makes it a million questions and
+// 100 000 frames. A program of its own, because allocation_count replaces the global operator new.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <mutex>
+#include <string_view>
+#include <thread>
+
+#include "berth/pipeline/asker.hpp"
+#include "berth/pipeline/observer.hpp"
+#include "testing/allocation_count.hpp"
+#include "testing/temporary_folder.hpp"
+
+namespace berth {
+namespace {
+
+constexpr int kPoses = 16;
+
+bool is_full() {
+  const char* set = std::getenv("BERTH_LONG_RUN");
+  return set != nullptr && std::string_view(set) == "full";
+}
+
+RobotModel make_robot() {
+  std::string links =
+      R"(<link name="l0"><visual><geometry><box size="0.2 0.2 0.3"/></geometry></visual></link>)";
+  for (int i = 1; i <= 4; ++i) {
+    links += fmt::format(
+        R"(<link name="l{0}"><visual><origin xyz="0 0 0.15"/><geometry><box size="0.1 0.1 0.3"/></geometry></visual></link>
+<joint name="j{0}" type="continuous"><parent link="l{1}"/><child link="l{0}"/><origin xyz="0 0 0.25"/><axis xyz="0 1 0"/></joint>)",
+        i, i - 1);
+  }
+  const TemporaryFolder folder;
+  return load_robot(
+      {.urdf = folder.write("robot.urdf", "<robot name=\"chain\">" + links + "</robot>")});
+}
+
+Rig make_rig() {
+  CameraMount mount{{64, 48, 50, 50, 31.5, 23.5}, "l0"};
+  mount.X_PC.linear() << 0, 0, -1, 1, 0, 0, 0, -1, 0;
+  mount.X_PC.translation() << 2, 0, 0.5;
+  return Rig(make_robot(), mount, {});
+}
+
+JointState joints_of(int pose) {
+  JointState joints{0.01 * pose, {}};
+  for (int i = 0; i < 4; ++i) joints.position.push_back(0.2 * std::sin(0.7 * pose + i));
+  return joints;
+}
+
+/// A wall, and a block that moves before it.
+DepthImage image_of(int pose) {
+  DepthImage depth_m(64, 48, 2.8F);
+  for (int v = 10; v < 20; ++v) {
+    for (int u = 0; u < 8; ++u) depth_m(3 * pose + u, v) = 1.6F + 0.02F * pose;
+  }
+  return depth_m;
+}
+
+template <typename T>
+bool same_bits(const T& a, const T& b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+bool same_bits(const LinkDistance& a, const LinkDistance& b) {
+  return a.id == b.id && a.status == b.status && same_bits(a.distance_m, b.distance_m) &&
+         same_bits(a.lower_bound_m, b.lower_bound_m) && a.robot_pixel == b.robot_pixel &&
+         a.obstacle_pixel == b.obstacle_pixel && same_bits(a.robot_point_C_m, b.robot_point_C_m) &&
+         same_bits(a.obstacle_point_C_m, b.obstacle_point_C_m) &&
+         same_bits(a.mean_direction_C, b.mean_direction_C) && a.mean_count == b.mean_count &&
+         a.robot_pixels == b.robot_pixels;
+}
+
+/// Not `pairs`: a search that begins at the answer before has less to do.
+bool same_bits(const LinkDistances& a, const LinkDistances& b) {
+  for (std::size_t i = 0; i < a.links.size(); ++i) {
+    if (!same_bits(a.links[i], b.links[i])) return false;
+  }
+  return !a.links.empty() && a.links.size() == b.links.size();
+}
+
+double resident_mb() {
+  std::ifstream statm("/proc/self/statm");
+  double pages = 0;
+  statm >> pages >> pages;
+  return pages * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
+}
+
+/// Does each step once for every pose, then `count` of them: nothing allocates, no memory is taken,
+/// and each answer has the bits of the first one of its pose.
+template <typename Step>
+void run_long(const char* what, int count, Step step) {
+  // A second worker of TBB may come at any time, and allocates then.
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  std::vector<LinkDistances> first;
+  for (int pose = 0; pose < kPoses; ++pose) first.push_back(step(pose));
+  int distances = 0;
+  for (const LinkDistance& link : first[0].links) distances += link.status == LinkStatus::ok;
+  ASSERT_GE(distances, 3) << "a run without distances shows nothing";
+  EXPECT_FALSE(same_bits(first[0], first[5]));
+  for (int i = 0; i < 4 * kPoses; ++i) step(i % kPoses);
+  const double before_mb = resident_mb();
+  const std::size_t allocations_before = allocation_count();
+  const auto begin = std::chrono::steady_clock::now();
+  for (int i = 0; i < count; ++i) {
+    ASSERT_TRUE(same_bits(step(i % kPoses), first[i % kPoses])) << what << " " << i;
+  }
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  const std::size_t allocations = allocation_count() - allocations_before;
+  const double after_mb = resident_mb();
+  EXPECT_EQ(allocations, 0U);
+  EXPECT_LT(after_mb, before_mb + 1);
+  fmt::print("{} {}: {:.0f} s, {} allocations, resident {:.2f} MB before and {:.2f} MB after\n",
+             count, what, took.count(), allocations, before_mb, after_mb);
+}
+
+TEST(LongRun, QuestionsTakeNoMemoryAndTheirAnswersStayTheSame) {
+  const Rig rig = make_rig();
+  Observer observer(rig);
+  Asker asker(rig);
+  Frame frame;
+  observer.observe(image_of(3), joints_of(3), frame);
+  std::vector<JointState> joints;
+  for (int pose = 0; pose < kPoses; ++pose) joints.push_back(joints_of(pose));
+  run_long("questions", is_full() ? 1'000'000 : 2'000, [&](int pose) -> const LinkDistances& {
+    return asker.ask(frame, joints[pose]).distances;
+  });
+}
+
+TEST(LongRun, FramesTakeNoMemoryAndTheirAnswersStayTheSame) {
+  const Rig rig = make_rig();
+  Observer observer(rig);
+  Asker asker(rig);
+  Frame frame;
+  std::vector<JointState> joints;
+  std::vector<DepthImage> images;
+  for (int pose = 0; pose < kPoses; ++pose) {
+    joints.push_back(joints_of(pose));
+    images.push_back(image_of(pose));
+  }
+  run_long("frames", is_full() ? 100'000 : 1'000, [&](int pose) -> const LinkDistances& {
+    observer.observe(images[pose], joints[pose], frame);
+    return asker.ask(frame).distances;
+  });
+}
+
+/// The newest frame of a camera, for any number of askers: it is swapped as a whole, and who asks
+/// the one before keeps it until the answer is there.
+class LatestFrame {
+ public:
+  void set(std::shared_ptr<const Frame> frame) {
+    const std::lock_guard lock(mutex_);
+    frame_.swap(frame);
+  }
+  std::shared_ptr<const Frame> get() const {
+    const std::lock_guard lock(mutex_);
+    return frame_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::shared_ptr<const Frame> frame_;
+};
+
+TEST(LongRun, AFrameThatIsReplacedWhileTwoThreadsAskGivesTheAnswersOfOneFrameEach) {
+  const Rig rig = make_rig();
+  const int frames = is_full() ? 20'000 : 300;
+  const JointState asked = joints_of(1);
+  LinkDistances expected[2];
+  for (int i = 0; i < 2; ++i) {
+    Frame frame;
+    Observer(rig).observe(image_of(5 * i), joints_of(5 * i), frame);
+    expected[i] = Asker(rig).ask(frame, asked).distances;
+  }
+  ASSERT_FALSE(same_bits(expected[0], expected[1]));
+  LatestFrame latest;
+  std::atomic<bool> stop = false;
+  std::atomic<int> wrong = 0, answers = 0;
+  const auto observe = [&](Observer& observer, int i) {
+    auto frame = std::make_shared<Frame>();
+    JointState joints = joints_of(5 * (i % 2));
+    joints.stamp_s = i;
+    observer.observe(image_of(5 * (i % 2)), joints, *frame);
+    latest.set(std::move(frame));
+  };
+  Observer observer(rig);
+  observe(observer, 0);
+  const auto ask = [&] {
+    Asker asker(rig);
+    while (!stop) {
+      const std::shared_ptr<const Frame> frame = latest.get();
+      const Answer& answer = asker.ask(*frame, asked);
+      const int which = static_cast<int>(answer.frame_stamp_s) % 2;
+      wrong += !same_bits(answer.distances, expected[which]);
+      ++answers;
+    }
+  };
+  std::thread askers[2] = {std::thread(ask), std::thread(ask)};
+  for (int i = 1; i < frames; ++i) observe(observer, i);
+  while (answers < 100) std::this_thread::yield();
+  stop = true;
+  for (std::thread& asker : askers) asker.join();
+  EXPECT_EQ(wrong, 0);
+  fmt::print("{} frames replaced under {} answers\n", frames, answers.load());
+}
+
+}  // namespace
+}  // namespace berth
