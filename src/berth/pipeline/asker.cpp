@@ -47,7 +47,7 @@ const Answer& Asker::withhold() {
   if (!rig_.settings().visibility) return answer_;
   answer_.visibility.clear();
   for (const LinkDistance& link : answer_.distances.links) {
-    answer_.visibility.push_back({.id = link.id});
+    answer_.visibility.emplace_back().id = link.id;
   }
   return answer_;
 }

@@ -60,6 +60,7 @@ double radius_m(const LinkDistance& link, double range_m) {
     case LinkStatus::cut_short:
       return link.lower_bound_m;
     case LinkStatus::not_visible:
+    case LinkStatus::untimely:
       break;
   }
   return std::numeric_limits<double>::quiet_NaN();
