@@ -1,50 +1,47 @@
 #include "condition.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
 namespace berth {
 namespace {
 
-/// A Kinect-like sensor with a good calibration.
-constexpr SensorErrors kSensor{.step_m_at_1m = 0.003,
-                               .noise_m_at_1m = 0.0015,
-                               .dropout_share = 0.02,
-                               .mixed_share = 0.1,
-                               .outline_px = 2};
+/// Like a Kinect.
+constexpr ImageErrors kSensor{.step_m_at_1m = 0.003,
+                              .noise_m_at_1m = 0.0015,
+                              .dropout_share = 0.02,
+                              .mixed_share = 0.1,
+                              .outline_px = 2};
 
-/// The sensor on a robot whose calibration is off by a length and an angle, with old joints.
-SensorErrors sensor_with(double calibration_m, double calibration_rad, double delay_s) {
-  SensorErrors errors = kSensor;
-  errors.calibration_m = calibration_m;
-  errors.calibration_rad = calibration_rad;
-  errors.delay_s = delay_s;
-  return errors;
-}
-
-struct Named {
+struct NamedErrors {
   const char* name;
-  SensorErrors errors;
+  ImageErrors image = {};
+  PoseErrors pose = {};
 };
 
-const std::array kErrors = {
-    Named{"none: the clean image", {}},
-    Named{"disparity in steps of 3 mm z²", {.step_m_at_1m = 0.003}},
-    Named{"noise of 1.5 mm z²", {.noise_m_at_1m = 0.0015}},
-    Named{"noise of 5 mm z²", {.noise_m_at_1m = 0.005}},
-    Named{"10 % dropouts", {.dropout_share = 0.1}},
-    Named{"20 % mixed pixels at edges", {.mixed_share = 0.2}},
-    Named{"dark outlines of 3 px", {.outline_px = 3}},
-    Named{"calibration off by 1 cm", {.calibration_m = 0.01}},
-    Named{"calibration off by 2 cm", {.calibration_m = 0.02}},
-    Named{"calibration off by 3 cm", {.calibration_m = 0.03}},
-    Named{"calibration off by 0.5°", {.calibration_rad = 0.0087}},
-    Named{"joints 10 ms old", {.delay_s = 0.01}},
-    Named{"joints 20 ms old", {.delay_s = 0.02}},
-    Named{"joints 50 ms old", {.delay_s = 0.05}},
-    Named{"a sensor: steps, noise, 2 % dropouts, 10 % mixed, 2 px dark", kSensor},
-    Named{"the sensor, 1 cm and 0.2° off, 10 ms", sensor_with(0.01, 0.0035, 0.01)},
-    Named{"the sensor, 3 cm and 0.5° off, 50 ms", sensor_with(0.03, 0.0087, 0.05)},
+const std::array kSingleErrors = {
+    NamedErrors{"disparity in steps of 3 mm z²", {.step_m_at_1m = 0.003}},
+    NamedErrors{"noise of 1.5 mm z²", {.noise_m_at_1m = 0.0015}},
+    NamedErrors{"noise of 5 mm z²", {.noise_m_at_1m = 0.005}},
+    NamedErrors{"10 % dropouts", {.dropout_share = 0.1}},
+    NamedErrors{"20 % mixed pixels at edges", {.mixed_share = 0.2}},
+    NamedErrors{"dark outlines of 3 px", {.outline_px = 3}},
+    NamedErrors{"calibration off by 1 cm", {}, {.offset_m = 0.01}},
+    NamedErrors{"calibration off by 2 cm", {}, {.offset_m = 0.02}},
+    NamedErrors{"calibration off by 3 cm", {}, {.offset_m = 0.03}},
+    NamedErrors{"calibration off by 0.5°", {}, {.angle_rad = 0.0087}},
+    NamedErrors{"joints 10 ms old", {}, {.delay_s = 0.01}},
+    NamedErrors{"joints 20 ms old", {}, {.delay_s = 0.02}},
+    NamedErrors{"joints 50 ms old", {}, {.delay_s = 0.05}},
+};
+
+const std::array kSensors = {
+    NamedErrors{"clean image"},
+    NamedErrors{"sensor", kSensor},
+    NamedErrors{"sensor, 1 cm and 0.2° off, 10 ms", kSensor, {0.01, 0.0035, 0.01}},
+    NamedErrors{"sensor, 3 cm and 0.5° off, 50 ms", kSensor, {0.03, 0.0087, 0.05}},
 };
 
 struct NamedSettings {
@@ -76,8 +73,17 @@ void add_distance_alone(std::vector<Condition>& conditions) {
        {std::pair("berth: gray area of Hirt 2.14", MeasuredMetric::hirt),
         std::pair("gray area by the nearest point of the hidden ray", MeasuredMetric::hidden_ray),
         std::pair("no gray area: the reading itself", MeasuredMetric::reading)}) {
-    conditions.push_back({table, name, {}, MeasuredFilter::ideal, {}, metric});
+    conditions.push_back({table, name, {}, {}, MeasuredFilter::ideal, {}, metric});
   }
+}
+
+void add_errors(const char* table, MeasuredFilter filter, std::vector<Condition>& conditions) {
+  const auto add = [&](const NamedErrors& errors) {
+    conditions.push_back({table, errors.name, errors.image, errors.pose, filter});
+  };
+  add(kSensors.front());
+  std::for_each(kSingleErrors.begin(), kSingleErrors.end(), add);
+  std::for_each(kSensors.begin() + 1, kSensors.end(), add);
 }
 
 }  // namespace
@@ -85,18 +91,14 @@ void add_distance_alone(std::vector<Condition>& conditions) {
 std::vector<Condition> all_conditions() {
   std::vector<Condition> conditions;
   add_distance_alone(conditions);
-  for (const Named& named : kErrors) {
-    conditions.push_back(
-        {"Sensor errors, ideal filter", named.name, named.errors, MeasuredFilter::ideal});
-  }
-  for (const Named& named : kErrors) {
-    conditions.push_back({"The whole pipeline, default settings", named.name, named.errors});
-  }
-  for (const Named& named : {kErrors[0], kErrors[14], kErrors[15], kErrors[16]}) {
+  add_errors("Errors, ideal filter", MeasuredFilter::ideal, conditions);
+  add_errors("Errors, berth's self filter with default settings", MeasuredFilter::berth,
+             conditions);
+  for (const NamedErrors& errors : kSensors) {
     for (const NamedSettings& settings : filter_settings()) {
-      conditions.push_back(
-          {std::string("Settings of the self filter (tolerance, padding), ") + named.name,
-           settings.name, named.errors, MeasuredFilter::berth, settings.settings});
+      conditions.push_back({fmt::format("Settings of the self filter: {}", errors.name),
+                            settings.name, errors.image, errors.pose, MeasuredFilter::berth,
+                            settings.settings});
     }
   }
   return conditions;

@@ -8,17 +8,26 @@
 
 namespace berth {
 
-/// Each 0 is off; testing/sensor_model.hpp says what they mean.
-struct SensorErrors {
+/// What is wrong with the image; each 0 is off, testing/sensor_model.hpp says what they mean.
+struct ImageErrors {
   double step_m_at_1m = 0;
   double noise_m_at_1m = 0;
   double dropout_share = 0;
   double mixed_share = 0;
   int outline_px = 0;
-  double calibration_m = 0;
-  double calibration_rad = 0;
-  double delay_s = 0;
+  bool operator==(const ImageErrors&) const = default;
 };
+
+/// What is wrong with where berth believes that the robot is.
+struct PoseErrors {
+  double offset_m = 0;
+  double angle_rad = 0;
+  double delay_s = 0;
+  bool operator==(const PoseErrors&) const = default;
+};
+
+/// Joints move at random at up to this (testing::delayed).
+inline constexpr double kTrialJointSpeed_per_s = 1.0;
 
 enum class MeasuredFilter {
   ideal,  ///< removes the pixels that show the robot, and nothing else
@@ -34,7 +43,8 @@ enum class MeasuredMetric {
 struct Condition {
   std::string table;
   std::string name;
-  SensorErrors errors = {};
+  ImageErrors image = {};
+  PoseErrors pose = {};
   MeasuredFilter filter = MeasuredFilter::berth;
   SelfFilterSettings self_filter = {};
   MeasuredMetric metric = MeasuredMetric::hirt;

@@ -16,7 +16,7 @@ namespace berth {
 namespace {
 
 /// One of a scene's seeds in turn.
-constexpr std::array<std::pair<int, int>, 3> kSizes_px = {{{320, 240}, {640, 480}, {960, 540}}};
+constexpr std::array<std::pair<int, int>, 3> kSizes_px = {{{224, 172}, {320, 240}, {640, 480}}};
 
 std::vector<Trial> run_trials(const std::vector<TrialRobot>& robots,
                               const std::vector<Condition>& conditions, int scenes) {

@@ -5,34 +5,11 @@
 
 #include "berth/distance/evaluate.hpp"
 #include "berth/self_filter/self_filter.hpp"
+#include "scene_images.hpp"
 #include "testing/other_metric.hpp"
-#include "testing/sensor_model.hpp"
 
 namespace berth {
 namespace {
-
-DepthImage sense(const SensorErrors& errors, std::uint32_t seed, DepthImage depth_m) {
-  if (errors.outline_px > 0) testing::darken_outlines(errors.outline_px, depth_m);
-  if (errors.mixed_share > 0) testing::mix_edge_pixels(errors.mixed_share, seed + 1, depth_m);
-  if (errors.noise_m_at_1m > 0) testing::add_noise(errors.noise_m_at_1m, seed + 2, depth_m);
-  if (errors.step_m_at_1m > 0) testing::quantise(errors.step_m_at_1m, depth_m);
-  if (errors.dropout_share > 0) testing::drop_out(errors.dropout_share, seed + 3, depth_m);
-  return depth_m;
-}
-
-/// The robot where berth believes that it is.
-RobotImage render_believed(const TrialRobot& robot, const testing::DrawnScene& scene,
-                           const SensorErrors& errors, std::uint32_t seed) {
-  const Pose X_BC =
-      testing::miscalibrated(scene.X_BC, errors.calibration_m, errors.calibration_rad, seed + 4);
-  const JointState joints =
-      testing::delayed(robot.model, scene.joints, errors.delay_s, kTrialJointSpeed_per_s, seed + 5);
-  RobotPose pose;
-  forward_kinematics(robot.model, joints.position, pose);
-  RobotImage image;
-  RobotRenderer(robot.meshes, scene.camera).render(pose, X_BC, image);
-  return image;
-}
 
 /// Removes what shows the robot in truth.
 void remove_robot(const testing::DrawnScene& scene, DepthImage& depth_m) {
@@ -78,19 +55,11 @@ std::vector<Estimate> evaluate_other(testing::OtherMetric metric, const TrialRob
   return estimates;
 }
 
-}  // namespace
-
-TrialRobot make_trial_robot(std::string name, RobotModel model) {
-  auto link_trees = testing::build_link_trees(model);
-  auto meshes = build_link_meshes(model);
-  return {std::move(name), std::move(model), std::move(link_trees), std::move(meshes)};
-}
-
 std::vector<Estimate> estimate(const TrialRobot& robot, const testing::DrawnScene& scene,
-                               const Condition& condition, std::uint32_t seed) {
+                               const Condition& condition, SceneImages& images) {
   const Camera& camera = scene.camera;
-  const RobotImage image = render_believed(robot, scene, condition.errors, seed);
-  DepthImage depth_m = sense(condition.errors, seed, scene.depth_m);
+  const RobotImage& image = images.believed(condition.pose);
+  DepthImage depth_m = images.sensed(condition.image);
   if (condition.filter == MeasuredFilter::ideal) {
     remove_robot(scene, depth_m);
   } else {
@@ -110,6 +79,14 @@ std::vector<Estimate> estimate(const TrialRobot& robot, const testing::DrawnScen
   return evaluate_berth(robot, camera, image, depth_m);
 }
 
+}  // namespace
+
+TrialRobot make_trial_robot(std::string name, RobotModel model) {
+  auto link_trees = testing::build_link_trees(model);
+  auto meshes = build_link_meshes(model);
+  return {std::move(name), std::move(model), std::move(link_trees), std::move(meshes)};
+}
+
 Trial run_trial(const TrialRobot& robot, const testing::DrawnSceneSettings& settings,
                 std::uint32_t seed, const std::vector<Condition>& conditions) {
   const testing::DrawnScene scene =
@@ -119,8 +96,9 @@ Trial run_trial(const TrialRobot& robot, const testing::DrawnSceneSettings& sett
               scene.camera,
               testing::true_distances(robot.model, robot.link_trees, scene),
               {}};
+  SceneImages images(robot.model, robot.meshes, scene, seed);
   for (const Condition& condition : conditions) {
-    trial.estimates.push_back(estimate(robot, scene, condition, seed));
+    trial.estimates.push_back(estimate(robot, scene, condition, images));
   }
   return trial;
 }

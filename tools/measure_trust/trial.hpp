@@ -40,15 +40,8 @@ struct Trial {
 
 /// Distances are asked for up to here.
 inline constexpr double kTrialRange_m = 1.0;
-/// Joints move at random at up to this.
-inline constexpr double kTrialJointSpeed_per_s = 1.0;
-
 /// Draws the scene and measures it under every condition. Depends on its arguments alone.
 Trial run_trial(const TrialRobot& robot, const testing::DrawnSceneSettings& settings,
                 std::uint32_t seed, const std::vector<Condition>& conditions);
-
-/// One condition's estimates on a scene that is there.
-std::vector<Estimate> estimate(const TrialRobot& robot, const testing::DrawnScene& scene,
-                               const Condition& condition, std::uint32_t seed);
 
 }  // namespace berth
