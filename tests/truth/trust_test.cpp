@@ -97,7 +97,9 @@ Trial made_up_trial(const TrialRobot& robot, double true_m, Estimate estimate) {
 }
 
 TEST(TrustTables, TellTooLargeFromTooSmallAndWhatWasLost) {
-  const TrialRobot robot = load_bundled_robot();
+  TrialRobot robot;
+  robot.model.links.resize(1);
+  robot.model.evaluated_links = {0};
   const std::vector<Trial> trials = {made_up_trial(robot, 0.20, {LinkStatus::ok, 0.21}),
                                      made_up_trial(robot, 0.05, {LinkStatus::ok, 0.08}),
                                      made_up_trial(robot, 0.30, {LinkStatus::ok, 0.25}),
