@@ -42,8 +42,10 @@ std::vector<TrueDistance> true_distances(const RobotModel& model,
 /// The way from a robot point to there is never longer than the way to the nearest point of the
 /// whole ray, divided by cos(angle): on the axis the two are the same, at the image's corners (37
 /// degrees for a Kinect) the distance may be 1.25 times the true one. The pixels pay for what lies
-/// between their centres: a surface seen at a flat angle gets its depth at the centre alone.
-inline constexpr double kMaxOverestimate_px = 3;
+/// between their centres: a surface seen at a flat angle gets its depth at the centre alone, and a
+/// sliver of an obstacle may pass between. Nothing proves their number: of 8462 links in 1000
+/// scenes of measure_trust 12 needed more than 3, and none more than 8.3.
+inline constexpr double kMaxOverestimate_px = 10;
 /// The size of a pixel at the farther one of the two points of truth.seen_C.
 double pixel_size_m(const Camera& camera, const TrueDistance& truth);
 double max_overestimate_m(const Camera& camera, const TrueDistance& truth);
