@@ -1,0 +1,119 @@
+// berth's distances against the true ones; tools/measure_trust runs a thousand scenes of it.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tables.hpp"
+#include "testing/data_folder.hpp"
+#include "trial_robots.hpp"
+
+namespace berth {
+namespace {
+
+constexpr testing::DrawnSceneSettings kImage{.width_px = 320, .height_px = 240};
+const Condition kDistanceAlone{"test", "clean", {}, {}, MeasuredFilter::ideal};
+
+/// Seeds 0 to scenes - 1 of each robot.
+std::vector<Trial> run_trials(const std::vector<TrialRobot>& robots, int scenes) {
+  std::vector<Trial> trials;
+  for (const TrialRobot& robot : robots) {
+    for (int seed = 0; seed < scenes; ++seed) {
+      trials.push_back(run_trial(robot, kImage, seed, {kDistanceAlone}));
+    }
+  }
+  return trials;
+}
+
+void expect_within_bound(const std::vector<Trial>& trials) {
+  int checked = 0;
+  for (const Trial& trial : trials) {
+    for (std::size_t i = 0; i < trial.truth.size(); ++i) {
+      const testing::TrueDistance& truth = trial.truth[i];
+      const Estimate& estimate = trial.estimates[0][i];
+      if (truth.sight != testing::Sight::covered) continue;
+      const double most_m =
+          truth.seen_C.distance_m + testing::max_overestimate_m(trial.camera, truth);
+      if (most_m > kTrialRange_m) continue;
+      EXPECT_EQ(estimate.status, LinkStatus::ok)
+          << trial.robot->name << ", seed " << trial.seed << ", link " << i + 1;
+      EXPECT_LE(estimate.distance_m, most_m)
+          << trial.robot->name << ", seed " << trial.seed << ", link " << i + 1;
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 4 * static_cast<int>(trials.size()));
+}
+
+TEST(Trust, NoDistanceOfTheBundledArmIsAboveTheTrueOneByMoreThanTheBound) {
+  std::vector<TrialRobot> robots;
+  robots.push_back(load_bundled_robot());
+  expect_within_bound(run_trials(robots, 12));
+}
+
+TEST(Trust, NoDistanceOfARealRobotIsAboveTheTrueOneByMoreThanTheBound) {
+  const std::filesystem::path folder = data_folder() / "robots";
+  if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "no robots in " << folder;
+  std::vector<TrialRobot> robots = load_trial_robots(folder);
+  robots.erase(robots.begin());
+  expect_within_bound(run_trials(robots, 1));
+}
+
+TEST(Trust, EveryConditionIsMeasuredOnceInItsTable) {
+  std::set<std::string> names;
+  for (const Condition& condition : all_conditions()) {
+    EXPECT_TRUE(names.insert(condition.table + condition.name).second) << condition.name;
+  }
+  const std::size_t first = first_of_pipeline(all_conditions());
+  EXPECT_EQ(all_conditions()[first].image, ImageErrors{});
+  EXPECT_EQ(all_conditions()[first].filter, MeasuredFilter::berth);
+}
+
+TEST(Trust, ATrialDependsOnItsSeedAloneAndItsErrorsReachTheImage) {
+  const TrialRobot robot = load_bundled_robot();
+  const Condition noisy{"test", "noise", {.noise_m_at_1m = 0.005}, {}, MeasuredFilter::ideal};
+  const Condition late{"test", "late", {}, {.delay_s = 0.05}, MeasuredFilter::ideal};
+  const testing::DrawnSceneSettings small{.width_px = 160, .height_px = 120};
+  const auto distances = [&](const Trial& trial, std::size_t condition) {
+    std::vector<double> distances_m;
+    for (const Estimate& e : trial.estimates[condition]) {
+      if (e.status == LinkStatus::ok) distances_m.push_back(e.distance_m);
+    }
+    return distances_m;
+  };
+  const Trial trial = run_trial(robot, small, 3, {kDistanceAlone, noisy, late});
+  const Trial again = run_trial(robot, small, 3, {kDistanceAlone, noisy, late});
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(distances(trial, i), distances(again, i));
+  EXPECT_NE(distances(trial, 0), distances(trial, 1));
+  EXPECT_NE(distances(trial, 0), distances(trial, 2));
+}
+
+/// One link whose nearest obstacle is truly at true_m, and what berth says.
+Trial made_up_trial(const TrialRobot& robot, double true_m, Estimate estimate) {
+  testing::TrueDistance truth;
+  truth.seen_C = {true_m, {0, 0, 1}, {true_m, 0, 1}};
+  truth.whole_m = true_m;
+  truth.sight = testing::Sight::covered;
+  return {&robot, 7, {640, 480, 500, 500, 319.5, 239.5}, {truth}, {{estimate}}};
+}
+
+TEST(TrustTables, TellTooLargeFromTooSmallAndWhatWasLost) {
+  TrialRobot robot;
+  robot.model.links.resize(1);
+  robot.model.evaluated_links = {0};
+  const std::vector<Trial> trials = {made_up_trial(robot, 0.20, {LinkStatus::ok, 0.21}),
+                                     made_up_trial(robot, 0.05, {LinkStatus::ok, 0.08}),
+                                     made_up_trial(robot, 0.30, {LinkStatus::ok, 0.25}),
+                                     made_up_trial(robot, 0.30, {LinkStatus::ok, 0.29}),
+                                     made_up_trial(robot, 0.90, {LinkStatus::none_in_range, 0}),
+                                     made_up_trial(robot, 1.50, {LinkStatus::none_in_range, 0})};
+  const std::string text = condition_tables(trials, {{"Title", "name"}});
+  EXPECT_NE(text.find("## Title\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("| name | 4 | 50.0 % | 10.0 | 30.0 | 30.0 | 10.0 | 50.0 % | 10.0 | 50.0 | "
+                      "50.0 | 30.0 | 30.0 | 1 |"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(worst_table(trials, 0, 1).find("| 80.0 | 50.0 | 30.0 |"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace berth
