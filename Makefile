@@ -1,5 +1,5 @@
 # Thin fronts of CMake. Each target does all set-up that it needs, on a bare Debian 12 too.
-.PHONY: demo test build bench setup format clean
+.PHONY: demo test build bench sanitize fuzz trust trust-long-runs setup format clean
 
 demo: setup
 	cmake --preset release
@@ -21,6 +21,24 @@ bench:
 	cmake --build --preset bench
 	build/bench/berth bench --out build/bench_results $(if $(BERTH_DATA),$(recordings)) $(BENCH_OPTIONS)
 	bench/plot.py build/bench_results/bench.csv build/bench_results/results.svg
+
+# The tests under AddressSanitizer and UBSan, then under ThreadSanitizer.
+sanitize: setup
+	for preset in asan tsan; do \
+	  cmake --preset $$preset && cmake --build --preset $$preset && ctest --preset $$preset -j2 || exit 1; done
+
+# Each reader of a file under libFuzzer.
+FUZZ_SECONDS ?= 300
+fuzz:
+	scripts/setup.sh packages.txt packages-fuzz.txt
+	cmake --preset fuzz
+	cmake --build --preset fuzz --target fuzzers
+	scripts/fuzz.sh $(FUZZ_SECONDS)
+
+# What `make test` shows thinned, in full.
+trust: trust-long-runs
+trust-long-runs: build
+	BERTH_LONG_RUN=full build/release/tests/pipeline/long_run_test
 
 setup:
 	scripts/setup.sh
