@@ -1,5 +1,5 @@
 # Thin fronts of CMake. Each target does all set-up that it needs, on a bare Debian 12 too.
-.PHONY: demo test build bench study setup format clean
+.PHONY: demo test build bench study sanitize fuzz trust trust-distances trust-long-runs setup format clean
 
 demo: setup
 	cmake --preset release
@@ -27,6 +27,26 @@ study: setup
 	cmake --preset release
 	cmake --build --preset release --target berth
 	build/release/berth study --out build/study $(if $(BERTH_DATA),$(recordings)) $(STUDY_OPTIONS)
+
+# The tests under AddressSanitizer and UBSan, then under ThreadSanitizer.
+sanitize: setup
+	for preset in asan tsan; do \
+	  cmake --preset $$preset && cmake --build --preset $$preset && ctest --preset $$preset -j2 || exit 1; done
+
+# Each reader of a file under libFuzzer.
+FUZZ_SECONDS ?= 300
+fuzz:
+	scripts/setup.sh packages.txt packages-fuzz.txt
+	cmake --preset fuzz
+	cmake --build --preset fuzz --target fuzzers
+	scripts/fuzz.sh $(FUZZ_SECONDS)
+
+# What `make test` shows thinned, in full.
+trust: trust-distances trust-long-runs
+trust-distances: build
+	build/release/tools/measure_trust/measure_trust $(if $(BERTH_DATA),--robots $(BERTH_DATA)/robots)
+trust-long-runs: build
+	BERTH_LONG_RUN=full build/release/tests/pipeline/long_run_test
 
 setup:
 	scripts/setup.sh

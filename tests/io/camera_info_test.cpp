@@ -46,7 +46,7 @@ TEST(CameraInfo, RefusesWhatIsNoRectifiedPinholeAndSaysWhere) {
   const std::string rest = "camera_matrix: {data: " + kMatrix +
                            "}\ndistortion_model: plumb_bob\ndistortion_coefficients: {data: []}\n";
   const std::vector<BadText> table = {
-      {"", {"info.yaml: 0 YAML documents; expected one"}},
+      {"", {"info.yaml: no YAML document; expected one"}},
       {"[1, 2]", {"info.yaml:1: a list of 2; expected a map"}},
       {"image_width: [\n", {"info.yaml:2", "expected valid YAML"}},
       {"image_height: 3\n" + rest, {"info.yaml:1: the key image_width is missing; expected"}},

@@ -26,6 +26,7 @@ class Guard {
 
   void check() {
     check_numbers(document_);
+    for (const pugi::xml_node& accessor : accessors_) check_accessor(accessor);
     for (const pugi::xml_node& scene : scenes_) unfolded(scene);
   }
 
@@ -37,8 +38,8 @@ class Guard {
 
   /// Nothing can be there more often than the file has bytes.
   void check_numbers(const pugi::xml_node& node) {
-    for (const char* name : {"count", "stride", "offset", "set"}) {
-      const pugi::xml_attribute value = node.attribute(name);
+    for (const char* key : {"count", "stride", "offset", "set"}) {
+      const pugi::xml_attribute value = node.attribute(key);
       if (!value) continue;
       const std::string_view digits = value.value();
       if (digits.empty() || digits.size() > 9 ||
@@ -46,19 +47,44 @@ class Guard {
           value.as_uint() > text_.size()) {
         fail(node,
              fmt::format("{} is \"{}\"; expected a whole number of at most the file's {} bytes",
-                         name, digits, text_.size()));
+                         key, digits, text_.size()));
       }
     }
     require_only(node, {"p", "v", "vcount"}, " \t\r\n0123456789");
     require_only(node, {"float_array", "matrix", "translate", "rotate", "scale", "lookat", "skew"},
                  " \t\r\n0123456789+-.eE");
-    if (std::string_view(node.name()) == "visual_scene") scenes_.push_back(node);
-    if (const auto id = node.attribute("id"); id && std::string_view(node.name()) == "node") {
+    const std::string_view name = node.name();
+    if (name == "accessor") accessors_.push_back(node);
+    if (name.ends_with("_array")) {
+      const std::size_t count = node.attribute("count").as_uint();
+      const auto [array, is_new] = array_count_.emplace(node.attribute("id").value(), count);
+      if (!is_new) array->second = std::min(array->second, count);
+    }
+    if (name == "visual_scene") scenes_.push_back(node);
+    if (const auto id = node.attribute("id"); id && name == "node") {
       if (!by_id_.emplace(id.value(), node).second)
         fail(node,
              fmt::format("a second one has the id \"{}\"; expected ids that differ", id.value()));
     }
     for (const pugi::xml_node& child : node.children()) check_numbers(child);
+  }
+
+  /// Assimp reads beyond an array that is shorter than what its accessor says.
+  void check_accessor(const pugi::xml_node& accessor) const {
+    const std::string_view source = accessor.attribute("source").value();
+    const auto array = array_count_.find(std::string(source.substr(source.starts_with('#'))));
+    const auto params = std::distance(accessor.begin(), accessor.end());
+    const std::size_t stride = accessor.attribute("stride").as_uint(1);
+    const std::size_t count = accessor.attribute("count").as_uint();
+    const std::size_t needed = count == 0
+                                   ? 0
+                                   : accessor.attribute("offset").as_uint() + (count - 1) * stride +
+                                         std::max<std::size_t>(stride, params);
+    const std::size_t there = array == array_count_.end() ? 0 : array->second;
+    if (needed <= there) return;
+    fail(accessor, fmt::format("reaches {} values of \"{}\", which has {}; expected not more than "
+                               "that",
+                               needed, source, there));
   }
 
   /// Assimp reads a list of numbers on and on where one does not begin with a digit.
@@ -103,6 +129,8 @@ class Guard {
   const std::string& text_;
   pugi::xml_document document_;
   std::vector<pugi::xml_node> scenes_;
+  std::vector<pugi::xml_node> accessors_;
+  std::map<std::string, std::size_t> array_count_;
   std::map<std::string, pugi::xml_node> by_id_;
   std::map<std::size_t, std::size_t> unfolded_;
   std::set<std::size_t> open_;
