@@ -7,7 +7,6 @@
 #include "apps/berth/progress_bar.hpp"
 #include "apps/berth/run_frames.hpp"
 #include "berth/io/png.hpp"
-#include "berth/pipeline/observer.hpp"
 
 namespace berth {
 namespace {
@@ -53,6 +52,7 @@ void filter_command(const FilterArguments& arguments) {
   for (const OpenCamera& camera : scene.cameras) {
     const fs::path folder = folder_of(scene, camera, arguments.out_folder);
     Observer observer(*camera.rig);
+    learn_background(camera, observer);
     Frame frame;
     for (std::size_t i = 0; i < camera.source.depth.size(); ++i) {
       stop_if_interrupted();
