@@ -134,7 +134,7 @@ class NewObstacle {
 
 TEST(NewObstacle, IsNeverHiddenAtThousandsOfPlaces) {
   std::array<int, kPixelFateCount> scenes{};
-  for (std::uint32_t seed = 0; seed < 3000; ++seed) {
+  for (std::uint32_t seed = 0; seed < 2000; ++seed) {
     SCOPED_TRACE(seed);
     const NewObstacle thing(seed);
     thing.expect_nothing_hidden();
