@@ -77,7 +77,7 @@ RayHit EmbreeRenderer::hit(double u, double v) const {
   rtcInitIntersectContext(&context);
   rtcIntersect1(state_->scene.get(), &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-  return {state_->ids[query.hit.geomID], query.ray.tfar};
+  return {state_->ids[query.hit.geomID], query.ray.tfar, query.hit.primID};
 }
 
 }  // namespace berth
