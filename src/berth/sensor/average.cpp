@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <array>
 #include <cmath>
 
 #include "berth/sensor/noise.hpp"
@@ -20,16 +21,25 @@ void remember(const DepthImage& depth_m, std::size_t frames, ReadingHistory& his
   history.depth_m[history.newest].pixels() = depth_m.pixels();
 }
 
-float mean_m(const ReadingHistory& history, int u, int v, float noise_m) {
+/// A row of each image, the newest first.
+using Rows = std::array<const float*, kMostAverageFrames>;
+
+Rows rows_of(const ReadingHistory& history, int v) {
   const std::size_t frames = history.depth_m.size();
-  const float reading_m = history.depth_m[history.newest](u, v);
+  Rows rows{};
+  for (std::size_t back = 0; back < frames; ++back)
+    rows[back] = history.depth_m[(history.newest + frames - back) % frames].row(v);
+  return rows;
+}
+
+float mean_m(const Rows& rows, std::size_t frames, int u, float noise_m) {
+  const float reading_m = rows[0][u];
   float sum_m = reading_m;
-  int count = 1;
-  for (std::size_t back = 1; back < frames; ++back) {
-    const float z = history.depth_m[(history.newest + frames - back) % frames](u, v);
+  std::size_t count = 1;
+  for (; count < frames; ++count) {
+    const float z = rows[count][u];
     if (!(std::abs(z - reading_m) <= noise_m)) break;
     sum_m += z;
-    ++count;
   }
   return sum_m / static_cast<float>(count);
 }
@@ -39,11 +49,12 @@ float mean_m(const ReadingHistory& history, int u, int v, float noise_m) {
 void average_readings(const SensorSettings& settings, ReadingHistory& history, ObstacleImage& out) {
   remember(out.depth_m, static_cast<std::size_t>(settings.average_frames), history);
   tbb::parallel_for(0, out.depth_m.height(), [&](int v) {
+    const Rows rows = rows_of(history, v);
     for (int u = 0; u < out.depth_m.width(); ++u) {
       if (out.fate(u, v) != PixelFate::obstacle) continue;
       float& depth_m = out.depth_m(u, v);
       const float noise_m = grown_with_depth(static_cast<float>(settings.noise_m), depth_m);
-      const float mean = mean_m(history, u, v, noise_m);
+      const float mean = mean_m(rows, history.depth_m.size(), u, noise_m);
       if (!(mean < depth_m)) continue;
       depth_m = mean;
       out.fate(u, v) = PixelFate::averaged;

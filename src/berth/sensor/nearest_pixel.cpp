@@ -47,6 +47,8 @@ class Row {
 
   bool has_depth(int column) const { return !std::isnan(depth_m_[column]); }
   float depth_m(int column) const { return depth_m_[column]; }
+  /// Whether the pixel itself has a depth.
+  bool is_reading(int column) const { return rows_[column] == 0 && has_depth(column); }
 
   bool is_nearer(int left, int right, int u) const {
     return std::tuple(squared_px(left, u), depth_m_[left]) <=
@@ -79,6 +81,11 @@ void find_in_row(const Row& row, int width, std::vector<Column>& columns, float*
   columns.reserve(static_cast<std::size_t>(width));
   for (int u = 0; u < width; ++u) {
     if (!row.has_depth(u)) continue;
+    // Amid readings it is nearest to no other pixel.
+    if (row.is_reading(u) && u > 0 && row.is_reading(u - 1) && u + 1 < width &&
+        row.is_reading(u + 1)) {
+      continue;
+    }
     // A column that loses already where its own stretch begins is nearest nowhere.
     while (columns.size() > 1 &&
            !row.is_nearer(columns.back().u, u, columns[columns.size() - 2].last_u + 1))
@@ -90,7 +97,11 @@ void find_in_row(const Row& row, int width, std::vector<Column>& columns, float*
   std::size_t i = 0;
   for (int u = 0; u < width; ++u) {
     while (i + 1 < columns.size() && u > columns[i].last_u) ++i;
-    nearest_m[u] = columns.empty() ? kNoDepth : row.depth_m(columns[i].u);
+    if (row.is_reading(u)) {
+      nearest_m[u] = row.depth_m(u);
+    } else {
+      nearest_m[u] = columns.empty() ? kNoDepth : row.depth_m(columns[i].u);
+    }
   }
 }
 

@@ -11,8 +11,8 @@ struct NearestPixelWorkspace {
   /// depth; NaN where the column has none.
   Image<int> rows;
   DepthImage depth_m;
-  /// Of each row of the image: the columns that are nearest somewhere in it, from left to right,
-  /// and the last u where each is.
+  /// Of each row of the image: the columns that are nearest to some pixel without depth in it, from
+  /// left to right, and the last u where each is.
   struct Column {
     int u;
     int last_u;

@@ -25,7 +25,7 @@ struct SensorSettings {
   /// Blobs of fewer pixels are dropped; 0 and 1 turn the rule off. A blob is joined by steps of up
   /// to speckle_jump_m max(1, z^2) between neighbours (8), z being the nearer one.
   int speckle_px = 0;
-  double speckle_jump_m = 0.05;
+  double speckle_jump_m = 0.03;
   /// A reading moves to the mean of this many of its pixel's last ones (itself among them) where
   /// that is nearer; 0 and 1 turn the rule off.
   int average_frames = 0;

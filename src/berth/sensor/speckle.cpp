@@ -22,6 +22,10 @@ class Walk {
         out_(out) {}
 
   void settle(Pixel start) {
+    if (is_joined_to_large_on_the_left(start)) {
+      state_(start.u, start.v) = kLarge;
+      return;
+    }
     const bool large = is_large(start);
     for (const Pixel& p : blob_) {
       state_(p.u, p.v) = large ? kLarge : kWalked;
@@ -32,6 +36,10 @@ class Walk {
   }
 
  private:
+  bool is_joined_to_large_on_the_left(Pixel p) const {
+    return p.u > 0 && state_(p.u - 1, p.v) == kLarge && is_joined(p, {p.u - 1, p.v});
+  }
+
   bool is_large(Pixel start) {
     blob_.assign(1, start);
     state_(start.u, start.v) = kWalked;
