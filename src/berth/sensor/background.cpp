@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "berth/self_filter/scenery.hpp"
 #include "berth/sensor/noise.hpp"
 
 namespace berth {
@@ -19,15 +20,6 @@ SelfFilterSettings clearance(double clearance_m) {
   return settings;
 }
 
-/// Readings in front of scenery may be learned, so it must not cover them.
-void take_out_scenery(RobotImage& robot) {
-  for (std::size_t i = 0; i < robot.link_id.pixels().size(); ++i) {
-    if (robot.link_id.pixels()[i] != kEnvironmentLink) continue;
-    robot.link_id.pixels()[i] = kNoLink;
-    robot.depth_m.pixels()[i] = kNoDepth;
-  }
-}
-
 }  // namespace
 
 void Background::learn(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,
@@ -36,6 +28,7 @@ void Background::learn(const Camera& camera, DepthView sensor_depth_m, const Rob
     count_.resize(camera.width_px, camera.height_px, 0);
     least_m_.resize(camera.width_px, camera.height_px, kNoDepth);
   }
+  // Readings in front of scenery may be learned, so it must not cover them.
   links_ = robot;
   take_out_scenery(links_);
   self_filter(camera, sensor_depth_m, links_, clearance(settings.background_clearance_m),
