@@ -26,6 +26,20 @@ void set_if(T& setting, const std::optional<T>& given) {
   if (given) setting = *given;
 }
 
+SensorSettings sensor_settings(const SceneSensor& scene) {
+  SensorSettings settings;
+  set_if(settings.noise_m, scene.noise_m);
+  set_if(settings.speckle_px, scene.speckle_px);
+  set_if(settings.speckle_jump_m, scene.speckle_jump_m);
+  set_if(settings.average_frames, scene.average_frames);
+  set_if(settings.background_frames, scene.background_frames);
+  set_if(settings.background_clearance_m, scene.background_clearance_m);
+  for (const HolePolicy policy : kHolePolicies) {
+    if (scene.holes == name_of(policy)) settings.holes = policy;
+  }
+  return settings;
+}
+
 RigSettings rig_settings(const SceneFile& scene, const EvaluationArguments& arguments) {
   RigSettings settings;
   set_if(settings.self_filter.tolerance_m, scene.self_filter.tolerance_m);
@@ -40,6 +54,7 @@ RigSettings rig_settings(const SceneFile& scene, const EvaluationArguments& argu
   set_if(settings.time.joints.max_skew_s, scene.time.max_skew_s);
   set_if(settings.time.joints.max_extrapolation_s, scene.time.max_extrapolation_s);
   settings.link_padding_m = scene.self_filter.link_padding_m;
+  settings.sensor = sensor_settings(scene.sensor);
   set_if(settings.distance.range_m, scene.evaluation.range_m);
   set_if(settings.distance.mean_direction, scene.evaluation.mean_direction);
   set_if(settings.visibility, scene.evaluation.visibility);

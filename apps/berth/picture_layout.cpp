@@ -25,7 +25,9 @@ double longest_name_em(const PictureInput& input) {
 
 /// The legend without the table's rows.
 double fixed_height_em(const PictureInput& input, int columns) {
-  const double fates = input.obstacles ? kHeadingEm + kFateRowEm * kPixelFateCount / columns : 0;
+  const auto fate_count = input.obstacles ? std::ssize(shown_fates(*input.obstacles)) : 0;
+  const auto fate_rows = static_cast<double>((fate_count + columns - 1) / columns);
+  const double fates = input.obstacles ? kHeadingEm + kFateRowEm * fate_rows : 0;
   const double links = input.distances ? kCardEm + kHeadingEm + kKeyEm : 0;
   return links + fates + kScaleEm;
 }
@@ -51,6 +53,15 @@ TablePlan plan_table(const PictureInput& input, double height_em) {
 }
 
 }  // namespace
+
+std::vector<PixelFate> shown_fates(const ObstacleImage& obstacles) {
+  std::vector<PixelFate> fates;
+  for (int i = 0; i < kPixelFateCount; ++i) {
+    const auto fate = static_cast<PixelFate>(i);
+    if (i < kSelfFilterFateCount || obstacles.count_of(fate) > 0) fates.push_back(fate);
+  }
+  return fates;
+}
 
 PictureLayout layout_picture(const PictureInput& input) {
   PictureLayout layout;

@@ -168,11 +168,12 @@ void draw_swatch(Legend& legend, PixelFate fate, const BoxPx& box) {
 void draw_fates(Legend& legend) {
   const int columns = legend.layout.table.columns;
   const double em = legend.em, row = kFateRowEm * em;
-  const int rows = kPixelFateCount / columns;
+  const std::vector<PixelFate> fates = shown_fates(*legend.input.obstacles);
+  const int rows = (static_cast<int>(fates.size()) + columns - 1) / columns;
   const double column = legend.layout.table.column_em * em;
   heading(legend, "PIXELS", "count");
-  for (int i = 0; i < kPixelFateCount; ++i) {
-    const auto fate = static_cast<PixelFate>(i);
+  for (int i = 0; i < static_cast<int>(fates.size()); ++i) {
+    const PixelFate fate = fates[i];
     const double x = legend.left() + (i / rows) * (legend.width() - column);
     const double middle = legend.y + (i % rows + 0.5) * row;
     const std::int64_t count = legend.input.obstacles->count_of(fate);

@@ -61,6 +61,14 @@ Rgb fate_color(PixelFate fate) {
       return {0xC2, 0x4A, 0x4A};
     case PixelFate::island:
       return {0x6C, 0xA8, 0x3C};
+    case PixelFate::speckle:
+      return {0xE0, 0xB0, 0x20};
+    case PixelFate::averaged:
+      return {0xB0, 0xC8, 0xE0};
+    case PixelFate::background:
+      return {0x20, 0xB8, 0x70};
+    case PixelFate::hole:
+      return {0xE0, 0x60, 0xC0};
   }
   return kBlack;
 }

@@ -26,8 +26,8 @@ Rgb mix(Rgb a, Rgb b, double share);
 /// on.
 Rgb link_color(LinkId id);
 
-/// The tint of a pixel that was filtered out; obstacle and no_reading have the grey that the legend
-/// shows.
+/// The tint of a pixel that was filtered out or that a sensor rule changed; obstacle and no_reading
+/// have the grey that the legend shows.
 Rgb fate_color(PixelFate fate);
 
 }  // namespace berth

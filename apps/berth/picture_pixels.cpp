@@ -54,15 +54,16 @@ double lamp(const RobotImage& robot, int u, int v) {
 Rgb pixel_color(const PictureInput& input, const DepthTone& tone, int u, int v) {
   const PixelFate fate = fate_at(input, u, v);
   const LinkId id = link_at(input, u, v);
-  const float depth_m = input.sensor_depth_m(u, v);
+  const bool is_added = fate == PixelFate::background || fate == PixelFate::hole;
+  const float depth_m = is_added ? input.obstacles->depth_m(u, v) : input.sensor_depth_m(u, v);
   const Rgb grey = has_reading(depth_m) ? tone(depth_m) : fate_color(PixelFate::no_reading);
   if (is_link(id)) {
     const Rgb lit =
         mix(mix(link_color(id), kBlack, 0.55), link_color(id), lamp(*input.robot, u, v));
-    return fate == PixelFate::obstacle ? mix(grey, lit, 0.3) : lit;
+    return is_kept(fate) && !is_added ? mix(grey, lit, 0.3) : lit;
   }
-  const bool kept = fate == PixelFate::obstacle || fate == PixelFate::no_reading;
-  return kept ? grey : mix(grey, fate_color(fate), 0.5);
+  const bool plain = fate == PixelFate::obstacle || fate == PixelFate::no_reading;
+  return plain ? grey : mix(grey, fate_color(fate), 0.5);
 }
 
 bool is_hatched(const PictureInput& input, int u, int v) {

@@ -63,6 +63,14 @@ std::string fate_text(PixelFate fate) {
       return "mixed edge pixel";
     case PixelFate::island:
       return "island at the robot";
+    case PixelFate::speckle:
+      return "speckle";
+    case PixelFate::averaged:
+      return "kept: averaged nearer";
+    case PixelFate::background:
+      return "kept: background";
+    case PixelFate::hole:
+      return "kept: filled hole";
   }
   return "";
 }

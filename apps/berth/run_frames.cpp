@@ -9,7 +9,6 @@
 #include "apps/berth/picture.hpp"
 #include "apps/berth/progress_bar.hpp"
 #include "berth/pipeline/asker.hpp"
-#include "berth/pipeline/observer.hpp"
 
 namespace berth {
 namespace {
@@ -65,6 +64,20 @@ void make_folders(const OpenScene& scene, const fs::path& folder) {
   for (const OpenCamera& camera : scene.cameras) make_folder(folder_of(scene, camera, folder));
 }
 
+void learn_background(const OpenCamera& camera, Observer& observer) {
+  if (camera.rig->settings().sensor.background_frames == 0) return;
+  ProgressBar progress("background", camera.source.depth.size());
+  Observer learner(*camera.rig);
+  Frame frame;
+  for (std::size_t i = 0; i < camera.source.depth.size(); ++i) {
+    stop_if_interrupted();
+    const DepthImage depth_m = camera.read_depth(i);
+    learner.observe(depth_m, camera.at_exposure[i], frame, camera.exposure_time[i]);
+    observer.learn_background(depth_m, frame);
+    progress.step();
+  }
+}
+
 void run_frames(const OpenScene& scene, const fs::path& picture_folder,
                 const std::function<void(const FrameResult&)>& take) {
   const bool draws = !picture_folder.empty();
@@ -73,6 +86,7 @@ void run_frames(const OpenScene& scene, const fs::path& picture_folder,
   for (const OpenCamera& camera : scene.cameras) {
     const fs::path pictures = folder_of(scene, camera, picture_folder);
     Observer observer(*camera.rig);
+    learn_background(camera, observer);
     Asker asker(*camera.rig);
     Frame frame;
     for (std::size_t i = 0; i < camera.source.depth.size(); ++i) {

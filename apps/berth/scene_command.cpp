@@ -7,30 +7,20 @@
 #include "apps/berth/progress_bar.hpp"
 #include "apps/berth/run_frames.hpp"
 #include "berth/io/png.hpp"
-#include "berth/pipeline/observer.hpp"
+#include "berth/self_filter/scenery.hpp"
 
 namespace berth {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// What the files show: the links that are evaluated, without scenery.
-RobotImage without_environment(const RobotImage& robot) {
-  RobotImage links = robot;
-  for (std::size_t i = 0; i < links.link_id.pixels().size(); ++i) {
-    if (links.link_id.pixels()[i] != kEnvironmentLink) continue;
-    links.link_id.pixels()[i] = kNoLink;
-    links.depth_m.pixels()[i] = kNoDepth;
-  }
-  return links;
-}
-
 void write_images(const fs::path& folder, std::size_t frame_number, double depth_scale_m,
                   const Frame& frame) {
   const auto file = [&](const char* name) {
     return folder / fmt::format("{}_{:06}.png", name, frame_number);
   };
-  const RobotImage links = without_environment(frame.robot);
+  RobotImage links = frame.robot;
+  take_out_scenery(links);
   write_depth_png(file("robot_depth"), links.depth_m, depth_scale_m);
   write_link_ids_png(file("link_ids"), links.link_id);
   write_depth_png(file("obstacle_depth"), frame.obstacles.depth_m, depth_scale_m);
@@ -53,6 +43,7 @@ void filter_command(const FilterArguments& arguments) {
   for (const OpenCamera& camera : scene.cameras) {
     const fs::path folder = folder_of(scene, camera, arguments.out_folder);
     Observer observer(*camera.rig);
+    learn_background(camera, observer);
     Frame frame;
     for (std::size_t i = 0; i < camera.source.depth.size(); ++i) {
       stop_if_interrupted();

@@ -150,6 +150,13 @@ TEST(SceneErrors, RefusesABadValueAndSaysWhere) {
       {&S::end,
        "joints: j\nself_filter: {dilation_px: 1.5}",
        {"self_filter.dilation_px: 1.5; expected a whole number"}},
+      {&S::end,
+       "joints: j\nsensor: {hole: free}",
+       {"scene.yaml:9: sensor.hole: unknown key; expected holes (the nearest)"}},
+      {&S::end,
+       "joints: j\nsensor: {holes: full}",
+       {"scene.yaml:9: sensor.holes: full; expected one of free, obstacle, nearest_neighbour"}},
+      {&S::end, "joints: j\nsensor: 3", {"scene.yaml:9: sensor: 3; expected a map"}},
       {&S::end, "joints: j\n? [a, b]\n: c", {"scene.yaml:9: a list of 2; expected a text"}},
       {&S::end, "joints: j\n---\njoints: k", {"scene.yaml: several YAML documents; expected one"}},
       {&S::end, "joints: j\n  wrong: k", {"scene.yaml:9", "expected valid YAML"}},
@@ -170,6 +177,21 @@ TEST(SceneErrors, RefusesEveryNegativeLengthOfTheSelfFilter) {
       expect_parts(error_message([&] { read_text(scene); }),
                    {"scene.yaml:9: self_filter." + key + ": " + value + "; expected"});
     }
+  }
+}
+
+TEST(SceneErrors, RefusesEveryLengthAndCountOfTheSensorThatIsNone) {
+  const auto expect_refused = [](const std::string& key, const std::string& value) {
+    const SceneText scene =
+        with(&SceneText::end, "joints: j\nsensor: {" + key + ": " + value + "}");
+    expect_parts(error_message([&] { read_text(scene); }),
+                 {"scene.yaml:9: sensor." + key + ": " + value + "; expected"});
+  };
+  for (const std::string key : {"noise_m", "speckle_jump_m", "background_clearance_m"}) {
+    for (const std::string value : {"-0.01", ".nan", "wide"}) expect_refused(key, value);
+  }
+  for (const std::string key : {"speckle_px", "average_frames", "background_frames"}) {
+    for (const std::string value : {"-1", "1.5", "many"}) expect_refused(key, value);
   }
 }
 

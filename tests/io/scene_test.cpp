@@ -48,6 +48,14 @@ self_filter:
   edge_jump_m: 0.07
   island_radius_m: 0.08
   island_jump_m: 0.09
+sensor:
+  noise_m: 0.011
+  speckle_px: 12
+  speckle_jump_m: 0.013
+  average_frames: 14
+  background_frames: 15
+  background_clearance_m: 0.16
+  holes: nearest_neighbour
 evaluation: {method: lattice, range_m: 0.5, mean_direction: off, visibility: false}
 time: {max_skew_s: 0.01, max_extrapolation_s: 0.02}
 )");
@@ -86,6 +94,13 @@ time: {max_skew_s: 0.01, max_extrapolation_s: 0.02}
   EXPECT_EQ(filter.edge_jump_m, 0.07);
   EXPECT_EQ(filter.island_radius_m, 0.08);
   EXPECT_EQ(filter.island_jump_m, 0.09);
+  EXPECT_EQ(scene.sensor.noise_m, 0.011);
+  EXPECT_EQ(scene.sensor.speckle_px, 12);
+  EXPECT_EQ(scene.sensor.speckle_jump_m, 0.013);
+  EXPECT_EQ(scene.sensor.average_frames, 14);
+  EXPECT_EQ(scene.sensor.background_frames, 15);
+  EXPECT_EQ(scene.sensor.background_clearance_m, 0.16);
+  EXPECT_EQ(scene.sensor.holes, "nearest_neighbour");
   EXPECT_EQ(scene.evaluation.method, "lattice");
   EXPECT_EQ(scene.evaluation.range_m, 0.5);
   EXPECT_EQ(scene.evaluation.mean_direction, false);
@@ -104,6 +119,7 @@ TEST(Scene, LeavesDefaultsToThoseWhoOwnThem) {
   EXPECT_EQ(scene.cameras[0].far_m, std::numeric_limits<double>::infinity());
   EXPECT_FALSE(scene.self_filter.tolerance_m || scene.self_filter.dilation_px);
   EXPECT_TRUE(scene.self_filter.link_padding_m.empty());
+  EXPECT_FALSE(scene.sensor.noise_m || scene.sensor.speckle_px || scene.sensor.holes);
   EXPECT_FALSE(scene.evaluation.method || scene.evaluation.range_m ||
                scene.evaluation.mean_direction || scene.evaluation.visibility);
 }

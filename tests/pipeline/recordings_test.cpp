@@ -120,6 +120,43 @@ TEST_P(Recording, NoLinkIsTooFarAndMostAreInTheirRange) {
   EXPECT_EQ(free_links_at_contact, 0);
 }
 
+/// The camera again, its rig with these rules.
+Rig with_rules(const OpenCamera& camera, const SensorSettings& rules) {
+  RigSettings settings = camera.rig->settings();
+  settings.sensor = rules;
+  return Rig(camera.rig->model(),
+             {camera.rig->camera(), camera.source.parent_link, camera.source.X_PC}, settings);
+}
+
+TEST_P(Recording, SpeckleBackgroundAndHolesMakeNoDistanceLarger) {
+  const OpenScene scene = open_scene(folder_ / "scene.yaml", {});
+  const OpenCamera& camera = scene.cameras.front();
+  SensorSettings rules;
+  rules.speckle_px = 20;
+  rules.background_frames = 2;
+  rules.holes = HolePolicy::nearest_neighbour;
+  const Rig ruled = with_rules(camera, rules);
+  Observer observer(*camera.rig), ruled_observer(ruled);
+  Asker asker(*camera.rig), ruled_asker(ruled);
+  Frame frame;
+  for (std::size_t i = 0; i < camera.source.depth.size(); ++i) {
+    const DepthImage depth_m = camera.read_depth(i);
+    observer.observe(depth_m, camera.at_exposure[i], frame);
+    ruled_observer.learn_background(depth_m, frame);
+  }
+  for (std::size_t i = 0; i < camera.source.depth.size(); ++i) {
+    const DepthImage depth_m = camera.read_depth(i);
+    observer.observe(depth_m, camera.at_exposure[i], frame);
+    const LinkDistances before = asker.ask(frame).distances;
+    ruled_observer.observe(depth_m, camera.at_exposure[i], frame);
+    EXPECT_GT(frame.obstacles.count_of(PixelFate::hole), 0);
+    EXPECT_GT(frame.obstacles.count_of(PixelFate::speckle), 0);
+    const LinkDistances& after = ruled_asker.ask(frame).distances;
+    for (std::size_t k = 0; k < before.links.size(); ++k)
+      EXPECT_LE(after.links[k].distance_m, before.links[k].distance_m) << i << ", link " << k + 1;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Real, Recording, testing::Values("xarm7_realsense", "lbr_med7_zed2i"),
                          [](const auto& test) { return test.param; });
 

@@ -101,5 +101,25 @@ TEST_F(TwoClocks, WrongSizesAndJointsAreRefused) {
   EXPECT_THROW(asker.ask(frame, bad), std::invalid_argument);
 }
 
+TEST_F(TwoClocks, ABackgroundIsLearnedOnlyWhereItIsAskedForAndFromImagesOfTheCamerasSize) {
+  const Frame frame = observe(0);
+  const DepthImage depth_m = camera_.read_depth(0);
+  EXPECT_THROW(Observer(*camera_.rig).learn_background(depth_m, frame), std::invalid_argument);
+
+  RigSettings settings;
+  settings.sensor.background_frames = 1;
+  const Rig& given = *camera_.rig;
+  const Rig rig(given.model(),
+                {given.camera(), camera_.source.parent_link, camera_.source.X_PC}, settings);
+  Observer observer(rig);
+  EXPECT_THROW(observer.learn_background(DepthImage(10, 10, 1.0F), frame), std::invalid_argument);
+  Frame learned;
+  observer.observe(depth_m, camera_.at_exposure[0], learned);
+  EXPECT_EQ(learned.obstacles.count_of(PixelFate::background), 0);
+  observer.learn_background(depth_m, learned);
+  observer.observe(camera_.read_depth(20), camera_.at_exposure[20], learned);
+  EXPECT_GT(learned.obstacles.count_of(PixelFate::background), 0);
+}
+
 }  // namespace
 }  // namespace berth

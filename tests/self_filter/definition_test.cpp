@@ -62,13 +62,13 @@ TEST(Definition, HoldsWithEveryInstructionSet) {
 }
 
 TEST(Definition, IsTriedOnScenesWhereEveryRuleAppliesOften) {
-  std::array<int, kPixelFateCount> scenes{};
+  std::array<int, kSelfFilterFateCount> scenes{};
   for (std::uint32_t seed = 0; seed < 200; ++seed) {
     const RandomScene scene = random_scene(seed);
     SelfFilterWorkspace workspace;
     ObstacleImage out;
     filter_scene(scene, workspace, out);
-    for (int fate = 0; fate < kPixelFateCount; ++fate) scenes[fate] += out.count[fate] > 0;
+    for (int fate = 0; fate < kSelfFilterFateCount; ++fate) scenes[fate] += out.count[fate] > 0;
   }
   EXPECT_GE(*std::min_element(scenes.begin(), scenes.end()), 40);
 }

@@ -64,6 +64,22 @@ SceneSelfFilter read_self_filter(const YamlValue& value) {
   return filter;
 }
 
+SceneSensor read_sensor(const YamlValue& value) {
+  const YamlMap map(value, {"noise_m", "speckle_px", "speckle_jump_m", "average_frames",
+                            "background_frames", "background_clearance_m", "holes"});
+  SceneSensor sensor;
+  sensor.noise_m = map.get("noise_m", &YamlValue::non_negative);
+  sensor.speckle_px = map.get("speckle_px", &YamlValue::count);
+  sensor.speckle_jump_m = map.get("speckle_jump_m", &YamlValue::non_negative);
+  sensor.average_frames = map.get("average_frames", &YamlValue::count);
+  sensor.background_frames = map.get("background_frames", &YamlValue::count);
+  sensor.background_clearance_m = map.get("background_clearance_m", &YamlValue::non_negative);
+  if (const auto holes = map.find("holes")) {
+    sensor.holes = holes->one_of({"free", "obstacle", "nearest_neighbour"});
+  }
+  return sensor;
+}
+
 SceneEvaluation read_evaluation(const YamlValue& value) {
   const YamlMap map(value, {"method", "range_m", "mean_direction", "visibility"});
   SceneEvaluation evaluation;
@@ -86,13 +102,15 @@ SceneTime read_time(const YamlValue& value) {
 }  // namespace
 
 SceneFile read_scene(const std::filesystem::path& file) {
-  const YamlMap map(load_yaml(file), {"robot", "cameras", "joints", "self_filter", "evaluation", "time"});
+  const YamlMap map(load_yaml(file), {"robot", "cameras", "joints", "self_filter", "sensor",
+                                      "evaluation", "time"});
   SceneFile scene;
   scene.file = file;
   scene.robot = read_robot(map.at("robot"));
   scene.cameras = read_cameras(map.at("cameras"));
   scene.joints = map.at("joints").path();
   if (const auto filter = map.find("self_filter")) scene.self_filter = read_self_filter(*filter);
+  if (const auto sensor = map.find("sensor")) scene.sensor = read_sensor(*sensor);
   if (const auto evaluation = map.find("evaluation")) {
     scene.evaluation = read_evaluation(*evaluation);
   }

@@ -52,6 +52,17 @@ struct SceneSelfFilter {
   std::optional<double> island_jump_m;
 };
 
+/// The sensor rules' settings that the file gives.
+struct SceneSensor {
+  std::optional<double> noise_m;
+  std::optional<int> speckle_px;
+  std::optional<double> speckle_jump_m;
+  std::optional<int> average_frames;
+  std::optional<int> background_frames;
+  std::optional<double> background_clearance_m;
+  std::optional<std::string> holes;
+};
+
 /// The evaluation's settings that the file gives.
 struct SceneEvaluation {
   std::optional<std::string> method;
@@ -72,6 +83,7 @@ struct SceneFile {
   std::vector<SceneCamera> cameras;
   std::filesystem::path joints;
   SceneSelfFilter self_filter;
+  SceneSensor sensor;
   SceneEvaluation evaluation;
   SceneTime time;
 };

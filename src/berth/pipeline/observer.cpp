@@ -5,8 +5,14 @@
 #include <stdexcept>
 
 namespace berth {
-
 namespace {
+
+void require_size(const Camera& camera, DepthView depth_m) {
+  if (depth_m.width == camera.width_px && depth_m.height == camera.height_px) return;
+  throw std::invalid_argument(fmt::format("depth image: {} x {} px; expected the camera's {} x {}",
+                                          depth_m.width, depth_m.height, camera.width_px,
+                                          camera.height_px));
+}
 
 /// Nothing of the image before may stay under a new stamp.
 void clear(const Camera& camera, Frame& frame) {
@@ -30,19 +36,16 @@ Observer::Observer(const Rig& rig) : rig_(rig), renderer_(rig.meshes(), rig.came
 void Observer::observe(DepthView depth_m, const JointState& at_exposure, Frame& frame,
                        FrameTime time) {
   const Camera& camera = rig_.camera();
-  if (depth_m.width != camera.width_px || depth_m.height != camera.height_px) {
-    throw std::invalid_argument(
-        fmt::format("depth image: {} x {} px; expected the camera's {} x {}", depth_m.width,
-                    depth_m.height, camera.width_px, camera.height_px));
-  }
+  require_size(camera, depth_m);
   frame.stamp_s = at_exposure.stamp_s;
   frame.time = time;
   if (time.status != TimeStatus::ok) return clear(camera, frame);
+  const RigSettings& settings = rig_.settings();
   forward_kinematics(rig_.model(), at_exposure.position, frame.pose);
   frame.X_BC = rig_.camera_pose(frame.pose);
   renderer_.render(frame.pose, frame.X_BC, frame.robot);
-  self_filter(camera, depth_m, frame.robot, rig_.settings().self_filter, workspace_,
-              frame.obstacles);
+  self_filter(camera, depth_m, frame.robot, settings.self_filter, workspace_, frame.obstacles);
+  apply_sensor_rules(depth_m, frame.robot, background_, settings.sensor, sensor_, frame.obstacles);
   build_obstacle_tree(frame.obstacles.depth_m, frame.obstacle_tree);
 }
 
@@ -52,6 +55,18 @@ void Observer::observe(DepthView depth_m, double stamp_s, const JointBuffer& joi
   FrameTime time = joints.at(stamp_s, settings.joints, at_exposure_);
   if (stamp != TimeStatus::ok) time.status = stamp;
   observe(depth_m, at_exposure_, frame, time);
+}
+
+void Observer::learn_background(DepthView depth_m, const Frame& frame) {
+  require_size(rig_.camera(), depth_m);
+  const SensorSettings& settings = rig_.settings().sensor;
+  if (settings.background_frames == 0) {
+    throw std::invalid_argument(
+        "sensor.background_frames: 0; expected 1 or more, to learn a background");
+  }
+  // Without its robot the image would give the arm for a background.
+  if (frame.time.status != TimeStatus::ok) return;
+  background_.learn(rig_.camera(), depth_m, frame.robot, frame.obstacles.fate, settings);
 }
 
 }  // namespace berth

@@ -5,6 +5,7 @@
 #include "berth/pipeline/timeliness.hpp"
 #include "berth/robot/joint_buffer.hpp"
 #include "berth/self_filter/self_filter.hpp"
+#include "berth/sensor/sensor_rules.hpp"
 #include "berth/types/joint_state.hpp"
 
 namespace berth {
@@ -25,10 +26,19 @@ class Observer {
   /// and stamps have to go forward from call to call (FrameClock).
   void observe(DepthView depth_m, double stamp_s, const JointBuffer& joints, Frame& frame);
 
+  /// Takes what the image shows where the robot is not as background of the frames to come
+  /// (Background). `frame` is what observe made of `depth_m`. For images of the place as it is
+  /// meant to be, and of frames whose joints are known, since others are passed over: somebody who stands still becomes background too, and then is an obstacle for as
+  /// long as the robot hides where he stood. Throws std::invalid_argument where
+  /// SensorSettings::background_frames is 0, and for a wrong size.
+  void learn_background(DepthView depth_m, const Frame& frame);
+
  private:
   const Rig& rig_;
   RobotRenderer renderer_;
   SelfFilterWorkspace workspace_;
+  SensorWorkspace sensor_;
+  Background background_;
   FrameClock clock_;
   JointState at_exposure_;
 };

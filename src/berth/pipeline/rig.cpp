@@ -39,6 +39,18 @@ std::vector<double> padding_by_id(const RobotModel& model,
   return by_id;
 }
 
+/// A background is what one place of the camera sees.
+void require_fixed_camera(const RobotModel& model, std::size_t parent, int background_frames) {
+  for (std::optional<std::size_t> i = parent; i; i = model.links[*i].parent) {
+    const Joint& joint = model.links[*i].joint;
+    if (!model.links[*i].parent || joint.type == JointType::fixed) continue;
+    throw std::invalid_argument(fmt::format(
+        "sensor.background_frames: {}, but the camera's parent link \"{}\" moves with "
+        "joint \"{}\"; expected 0, or a camera that is fixed to the root link \"{}\"",
+        background_frames, model.links[parent].name, joint.name, model.links.front().name));
+  }
+}
+
 }  // namespace
 
 Rig::Rig(RobotModel model, CameraMount mount, RigSettings settings)
@@ -54,6 +66,10 @@ Rig::Rig(RobotModel model, CameraMount mount, RigSettings settings)
     settings_.self_filter.link_padding_m = padding_by_id(model_, settings_.link_padding_m);
   }
   validate(settings_.self_filter);
+  validate(settings_.sensor);
+  if (settings_.sensor.background_frames > 0) {
+    require_fixed_camera(model_, parent_, settings_.sensor.background_frames);
+  }
   validate(settings_.distance);
   validate(settings_.time);
   if (settings_.visibility) sample_points_ = berth::sample_points(model_);

@@ -9,6 +9,7 @@
 #include "berth/render/robot_renderer.hpp"
 #include "berth/robot/robot_model.hpp"
 #include "berth/self_filter/settings.hpp"
+#include "berth/sensor/settings.hpp"
 #include "berth/types/camera.hpp"
 #include "berth/visibility/sample_points.hpp"
 
@@ -26,6 +27,7 @@ struct RigSettings {
   SelfFilterSettings self_filter;
   /// Padding of single links by name, instead of self_filter.padding_m.
   std::map<std::string, double> link_padding_m;
+  SensorSettings sensor;
   Method method = Method::exact;
   DistanceSettings distance;
   /// Whether answers tell what the camera cannot know (Answer::visibility).
@@ -38,7 +40,8 @@ struct RigSettings {
 class Rig {
  public:
   /// Throws std::invalid_argument that names the setting, its value and what was expected: an
-  /// unknown link, a pose that is not one, a camera without size, a value outside its domain.
+  /// unknown link, a pose that is not one, a camera without size, a value outside its domain, a
+  /// background for a camera that moves with the robot.
   Rig(RobotModel model, CameraMount mount, RigSettings settings);
 
   const RobotModel& model() const { return model_; }

@@ -76,7 +76,7 @@ void count_each(const PixelFate* fate, int width,
   int u = 0;
   for (; u + lanes <= width; u += lanes) {
     const auto values = hn::LoadU(d, reinterpret_cast<const std::uint8_t*>(fate + u));
-    for (int f = 0; f < kPixelFateCount; ++f) {
+    for (int f = 0; f < kSelfFilterFateCount; ++f) {
       count[f] += static_cast<std::int64_t>(
           hn::CountTrue(d, hn::Eq(values, hn::Set(d, static_cast<std::uint8_t>(f)))));
     }

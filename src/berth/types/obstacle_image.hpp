@@ -7,7 +7,8 @@
 
 namespace berth {
 
-/// What became of one pixel of the sensor's depth image in the self filter. The order is that of the rules.
+/// What became of one pixel of the sensor's depth image: in the self filter, then in the sensor
+/// rules. The order is that of the rules.
 enum class PixelFate : std::uint8_t {
   obstacle,     ///< kept: it may be an obstacle
   no_reading,   ///< the sensor gave nothing here
@@ -16,12 +17,26 @@ enum class PixelFate : std::uint8_t {
   padding,      ///< within the link's metric padding beside the robot, and not in front of it
   dilation,     ///< within the silhouette grown by a number of pixels, and not in front of it
   edge,         ///< a mixed pixel at a depth edge
-  island,       ///< a small piece that hangs on the robot's own readings and never leaves its neighbourhood
+  island,       ///< a small piece that hangs on the robot's own readings and never leaves its
+                ///< neighbourhood
+  speckle,      ///< a blob of fewer pixels than count as an obstacle
+  averaged,     ///< kept, at the mean of the last readings, which is nearer than the last one
+  background,   ///< kept, at the depth that was there when the robot was elsewhere: hidden or
+                ///< dropped now
+  hole,         ///< kept: no reading, and what the policy for holes puts there
 };
-inline constexpr int kPixelFateCount = 8;
+inline constexpr int kPixelFateCount = 12;
+/// The self filter gives those up to `island`.
+inline constexpr int kSelfFilterFateCount = 8;
 
-/// The filtered depth image F (Hirt 2.2.1): the sensor's depth with the robot removed, NaN where there is
-/// nothing; and for each pixel why.
+/// Whether F has a depth there.
+inline bool is_kept(PixelFate fate) {
+  return fate == PixelFate::obstacle || fate == PixelFate::averaged ||
+         fate == PixelFate::background || fate == PixelFate::hole;
+}
+
+/// The filtered depth image F (Hirt 2.2.1): the sensor's depth with the robot removed, NaN where
+/// there is nothing (where the fate is not kept); and for each pixel why.
 struct ObstacleImage {
   DepthImage depth_m;
   Image<PixelFate> fate;

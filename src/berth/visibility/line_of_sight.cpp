@@ -27,15 +27,19 @@ std::optional<ImagePoint> project(const Camera& camera, const Eigen::Vector3d& p
 /// obstacle_up_to_m would stand before the point, and its robot or scenery does or does not.
 Sight sight_up_to(const SeenFrame& frame, Pixel pixel, float obstacle_up_to_m,
                   bool robot_is_before) {
-  switch (frame.obstacles.fate(pixel.u, pixel.v)) {
+  const PixelFate fate = frame.obstacles.fate(pixel.u, pixel.v);
+  if (is_kept(fate) && frame.obstacles.depth_m(pixel.u, pixel.v) < obstacle_up_to_m) {
+    return Sight::hidden_by_obstacles;
+  }
+  switch (fate) {
     case PixelFate::obstacle:
-      return frame.obstacles.depth_m(pixel.u, pixel.v) < obstacle_up_to_m
-                 ? Sight::hidden_by_obstacles
-                 : Sight::seen;
+    case PixelFate::averaged:
+      return Sight::seen;
     case PixelFate::robot:
     case PixelFate::environment:
       return robot_is_before ? Sight::hidden_by_robot : Sight::seen;
     default:
+      // Also before a background or what fills a hole: nobody saw that space free.
       return Sight::no_reading;
   }
 }

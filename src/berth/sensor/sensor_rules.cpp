@@ -1,0 +1,36 @@
+#include "berth/sensor/sensor_rules.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+
+namespace berth {
+namespace {
+
+void count_again(ObstacleImage& out) {
+  std::array<std::atomic<std::int64_t>, kPixelFateCount> total{};
+  tbb::parallel_for(0, out.fate.height(), [&](int v) {
+    std::array<int, kPixelFateCount> count{};
+    for (int u = 0; u < out.fate.width(); ++u) ++count[static_cast<std::size_t>(out.fate(u, v))];
+    for (std::size_t fate = 0; fate < count.size(); ++fate) total[fate] += count[fate];
+  });
+  for (std::size_t fate = 0; fate < total.size(); ++fate) out.count[fate] = total[fate];
+}
+
+}  // namespace
+
+void apply_sensor_rules(DepthView sensor_depth_m, const RobotImage& robot,
+                        const Background& background, const SensorSettings& settings,
+                        SensorWorkspace& workspace, ObstacleImage& out) {
+  const bool has_speckle = settings.speckle_px > 1;
+  const bool averages = settings.average_frames > 1;
+  const bool has_background = settings.background_frames > 0;
+  if (!has_speckle && !averages && !has_background && settings.holes == HolePolicy::free) return;
+  if (has_speckle) drop_speckle(settings, workspace.speckle, out);
+  if (averages) average_readings(settings, workspace.history, out);
+  if (has_background) background.complete(sensor_depth_m, settings, out);
+  fill_holes(settings.holes, robot, workspace.holes, out);
+  count_again(out);
+}
+
+}  // namespace berth

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "berth/sensor/average.hpp"
+#include "berth/sensor/background.hpp"
+#include "berth/sensor/holes.hpp"
+#include "berth/sensor/settings.hpp"
+#include "berth/sensor/speckle.hpp"
+
+namespace berth {
+
+/// Scratch of apply_sensor_rules, and what it remembers of earlier frames; one for each camera.
+struct SensorWorkspace {
+  SpeckleWorkspace speckle;
+  ReadingHistory history;
+  HoleWorkspace holes;
+};
+
+/// The rules for what sensors do wrong, in this order, on the self filter's result: speckle is
+/// dropped, readings are averaged towards the camera, the background is put where F has no depth,
+/// holes are filled. Depth, fates and counts of `out` tell what became of each pixel. All images
+/// have the same size. The result does not depend on the number of threads.
+void apply_sensor_rules(DepthView sensor_depth_m, const RobotImage& robot,
+                        const Background& background, const SensorSettings& settings,
+                        SensorWorkspace& workspace, ObstacleImage& out);
+
+}  // namespace berth

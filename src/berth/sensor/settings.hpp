@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace berth {
+
+/// What a pixel without a reading means, where the model does not say that it shows the robot or
+/// scenery. Each enumerator is its own name.
+enum class HolePolicy {
+  free,               ///< nothing is there
+  obstacle,           ///< something may be right before the camera: its shadow is an obstacle
+  nearest_neighbour,  ///< the obstacle seen at the nearest pixel goes on
+};
+inline constexpr std::array kHolePolicies = {HolePolicy::free, HolePolicy::obstacle,
+                                             HolePolicy::nearest_neighbour};
+
+std::string_view name_of(HolePolicy policy);
+
+/// What is known of the sensor's faults. Every rule is off by default. Only `speckle_px` ever drops
+/// anything; the other rules add obstacles or move them towards the camera.
+struct SensorSettings {
+  /// Two readings of one surface at z m differ by no more than noise_m max(1, z^2).
+  double noise_m = 0.02;
+  /// Blobs of fewer pixels are dropped; 0 and 1 turn the rule off. A blob is joined by steps of up
+  /// to speckle_jump_m max(1, z^2) between neighbours (8), z being the nearer one. What is lost
+  /// with it is what shows the camera less than speckle_px z^2 / (fx fy) m^2: 20 at 1.5 m with 600
+  /// px is 1.3 cm^2, 60 is 3.8 cm^2; a fingertip of 15 x 70 mm has 10 cm^2.
+  int speckle_px = 0;
+  double speckle_jump_m = 0.03;
+  /// A reading moves to the mean of this many of its pixel's last ones (itself among them) where
+  /// that is nearer; 0 and 1 turn the rule off.
+  int average_frames = 0;
+  /// A pixel's background is known once so many images agree on it; 0 turns the rule off.
+  int background_frames = 0;
+  /// No background is learned where the robot is within this length in the image, at its depth.
+  double background_clearance_m = 0.15;
+  HolePolicy holes = HolePolicy::free;
+};
+
+/// Most of average_frames: that many images are held.
+inline constexpr int kMostAverageFrames = 100;
+
+/// Throws std::invalid_argument that names key, value and what was expected.
+void validate(const SensorSettings& settings);
+
+}  // namespace berth

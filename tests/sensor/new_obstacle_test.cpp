@@ -1,0 +1,193 @@
+// Something new beside the arm, at places nobody chose: no rule that is not there to drop pixels
+// hides any of it, whatever the background says.
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "berth/distance/evaluate.hpp"
+#include "berth/sensor/sensor_rules.hpp"
+#include "tests/self_filter/random_scene.hpp"
+#include "tests/sensor/images.hpp"
+
+namespace berth {
+namespace {
+
+/// A box, a rod or a finger that faces the camera, near a random pixel and the robot's depth there.
+void add_new_thing(testing::Random& random, const RandomScene& scene, DepthImage& depth_m) {
+  const int width = depth_m.width();
+  const int height = depth_m.height();
+  const int u0 = random.whole(0, width - 1);
+  const int v0 = random.whole(0, height - 1);
+  const float robot_m = scene.robot.depth_m(u0, v0);
+  const double about_m = std::isnan(robot_m) ? random(0.5, 2.5) : robot_m;
+  const auto z = static_cast<float>(about_m + random(-0.2, 0.2));
+  const int shape = random.whole(0, 2);
+  const int thing_width = shape == 0 ? random.whole(5, 30) : random.whole(1, 5);
+  const int thing_height = shape == 1 ? height : random.whole(5, 30);
+  for (int v = v0; v < std::min(height, v0 + thing_height); ++v) {
+    for (int u = u0; u < std::min(width, u0 + thing_width); ++u) {
+      if (!(depth_m(u, v) < z)) depth_m(u, v) = z;
+    }
+  }
+}
+
+/// All rules but speckle, as strong as they get.
+SensorSettings random_rules(testing::Random& random) {
+  SensorSettings settings;
+  settings.noise_m = random(0, 0.1);
+  settings.average_frames = random.chance(0.5) ? random.whole(2, 5) : 0;
+  settings.background_frames = random.whole(0, 2);
+  settings.background_clearance_m = random(0, 0.2);
+  settings.holes = kHolePolicies[static_cast<std::size_t>(random.whole(0, 2))];
+  return settings;
+}
+
+class NewObstacle {
+ public:
+  explicit NewObstacle(std::uint32_t seed)
+      : random_(seed), scene_(random_scene(seed)), settings_(random_rules(random_)) {
+    // Learned from images with all of the robot and its webs in them, which no filter took out.
+    const RobotImage no_robot{
+        DepthImage(scene_.camera.width_px, scene_.camera.height_px, kNoDepth),
+        Image<LinkId>(scene_.camera.width_px, scene_.camera.height_px, kNoLink)};
+    const ObstacleImage all = kept_image(scene_.sensor_depth_m);
+    for (int i = 0; i < settings_.background_frames; ++i)
+      background_.learn(scene_.camera, scene_.sensor_depth_m, no_robot, all.fate, settings_);
+    DepthImage earlier = scene_.sensor_depth_m;
+    for (float& z : earlier.pixels()) z += static_cast<float>(random_(-0.05, 0.05));
+    observe(earlier);
+    add_new_thing(random_, scene_, scene_.sensor_depth_m);
+    observe(scene_.sensor_depth_m);
+  }
+
+  void expect_nothing_hidden() const {
+    std::array<std::int64_t, kPixelFateCount> count{};
+    for (std::size_t i = 0; i < before_.fate.pixels().size(); ++i) {
+      const PixelFate fate = after_.fate.pixels()[i];
+      const float z = after_.depth_m.pixels()[i];
+      ++count[static_cast<std::size_t>(fate)];
+      ASSERT_EQ(is_kept(fate), !std::isnan(z)) << i;
+      if (!is_kept(before_.fate.pixels()[i])) continue;
+      ASSERT_TRUE(is_kept(fate)) << i;
+      ASSERT_LE(z, before_.depth_m.pixels()[i]) << i;
+    }
+    EXPECT_EQ(after_.count, count);
+  }
+
+  /// Averages move an obstacle along its ray by up to the noise, and a distance by that.
+  void expect_no_distance_larger() const {
+    const std::vector<LinkDistance> before = distances(before_);
+    const std::vector<LinkDistance> after = distances(after_);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      if (before[i].status != LinkStatus::ok) continue;
+      ASSERT_EQ(after[i].status, LinkStatus::ok);
+      EXPECT_LE(after[i].distance_m, before[i].distance_m + slack_m(before[i].obstacle_pixel));
+    }
+  }
+
+  bool has(PixelFate fate) const { return after_.count_of(fate) > 0; }
+
+ private:
+  void observe(const DepthImage& depth_m) {
+    self_filter(scene_.camera, depth_m, scene_.robot, scene_.settings, workspace_, before_);
+    after_ = before_;
+    apply_sensor_rules(depth_m, scene_.robot, background_, settings_, sensor_, after_);
+  }
+
+  std::vector<LinkDistance> distances(const ObstacleImage& image) const {
+    constexpr int kMostLinks = 5;
+    ObstacleTree tree;
+    build_obstacle_tree(image.depth_m, tree);
+    DistanceSettings settings;
+    settings.mean_direction = false;
+    EvaluateWorkspace workspace;
+    LinkDistances out;
+    evaluate(Method::exact, scene_.camera, scene_.robot, image.depth_m, tree, kMostLinks, settings,
+             workspace, out);
+    return out.links;
+  }
+
+  double slack_m(Pixel p) const {
+    if (settings_.average_frames < 2) return 0;
+    const Camera& camera = scene_.camera;
+    const double x = (p.u + 1 - camera.cx_px) / camera.fx_px;
+    const double y = (p.v + 1 - camera.cy_px) / camera.fy_px;
+    const double z = before_.depth_m(p.u, p.v);
+    const double left = (p.u - 1 - camera.cx_px) / camera.fx_px;
+    const double above = (p.v - 1 - camera.cy_px) / camera.fy_px;
+    const double ray = std::sqrt(1 + std::max(x * x, left * left) + std::max(y * y, above * above));
+    return settings_.noise_m * std::max(1.0, z * z) * ray + 1e-6;
+  }
+
+  testing::Random random_;
+  RandomScene scene_;
+  SensorSettings settings_;
+  Background background_;
+  SelfFilterWorkspace workspace_;
+  SensorWorkspace sensor_;
+  ObstacleImage before_;
+  ObstacleImage after_;
+};
+
+TEST(NewObstacle, IsNeverHiddenAtThousandsOfPlaces) {
+  std::array<int, kPixelFateCount> scenes{};
+  for (std::uint32_t seed = 0; seed < 2000; ++seed) {
+    SCOPED_TRACE(seed);
+    const NewObstacle thing(seed);
+    thing.expect_nothing_hidden();
+    thing.expect_no_distance_larger();
+    if (::testing::Test::HasFailure()) return;
+    for (int fate = 0; fate < kPixelFateCount; ++fate)
+      scenes[fate] += thing.has(static_cast<PixelFate>(fate));
+  }
+  EXPECT_GT(scenes[static_cast<int>(PixelFate::averaged)], 300);
+  EXPECT_GT(scenes[static_cast<int>(PixelFate::background)], 300);
+  EXPECT_GT(scenes[static_cast<int>(PixelFate::hole)], 300);
+}
+
+TEST(SensorRules, ChangeNothingWhereAllAreOff) {
+  RandomScene scene = random_scene(7);
+  SelfFilterWorkspace workspace;
+  ObstacleImage filtered;
+  self_filter(scene.camera, scene.sensor_depth_m, scene.robot, scene.settings, workspace, filtered);
+  ObstacleImage image = filtered;
+  SensorWorkspace sensor;
+  apply_sensor_rules(scene.sensor_depth_m, scene.robot, {}, {}, sensor, image);
+  EXPECT_TRUE(same_depth(image.depth_m, filtered.depth_m));
+  EXPECT_EQ(image.fate.pixels(), filtered.fate.pixels());
+  EXPECT_EQ(image.count, filtered.count);
+}
+
+TEST(SensorRules, DoNotDependOnTheNumberOfThreads) {
+  SensorSettings settings;
+  settings.speckle_px = 6;
+  settings.average_frames = 3;
+  settings.background_frames = 1;
+  settings.holes = HolePolicy::nearest_neighbour;
+  const auto run = [&](int threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const RandomScene scene = random_scene(11);
+    SelfFilterWorkspace workspace;
+    SensorWorkspace sensor;
+    Background background;
+    ObstacleImage image;
+    for (int frame = 0; frame < 3; ++frame) {
+      self_filter(scene.camera, scene.sensor_depth_m, scene.robot, scene.settings, workspace,
+                  image);
+      background.learn(scene.camera, scene.sensor_depth_m, scene.robot, image.fate, settings);
+      apply_sensor_rules(scene.sensor_depth_m, scene.robot, background, settings, sensor, image);
+    }
+    return image;
+  };
+  const ObstacleImage one = run(1);
+  const ObstacleImage three = run(3);
+  EXPECT_TRUE(same_depth(one.depth_m, three.depth_m));
+  EXPECT_EQ(one.fate.pixels(), three.fate.pixels());
+  EXPECT_EQ(one.count, three.count);
+}
+
+}  // namespace
+}  // namespace berth
