@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "testing/shared_gl.hpp"
 #include "tests/distance/plain_definition.hpp"
 
 namespace berth::testing {
@@ -23,13 +24,30 @@ void expect_own_pair(const LinkDistance& link, const ImagePair& images) {
 
 }  // namespace
 
+void MethodTest::SetUp() {
+  if (runs_on_opengl(GetParam()) && !shared_gl()) GTEST_SKIP() << why_no_gl();
+}
+
+void MethodTest::TearDown() {
+  if (SharedGl* gl = shared_gl()) gl->context.check("this test");
+}
+
+void answer(Method method, const ImagePair& images, DepthView obstacle_depth_m,
+            const DistanceSettings& settings, AnswerWorkspace& workspace, LinkDistances& out) {
+  if (runs_on_opengl(method)) {
+    shared_gl()->evaluator.evaluate(method, images.camera, images.robot, obstacle_depth_m,
+                                    images.link_count, settings, out);
+    return;
+  }
+  build_obstacle_tree(obstacle_depth_m, workspace.tree);
+  evaluate(method, images.camera, images.robot, obstacle_depth_m, workspace.tree, images.link_count,
+           settings, workspace.evaluate, out);
+}
+
 LinkDistances answer(Method method, const ImagePair& images, const DistanceSettings& settings) {
-  ObstacleTree tree;
-  build_obstacle_tree(images.obstacle_depth_m, tree);
-  EvaluateWorkspace workspace;
+  AnswerWorkspace workspace;
   LinkDistances out;
-  evaluate(method, images.camera, images.robot, images.obstacle_depth_m, tree, images.link_count,
-           settings, workspace, out);
+  answer(method, images, images.obstacle_depth_m, settings, workspace, out);
   return out;
 }
 

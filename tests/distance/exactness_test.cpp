@@ -9,7 +9,7 @@
 namespace berth::testing {
 namespace {
 
-class Exactness : public ::testing::TestWithParam<Method> {
+class Exactness : public MethodTest {
  protected:
   void expect_as_brute_force(const ImagePair& images, double range_m = 1.0) const {
     const LinkDistances truth = answer(Method::brute_force, images, range_m);
@@ -201,11 +201,9 @@ TEST_P(Exactness, AnObstacleImageWithGapsBetweenItsRowsCountsWithoutThem) {
     for (int u = 0; u < 61; ++u) wide(u, v) = images.obstacle_depth_m(u, v);
   }
   const DepthView view{wide.row(0), 61, 40, 80};
-  ObstacleTree tree;
-  build_obstacle_tree(view, tree);
-  EvaluateWorkspace workspace;
+  AnswerWorkspace workspace;
   LinkDistances out;
-  evaluate(GetParam(), images.camera, images.robot, view, tree, 3, {1.0, false}, workspace, out);
+  answer(GetParam(), images, view, {1.0, false}, workspace, out);
   expect_answer_of(GetParam(), answer(Method::brute_force, images), out, images);
 }
 
