@@ -10,6 +10,9 @@ namespace berth::testing {
 /// The methods that find the closest pair; the others may take another one for it.
 inline constexpr std::array kExactMethods = {Method::exact, Method::brute_force, Method::gl_exact};
 
+/// Whether it is one of kExactMethods.
+bool finds_the_closest(Method method);
+
 /// A test of one method; it skips, visibly, where the method runs on OpenGL and there is none.
 class MethodTest : public ::testing::TestWithParam<Method> {
  protected:

@@ -16,6 +16,10 @@ std::string_view name_of(Method method) {
       return "lattice";
     case Method::gl_exact:
       return "gl_exact";
+    case Method::gl_lattice:
+      return "gl_lattice";
+    case Method::gl_hybrid:
+      return "gl_hybrid";
   }
   return {};
 }
@@ -52,6 +56,8 @@ void evaluate(Method method, const Camera& camera, const RobotImage& robot,
       lattice(camera, robot, obstacle_depth_m, link_count, settings, workspace.lattice, out);
       break;
     case Method::gl_exact:
+    case Method::gl_lattice:
+    case Method::gl_hybrid:
       throw std::invalid_argument("method " + std::string(name_of(method)) +
                                   " runs on OpenGL; expected one that does not");
   }

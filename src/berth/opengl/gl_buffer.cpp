@@ -45,6 +45,10 @@ void GlBuffer::copy_to(GlBuffer& target, std::size_t bytes) const {
   glCopyNamedBufferSubData(name_, target.name_, 0, 0, static_cast<GLsizeiptr>(bytes));
 }
 
+void take_at_least(std::size_t bytes, GlBuffer& buffer, GlMemory memory) {
+  if (buffer.name() == 0 || buffer.bytes() < bytes) buffer = {bytes, memory};
+}
+
 GlFence::~GlFence() {
   if (sync_) glDeleteSync(static_cast<GLsync>(sync_));
 }

@@ -53,6 +53,9 @@ class GlBuffer {
   void* mapped_ = nullptr;
 };
 
+/// Replaces a buffer that is too small, or none yet, by one of this size.
+void take_at_least(std::size_t bytes, GlBuffer& buffer, GlMemory memory = GlMemory::device);
+
 /// A point in the stream of commands.
 class GlFence {
  public:

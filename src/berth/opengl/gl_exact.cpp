@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 
-#include "berth/distance/closest_pair.hpp"
 #include "berth/opengl/gl_metric.hpp"
 
 namespace berth {
@@ -98,10 +97,7 @@ void GlExact::evaluate(const Camera& camera, const GlRobotImage& robot,
   validate(settings);
   prepare(camera, link_count);
   find_tiles(robot, obstacle_depth_m);
-  // A little too far: whether a distance is within the range is decided at the end, on the CPU.
-  const float farthest_m2 =
-      no_pair_within(static_cast<float>(settings.range_m)).squared_m2 * (1 + 1e-5f);
-  link_best_.fill(std::bit_cast<std::uint32_t>(farthest_m2));
+  link_best_.fill(std::bit_cast<std::uint32_t>(gl_farthest_m2(settings.range_m)));
   const int groups = std::clamp(tiles_.prod(), 1, kMostGroups);
   first_program_.dispatch(groups);
   search_program_.read("robot_depth_m", robot.depth_m);

@@ -9,9 +9,6 @@ namespace {
 /// Workgroups that share the pixels around a link; their sums are added here.
 constexpr int kParts = 32;
 
-float column(std::uint32_t packed) { return static_cast<float>(packed & 0xFFFF); }
-float row(std::uint32_t packed) { return static_cast<float>(packed >> 16); }
-
 }  // namespace
 
 GlLinkAnswers::GlLinkAnswers() : mean_direction_("mean_direction.comp.glsl") {}
@@ -67,13 +64,15 @@ void GlLinkAnswers::read_link(int link, const DistanceSettings& settings, bool c
   const Metric metric = metric_of(camera_);
   const auto range_m = static_cast<float>(settings.range_m);
   ClosestPair pair = no_pair_within(range_m);
-  if (answer.robot_depth_m > 0) {
+  if (has_pair(answer)) {
+    const Pixel robot = unpacked_pixel(answer.robot);
+    const Pixel obstacle = unpacked_pixel(answer.obstacle);
     pair = {0,
-            column(answer.robot),
-            row(answer.robot),
+            static_cast<float>(robot.u),
+            static_cast<float>(robot.v),
             answer.robot_depth_m,
-            column(answer.obstacle),
-            row(answer.obstacle),
+            static_cast<float>(obstacle.u),
+            static_cast<float>(obstacle.v),
             answer.obstacle_depth_m};
     pair.squared_m2 = squared_distance_m2(metric, pair.ru, pair.rv, pair.robot_depth_m, pair.ou,
                                           pair.ov, pair.obstacle_depth_m);

@@ -28,6 +28,16 @@ struct GlLinkAnswer {
   float max_depth_m;
 };
 
+inline bool has_pair(const GlLinkAnswer& answer) { return answer.robot_depth_m > 0; }
+
+/// As pack() and unpack() of pixels.glsl.
+inline std::uint32_t packed_pixel(Pixel pixel) {
+  return static_cast<std::uint32_t>(pixel.u) | static_cast<std::uint32_t>(pixel.v) << 16;
+}
+inline Pixel unpacked_pixel(std::uint32_t packed) {
+  return {static_cast<int>(packed & 0xFFFF), static_cast<int>(packed >> 16)};
+}
+
 /// The last step of every evaluator on the GPU: an evaluator writes device(), then comes finish().
 class GlLinkAnswers {
  public:

@@ -44,3 +44,6 @@ bool is_closest_of_workgroup(ClosestPair own) {
   barrier();
   return is_closest;
 }
+
+// After is_closest_of_workgroup(): whether any invocation had a pair.
+bool workgroup_has_pair() { return closest_robot != 0xFFFFFFFFu; }

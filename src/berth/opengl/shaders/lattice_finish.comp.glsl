@@ -1,0 +1,43 @@
+// The closest pair of each link, of those of its slices; one workgroup a link.
+#include "pixels.glsl"
+#include "closest_pair.glsl"
+#include "link_answer.glsl"
+#include "region_of_surveillance.glsl"
+
+layout(local_size_x = 64) in;
+
+uniform ivec2 image_size;
+uniform uint slices;
+layout(std430) readonly buffer LinkPixels { uint link_pixels[]; };
+layout(std430) readonly buffer SliceClosest { ClosestPair slice_closest[]; };
+layout(std430) readonly buffer LinkPairs { uint link_pairs[]; };
+layout(std430) writeonly buffer LinkAnswers { LinkAnswer answers[]; };
+
+void write(uint link, ClosestPair pair, ivec4 region, float max_depth_m) {
+  answers[link] = LinkAnswer(pair, link_pixels[link], link_pairs[2u * link],
+                             link_pairs[2u * link + 1u], region.x, region.y, region.z, region.w,
+                             max_depth_m);
+}
+
+ClosestPair closest_of_slices(uint link) {
+  ClosestPair best = no_pair();
+  for (uint i = gl_LocalInvocationIndex; i < slices; i += gl_WorkGroupSize.x) {
+    ClosestPair pair = slice_closest[link * slices + i];
+    if (is_closer(pair, best)) best = pair;
+  }
+  return best;
+}
+
+void main() {
+  uint link = gl_WorkGroupID.x;
+  // Searches write nothing for links that are not visible.
+  bool is_visible = link_pixels[link] > 0u;
+  ClosestPair best = no_pair();
+  if (is_visible) best = closest_of_slices(link);
+  if (is_closest_of_workgroup(best)) {
+    ivec4 region = region_of_surveillance(unpack(best.robot), best.robot_depth_m, image_size);
+    write(link, best, region, float(double(best.robot_depth_m) + range_m));
+  } else if (!workgroup_has_pair() && gl_LocalInvocationIndex == 0) {
+    write(link, no_pair(), ivec4(0), 0.0);
+  }
+}
