@@ -23,6 +23,23 @@ GlLattice::GlLattice()
   search_points_program_.bind("LatticePointCount", point_count_);
 }
 
+GlProgram& GlLattice::points_program(int tile_px) {
+  const auto found = points_programs_.find(tile_px);
+  if (found != points_programs_.end()) return found->second;
+  const ShaderConstants constants = {{"TILE_PX", std::to_string(tile_px)}};
+  return points_programs_.try_emplace(tile_px, "lattice_points.comp.glsl", constants).first->second;
+}
+
+GlProgram& GlLattice::search_tiles_program(int former_px, int tile_px) {
+  const std::pair sizes(former_px, tile_px);
+  const auto found = search_tiles_programs_.find(sizes);
+  if (found != search_tiles_programs_.end()) return found->second;
+  const ShaderConstants constants = {{"FORMER_PX", std::to_string(former_px)},
+                                     {"TILE_PX", std::to_string(tile_px)}};
+  return search_tiles_programs_.try_emplace(sizes, "lattice_search_tiles.comp.glsl", constants)
+      .first->second;
+}
+
 void GlLattice::list_points(const GlRobotImage& robot, int link_count, int tile_px) {
   const int width = robot.link_id.width();
   const int height = robot.link_id.height();
@@ -31,10 +48,7 @@ void GlLattice::list_points(const GlRobotImage& robot, int link_count, int tile_
   take_at_least(link_count * sizeof(std::uint32_t), link_pixels_);
   point_count_.fill(0);
   link_pixels_.fill(0);
-  GlProgram& program = points_programs_
-                           .try_emplace(tile_px, "lattice_points.comp.glsl",
-                                        ShaderConstants{{"TILE_PX", std::to_string(tile_px)}})
-                           .first->second;
+  GlProgram& program = points_program(tile_px);
   program.set("link_count", link_count);
   program.read("robot_depth_m", robot.depth_m);
   program.read("link_id", robot.link_id);
@@ -46,11 +60,7 @@ void GlLattice::list_points(const GlRobotImage& robot, int link_count, int tile_
 
 void GlLattice::search_tiles(const GlRobotImage& robot, int former_px, int tile_px,
                              PixelStep step) {
-  GlProgram& program = search_tiles_programs_
-                           .try_emplace({former_px, tile_px}, "lattice_search_tiles.comp.glsl",
-                                        ShaderConstants{{"FORMER_PX", std::to_string(former_px)},
-                                                        {"TILE_PX", std::to_string(tile_px)}})
-                           .first->second;
+  GlProgram& program = search_tiles_program(former_px, tile_px);
   program.read("robot_depth_m", robot.depth_m);
   program.read("link_id", robot.link_id);
   search_.run(program, step);

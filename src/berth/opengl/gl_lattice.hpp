@@ -28,6 +28,8 @@ class GlLattice {
                 int link_count, const DistanceSettings& settings, LinkDistances& out);
 
  private:
+  GlProgram& points_program(int tile_px);
+  GlProgram& search_tiles_program(int former_px, int tile_px);
   void list_points(const GlRobotImage& robot, int link_count, int tile_px);
   void search_tiles(const GlRobotImage& robot, int former_px, int tile_px, PixelStep step);
 

@@ -11,6 +11,9 @@ namespace {
 /// Bytes of the struct of closest_pair.glsl.
 constexpr std::size_t kPairBytes = 20;
 
+/// Each goes on to further links where there are more.
+constexpr int kMostLinkGroups = 256;
+
 /// Enough workgroups for a large GPU, and some pixels for each invocation of them.
 unsigned slices_of(int width, int height, PixelStep step) {
   constexpr std::int64_t kSlicePixels = 2048;
@@ -49,12 +52,13 @@ void GlLatticeSearch::run(GlProgram& program, PixelStep step) {
   program.set("step_px", Eigen::Vector2i(step.x, step.y));
   program.set("farthest_m2", gl_farthest_m2(settings_.range_m));
   program.set("former_slices", slices_);
+  program.set("link_count", static_cast<unsigned>(link_count_));
   program.read("obstacle_depth_m", *obstacle_depth_m_);
   program.bind("LinkPixels", *link_pixels_);
   program.bind("LinkPairs", link_pairs_);
   program.bind("FormerClosest", former_closest_);
   program.bind("SliceClosest", slice_closest_);
-  program.dispatch(static_cast<int>(slices), link_count_);
+  program.dispatch(static_cast<int>(slices), std::min(link_count_, kMostLinkGroups));
   slices_ = slices;
 }
 
@@ -62,12 +66,13 @@ const GlBuffer& GlLatticeSearch::answers() {
   finish_program_.set("image_size",
                       Eigen::Vector2i(obstacle_depth_m_->width(), obstacle_depth_m_->height()));
   finish_program_.set("slices", slices_);
+  finish_program_.set("link_count", static_cast<unsigned>(link_count_));
   answers_.set_region(finish_program_, settings_.range_m);
   finish_program_.bind("LinkPixels", *link_pixels_);
   finish_program_.bind("LinkPairs", link_pairs_);
   finish_program_.bind("SliceClosest", slice_closest_);
   finish_program_.bind("LinkAnswers", answers_.device());
-  finish_program_.dispatch(link_count_);
+  finish_program_.dispatch(std::min(link_count_, kMostLinkGroups));
   return answers_.device();
 }
 

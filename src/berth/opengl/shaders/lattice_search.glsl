@@ -1,9 +1,10 @@
-// The closest pair of a link's candidates and a slice of the obstacle image; workgroup (slice, link).
-// The file that includes this defines the candidates. A pair takes the place of the closest of the
+// The closest pair of a link's candidates and a slice of the obstacle image; workgroup (slice, link),
+// and on to further links where there are more than workgroups. The file that includes this defines the candidates. A pair takes the place of the closest of the
 // searches before only if it is closer.
 #include "metric.glsl"
 #include "pixels.glsl"
 #include "closest_pair.glsl"
+#include "visible_links.glsl"
 
 layout(local_size_x = 256) in;
 
@@ -11,7 +12,6 @@ uniform sampler2D obstacle_depth_m;
 uniform ivec2 step_px;       // every so many columns and rows of obstacle pixels are tried
 uniform float farthest_m2;   // a pair has to be closer
 uniform uint former_slices;  // of the search before; 0 in the first
-layout(std430) readonly buffer LinkPixels { uint link_pixels[]; };
 // Of each link as many as the search has slices.
 layout(std430) readonly buffer FormerClosest { ClosestPair former_closest[]; };
 layout(std430) writeonly buffer SliceClosest { ClosestPair slice_closest[]; };
@@ -125,14 +125,21 @@ void try_candidates(uint link, inout ClosestPair best) {
   }
 }
 
-void main() {
-  uint link = gl_WorkGroupID.y;
-  if (link_pixels[link] == 0u) return;
+void search(uint link) {
   find_former(link);
   ClosestPair best = no_pair();
   if (gl_WorkGroupID.x == 0u && gl_LocalInvocationIndex == 0u) best = former;
   try_candidates(link, best);
   if (is_closest_of_workgroup(best) || (!workgroup_has_pair() && gl_LocalInvocationIndex == 0)) {
     slice_closest[link * gl_NumWorkGroups.x + gl_WorkGroupID.x] = best;
+  }
+  barrier();
+}
+
+void main() {
+  uint stride = gl_NumWorkGroups.y;
+  for (uint link = visible_from(gl_WorkGroupID.y, stride); link < link_count;
+       link = visible_from(link + stride, stride)) {
+    search(link);
   }
 }
