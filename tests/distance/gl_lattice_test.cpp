@@ -172,17 +172,15 @@ Share share_within_5_mm(const LinkDistances& truth, const LinkDistances& found) 
   return share;
 }
 
-/// The radius is that of 40 pixels at the thesis's 640 x 480.
+/// At the thesis's size: in smaller images 5 mm are less than a step.
 TEST_P(GlLattices, AreWithin5MillimetresForNineOfTenLinksWithStepsOf2) {
   Share share;
-  for (std::uint32_t seed = 0; seed < 16; ++seed) {
-    const ImagePair images = random_images(seed, 240, 180, 8);
-    share += share_within_5_mm(answer(Method::exact, images), found(images, {2, 2, 15, 2, 16}));
+  for (std::uint32_t seed = 0; seed < 8; ++seed) {
+    const ImagePair images = random_images(seed, 640, 480, 8);
+    share += share_within_5_mm(answer(Method::exact, images), found(images, {2, 2, 10, 2, 16}));
   }
-  const ImagePair images = random_images(16, 640, 480, 8);
-  share += share_within_5_mm(answer(Method::exact, images), found(images, {2, 2, 40, 2, 16}));
   std::printf("%d of %d links within 5 mm\n", share.close, share.links);
-  EXPECT_GT(share.links, 100);
+  EXPECT_GT(share.links, 50);
   EXPECT_GE(share.close, 0.9 * share.links);
 }
 
