@@ -99,17 +99,25 @@ void add_surveillance(CLI::App& command, EvaluationArguments& arguments) {
 }
 
 void add_lattice(CLI::App& command, EvaluationArguments& arguments) {
-  const auto pixels = [&command](const char* name, std::optional<int>& value, const char* what) {
-    command.add_option(name, value, what)->check(CLI::Range(1, kMaxLatticePx))->type_name("PX");
+  const auto pixels = [&command](const char* name, std::optional<int>& value, int most_px,
+                                 const char* what) {
+    command.add_option(name, value, what)->check(CLI::Range(1, most_px))->type_name("PX");
   };
-  pixels("--step-x", arguments.step_x,
-         "lattice: tries every so many columns of obstacle pixels (default: 1)");
-  pixels("--step-y", arguments.step_y,
-         "lattice: tries every so many rows of obstacle pixels (default: 1)");
-  pixels("--initial-grid-radius-px", arguments.initial_grid_radius_px,
-         "lattice: radius around the robot pixels that are tried first (default: 40)");
-  pixels("--final-grid-radius-px", arguments.final_grid_radius_px,
-         "lattice: radius within which all robot pixels are tried last (default: 2)");
+  pixels("--step-x", arguments.step_x, kMaxLatticePx,
+         "lattice, gl_lattice and gl_hybrid: tries every so many columns of obstacle pixels "
+         "(default: 1)");
+  pixels("--step-y", arguments.step_y, kMaxLatticePx,
+         "lattice, gl_lattice and gl_hybrid: tries every so many rows of obstacle pixels "
+         "(default: 1)");
+  pixels(
+      "--initial-grid-radius-px", arguments.initial_grid_radius_px, kMaxLatticePx,
+      "lattice and gl_hybrid: radius around the robot pixels that are tried first (default: 40)");
+  pixels("--final-grid-radius-px", arguments.final_grid_radius_px, kMaxLatticePx,
+         "lattice, gl_lattice and gl_hybrid: radius within which all robot pixels are tried last "
+         "(default: 2)");
+  pixels(
+      "--tile-px", arguments.tile_px, kMaxTilePx,
+      "gl_lattice: size of the tiles of which one robot pixel each is tried first (default: 16)");
 }
 
 void add_output(CLI::App& command, CommonArguments& arguments) {
@@ -139,7 +147,8 @@ void require_method(const std::optional<T>& option, const char* name, Method use
 
 void require_methods(const EvaluationArguments& arguments, Method used) {
   const auto exact = {Method::exact};
-  const auto lattice = {Method::lattice};
+  const auto lattices = {Method::lattice, Method::gl_lattice, Method::gl_hybrid};
+  const auto with_circles = {Method::lattice, Method::gl_hybrid};
   const auto watching = {Method::brute_force, Method::lattice};
   require_method(arguments.tolerance_m, "--tolerance-m", used, exact);
   require_method(arguments.deadline_us, "--deadline-us", used, exact);
@@ -147,10 +156,11 @@ void require_methods(const EvaluationArguments& arguments, Method used) {
   require_method(arguments.depth_interval, "--depth-interval", used, watching);
   require_method(arguments.search_pattern, "--search-pattern", used, watching);
   require_method(arguments.shrinking, "--shrinking", used, watching);
-  require_method(arguments.step_x, "--step-x", used, lattice);
-  require_method(arguments.step_y, "--step-y", used, lattice);
-  require_method(arguments.initial_grid_radius_px, "--initial-grid-radius-px", used, lattice);
-  require_method(arguments.final_grid_radius_px, "--final-grid-radius-px", used, lattice);
+  require_method(arguments.step_x, "--step-x", used, lattices);
+  require_method(arguments.step_y, "--step-y", used, lattices);
+  require_method(arguments.initial_grid_radius_px, "--initial-grid-radius-px", used, with_circles);
+  require_method(arguments.final_grid_radius_px, "--final-grid-radius-px", used, lattices);
+  require_method(arguments.tile_px, "--tile-px", used, {Method::gl_lattice});
 }
 
 template <class T>
@@ -191,6 +201,7 @@ DistanceSettings EvaluationArguments::settings_over(DistanceSettings settings,
   set_if(settings.lattice.step_y, step_y);
   set_if(settings.lattice.initial_grid_radius_px, initial_grid_radius_px);
   set_if(settings.lattice.final_grid_radius_px, final_grid_radius_px);
+  set_if(settings.lattice.tile_px, tile_px);
   validate(settings);
   return settings;
 }

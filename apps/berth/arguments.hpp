@@ -31,6 +31,7 @@ struct EvaluationArguments {
   std::optional<int> step_y;
   std::optional<int> initial_grid_radius_px;
   std::optional<int> final_grid_radius_px;
+  std::optional<int> tile_px;
 
   /// Throws std::invalid_argument for values outside their domain, and for those that the method
   /// does not have.

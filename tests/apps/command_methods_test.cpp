@@ -84,11 +84,19 @@ TEST(Methods, OptionsAreRefusedForAMethodThatDoesNotHaveThem) {
                               {"exact", "--shrinking", "none"},
                               {"lattice", "--tolerance-m", "0.1"},
                               {"lattice", "--deadline-us", "5"}};
-  for (const std::string option :
-       {"--step-x", "--step-y", "--initial-grid-radius-px", "--final-grid-radius-px"}) {
+  for (const std::string option : {"--step-x", "--step-y", "--initial-grid-radius-px",
+                                   "--final-grid-radius-px", "--tile-px"}) {
     table.push_back({"exact", option, "2"});
     table.push_back({"brute_force", option, "2"});
   }
+  for (const std::string method : {"lattice", "gl_exact", "gl_hybrid"}) {
+    table.push_back({method, "--tile-px", "8"});
+  }
+  for (const std::string method : {"gl_lattice", "gl_exact"}) {
+    table.push_back({method, "--initial-grid-radius-px", "2"});
+    table.push_back({method, "--region", "image"});
+  }
+  table.push_back({"gl_hybrid", "--region", "image"});
   const CommandScene scene;
   for (const Wrong& wrong : table) {
     const Outcome outcome =

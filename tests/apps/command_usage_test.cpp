@@ -74,6 +74,8 @@ TEST(Usage, WrongCommandLineIsRefused) {
       {evaluate_with({"--step-y", "65537"}), "--step-y"},
       {evaluate_with({"--initial-grid-radius-px", "0"}), "--initial-grid-radius-px"},
       {evaluate_with({"--final-grid-radius-px", "two"}), "--final-grid-radius-px"},
+      {evaluate_with({"--tile-px", "0"}), "--tile-px"},
+      {evaluate_with({"--tile-px", "65"}), "--tile-px"},
       {{"demo", "--threads", "0"}, "--threads"},
       {{"demo", "scene.yaml"}, "scene.yaml"},
   };

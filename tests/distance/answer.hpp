@@ -8,9 +8,29 @@
 namespace berth::testing {
 
 /// The methods that find the closest pair; the others may take another one for it.
-inline constexpr std::array kExactMethods = {Method::exact, Method::brute_force};
+inline constexpr std::array kExactMethods = {Method::exact, Method::brute_force, Method::gl_exact};
 
-/// The answer of a method with a fresh tree and workspace.
+/// Whether it is one of kExactMethods.
+bool finds_the_closest(Method method);
+
+/// A test of one method; it skips, visibly, where the method runs on OpenGL and there is none.
+class MethodTest : public ::testing::TestWithParam<Method> {
+ protected:
+  void SetUp() override;
+  void TearDown() override;
+};
+
+/// What may be used again for the next question.
+struct AnswerWorkspace {
+  ObstacleTree tree;
+  EvaluateWorkspace evaluate;
+};
+
+/// The answer of a method, which replaces `out`; methods on OpenGL have their memory in
+/// shared_gl().
+void answer(Method method, const ImagePair& images, DepthView obstacle_depth_m,
+            const DistanceSettings& settings, AnswerWorkspace& workspace, LinkDistances& out);
+/// With a fresh tree and workspace.
 LinkDistances answer(Method method, const ImagePair& images, const DistanceSettings& settings);
 /// Without mean directions.
 LinkDistances answer(Method method, const ImagePair& images, double range_m = 1.0);

@@ -7,7 +7,7 @@
 namespace berth::testing {
 namespace {
 
-class Answer : public ::testing::TestWithParam<Method> {
+class Answer : public MethodTest {
  protected:
   LinkDistance only_link(const ImagePair& images, double range_m = 1.0) const {
     return answer(GetParam(), images, range_m).links.at(0);
@@ -168,13 +168,10 @@ TEST_P(Answer, AUsedWorkspaceGivesTheAnswerOfAFreshOne) {
   const ImagePair scenes[] = {random_images(1, 160, 120, 8), random_images(2, 65, 200, 3),
                               empty_images(9, 5, 1),         random_images(4, 160, 120, 8),
                               random_images(1, 160, 120, 8), random_images(7, 20, 20, 64)};
-  ObstacleTree tree;
-  EvaluateWorkspace workspace;
+  AnswerWorkspace workspace;
   LinkDistances out;
   for (const ImagePair& images : scenes) {
-    build_obstacle_tree(images.obstacle_depth_m, tree);
-    evaluate(GetParam(), images.camera, images.robot, images.obstacle_depth_m, tree,
-             images.link_count, {1.0, false}, workspace, out);
+    answer(GetParam(), images, images.obstacle_depth_m, {1.0, false}, workspace, out);
     const LinkDistances fresh = answer(GetParam(), images);
     ASSERT_EQ(out.links.size(), fresh.links.size());
     EXPECT_EQ(out.pairs, fresh.pairs);
@@ -216,7 +213,7 @@ TEST(Methods, HaveNames) {
   EXPECT_EQ(method_from_name("brute_force"), Method::brute_force);
   EXPECT_EQ(method_from_name("Exact"), std::nullopt);
   EXPECT_EQ(method_from_name(""), std::nullopt);
-  EXPECT_EQ(method_names(), "exact, brute_force, lattice");
+  EXPECT_EQ(method_names(), "exact, brute_force, lattice, gl_exact, gl_lattice, gl_hybrid");
 }
 
 TEST(BranchAndBound, ComputesFewOfThePairs) {

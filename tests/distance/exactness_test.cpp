@@ -1,4 +1,4 @@
-// Every method finds the minimum over all pairs, lattice a pair that is never closer; exact on
+// Every method finds the minimum over all pairs, the lattices a pair that is never closer; exact on
 // every instruction set that this machine has.
 #include <cmath>
 
@@ -9,7 +9,7 @@
 namespace berth::testing {
 namespace {
 
-class Exactness : public ::testing::TestWithParam<Method> {
+class Exactness : public MethodTest {
  protected:
   void expect_as_brute_force(const ImagePair& images, double range_m = 1.0) const {
     const LinkDistances truth = answer(Method::brute_force, images, range_m);
@@ -38,7 +38,7 @@ TEST_P(Exactness, IsTheLeastPlainDistanceOnSmallRandomScenes) {
     for (const LinkDistance& link : found.links) {
       const auto least_m = plain_least_distance_m(images, link.id);
       const bool in_range = least_m && *least_m <= 1;
-      if (GetParam() == Method::lattice) {
+      if (!finds_the_closest(GetParam())) {
         EXPECT_TRUE(link.status != LinkStatus::ok || link.distance_m >= least_m.value() - 1e-5);
         continue;
       }
@@ -201,11 +201,9 @@ TEST_P(Exactness, AnObstacleImageWithGapsBetweenItsRowsCountsWithoutThem) {
     for (int u = 0; u < 61; ++u) wide(u, v) = images.obstacle_depth_m(u, v);
   }
   const DepthView view{wide.row(0), 61, 40, 80};
-  ObstacleTree tree;
-  build_obstacle_tree(view, tree);
-  EvaluateWorkspace workspace;
+  AnswerWorkspace workspace;
   LinkDistances out;
-  evaluate(GetParam(), images.camera, images.robot, view, tree, 3, {1.0, false}, workspace, out);
+  answer(GetParam(), images, view, {1.0, false}, workspace, out);
   expect_answer_of(GetParam(), answer(Method::brute_force, images), out, images);
 }
 

@@ -8,7 +8,7 @@ namespace berth::testing {
 namespace {
 
 class InstructionSets : public ::testing::TestWithParam<Method> {};
-INSTANTIATE_TEST_SUITE_P(Methods, InstructionSets, ::testing::ValuesIn(kMethods), method_test_name);
+INSTANTIATE_TEST_SUITE_P(Methods, InstructionSets, ::testing::ValuesIn(kCpuMethods), method_test_name);
 
 TEST_P(InstructionSets, GiveTheSameDistances) {
   for (std::uint32_t seed = 0; seed < 10; ++seed) {

@@ -1,5 +1,7 @@
 #include "berth/distance/evaluate.hpp"
 
+#include <stdexcept>
+
 #include "berth/distance/brute_force.hpp"
 
 namespace berth {
@@ -12,9 +14,17 @@ std::string_view name_of(Method method) {
       return "brute_force";
     case Method::lattice:
       return "lattice";
+    case Method::gl_exact:
+      return "gl_exact";
+    case Method::gl_lattice:
+      return "gl_lattice";
+    case Method::gl_hybrid:
+      return "gl_hybrid";
   }
   return {};
 }
+
+bool runs_on_opengl(Method method) { return name_of(method).starts_with("gl_"); }
 
 std::optional<Method> method_from_name(std::string_view name) {
   for (const Method method : kMethods) {
@@ -45,6 +55,11 @@ void evaluate(Method method, const Camera& camera, const RobotImage& robot,
     case Method::lattice:
       lattice(camera, robot, obstacle_depth_m, link_count, settings, workspace.lattice, out);
       break;
+    case Method::gl_exact:
+    case Method::gl_lattice:
+    case Method::gl_hybrid:
+      throw std::invalid_argument("method " + std::string(name_of(method)) +
+                                  " runs on OpenGL; expected one that does not");
   }
   if (settings.mean_direction) {
     fill_mean_directions(camera, robot, obstacle_depth_m, obstacles, settings, workspace.directions,

@@ -11,15 +11,20 @@
 
 namespace berth {
 
-/// The ways to find the closest pairs. Each has the name of its enumerator.
-enum class Method { exact, brute_force, lattice };
+/// The ways to find the closest pairs. Each has the name of its enumerator; those with gl_ run on
+/// OpenGL (GlEvaluator).
+enum class Method { exact, brute_force, lattice, gl_exact, gl_lattice, gl_hybrid };
 
-inline constexpr std::array kMethods = {Method::exact, Method::brute_force, Method::lattice};
+inline constexpr std::array kMethods = {Method::exact,    Method::brute_force, Method::lattice,
+                                        Method::gl_exact, Method::gl_lattice,  Method::gl_hybrid};
+inline constexpr std::array kCpuMethods = {Method::exact, Method::brute_force, Method::lattice};
+
+bool runs_on_opengl(Method method);
 
 std::string_view name_of(Method method);
 /// Nothing if no method has this name.
 std::optional<Method> method_from_name(std::string_view name);
-/// "exact, brute_force, lattice", for messages.
+/// "exact, brute_force, ...", for messages.
 std::string method_names();
 
 /// The memory of evaluate(), made once and used for every question; one for each thread. It carries
@@ -35,7 +40,8 @@ struct EvaluateWorkspace {
 /// obstacle_depth_m and the tree built from it are the same image; only brute_force and lattice
 /// do without the tree, unless mean directions are asked for. Both images have the camera's size.
 /// Link ids go from 1 to link_count; pixels of kEnvironmentLink are not evaluated, any other id is
-/// a programming error. Throws std::invalid_argument for bad settings.
+/// a programming error. Throws std::invalid_argument for bad settings, and for a method that runs
+/// on OpenGL.
 void evaluate(Method method, const Camera& camera, const RobotImage& robot,
               DepthView obstacle_depth_m, const ObstacleTree& obstacles, int link_count,
               const DistanceSettings& settings, EvaluateWorkspace& workspace, LinkDistances& out);

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <vector>
-
 #include "berth/distance/link_lattice.hpp"
+#include "berth/distance/link_pixels.hpp"
 #include "berth/distance/settings.hpp"
 #include "berth/types/camera.hpp"
 #include "berth/types/link_distance.hpp"
@@ -13,13 +12,8 @@ namespace berth {
 /// The memory of lattice(), made once and used for every question; one for each thread that asks.
 /// It carries nothing from one answer to the next.
 struct LatticeWorkspace {
-  /// All pixels by link, the links' by rows; those of link i begin at first_pixel[i].
-  std::vector<Pixel> pixels;
-  std::vector<int> first_pixel;
-  /// Empty between two links.
-  PixelSet link;
-  PixelSet candidates;
-  std::vector<Pixel> points;
+  LinkPixels pixels;
+  LinkLattice lattice;
 };
 
 /// The thesis's evaluator on the CPU (Hirt 2.2.4, 3.1.2), **approximate**: per link a lattice of

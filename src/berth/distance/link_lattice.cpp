@@ -81,4 +81,34 @@ void take_lattice(int radius_px, int v_begin, PixelSet& candidates, std::vector<
   }
 }
 
+void LinkLattice::reset(int width, int height) {
+  link_.reset(width, height);
+  candidates_.reset(width, height);
+}
+
+void LinkLattice::begin(std::span<const Pixel> pixels) {
+  pixels_ = pixels;
+  for (const Pixel pixel : pixels) link_.insert(pixel);
+}
+
+const std::vector<Pixel>& LinkLattice::of_link(int radius_px) {
+  for (const Pixel pixel : pixels_) candidates_.insert(pixel);
+  take_lattice(radius_px, pixels_.empty() ? 0 : pixels_.front().v, candidates_, points_);
+  return points_;
+}
+
+const std::vector<Pixel>& LinkLattice::within(const PixelDisc& disc, int radius_px) {
+  candidates_.insert_within(disc, link_);
+  take_lattice(radius_px, std::max(disc.center.v - disc.radius_px, 0), candidates_, points_);
+  return points_;
+}
+
+void LinkLattice::end() {
+  for (const Pixel pixel : pixels_) link_.erase(pixel);
+}
+
+int finer_radius_px(int radius_px, int final_radius_px) {
+  return std::max(radius_px / 2, final_radius_px);
+}
+
 }  // namespace berth

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "berth/types/image.hpp"
@@ -38,5 +39,29 @@ class PixelSet {
 /// A link's lattice (Hirt 2.2.4, 3.1.2): by rows from v_begin on, each pixel that lies in no circle
 /// of this radius around one taken before. Empties `candidates`, which has no pixel above v_begin.
 void take_lattice(int radius_px, int v_begin, PixelSet& candidates, std::vector<Pixel>& lattice);
+
+/// The lattices of one link after another, with the memory for them.
+class LinkLattice {
+ public:
+  /// For links of images of this size.
+  void reset(int width, int height);
+  /// Begins a link; its pixels by rows, which stay where they are until end().
+  void begin(std::span<const Pixel> pixels);
+  /// Points whose circles of this radius hold all of the link, until the next call here or below.
+  const std::vector<Pixel>& of_link(int radius_px);
+  /// The same for the link's pixels within a disc.
+  const std::vector<Pixel>& within(const PixelDisc& disc, int radius_px);
+  void end();
+
+ private:
+  /// Empty between two links.
+  PixelSet link_;
+  PixelSet candidates_;
+  std::span<const Pixel> pixels_;
+  std::vector<Pixel> points_;
+};
+
+/// The next, finer radius: half, and at least the final one.
+int finer_radius_px(int radius_px, int final_radius_px);
 
 }  // namespace berth

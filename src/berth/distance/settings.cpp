@@ -28,6 +28,7 @@ void validate(const LatticeSettings& lattice) {
   require_pixels("initial_grid_radius_px", lattice.initial_grid_radius_px);
   require_pixels("final_grid_radius_px", lattice.final_grid_radius_px,
                  lattice.initial_grid_radius_px, ", the initial_grid_radius_px");
+  require_pixels("tile_px", lattice.tile_px, kMaxTilePx);
 }
 
 }  // namespace

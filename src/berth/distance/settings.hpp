@@ -6,17 +6,21 @@
 
 namespace berth {
 
-/// For `lattice` (Hirt 3.1.2). Of what the thesis advises (3.2), the defaults are the careful end:
-/// larger steps and a larger first radius save time and miss more.
+/// For `lattice`, `gl_hybrid` and `gl_lattice` (Hirt 3.1.2, 3.1.3). Of what the thesis advises
+/// (3.2), the defaults are the careful end: larger steps and a larger first radius save time and
+/// miss more.
 struct LatticeSettings {
   /// Of a robot pixel's region only every step_x-th column and step_y-th row is tried, except in
   /// the last step.
   int step_x = 1;
   int step_y = 1;
-  /// Radius of the circles around the points of a link's first lattice.
+  /// Radius of the circles around the points of a link's first lattice; not in gl_lattice.
   int initial_grid_radius_px = 40;
-  /// Radius of the finest circles; around the closest point, of the last step too.
+  /// Radius of the finest circles, in gl_lattice the size of the finest tiles; around the closest
+  /// point, of the last step too.
   int final_grid_radius_px = 2;
+  /// gl_lattice: size of the tiles of the first lattice.
+  int tile_px = 16;
 };
 
 /// What is asked of every method of the distance stage.
@@ -37,10 +41,12 @@ struct DistanceSettings {
 
 /// The steps and radii of LatticeSettings lie between 1 and this.
 inline constexpr int kMaxLatticePx = 65536;
+/// And tile_px between 1 and this.
+inline constexpr int kMaxTilePx = 64;
 
 /// Throws std::invalid_argument, naming key and value, unless range_m is finite and above 0,
 /// tolerance_m finite and at least 0, deadline_us at least 0, steps and radii of the lattice from 1
-/// to kMaxLatticePx, and the final radius at most the initial one.
+/// to kMaxLatticePx, its tiles from 1 to kMaxTilePx, and the final radius at most the initial one.
 void validate(const DistanceSettings& settings);
 
 }  // namespace berth

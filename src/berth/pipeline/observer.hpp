@@ -27,10 +27,11 @@ class Observer {
   void observe(DepthView depth_m, double stamp_s, const JointBuffer& joints, Frame& frame);
 
   /// Takes what the image shows where the robot is not as background of the frames to come
-  /// (Background). `frame` is what observe made of `depth_m`. For images of the place as it is
-  /// meant to be, and of frames whose joints are known, since others are passed over: somebody who stands still becomes background too, and then is an obstacle for as
-  /// long as the robot hides where he stood. Throws std::invalid_argument where
-  /// SensorSettings::background_frames is 0, and for a wrong size.
+  /// (Background). `frame` is what observe made of `depth_m`; one whose joints are not known (its
+  /// time is not ok) is passed over. For images of the place as it is meant to be: somebody who
+  /// stands still becomes background too, and then is an obstacle for as long as the robot hides
+  /// where he stood. Throws std::invalid_argument where SensorSettings::background_frames is 0, and
+  /// for a wrong size.
   void learn_background(DepthView depth_m, const Frame& frame);
 
  private:

@@ -1,0 +1,85 @@
+#include "berth/opengl/gl_evaluate.hpp"
+
+#include <fmt/format.h>
+
+#include <cassert>
+#include <optional>
+#include <stdexcept>
+
+#include "berth/opengl/gl_exact.hpp"
+#include "berth/opengl/gl_hybrid.hpp"
+#include "berth/opengl/gl_lattice.hpp"
+
+namespace berth {
+
+/// Images of this program's memory, on the GPU.
+struct UploadedImages {
+  UploadedImages(int width, int height)
+      : upload(width, height),
+        robot(width, height),
+        obstacle_depth_m(GlPixel::depth_m, width, height) {}
+
+  GlUpload upload;
+  GlRobotImage robot;
+  GlTexture obstacle_depth_m;
+};
+
+struct GlEvaluator::State {
+  std::optional<UploadedImages> uploaded;
+  std::optional<GlExact> exact;
+  std::optional<GlLattice> lattice;
+  std::optional<GlHybrid> hybrid;
+  /// For hybrid, whose lattices are made on the CPU.
+  RobotImage robot;
+
+  GlHybrid& made_hybrid() { return hybrid ? *hybrid : hybrid.emplace(); }
+};
+
+GlEvaluator::GlEvaluator() : state_(std::make_unique<State>()) {}
+
+GlEvaluator::~GlEvaluator() = default;
+
+void GlEvaluator::evaluate(Method method, const Camera& camera, const GlRobotImage& robot,
+                           const GlTexture& obstacle_depth_m, int link_count,
+                           const DistanceSettings& settings, LinkDistances& out) {
+  switch (method) {
+    case Method::gl_exact:
+      if (!state_->exact) state_->exact.emplace();
+      state_->exact->evaluate(camera, robot, obstacle_depth_m, link_count, settings, out);
+      return;
+    case Method::gl_lattice:
+      if (!state_->lattice) state_->lattice.emplace();
+      state_->lattice->evaluate(camera, robot, obstacle_depth_m, link_count, settings, out);
+      return;
+    case Method::gl_hybrid:
+      read_back(robot, state_->robot);
+      state_->made_hybrid().evaluate(camera, state_->robot, obstacle_depth_m, link_count, settings,
+                                     out);
+      return;
+    case Method::exact:
+    case Method::brute_force:
+    case Method::lattice:
+      break;
+  }
+  throw std::invalid_argument(
+      fmt::format("method {} does not run on OpenGL; expected one that does", name_of(method)));
+}
+
+void GlEvaluator::evaluate(Method method, const Camera& camera, const RobotImage& robot,
+                           DepthView obstacle_depth_m, int link_count,
+                           const DistanceSettings& settings, LinkDistances& out) {
+  std::optional<UploadedImages>& uploaded = state_->uploaded;
+  const bool fits = uploaded && uploaded->obstacle_depth_m.width() == obstacle_depth_m.width &&
+                    uploaded->obstacle_depth_m.height() == obstacle_depth_m.height;
+  if (!fits) uploaded.emplace(obstacle_depth_m.width, obstacle_depth_m.height);
+  uploaded->upload.send(obstacle_depth_m, uploaded->obstacle_depth_m);
+  if (method == Method::gl_hybrid) {
+    state_->made_hybrid().evaluate(camera, robot, uploaded->obstacle_depth_m, link_count, settings,
+                                   out);
+    return;
+  }
+  uploaded->upload.send(robot, uploaded->robot);
+  evaluate(method, camera, uploaded->robot, uploaded->obstacle_depth_m, link_count, settings, out);
+}
+
+}  // namespace berth

@@ -1,0 +1,113 @@
+#include "berth/opengl/gl_exact.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "berth/opengl/gl_metric.hpp"
+
+namespace berth {
+namespace {
+
+constexpr int kTilePx = 8;
+/// Workgroups of a search, at most; each takes the next robot tiles until none is left.
+constexpr int kMostGroups = 1024;
+
+/// Bytes of the structs of obstacle_tile.glsl, robot_tile.glsl and closest_pair.glsl.
+constexpr std::size_t kObstacleTileBytes = 16;
+constexpr std::size_t kRobotTileBytes = 32;
+constexpr std::size_t kPairBytes = 20;
+
+Eigen::Vector2i tiles_of(const Camera& camera) {
+  return {(camera.width_px + kTilePx - 1) / kTilePx, (camera.height_px + kTilePx - 1) / kTilePx};
+}
+
+/// A tile has no more links than pixels.
+std::size_t most_robot_tiles(const Eigen::Vector2i& tiles, int link_count) {
+  return static_cast<std::size_t>(tiles.prod()) * std::min(link_count, kTilePx * kTilePx);
+}
+
+GlBuffer device(std::size_t bytes) { return {bytes, GlMemory::device}; }
+
+}  // namespace
+
+GlExact::GlExact()
+    : obstacle_tiles_program_("obstacle_tiles.comp.glsl"),
+      robot_tiles_program_("robot_tiles.comp.glsl"),
+      first_program_("exact_first.comp.glsl"),
+      search_program_("exact_search.comp.glsl"),
+      finish_program_("exact_finish.comp.glsl") {}
+
+void GlExact::prepare(const Camera& camera, int link_count) {
+  answers_.prepare(camera, link_count);
+  finish_program_.bind("LinkAnswers", answers_.device());
+  const Eigen::Vector2i tiles = tiles_of(camera);
+  if (tiles != tiles_ || link_count != link_count_) {
+    tiles_ = tiles;
+    link_count_ = link_count;
+    take_memory();
+  }
+  for (GlProgram* program : {&first_program_, &search_program_}) {
+    program->set("intrinsics", gl_intrinsics(metric_of(camera)));
+    program->set("tiles", tiles_);
+  }
+  robot_tiles_program_.set("link_count", link_count);
+}
+
+void GlExact::take_memory() {
+  const std::size_t robot_tiles = most_robot_tiles(tiles_, link_count_);
+  obstacle_tiles_ = device(tiles_.prod() * kObstacleTileBytes);
+  robot_tiles_ = device(robot_tiles * kRobotTileBytes);
+  robot_tile_count_ = device(sizeof(std::uint32_t));
+  link_pixels_ = device(link_count_ * sizeof(std::uint32_t));
+  link_best_ = device(link_count_ * sizeof(std::uint32_t));
+  tile_best_ = device(robot_tiles * kPairBytes);
+  tile_pairs_ = device(robot_tiles * sizeof(std::uint32_t));
+
+  obstacle_tiles_program_.bind("ObstacleTiles", obstacle_tiles_);
+  robot_tiles_program_.bind("LinkPixels", link_pixels_);
+  finish_program_.bind("LinkPixels", link_pixels_);
+  for (GlProgram* program :
+       {&robot_tiles_program_, &first_program_, &search_program_, &finish_program_}) {
+    program->bind("RobotTiles", robot_tiles_);
+    program->bind("RobotTileCount", robot_tile_count_);
+  }
+  for (GlProgram* program : {&first_program_, &search_program_}) {
+    program->bind("ObstacleTiles", obstacle_tiles_);
+    program->bind("LinkBest", link_best_);
+  }
+  for (GlProgram* program : {&search_program_, &finish_program_}) {
+    program->bind("TileBest", tile_best_);
+    program->bind("TilePairs", tile_pairs_);
+  }
+}
+
+void GlExact::find_tiles(const GlRobotImage& robot, const GlTexture& obstacle_depth_m) {
+  robot_tile_count_.fill(0);
+  link_pixels_.fill(0);
+  obstacle_tiles_program_.read("obstacle_depth_m", obstacle_depth_m);
+  obstacle_tiles_program_.dispatch(tiles_.x(), tiles_.y());
+  robot_tiles_program_.read("robot_depth_m", robot.depth_m);
+  robot_tiles_program_.read("link_id", robot.link_id);
+  robot_tiles_program_.dispatch(tiles_.x(), tiles_.y());
+}
+
+void GlExact::evaluate(const Camera& camera, const GlRobotImage& robot,
+                       const GlTexture& obstacle_depth_m, int link_count,
+                       const DistanceSettings& settings, LinkDistances& out) {
+  validate(settings);
+  prepare(camera, link_count);
+  find_tiles(robot, obstacle_depth_m);
+  link_best_.fill(std::bit_cast<std::uint32_t>(gl_farthest_m2(settings.range_m)));
+  const int groups = std::clamp(tiles_.prod(), 1, kMostGroups);
+  first_program_.dispatch(groups);
+  search_program_.read("robot_depth_m", robot.depth_m);
+  search_program_.read("link_id", robot.link_id);
+  search_program_.read("obstacle_depth_m", obstacle_depth_m);
+  search_program_.dispatch(groups);
+  finish_program_.read("robot_depth_m", robot.depth_m);
+  answers_.set_region(finish_program_, settings.range_m);
+  finish_program_.dispatch(std::max(link_count_, 1));
+  answers_.finish(obstacle_depth_m, settings, true, out);
+}
+
+}  // namespace berth

@@ -1,0 +1,51 @@
+#include "berth/opengl/gl_context.hpp"
+
+#include "berth/opengl/gl_buffer.hpp"
+#include "testing/gl_test.hpp"
+
+namespace berth {
+namespace {
+
+class GlContextTest : public testing::GlTest {};
+
+std::string message_of(std::string_view device) {
+  try {
+    GlContext context(device);
+  } catch (const GlUnavailable& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST_F(GlContextTest, DevicesAreFoundByNumberAndByPartOfTheirName) {
+  const std::vector<std::string> devices = gl_devices();
+  ASSERT_FALSE(devices.empty());
+  EXPECT_EQ(GlContext("0").renderer(), devices[0]);
+  EXPECT_EQ(GlContext(devices[0].substr(1, 5)).renderer(), devices[0]);
+  context().make_current();
+}
+
+TEST_F(GlContextTest, AnUnknownDeviceIsRefusedWithTheNamesThatThereAre) {
+  const std::string message = message_of("no such GPU");
+  EXPECT_NE(message.find("\"no such GPU\""), std::string::npos) << message;
+  EXPECT_NE(message.find("0 (" + gl_devices()[0]), std::string::npos) << message;
+  EXPECT_NE(message_of("77").find("\"77\""), std::string::npos);
+  context().make_current();
+}
+
+TEST_F(GlContextTest, AFailedCallIsReportedOnceWithItsPlace) {
+  GlBuffer buffer(16, GlMemory::device);
+  buffer.copy_to(buffer, 1000);
+  try {
+    context().check("copying");
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("copying"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("GL_INVALID_VALUE"), std::string::npos)
+        << error.what();
+  }
+  context().check("afterwards");
+}
+
+}  // namespace
+}  // namespace berth
