@@ -25,11 +25,6 @@ struct Extent {
 
 constexpr Extent kQuick{2, 1, 1, 1, 2, 1, {3, 5, 50}};
 
-/// The name of the folder that a scene stands in.
-std::string title_of(const std::filesystem::path& scene_file) {
-  return "Recording " + std::filesystem::absolute(scene_file).parent_path().filename().string();
-}
-
 void measure_recording(const std::shared_ptr<const Recording>& recording, const Extent& extent,
                        Report& report) {
   report.add(compare_peers(recorded_scenes(recording, extent.recorded_frames), extent.limits));
@@ -46,7 +41,7 @@ void run_benchmarks(const BenchSettings& settings) {
   const auto bundled = open_recording(settings.bundled_scene, "Bundled scene");
   std::vector<std::shared_ptr<const Recording>> recordings;
   for (const auto& file : settings.scenes)
-    recordings.push_back(open_recording(file, title_of(file)));
+    recordings.push_back(open_recording(file, recording_title(file)));
 
   report.add(compare_peers(random_scenes(extent.random_scenes), extent.limits));
   report.add(compare_peers(hard_scenes(extent.hard_scenes), extent.limits));

@@ -8,7 +8,7 @@
 #include "bench/embree_rays.hpp"
 #include "bench/growth.hpp"
 #include "bench/statistics.hpp"
-#include "bench/stopwatch.hpp"
+#include "measure/stopwatch.hpp"
 #include "bench/subdivide.hpp"
 #include "bench/triangle_count.hpp"
 #include "berth/pipeline/asker.hpp"

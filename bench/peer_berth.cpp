@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "bench/instruction_set.hpp"
+#include "measure/instruction_set.hpp"
 #include "bench/peer.hpp"
 #include "berth/distance/evaluate.hpp"
 

@@ -54,14 +54,9 @@ class Frames {
 
 }  // namespace
 
-std::shared_ptr<const Recording> open_recording(const std::filesystem::path& file,
-                                                std::string title) {
-  return std::make_shared<const Recording>(Recording{std::move(title), open_scene(file, {})});
-}
-
 SceneSet recorded_scenes(std::shared_ptr<const Recording> recording, int max_count) {
   const Camera& camera = recording->camera().rig->camera();
-  const int frames = static_cast<int>(recording->camera().source.depth.size());
+  const int frames = recording->frame_count();
   const int count = std::min(frames, max_count);
   const auto make = std::make_shared<Frames>(recording);
   return {recording->title,
@@ -69,8 +64,8 @@ SceneSet recorded_scenes(std::shared_ptr<const Recording> recording, int max_cou
                       count, frames, camera.width_px, camera.height_px,
                       recording->camera().rig->model().link_count(),
                       recording->camera().rig->settings().distance.range_m),
-          count, [make, frames, count](int i) {
-            return (*make)(static_cast<std::size_t>(i) * frames / count);
+          count, [make, recording, count](int i) {
+            return (*make)(recording->sampled_frame(i, count));
           }};
 }
 

@@ -7,7 +7,7 @@
 #include "apps/berth/progress_bar.hpp"
 #include "bench/embree_rays.hpp"
 #include "bench/statistics.hpp"
-#include "bench/stopwatch.hpp"
+#include "measure/stopwatch.hpp"
 #include "bench/triangle_count.hpp"
 #include "berth/distance/mean_direction.hpp"
 #include "berth/pipeline/asker.hpp"

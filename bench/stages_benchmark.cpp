@@ -18,8 +18,8 @@ constexpr std::size_t kFrame = 19;
 
 /// The frame, and all that its stages made of it.
 struct Example {
-  std::shared_ptr<const bench::Recording> recording =
-      bench::open_recording(std::filesystem::path(BERTH_BUNDLED_SCENE) / "scene.yaml", "bundled");
+  std::shared_ptr<const Recording> recording =
+      open_recording(std::filesystem::path(BERTH_BUNDLED_SCENE) / "scene.yaml", "bundled");
   const Rig& rig = *recording->camera().rig;
   const JointState& joints = recording->camera().at_exposure[kFrame];
   const JointState& other_joints = recording->camera().at_exposure[kFrame + 1];

@@ -1,7 +1,7 @@
 #include "bench/timing.hpp"
 
 #include "bench/statistics.hpp"
-#include "bench/stopwatch.hpp"
+#include "measure/stopwatch.hpp"
 
 namespace berth::bench {
 namespace {

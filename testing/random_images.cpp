@@ -2,21 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
+
+#include "testing/random.hpp"
 
 namespace berth::testing {
 namespace {
-
-/// Uniform numbers that are the same with every standard library.
-class Random {
- public:
-  explicit Random(std::uint32_t seed) : engine_(seed) {}
-  double operator()(double lo, double hi) { return lo + (hi - lo) * (engine_() / 4294967296.0); }
-  bool chance(double p) { return (*this)(0, 1) < p; }
-
- private:
-  std::mt19937 engine_;
-};
 
 Camera random_camera(Random& random, int width, int height) {
   Camera camera{width, height};

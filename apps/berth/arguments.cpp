@@ -87,6 +87,11 @@ void add_surveillance(CLI::App& command, EvaluationArguments& arguments) {
       .add_option("--search-pattern", arguments.search_pattern,
                   "brute_force and lattice: the order of obstacle pixels (default: row_major)")
       ->check(CLI::IsMember(names_of(kSearchPatterns)));
+  command
+      .add_option("--shrinking", arguments.shrinking,
+                  "brute_force and lattice: whether the region shrinks with a link's closest pair "
+                  "(default: per_link, it does)")
+      ->check(CLI::IsMember(names_of(kShrinkings)));
 }
 
 void add_lattice(CLI::App& command, EvaluationArguments& arguments) {
@@ -137,6 +142,7 @@ void require_methods(const EvaluationArguments& arguments, Method used) {
   require_method(arguments.region, "--region", used, watching);
   require_method(arguments.depth_interval, "--depth-interval", used, watching);
   require_method(arguments.search_pattern, "--search-pattern", used, watching);
+  require_method(arguments.shrinking, "--shrinking", used, watching);
   require_method(arguments.step_x, "--step-x", used, lattice);
   require_method(arguments.step_y, "--step-y", used, lattice);
   require_method(arguments.initial_grid_radius_px, "--initial-grid-radius-px", used, lattice);
@@ -157,6 +163,7 @@ SurveillanceSettings surveillance_over(SurveillanceSettings settings,
   if (arguments.search_pattern) {
     settings.search_pattern = named(kSearchPatterns, *arguments.search_pattern);
   }
+  if (arguments.shrinking) settings.shrinking = named(kShrinkings, *arguments.shrinking);
   return settings;
 }
 

@@ -24,6 +24,7 @@ struct EvaluationArguments {
   std::optional<std::string> region;
   std::optional<std::string> depth_interval;
   std::optional<std::string> search_pattern;
+  std::optional<std::string> shrinking;
   std::optional<int> step_x;
   std::optional<int> step_y;
   std::optional<int> initial_grid_radius_px;

@@ -55,6 +55,7 @@ TEST(Methods, EachOptionOfLatticeChangesTheSearch) {
   EXPECT_NE(pairs_with({"--search-pattern", "spiral"}), without);
   EXPECT_GT(pairs_with({"--region", "image"}), without);
   EXPECT_NE(pairs_with({"--depth-interval", "cube"}), without);
+  EXPECT_GT(pairs_with({"--shrinking", "none"}), without);
 }
 
 TEST(Methods, BruteForceWithARegionGivesWhatItGivesWithout) {
@@ -80,6 +81,7 @@ TEST(Methods, OptionsAreRefusedForAMethodThatDoesNotHaveThem) {
   std::vector<Wrong> table = {{"exact", "--region", "image"},
                               {"exact", "--depth-interval", "cube"},
                               {"exact", "--search-pattern", "spiral"},
+                              {"exact", "--shrinking", "none"},
                               {"lattice", "--tolerance-m", "0.1"},
                               {"lattice", "--deadline-us", "5"}};
   for (const std::string option :

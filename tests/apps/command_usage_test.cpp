@@ -65,6 +65,7 @@ TEST(Usage, WrongCommandLineIsRefused) {
       {evaluate_with({"--region", "cube"}), "--region"},
       {evaluate_with({"--depth-interval", "Cube"}), "--depth-interval"},
       {evaluate_with({"--search-pattern", "zigzag"}), "--search-pattern"},
+      {evaluate_with({"--shrinking", "on"}), "--shrinking"},
       {evaluate_with({"--step-x", "0"}), "--step-x"},
       {evaluate_with({"--step-x", "1.5"}), "--step-x"},
       {evaluate_with({"--step-y", "-1"}), "--step-y"},

@@ -94,6 +94,27 @@ TEST_P(BruteForceWithARegion, CountsTheObstaclePixelsInTheRegion) {
   EXPECT_LE(pairs, (40 - rect.u_begin) * (rect.v_end - rect.v_begin));
 }
 
+TEST_P(BruteForceWithARegion, ThatDoesNotShrinkGivesTheSameOverMorePairs) {
+  SurveillanceSettings whole = cube();
+  whole.shrinking = Shrinking::none;
+  std::int64_t shrunk_pairs = 0;
+  std::int64_t whole_pairs = 0;
+  std::int64_t near_pairs = 0;
+  for (std::uint32_t seed = 0; seed < 8; ++seed) {
+    SCOPED_TRACE(seed);
+    const ImagePair images = random_images(seed, 90, 70, 4);
+    const LinkDistances shrunk = answer(Method::brute_force, images, settings_with(cube(), 2));
+    const LinkDistances kept = answer(Method::brute_force, images, settings_with(whole, 2));
+    expect_identical(shrunk, kept);
+    shrunk_pairs += shrunk.pairs;
+    whole_pairs += kept.pairs;
+    near_pairs += answer(Method::brute_force, images, settings_with(whole, 0.5)).pairs;
+  }
+  EXPECT_GT(whole_pairs, 2 * shrunk_pairs);
+  EXPECT_GT(whole_pairs, 2 * near_pairs) << "they grow with L";
+  EXPECT_GT(near_pairs, 0);
+}
+
 TEST_P(BruteForceWithARegion, TheThesissCubeLosesAnObstacleInFrontOfIt) {
   ImagePair images = empty_images(90, 60, 1);
   put_robot(images, 40, 30, 2.0f);
@@ -167,13 +188,11 @@ TEST_P(BruteForceWithARegion, TellsThePairThatLiesInTheCube) {
 }
 
 Surveillance surveillance_of(const ImagePair& images, const Metric& metric, DepthView obstacle_m,
-                             SearchPattern pattern) {
-  return {images.camera,
-          metric,
-          obstacle_m,
-          SurveillanceRegion::cube_projection,
-          DepthInterval::gray_area,
-          pattern};
+                             SearchPattern pattern, Shrinking shrinking = Shrinking::per_link) {
+  return berth::surveillance_of(
+      images.camera, metric, obstacle_m,
+      settings_with({.search_pattern = pattern, .shrinking = shrinking}, 0.9),
+      SurveillanceRegion::cube_projection);
 }
 
 TEST(SearchAround, ShrinksItsRegionAsItGoes) {
@@ -188,6 +207,24 @@ TEST(SearchAround, ShrinksItsRegionAsItGoes) {
     EXPECT_NEAR(best.squared_m2, 0.0004, 1e-5);
     // From the top it needs half of the image.
     EXPECT_LT(pairs, pattern == SearchPattern::row_major ? 64 * 25 : 64 * 4);
+  }
+}
+
+TEST(SearchAround, WithoutShrinkingSeesAllOfTheRegion) {
+  ImagePair images = empty_images(64, 48, 1);
+  const Metric metric = metric_of(images.camera);
+  put_obstacle(images, {0, 0, 64, 48}, 1.02f);
+  put_obstacle(images, {30, 20, 31, 21}, 1.0f);
+  const PixelRect region = region_of_surveillance(images.camera, {30, 20}, 4.0f, 0.9 * (1 + 1e-5));
+  ASSERT_GT(region.u_begin, 0) << "it is not the whole image";
+  for (const SearchPattern pattern : kSearchPatterns) {
+    const Surveillance surveillance =
+        surveillance_of(images, metric, images.obstacle_depth_m, pattern, Shrinking::none);
+    ClosestPair best = no_pair_within(0.9f);
+    const std::int64_t all = (region.u_end - region.u_begin) * (region.v_end - region.v_begin);
+    EXPECT_EQ(search_around(surveillance, {30, 20}, 4.0f, {1, 1}, best), all);
+    EXPECT_EQ(best.squared_m2, 0);
+    EXPECT_EQ(search_around(surveillance, {30, 20}, 4.0f, {1, 1}, best), all) << "nor afterwards";
   }
 }
 
@@ -217,12 +254,10 @@ TEST(SearchAround, WithStepsSeesEveryStepthPixelOnly) {
   put_obstacle(images, {0, 0, 64, 48}, 1.0f);
   for (const SearchPattern pattern : kSearchPatterns) {
     for (const PixelStep step : {PixelStep{1, 1}, {3, 2}, {7, 7}, {16, 1}}) {
-      const Surveillance surveillance{images.camera,
-                                      metric,
-                                      images.obstacle_depth_m,
-                                      SurveillanceRegion::image,
-                                      DepthInterval::gray_area,
-                                      pattern};
+      const Surveillance surveillance = berth::surveillance_of(
+          images.camera, metric, images.obstacle_depth_m,
+          settings_with({.region = SurveillanceRegion::image, .search_pattern = pattern}),
+          SurveillanceRegion::cube_projection);
       ClosestPair best{1e-30f};
       // The robot pixel itself has no reading, so that nothing touches it.
       images.obstacle_depth_m(30, 20) = kNoDepth;

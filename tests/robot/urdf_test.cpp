@@ -1,6 +1,7 @@
 // What a valid URDF becomes. Broken ones: urdf_error_test.cpp; poses: kinematics_test.cpp.
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <numbers>
 
 #include "berth/robot/primitives.hpp"
@@ -53,6 +54,16 @@ TEST(Urdf, IdsCountTheEvaluatedLinksInTheOrderOfTheLinks) {
     EXPECT_EQ(model.links[i].id, i + 1);
     EXPECT_EQ(model.links[i].role, LinkRole::evaluated);
     EXPECT_EQ(model.evaluated_link_names()[i], model.links[i].name);
+  }
+}
+
+TEST(Urdf, JointsCarryTheirLimitsAndContinuousOnesHaveNone) {
+  const RobotModel model = load(tree_xml());
+  ASSERT_EQ(model.joints.size(), 3U);
+  for (const MovableJoint& joint : model.joints) {
+    const bool is_free = joint.type == JointType::continuous;
+    EXPECT_EQ(joint.upper, is_free ? std::numeric_limits<double>::infinity() : 9) << joint.name;
+    EXPECT_EQ(joint.lower, -joint.upper) << joint.name;
   }
 }
 

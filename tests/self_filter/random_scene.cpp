@@ -3,40 +3,32 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
+
+#include "testing/random.hpp"
 
 namespace berth {
 namespace {
 
-/// Uniform numbers that are the same with every standard library.
-class Random {
- public:
-  explicit Random(std::uint32_t seed) : engine_(seed) {}
-  double operator()(double low, double high) {
-    return low + (high - low) * (engine_() / 4294967296.0);
-  }
-  bool chance(double p) { return (*this)(0, 1) < p; }
-  int whole(int low, int high) { return static_cast<int>((*this)(low, high + 1)); }
-  /// 0 now and then.
-  double setting(double low, double high) { return chance(0.15) ? 0 : (*this)(low, high); }
+using testing::Random;
 
- private:
-  std::mt19937 engine_;
-};
+/// 0 now and then.
+double random_setting(Random& random, double low, double high) {
+  return random.chance(0.15) ? 0 : random(low, high);
+}
 
 SelfFilterSettings random_settings(Random& random) {
   SelfFilterSettings settings;
-  settings.tolerance_m = random.setting(0.01, 0.08);
+  settings.tolerance_m = random_setting(random, 0.01, 0.08);
   settings.tolerance_per_m = random.chance(0.3) ? random(0, 0.03) : 0;
   settings.tolerance_per_m2 = random.chance(0.3) ? random(0, 0.03) : 0;
-  settings.padding_m = random.setting(0.005, 0.12);
+  settings.padding_m = random_setting(random, 0.005, 0.12);
   if (random.chance(0.3)) {
     settings.link_padding_m = {random(0, 0.2), std::numeric_limits<double>::quiet_NaN(), 0.0};
   }
   settings.dilation_px = random.chance(0.4) ? random.whole(1, 7) : 0;
-  settings.edge_jump_m = random.setting(0.01, 0.1);
-  settings.island_radius_m = random.setting(0.02, 0.4);
-  settings.island_jump_m = random.setting(0.01, 0.1);
+  settings.edge_jump_m = random_setting(random, 0.01, 0.1);
+  settings.island_radius_m = random_setting(random, 0.02, 0.4);
+  settings.island_jump_m = random_setting(random, 0.01, 0.1);
   return settings;
 }
 

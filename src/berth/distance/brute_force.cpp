@@ -81,13 +81,8 @@ void brute_force(const Camera& camera, const RobotImage& robot, DepthView obstac
   assert(robot.depth_m.width() == obstacle_depth_m.width);
   assert(robot.depth_m.height() == obstacle_depth_m.height);
   const Metric metric = metric_of(camera);
-  const SurveillanceSettings& watched = settings.surveillance;
-  const Surveillance surveillance{camera,
-                                  metric,
-                                  obstacle_depth_m,
-                                  watched.region.value_or(SurveillanceRegion::image),
-                                  watched.depth_interval,
-                                  watched.search_pattern};
+  const Surveillance surveillance =
+      surveillance_of(camera, metric, obstacle_depth_m, settings, SurveillanceRegion::image);
   const bool tries_all = surveillance.region == SurveillanceRegion::image &&
                          surveillance.depth_interval == DepthInterval::gray_area;
   const std::int64_t readings = count_readings(obstacle_depth_m);

@@ -112,13 +112,8 @@ void lattice(const Camera& camera, const RobotImage& robot, DepthView obstacle_d
   assert(robot.depth_m.width() == obstacle_depth_m.width);
   assert(robot.depth_m.height() == obstacle_depth_m.height);
   const Metric metric = metric_of(camera);
-  const SurveillanceSettings& watched = settings.surveillance;
-  const Surveillance surveillance{camera,
-                                  metric,
-                                  obstacle_depth_m,
-                                  watched.region.value_or(SurveillanceRegion::cube_projection),
-                                  watched.depth_interval,
-                                  watched.search_pattern};
+  const Surveillance surveillance = surveillance_of(camera, metric, obstacle_depth_m, settings,
+                                                    SurveillanceRegion::cube_projection);
   const auto range_m = static_cast<float>(settings.range_m);
   sort_pixels(robot, link_count, workspace);
   workspace.link.reset(obstacle_depth_m.width, obstacle_depth_m.height);

@@ -69,11 +69,11 @@ struct Region {
   float depth_hi_m;
 };
 
-/// The region whose L is a little more than the distance of the best pair: the metric rounds, and
-/// what is closer must lie inside.
+/// The region whose L is a little more than the distance of the pair: the metric rounds, and what
+/// is closer must lie inside.
 Region region_within(const Surveillance& surveillance, Pixel robot_pixel, float robot_depth_m,
-                     const ClosestPair& best) {
-  const double range_m = std::sqrt(static_cast<double>(best.squared_m2)) * (1 + 1e-5);
+                     const ClosestPair& pair) {
+  const double range_m = std::sqrt(static_cast<double>(pair.squared_m2)) * (1 + 1e-5);
   const bool is_cube = surveillance.depth_interval == DepthInterval::cube;
   return {region_of_surveillance(surveillance.region, surveillance.camera, robot_pixel,
                                  robot_depth_m, range_m),
@@ -108,12 +108,27 @@ ClosestPair pair_at(const Metric& metric, const WatchedPixel& robot, const Depth
 
 }  // namespace
 
+Surveillance surveillance_of(const Camera& camera, const Metric& metric, DepthView obstacle_depth_m,
+                             const DistanceSettings& settings, SurveillanceRegion usual_region) {
+  const SurveillanceSettings& watched = settings.surveillance;
+  return {camera,
+          metric,
+          obstacle_depth_m,
+          watched.region.value_or(usual_region),
+          watched.depth_interval,
+          watched.search_pattern,
+          watched.shrinking,
+          no_pair_within(static_cast<float>(settings.range_m))};
+}
+
 std::int64_t search_around(const Surveillance& surveillance, Pixel robot_pixel, float robot_depth_m,
                            PixelStep step, ClosestPair& best) {
-  if (best.squared_m2 == 0) return 0;
+  const bool shrinks = surveillance.shrinking == Shrinking::per_link;
+  if (shrinks && best.squared_m2 == 0) return 0;
   const auto least = HWY_DYNAMIC_DISPATCH(least_of_run);
   std::int64_t pairs = 0;
-  Region region = region_within(surveillance, robot_pixel, robot_depth_m, best);
+  Region region = region_within(surveillance, robot_pixel, robot_depth_m,
+                                shrinks ? best : surveillance.none_yet);
   visit_runs(surveillance.search_pattern, robot_pixel, step, region.rect,
              [&](const PixelRun& pixels) {
                if (pixels.count == 0) return;
@@ -125,7 +140,9 @@ std::int64_t search_around(const Surveillance& surveillance, Pixel robot_pixel, 
                pairs += found.pairs;
                if (!(found.squared_m2 < best.squared_m2)) return;
                best = pair_at(surveillance.metric, robot, run, found.squared_m2);
-               region = region_within(surveillance, robot_pixel, robot_depth_m, best);
+               if (shrinks) {
+                 region = region_within(surveillance, robot_pixel, robot_depth_m, best);
+               }
              });
   return pairs;
 }

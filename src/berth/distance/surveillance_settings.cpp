@@ -36,4 +36,14 @@ std::string_view name_of(SearchPattern pattern) {
   return {};
 }
 
+std::string_view name_of(Shrinking shrinking) {
+  switch (shrinking) {
+    case Shrinking::per_link:
+      return "per_link";
+    case Shrinking::none:
+      return "none";
+  }
+  return {};
+}
+
 }  // namespace berth

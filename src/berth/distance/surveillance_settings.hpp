@@ -34,16 +34,25 @@ enum class SearchPattern {
 inline constexpr std::array kSearchPatterns = {SearchPattern::row_major, SearchPattern::oscillating,
                                                SearchPattern::spiral};
 
+/// What becomes of L once a link has a pair.
+enum class Shrinking {
+  per_link,  ///< it is the distance of the link's closest pair so far (Hirt algorithm 2)
+  none,      ///< it stays the range for every robot pixel (Hirt figure 3.5, and for mean vectors)
+};
+inline constexpr std::array kShrinkings = {Shrinking::per_link, Shrinking::none};
+
 std::string_view name_of(SurveillanceRegion region);
 std::string_view name_of(DepthInterval interval);
 std::string_view name_of(SearchPattern pattern);
+std::string_view name_of(Shrinking shrinking);
 
-/// For brute_force and lattice. L begins with the range and shrinks with the link's closest pair.
+/// For brute_force and lattice. L begins with the range.
 struct SurveillanceSettings {
   /// Nothing: image for brute_force, cube_projection for lattice.
   std::optional<SurveillanceRegion> region = std::nullopt;
   DepthInterval depth_interval = DepthInterval::gray_area;
   SearchPattern search_pattern = SearchPattern::row_major;
+  Shrinking shrinking = Shrinking::per_link;
 };
 
 }  // namespace berth

@@ -141,6 +141,14 @@ Joint to_joint(const RobotSettings& settings, const urdf::Joint& source) {
   return joint;
 }
 
+MovableJoint to_movable_joint(const Joint& joint, const urdf::Joint& source) {
+  MovableJoint movable{joint.name, joint.type};
+  if (joint.type == JointType::continuous || !source.limits) return movable;
+  movable.lower = source.limits->lower;
+  movable.upper = source.limits->upper;
+  return movable;
+}
+
 /// Parents before children, so that one pass gives all poses.
 void append_tree(const RobotSettings& settings, const urdf::Link& source,
                  std::optional<std::size_t> parent, RobotModel& model) {
@@ -157,12 +165,13 @@ void number_joints(const urdf::ModelInterface& source, RobotModel& model) {
   std::map<std::string, std::size_t> index_of;
   for (const Link& link : model.links) {
     if (!link.parent || link.joint.type == JointType::fixed) continue;
-    if (source.getJoint(link.joint.name)->mimic) {
+    const urdf::JointConstSharedPtr joint = source.getJoint(link.joint.name);
+    if (joint->mimic) {
       model.mimic_joints.push_back(link.joint.name);
       continue;
     }
     index_of[link.joint.name] = model.joints.size();
-    model.joints.push_back({link.joint.name, link.joint.type});
+    model.joints.push_back(to_movable_joint(link.joint, *joint));
   }
   for (Link& link : model.links) {
     if (!link.parent || link.joint.type == JointType::fixed) continue;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -59,6 +60,9 @@ struct Link {
 struct MovableJoint {
   std::string name;
   JointType type = JointType::revolute;
+  /// The URDF's limits, rad or m: known here, enforced by nobody. A continuous joint has none.
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
 };
 
 struct RobotModel {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-namespace berth::bench {
+namespace berth {
 
 /// Keeps berth's vector code from using instruction sets beyond `target` (a bit of Highway) until
 /// the end of the scope.
@@ -19,4 +19,4 @@ class InstructionSetLimit {
 std::string best_instruction_set();
 bool has_more_than_avx2();
 
-}  // namespace berth::bench
+}  // namespace berth

@@ -2,7 +2,7 @@
 
 #include <ctime>
 
-namespace berth::bench {
+namespace berth {
 
 /// Time since it was made, by the clock on the wall unless another clock is named.
 class Stopwatch {
@@ -24,4 +24,4 @@ class Stopwatch {
   double start_ms_ = now_ms();
 };
 
-}  // namespace berth::bench
+}  // namespace berth

@@ -1,8 +1,8 @@
-#include "bench/instruction_set.hpp"
+#include "measure/instruction_set.hpp"
 
 #include <hwy/targets.h>
 
-namespace berth::bench {
+namespace berth {
 namespace {
 
 /// 0: all that there are.
@@ -25,4 +25,4 @@ bool has_more_than_avx2() {
   return (hwy::SupportedTargets() & HWY_AVX2) != 0 && best_target() != HWY_AVX2;
 }
 
-}  // namespace berth::bench
+}  // namespace berth

@@ -1,0 +1,14 @@
+#include "measure/recording.hpp"
+
+namespace berth {
+
+std::shared_ptr<const Recording> open_recording(const std::filesystem::path& file,
+                                                std::string title) {
+  return std::make_shared<const Recording>(Recording{std::move(title), open_scene(file, {})});
+}
+
+std::string recording_title(const std::filesystem::path& scene_file) {
+  return "Recording " + std::filesystem::absolute(scene_file).parent_path().filename().string();
+}
+
+}  // namespace berth

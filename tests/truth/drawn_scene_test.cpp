@@ -1,0 +1,102 @@
+#include "testing/drawn_scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "berth/render/robot_renderer.hpp"
+
+namespace berth::testing {
+namespace {
+
+constexpr DrawnSceneSettings kSmall{.width_px = 160, .height_px = 120};
+
+class DrawnScenes : public ::testing::Test {
+ protected:
+  DrawnScene draw(std::uint32_t seed) const { return draw_scene(model_, trees_, kSmall, seed); }
+
+  const RobotModel model_ = load_robot({.urdf = BERTH_BUNDLED_ARM "/arm.urdf",
+                                        .package_paths = {{"berth_arm", BERTH_BUNDLED_ARM}},
+                                        .environment_links = {"table"}});
+  const std::vector<MeshTree> trees_ = build_link_trees(model_);
+};
+
+bool same_bits(const DepthImage& a, const DepthImage& b) {
+  return std::equal(a.pixels().begin(), a.pixels().end(), b.pixels().begin(), b.pixels().end(),
+                    [](float x, float y) { return x == y || (std::isnan(x) && std::isnan(y)); });
+}
+
+/// Pixels whose depths differ by more than 1 mm, or where only one has any.
+int count_differences(const DepthImage& a, const DepthImage& b) {
+  int count = 0;
+  for (std::size_t i = 0; i < a.pixels().size(); ++i) {
+    const float x = a.pixels()[i];
+    const float y = b.pixels()[i];
+    if (!(std::isnan(x) && std::isnan(y)) && !(std::abs(x - y) < 1e-3F)) ++count;
+  }
+  return count;
+}
+
+TEST_F(DrawnScenes, DependOnTheSeedAlone) {
+  EXPECT_TRUE(same_bits(draw(7).depth_m, draw(7).depth_m));
+  EXPECT_FALSE(same_bits(draw(7).depth_m, draw(8).depth_m));
+}
+
+TEST_F(DrawnScenes, KeepJointsWithinTheirLimitsAndObstaclesClearOfTheRobot) {
+  for (std::uint32_t seed = 0; seed < 10; ++seed) {
+    const DrawnScene scene = draw(seed);
+    ASSERT_EQ(scene.joints.position.size(), model_.joints.size());
+    for (std::size_t i = 0; i < model_.joints.size(); ++i) {
+      EXPECT_GE(scene.joints.position[i], model_.joints[i].lower);
+      EXPECT_LE(scene.joints.position[i], model_.joints[i].upper);
+    }
+    EXPECT_GE(scene.obstacles.size(), 3U);
+    for (const DrawnObstacle& obstacle : scene.obstacles) {
+      const MeshTree tree = build_mesh_tree(obstacle.mesh_O);
+      for (const std::size_t i : model_.evaluated_links) {
+        EXPECT_GT(closest_points(trees_[i], scene.pose.X_BL[i], tree, obstacle.X_BO).distance_m, 0)
+            << "seed " << seed << ", " << model_.links[i].name;
+      }
+    }
+  }
+}
+
+TEST_F(DrawnScenes, ImagesAreWhatRobotRendererDrawsOfRobotAndObstacles) {
+  for (std::uint32_t seed = 0; seed < 5; ++seed) {
+    const DrawnScene scene = draw(seed);
+    RobotImage robot;
+    RobotRenderer(build_link_meshes(model_), scene.camera).render(scene.pose, scene.X_BC, robot);
+    RobotImage obstacles;
+    RobotRenderer(build_link_meshes(obstacle_model(scene.obstacles)), scene.camera)
+        .render(obstacle_pose(scene.obstacles), scene.X_BC, obstacles);
+    DepthImage sensor_m = obstacles.depth_m;
+    DepthImage ideal_m = obstacles.depth_m;
+    for (std::size_t i = 0; i < sensor_m.pixels().size(); ++i) {
+      const float robot_m = robot.depth_m.pixels()[i];
+      if (std::isnan(robot_m) || sensor_m.pixels()[i] < robot_m) continue;
+      sensor_m.pixels()[i] = robot_m;
+      ideal_m.pixels()[i] = kNoDepth;
+    }
+    // Centres that lie on an edge.
+    const int few = kSmall.width_px * kSmall.height_px / 1000;
+    EXPECT_LE(count_differences(scene.robot.depth_m, robot.depth_m), few) << "seed " << seed;
+    EXPECT_LE(count_differences(scene.depth_m, sensor_m), few) << "seed " << seed;
+    EXPECT_LE(count_differences(scene.obstacle_depth_m, ideal_m), few) << "seed " << seed;
+  }
+}
+
+TEST_F(DrawnScenes, ShowTheRobotAndItsObstacles) {
+  for (std::uint32_t seed = 0; seed < 10; ++seed) {
+    const DrawnScene scene = draw(seed);
+    const auto& ids = scene.robot.link_id.pixels();
+    EXPECT_GT(std::count_if(ids.begin(), ids.end(),
+                            [](LinkId id) { return id != kNoLink && id != kEnvironmentLink; }),
+              kSmall.width_px * kSmall.height_px / 100);
+    const auto& left = scene.obstacle_depth_m.pixels();
+    EXPECT_GT(std::count_if(left.begin(), left.end(), [](float z) { return z > 0; }), 1000);
+  }
+}
+
+}  // namespace
+}  // namespace berth::testing
