@@ -5,8 +5,14 @@
 namespace berth {
 
 void bench_command(const BenchArguments& arguments) {
-  bench::run_benchmarks({arguments.quick, arguments.random_scenes, arguments.out_folder,
-                         BERTH_BUNDLED_SCENE "/scene.yaml", arguments.scenes});
+  bench::BenchSettings settings;
+  settings.quick = arguments.quick;
+  settings.random_scenes = arguments.random_scenes;
+  settings.out_folder = arguments.out_folder;
+  settings.bundled_scene = BERTH_BUNDLED_SCENE "/scene.yaml";
+  settings.scenes = arguments.scenes;
+  if (arguments.where.backend == Backend::opengl) settings.gl_device = arguments.where.gl_device;
+  bench::run_benchmarks(settings);
 }
 
 }  // namespace berth
