@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace berth::bench {
@@ -16,10 +18,13 @@ struct BenchSettings {
   std::filesystem::path bundled_scene;
   /// More scene files, each a table of its own.
   std::vector<std::filesystem::path> scenes;
+  /// Measures the methods on OpenGL instead of those on the processor, on this device as GlContext
+  /// takes it.
+  std::optional<std::string> gl_device;
 };
 
 /// Measures everything and prints the tables as they come. Throws std::runtime_error where a scene
-/// cannot be read or the folder not be written.
+/// cannot be read or the folder not be written, GlUnavailable where there is no such device.
 void run_benchmarks(const BenchSettings& settings);
 
 }  // namespace berth::bench

@@ -99,23 +99,23 @@ Table::Row reader_row(const Peer& reader, const Record& record, double bytes) {
 }
 
 /// The methods in the order of scene i. Nobody always comes after the same other one, whose data
-/// fills the caches; after those with several threads come none, since threads of TBB that wait
+/// fills the caches; after those with company come none, since threads of TBB that wait
 /// for more work would be billed to the next.
 std::vector<std::size_t> order_of(const std::vector<std::unique_ptr<Peer>>& peers, int i) {
   std::vector<std::size_t> order(peers.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::rotate(order.begin(), order.begin() + i % order.size(), order.end());
   std::stable_partition(order.begin(), order.end(),
-                        [&](std::size_t p) { return peers[p]->threads() == 1; });
+                        [&](std::size_t p) { return !peers[p]->has_company(); });
   return order;
 }
 
 }  // namespace
 
-Table compare_peers(const SceneSet& scenes, const RunLimits& limits) {
+Table compare_peers(const SceneSet& scenes, const RunLimits& limits,
+                    const std::vector<std::unique_ptr<Peer>>& peers) {
   const std::unique_ptr<Peer> brute_force = make_brute_force();
   const std::unique_ptr<Peer> reader = make_reader();
-  const std::vector<std::unique_ptr<Peer>> peers = make_peers();
   Record truth;
   Record read;
   std::vector<Record> records(peers.size());

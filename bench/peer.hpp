@@ -26,6 +26,9 @@ class Peer {
   virtual std::string lacks() const = 0;
   /// How many may work for it.
   virtual int threads() const { return 1; }
+  /// Whether others than its one thread work for it, so that only the clock on the wall tells its
+  /// time.
+  virtual bool has_company() const { return threads() > 1; }
   /// What can be made ready before any frame comes; not timed.
   virtual void load(const BenchScene&) {}
   /// Before each run; not timed.
@@ -53,7 +56,11 @@ std::unique_ptr<Peer> make_fcl_octomap(double resolution_m);
 /// Reads the three images and answers nothing: the least time of whoever looks at every pixel.
 std::unique_ptr<Peer> make_reader();
 
-/// All but brute_force, which is the measure of the others, and the reader.
+/// The methods that run on OpenGL, in the current context; from images in memory to the answer,
+/// upload and read-back included.
+std::vector<std::unique_ptr<Peer>> make_gl_peers();
+
+/// All of the processor but brute_force, which is the measure of the others, and the reader.
 std::vector<std::unique_ptr<Peer>> make_peers();
 
 }  // namespace berth::bench

@@ -26,8 +26,10 @@ void write_to(std::ofstream& stream, const std::string& text, const std::filesys
 
 }  // namespace
 
-Report::Report(const std::filesystem::path& folder) : folder_(folder) {
-  const std::vector<std::string> machine = describe_machine();
+Report::Report(const std::filesystem::path& folder, const std::string& gl_renderer)
+    : folder_(folder) {
+  std::vector<std::string> machine = describe_machine();
+  if (!gl_renderer.empty()) machine.push_back("OpenGL: " + gl_renderer);
   for (const std::string& line : machine) fmt::print("{}\n", line);
   fmt::print("\n");
   std::fflush(stdout);

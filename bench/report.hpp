@@ -11,9 +11,9 @@ namespace berth::bench {
 /// into a folder. Begins with the machine.
 class Report {
  public:
-  /// No folder: standard output alone. Throws std::runtime_error where the folder cannot be made or
-  /// written to.
-  explicit Report(const std::filesystem::path& folder);
+  /// No folder: standard output alone. `gl_renderer` is a part of the machine, where it is used.
+  /// Throws std::runtime_error where the folder cannot be made or written to.
+  explicit Report(const std::filesystem::path& folder, const std::string& gl_renderer = "");
 
   /// Throws std::runtime_error where the files cannot be written.
   void add(const Table& table);

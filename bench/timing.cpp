@@ -7,7 +7,7 @@ namespace berth::bench {
 namespace {
 
 clockid_t clock_for(const Peer& peer) {
-  return peer.threads() == 1 ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_MONOTONIC;
+  return peer.has_company() ? CLOCK_MONOTONIC : CLOCK_PROCESS_CPUTIME_ID;
 }
 
 PeerTime run_once(Peer& peer, const BenchScene& scene, PeerDistances& distances_m) {

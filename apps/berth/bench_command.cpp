@@ -6,8 +6,14 @@
 namespace berth {
 
 void bench_command(const BenchArguments& arguments) {
-  bench::run_benchmarks({arguments.quick, arguments.random_scenes, arguments.out_folder,
-                         bundled_scene_file(), arguments.scenes});
+  bench::BenchSettings settings;
+  settings.quick = arguments.quick;
+  settings.random_scenes = arguments.random_scenes;
+  settings.out_folder = arguments.out_folder;
+  settings.bundled_scene = bundled_scene_file();
+  settings.scenes = arguments.scenes;
+  if (arguments.where.backend == Backend::opengl) settings.gl_device = arguments.where.gl_device;
+  bench::run_benchmarks(settings);
 }
 
 }  // namespace berth

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "apps/berth/backend_arguments.hpp"
+
 namespace berth {
 
 struct BenchArguments {
@@ -11,6 +13,7 @@ struct BenchArguments {
   int random_scenes = 200;
   std::filesystem::path out_folder;
   std::vector<std::filesystem::path> scenes;
+  BackendArguments where;
 };
 
 void add_bench_options(CLI::App& command, BenchArguments& arguments);

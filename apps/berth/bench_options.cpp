@@ -17,6 +17,9 @@ void add_bench_options(CLI::App& command, BenchArguments& arguments) {
       .add_option("--scene", arguments.scenes,
                   "A recording to measure as well; may stand several times")
       ->type_name("SCENE.yaml");
+  add_backend_options(command,
+                      "Which methods to measure: those of the processor, or those on OpenGL",
+                      arguments.where);
   command.footer("Example:\n  berth bench --quick --out bench_results --scene scene.yaml");
 }
 

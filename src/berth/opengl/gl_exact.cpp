@@ -9,16 +9,24 @@ namespace berth {
 namespace {
 
 constexpr int kTilePx = 8;
+/// Tiles of a node, along one side.
+constexpr int kNodeSide = 4;
+/// Nodes of one workgroup of obstacle_nodes.comp.glsl.
+constexpr int kNodesOfGroup = 64;
 /// Workgroups of a search, at most; each takes the next robot tiles until none is left.
 constexpr int kMostGroups = 1024;
 
 /// Bytes of the structs of obstacle_tile.glsl, robot_tile.glsl and closest_pair.glsl.
-constexpr std::size_t kObstacleTileBytes = 16;
+constexpr std::size_t kObstacleTileBytes = 12;
 constexpr std::size_t kRobotTileBytes = 32;
 constexpr std::size_t kPairBytes = 20;
 
 Eigen::Vector2i tiles_of(const Camera& camera) {
   return {(camera.width_px + kTilePx - 1) / kTilePx, (camera.height_px + kTilePx - 1) / kTilePx};
+}
+
+int nodes_of(const Eigen::Vector2i& tiles) {
+  return ((tiles.array() + kNodeSide - 1) / kNodeSide).prod();
 }
 
 /// A tile has no more links than pixels.
@@ -32,6 +40,7 @@ GlBuffer device(std::size_t bytes) { return {bytes, GlMemory::device}; }
 
 GlExact::GlExact()
     : obstacle_tiles_program_("obstacle_tiles.comp.glsl"),
+      obstacle_nodes_program_("obstacle_nodes.comp.glsl"),
       robot_tiles_program_("robot_tiles.comp.glsl"),
       first_program_("exact_first.comp.glsl"),
       search_program_("exact_search.comp.glsl"),
@@ -48,6 +57,8 @@ void GlExact::prepare(const Camera& camera, int link_count) {
   }
   for (GlProgram* program : {&first_program_, &search_program_}) {
     program->set("intrinsics", gl_intrinsics(metric_of(camera)));
+  }
+  for (GlProgram* program : {&obstacle_nodes_program_, &first_program_, &search_program_}) {
     program->set("tiles", tiles_);
   }
   robot_tiles_program_.set("link_count", link_count);
@@ -56,6 +67,7 @@ void GlExact::prepare(const Camera& camera, int link_count) {
 void GlExact::take_memory() {
   const std::size_t robot_tiles = most_robot_tiles(tiles_, link_count_);
   obstacle_tiles_ = device(tiles_.prod() * kObstacleTileBytes);
+  obstacle_nodes_ = device(nodes_of(tiles_) * kObstacleTileBytes);
   robot_tiles_ = device(robot_tiles * kRobotTileBytes);
   robot_tile_count_ = device(sizeof(std::uint32_t));
   link_pixels_ = device(link_count_ * sizeof(std::uint32_t));
@@ -71,8 +83,11 @@ void GlExact::take_memory() {
     program->bind("RobotTiles", robot_tiles_);
     program->bind("RobotTileCount", robot_tile_count_);
   }
-  for (GlProgram* program : {&first_program_, &search_program_}) {
+  for (GlProgram* program : {&obstacle_nodes_program_, &first_program_, &search_program_}) {
     program->bind("ObstacleTiles", obstacle_tiles_);
+    program->bind("ObstacleNodes", obstacle_nodes_);
+  }
+  for (GlProgram* program : {&first_program_, &search_program_}) {
     program->bind("LinkBest", link_best_);
   }
   for (GlProgram* program : {&search_program_, &finish_program_}) {
@@ -86,6 +101,7 @@ void GlExact::find_tiles(const GlRobotImage& robot, const GlTexture& obstacle_de
   link_pixels_.fill(0);
   obstacle_tiles_program_.read("obstacle_depth_m", obstacle_depth_m);
   obstacle_tiles_program_.dispatch(tiles_.x(), tiles_.y());
+  obstacle_nodes_program_.dispatch((nodes_of(tiles_) + kNodesOfGroup - 1) / kNodesOfGroup);
   robot_tiles_program_.read("robot_depth_m", robot.depth_m);
   robot_tiles_program_.read("link_id", robot.link_id);
   robot_tiles_program_.dispatch(tiles_.x(), tiles_.y());

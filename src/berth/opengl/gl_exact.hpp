@@ -30,11 +30,13 @@ class GlExact {
   Eigen::Vector2i tiles_ = Eigen::Vector2i::Zero();
   int link_count_ = 0;
   GlProgram obstacle_tiles_program_;
+  GlProgram obstacle_nodes_program_;
   GlProgram robot_tiles_program_;
   GlProgram first_program_;
   GlProgram search_program_;
   GlProgram finish_program_;
   GlBuffer obstacle_tiles_;
+  GlBuffer obstacle_nodes_;
   GlBuffer robot_tiles_;
   GlBuffer robot_tile_count_;
   GlBuffer link_pixels_;

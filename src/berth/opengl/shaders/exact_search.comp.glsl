@@ -1,5 +1,5 @@
-// The closest pair of each robot tile, as far as it can be its link's: obstacle tiles are pruned by
-// the lower bound of depth-space section 9, the pixels of the others are all tried.
+// The closest pair of each robot tile, as far as it can be its link's: obstacle nodes and then their
+// tiles are pruned by the lower bound, the pixels of the other tiles are all tried.
 // One workgroup a robot tile, as long as there are more.
 #include "metric.glsl"
 #include "lower_bound.glsl"
@@ -15,6 +15,7 @@ uniform sampler2D obstacle_depth_m;
 uniform sampler2D robot_depth_m;
 uniform usampler2D link_id;
 layout(std430) readonly buffer ObstacleTiles { ObstacleTile obstacle_tiles[]; };
+layout(std430) readonly buffer ObstacleNodes { ObstacleTile obstacle_nodes[]; };
 layout(std430) readonly buffer RobotTiles { RobotTile robot_tiles[]; };
 layout(std430) readonly buffer RobotTileCount { uint robot_tile_count; };
 layout(std430) coherent buffer LinkBest { uint link_best[]; };
@@ -26,8 +27,10 @@ const float kRounding = 1e-5;
 const int kTilePixels = kTilePx * kTilePx;
 const int kThreads = 256;
 
-shared uint near_tiles[kThreads];
-shared uint near_count;
+shared int near_nodes[kThreads];
+shared uint near_node_count;
+shared ivec2 near_tiles[kThreads];
+shared uint near_tile_count;
 shared float robot_m[kTilePixels];
 shared ivec2 robot_px[kTilePixels];
 shared uint robot_pixels;
@@ -41,17 +44,14 @@ PixelBox box_of(RobotTile robot) {
   return PixelBox(vec2(u.x, v.x), vec2(u.y, v.y), robot.depth_lo_m, robot.depth_hi_m);
 }
 
-ivec2 corner_of(uint tile) { return kTilePx * ivec2(tile % uint(tiles.x), tile / uint(tiles.x)); }
-
 // Place i of a tile, row by row.
 ivec2 offset_of(uint i) { return ivec2(i % uint(kTilePx), i / uint(kTilePx)); }
 
-bool may_be_closer(PixelBox robot, uint tile) {
-  ObstacleTile obstacle = obstacle_tiles[tile];
+// `obstacle` is a square with this corner.
+bool may_be_closer(PixelBox robot, ObstacleTile obstacle, ivec2 corner_px, int side_px) {
   if (obstacle.nearest == kNoPixel) return false;
-  vec2 corner = vec2(corner_of(tile));
-  PixelBox box =
-      PixelBox(corner, corner + float(kTilePx), obstacle.depth_lo_m, obstacle.depth_hi_m);
+  PixelBox box = PixelBox(vec2(corner_px), vec2(corner_px + side_px), obstacle.depth_lo_m,
+                          obstacle.depth_hi_m);
   return lower_bound_m2(robot, box, sqrt(limit_m2)) * (1.0 - kRounding) <= limit_m2;
 }
 
@@ -78,9 +78,9 @@ void try_pixel(ivec2 pixel, float depth_m, inout ClosestPair best) {
 
 void try_near_tiles(inout ClosestPair best) {
   uint own_pairs = 0u;
-  uint work = near_count * uint(kTilePixels);
+  uint work = near_tile_count * uint(kTilePixels);
   for (uint i = gl_LocalInvocationIndex; i < work; i += uint(kThreads)) {
-    ivec2 pixel = corner_of(near_tiles[i / uint(kTilePixels)]) + offset_of(i % uint(kTilePixels));
+    ivec2 pixel = kTilePx * near_tiles[i / uint(kTilePixels)] + offset_of(i % uint(kTilePixels));
     if (any(greaterThanEqual(pixel, textureSize(obstacle_depth_m, 0)))) continue;
     float depth_m = texelFetch(obstacle_depth_m, pixel, 0).x;
     if (!(depth_m > 0.0)) continue;
@@ -88,6 +88,35 @@ void try_near_tiles(inout ClosestPair best) {
     own_pairs += robot_pixels;
   }
   atomicAdd(pairs, own_pairs);
+}
+
+// Of kThreads nodes from `base` on, those that may hold a closer pixel.
+void find_near_nodes(PixelBox robot, int base, ivec2 nodes) {
+  if (gl_LocalInvocationIndex == 0) near_node_count = 0u;
+  barrier();
+  int node = base + int(gl_LocalInvocationIndex);
+  if (node < nodes.x * nodes.y) {
+    ivec2 corner_px = kTilePx * tile_of_node(node, 0, nodes);
+    if (may_be_closer(robot, obstacle_nodes[node], corner_px, kNodeSide * kTilePx)) {
+      near_nodes[atomicAdd(near_node_count, 1u)] = node;
+    }
+  }
+  barrier();
+}
+
+// Of kThreads tiles of the near nodes, those that may hold a closer pixel.
+void find_near_tiles(PixelBox robot, uint base, ivec2 nodes) {
+  if (gl_LocalInvocationIndex == 0) near_tile_count = 0u;
+  barrier();
+  uint child = base + gl_LocalInvocationIndex;
+  if (child < near_node_count * uint(kNodeTiles)) {
+    ivec2 tile = tile_of_node(near_nodes[child / uint(kNodeTiles)], int(child % uint(kNodeTiles)), nodes);
+    if (all(lessThan(tile, tiles)) &&
+        may_be_closer(robot, obstacle_tiles[tile.y * tiles.x + tile.x], kTilePx * tile, kTilePx)) {
+      near_tiles[atomicAdd(near_tile_count, 1u)] = tile;
+    }
+  }
+  barrier();
 }
 
 // What the workgroup found lowers the link's limit, and what others found lowers this one's.
@@ -113,16 +142,16 @@ void search(uint t) {
   gather_robot_pixels(robot);
   PixelBox robot_box = box_of(robot);
   ClosestPair best = no_pair();
-  uint count = uint(tiles.x * tiles.y);
-  for (uint base = 0u; base < count; base += uint(kThreads)) {
-    if (gl_LocalInvocationIndex == 0) near_count = 0u;
+  ivec2 nodes = nodes_of(tiles);
+  for (int base = 0; base < nodes.x * nodes.y; base += kThreads) {
+    find_near_nodes(robot_box, base, nodes);
+    for (uint child = 0u; child < near_node_count * uint(kNodeTiles); child += uint(kThreads)) {
+      find_near_tiles(robot_box, child, nodes);
+      if (near_tile_count == 0u) continue;
+      try_near_tiles(best);
+      share_limit(robot.link, best.squared_m2);
+    }
     barrier();
-    uint tile = base + gl_LocalInvocationIndex;
-    if (tile < count && may_be_closer(robot_box, tile)) near_tiles[atomicAdd(near_count, 1u)] = tile;
-    barrier();
-    if (near_count == 0u) continue;
-    try_near_tiles(best);
-    share_limit(robot.link, best.squared_m2);
   }
   bool is_closest = is_closest_of_workgroup(best);
   if (gl_LocalInvocationIndex == 0) {

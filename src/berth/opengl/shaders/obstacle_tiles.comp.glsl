@@ -1,5 +1,6 @@
 // The depth range of each tile of 8 x 8 obstacle pixels, and its nearest pixel; one workgroup a tile.
 #include "obstacle_tile.glsl"
+#include "pixels.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -27,11 +28,11 @@ void main() {
     atomicMax(depth_hi, bits);
   }
   barrier();
-  if (depth_m > 0.0 && bits == depth_lo) atomicMin(nearest, gl_LocalInvocationIndex);
+  if (depth_m > 0.0 && bits == depth_lo) atomicMin(nearest, pack(pixel));
   barrier();
   if (gl_LocalInvocationIndex == 0) {
     uint tile = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
     obstacle_tiles[tile] =
-        ObstacleTile(uintBitsToFloat(depth_lo), uintBitsToFloat(depth_hi), nearest, 0);
+        ObstacleTile(uintBitsToFloat(depth_lo), uintBitsToFloat(depth_hi), nearest);
   }
 }
