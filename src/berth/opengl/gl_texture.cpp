@@ -17,6 +17,14 @@ GLenum format_of(GlPixel pixel) {
   return GL_NONE;
 }
 
+GLenum client_format_of(GlPixel pixel) {
+  return pixel == GlPixel::depth_m ? GL_RED : GL_RED_INTEGER;
+}
+
+GLenum client_type_of(GlPixel pixel) {
+  return pixel == GlPixel::depth_m ? GL_FLOAT : GL_UNSIGNED_INT;
+}
+
 }  // namespace
 
 GlTexture::GlTexture(GlPixel pixel, int width, int height)
@@ -29,6 +37,10 @@ GlTexture::GlTexture(GlPixel pixel, int width, int height)
 
 GlTexture::~GlTexture() {
   if (name_ != 0) glDeleteTextures(1, &name_);
+}
+
+void GlTexture::clear() const {
+  glClearTexImage(name_, 0, client_format_of(pixel_), client_type_of(pixel_), nullptr);
 }
 
 }  // namespace berth

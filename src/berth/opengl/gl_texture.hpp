@@ -29,6 +29,9 @@ class GlTexture {
   int width() const { return width_; }
   int height() const { return height_; }
 
+  /// All pixels 0.
+  void clear() const;
+
  private:
   void swap(GlTexture& other) noexcept {
     std::swap(name_, other.name_);
