@@ -36,6 +36,7 @@ RigSettings rig_settings(const SceneFile& scene, const EvaluationArguments& argu
   set_if(settings.self_filter.edge_jump_m, scene.self_filter.edge_jump_m);
   set_if(settings.self_filter.island_radius_m, scene.self_filter.island_radius_m);
   set_if(settings.self_filter.island_jump_m, scene.self_filter.island_jump_m);
+  set_if(settings.self_filter.robot_region_scale, scene.self_filter.robot_region_scale);
   settings.link_padding_m = scene.self_filter.link_padding_m;
   set_if(settings.distance.range_m, scene.evaluation.range_m);
   set_if(settings.distance.mean_direction, scene.evaluation.mean_direction);

@@ -25,7 +25,7 @@ double longest_name_em(const PictureInput& input) {
 
 /// The legend without the table's rows.
 double fixed_height_em(const PictureInput& input, int columns) {
-  const double fates = input.obstacles ? kHeadingEm + kFateRowEm * kPixelFateCount / columns : 0;
+  const double fates = input.obstacles ? kHeadingEm + kFateRowEm * fate_rows(columns) : 0;
   const double links = input.distances ? kCardEm + kHeadingEm + kKeyEm : 0;
   return links + fates + kScaleEm;
 }

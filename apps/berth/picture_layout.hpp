@@ -45,6 +45,9 @@ inline constexpr double kKeyEm = 1.7;
 inline constexpr double kFateRowEm = 1.3;
 inline constexpr double kScaleEm = 4.0;
 
+/// Rows of the legend's list of fates.
+constexpr int fate_rows(int columns) { return (kPixelFateCount + columns - 1) / columns; }
+
 PictureLayout layout_picture(const PictureInput& input);
 
 }  // namespace berth

@@ -168,7 +168,7 @@ void draw_swatch(Legend& legend, PixelFate fate, const BoxPx& box) {
 void draw_fates(Legend& legend) {
   const int columns = legend.layout.table.columns;
   const double em = legend.em, row = kFateRowEm * em;
-  const int rows = kPixelFateCount / columns;
+  const int rows = fate_rows(columns);
   const double column = legend.layout.table.column_em * em;
   heading(legend, "PIXELS", "count");
   for (int i = 0; i < kPixelFateCount; ++i) {

@@ -48,6 +48,7 @@ self_filter:
   edge_jump_m: 0.07
   island_radius_m: 0.08
   island_jump_m: 0.09
+  robot_region_scale: 6.5
 evaluation: {method: lattice, range_m: 0.5, mean_direction: off}
 )");
   const SceneFile scene = read_scene(file);
@@ -85,6 +86,7 @@ evaluation: {method: lattice, range_m: 0.5, mean_direction: off}
   EXPECT_EQ(filter.edge_jump_m, 0.07);
   EXPECT_EQ(filter.island_radius_m, 0.08);
   EXPECT_EQ(filter.island_jump_m, 0.09);
+  EXPECT_EQ(filter.robot_region_scale, 6.5);
   EXPECT_EQ(scene.evaluation.method, "lattice");
   EXPECT_EQ(scene.evaluation.range_m, 0.5);
   EXPECT_EQ(scene.evaluation.mean_direction, false);

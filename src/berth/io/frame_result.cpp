@@ -9,7 +9,8 @@ const char* status_name(LinkStatus status) {
 
 const char* fate_name(PixelFate fate) {
   constexpr std::array<const char*, kPixelFateCount> kNames = {
-      "obstacle", "no_reading", "robot", "environment", "padding", "dilation", "edge", "island"};
+      "obstacle", "no_reading", "robot",  "environment",   "padding",
+      "dilation", "edge",       "island", "outside_region"};
   return kNames.at(static_cast<std::size_t>(fate));
 }
 

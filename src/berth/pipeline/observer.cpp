@@ -6,7 +6,9 @@
 
 namespace berth {
 
-Observer::Observer(const Rig& rig) : rig_(rig), renderer_(rig.meshes(), rig.camera()) {}
+Observer::Observer(const Rig& rig) : rig_(rig), renderer_(rig.meshes(), rig.camera()) {
+  if (rig.region_meshes()) region_renderer_.emplace(rig.region_meshes(), rig.camera());
+}
 
 void Observer::observe(DepthView depth_m, const JointState& at_exposure, Frame& frame) {
   const Camera& camera = rig_.camera();
@@ -19,9 +21,18 @@ void Observer::observe(DepthView depth_m, const JointState& at_exposure, Frame& 
   frame.stamp_s = at_exposure.stamp_s;
   frame.X_BC = rig_.camera_pose(pose_);
   renderer_.render(pose_, frame.X_BC, frame.robot);
-  self_filter(camera, depth_m, frame.robot, rig_.settings().self_filter, workspace_,
-              frame.obstacles);
+  filter(depth_m, frame);
   build_obstacle_tree(frame.obstacles.depth_m, frame.obstacle_tree);
+}
+
+void Observer::filter(DepthView depth_m, Frame& frame) {
+  const SelfFilterSettings& settings = rig_.settings().self_filter;
+  if (!region_renderer_) {
+    self_filter(rig_.camera(), depth_m, frame.robot, settings, workspace_, frame.obstacles);
+    return;
+  }
+  region_renderer_->render(pose_, frame.X_BC, region_);
+  self_filter(rig_.camera(), depth_m, frame.robot, region_, settings, workspace_, frame.obstacles);
 }
 
 }  // namespace berth

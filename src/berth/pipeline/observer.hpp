@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "berth/pipeline/frame.hpp"
 #include "berth/pipeline/rig.hpp"
 #include "berth/self_filter/self_filter.hpp"
@@ -19,8 +21,13 @@ class Observer {
   void observe(DepthView depth_m, const JointState& at_exposure, Frame& frame);
 
  private:
+  void filter(DepthView depth_m, Frame& frame);
+
   const Rig& rig_;
   RobotRenderer renderer_;
+  /// Of the robot-shaped region, where there is one.
+  std::optional<RobotRenderer> region_renderer_;
+  RobotImage region_;
   RobotPose pose_;
   SelfFilterWorkspace workspace_;
 };

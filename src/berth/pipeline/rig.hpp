@@ -40,6 +40,8 @@ class Rig {
   const Camera& camera() const { return mount_.camera; }
   const RigSettings& settings() const { return settings_; }
   const std::shared_ptr<const LinkMeshes>& meshes() const { return meshes_; }
+  /// Those of robot_region(); null where SelfFilterSettings::robot_region_scale is 0.
+  const std::shared_ptr<const LinkMeshes>& region_meshes() const { return region_meshes_; }
   /// The camera's pose X_BC in the robot's root link, with the robot in this pose.
   Pose camera_pose(const RobotPose& pose) const { return pose.X_BL[parent_] * mount_.X_PC; }
 
@@ -49,6 +51,7 @@ class Rig {
   RigSettings settings_;
   std::size_t parent_ = 0;
   std::shared_ptr<const LinkMeshes> meshes_;
+  std::shared_ptr<const LinkMeshes> region_meshes_;
 };
 
 }  // namespace berth

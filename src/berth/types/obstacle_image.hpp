@@ -7,21 +7,25 @@
 
 namespace berth {
 
-/// What became of one pixel of the sensor's depth image in the self filter. The order is that of the rules.
+/// What became of one pixel of the sensor's depth image in the self filter. The order is that of
+/// the rules.
 enum class PixelFate : std::uint8_t {
-  obstacle,     ///< kept: it may be an obstacle
-  no_reading,   ///< the sensor gave nothing here
-  robot,        ///< on the robot, or behind it
-  environment,  ///< on an environment link of the URDF, or behind it
-  padding,      ///< within the link's metric padding beside the robot, and not in front of it
-  dilation,     ///< within the silhouette grown by a number of pixels, and not in front of it
-  edge,         ///< a mixed pixel at a depth edge
-  island,       ///< a small piece that hangs on the robot's own readings and never leaves its neighbourhood
+  obstacle,        ///< kept: it may be an obstacle
+  no_reading,      ///< the sensor gave nothing here
+  robot,           ///< on the robot, or behind it
+  environment,     ///< on an environment link of the URDF, or behind it
+  padding,         ///< within the link's metric padding beside the robot, and not in front of it
+  dilation,        ///< within the silhouette grown by a number of pixels, and not in front of it
+  edge,            ///< a mixed pixel at a depth edge
+  island,          ///< a small piece that hangs on the robot's own readings and never leaves its
+                   ///< neighbourhood
+  outside_region,  ///< not seen through the enlarged robot, where
+                   ///< SelfFilterSettings::robot_region_scale is set
 };
-inline constexpr int kPixelFateCount = 8;
+inline constexpr int kPixelFateCount = 9;
 
-/// The filtered depth image F (Hirt 2.2.1): the sensor's depth with the robot removed, NaN where there is
-/// nothing; and for each pixel why.
+/// The filtered depth image F (Hirt 2.2.1): the sensor's depth with the robot removed, NaN where
+/// there is nothing; and for each pixel why.
 struct ObstacleImage {
   DepthImage depth_m;
   Image<PixelFate> fate;
