@@ -37,6 +37,10 @@ void GlFramebuffer::begin(std::initializer_list<const GlTexture*> targets) {
     places[place - GL_COLOR_ATTACHMENT0] = place;
     ++place;
   }
+  // What was drawn on before may be gone.
+  for (GLenum rest = place; rest < GL_COLOR_ATTACHMENT0 + kMostTargets; ++rest) {
+    glNamedFramebufferTexture(name_, rest, 0, 0);
+  }
   glNamedFramebufferDrawBuffers(name_, static_cast<GLsizei>(targets.size()), places.data());
   const GLenum status = glCheckNamedFramebufferStatus(name_, GL_DRAW_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE) {

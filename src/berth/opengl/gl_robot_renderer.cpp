@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "berth/opengl/gl_tolerance.hpp"
 #include "berth/render/view_checks.hpp"
 
 namespace berth {
@@ -52,9 +53,12 @@ GlRobotRenderer::GlRobotRenderer(const RobotModel& model, const Camera& camera)
     : camera_(checked(camera)),
       mesh_(model),
       framebuffer_(camera.width_px, camera.height_px),
-      program_("robot.vert.glsl", "robot.frag.glsl", {}) {
-  program_.set("to_clip_C", to_clip(camera_));
-  program_.set("pinhole", pinhole(camera_));
+      program_("robot.vert.glsl", "robot.frag.glsl", {}),
+      filter_program_("robot.vert.glsl", "filtered_robot.frag.glsl", {}) {
+  for (GlProgram* program : {&program_, &filter_program_}) {
+    program->set("to_clip_C", to_clip(camera_));
+    program->set("pinhole", pinhole(camera_));
+  }
 }
 
 void GlRobotRenderer::draw(const RobotPose& pose, const Pose& X_BC,
@@ -81,6 +85,22 @@ void GlRobotRenderer::render(const RobotPose& pose, const Pose& X_BC,
   image.depth_m.clear();
   image.link_id.clear();
   draw(pose, X_BC, enlargement, program_);
+}
+
+void GlRobotRenderer::render_and_filter(const RobotPose& pose, const Pose& X_BC,
+                                        const GlEnlargement& enlargement,
+                                        const GlTexture& sensor_depth_m, const Tolerance& tolerance,
+                                        const GlRobotImage& image,
+                                        const GlTexture& filtered_depth_m) {
+  require_finite(X_BC);
+  require_enlargement(enlargement);
+  framebuffer_.begin({&image.depth_m, &image.link_id, &filtered_depth_m});
+  image.depth_m.clear();
+  image.link_id.clear();
+  sensor_depth_m.copy_to(filtered_depth_m);
+  filter_program_.read("sensor_depth_m", sensor_depth_m);
+  filter_program_.set("tolerance", gl_tolerance(tolerance));
+  draw(pose, X_BC, enlargement, filter_program_);
 }
 
 }  // namespace berth

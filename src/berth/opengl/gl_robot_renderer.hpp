@@ -5,6 +5,7 @@
 #include "berth/opengl/gl_program.hpp"
 #include "berth/opengl/gl_robot_mesh.hpp"
 #include "berth/robot/kinematics.hpp"
+#include "berth/self_filter/tolerance.hpp"
 #include "berth/types/camera.hpp"
 
 namespace berth {
@@ -32,6 +33,12 @@ class GlRobotRenderer {
   void render(const RobotPose& pose, const Pose& X_BC, const GlRobotImage& image) {
     render(pose, X_BC, GlEnlargement{}, image);
   }
+  /// The thesis's own self filter (Hirt 3.1.1): R and I of the enlarged robot, and in the same pass
+  /// `filtered_depth_m`, the sensor's image without the readings on it or behind it. No other rule
+  /// of GlSelfFilter applies. All images have the camera's size.
+  void render_and_filter(const RobotPose& pose, const Pose& X_BC, const GlEnlargement& enlargement,
+                         const GlTexture& sensor_depth_m, const Tolerance& tolerance,
+                         const GlRobotImage& image, const GlTexture& filtered_depth_m);
 
  private:
   void draw(const RobotPose& pose, const Pose& X_BC, const GlEnlargement& enlargement,
@@ -41,6 +48,7 @@ class GlRobotRenderer {
   GlRobotMesh mesh_;
   GlFramebuffer framebuffer_;
   GlProgram program_;
+  GlProgram filter_program_;
 };
 
 }  // namespace berth

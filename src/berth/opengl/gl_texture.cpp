@@ -2,6 +2,8 @@
 
 #include <epoxy/gl.h>
 
+#include <cassert>
+
 namespace berth {
 namespace {
 
@@ -41,6 +43,12 @@ GlTexture::~GlTexture() {
 
 void GlTexture::clear() const {
   glClearTexImage(name_, 0, client_format_of(pixel_), client_type_of(pixel_), nullptr);
+}
+
+void GlTexture::copy_to(const GlTexture& target) const {
+  assert(pixel_ == target.pixel_ && width_ == target.width_ && height_ == target.height_);
+  glCopyImageSubData(name_, GL_TEXTURE_2D, 0, 0, 0, 0, target.name_, GL_TEXTURE_2D, 0, 0, 0, 0,
+                     width_, height_, 1);
 }
 
 }  // namespace berth

@@ -31,6 +31,8 @@ class GlTexture {
 
   /// All pixels 0.
   void clear() const;
+  /// Its pixels, to a texture of the same kind and size.
+  void copy_to(const GlTexture& target) const;
 
  private:
   void swap(GlTexture& other) noexcept {
