@@ -25,7 +25,8 @@ double longest_name_em(const PictureInput& input) {
 
 /// The legend without the table's rows.
 double fixed_height_em(const PictureInput& input, int columns) {
-  const double fates = input.obstacles ? kHeadingEm + kFateRowEm * fate_rows(columns) : 0;
+  const double fates =
+      input.obstacles ? kHeadingEm + kFateRowEm * fate_rows(*input.obstacles, columns) : 0;
   const double links = input.distances ? kCardEm + kHeadingEm + kKeyEm : 0;
   return links + fates + kScaleEm;
 }
@@ -51,6 +52,15 @@ TablePlan plan_table(const PictureInput& input, double height_em) {
 }
 
 }  // namespace
+
+int shown_fates(const ObstacleImage& obstacles) {
+  const bool has_region = obstacles.count_of(PixelFate::outside_region) > 0;
+  return has_region ? kPixelFateCount : kPixelFateCount - 1;
+}
+
+int fate_rows(const ObstacleImage& obstacles, int columns) {
+  return (shown_fates(obstacles) + columns - 1) / columns;
+}
 
 PictureLayout layout_picture(const PictureInput& input) {
   PictureLayout layout;

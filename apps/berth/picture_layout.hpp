@@ -45,8 +45,11 @@ inline constexpr double kKeyEm = 1.7;
 inline constexpr double kFateRowEm = 1.3;
 inline constexpr double kScaleEm = 4.0;
 
-/// Rows of the legend's list of fates.
-constexpr int fate_rows(int columns) { return (kPixelFateCount + columns - 1) / columns; }
+/// The first fates, so many, are in the legend's list: the last one, outside_region, only where a
+/// pixel has it.
+int shown_fates(const ObstacleImage& obstacles);
+/// Rows of that list.
+int fate_rows(const ObstacleImage& obstacles, int columns);
 
 PictureLayout layout_picture(const PictureInput& input);
 

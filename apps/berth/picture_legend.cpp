@@ -168,10 +168,10 @@ void draw_swatch(Legend& legend, PixelFate fate, const BoxPx& box) {
 void draw_fates(Legend& legend) {
   const int columns = legend.layout.table.columns;
   const double em = legend.em, row = kFateRowEm * em;
-  const int rows = fate_rows(columns);
+  const int rows = fate_rows(*legend.input.obstacles, columns);
   const double column = legend.layout.table.column_em * em;
   heading(legend, "PIXELS", "count");
-  for (int i = 0; i < kPixelFateCount; ++i) {
+  for (int i = 0; i < shown_fates(*legend.input.obstacles); ++i) {
     const auto fate = static_cast<PixelFate>(i);
     const double x = legend.left() + (i / rows) * (legend.width() - column);
     const double middle = legend.y + (i % rows + 0.5) * row;

@@ -64,6 +64,14 @@ TEST(PictureLayout, EveryLinkHasARowUpToForty) {
   }
 }
 
+TEST(PictureLayout, TheRegionsFateIsListedOnlyWhereAPixelHasIt) {
+  ObstacleImage obstacles;
+  EXPECT_EQ(shown_fates(obstacles), kPixelFateCount - 1);
+  obstacles.count[static_cast<std::size_t>(PixelFate::outside_region)] = 1;
+  EXPECT_EQ(shown_fates(obstacles), kPixelFateCount);
+  EXPECT_EQ(fate_rows(obstacles, 2), 5);
+}
+
 TEST(PictureLabels, NeverOverlapAndStayInBounds) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> somewhere(0, 700);

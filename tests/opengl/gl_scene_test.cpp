@@ -20,8 +20,9 @@ namespace {
 constexpr double kMostAtEdges = 0.003;
 /// Pixels whose fate differs where each draws its own robot, as a share of the image.
 constexpr double kMostFates = 2e-4;
-/// A distance from the GPU's obstacles to the GPU's robot against that of the CPU.
-constexpr double kDistanceError_m = 0.003;
+/// A distance from the GPU's obstacles to the GPU's robot against that of the CPU, in pixels at the
+/// robot's depth: a link's outermost pixel may be the next one.
+constexpr double kDistanceError_px = 1.5;
 
 /// A scene's first camera on the GPU.
 struct GlScene {
@@ -86,10 +87,7 @@ class GlSceneTest : public testing::GlTest, public ::testing::WithParamInterface
 
   const OpenCamera& camera() const { return scene_.cameras.front(); }
   /// A few of the frames: software renders slowly.
-  std::vector<std::size_t> frames() const {
-    const std::size_t count = camera().source.depth.size();
-    return {0, count / 2, count - 1};
-  }
+  std::vector<std::size_t> frames() const { return {0, camera().source.depth.size() / 2}; }
   Rig rig_with(const SelfFilterSettings& self_filter) const {
     RigSettings settings = camera().rig->settings();
     settings.self_filter = self_filter;
@@ -159,7 +157,8 @@ TEST_P(GlSceneTest, ImagesAndDistancesAreThoseOfTheCpuButAtEdges) {
       if (from_cpu.links[link].status != LinkStatus::ok) continue;
       const double error_m =
           std::abs(from_gpu.links[link].distance_m - from_cpu.links[link].distance_m);
-      EXPECT_LE(error_m, kDistanceError_m) << "frame " << i << ", link " << link + 1;
+      const double pixel_m = from_cpu.links[link].robot_point_C_m.z() / rig.camera().fx_px;
+      EXPECT_LE(error_m, kDistanceError_px * pixel_m) << "frame " << i << ", link " << link + 1;
       largest_m = std::max(largest_m, error_m);
     }
   }

@@ -76,7 +76,7 @@ void expect_same(const ObstacleImage& gpu, const ObstacleImage& cpu) {
 
 TEST_F(GlSelfFilterTest, GivesTheSameFatesOnRandomScenes) {
   std::array<int, kPixelFateCount> scenes{};
-  for (std::uint32_t seed = 0; seed < 120; ++seed) {
+  for (std::uint32_t seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE(seed);
     const RandomScene scene = random_scene(seed);
     const ObstacleImage cpu = on_cpu(scene);
@@ -85,12 +85,12 @@ TEST_F(GlSelfFilterTest, GivesTheSameFatesOnRandomScenes) {
     for (int fate = 0; fate < kPixelFateCount; ++fate) scenes[fate] += cpu.count[fate] > 0;
   }
   // The region has a test of its own.
-  EXPECT_GE(*std::min_element(scenes.begin(), std::prev(scenes.end())), 20);
+  EXPECT_GE(*std::min_element(scenes.begin(), std::prev(scenes.end())), 10);
 }
 
 TEST_F(GlSelfFilterTest, IgnoresTheSamePixelsOutsideOfARegion) {
   std::int64_t ignored = 0;
-  for (std::uint32_t seed = 200; seed < 220; ++seed) {
+  for (std::uint32_t seed = 200; seed < 212; ++seed) {
     SCOPED_TRACE(seed);
     RandomScene scene = random_scene(seed);
     scene.settings.robot_region_scale = 6;
@@ -101,7 +101,7 @@ TEST_F(GlSelfFilterTest, IgnoresTheSamePixelsOutsideOfARegion) {
     if (HasFatalFailure()) return;
     ignored += cpu.count_of(PixelFate::outside_region);
   }
-  EXPECT_GT(ignored, 5000);
+  EXPECT_GT(ignored, 3000);
 }
 
 /// Depths that wind through the neighbourhood as one piece, whose pixels no order of joining may

@@ -20,6 +20,9 @@ layout(std430) readonly buffer FilterFrame {
 };
 
 shared uint open_pixels;
+shared uint near_tiles;
+shared uint near_tile[kTilePixels];
+shared bool has_all_near;  // a tile whose points are all near all points here
 shared vec4 robot_point_m[kTilePixels];
 shared uint robot_points;
 
@@ -56,6 +59,22 @@ void gather_robot(uint tile) {
   barrier();
 }
 
+// Sorts the robot's tiles from this one on, one an invocation.
+void find_near_tiles(uint first, vec3 min_m, vec3 max_m) {
+  if (gl_LocalInvocationIndex == 0) {
+    near_tiles = 0u;
+    has_all_near = false;
+  }
+  barrier();
+  uint i = first + gl_LocalInvocationIndex;
+  if (i < robot_tiles) {
+    bvec2 near = are_near(min_m, max_m, tiles[robot_tile[i]]);
+    if (near.y) has_all_near = true;
+    if (near.x) near_tile[atomicAdd(near_tiles, 1u)] = robot_tile[i];
+  }
+  barrier();
+}
+
 bool is_near_any(vec3 point) {
   for (uint i = 0u; i < robot_points; ++i) {
     if (is_near(point, robot_point_m[i].xyz)) return true;
@@ -82,17 +101,17 @@ void main() {
   bool was_open = is_open;
   vec3 min_m = box_min();
   vec3 max_m = box_max();
-  for (uint i = 0u; i < robot_tiles; ++i) {
-    // No robot tile changes it before the next barrier.
-    if (open_pixels == 0u) break;
-    bvec2 near = are_near(min_m, max_m, tiles[robot_tile[i]]);
-    if (near.y) is_open = false;
-    if (near.y) break;
-    if (!near.x) continue;
-    gather_robot(robot_tile[i]);
-    if (is_open && is_near_any(point)) {
-      is_open = false;
-      atomicAdd(open_pixels, 0xFFFFFFFFu);
+  for (uint first = 0u; first < robot_tiles && open_pixels > 0u; first += kTilePixels) {
+    find_near_tiles(first, min_m, max_m);
+    if (has_all_near) is_open = false;
+    if (has_all_near) break;
+    for (uint i = 0u; i < near_tiles && open_pixels > 0u; ++i) {
+      gather_robot(near_tile[i]);
+      if (is_open && are_near(point, point, tiles[near_tile[i]]).x && is_near_any(point)) {
+        is_open = false;
+        atomicAdd(open_pixels, 0xFFFFFFFFu);
+      }
+      barrier();
     }
     barrier();
   }
