@@ -50,6 +50,7 @@ RigSettings rig_settings(const SceneFile& scene, const EvaluationArguments& argu
   set_if(settings.self_filter.edge_jump_m, scene.self_filter.edge_jump_m);
   set_if(settings.self_filter.island_radius_m, scene.self_filter.island_radius_m);
   set_if(settings.self_filter.island_jump_m, scene.self_filter.island_jump_m);
+  set_if(settings.self_filter.robot_region_scale, scene.self_filter.robot_region_scale);
   settings.time.joints = kOnlyBetweenSamples;
   set_if(settings.time.joints.max_skew_s, scene.time.max_skew_s);
   set_if(settings.time.joints.max_extrapolation_s, scene.time.max_extrapolation_s);

@@ -58,7 +58,7 @@ std::vector<PixelFate> shown_fates(const ObstacleImage& obstacles) {
   std::vector<PixelFate> fates;
   for (int i = 0; i < kPixelFateCount; ++i) {
     const auto fate = static_cast<PixelFate>(i);
-    if (i < kSelfFilterFateCount || obstacles.count_of(fate) > 0) fates.push_back(fate);
+    if (fate <= PixelFate::island || obstacles.count_of(fate) > 0) fates.push_back(fate);
   }
   return fates;
 }

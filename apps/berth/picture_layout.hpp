@@ -45,8 +45,8 @@ inline constexpr double kKeyEm = 1.7;
 inline constexpr double kFateRowEm = 1.3;
 inline constexpr double kScaleEm = 4.0;
 
-/// The fates that the legend lists: all of the self filter, and those of the sensor rules that some
-/// pixel has.
+/// The fates that the legend lists: those of the self filter up to `island`, and of the others those
+/// that some pixel has.
 std::vector<PixelFate> shown_fates(const ObstacleImage& obstacles);
 
 PictureLayout layout_picture(const PictureInput& input);

@@ -63,6 +63,8 @@ std::string fate_text(PixelFate fate) {
       return "mixed edge pixel";
     case PixelFate::island:
       return "island at the robot";
+    case PixelFate::outside_region:
+      return "ignored: outside region";
     case PixelFate::speckle:
       return "speckle";
     case PixelFate::averaged:

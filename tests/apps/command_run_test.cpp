@@ -78,7 +78,8 @@ TEST(Run, EveryPixelHasOneFateAndSceneryIsRemoved) {
     EXPECT_GT(count["environment"], 100);
     EXPECT_EQ(count["no_reading"], 0);
     EXPECT_EQ(count["padding"].get<int>() + count["dilation"].get<int>() +
-                  count["edge"].get<int>() + count["island"].get<int>(),
+                  count["edge"].get<int>() + count["island"].get<int>() +
+                  count["outside_region"].get<int>(),
               0);
   }
 }

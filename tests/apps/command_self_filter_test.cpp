@@ -107,5 +107,19 @@ TEST_F(Island, IsNoneWhereTheJumpConnectsItToTheWall) {
   EXPECT_EQ(count_with(scene, rest + "island_jump_m: 1.2", "island"), 0);
 }
 
+TEST(SelfFilterKey, RegionIgnoresWhatIsNotSeenThroughTheEnlargedRobot) {
+  CommandScene scene;
+  EXPECT_EQ(count_with(scene, kOff, "outside_region"), 0);
+  const int all = count_with(scene, kOff, "obstacle");
+  const int small = count_with(scene, with_off("robot_region_scale: 1.5"), "outside_region");
+  const int large = count_with(scene, with_off("robot_region_scale: 3"), "outside_region");
+  EXPECT_GT(large, 100);
+  EXPECT_GT(small, large);
+  EXPECT_LT(small, all);
+  EXPECT_EQ(count_with(scene, with_off("robot_region_scale: 1.5"), "obstacle"), all - small);
+  // Enlarged a hundred times the robot covers the image.
+  EXPECT_EQ(count_with(scene, with_off("robot_region_scale: 100"), "outside_region"), 0);
+}
+
 }  // namespace
 }  // namespace berth

@@ -64,6 +64,14 @@ TEST(PictureLayout, EveryLinkHasARowUpToForty) {
   }
 }
 
+TEST(PictureLayout, TheRegionsFateIsListedOnlyWhereAPixelHasIt) {
+  ObstacleImage obstacles;
+  const std::size_t without = shown_fates(obstacles).size();
+  obstacles.count[static_cast<std::size_t>(PixelFate::outside_region)] = 1;
+  ASSERT_EQ(shown_fates(obstacles).size(), without + 1);
+  EXPECT_EQ(shown_fates(obstacles).back(), PixelFate::outside_region);
+}
+
 TEST(PictureLabels, NeverOverlapAndStayInBounds) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> somewhere(0, 700);

@@ -105,12 +105,13 @@ TEST_F(ResultText, TimingAndFilterCountsAreToldWhereTheyAreGiven) {
   EXPECT_FALSE(Json::parse(result_json(result)).contains("timing"));
   EXPECT_FALSE(Json::parse(result_json(result)).contains("self_filter"));
   result.timing = EvaluateTiming{50, 1.5, 2, 3, 4.25};
-  result.self_filter = {10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21};
+  result.self_filter = {10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22};
   const std::string text = result_json(result);
   EXPECT_TRUE(text.ends_with(
       R"("timing":{"repeat":50,"evaluate_us":{"min":1.5,"p50":2.0,"p99":3.0,"max":4.25}},)"
       R"("self_filter":{"obstacle":10,"no_reading":11,"robot":12,"environment":13,"padding":14,)"
-      R"("dilation":15,"edge":16,"island":17,"speckle":18,"averaged":19,"background":20,"hole":21}})"))
+      R"("dilation":15,"edge":16,"island":17,"outside_region":18,"speckle":19,"averaged":20,)"
+      R"("background":21,"hole":22}})"))
       << text;
 }
 

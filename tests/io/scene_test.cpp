@@ -48,6 +48,7 @@ self_filter:
   edge_jump_m: 0.07
   island_radius_m: 0.08
   island_jump_m: 0.09
+  robot_region_scale: 6.5
 sensor:
   noise_m: 0.011
   speckle_px: 12
@@ -94,6 +95,7 @@ time: {max_skew_s: 0.01, max_extrapolation_s: 0.02}
   EXPECT_EQ(filter.edge_jump_m, 0.07);
   EXPECT_EQ(filter.island_radius_m, 0.08);
   EXPECT_EQ(filter.island_jump_m, 0.09);
+  EXPECT_EQ(filter.robot_region_scale, 6.5);
   EXPECT_EQ(scene.sensor.noise_m, 0.011);
   EXPECT_EQ(scene.sensor.speckle_px, 12);
   EXPECT_EQ(scene.sensor.speckle_jump_m, 0.013);

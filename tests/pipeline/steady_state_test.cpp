@@ -16,13 +16,19 @@ TEST(SteadyState, TheWholeWayAllocatesNothingOnceItHasSeenTheImages) {
   const OpenCamera& camera = scene.cameras.front();
   const DepthImage images[] = {camera.read_depth(3), camera.read_depth(17), camera.read_depth(30)};
   const std::size_t numbers[] = {3, 17, 30};
+  RigSettings with_region = camera.rig->settings();
+  with_region.self_filter.robot_region_scale = 3;
+  const Rig region_rig(camera.rig->model(), {camera.rig->camera(), "table", camera.source.X_PC},
+                       with_region);
   for (const int threads : {1, 2}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     Observer observer(*camera.rig);
     Asker asker(*camera.rig);
+    Observer region_observer(region_rig);
     Frame frame;
     const auto go_through = [&] {
       for (int i = 0; i < 3; ++i) {
+        region_observer.observe(images[i], camera.at_exposure[numbers[i]], frame);
         observer.observe(images[i], camera.at_exposure[numbers[i]], frame);
         asker.ask(frame);
         for (const std::size_t other : numbers) asker.ask(frame, camera.at_exposure[other]);

@@ -40,6 +40,7 @@ TEST(SelfFilterSettings, EachKeyOutsideItsDomainIsNamed) {
       {"edge_jump_m: -1", [](Settings& s) { s.edge_jump_m = -1; }},
       {"island_radius_m: -1", [](Settings& s) { s.island_radius_m = -1; }},
       {"island_jump_m: -1", [](Settings& s) { s.island_jump_m = -1; }},
+      {"robot_region_scale: 0.99", [](Settings& s) { s.robot_region_scale = 0.99; }},
   };
   for (const auto& [expected, spoil] : cases) {
     EXPECT_NE(message_for(spoil).find(expected), std::string::npos)

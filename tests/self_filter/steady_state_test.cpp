@@ -16,8 +16,12 @@ TEST(SteadyState, TheSelfFilterAllocatesNothingOnceItHasSeenTheImages) {
     scene.settings.dilation_px = 3;
     SelfFilterWorkspace workspace;
     ObstacleImage out;
+    SelfFilterSettings in_region = scene.settings;
+    in_region.robot_region_scale = 6;
     const auto filter = [&] {
       self_filter(scene.camera, scene.sensor_depth_m, scene.robot, scene.settings, workspace, out);
+      self_filter(scene.camera, scene.sensor_depth_m, scene.robot, scene.robot, in_region,
+                  workspace, out);
     };
     filter();
     const std::size_t before = allocation_count();

@@ -44,9 +44,9 @@ std::vector<SceneCamera> read_cameras(const YamlValue& value) {
 }
 
 SceneSelfFilter read_self_filter(const YamlValue& value) {
-  const YamlMap map(
-      value, {"tolerance_m", "tolerance_per_m", "tolerance_per_m2", "padding_m", "link_padding_m",
-              "dilation_px", "edge_jump_m", "island_radius_m", "island_jump_m"});
+  const YamlMap map(value, {"tolerance_m", "tolerance_per_m", "tolerance_per_m2", "padding_m",
+                            "link_padding_m", "dilation_px", "edge_jump_m", "island_radius_m",
+                            "island_jump_m", "robot_region_scale"});
   SceneSelfFilter filter;
   filter.tolerance_m = map.get("tolerance_m", &YamlValue::non_negative);
   filter.tolerance_per_m = map.get("tolerance_per_m", &YamlValue::non_negative);
@@ -61,6 +61,7 @@ SceneSelfFilter read_self_filter(const YamlValue& value) {
   filter.edge_jump_m = map.get("edge_jump_m", &YamlValue::non_negative);
   filter.island_radius_m = map.get("island_radius_m", &YamlValue::non_negative);
   filter.island_jump_m = map.get("island_jump_m", &YamlValue::non_negative);
+  filter.robot_region_scale = map.get("robot_region_scale", &YamlValue::non_negative);
   return filter;
 }
 

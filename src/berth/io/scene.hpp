@@ -50,6 +50,7 @@ struct SceneSelfFilter {
   std::optional<double> edge_jump_m;
   std::optional<double> island_radius_m;
   std::optional<double> island_jump_m;
+  std::optional<double> robot_region_scale;
 };
 
 /// The sensor rules' settings that the file gives.

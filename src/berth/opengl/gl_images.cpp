@@ -4,12 +4,20 @@
 
 #include <cassert>
 #include <cmath>
+#include <type_traits>
 
 namespace berth {
 namespace {
 
 /// The type of a pixel in this program's memory.
 GLenum type_of(GlPixel pixel) { return pixel == GlPixel::depth_m ? GL_FLOAT : GL_UNSIGNED_SHORT; }
+
+/// The type of what a pixel is read back as.
+template <class T>
+constexpr GLenum type_of_copy() {
+  if constexpr (std::is_same_v<T, float>) return GL_FLOAT;
+  return sizeof(T) == 1 ? GL_UNSIGNED_BYTE : GL_UNSIGNED_SHORT;
+}
 
 GLenum format_of(GlPixel pixel) { return pixel == GlPixel::depth_m ? GL_RED : GL_RED_INTEGER; }
 
@@ -18,7 +26,7 @@ void get_pixels(const GlTexture& texture, Image<T>& out) {
   out.resize(texture.width(), texture.height(), T{});
   glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glGetTextureImage(texture.name(), 0, format_of(texture.pixel()), type_of(texture.pixel()),
+  glGetTextureImage(texture.name(), 0, format_of(texture.pixel()), type_of_copy<T>(),
                     static_cast<GLsizei>(out.pixels().size() * sizeof(T)), out.pixels().data());
 }
 
@@ -70,6 +78,13 @@ void read_back(const GlRobotImage& robot, RobotImage& out) {
   read_back(robot.depth_m, out.depth_m);
   get_pixels(robot.link_id, out.link_id);
   out.extent = kEverywhere;
+}
+
+void read_back(const GlObstacleImage& obstacles, ObstacleImage& out) {
+  read_back(obstacles.depth_m, out.depth_m);
+  get_pixels(obstacles.fate, out.fate);
+  out.count.fill(0);
+  for (const PixelFate fate : out.fate.pixels()) ++out.count[static_cast<std::size_t>(fate)];
 }
 
 }  // namespace berth

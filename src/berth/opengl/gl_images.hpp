@@ -4,6 +4,7 @@
 #include "berth/opengl/gl_buffer.hpp"
 #include "berth/opengl/gl_texture.hpp"
 #include "berth/types/image.hpp"
+#include "berth/types/obstacle_image.hpp"
 #include "berth/types/robot_image.hpp"
 
 namespace berth {
@@ -16,6 +17,16 @@ struct GlRobotImage {
 
   GlTexture depth_m;
   GlTexture link_id;
+};
+
+/// F, 0 where there is nothing, and each pixel's PixelFate as a number.
+struct GlObstacleImage {
+  GlObstacleImage() = default;
+  GlObstacleImage(int width, int height)
+      : depth_m(GlPixel::depth_m, width, height), fate(GlPixel::bits, width, height) {}
+
+  GlTexture depth_m;
+  GlTexture fate;
 };
 
 /// Carries images of one size to the GPU.
@@ -39,5 +50,7 @@ class GlUpload {
 /// images' memory.
 void read_back(const GlTexture& depth_m, DepthImage& out);
 void read_back(const GlRobotImage& robot, RobotImage& out);
+/// Counts the fates, too.
+void read_back(const GlObstacleImage& obstacles, ObstacleImage& out);
 
 }  // namespace berth

@@ -2,6 +2,8 @@
 
 #include <epoxy/gl.h>
 
+#include <cassert>
+
 namespace berth {
 namespace {
 
@@ -17,6 +19,14 @@ GLenum format_of(GlPixel pixel) {
   return GL_NONE;
 }
 
+GLenum client_format_of(GlPixel pixel) {
+  return pixel == GlPixel::depth_m ? GL_RED : GL_RED_INTEGER;
+}
+
+GLenum client_type_of(GlPixel pixel) {
+  return pixel == GlPixel::depth_m ? GL_FLOAT : GL_UNSIGNED_INT;
+}
+
 }  // namespace
 
 GlTexture::GlTexture(GlPixel pixel, int width, int height)
@@ -29,6 +39,16 @@ GlTexture::GlTexture(GlPixel pixel, int width, int height)
 
 GlTexture::~GlTexture() {
   if (name_ != 0) glDeleteTextures(1, &name_);
+}
+
+void GlTexture::clear() const {
+  glClearTexImage(name_, 0, client_format_of(pixel_), client_type_of(pixel_), nullptr);
+}
+
+void GlTexture::copy_to(const GlTexture& target) const {
+  assert(pixel_ == target.pixel_ && width_ == target.width_ && height_ == target.height_);
+  glCopyImageSubData(name_, GL_TEXTURE_2D, 0, 0, 0, 0, target.name_, GL_TEXTURE_2D, 0, 0, 0, 0,
+                     width_, height_, 1);
 }
 
 }  // namespace berth

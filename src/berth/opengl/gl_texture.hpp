@@ -29,6 +29,11 @@ class GlTexture {
   int width() const { return width_; }
   int height() const { return height_; }
 
+  /// All pixels 0.
+  void clear() const;
+  /// Its pixels, to a texture of the same kind and size.
+  void copy_to(const GlTexture& target) const;
+
  private:
   void swap(GlTexture& other) noexcept {
     std::swap(name_, other.name_);

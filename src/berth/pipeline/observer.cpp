@@ -31,7 +31,9 @@ void clear(const Camera& camera, Frame& frame) {
 
 }  // namespace
 
-Observer::Observer(const Rig& rig) : rig_(rig), renderer_(rig.meshes(), rig.camera()) {}
+Observer::Observer(const Rig& rig) : rig_(rig), renderer_(rig.meshes(), rig.camera()) {
+  if (rig.region_meshes()) region_renderer_.emplace(rig.region_meshes(), rig.camera());
+}
 
 void Observer::observe(DepthView depth_m, const JointState& at_exposure, Frame& frame,
                        FrameTime time) {
@@ -44,9 +46,19 @@ void Observer::observe(DepthView depth_m, const JointState& at_exposure, Frame& 
   forward_kinematics(rig_.model(), at_exposure.position, frame.pose);
   frame.X_BC = rig_.camera_pose(frame.pose);
   renderer_.render(frame.pose, frame.X_BC, frame.robot);
-  self_filter(camera, depth_m, frame.robot, settings.self_filter, workspace_, frame.obstacles);
+  filter(depth_m, frame);
   apply_sensor_rules(depth_m, frame.robot, background_, settings.sensor, sensor_, frame.obstacles);
   build_obstacle_tree(frame.obstacles.depth_m, frame.obstacle_tree);
+}
+
+void Observer::filter(DepthView depth_m, Frame& frame) {
+  const SelfFilterSettings& settings = rig_.settings().self_filter;
+  if (!region_renderer_) {
+    self_filter(rig_.camera(), depth_m, frame.robot, settings, workspace_, frame.obstacles);
+    return;
+  }
+  region_renderer_->render(frame.pose, frame.X_BC, region_);
+  self_filter(rig_.camera(), depth_m, frame.robot, region_, settings, workspace_, frame.obstacles);
 }
 
 void Observer::observe(DepthView depth_m, double stamp_s, const JointBuffer& joints, Frame& frame) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "berth/pipeline/frame.hpp"
 #include "berth/pipeline/rig.hpp"
 #include "berth/pipeline/timeliness.hpp"
@@ -35,8 +37,13 @@ class Observer {
   void learn_background(DepthView depth_m, const Frame& frame);
 
  private:
+  void filter(DepthView depth_m, Frame& frame);
+
   const Rig& rig_;
   RobotRenderer renderer_;
+  /// Of the robot-shaped region, where there is one.
+  std::optional<RobotRenderer> region_renderer_;
+  RobotImage region_;
   SelfFilterWorkspace workspace_;
   SensorWorkspace sensor_;
   Background background_;

@@ -5,6 +5,8 @@
 
 #include <stdexcept>
 
+#include "berth/robot/robot_region.hpp"
+
 namespace berth {
 namespace {
 
@@ -73,6 +75,8 @@ Rig::Rig(RobotModel model, CameraMount mount, RigSettings settings)
   validate(settings_.distance);
   validate(settings_.time);
   if (settings_.visibility) sample_points_ = berth::sample_points(model_);
+  const double region_scale = settings_.self_filter.robot_region_scale;
+  if (region_scale > 0) region_meshes_ = build_link_meshes(robot_region(model_, region_scale));
 }
 
 }  // namespace berth

@@ -50,6 +50,8 @@ class Rig {
   const std::shared_ptr<const LinkMeshes>& meshes() const { return meshes_; }
   /// Where find_visibility() looks.
   const SamplePoints& sample_points() const { return sample_points_; }
+  /// Those of robot_region(); null where SelfFilterSettings::robot_region_scale is 0.
+  const std::shared_ptr<const LinkMeshes>& region_meshes() const { return region_meshes_; }
   /// The camera's pose X_BC in the robot's root link, with the robot in this pose.
   Pose camera_pose(const RobotPose& pose) const { return pose.X_BL[parent_] * mount_.X_PC; }
 
@@ -60,6 +62,7 @@ class Rig {
   std::size_t parent_ = 0;
   std::shared_ptr<const LinkMeshes> meshes_;
   SamplePoints sample_points_;
+  std::shared_ptr<const LinkMeshes> region_meshes_;
 };
 
 }  // namespace berth

@@ -1,6 +1,5 @@
 #include "berth/render/robot_renderer.hpp"
 
-#include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
@@ -9,15 +8,14 @@
 #include <algorithm>
 #include <atomic>
 #include <cassert>
-#include <cmath>
 #include <span>
-#include <stdexcept>
 #include <vector>
 
 #include "berth/render/draw_triangles.hpp"
 #include "berth/render/link_meshes.hpp"
 #include "berth/render/link_rect.hpp"
 #include "berth/render/show_keys.hpp"
+#include "berth/render/view_checks.hpp"
 
 namespace berth {
 namespace {
@@ -127,28 +125,14 @@ struct RobotRenderer::State {
   }
 };
 
-RobotRenderer::RobotRenderer(std::shared_ptr<const LinkMeshes> meshes, const Camera& camera) {
-  const bool focal_ok = camera.fx_px > 0 && camera.fy_px > 0 && std::isfinite(camera.fx_px) &&
-                        std::isfinite(camera.fy_px);
-  if (camera.width_px <= 0 || camera.height_px <= 0 || !focal_ok || !std::isfinite(camera.cx_px) ||
-      !std::isfinite(camera.cy_px)) {
-    throw std::invalid_argument(fmt::format(
-        "camera: {} x {} px, fx {}, fy {}, cx {}, cy {}; expected a positive size and "
-        "positive focal lengths, all finite",
-        camera.width_px, camera.height_px, camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px));
-  }
-  state_ = std::make_unique<State>(std::move(meshes), camera);
-}
+RobotRenderer::RobotRenderer(std::shared_ptr<const LinkMeshes> meshes, const Camera& camera)
+    : state_(std::make_unique<State>(std::move(meshes), checked(camera))) {}
 RobotRenderer::~RobotRenderer() = default;
 RobotRenderer::RobotRenderer(RobotRenderer&&) noexcept = default;
 RobotRenderer& RobotRenderer::operator=(RobotRenderer&&) noexcept = default;
 
 void RobotRenderer::render(const RobotPose& pose, const Pose& X_BC, RobotImage& image) {
-  if (!X_BC.matrix().allFinite()) {
-    throw std::invalid_argument(
-        fmt::format("pose of the camera at {} {} {}: expected finite numbers",
-                    X_BC.translation().x(), X_BC.translation().y(), X_BC.translation().z()));
-  }
+  require_finite(X_BC);
   State& state = *state_;
   const PixelRect extent = state.look(pose, X_BC.inverse());
   const int threads = state.threads();

@@ -46,8 +46,8 @@ TriangleMesh make_box(const Eigen::Vector3d& size_m) {
                                (corner & 4) ? 0.5 : -0.5);
     mesh.vertices_m.push_back(size_m.cwiseProduct(sign).cast<float>());
   }
-  mesh.triangles = {{0, 1, 3}, {0, 3, 2}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                    {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 3, 7}, {1, 7, 5}};
+  mesh.triangles = {{0, 3, 1}, {0, 2, 3}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                    {2, 7, 3}, {2, 6, 7}, {0, 6, 2}, {0, 4, 6}, {1, 3, 7}, {1, 7, 5}};
   return mesh;
 }
 

@@ -7,7 +7,8 @@
 
 namespace berth {
 
-/// Triangles by the indices of their corners; metres. Winding and normals carry no meaning here.
+/// Triangles by the indices of their corners; metres. Their winding carries no meaning but for
+/// vertex_normals.
 struct TriangleMesh {
   std::vector<Eigen::Vector3f> vertices_m;
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -26,8 +27,9 @@ struct TriangleMesh {
     for (const auto& vertex : other.vertices_m) {
       vertices_m.push_back((X * vertex.cast<double>()).cast<float>());
     }
+    const bool mirrors = X.linear().determinant() < 0;
     for (const auto& [a, b, c] : other.triangles) {
-      triangles.push_back({first + a, first + b, first + c});
+      triangles.push_back({first + a, first + (mirrors ? c : b), first + (mirrors ? b : c)});
     }
   }
 };

@@ -6,6 +6,7 @@
 #include <cassert>
 
 #include "berth/self_filter/edges.hpp"
+#include "berth/self_filter/region.hpp"
 #include "berth/self_filter/rows.hpp"
 #include "berth/self_filter/tiles.hpp"
 
@@ -115,16 +116,31 @@ class Filter {
   ObstacleImage& out_;
 };
 
-}  // namespace
-
-void self_filter(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,
-                 const SelfFilterSettings& settings, SelfFilterWorkspace& workspace,
-                 ObstacleImage& out) {
+void filter(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,
+            const SelfFilterSettings& settings, SelfFilterWorkspace& workspace,
+            ObstacleImage& out) {
   assert(sensor_depth_m.width == camera.width_px && sensor_depth_m.height == camera.height_px);
   assert(robot.link_id.width() == camera.width_px && robot.link_id.height() == camera.height_px);
   set_size(camera, out.depth_m);
   set_size(camera, out.fate);
   Filter(camera, sensor_depth_m, robot, settings, workspace, out).run();
+}
+
+}  // namespace
+
+void self_filter(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,
+                 const SelfFilterSettings& settings, SelfFilterWorkspace& workspace,
+                 ObstacleImage& out) {
+  require_region(settings, false);
+  filter(camera, sensor_depth_m, robot, settings, workspace, out);
+}
+
+void self_filter(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,
+                 const RobotImage& region, const SelfFilterSettings& settings,
+                 SelfFilterWorkspace& workspace, ObstacleImage& out) {
+  require_region(settings, true);
+  filter(camera, sensor_depth_m, robot, settings, workspace, out);
+  ignore_outside(region, out);
 }
 
 }  // namespace berth

@@ -24,9 +24,17 @@ struct SelfFilterWorkspace {
 /// Removes the robot from the sensor's image (Hirt 2.2.1), on all threads that TBB gives; the
 /// result does not depend on their number. `robot` is rendered at the pose that it had when the
 /// image was exposed; both images have the camera's size; `sensor_depth_m` holds NaN where there is
-/// no reading. Writes F, and for each pixel its fate, to `out`, whose memory it reuses.
+/// no reading. Writes F, and for each pixel its fate, to `out`, whose memory it reuses. Throws
+/// std::invalid_argument if settings.robot_region_scale asks for a region.
 void self_filter(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,
                  const SelfFilterSettings& settings, SelfFilterWorkspace& workspace,
                  ObstacleImage& out);
+
+/// The same, and then ignores what is left where `region`, the image of robot_region() at the same
+/// pose, shows nothing: last of all rules, since islands have to see where a piece goes. Throws
+/// std::invalid_argument if settings.robot_region_scale asks for no region.
+void self_filter(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,
+                 const RobotImage& region, const SelfFilterSettings& settings,
+                 SelfFilterWorkspace& workspace, ObstacleImage& out);
 
 }  // namespace berth

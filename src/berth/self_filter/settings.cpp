@@ -14,6 +14,12 @@ void require_not_negative(const char* key, double value) {
       fmt::format("self_filter.{}: {}; expected a finite number of at least 0", key, value));
 }
 
+void require_scale(const char* key, double value) {
+  if (value == 0 || (std::isfinite(value) && value >= 1)) return;
+  throw std::invalid_argument(fmt::format(
+      "self_filter.{}: {}; expected a finite number of at least 1, or 0 (off)", key, value));
+}
+
 }  // namespace
 
 double SelfFilterSettings::padding_of(LinkId id) const {
@@ -34,6 +40,14 @@ void validate(const SelfFilterSettings& settings) {
   require_not_negative("edge_jump_m", settings.edge_jump_m);
   require_not_negative("island_radius_m", settings.island_radius_m);
   require_not_negative("island_jump_m", settings.island_jump_m);
+  require_scale("robot_region_scale", settings.robot_region_scale);
+}
+
+void require_region(const SelfFilterSettings& settings, bool is_given) {
+  if (is_given == (settings.robot_region_scale > 0)) return;
+  throw std::invalid_argument(
+      fmt::format("self_filter.robot_region_scale: {}; expected {}", settings.robot_region_scale,
+                  is_given ? "the scale of the region that is given" : "0 without a region"));
 }
 
 }  // namespace berth

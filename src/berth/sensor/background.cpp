@@ -54,7 +54,9 @@ void Background::complete(DepthView sensor_depth_m, const SensorSettings& settin
   tbb::parallel_for(0, out.fate.height(), [&](int v) {
     for (int u = 0; u < out.fate.width(); ++u) {
       PixelFate& fate = out.fate(u, v);
-      if (is_kept(fate) || fate == PixelFate::environment) continue;
+      if (is_kept(fate) || fate == PixelFate::environment || fate == PixelFate::outside_region) {
+        continue;
+      }
       const float background_m = depth_m(u, v, settings);
       if (std::isnan(background_m)) continue;
       const float noise_m = grown_with_depth(static_cast<float>(settings.noise_m), background_m);

@@ -19,15 +19,17 @@ enum class PixelFate : std::uint8_t {
   edge,         ///< a mixed pixel at a depth edge
   island,       ///< a small piece that hangs on the robot's own readings and never leaves its
                 ///< neighbourhood
+  outside_region,  ///< not seen through the enlarged robot, where
+                   ///< SelfFilterSettings::robot_region_scale is set
   speckle,      ///< a blob of fewer pixels than count as an obstacle
   averaged,     ///< kept, at the mean of the last readings, which is nearer than the last one
   background,   ///< kept, at the depth that was there when the robot was elsewhere: hidden or
                 ///< dropped now
   hole,         ///< kept: no reading, and what the policy for holes puts there
 };
-inline constexpr int kPixelFateCount = 12;
-/// The self filter gives those up to `island`.
-inline constexpr int kSelfFilterFateCount = 8;
+inline constexpr int kPixelFateCount = 13;
+/// The self filter gives those up to `outside_region`.
+inline constexpr int kSelfFilterFateCount = 9;
 
 /// Whether F has a depth there.
 inline bool is_kept(PixelFate fate) {

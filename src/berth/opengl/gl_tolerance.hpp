@@ -1,0 +1,14 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "berth/self_filter/tolerance.hpp"
+
+namespace berth {
+
+/// `tolerance` of tolerance.glsl.
+inline Eigen::Vector4f gl_tolerance(const Tolerance& tolerance) {
+  return {tolerance.constant_m, tolerance.per_m, tolerance.per_m2, 0};
+}
+
+}  // namespace berth

@@ -1,0 +1,50 @@
+// Islands and the robot-shaped region, then F and the count of each fate.
+#include "filter_fates.glsl"
+#include "filter_pieces.glsl"
+
+layout(local_size_x = 16, local_size_y = 16) in;
+
+uniform sampler2D sensor_depth_m;
+uniform usampler2D region_id;
+uniform int has_islands;
+uniform int has_region;
+layout(r32ui) uniform uimage2D fate;
+layout(r32f) uniform writeonly image2D obstacle_depth_m;
+layout(std430) buffer FateCounts { uint fate_count[]; };
+
+shared uint tile_count[kFates];
+
+// A piece is an island unless it leaves the robot's neighbourhood or more than a tenth of it is in
+// front of the robot.
+bool is_island(ivec2 pixel, ivec2 size) {
+  uint number = number_of_pixel(pixel, size);
+  if (pieces[number].parent == kNoPiece) return false;
+  Piece piece = pieces[root_of(number)];
+  return piece.leaves == 0u && 10u * piece.in_front <= piece.pixels;
+}
+
+uint last_fate(ivec2 pixel, ivec2 size) {
+  uint own = imageLoad(fate, pixel).x;
+  if (own != kObstacle) return own;
+  if (has_islands != 0 && is_island(pixel, size)) return kIsland;
+  if (has_region != 0 && texelFetch(region_id, pixel, 0).x == kNoLink) return kOutsideRegion;
+  return kObstacle;
+}
+
+void main() {
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 size = imageSize(fate);
+  if (gl_LocalInvocationIndex < kFates) tile_count[gl_LocalInvocationIndex] = 0u;
+  barrier();
+  if (all(lessThan(pixel, size))) {
+    uint own = last_fate(pixel, size);
+    float reading_m = texelFetch(sensor_depth_m, pixel, 0).x;
+    imageStore(fate, pixel, uvec4(own));
+    imageStore(obstacle_depth_m, pixel, vec4(own == kObstacle ? reading_m : 0.0));
+    atomicAdd(tile_count[own], 1u);
+  }
+  barrier();
+  if (gl_LocalInvocationIndex < kFates && tile_count[gl_LocalInvocationIndex] > 0u) {
+    atomicAdd(fate_count[gl_LocalInvocationIndex], tile_count[gl_LocalInvocationIndex]);
+  }
+}

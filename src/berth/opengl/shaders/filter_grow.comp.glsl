@@ -1,0 +1,87 @@
+// Padding, or dilation: obstacles and edges that belong to a disc around an outline pixel.
+#include "filter_fates.glsl"
+#include "filter_tile.glsl"
+#include "pixels.glsl"
+
+layout(local_size_x = 16, local_size_y = 16) in;
+
+uniform sampler2D sensor_depth_m;
+layout(r32ui) uniform uimage2D fate;
+uniform uint grown;      // kPadding or kDilation
+uniform int dilation_px;
+layout(std430) readonly buffer FilterTiles { FilterTile tiles[]; };
+layout(std430) readonly buffer Discs { Disc discs[]; };
+layout(std430) readonly buffer FilterFrame {
+  uint reach_px;
+  uint robot_tiles;
+  uint robot_tile[];
+};
+
+shared uint open_pixels;
+shared Disc near_discs[kTilePixels];
+
+// The disc that grows: dilation's is a circle of so many pixels.
+Disc grown_disc(Disc disc) {
+  if (grown == kPadding) return disc;
+  double radius_px = double(dilation_px);
+  return Disc(radius_px * radius_px, 1.0LF, disc.least_m, disc.place);
+}
+
+bool covers(Disc disc, ivec2 pixel, float reading_m) {
+  if (reading_m < disc.least_m) return false;
+  ivec2 offset = pixel - unpack(disc.place);
+  double dv = double(offset.y);
+  precise double width2_px2 = disc.radius2_px2 - disc.squash * dv * dv;
+  return width2_px2 >= 0.0LF && double(offset.x * offset.x) <= width2_px2;
+}
+
+// Pixels from one tile to another along one axis.
+int gap_px(int a, int b) { return max(0, (abs(a - b) - 1) * kTilePx + 1); }
+
+bool may_reach(ivec2 other, FilterTile tile, float reach) {
+  if (tile.discs == 0u) return false;
+  vec2 gap = vec2(gap_px(other.x, int(gl_WorkGroupID.x)), gap_px(other.y, int(gl_WorkGroupID.y)));
+  return dot(gap, gap) <= reach * reach;
+}
+
+void main() {
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 size = imageSize(fate);
+  if (gl_LocalInvocationIndex == 0) open_pixels = 0u;
+  barrier();
+  bool is_open = false;
+  if (all(lessThan(pixel, size))) {
+    uint own = imageLoad(fate, pixel).x;
+    is_open = own == kObstacle || own == kEdge;
+  }
+  if (is_open) atomicAdd(open_pixels, 1u);
+  barrier();
+  if (open_pixels == 0u) return;
+
+  float reading_m = is_open ? texelFetch(sensor_depth_m, pixel, 0).x : 0.0;
+  int reach = grown == kPadding ? int(reach_px) : dilation_px + 1;
+  int near = (reach + kTilePx - 1) / kTilePx;
+  ivec2 last_tile = ivec2(tile_columns(size), tile_rows(size)) - 1;
+  ivec2 first = clamp(ivec2(gl_WorkGroupID.xy) - near, ivec2(0), last_tile);
+  ivec2 last = clamp(ivec2(gl_WorkGroupID.xy) + near, ivec2(0), last_tile);
+  for (int row = first.y; row <= last.y; ++row) {
+    for (int column = first.x; column <= last.x; ++column) {
+      int number = row * (last_tile.x + 1) + column;
+      FilterTile tile = tiles[number];
+      if (!may_reach(ivec2(column, row), tile, grown == kPadding ? tile.reach_px : float(reach))) continue;
+      if (gl_LocalInvocationIndex < tile.discs) {
+        near_discs[gl_LocalInvocationIndex] =
+            grown_disc(discs[uint(number) * kTilePixels + gl_LocalInvocationIndex]);
+      }
+      barrier();
+      for (uint i = 0u; is_open && i < tile.discs; ++i) {
+        if (!covers(near_discs[i], pixel, reading_m)) continue;
+        is_open = false;
+        imageStore(fate, pixel, uvec4(grown));
+        atomicAdd(open_pixels, 0xFFFFFFFFu);
+      }
+      barrier();
+      if (open_pixels == 0u) return;
+    }
+  }
+}

@@ -1,0 +1,112 @@
+// The rules of the self filter that look at single pixels, and the robot's outline and boxes.
+#include "filter_fates.glsl"
+#include "filter_tile.glsl"
+#include "filter_point.glsl"
+#include "pixels.glsl"
+#include "tolerance.glsl"
+
+layout(local_size_x = 16, local_size_y = 16) in;
+
+uniform sampler2D sensor_depth_m;
+uniform sampler2D robot_depth_m;
+uniform usampler2D link_id;
+layout(r32ui) uniform writeonly uimage2D fate;
+uniform float edge_jump_m;
+uniform float deeper;  // an outline's neighbour is deeper by more than this factor
+uniform double padding_m;
+uniform int link_paddings;
+layout(std430) readonly buffer LinkPadding { double link_padding_m[]; };  // links 1 to link_paddings
+layout(std430) writeonly buffer FilterTiles { FilterTile tiles[]; };
+layout(std430) writeonly buffer Discs { Disc discs[]; };  // kTilePixels places for each tile
+layout(std430) buffer FilterFrame {
+  uint reach_px;
+  uint robot_tiles;
+  uint robot_tile[];
+};
+
+shared uint tile_discs;
+shared uint tile_reach;
+shared uint robot_pixels;
+
+bool is_flat(float a, float b, float jump_m) { return a > 0.0 && b > 0.0 && abs(a - b) <= jump_m; }
+
+// Between two flat neighbours, and far from both.
+bool is_mixed(ivec2 pixel, ivec2 next, float z_m) {
+  ivec2 size = textureSize(sensor_depth_m, 0);
+  if (any(lessThan(pixel - 2 * next, ivec2(0))) || any(greaterThanEqual(pixel + 2 * next, size))) return false;
+  float before = texelFetch(sensor_depth_m, pixel - next, 0).x;
+  float after = texelFetch(sensor_depth_m, pixel + next, 0).x;
+  precise float jump_m = edge_jump_m * max(1.0, z_m * z_m);
+  return z_m - min(before, after) > jump_m && max(before, after) - z_m > jump_m &&
+         is_flat(before, texelFetch(sensor_depth_m, pixel - 2 * next, 0).x, jump_m) &&
+         is_flat(after, texelFetch(sensor_depth_m, pixel + 2 * next, 0).x, jump_m);
+}
+
+uint fate_of(ivec2 pixel, uint link, float robot_m) {
+  float reading_m = texelFetch(sensor_depth_m, pixel, 0).x;
+  if (!(reading_m > 0.0)) return kNoReading;
+  if (link != kNoLink && reading_m >= least_reading_m(robot_m)) {
+    return link == kEnvironmentLink ? kEnvironment : kRobot;
+  }
+  bool mixed = edge_jump_m > 0.0 && (is_mixed(pixel, ivec2(1, 0), reading_m) ||
+                                     is_mixed(pixel, ivec2(0, 1), reading_m));
+  return mixed ? kEdge : kObstacle;
+}
+
+// Whether the robot does not go on at a neighbour, which is the pixel itself at the image's border.
+bool ends_at(ivec2 neighbour, float robot_m) {
+  ivec2 inside = clamp(neighbour, ivec2(0), textureSize(link_id, 0) - 1);
+  precise float most_m = robot_m * deeper;
+  return !is_evaluated(texelFetch(link_id, inside, 0).x) ||
+         texelFetch(robot_depth_m, inside, 0).x > most_m;
+}
+
+bool is_outline(ivec2 pixel, float robot_m) {
+  return ends_at(pixel - ivec2(1, 0), robot_m) || ends_at(pixel + ivec2(1, 0), robot_m) ||
+         ends_at(pixel - ivec2(0, 1), robot_m) || ends_at(pixel + ivec2(0, 1), robot_m);
+}
+
+void add_disc(ivec2 pixel, uint link, float robot_m, uint tile) {
+  double own_padding_m = int(link) <= link_paddings ? link_padding_m[link - 1u] : padding_m;
+  ivec2 size = textureSize(link_id, 0);
+  double longest_px = double(max(size.x, size.y));
+  precise dvec2 radius_px = min(dvec2(longest_px), own_padding_m * camera.zw / double(robot_m));
+  Disc disc = Disc(-1.0LF, 1.0LF, least_reading_m(robot_m), pack(pixel));
+  if (radius_px.x > 0.0LF) {
+    // Keeps a pixel that is as far away as the radius itself.
+    const double kRoundingMargin = 1.0LF + 1e-9LF;
+    precise double ratio = radius_px.x / radius_px.y;
+    disc.radius2_px2 = radius_px.x * radius_px.x * kRoundingMargin;
+    disc.squash = ratio * ratio;
+    // A pixel more than needed, against rounding.
+    atomicMax(tile_reach, uint(max(radius_px.x, radius_px.y)) + 2u);
+  }
+  discs[tile * kTilePixels + atomicAdd(tile_discs, 1u)] = disc;
+}
+
+void main() {
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  uint tile = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+  if (gl_LocalInvocationIndex == 0) {
+    tile_discs = 0u;
+    tile_reach = 0u;
+    robot_pixels = 0u;
+    empty_box();
+  }
+  barrier();
+  if (all(lessThan(pixel, textureSize(link_id, 0)))) {
+    uint link = texelFetch(link_id, pixel, 0).x;
+    float robot_m = texelFetch(robot_depth_m, pixel, 0).x;
+    imageStore(fate, pixel, uvec4(fate_of(pixel, link, robot_m)));
+    if (is_evaluated(link)) {
+      atomicAdd(robot_pixels, 1u);
+      extend_box(point_m(pixel, robot_m));
+      if (is_outline(pixel, robot_m)) add_disc(pixel, link, robot_m, tile);
+    }
+  }
+  barrier();
+  if (gl_LocalInvocationIndex != 0) return;
+  tiles[tile] = FilterTile(vec4(box_min(), 0.0), vec4(box_max(), 0.0), tile_discs, float(tile_reach));
+  atomicMax(reach_px, tile_reach);
+  if (robot_pixels > 0u) robot_tile[atomicAdd(robot_tiles, 1u)] = tile;
+}

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "berth/robot/triangle_mesh.hpp"
+
+namespace berth {
+
+/// The centre of a mesh's surface: the mean of its triangles' centres by their areas, so that it
+/// does not depend on how the surface is cut into triangles, and lies inside a convex one. The
+/// mean of the vertices where there is no area, 0 for a mesh without any.
+Eigen::Vector3d surface_centre_m(const TriangleMesh& mesh);
+
+/// The mesh, `scale` times as large in every dimension, about the centre of its surface.
+TriangleMesh scaled(const TriangleMesh& mesh, double scale);
+
+/// One normal for each vertex of length 1: the mean of those of the triangles that meet at its
+/// position, by their areas. Outward where the mesh is wound counterclockwise as seen from outside;
+/// 0 where the triangles cancel out.
+std::vector<Eigen::Vector3f> vertex_normals(const TriangleMesh& mesh);
+
+}  // namespace berth

@@ -1,0 +1,71 @@
+// The robot-shaped region of surveillance in the pipeline.
+#include <gtest/gtest.h>
+
+#include "apps/berth/open_scene.hpp"
+#include "berth/pipeline/asker.hpp"
+#include "berth/pipeline/observer.hpp"
+
+namespace berth {
+namespace {
+
+class RobotRegion : public testing::Test {
+ protected:
+  RobotRegion()
+      : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml", {})),
+        camera_(scene_.cameras.front()) {}
+
+  /// The bundled scene with a region.
+  Rig rig_with(double scale) const {
+    RigSettings settings = camera_.rig->settings();
+    settings.self_filter.robot_region_scale = scale;
+    return {camera_.rig->model(), {camera_.rig->camera(), "table", X_PC()}, settings};
+  }
+  Pose X_PC() const { return camera_.source.X_PC; }
+
+  Frame observe(const Rig& rig, std::size_t i) const {
+    Frame frame;
+    Observer observer(rig);
+    // Twice, so that the second has the memory of the first.
+    observer.observe(camera_.read_depth(i + 1), camera_.at_exposure[i + 1], frame);
+    observer.observe(camera_.read_depth(i), camera_.at_exposure[i], frame);
+    return frame;
+  }
+
+  OpenScene scene_;
+  const OpenCamera& camera_;
+};
+
+TEST_F(RobotRegion, IgnoresOnlyWhatIsNotSeenThroughIt) {
+  const Rig rig = rig_with(3);
+  const Frame all = observe(*camera_.rig, 19);
+  const Frame some = observe(rig, 19);
+  RobotPose pose;
+  forward_kinematics(rig.model(), camera_.at_exposure[19].position, pose);
+  RobotImage region;
+  RobotRenderer(rig.region_meshes(), rig.camera()).render(pose, some.X_BC, region);
+  for (std::size_t i = 0; i < region.link_id.pixels().size(); ++i) {
+    PixelFate expected = all.obstacles.fate.pixels()[i];
+    if (expected == PixelFate::obstacle && region.link_id.pixels()[i] == kNoLink)
+      expected = PixelFate::outside_region;
+    ASSERT_EQ(some.obstacles.fate.pixels()[i], expected) << i;
+  }
+  EXPECT_GT(some.obstacles.count_of(PixelFate::outside_region), 10000);
+  EXPECT_GT(some.obstacles.count_of(PixelFate::obstacle), 1000);
+}
+
+TEST_F(RobotRegion, NeverMakesADistanceSmaller) {
+  const Rig rig = rig_with(2);
+  const Frame all = observe(*camera_.rig, 19);
+  const Frame some = observe(rig, 19);
+  Asker everything(*camera_.rig);
+  Asker ignoring(rig);
+  const auto& larger = ignoring.ask(some).distances.links;
+  const auto& least = everything.ask(all).distances.links;
+  for (std::size_t i = 0; i < least.size(); ++i) {
+    if (larger[i].status == LinkStatus::none_in_range) continue;
+    EXPECT_GE(larger[i].distance_m, least[i].distance_m);
+  }
+}
+
+}  // namespace
+}  // namespace berth
