@@ -22,7 +22,7 @@ layout(std430) readonly buffer FilterFrame {
 shared uint open_pixels;
 shared uint near_tiles;
 shared uint near_tile[kTilePixels];
-shared bool has_all_near;  // a tile whose points are all near all points here
+shared uint has_all_near;  // not 0: a tile whose points are all near all points here
 shared vec4 robot_point_m[kTilePixels];
 shared uint robot_points;
 
@@ -63,13 +63,13 @@ void gather_robot(uint tile) {
 void find_near_tiles(uint first, vec3 min_m, vec3 max_m) {
   if (gl_LocalInvocationIndex == 0) {
     near_tiles = 0u;
-    has_all_near = false;
+    has_all_near = 0u;
   }
   barrier();
   uint i = first + gl_LocalInvocationIndex;
   if (i < robot_tiles) {
     bvec2 near = are_near(min_m, max_m, tiles[robot_tile[i]]);
-    if (near.y) has_all_near = true;
+    if (near.y) atomicOr(has_all_near, 1u);
     if (near.x) near_tile[atomicAdd(near_tiles, 1u)] = robot_tile[i];
   }
   barrier();
@@ -103,8 +103,8 @@ void main() {
   vec3 max_m = box_max();
   for (uint first = 0u; first < robot_tiles && open_pixels > 0u; first += kTilePixels) {
     find_near_tiles(first, min_m, max_m);
-    if (has_all_near) is_open = false;
-    if (has_all_near) break;
+    if (has_all_near != 0u) is_open = false;
+    if (has_all_near != 0u) break;
     for (uint i = 0u; i < near_tiles && open_pixels > 0u; ++i) {
       gather_robot(near_tile[i]);
       if (is_open && are_near(point, point, tiles[near_tile[i]]).x && is_near_any(point)) {
