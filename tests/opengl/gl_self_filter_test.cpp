@@ -75,14 +75,14 @@ void expect_same(const ObstacleImage& gpu, const ObstacleImage& cpu) {
 }
 
 TEST_F(GlSelfFilterTest, GivesTheSameFatesOnRandomScenes) {
-  std::array<int, kPixelFateCount> scenes{};
+  std::array<int, kSelfFilterFateCount> scenes{};
   for (std::uint32_t seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE(seed);
     const RandomScene scene = random_scene(seed);
     const ObstacleImage cpu = on_cpu(scene);
     expect_same(on_gpu(scene), cpu);
     if (HasFatalFailure()) return;
-    for (int fate = 0; fate < kPixelFateCount; ++fate) scenes[fate] += cpu.count[fate] > 0;
+    for (int fate = 0; fate < kSelfFilterFateCount; ++fate) scenes[fate] += cpu.count[fate] > 0;
   }
   // The region has a test of its own.
   EXPECT_GE(*std::min_element(scenes.begin(), std::prev(scenes.end())), 10);
