@@ -221,6 +221,7 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
   add_visibility(command, arguments.evaluation);
   add_surveillance(command, arguments.evaluation);
   add_lattice(command, arguments.evaluation);
+  add_backend_options(command, "Where images are rendered and filtered", arguments.where);
   add_output(command, arguments);
   command.footer(
       "Example:\n  berth run scene.yaml --format json --out result.jsonl --picture pictures");
@@ -235,6 +236,7 @@ void add_filter_options(CLI::App& command, FilterArguments& arguments) {
       .add_option("--out", arguments.out_folder, "Folder for the images; made if it is not there")
       ->required()
       ->type_name("DIR");
+  add_backend_options(command, "Where images are rendered and filtered", arguments.where);
   add_threads(command, arguments.threads);
   command.footer("Example:\n  berth filter scene.yaml --out filtered");
 }
@@ -261,6 +263,7 @@ void add_evaluate_options(CLI::App& command, EvaluateArguments& arguments) {
   add_evaluation(command, arguments.evaluation);
   add_surveillance(command, arguments.evaluation);
   add_lattice(command, arguments.evaluation);
+  add_gl_device(command, arguments.where);
   add_output(command, arguments);
   command.footer(
       "Example:\n  berth evaluate --camera camera_info.yaml --robot-depth robot_depth_000000.png "

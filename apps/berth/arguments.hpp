@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "apps/berth/backend_arguments.hpp"
 #include "berth/distance/evaluate.hpp"
 #include "berth/distance/settings.hpp"
 
@@ -41,6 +42,7 @@ struct EvaluationArguments {
 
 struct CommonArguments {
   EvaluationArguments evaluation;
+  BackendArguments where;
   OutputFormat format = OutputFormat::table;
   /// Nothing: standard output.
   std::filesystem::path out;
@@ -56,6 +58,7 @@ struct RunArguments : CommonArguments {
 struct FilterArguments {
   std::filesystem::path scene;
   std::filesystem::path out_folder;
+  BackendArguments where;
   int threads = 0;
 };
 

@@ -29,7 +29,7 @@ void demo_command(const DemoArguments& arguments) {
   const OpenScene scene = open_scene(bundled_scene_file(), {});
   std::optional<float> least_m;
   std::string closest;
-  run_frames(scene, arguments.picture_folder, [&](const FrameResult& result) {
+  run_frames(scene, {}, arguments.picture_folder, [&](const FrameResult& result) {
     const auto distance_m = least_distance_m(result);
     if (!distance_m || (least_m && *least_m <= *distance_m)) return;
     least_m = distance_m;

@@ -3,15 +3,20 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "apps/berth/commands.hpp"
+#include "apps/berth/frame_pipeline.hpp"
 #include "apps/berth/interrupt.hpp"
 #include "apps/berth/output.hpp"
 #include "berth/distance/evaluate.hpp"
 #include "berth/io/camera_info.hpp"
 #include "berth/io/error.hpp"
 #include "berth/io/png.hpp"
+#include "berth/opengl/gl_evaluate.hpp"
 
 namespace berth {
 namespace {
@@ -59,6 +64,36 @@ ThreeImages read_images(const EvaluateArguments& arguments) {
   return images;
 }
 
+/// From three images in memory to the result, on the backend that the method runs on.
+class Evaluator {
+ public:
+  Evaluator(Method method, const BackendArguments& where)
+      : method_(method), context_(open_context(where, method)) {
+    if (context_) gl_.emplace();
+  }
+
+  void evaluate(const ThreeImages& images, const DistanceSettings& settings, LinkDistances& out) {
+    if (gl_) {
+      gl_->evaluate(method_, images.camera, images.robot, images.obstacle_depth_m,
+                    images.link_count, settings, out);
+      context_->check("evaluate");
+      return;
+    }
+    build_obstacle_tree(images.obstacle_depth_m, tree_);
+    berth::evaluate(method_, images.camera, images.robot, images.obstacle_depth_m, tree_,
+                    images.link_count, settings, workspace_, out);
+  }
+
+  std::string gl_renderer() const { return context_ ? context_->renderer() : ""; }
+
+ private:
+  Method method_;
+  std::unique_ptr<GlContext> context_;
+  std::optional<GlEvaluator> gl_;
+  ObstacleTree tree_;
+  EvaluateWorkspace workspace_;
+};
+
 EvaluateTiming summary_of(std::vector<double> times_us) {
   std::sort(times_us.begin(), times_us.end());
   // The least time that this share of the evaluations did not exceed.
@@ -78,8 +113,7 @@ void evaluate_command(const EvaluateArguments& arguments) {
   const Method method = arguments.evaluation.method_over(Method::exact);
   const DistanceSettings settings = arguments.evaluation.settings_over({}, method);
   Output output(arguments.format, arguments.out);
-  ObstacleTree tree;
-  EvaluateWorkspace workspace;
+  Evaluator evaluator(method, arguments.where);
   LinkDistances distances;
   std::vector<double> times_us;
   for (int i = 0; i < std::max(1, arguments.repeat); ++i) {
@@ -87,9 +121,7 @@ void evaluate_command(const EvaluateArguments& arguments) {
     // Each evaluation as if it were the first: exact would begin with the last answer.
     distances.links.clear();
     const auto start = std::chrono::steady_clock::now();
-    build_obstacle_tree(images.obstacle_depth_m, tree);
-    evaluate(method, images.camera, images.robot, images.obstacle_depth_m, tree, images.link_count,
-             settings, workspace, distances);
+    evaluator.evaluate(images, settings, distances);
     const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
     times_us.push_back(took.count());
   }
@@ -97,6 +129,7 @@ void evaluate_command(const EvaluateArguments& arguments) {
   FrameResult result;
   result.camera = "camera";
   result.method = name_of(method);
+  result.gl_renderer = evaluator.gl_renderer();
   result.range_m = settings.range_m;
   result.has_bounds = settings.tolerance_m > 0 || settings.deadline_us;
   for (int id = 1; id <= images.link_count; ++id)

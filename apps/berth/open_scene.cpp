@@ -135,6 +135,7 @@ OpenScene open_scene(const std::filesystem::path& file, const EvaluationArgument
   const RobotModel model = load_robot(robot_settings(source.robot));
   const JointTrajectory joints = read_trajectory(model, source.joints);
   OpenScene scene;
+  scene.file = file;
   for (const SceneCamera& camera : source.cameras) {
     scene.cameras.push_back(open_camera(source, camera, model, joints, arguments));
     scene.frame_count += camera.depth.size();

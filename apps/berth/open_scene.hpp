@@ -24,8 +24,12 @@ struct OpenCamera {
 };
 
 struct OpenScene {
+  std::filesystem::path file;
   std::vector<OpenCamera> cameras;
   std::size_t frame_count = 0;  ///< of all cameras
+
+  /// That of all cameras.
+  Method method() const { return cameras.front().rig->settings().method; }
 };
 
 /// Reads a scene and all that it names, each depth image included, so that nothing that can be

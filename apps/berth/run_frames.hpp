@@ -2,10 +2,12 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
+#include <vector>
 
+#include "apps/berth/frame_pipeline.hpp"
 #include "apps/berth/open_scene.hpp"
 #include "berth/io/frame_result.hpp"
-#include "berth/pipeline/observer.hpp"
 
 namespace berth {
 
@@ -16,13 +18,21 @@ std::filesystem::path folder_of(const OpenScene& scene, const OpenCamera& camera
 /// Makes the folders of all cameras. Throws std::runtime_error where one cannot be made.
 void make_folders(const OpenScene& scene, const std::filesystem::path& folder);
 
-/// Where the scene asks for a background, lets the observer learn it from all images of its camera,
-/// with a progress bar on a terminal.
-void learn_background(const OpenCamera& camera, Observer& observer);
+/// One for each camera. Throws std::runtime_error where the scene's settings do not go with the
+/// backend.
+std::vector<std::unique_ptr<FramePipeline>> open_pipelines(const OpenScene& scene, Backend backend);
+
+/// All images of a camera, one after another: `take` gets the frame's number and the image when the
+/// pipeline has observed it. Where the scene asks for a background, that is learned from all of
+/// them first.
+void observe_frames(const OpenCamera& camera, FramePipeline& pipeline,
+                    const std::function<void(std::size_t, DepthView)>& take);
 
 /// All frames of a scene through the whole pipeline, with a progress bar on a terminal: `take` gets
 /// each result, camera by camera. Each frame is drawn into picture_folder unless that is empty.
-void run_frames(const OpenScene& scene, const std::filesystem::path& picture_folder,
+/// Throws as open_context and open_pipelines do, before anything is written.
+void run_frames(const OpenScene& scene, const BackendArguments& where,
+                const std::filesystem::path& picture_folder,
                 const std::function<void(const FrameResult&)>& take);
 
 }  // namespace berth

@@ -31,27 +31,26 @@ void write_images(const fs::path& folder, std::size_t frame_number, double depth
 void run_command(const RunArguments& arguments) {
   const OpenScene scene = open_scene(arguments.scene, arguments.evaluation);
   Output output(arguments.format, arguments.out);
-  run_frames(scene, arguments.picture_folder,
+  run_frames(scene, arguments.where, arguments.picture_folder,
              [&output](const FrameResult& result) { output.write(result); });
   output.finish();
 }
 
 void filter_command(const FilterArguments& arguments) {
   const OpenScene scene = open_scene(arguments.scene, {});
+  // Whatever the scene's method is, it is not asked.
+  const auto context = open_context(arguments.where, Method::exact);
+  const auto pipelines = open_pipelines(scene, arguments.where.backend);
   make_folders(scene, arguments.out_folder);
   ProgressBar progress("filter", scene.frame_count);
-  for (const OpenCamera& camera : scene.cameras) {
+  for (std::size_t c = 0; c < scene.cameras.size(); ++c) {
+    const OpenCamera& camera = scene.cameras[c];
     const fs::path folder = folder_of(scene, camera, arguments.out_folder);
-    Observer observer(*camera.rig);
-    learn_background(camera, observer);
-    Frame frame;
-    for (std::size_t i = 0; i < camera.source.depth.size(); ++i) {
-      stop_if_interrupted();
-      observer.observe(camera.read_depth(i), camera.at_exposure[i], frame,
-                       camera.exposure_time[i]);
-      write_images(folder, i, camera.source.depth_scale_m, frame);
+    observe_frames(camera, *pipelines[c], [&](std::size_t i, DepthView) {
+      write_images(folder, i, camera.source.depth_scale_m, pipelines[c]->frame());
       progress.step();
-    }
+    });
+    if (context) context->check(camera.source.name);
   }
 }
 

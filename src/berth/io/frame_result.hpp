@@ -29,6 +29,8 @@ struct FrameResult {
   double stamp_s = 0;
   std::string camera;
   std::string method;
+  /// The OpenGL renderer, where a part was computed on it.
+  std::string gl_renderer;
   double range_m = 0;
   /// Whether the search was allowed to end early, and so each link's lower bound is told as well.
   bool has_bounds = false;

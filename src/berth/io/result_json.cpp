@@ -103,6 +103,7 @@ std::string result_json(const FrameResult& result) {
   json["stamp_s"] = result.stamp_s;
   json["camera"] = result.camera;
   json["method"] = result.method;
+  if (!result.gl_renderer.empty()) json["gl_renderer"] = result.gl_renderer;
   json["range_m"] = result.range_m;
   if (result.time) json["time"] = json_of(*result.time);
   json["links"] = Json::array();

@@ -2,34 +2,20 @@
 
 #include <optional>
 
+#include "berth/pipeline/answer.hpp"
 #include "berth/pipeline/frame.hpp"
 #include "berth/pipeline/rig.hpp"
 #include "berth/pipeline/timeliness.hpp"
 #include "berth/robot/joint_buffer.hpp"
 #include "berth/types/joint_state.hpp"
-#include "berth/types/link_distance.hpp"
-#include "berth/types/link_visibility.hpp"
-#include "berth/visibility/visibility.hpp"
 
 namespace berth {
-
-/// An answer, and what it was made from.
-struct Answer {
-  /// When the depth image was exposed, and the time of the joint angles that were asked for.
-  double frame_stamp_s = 0;
-  double joints_stamp_s = 0;
-  /// Unless its status is ok, every link is LinkStatus::untimely.
-  Timeliness time;
-  LinkDistances distances;
-  /// What the camera cannot know: visibility[i] belongs to the link with the id i + 1. Empty unless
-  /// RigSettings::visibility is set.
-  std::vector<LinkVisibility> visibility;
-};
 
 /// The controller's clock: questions about a frame. One for each thread; the rig has to outlive it.
 /// Several may ask one frame at the same time.
 class Asker {
  public:
+  /// Throws std::invalid_argument if the rig's method runs on OpenGL (GlAsker).
   explicit Asker(const Rig& rig);
 
   /// The distances of the robot as it stood when the image was exposed. With the time of the
@@ -49,9 +35,6 @@ class Asker {
   const RobotImage& robot_image() const { return robot_; }
 
  private:
-  /// Begins an answer; whether it is in time.
-  bool begin(const Frame& frame, double joints_stamp_s, const Timeliness& time);
-  const Answer& withhold();
   const Answer& evaluate_robot(const Frame& frame, const AskedRobot& robot);
 
   const Rig& rig_;

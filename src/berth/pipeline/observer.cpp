@@ -1,35 +1,8 @@
 #include "berth/pipeline/observer.hpp"
 
-#include <fmt/format.h>
-
 #include <stdexcept>
 
 namespace berth {
-namespace {
-
-void require_size(const Camera& camera, DepthView depth_m) {
-  if (depth_m.width == camera.width_px && depth_m.height == camera.height_px) return;
-  throw std::invalid_argument(fmt::format("depth image: {} x {} px; expected the camera's {} x {}",
-                                          depth_m.width, depth_m.height, camera.width_px,
-                                          camera.height_px));
-}
-
-/// Nothing of the image before may stay under a new stamp.
-void clear(const Camera& camera, Frame& frame) {
-  const int width = camera.width_px, height = camera.height_px;
-  frame.X_BC = unset_pose();
-  frame.pose.X_BL.clear();
-  frame.robot.depth_m.resize(width, height, kNoDepth);
-  frame.robot.link_id.resize(width, height, kNoLink);
-  frame.robot.extent = {};
-  frame.obstacles.depth_m.resize(width, height, kNoDepth);
-  frame.obstacles.fate.resize(width, height, PixelFate::no_reading);
-  frame.obstacles.count = {};
-  frame.obstacles.count[static_cast<std::size_t>(PixelFate::no_reading)] = width * height;
-  build_obstacle_tree(frame.obstacles.depth_m, frame.obstacle_tree);
-}
-
-}  // namespace
 
 Observer::Observer(const Rig& rig) : rig_(rig), renderer_(rig.meshes(), rig.camera()) {
   if (rig.region_meshes()) region_renderer_.emplace(rig.region_meshes(), rig.camera());
@@ -38,16 +11,11 @@ Observer::Observer(const Rig& rig) : rig_(rig), renderer_(rig.meshes(), rig.came
 void Observer::observe(DepthView depth_m, const JointState& at_exposure, Frame& frame,
                        FrameTime time) {
   const Camera& camera = rig_.camera();
-  require_size(camera, depth_m);
-  frame.stamp_s = at_exposure.stamp_s;
-  frame.time = time;
-  if (time.status != TimeStatus::ok) return clear(camera, frame);
-  const RigSettings& settings = rig_.settings();
-  forward_kinematics(rig_.model(), at_exposure.position, frame.pose);
-  frame.X_BC = rig_.camera_pose(frame.pose);
+  if (!begin_exposure(rig_, depth_m, at_exposure, time, frame)) return clear_images(camera, frame);
   renderer_.render(frame.pose, frame.X_BC, frame.robot);
   filter(depth_m, frame);
-  apply_sensor_rules(depth_m, frame.robot, background_, settings.sensor, sensor_, frame.obstacles);
+  apply_sensor_rules(depth_m, frame.robot, background_, rig_.settings().sensor, sensor_,
+                     frame.obstacles);
   build_obstacle_tree(frame.obstacles.depth_m, frame.obstacle_tree);
 }
 

@@ -32,7 +32,7 @@ TimeStatus FrameClock::next(double stamp_s, const TimeSettings& settings) {
   return stamp_s - *last_s <= settings.max_frame_gap_s ? TimeStatus::ok : TimeStatus::stamp_jumped;
 }
 
-Timeliness timeliness_of(const Frame& frame, std::optional<double> now_s,
+Timeliness timeliness_of(const Exposure& frame, std::optional<double> now_s,
                          const TimeSettings& settings) {
   Timeliness time;
   time.status = frame.time.status;
@@ -49,7 +49,7 @@ Timeliness timeliness_of(const Frame& frame, std::optional<double> now_s,
   return time;
 }
 
-Timeliness timeliness_of(const Frame& frame, double joints_stamp_s, std::optional<double> now_s,
+Timeliness timeliness_of(const Exposure& frame, double joints_stamp_s, std::optional<double> now_s,
                          const TimeSettings& settings) {
   Timeliness time = timeliness_of(frame, now_s, settings);
   if (!now_s) return time;

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "berth/pipeline/frame.hpp"
+#include "berth/pipeline/exposure.hpp"
 #include "berth/robot/joints_at_time.hpp"
 
 namespace berth {
@@ -42,11 +42,11 @@ class FrameClock {
 
 /// How an answer stands at `now_s` for the joints of the exposure, whose age is the frame's.
 /// Without now_s no age is known and none is judged.
-Timeliness timeliness_of(const Frame& frame, std::optional<double> now_s,
+Timeliness timeliness_of(const Exposure& frame, std::optional<double> now_s,
                          const TimeSettings& settings);
 
 /// The same for joints of another stamp.
-Timeliness timeliness_of(const Frame& frame, double joints_stamp_s, std::optional<double> now_s,
+Timeliness timeliness_of(const Exposure& frame, double joints_stamp_s, std::optional<double> now_s,
                          const TimeSettings& settings);
 
 }  // namespace berth

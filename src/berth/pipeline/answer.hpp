@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "berth/pipeline/frame.hpp"
+#include "berth/pipeline/rig.hpp"
+#include "berth/types/link_distance.hpp"
+#include "berth/types/link_visibility.hpp"
+#include "berth/types/time_status.hpp"
+#include "berth/visibility/visibility.hpp"
+
+namespace berth {
+
+/// An answer, and what it was made from.
+struct Answer {
+  /// When the depth image was exposed, and the time of the joint angles that were asked for.
+  double frame_stamp_s = 0;
+  double joints_stamp_s = 0;
+  /// Unless its status is ok, every link is LinkStatus::untimely.
+  Timeliness time;
+  LinkDistances distances;
+  /// What the camera cannot know: visibility[i] belongs to the link with the id i + 1. Empty unless
+  /// RigSettings::visibility is set.
+  std::vector<LinkVisibility> visibility;
+};
+
+/// The first step of each question: writes the stamps. Whether the answer is in time; if not it is
+/// withheld, with every link untimely.
+bool begin_answer(const Rig& rig, double frame_stamp_s, double joints_stamp_s,
+                  const Timeliness& time, Answer& out);
+
+/// The last step of each question: fills the visibility where the rig's settings ask for it.
+/// `robot` is the one that `out.distances` are about.
+void tell_visibility(const Rig& rig, const Frame& frame, const AskedRobot& robot,
+                     VisibilityWorkspace& workspace, Answer& out);
+
+}  // namespace berth

@@ -1,0 +1,17 @@
+#include "berth/pipeline/frame.hpp"
+
+namespace berth {
+
+void clear_images(const Camera& camera, Frame& frame) {
+  const int width = camera.width_px, height = camera.height_px;
+  frame.robot.depth_m.resize(width, height, kNoDepth);
+  frame.robot.link_id.resize(width, height, kNoLink);
+  frame.robot.extent = {};
+  frame.obstacles.depth_m.resize(width, height, kNoDepth);
+  frame.obstacles.fate.resize(width, height, PixelFate::no_reading);
+  frame.obstacles.count = {};
+  frame.obstacles.count[static_cast<std::size_t>(PixelFate::no_reading)] = width * height;
+  build_obstacle_tree(frame.obstacles.depth_m, frame.obstacle_tree);
+}
+
+}  // namespace berth

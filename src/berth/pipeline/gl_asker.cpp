@@ -1,0 +1,60 @@
+#include "berth/pipeline/gl_asker.hpp"
+
+#include <stdexcept>
+#include <string>
+
+#include "berth/pipeline/timeliness.hpp"
+
+namespace berth {
+
+GlAsker::GlAsker(const Rig& rig)
+    : rig_(rig),
+      renderer_(rig.model(), rig.camera()),
+      robot_(rig.camera().width_px, rig.camera().height_px) {
+  const Method method = rig.settings().method;
+  if (runs_on_opengl(method)) return;
+  throw std::invalid_argument("method " + std::string(name_of(method)) +
+                              " does not run on OpenGL; expected one that does");
+}
+
+const Answer& GlAsker::ask(const GlFrame& frame, std::optional<double> now_s) {
+  const Timeliness time = timeliness_of(frame, now_s, rig_.settings().time);
+  if (!begin_answer(rig_, frame.stamp_s, frame.stamp_s, time, answer_)) return answer_;
+  evaluate(frame, frame.robot);
+  if (!rig_.settings().visibility) return answer_;
+  read_back(rig_.camera(), frame, seen_);
+  tell_visibility(rig_, seen_, {seen_.pose, seen_.X_BC, seen_.robot}, visibility_, answer_);
+  return answer_;
+}
+
+const Answer& GlAsker::ask(const GlFrame& frame, const JointState& joints,
+                           std::optional<double> now_s) {
+  const Timeliness time = timeliness_of(frame, joints.stamp_s, now_s, rig_.settings().time);
+  if (!begin_answer(rig_, frame.stamp_s, joints.stamp_s, time, answer_)) return answer_;
+  forward_kinematics(rig_.model(), joints.position, pose_);
+  renderer_.render(pose_, frame.X_BC, robot_);
+  evaluate(frame, robot_);
+  if (!rig_.settings().visibility) return answer_;
+  read_back(rig_.camera(), frame, seen_);
+  read_back(robot_, asked_);
+  tell_visibility(rig_, seen_, {pose_, frame.X_BC, asked_}, visibility_, answer_);
+  return answer_;
+}
+
+const Answer& GlAsker::ask(const Frame& frame, std::optional<double> now_s) {
+  const Timeliness time = timeliness_of(frame, now_s, rig_.settings().time);
+  if (!begin_answer(rig_, frame.stamp_s, frame.stamp_s, time, answer_)) return answer_;
+  const RigSettings& settings = rig_.settings();
+  evaluator_.evaluate(settings.method, rig_.camera(), frame.robot, frame.obstacles.depth_m,
+                      rig_.model().link_count(), settings.distance, answer_.distances);
+  tell_visibility(rig_, frame, {frame.pose, frame.X_BC, frame.robot}, visibility_, answer_);
+  return answer_;
+}
+
+void GlAsker::evaluate(const GlFrame& frame, const GlRobotImage& robot) {
+  const RigSettings& settings = rig_.settings();
+  evaluator_.evaluate(settings.method, rig_.camera(), robot, frame.obstacles.depth_m,
+                      rig_.model().link_count(), settings.distance, answer_.distances);
+}
+
+}  // namespace berth

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+
+#include "berth/opengl/gl_evaluate.hpp"
+#include "berth/opengl/gl_robot_renderer.hpp"
+#include "berth/pipeline/answer.hpp"
+#include "berth/pipeline/gl_frame.hpp"
+#include "berth/types/joint_state.hpp"
+
+namespace berth {
+
+/// Asker on OpenGL, for a rig whose method runs there. What comes back from the GPU is the answer;
+/// with RigSettings::visibility also the images, once for each question. It belongs to the context
+/// that is current when it is made, and to its thread; the rig has to outlive it.
+class GlAsker {
+ public:
+  /// Throws std::invalid_argument if the rig's method does not run on OpenGL.
+  explicit GlAsker(const Rig& rig);
+
+  /// As those of Asker.
+  const Answer& ask(const GlFrame& frame, std::optional<double> now_s = {});
+  const Answer& ask(const GlFrame& frame, const JointState& joints,
+                    std::optional<double> now_s = {});
+  /// A frame of this program's memory: its images are uploaded for the question.
+  const Answer& ask(const Frame& frame, std::optional<double> now_s = {});
+
+ private:
+  void evaluate(const GlFrame& frame, const GlRobotImage& robot);
+
+  const Rig& rig_;
+  GlRobotRenderer renderer_;
+  GlEvaluator evaluator_;
+  RobotPose pose_;
+  GlRobotImage robot_;
+  /// Read back for the visibility.
+  Frame seen_;
+  RobotImage asked_;
+  VisibilityWorkspace visibility_;
+  Answer answer_;
+};
+
+}  // namespace berth

@@ -1,0 +1,13 @@
+#include "berth/pipeline/gl_frame.hpp"
+
+namespace berth {
+
+void read_back(const Camera& camera, const GlFrame& frame, Frame& out) {
+  static_cast<Exposure&>(out) = frame;
+  if (frame.time.status != TimeStatus::ok) return clear_images(camera, out);
+  read_back(frame.robot, out.robot);
+  read_back(frame.obstacles, out.obstacles);
+  build_obstacle_tree(out.obstacles.depth_m, out.obstacle_tree);
+}
+
+}  // namespace berth

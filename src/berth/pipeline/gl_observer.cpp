@@ -1,0 +1,62 @@
+#include "berth/pipeline/gl_observer.hpp"
+
+#include <stdexcept>
+
+#include "berth/robot/robot_region.hpp"
+
+namespace berth {
+namespace {
+
+void require_no_sensor_rules(const SensorSettings& sensor) {
+  const char* key = sensor.speckle_px > 1              ? "speckle_px"
+                    : sensor.average_frames > 1        ? "average_frames"
+                    : sensor.background_frames > 0     ? "background_frames"
+                    : sensor.holes != HolePolicy::free ? "holes"
+                                                       : nullptr;
+  if (!key) return;
+  throw std::invalid_argument(std::string("sensor.") + key +
+                              ": runs on the CPU alone; expected it off on OpenGL");
+}
+
+}  // namespace
+
+GlObserver::GlObserver(const Rig& rig)
+    : rig_(rig),
+      upload_(rig.camera().width_px, rig.camera().height_px),
+      sensor_depth_m_(GlPixel::depth_m, rig.camera().width_px, rig.camera().height_px),
+      renderer_(rig.model(), rig.camera()),
+      region_(rig.camera().width_px, rig.camera().height_px) {
+  require_no_sensor_rules(rig.settings().sensor);
+  const double scale = rig.settings().self_filter.robot_region_scale;
+  if (scale > 0) region_renderer_.emplace(robot_region(rig.model(), scale), rig.camera());
+}
+
+void GlObserver::observe(DepthView depth_m, const JointState& at_exposure, GlFrame& frame,
+                         FrameTime time) {
+  has_images_ = begin_exposure(rig_, depth_m, at_exposure, time, frame);
+  if (!has_images_) return;
+  upload_.send(depth_m, sensor_depth_m_);
+  renderer_.render(frame.pose, frame.X_BC, frame.robot);
+  filter(frame);
+}
+
+void GlObserver::filter(GlFrame& frame) {
+  const SelfFilterSettings& settings = rig_.settings().self_filter;
+  if (!region_renderer_) {
+    filter_.filter(rig_.camera(), sensor_depth_m_, frame.robot, settings, frame.obstacles);
+    return;
+  }
+  region_renderer_->render(frame.pose, frame.X_BC, region_);
+  filter_.filter(rig_.camera(), sensor_depth_m_, frame.robot, region_.link_id, settings,
+                 frame.obstacles);
+}
+
+std::array<std::int64_t, kPixelFateCount> GlObserver::fate_counts() {
+  if (has_images_) return filter_.count();
+  std::array<std::int64_t, kPixelFateCount> none{};
+  none[static_cast<std::size_t>(PixelFate::no_reading)] =
+      std::int64_t{rig_.camera().width_px} * rig_.camera().height_px;
+  return none;
+}
+
+}  // namespace berth

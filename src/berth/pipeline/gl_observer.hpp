@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "berth/opengl/gl_robot_renderer.hpp"
+#include "berth/opengl/gl_self_filter.hpp"
+#include "berth/pipeline/gl_frame.hpp"
+#include "berth/pipeline/rig.hpp"
+#include "berth/types/joint_state.hpp"
+
+namespace berth {
+
+/// Observer on OpenGL: the depth image goes to the GPU, and the frame stays there. It belongs to
+/// the context that is current when it is made, and to its thread; the rig has to outlive it.
+class GlObserver {
+ public:
+  /// Throws std::invalid_argument where a rule of the rig's SensorSettings is on: they run on the
+  /// CPU alone.
+  explicit GlObserver(const Rig& rig);
+
+  /// As Observer::observe. `frame` was made for the rig's camera.
+  void observe(DepthView depth_m, const JointState& at_exposure, GlFrame& frame,
+               FrameTime time = {});
+
+  /// Pixels of each PixelFate of the last frame.
+  std::array<std::int64_t, kPixelFateCount> fate_counts();
+
+ private:
+  void filter(GlFrame& frame);
+
+  const Rig& rig_;
+  GlUpload upload_;
+  GlTexture sensor_depth_m_;
+  GlRobotRenderer renderer_;
+  /// Of the robot-shaped region, where there is one.
+  std::optional<GlRobotRenderer> region_renderer_;
+  GlRobotImage region_;
+  GlSelfFilter filter_;
+  bool has_images_ = false;
+};
+
+}  // namespace berth
