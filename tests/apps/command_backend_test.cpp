@@ -1,0 +1,138 @@
+// --backend opengl and the methods that run there; what the program says where there is no OpenGL.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "testing/gl_test.hpp"
+#include "tests/apps/command_scene.hpp"
+
+namespace berth {
+namespace {
+
+class Backend : public testing::GlTest {
+ protected:
+  // Two renderers may differ by a pixel at an outline.
+  Backend() { scene_.lines.self_filter = "{padding_m: 0.06, edge_jump_m: 0, island_radius_m: 0}"; }
+
+  static std::vector<Json> lines_of(const std::string& text) {
+    std::vector<Json> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) lines.push_back(Json::parse(line));
+    return lines;
+  }
+
+  std::vector<Json> run(std::vector<std::string> more) {
+    scene_.write_scene();
+    std::vector<std::string> arguments = {"run", "scene.yaml", "--format", "json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run_berth(scene_.folder(), arguments);
+    EXPECT_EQ(outcome.exit_status, 0) << outcome.err;
+    return lines_of(outcome.out);
+  }
+
+  CommandScene scene_;
+};
+
+void expect_near(const std::vector<Json>& expected, const std::vector<Json>& found) {
+  ASSERT_EQ(expected.size(), found.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    for (std::size_t k = 0; k < found[i]["links"].size(); ++k) {
+      const Json& a = expected[i]["links"][k];
+      const Json& b = found[i]["links"][k];
+      EXPECT_EQ(a["status"], b["status"]);
+      if (a["status"] != "ok") continue;
+      // A pixel of this small image is 3.3 cm wide at the arm.
+      EXPECT_NEAR(a["distance_m"].get<double>(), b["distance_m"].get<double>(), 0.034);
+    }
+  }
+}
+
+TEST_F(Backend, BothGiveTheSameDistancesByMethodsOfBoth) {
+  const std::vector<Json> expected = run({});
+  EXPECT_FALSE(expected.at(0).contains("gl_renderer"));
+  for (const std::string backend : {"cpu", "opengl"}) {
+    for (const std::string method : {"exact", "gl_exact"}) {
+      SCOPED_TRACE(backend + ", " + method);
+      const std::vector<Json> found = run({"--backend", backend, "--method", method});
+      expect_near(expected, found);
+      EXPECT_EQ(found.at(0)["method"], method);
+      const bool uses_gl = backend == "opengl" || method == "gl_exact";
+      EXPECT_EQ(found.at(0).contains("gl_renderer"), uses_gl);
+      if (uses_gl) {
+        EXPECT_EQ(found.at(0)["gl_renderer"], context().renderer());
+      }
+    }
+  }
+}
+
+TEST_F(Backend, PicturesAndFilteredImagesAreWrittenFromOpenGl) {
+  run({"--backend", "opengl", "--picture", "pictures"});
+  EXPECT_TRUE(std::filesystem::exists(scene_ / "pictures/frame_000002.png"));
+  const Outcome filter = run_berth(
+      scene_.folder(), {"filter", "scene.yaml", "--backend", "opengl", "--out", "images"});
+  EXPECT_EQ(filter.exit_status, 0) << filter.err;
+  for (const char* name : {"robot_depth", "link_ids", "obstacle_depth"}) {
+    EXPECT_TRUE(std::filesystem::exists(scene_ / ("images/" + std::string(name) + "_000002.png")));
+  }
+  const auto evaluate = [&](const std::string& method) {
+    const Outcome outcome =
+        run_berth(scene_.folder(),
+                  {"evaluate", "--camera", "camera_info.yaml", "--robot-depth",
+                   "images/robot_depth_000000.png", "--link-ids", "images/link_ids_000000.png",
+                   "--obstacle-depth", "images/obstacle_depth_000000.png", "--range", "2",
+                   "--format", "json", "--method", method, "--repeat", "2"});
+    EXPECT_EQ(outcome.exit_status, 0) << outcome.err;
+    return lines_of(outcome.out);
+  };
+  expect_near(evaluate("exact"), evaluate("gl_exact"));
+  EXPECT_EQ(evaluate("gl_lattice").at(0)["gl_renderer"], context().renderer());
+}
+
+TEST_F(Backend, AnUnknownDeviceIsRefusedBeforeAnythingIsWritten) {
+  scene_.write_scene();
+  const auto before = scene_.all_names();
+  const Outcome outcome = run_berth(
+      scene_.folder(),
+      {"run", "scene.yaml", "--backend", "opengl", "--gl-device", "none such", "--picture", "p"});
+  EXPECT_EQ(outcome.exit_status, 1);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_NE(outcome.err.find("no device \"none such\""), std::string::npos) << outcome.err;
+  EXPECT_EQ(scene_.all_names(), before);
+}
+
+TEST_F(Backend, ASensorRuleIsRefusedWithTheScenesName) {
+  scene_.lines.more = "sensor: {speckle_px: 20}";
+  scene_.write_scene();
+  const Outcome outcome = run_berth(scene_.folder(), {"run", "scene.yaml", "--backend", "opengl"});
+  EXPECT_EQ(outcome.exit_status, 1);
+  EXPECT_NE(outcome.err.find("scene.yaml: sensor.speckle_px: runs on the CPU alone"),
+            std::string::npos)
+      << outcome.err;
+}
+
+/// The loader of EGL finds no vendor then.
+class WithoutOpenGl : public ::testing::Test {
+ protected:
+  WithoutOpenGl() { setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nowhere", 1); }
+  ~WithoutOpenGl() override { unsetenv("__EGL_VENDOR_LIBRARY_FILENAMES"); }
+};
+
+TEST_F(WithoutOpenGl, WhatNeedsItSaysWhatIsMissingAndTheRestRuns) {
+  CommandScene scene;
+  scene.write_scene();
+  for (const std::vector<std::string>& needing :
+       {std::vector<std::string>{"run", "scene.yaml", "--backend", "opengl"},
+        {"run", "scene.yaml", "--method", "gl_exact"},
+        {"filter", "scene.yaml", "--backend", "opengl", "--out", "images"}}) {
+    const Outcome outcome = run_berth(scene.folder(), needing);
+    EXPECT_EQ(outcome.exit_status, 1);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_TRUE(outcome.err.starts_with("berth: OpenGL: ")) << outcome.err;
+    EXPECT_NE(outcome.err.find("expected"), std::string::npos) << outcome.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists(scene / "images"));
+  EXPECT_EQ(run_berth(scene.folder(), {"run", "scene.yaml"}).exit_status, 0);
+}
+
+}  // namespace
+}  // namespace berth

@@ -1,0 +1,166 @@
+// The two clocks on OpenGL, against those of the CPU.
+#include "apps/berth/open_scene.hpp"
+#include "berth/pipeline/asker.hpp"
+#include "berth/pipeline/gl_asker.hpp"
+#include "berth/pipeline/gl_observer.hpp"
+#include "berth/pipeline/observer.hpp"
+#include "testing/gl_test.hpp"
+
+namespace berth {
+namespace {
+
+/// A link's outermost pixel may be the next one on another renderer.
+constexpr float kDistanceError_m = 0.005F;
+
+class GlPipeline : public testing::GlTest {
+ protected:
+  GlPipeline()
+      : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml", {})),
+        camera_(scene_.cameras.front()) {}
+
+  Rig rig_with(Method method, const SensorSettings& sensor = {}) const {
+    RigSettings settings = camera_.rig->settings();
+    settings.method = method;
+    settings.sensor = sensor;
+    const CameraMount mount{camera_.rig->camera(), camera_.source.parent_link, camera_.source.X_PC};
+    return {camera_.rig->model(), mount, settings};
+  }
+
+  Frame observe_on_cpu(std::size_t i) const {
+    Frame frame;
+    Observer(*camera_.rig).observe(camera_.read_depth(i), camera_.at_exposure[i], frame);
+    return frame;
+  }
+
+  static void expect_near(const Answer& cpu, const Answer& gl) {
+    EXPECT_EQ(gl.frame_stamp_s, cpu.frame_stamp_s);
+    EXPECT_EQ(gl.joints_stamp_s, cpu.joints_stamp_s);
+    ASSERT_EQ(gl.distances.links.size(), cpu.distances.links.size());
+    for (std::size_t i = 0; i < cpu.distances.links.size(); ++i) {
+      SCOPED_TRACE("link " + std::to_string(i + 1));
+      const LinkDistance& a = cpu.distances.links[i];
+      const LinkDistance& b = gl.distances.links[i];
+      ASSERT_EQ(b.status, a.status);
+      if (a.status == LinkStatus::ok) {
+        EXPECT_NEAR(b.distance_m, a.distance_m, kDistanceError_m);
+      }
+      EXPECT_NEAR(gl.visibility[i].surface.seen, cpu.visibility[i].surface.seen, 0.02);
+    }
+  }
+
+  OpenScene scene_;
+  const OpenCamera& camera_;
+};
+
+TEST_F(GlPipeline, AnswersAreThoseOfTheCpu) {
+  const Rig gl_rig = rig_with(Method::gl_exact);
+  GlObserver observer(gl_rig);
+  GlAsker gl_asker(gl_rig);
+  Asker asker(*camera_.rig);
+  GlFrame gl_frame(gl_rig.camera());
+  for (const std::size_t i : {3, 29}) {
+    SCOPED_TRACE(i);
+    const Frame frame = observe_on_cpu(i);
+    observer.observe(camera_.read_depth(i), camera_.at_exposure[i], gl_frame);
+    expect_near(asker.ask(frame), gl_asker.ask(gl_frame));
+    const JointState& next = camera_.at_exposure[i + 4];
+    expect_near(asker.ask(frame, next), gl_asker.ask(gl_frame, next));
+
+    std::int64_t differing = 0;
+    for (int fate = 0; fate < kPixelFateCount; ++fate) {
+      differing += std::abs(observer.fate_counts()[fate] - frame.obstacles.count[fate]);
+    }
+    EXPECT_LT(differing, 60);
+  }
+}
+
+TEST_F(GlPipeline, AFrameOfTheCpuIsUploadedForTheQuestion) {
+  const Rig gl_rig = rig_with(Method::gl_exact);
+  GlAsker gl_asker(gl_rig);
+  const Frame frame = observe_on_cpu(12);
+  const Answer& found = gl_asker.ask(frame);
+  const Answer expected = Asker(*camera_.rig).ask(frame);
+  for (std::size_t i = 0; i < found.distances.links.size(); ++i) {
+    EXPECT_NEAR(found.distances.links[i].distance_m, expected.distances.links[i].distance_m, 2e-5);
+  }
+}
+
+TEST_F(GlPipeline, AFrameReadBackIsWhatWasAsked) {
+  const Rig gl_rig = rig_with(Method::gl_exact);
+  GlObserver observer(gl_rig);
+  GlFrame gl_frame(gl_rig.camera());
+  observer.observe(camera_.read_depth(5), camera_.at_exposure[5], gl_frame);
+  Frame frame;
+  read_back(gl_rig.camera(), gl_frame, frame);
+  EXPECT_EQ(frame.stamp_s, camera_.at_exposure[5].stamp_s);
+  EXPECT_EQ(frame.obstacles.count, observer.fate_counts());
+  const auto from_gpu = GlAsker(gl_rig).ask(gl_frame).distances.links;
+  const auto from_cpu = Asker(*camera_.rig).ask(frame).distances.links;
+  for (std::size_t i = 0; i < from_cpu.size(); ++i) {
+    EXPECT_NEAR(from_gpu[i].distance_m, from_cpu[i].distance_m, 2e-5);
+  }
+}
+
+TEST_F(GlPipeline, AnUntimelyFrameHasNoAnswerAndNoImages) {
+  const Rig gl_rig = rig_with(Method::gl_exact);
+  GlObserver observer(gl_rig);
+  GlAsker asker(gl_rig);
+  GlFrame gl_frame(gl_rig.camera());
+  observer.observe(camera_.read_depth(5), camera_.at_exposure[5], gl_frame);
+  asker.ask(gl_frame);
+  FrameTime late;
+  late.status = TimeStatus::missing_joint;
+  observer.observe(camera_.read_depth(5), camera_.at_exposure[6], gl_frame, late);
+  for (const LinkDistance& link : asker.ask(gl_frame).distances.links) {
+    EXPECT_EQ(link.status, LinkStatus::untimely);
+    EXPECT_TRUE(std::isnan(link.distance_m));
+  }
+  Frame frame;
+  read_back(gl_rig.camera(), gl_frame, frame);
+  const std::int64_t all = std::int64_t{640} * 480;
+  EXPECT_EQ(frame.obstacles.count_of(PixelFate::no_reading), all);
+  EXPECT_EQ(observer.fate_counts(), frame.obstacles.count);
+}
+
+template <class Call>
+std::string message_of(Call call) {
+  try {
+    call();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST_F(GlPipeline, AMethodOfTheOtherBackendIsRefused) {
+  const Rig gl_rig = rig_with(Method::gl_exact);
+  EXPECT_EQ(message_of([&] { Asker asker(gl_rig); }),
+            "method gl_exact runs on OpenGL; expected one that does not");
+  EXPECT_EQ(message_of([&] { GlAsker asker(*camera_.rig); }),
+            "method exact does not run on OpenGL; expected one that does");
+}
+
+TEST_F(GlPipeline, ASensorRuleIsRefusedByName) {
+  const auto refusal = [&](const SensorSettings& sensor) {
+    const Rig rig = rig_with(Method::gl_exact, sensor);
+    return message_of([&] { GlObserver observer(rig); });
+  };
+  const std::string rest = ": runs on the CPU alone; expected it off on OpenGL";
+  EXPECT_EQ(refusal({.speckle_px = 20}), "sensor.speckle_px" + rest);
+  EXPECT_EQ(refusal({.average_frames = 3}), "sensor.average_frames" + rest);
+  EXPECT_EQ(refusal({.background_frames = 3}), "sensor.background_frames" + rest);
+  EXPECT_EQ(refusal({.holes = HolePolicy::obstacle}), "sensor.holes" + rest);
+  EXPECT_EQ(refusal({}), "");
+}
+
+TEST_F(GlPipeline, AnImageOfAnotherSizeIsRefused) {
+  const Rig gl_rig = rig_with(Method::gl_exact);
+  GlObserver observer(gl_rig);
+  GlFrame frame(gl_rig.camera());
+  EXPECT_EQ(
+      message_of([&] { observer.observe(DepthImage(3, 2, 1.0F), camera_.at_exposure[0], frame); }),
+      "depth image: 3 x 2 px; expected the camera's 640 x 480");
+}
+
+}  // namespace
+}  // namespace berth
