@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
+
 #include "apps/berth/interrupt.hpp"
 #include "apps/berth/progress_bar.hpp"
 #include "bench/coarse_robot.hpp"
@@ -18,6 +21,9 @@ namespace {
 
 /// Of each edge: 112 000 triangles of the bundled robot.
 constexpr int kParts = 5;
+
+/// Of the lattices' obstacle pixels, in x and y.
+constexpr int kLatticeStep = 8;
 
 constexpr Method kGlMethods[] = {Method::gl_exact, Method::gl_lattice, Method::gl_hybrid};
 
@@ -41,6 +47,7 @@ class GlStages {
         renderer_(rig.model(), camera_),
         settings_(rig.settings().distance) {
     settings_.mean_direction = false;
+    settings_.lattice.step_x = settings_.lattice.step_y = kLatticeStep;
     const double scale = rig.settings().self_filter.robot_region_scale;
     if (scale > 0) region_renderer_.emplace(robot_region(rig.model(), scale), camera_);
     for (const Method method : kGlMethods) {
@@ -168,11 +175,11 @@ Table measure(const std::string& title, const OpenCamera& camera, const Rig& rig
   Table table{
       title,
       fmt::format("{} x {}, {} triangles, {} links, {} frames, each {} times; without mean "
-                  "directions, by the clock on the wall. Upload, render and self filter "
-                  "each until the GPU has done them; the rows below those begin with "
-                  "images on the GPU, but for the last three.",
+                  "directions, lattices with steps of {} px, by the clock on the wall. "
+                  "Upload, render and self filter each until the GPU has done them; the "
+                  "rows below those begin with images on the GPU, but for the last three.",
                   rig.camera().width_px, rig.camera().height_px, triangle_count(rig.model()),
-                  rig.model().link_count(), frames, rounds + 1),
+                  rig.model().link_count(), frames, rounds + 1, kLatticeStep),
       "stage",
       {"median ms", "p99 ms", "max ms"},
       {}};

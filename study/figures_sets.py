@@ -136,8 +136,8 @@ def draw_methods(axes, lines, title):
     from_zero(axes[1])
     axes[0].set(xlabel="the fastest parameter sets", ylabel="time [ms]", title=f"(c) {title}")
     axes[1].set(xlabel="the fastest parameter sets", title=f"(d) {title}",
-                ylabel="distance error [mm]; dot mean, bar greatest")
-    legend_above(axes[0], 3)
+                ylabel="distance error [mm]")
+    legend_above(axes[0], 2)
     legend_above(axes[1], 3)
 
 

@@ -72,11 +72,12 @@ FINDINGS = [
     Finding("3.13", "GPU rasterization (gl_lattice) is much faster than CPU rasterization "
             "(gl_hybrid; judged: half the time).",
             "it takes {:.2f} times as long", rules.gpu_rasterization_is_faster, times_a_gpu=True),
-    Finding("3.13", "Beyond steps of 32 its distances are worse than those of CPU rasterization.",
+    Finding("3.13", "Beyond steps of 32 the distances of GPU rasterization are worse than those of "
+            "CPU rasterization.",
             "their error is {:.2f} times as large", rules.beyond_32("distance")),
-    Finding("3.14", "So are its robot points.",
+    Finding("3.14", "Beyond steps of 32 the robot points of GPU rasterization are worse as well.",
             "their error is {:.2f} times as large", rules.beyond_32("robot_point")),
-    Finding("3.14", "And its obstacle points.",
+    Finding("3.14", "And so are its obstacle points.",
             "their error is {:.2f} times as large", rules.beyond_32("obstacle_point")),
     Finding("3.15", "The tile size hardly matters to the time.",
             "the slowest takes {:.2f} times as long as the fastest", rules.tile_hardly_matters,

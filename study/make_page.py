@@ -50,11 +50,11 @@ FIGURES = {
              "Each averaged over the scenes; the thesis shows the GPU's, here they are lattice's."),
     "3.18": ("The fastest sets", figures_sets.table_3_18, figures_sets.draw_3_18,
              "The thesis shows the GPU's; (a) and (b) are lattice's, on the processor; (c) and (d) "
-             "are all methods', where OpenGL was measured."),
+             "are all methods' (dots: mean, bars: greatest), where OpenGL was measured."),
     "3.19": ("The worst case", figures_sets.table_3_19, figures_sets.draw_3_19,
              "Every pixel an obstacle, the robot behind every pixel. Its own distances are 0, so "
              "the errors are those of the same sets elsewhere, as in the thesis. (c) and (d) are "
-             "all methods', where OpenGL was measured."),
+             "all methods' (dots: mean, bars: greatest), where OpenGL was measured."),
 }
 NO_GPU = ("OpenGL ran on the processor ({}), not on a GPU: its times are no measure of one, and "
           "findings about them are not judged.")
@@ -90,27 +90,45 @@ def caption(number, verdicts, width):
     return "\n".join("\n".join(textwrap.wrap(line, width)) for line in lines)
 
 
+def add_below(figure, text):
+    """Makes the figure higher, by room for the text. Returns the room's share of the height."""
+    room_in = 0.15 + 0.145 * (text.count("\n") + 1)
+    height_in = figure.get_figheight() + room_in
+    share = room_in / height_in
+    figure.set_figheight(height_in)
+    figure.get_layout_engine().set(rect=(0, share, 1, 1 - share))
+    figure.text(0.01, share - 0.1 / height_in, text, va="top", fontsize=8.5)
+    return share
+
+
+def without_below(svg, share):
+    """The picture cut above what add_below() added."""
+    width, height = re.search(r'viewBox="0 0 ([0-9.]+) ([0-9.]+)"', svg).groups()
+    cut = float(height) * (1 - share)
+    return (svg.replace(f'viewBox="0 0 {width} {height}"', f'viewBox="0 0 {width} {cut:.2f}"', 1)
+            .replace(f'height="{height}pt"', f'height="{cut:.2f}pt"', 1))
+
+
 def make_figure(folder, number, rows, verdicts):
-    """Writes the figure's files; returns its SVG for the page, which has the caption in words of
-    its own. None where nothing was measured."""
+    """Writes the figure's files; returns its SVG for the page, which has the caption as text. None
+    where nothing was measured."""
     _, make_table, draw, _ = FIGURES[number]
     table = make_table(rows)
     if not table:
         return None
     write_table(folder / file_name(number, "csv"), table)
     figure = draw(table)
+    share = add_below(figure, caption(number, verdicts, int(15 * figure.get_figwidth())))
+    figure.savefig(folder / file_name(number, "png"))
+    # Laid out once; a second time takes as long as the first.
+    figure.set_layout_engine("none")
     svg = io.StringIO()
     # The prefix keeps the names inside one picture apart from those of the others on the page.
     pyplot.rcParams["svg.hashsalt"] = number
     figure.savefig(svg, format="svg", metadata={"Date": None})
-    # Laid out once; a second time takes as long as the first.
-    figure.set_layout_engine("none")
-    figure.text(0.01, 0, caption(number, verdicts, int(15 * figure.get_figwidth())), va="top",
-                fontsize=8.5)
-    figure.savefig(folder / file_name(number, "png"), bbox_inches="tight")
-    figure.savefig(folder / file_name(number, "svg"), bbox_inches="tight", metadata={"Date": None})
     pyplot.close(figure)
-    return svg.getvalue()[svg.getvalue().index("<svg"):]
+    (folder / file_name(number, "svg")).write_text(svg.getvalue(), encoding="utf-8")
+    return without_below(svg.getvalue()[svg.getvalue().index("<svg"):], share)
 
 
 def badge(verdict):

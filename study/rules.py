@@ -224,8 +224,10 @@ def of_both(measure):
         lattice, hybrid = on_gpu(rows, LATTICE), on_gpu(rows, HYBRID)
         if lattice is None or hybrid is None:
             return None
-        number = ratio(measure(lattice), measure(hybrid))
-        return None if numpy.isnan(number) else number
+        of_lattice, of_hybrid = measure(lattice), measure(hybrid)
+        if numpy.isnan(of_lattice) or numpy.isnan(of_hybrid):
+            return None
+        return 1 if of_lattice == of_hybrid else ratio(of_lattice, of_hybrid)
     return found
 
 
