@@ -215,7 +215,7 @@ def page(study, rows, svgs, verdicts):
     facts = "".join(f"<tr><th>{html.escape(name)}</th><td>{html.escape(str(value))}</td></tr>"
                     for name, value in study.items())
     counts = ", ".join(f"{sum(found.verdict == kind for found in verdicts)} "
-                       f"{kind if kind != HOLDS else 'hold'}" if kind != FAILS else
+                       f"{kind.replace('holds', 'hold')}" if kind != FAILS else
                        f"{sum(found.verdict == kind for found in verdicts)} do not"
                        for kind in (HOLDS, IN_PART, FAILS))
     contents = "".join(
