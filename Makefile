@@ -1,5 +1,5 @@
 # Thin fronts of CMake. Each target does all set-up that it needs, on a bare Debian 12 too.
-.PHONY: demo test build bench study sanitize fuzz trust trust-distances trust-long-runs setup format clean
+.PHONY: demo test build bench study bench-gpu sanitize fuzz trust trust-distances trust-long-runs setup format clean
 
 demo: setup
 	cmake --preset release
@@ -27,6 +27,18 @@ study: setup
 	cmake --preset release
 	cmake --build --preset release --target berth
 	build/release/berth study --out build/study $(if $(BERTH_DATA),$(recordings)) $(STUDY_OPTIONS)
+
+# Both on OpenGL. GL_DEVICE: as for `berth run --gl-device`; results.md is ready for bench/RESULTS.md.
+gl_device = $(if $(GL_DEVICE),--gl-device "$(GL_DEVICE)")
+bench-gpu:
+	scripts/setup.sh packages.txt packages-bench.txt
+	cmake --preset bench
+	cmake --build --preset bench --target berth
+	build/bench/berth bench --backend opengl $(gl_device) --out build/bench_gpu \
+	  $(if $(BERTH_DATA),$(recordings)) $(BENCH_OPTIONS)
+	build/bench/berth study --backend opengl $(gl_device) --out build/bench_gpu/study \
+	  $(if $(BERTH_DATA),$(recordings)) $(STUDY_OPTIONS)
+	bench/gpu_results.py build/bench_gpu
 
 # The tests under AddressSanitizer and UBSan, then under ThreadSanitizer.
 sanitize: setup

@@ -2,6 +2,7 @@
 
 #include "bench/compare.hpp"
 #include "bench/drawn_scenes.hpp"
+#include "bench/gl_stages.hpp"
 #include "bench/recorded_scenes.hpp"
 #include "bench/report.hpp"
 #include "berth/opengl/gl_context.hpp"
@@ -34,7 +35,12 @@ void run_gl_benchmarks(const BenchSettings& settings, const Extent& extent) {
   }
   for (const auto& recording : recordings) {
     compare(recorded_scenes(recording, extent.recorded_frames));
+    report.add(measure_gl_stages(*recording, extent.recorded_frames, extent.stage_rounds));
+    context.check(recording->title);
   }
+  const int rounds = (context.is_software() ? 1 : 10) * extent.stage_rounds;
+  report.add(measure_gl_stages_of_100_000(settings.bundled_scene, rounds));
+  context.check("100 000 triangles");
 }
 
 }  // namespace berth::bench

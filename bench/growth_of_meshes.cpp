@@ -4,13 +4,12 @@
 #include "apps/berth/interrupt.hpp"
 #include "apps/berth/open_scene.hpp"
 #include "apps/berth/progress_bar.hpp"
-#include "bench/coarsen.hpp"
+#include "bench/coarse_robot.hpp"
 #include "bench/embree_rays.hpp"
 #include "bench/growth.hpp"
 #include "bench/recorded_scenes.hpp"
 #include "bench/statistics.hpp"
 #include "measure/stopwatch.hpp"
-#include "bench/subdivide.hpp"
 #include "bench/triangle_count.hpp"
 #include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/observer.hpp"
@@ -19,23 +18,8 @@ namespace berth::bench {
 namespace {
 
 constexpr int kThreads = 2;
-/// Leaves 4 500 triangles of the bundled robot's collision shapes.
-constexpr float kCell_m = 0.02f;
 /// Of each edge.
 constexpr int kParts[] = {1, 2, 5, 8, 16};
-
-RobotModel load_coarse_robot(const SceneRobot& robot) {
-  RobotModel model = load_robot({robot.urdf, robot.package_paths, GeometryKind::collision,
-                                 robot.environment_links, robot.ignore_links});
-  for (Link& link : model.links) link.mesh_L = coarsen(link.mesh_L, kCell_m);
-  return model;
-}
-
-/// The robot with each triangle in parts * parts.
-RobotModel subdivided(RobotModel model, int parts) {
-  for (Link& link : model.links) link.mesh_L = subdivide(link.mesh_L, parts);
-  return model;
-}
 
 template <class Call>
 void take(std::vector<double>& times_ms, Call call) {
@@ -84,7 +68,7 @@ Table::Row measure(const OpenCamera& camera, const RobotModel& model, int rounds
 Table measure_growth_of_meshes(const std::filesystem::path& scene_file, int rounds) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, kThreads);
   const auto recording = open_recording(scene_file, "bundled");
-  const RobotModel model = load_coarse_robot(read_scene(scene_file).robot);
+  const SceneRobot robot = read_scene(scene_file).robot;
   Table table{"Growth with the meshes",
               fmt::format("The robot of the bundled scene, its collision shapes made coarse and "
                           "then subdivided, the same surface in each row; {} threads, {} runs.",
@@ -95,7 +79,7 @@ Table measure_growth_of_meshes(const std::filesystem::path& scene_file, int roun
               {}};
   ProgressBar progress(table.title, std::size(kParts));
   for (const int parts : kParts) {
-    table.rows.push_back(measure(recording->camera(), subdivided(model, parts), rounds));
+    table.rows.push_back(measure(recording->camera(), coarse_robot(robot, parts), rounds));
     progress.step();
   }
   return table;

@@ -7,18 +7,6 @@
 namespace berth::bench {
 namespace {
 
-/// A scene's images on the GPU.
-struct GlScene {
-  GlScene(int width, int height)
-      : upload(width, height),
-        robot(width, height),
-        obstacle_depth_m(GlPixel::depth_m, width, height) {}
-
-  GlUpload upload;
-  GlRobotImage robot;
-  GlTexture obstacle_depth_m;
-};
-
 class GlPeer : public Peer {
  public:
   explicit GlPeer(Method method) : method_(method) {}
@@ -53,7 +41,7 @@ class GlPeer : public Peer {
 
  private:
   Method method_;
-  std::optional<GlScene> images_;
+  std::optional<GlUploadedImages> images_;
   GlEvaluator evaluator_;
   LinkDistances answer_;
 };

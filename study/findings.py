@@ -24,6 +24,8 @@ class Finding:
     rule: Callable
     """Judged on the worst case alone."""
     on_worst_case: bool = False
+    """Not judged where OpenGL runs on the processor."""
+    times_a_gpu: bool = False
 
 
 FINDINGS = [
@@ -67,19 +69,42 @@ FINDINGS = [
             "{:.2f} times the mean error", rules.fastest_errs_more),
     Finding("3.12", "Their distance is still acceptable (judged: 5 mm in the mean).",
             "{:.2f} mm", rules.fastest_is_acceptable),
+    Finding("3.13", "GPU rasterization (gl_lattice) is much faster than CPU rasterization "
+            "(gl_hybrid; judged: half the time).",
+            "it takes {:.2f} times as long", rules.gpu_rasterization_is_faster, times_a_gpu=True),
+    Finding("3.13", "Beyond steps of 32 the distances of GPU rasterization are worse than those of "
+            "CPU rasterization.",
+            "their error is {:.2f} times as large", rules.beyond_32("distance")),
+    Finding("3.14", "Beyond steps of 32 the robot points of GPU rasterization are worse as well.",
+            "their error is {:.2f} times as large", rules.beyond_32("robot_point")),
+    Finding("3.14", "And so are its obstacle points.",
+            "their error is {:.2f} times as large", rules.beyond_32("obstacle_point")),
+    Finding("3.15", "The tile size hardly matters to the time.",
+            "the slowest takes {:.2f} times as long as the fastest", rules.tile_hardly_matters,
+            times_a_gpu=True),
+    Finding("3.16", "The fastest initial radius is the least accurate.",
+            "its error is {:.2f} times the least", rules.fastest_radius_errs_most,
+            times_a_gpu=True),
     Finding("3.17", "The slower a parameter set, the more accurate.",
             "rank correlation of time and error {:.2f}", rules.slower_is_more_accurate),
     Finding("3.17", "The scatter is wide: sets of the same time differ much in error.",
             "the deviation among sets of like time is {:.2f} of that of all",
             rules.scatter_is_wide),
     Finding("3.18", "2.2 ms are enough for at most 5 mm at every link (on the GTX 660).",
-            "the fastest set that keeps to it on a scene takes {:.2f} ms", rules.fast_within_5_mm),
+            "the fastest lattice set that keeps to it on a scene takes {:.2f} ms",
+            rules.fast_within_5_mm),
+    Finding("3.18", "The same on the GPU here.",
+            "the fastest set of gl_lattice and gl_hybrid that keeps to it on a scene takes "
+            "{:.2f} ms", rules.gpu_within_5_mm, times_a_gpu=True),
     Finding("3.19", "The worst case takes little more, 1 to 10 ms (on the GTX 660; judged: the 30 "
             "fastest within 10 ms when every pair is computed, as there).",
             "the slowest of the 30 takes {:.3g} ms", rules.worst_case_with_every_pair, True),
     Finding("3.19", "The same when the region shrinks, as the thesis's CPU algorithm does: the "
             "distance there is 0, and found at once.",
             "the slowest of the 30 takes {:.3g} ms", rules.worst_case_that_shrinks, True),
+    Finding("3.19", "The same on the GPU here, with gl_lattice.",
+            "the slowest of the 30 takes {:.3g} ms", rules.gpu_worst_case, True,
+            times_a_gpu=True),
 ]
 
 

@@ -38,20 +38,25 @@ std::string columns_of(const Measurement& measurement) {
                      columns_of(errors.robot_point_mm), columns_of(errors.obstacle_point_mm));
 }
 
-Measurement measure(const ParameterSet& set, const testing::ImagePair& images,
-                    const LinkDistances& truth, MeasureWorkspace& workspace) {
-  Measurement found;
-  found.time_ms = time_once_ms(set, images, workspace);
-  double all_ms = found.time_ms;
+double least_ms(const std::function<double()>& run_ms) {
+  double time_ms = run_ms();
+  double all_ms = time_ms;
   const auto is_enough = [&](int runs) {
-    return found.time_ms > kOnceAbove_ms || runs == kMostRuns ||
+    return time_ms > kOnceAbove_ms || runs == kMostRuns ||
            (runs >= kLeastRuns && all_ms >= kEnough_ms);
   };
   for (int runs = 1; !is_enough(runs); ++runs) {
-    const double time_ms = time_once_ms(set, images, workspace);
-    found.time_ms = std::min(found.time_ms, time_ms);
-    all_ms += time_ms;
+    const double this_ms = run_ms();
+    time_ms = std::min(time_ms, this_ms);
+    all_ms += this_ms;
   }
+  return time_ms;
+}
+
+Measurement measure(const ParameterSet& set, const testing::ImagePair& images,
+                    const LinkDistances& truth, MeasureWorkspace& workspace) {
+  Measurement found;
+  found.time_ms = least_ms([&] { return time_once_ms(set, images, workspace); });
   found.pairs = workspace.answer.pairs;
   found.errors = errors_of(truth, workspace.answer, set.settings.range_m);
   return found;

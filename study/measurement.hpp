@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -27,6 +28,10 @@ inline constexpr std::string_view kMeasurementColumns =
 /// The errors are empty where no link has one.
 std::string columns_of(const Measurement& measurement);
 
+/// The least of what run_ms() gives in three runs, in up to 20 as long as they are short together,
+/// or in one that takes longer than 30 ms.
+double least_ms(const std::function<double()>& run_ms);
+
 /// The memory of measure(), one for each thread.
 struct MeasureWorkspace {
   ObstacleTree tree;
@@ -35,9 +40,7 @@ struct MeasureWorkspace {
 };
 
 /// The time is processor time of the calling thread, from three images in memory to the answer,
-/// the tree of `exact` included: the least of three runs, of up to 20 as long as they are short
-/// together, or of one that takes longer than 30 ms.
-/// TBB is to be held to one thread.
+/// the tree of `exact` included: least_ms(). TBB is to be held to one thread.
 Measurement measure(const ParameterSet& set, const testing::ImagePair& images,
                     const LinkDistances& truth, MeasureWorkspace& workspace);
 

@@ -80,8 +80,61 @@ std::vector<ParameterSet> exact_sets(const Extent& extent) {
   return sets;
 }
 
-SurveillanceRegion region_of(const ParameterSet& set) {
-  return set.settings.surveillance.region.value_or(SurveillanceRegion::cube_projection);
+ParameterSet gl_set(Part part, Method method, int step) {
+  ParameterSet set{part, method, settings_with(kUsualLength_m)};
+  set.settings.lattice.step_x = set.settings.lattice.step_y = step;
+  return set;
+}
+
+std::vector<ParameterSet> gl_hybrid_sets(const Extent& extent) {
+  std::vector<ParameterSet> sets;
+  for (const int step : extent.gl_steps) {
+    for (const int first_px : extent.gl_initial_radii_px) {
+      for (const int last_px : extent.gl_final_radii_px) {
+        sets.push_back(gl_set(Part::gl_hybrid, Method::gl_hybrid, step));
+        sets.back().settings.lattice.initial_grid_radius_px = first_px;
+        sets.back().settings.lattice.final_grid_radius_px = last_px;
+      }
+    }
+  }
+  return sets;
+}
+
+std::vector<ParameterSet> gl_lattice_sets(const Extent& extent) {
+  std::vector<ParameterSet> sets;
+  for (const int step : extent.gl_steps) {
+    for (const int first_px : extent.gl_tiles_px) {
+      for (const int last_px : extent.gl_final_radii_px) {
+        sets.push_back(gl_set(Part::gl_lattice, Method::gl_lattice, step));
+        sets.back().settings.lattice.tile_px = first_px;
+        sets.back().settings.lattice.final_grid_radius_px = last_px;
+      }
+    }
+  }
+  return sets;
+}
+
+/// Region, shrinking, pattern.
+std::string surveillance_columns(const ParameterSet& set) {
+  if (set.method != Method::brute_force && set.method != Method::lattice) return ",,";
+  const SurveillanceSettings& watched = set.settings.surveillance;
+  return fmt::format("{},{},{}",
+                     name_of(watched.region.value_or(SurveillanceRegion::cube_projection)),
+                     name_of(watched.shrinking), name_of(watched.search_pattern));
+}
+
+/// Steps, radii, tile.
+std::string lattice_columns(const ParameterSet& set) {
+  const LatticeSettings& lattice = set.settings.lattice;
+  if (set.method == Method::lattice || set.method == Method::gl_hybrid) {
+    return fmt::format("{},{},{},{},", lattice.step_x, lattice.step_y,
+                       lattice.initial_grid_radius_px, lattice.final_grid_radius_px);
+  }
+  if (set.method == Method::gl_lattice) {
+    return fmt::format("{},{},,{},{}", lattice.step_x, lattice.step_y, lattice.final_grid_radius_px,
+                       lattice.tile_px);
+  }
+  return ",,,,";
 }
 
 }  // namespace
@@ -98,8 +151,18 @@ std::string_view name_of(Part part) {
       return "every_pair";
     case Part::exact:
       return "exact";
+    case Part::gl_hybrid:
+      return "gl_hybrid";
+    case Part::gl_lattice:
+      return "gl_lattice";
+    case Part::gl_exact:
+      return "gl_exact";
   }
   return {};
+}
+
+bool runs_on_opengl(Part part) {
+  return part == Part::gl_hybrid || part == Part::gl_lattice || part == Part::gl_exact;
 }
 
 Extent full_extent() {
@@ -112,6 +175,10 @@ Extent full_extent() {
       .steps = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32},
       .initial_radii_px = {10, 20, 30, 40, 50, 60, 70, 80, 90, 100},
       .final_radii_px = {1, 2, 3, 4},
+      .gl_steps = {1, 2, 4, 8, 16, 24, 32, 48, 64},
+      .gl_initial_radii_px = {10, 20, 40, 60, 80, 100},
+      .gl_final_radii_px = {1, 2, 3},
+      .gl_tiles_px = {8, 16, 32},
   };
 }
 
@@ -125,6 +192,10 @@ Extent quick_extent() {
       .steps = {1, 4, 16, 32},
       .initial_radii_px = {10, 40, 100},
       .final_radii_px = {1, 3},
+      .gl_steps = {4, 16, 32, 64},
+      .gl_initial_radii_px = {10, 40, 100},
+      .gl_final_radii_px = {2},
+      .gl_tiles_px = {16, 32},
   };
 }
 
@@ -141,21 +212,19 @@ std::vector<ParameterSet> sets_of(Part part, const Extent& extent) {
           part, extent, {.region = SurveillanceRegion::image, .shrinking = Shrinking::none});
     case Part::exact:
       return exact_sets(extent);
+    case Part::gl_hybrid:
+      return gl_hybrid_sets(extent);
+    case Part::gl_lattice:
+      return gl_lattice_sets(extent);
+    case Part::gl_exact:
+      return {{Part::gl_exact, Method::gl_exact, settings_with(kUsualLength_m)}};
   }
   return {};
 }
 
 std::string columns_of(const ParameterSet& set) {
-  std::string text =
-      fmt::format("{},{},{}", name_of(set.part), name_of(set.method), 2 * set.settings.range_m);
-  if (set.method == Method::exact) return text + ",,,,,,,";
-  const SurveillanceSettings& watched = set.settings.surveillance;
-  text += fmt::format(",{},{},{}", name_of(region_of(set)), name_of(watched.shrinking),
-                      name_of(watched.search_pattern));
-  if (set.method != Method::lattice) return text + ",,,,";
-  const LatticeSettings& lattice = set.settings.lattice;
-  return text + fmt::format(",{},{},{},{}", lattice.step_x, lattice.step_y,
-                            lattice.initial_grid_radius_px, lattice.final_grid_radius_px);
+  return fmt::format("{},{},{},{},{}", name_of(set.part), name_of(set.method),
+                     2 * set.settings.range_m, surveillance_columns(set), lattice_columns(set));
 }
 
 }  // namespace berth::study

@@ -184,10 +184,14 @@ def scatter_is_wide(rows):
     return within >= 0.5 * numpy.std(error), within / numpy.std(error)
 
 
-def fast_within_5_mm(rows):
-    times = [found["time_ms"] for found in set_means(parameters(rows))
+def least_time_within_5_mm(rows):
+    times = [found["time_ms"] for found in set_means(rows)
              if found["distance_error_greatest_mm"] <= 5 and found["links_missed_percent"] == 0]
     return min(times, default=numpy.inf) <= 2.2, min(times, default=numpy.inf)
+
+
+def fast_within_5_mm(rows):
+    return least_time_within_5_mm(parameters(rows))
 
 
 def worst_case_time(rows, part):
@@ -202,4 +206,73 @@ def worst_case_with_every_pair(rows):
 
 def worst_case_that_shrinks(rows):
     time_ms = worst_case_time(rows, "parameters")
+    return time_ms <= 10, time_ms
+
+
+HYBRID, LATTICE = "gl_hybrid", "gl_lattice"
+
+
+def on_gpu(rows, method):
+    """None where it was not measured."""
+    rows = rows.where(part=method)
+    return rows if len(rows) else None
+
+
+def of_both(measure):
+    """A rule's number: what is measured of gl_lattice, over that of gl_hybrid."""
+    def found(rows):
+        lattice, hybrid = on_gpu(rows, LATTICE), on_gpu(rows, HYBRID)
+        if lattice is None or hybrid is None:
+            return None
+        of_lattice, of_hybrid = measure(lattice), measure(hybrid)
+        if numpy.isnan(of_lattice) or numpy.isnan(of_hybrid):
+            return None
+        return 1 if of_lattice == of_hybrid else ratio(of_lattice, of_hybrid)
+    return found
+
+
+def gpu_rasterization_is_faster(rows):
+    found = of_both(time_of)(rows)
+    return None if found is None else (found <= 0.5, found)
+
+
+def beyond_32(what):
+    def error(rows):
+        return pooled_error(rows.take(rows["step_x"] > 32), what)[0]
+    def rule(rows):
+        found = of_both(error)(rows)
+        return None if found is None else (found > 1, found)
+    return rule
+
+
+def tile_hardly_matters(rows):
+    rows = on_gpu(rows, LATTICE)
+    if rows is None:
+        return None
+    times = [time_of(each) for _, each in rows.by("initial_tile_px")]
+    return max(times) / min(times) <= 1.25, max(times) / min(times)
+
+
+def fastest_radius_errs_most(rows):
+    """The error with the fastest initial radius, over the least that another has."""
+    rows = on_gpu(rows, HYBRID)
+    if rows is None:
+        return None
+    found = [(time_of(each), distance_error(each)) for _, each in rows.by("initial_grid_radius_px")]
+    errors = [error for _, error in found]
+    return (min(found)[1] == max(errors) > min(errors),
+            ratio(min(found)[1], min(errors)) if max(errors) > 0 else 1)
+
+
+def gpu_within_5_mm(rows):
+    parts = [each for each in (on_gpu(rows, HYBRID), on_gpu(rows, LATTICE)) if each is not None]
+    found = [least_time_within_5_mm(part) for part in parts]
+    return min(found, key=lambda result: result[1]) if found else None
+
+
+def gpu_worst_case(rows):
+    rows = on_gpu(rows, LATTICE)
+    if rows is None:
+        return None
+    time_ms = worst_case_time(rows, LATTICE)
     return time_ms <= 10, time_ms

@@ -14,6 +14,7 @@ PATTERNS = {"row_major": "#0072B2", "oscillating": "#E69F00", "spiral": "#009E73
 ERRORS = {"distance": "#222222", "robot_point": "#CC79A7", "obstacle_point": "#56B4E9"}
 ERROR_NAMES = {"distance": "distance", "robot_point": "robot point",
                "obstacle_point": "obstacle point"}
+GPU = {"gl_hybrid": "#0072B2", "gl_lattice": "#E69F00"}
 TIME = "#0072B2"
 PAIRS = "#882255"
 MISSED = "#999999"

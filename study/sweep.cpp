@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <exception>
 #include <functional>
 #include <mutex>
@@ -14,7 +15,7 @@
 #include "apps/berth/interrupt.hpp"
 #include "apps/berth/progress_bar.hpp"
 #include "berth/distance/brute_force.hpp"
-#include "study/measurement.hpp"
+#include "study/gl_measurement.hpp"
 
 namespace berth::study {
 namespace {
@@ -109,26 +110,37 @@ std::string journal_key(const StudyScene& scene, const ParameterSet& set) {
 }
 
 void sweep(const std::vector<StudyScene>& scenes, std::vector<Task> tasks, int threads,
-           std::uint32_t seed, Journal& journal) {
+           std::uint32_t seed, Journal& journal, GlContext* gl) {
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   std::erase_if(tasks, [&](const Task& task) {
     return journal.has(journal_key(scenes[task.scene], task.set));
   });
   std::shuffle(tasks.begin(), tasks.end(), std::mt19937(seed));
   const std::vector<MadeScene> made = make_scenes(scenes, tasks, threads);
+  const auto first_on_gl = std::partition(
+      tasks.begin(), tasks.end(), [](const Task& task) { return !runs_on_opengl(task.set.part); });
 
   ProgressBar progress("study", tasks.size());
   std::mutex mutex;
-  run_on_threads(threads, tasks.size(), [&] {
+  const auto note = [&](const Task& task, const Measurement& found) {
+    journal.add(journal_key(scenes[task.scene], task.set), columns_of(found));
+    const std::scoped_lock lock(mutex);
+    progress.step();
+  };
+  run_on_threads(threads, first_on_gl - tasks.begin(), [&] {
     return [&, workspace = std::make_shared<MeasureWorkspace>()](std::size_t i) {
-      const Task& task = tasks[i];
-      const MadeScene& scene = made[task.scene];
-      const Measurement found = measure(task.set, scene.images, scene.truth, *workspace);
-      journal.add(journal_key(scenes[task.scene], task.set), columns_of(found));
-      const std::scoped_lock lock(mutex);
-      progress.step();
+      const MadeScene& scene = made[tasks[i].scene];
+      note(tasks[i], measure(tasks[i].set, scene.images, scene.truth, *workspace));
     };
   });
+  if (first_on_gl == tasks.end()) return;
+  assert(gl);
+  GlMeasurer measurer(*gl);
+  for (auto task = first_on_gl; task != tasks.end(); ++task) {
+    stop_if_interrupted();
+    const MadeScene& scene = made[task->scene];
+    note(*task, measurer.measure(task->set, scene.images, scene.truth));
+  }
 }
 
 }  // namespace berth::study

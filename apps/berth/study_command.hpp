@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "apps/berth/backend_arguments.hpp"
+
 namespace berth {
 
 struct StudyArguments {
@@ -14,6 +16,7 @@ struct StudyArguments {
   std::vector<std::filesystem::path> scenes;
   /// 0: as many as there are processors.
   int threads = 0;
+  BackendArguments where;
 };
 
 void add_study_options(CLI::App& command, StudyArguments& arguments);

@@ -25,6 +25,11 @@ TEST_F(GlContextTest, DevicesAreFoundByNumberAndByPartOfTheirName) {
   context().make_current();
 }
 
+TEST_F(GlContextTest, MesasRendererIsSoftwareAndAGpuIsNot) {
+  const bool is_mesas = context().renderer().find("llvmpipe") != std::string::npos;
+  EXPECT_EQ(context().is_software(), is_mesas) << context().renderer();
+}
+
 TEST_F(GlContextTest, AnUnknownDeviceIsRefusedWithTheNamesThatThereAre) {
   const std::string message = message_of("no such GPU");
   EXPECT_NE(message.find("\"no such GPU\""), std::string::npos) << message;

@@ -133,6 +133,52 @@ class Findings(unittest.TestCase):
         self.assertEqual((found.verdict, found.scenes), (findings.HOLDS, 1))
 
 
+    def test_gpu_rasterization_is_judged_against_cpu_rasterization(self):
+        def judged(figure, place, lattice, hybrid):
+            return verdict(figure, place, {"part": "gl_lattice"} | lattice,
+                           {"part": "gl_hybrid"} | hybrid)
+        self.assertIsNone(verdict("3.13", 0, {}))
+        self.assertIsNone(verdict("3.13", 0, {"part": "gl_lattice"}))
+        for time, expected in ((1.9, findings.HOLDS), (2.1, findings.FAILS)):
+            self.assertEqual(judged("3.13", 0, {"time_ms": time}, {"time_ms": 4.0}).verdict,
+                             expected)
+        for figure, place, what in (("3.13", 1, "distance"), ("3.14", 0, "robot_point"),
+                                    ("3.14", 1, "obstacle_point")):
+            error = f"{what}_error_mean_mm"
+            for step, ours, expected in ((64.0, 9.0, findings.HOLDS), (64.0, 7.0, findings.FAILS)):
+                found = judged(figure, place, {"step_x": step, error: ours},
+                               {"step_x": step, error: 8.0})
+                self.assertEqual(found.verdict, expected, (figure, place))
+            self.assertIsNone(judged(figure, place, {"step_x": 32.0, error: 9.0},
+                                     {"step_x": 32.0, error: 8.0}))
+
+    def test_sizes_on_the_gpu_are_judged_by_time_and_error(self):
+        for time, expected in ((1.2, findings.HOLDS), (1.3, findings.FAILS)):
+            found = verdict("3.15", 0, *({"part": "gl_lattice", "initial_tile_px": tile,
+                                          "time_ms": each} for tile, each in ((16.0, 1.0),
+                                                                              (32.0, time))))
+            self.assertEqual(found.verdict, expected)
+        for error, expected in ((5.0, findings.HOLDS), (3.0, findings.FAILS)):
+            found = verdict("3.16", 0, *({"part": "gl_hybrid", "initial_grid_radius_px": radius,
+                                          "time_ms": time, "distance_error_mean_mm": each}
+                                         for radius, time, each in ((10.0, 2.0, 4.0),
+                                                                    (100.0, 1.0, error))))
+            self.assertEqual(found.verdict, expected)
+
+    def test_the_gpu_is_judged_by_the_better_method_and_the_worst_case_alone(self):
+        good = {"part": "gl_hybrid", "time_ms": 2.0, "distance_error_greatest_mm": 4.0}
+        bad = {"part": "gl_lattice", "time_ms": 0.5, "distance_error_greatest_mm": 6.0}
+        self.assertEqual(verdict("3.18", 1, good, bad).verdict, findings.HOLDS)
+        self.assertEqual(verdict("3.18", 1, good | {"time_ms": 2.3}, bad).verdict, findings.FAILS)
+        self.assertEqual(verdict("3.19", 2, {"part": "gl_lattice", "time_ms": 50.0},
+                                 {"scene": "w", "kind": "worst_case", "part": "gl_lattice",
+                                  "time_ms": 9.0}).verdict, findings.HOLDS)
+
+    def test_what_times_a_gpu_is_told_from_what_does_not(self):
+        times = [each.figure for each in findings.FINDINGS if each.times_a_gpu]
+        self.assertEqual(times, ["3.13", "3.15", "3.16", "3.18", "3.19"])
+
+
 class GpuFigures(unittest.TestCase):
     def test_are_empty_without_the_methods_and_drawn_with_them(self):
         lattice = [{"step_x": step, "initial_grid_radius_px": radius}

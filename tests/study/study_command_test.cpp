@@ -88,6 +88,8 @@ TEST_F(Study, RefusesWhatItCannotUse) {
       {{"study", "--seed", "-1"}, 2, "--seed"},
       {{"study", "--threads", "0"}, 2, "--threads"},
       {{"study", "scene.yaml"}, 2, "scene.yaml"},
+      {{"study", "--backend", "vulkan"}, 2, "vulkan"},
+      {{"study", "--backend", "opengl", "--gl-device", "no such GPU"}, 1, "OpenGL"},
   };
   for (const Wrong& wrong : table) {
     const Outcome outcome = run_berth(folder_.path(), wrong.arguments);

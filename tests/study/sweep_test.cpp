@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "berth/io/file_bytes.hpp"
+#include "testing/gl_test.hpp"
 #include "testing/temporary_folder.hpp"
 
 namespace berth::study {
@@ -100,6 +101,33 @@ TEST_F(Sweep, CallsNoSceneThatHasNothingLeft) {
   Journal journal(folder.path(), {}, journal_header(), journal_key_columns());
   EXPECT_NO_THROW(sweep(scenes, tasks, 2, 1, journal));
   EXPECT_THROW(sweep(scenes, small_tasks(), 2, 1, journal), std::logic_error);
+}
+
+class GlSweep : public testing::GlTest {};
+
+TEST_F(GlSweep, MeasuresWhatRunsOnOpenGlOnceAndExactWithoutError) {
+  const TemporaryFolder folder;
+  std::vector<Task> tasks;
+  for (const Part part : {Part::gl_hybrid, Part::gl_lattice, Part::gl_exact, Part::exact}) {
+    tasks.push_back({0, sets_of(part, quick_extent()).back()});
+  }
+  for (const bool is_new : {true, false}) {
+    Journal journal(folder.path(), {}, journal_header(), journal_key_columns());
+    EXPECT_EQ(journal.found_lines(), is_new ? 0u : tasks.size());
+    sweep(small_scenes(), tasks, 2, 1, journal, &context());
+  }
+  const std::string bytes = read_file_bytes(folder / "measurements.csv");
+  EXPECT_EQ(std::count(bytes.begin(), bytes.end(), '\n'), 5) << bytes;
+  EXPECT_NE(bytes.find(",gl_hybrid,gl_hybrid,2,,,,64,64,100,2,,"), std::string::npos) << bytes;
+  EXPECT_NE(bytes.find(",gl_lattice,gl_lattice,2,,,,64,64,,2,32,"), std::string::npos) << bytes;
+  std::istringstream lines(bytes);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find(",gl_exact,") == std::string::npos) continue;
+    std::vector<std::string> cells(1);
+    for (const char c : line) c == ',' ? (void)cells.emplace_back() : cells.back().push_back(c);
+    EXPECT_LT(std::stod(cells[journal_key_columns() + 6]), 0.05) << line;
+    EXPECT_EQ(cells[journal_key_columns() + 3], "0") << line;
+  }
 }
 
 TEST(Scenes, TheWorstCaseIsAllObstacleBeforeAllRobot) {

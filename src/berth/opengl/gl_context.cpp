@@ -19,6 +19,7 @@ struct OpenContext {
   EGLDisplay display = EGL_NO_DISPLAY;
   EGLContext context = EGL_NO_CONTEXT;
   std::string renderer;
+  bool is_software = false;
 };
 
 void make_current(const OpenContext& open) {
@@ -36,8 +37,9 @@ void close(const OpenContext& open) {
 }
 
 /// Made current; nothing where the device has no OpenGL 4.5.
-std::optional<OpenContext> open_on(EGLDisplay display) {
-  OpenContext open{display, create_egl_context(display), "a new device"};
+std::optional<OpenContext> open_on(const EglDevice& device) {
+  OpenContext open{device.display, create_egl_context(device.display), "a new device",
+                   device.is_software};
   if (open.context == EGL_NO_CONTEXT) return std::nullopt;
   make_current(open);
   open.renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
@@ -62,7 +64,7 @@ bool is_wanted(std::string_view wanted, int number, std::string_view renderer) {
 OpenContext open_wanted(std::string_view wanted) {
   std::vector<std::string> seen;
   for (const EglDevice& device : open_egl_devices()) {
-    std::optional<OpenContext> open = open_on(device.display);
+    std::optional<OpenContext> open = open_on(device);
     if (!open) continue;
     if (is_wanted(wanted, static_cast<int>(seen.size()), open->renderer)) return *open;
     close(*open);
@@ -125,6 +127,8 @@ GlContext::~GlContext() = default;
 
 const std::string& GlContext::renderer() const { return state_->open.renderer; }
 
+bool GlContext::is_software() const { return state_->open.is_software; }
+
 void GlContext::make_current() { berth::make_current(state_->open); }
 
 void GlContext::check(std::string_view where) {
@@ -140,7 +144,7 @@ void GlContext::check(std::string_view where) {
 std::vector<std::string> gl_devices() {
   std::vector<std::string> names;
   for (const EglDevice& device : open_egl_devices()) {
-    const std::optional<OpenContext> open = open_on(device.display);
+    const std::optional<OpenContext> open = open_on(device);
     if (!open) continue;
     names.push_back(open->renderer);
     close(*open);

@@ -31,6 +31,9 @@ class GlContext {
   /// As the driver names it: "NVIDIA H200/PCIe/SSE2", "llvmpipe (LLVM 15.0.6, 256 bits)".
   const std::string& renderer() const;
 
+  /// Whether the processor does the work, as Mesa's llvmpipe has it: its times are none of a GPU.
+  bool is_software() const;
+
   /// For a thread that has several contexts.
   void make_current();
 

@@ -12,20 +12,8 @@
 
 namespace berth {
 
-/// Images of this program's memory, on the GPU.
-struct UploadedImages {
-  UploadedImages(int width, int height)
-      : upload(width, height),
-        robot(width, height),
-        obstacle_depth_m(GlPixel::depth_m, width, height) {}
-
-  GlUpload upload;
-  GlRobotImage robot;
-  GlTexture obstacle_depth_m;
-};
-
 struct GlEvaluator::State {
-  std::optional<UploadedImages> uploaded;
+  std::optional<GlUploadedImages> uploaded;
   std::optional<GlExact> exact;
   std::optional<GlLattice> lattice;
   std::optional<GlHybrid> hybrid;
@@ -68,10 +56,9 @@ void GlEvaluator::evaluate(Method method, const Camera& camera, const GlRobotIma
 void GlEvaluator::evaluate(Method method, const Camera& camera, const RobotImage& robot,
                            DepthView obstacle_depth_m, int link_count,
                            const DistanceSettings& settings, LinkDistances& out) {
-  std::optional<UploadedImages>& uploaded = state_->uploaded;
-  const bool fits = uploaded && uploaded->obstacle_depth_m.width() == obstacle_depth_m.width &&
-                    uploaded->obstacle_depth_m.height() == obstacle_depth_m.height;
-  if (!fits) uploaded.emplace(obstacle_depth_m.width, obstacle_depth_m.height);
+  std::optional<GlUploadedImages>& uploaded = state_->uploaded;
+  if (!uploaded || !uploaded->has_size(obstacle_depth_m.width, obstacle_depth_m.height))
+    uploaded.emplace(obstacle_depth_m.width, obstacle_depth_m.height);
   uploaded->upload.send(obstacle_depth_m, uploaded->obstacle_depth_m);
   if (method == Method::gl_hybrid) {
     state_->made_hybrid().evaluate(camera, robot, uploaded->obstacle_depth_m, link_count, settings,

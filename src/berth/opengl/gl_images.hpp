@@ -46,6 +46,22 @@ class GlUpload {
   GlFence sent_;
 };
 
+/// The images of one question, and what carries them.
+struct GlUploadedImages {
+  GlUploadedImages(int width, int height)
+      : upload(width, height),
+        robot(width, height),
+        obstacle_depth_m(GlPixel::depth_m, width, height) {}
+
+  bool has_size(int width, int height) const {
+    return obstacle_depth_m.width() == width && obstacle_depth_m.height() == height;
+  }
+
+  GlUpload upload;
+  GlRobotImage robot;
+  GlTexture obstacle_depth_m;
+};
+
 /// The texture's pixels, once the GPU has made them; NaN where there is no depth. Reuses the
 /// images' memory.
 void read_back(const GlTexture& depth_m, DepthImage& out);

@@ -1,0 +1,212 @@
+#include "bench/gl_stages.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "apps/berth/interrupt.hpp"
+#include "apps/berth/progress_bar.hpp"
+#include "bench/coarse_robot.hpp"
+#include "bench/statistics.hpp"
+#include "bench/triangle_count.hpp"
+#include "berth/opengl/gl_evaluate.hpp"
+#include "berth/opengl/gl_robot_renderer.hpp"
+#include "berth/opengl/gl_self_filter.hpp"
+#include "berth/robot/robot_region.hpp"
+#include "measure/stopwatch.hpp"
+
+namespace berth::bench {
+namespace {
+
+/// Of each edge: 112 000 triangles of the bundled robot.
+constexpr int kParts = 5;
+
+/// Of the lattices' obstacle pixels, in x and y.
+constexpr int kLatticeStep = 8;
+
+constexpr Method kGlMethods[] = {Method::gl_exact, Method::gl_lattice, Method::gl_hybrid};
+
+/// The runs of one stage.
+struct Stage {
+  std::string name;
+  std::vector<double> times_ms = {};
+};
+
+/// A rig's pipeline on the GPU.
+class GlStages {
+ public:
+  explicit GlStages(const Rig& rig)
+      : rig_(rig),
+        camera_(rig.camera()),
+        upload_(camera_.width_px, camera_.height_px),
+        sensor_depth_m_(GlPixel::depth_m, camera_.width_px, camera_.height_px),
+        robot_(camera_.width_px, camera_.height_px),
+        region_(camera_.width_px, camera_.height_px),
+        obstacles_(camera_.width_px, camera_.height_px),
+        renderer_(rig.model(), camera_),
+        settings_(rig.settings().distance) {
+    settings_.mean_direction = false;
+    settings_.lattice.step_x = settings_.lattice.step_y = kLatticeStep;
+    const double scale = rig.settings().self_filter.robot_region_scale;
+    if (scale > 0) region_renderer_.emplace(robot_region(rig.model(), scale), camera_);
+    for (const Method method : kGlMethods) {
+      const std::string_view name = name_of(method);
+      evaluate_.push_back({fmt::format("{}, read-back included", name)});
+      filter_and_evaluate_.push_back({fmt::format("render, self filter and {}", name)});
+      whole_.push_back({fmt::format("depth image to result, {}", name)});
+    }
+  }
+
+  void run(DepthView depth_m, const JointState& joints) {
+    take(upload_stage_, [&] {
+      upload_.send(depth_m, sensor_depth_m_);
+      wait();
+    });
+    take(render_stage_, [&] {
+      render(joints);
+      wait();
+    });
+    take(filter_stage_, [&] {
+      filter();
+      wait();
+    });
+    for (std::size_t i = 0; i < std::size(kGlMethods); ++i) {
+      const auto evaluate = [&] { this->evaluate(kGlMethods[i]); };
+      take(evaluate_[i], evaluate);
+      take(filter_and_evaluate_[i], [&] {
+        render(joints);
+        filter();
+        evaluate();
+      });
+      take(whole_[i], [&] {
+        upload_.send(depth_m, sensor_depth_m_);
+        render(joints);
+        filter();
+        evaluate();
+      });
+    }
+  }
+
+  void forget_times() {
+    for (Stage* stage : all()) stage->times_ms.clear();
+  }
+
+  std::vector<Stage*> all() {
+    std::vector<Stage*> stages = {&upload_stage_, &render_stage_, &filter_stage_};
+    for (auto* several : {&evaluate_, &filter_and_evaluate_, &whole_}) {
+      for (Stage& stage : *several) stages.push_back(&stage);
+    }
+    return stages;
+  }
+
+ private:
+  template <class Call>
+  static void take(Stage& stage, Call call) {
+    const Stopwatch watch;
+    call();
+    stage.times_ms.push_back(watch.ms());
+  }
+
+  void wait() {
+    done_.set();
+    done_.wait();
+  }
+
+  void render(const JointState& joints) {
+    forward_kinematics(rig_.model(), joints.position, pose_);
+    renderer_.render(pose_, rig_.camera_pose(pose_), robot_);
+    if (region_renderer_) region_renderer_->render(pose_, rig_.camera_pose(pose_), region_);
+  }
+
+  void filter() {
+    const SelfFilterSettings& settings = rig_.settings().self_filter;
+    if (region_renderer_) {
+      filter_.filter(camera_, sensor_depth_m_, robot_, region_.link_id, settings, obstacles_);
+    } else {
+      filter_.filter(camera_, sensor_depth_m_, robot_, settings, obstacles_);
+    }
+  }
+
+  void evaluate(Method method) {
+    answer_.links.clear();
+    evaluator_.evaluate(method, camera_, robot_, obstacles_.depth_m, rig_.model().link_count(),
+                        settings_, answer_);
+  }
+
+  const Rig& rig_;
+  Camera camera_;
+  GlUpload upload_;
+  GlTexture sensor_depth_m_;
+  GlRobotImage robot_;
+  GlRobotImage region_;
+  GlObstacleImage obstacles_;
+  GlRobotRenderer renderer_;
+  std::optional<GlRobotRenderer> region_renderer_;
+  GlSelfFilter filter_;
+  GlEvaluator evaluator_;
+  GlFence done_;
+  RobotPose pose_;
+  DistanceSettings settings_;
+  LinkDistances answer_;
+  Stage upload_stage_{"upload of the depth image"};
+  Stage render_stage_{"render"};
+  Stage filter_stage_{"self filter"};
+  std::vector<Stage> evaluate_;
+  std::vector<Stage> filter_and_evaluate_;
+  std::vector<Stage> whole_;
+};
+
+Table measure(const std::string& title, const OpenCamera& camera, const Rig& rig, int frames,
+              int rounds) {
+  GlStages stages(rig);
+  ProgressBar progress(title, frames);
+  const std::size_t count = camera.source.depth.size();
+  for (int i = 0; i < frames; ++i) {
+    const std::size_t frame = i * count / frames;
+    const DepthImage depth_m = camera.read_depth(frame);
+    for (int round = 0; round <= rounds; ++round) {
+      stop_if_interrupted();
+      stages.run(depth_m, camera.at_exposure[frame]);
+      if (i == 0 && round == 0) stages.forget_times();
+    }
+    progress.step();
+  }
+  Table table{
+      title,
+      fmt::format("{} x {}, {} triangles, {} links, {} frames, each {} times; without mean "
+                  "directions, lattices with steps of {} px, by the clock on the wall. "
+                  "Upload, render and self filter each until the GPU has done them; the "
+                  "rows below those begin with images on the GPU, but for the last three.",
+                  rig.camera().width_px, rig.camera().height_px, triangle_count(rig.model()),
+                  rig.model().link_count(), frames, rounds + 1, kLatticeStep),
+      "stage",
+      {"median ms", "p99 ms", "max ms"},
+      {}};
+  for (const Stage* stage : stages.all()) {
+    table.rows.push_back({stage->name,
+                          {median(stage->times_ms), percentile(stage->times_ms, 0.99),
+                           percentile(stage->times_ms, 1)},
+                          ""});
+  }
+  return table;
+}
+
+}  // namespace
+
+Table measure_gl_stages(const Recording& recording, int max_frames, int rounds) {
+  const OpenCamera& camera = recording.camera();
+  return measure(fmt::format("Stages on OpenGL, {}", recording.title), camera, *camera.rig,
+                 std::min(max_frames, recording.frame_count()), rounds);
+}
+
+Table measure_gl_stages_of_100_000(const std::filesystem::path& scene_file, int rounds) {
+  const auto recording = open_recording(scene_file, "bundled");
+  const OpenCamera& camera = recording->camera();
+  const Rig rig(coarse_robot(read_scene(scene_file).robot, kParts),
+                {camera.rig->camera(), camera.source.parent_link, camera.source.X_PC},
+                camera.rig->settings());
+  return measure("Stages on OpenGL, 100 000 triangles", camera, rig, 1, rounds);
+}
+
+}  // namespace berth::bench
