@@ -68,7 +68,8 @@ void add_patches(Random& random, const RobotImage& robot, DepthImage& sensor_dep
   for (int i = random.whole(0, 30); i > 0; --i) {
     const int u0 = random.whole(0, sensor_depth_m.width() - 1);
     const int v0 = random.whole(0, sensor_depth_m.height() - 1);
-    const float z = robot.depth_m(u0, v0) + static_cast<float>(random(-0.15, 0.15));
+    const double farthest_m = random.chance(0.5) ? 0.15 : 0.02;
+    const float z = robot.depth_m(u0, v0) + static_cast<float>(random(-farthest_m, farthest_m));
     const bool is_hole = random.chance(0.3);
     const int u_begin = std::max(0, u0 - random.whole(0, 8));
     const int v_begin = std::max(0, v0 - random.whole(0, 8));
