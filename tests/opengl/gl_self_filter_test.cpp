@@ -117,6 +117,7 @@ TEST_F(GlSelfFilterTest, FollowsAWindingPieceToItsEnd) {
       scene.robot.depth_m(u, 10) = 1;
       scene.robot.link_id(u, 10) = 1;
     }
+    for (int v = 10; v < 14; ++v) scene.sensor_depth_m(20, v) = 1;
     // A snake of rows joined at alternating ends.
     for (int row = 0; row < 20; ++row) {
       const int v = 14 + 2 * row;

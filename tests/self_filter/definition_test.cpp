@@ -115,7 +115,7 @@ TEST(Definition, IsTriedOnScenesWhereEveryRuleAppliesOften) {
     for (int fate = 0; fate < kSelfFilterFateCount; ++fate) scenes[fate] += out.count[fate] > 0;
   }
   // The region has a test of its own.
-  EXPECT_GE(*std::min_element(scenes.begin(), std::prev(scenes.end())), 40);
+  EXPECT_GE(*std::min_element(scenes.begin(), std::prev(scenes.end())), 30);
 }
 
 }  // namespace

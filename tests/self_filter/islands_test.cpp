@@ -57,9 +57,53 @@ TEST(Islands, AStepInDepthCutsThePiece) {
   EXPECT_EQ(filter(scene, settings).fate(34, 30), PixelFate::obstacle);
 }
 
-TEST(Islands, APieceDeeperThanTheRadiusIsKept) {
-  EXPECT_EQ(filter(scene_with_web(1.04F), island_rule()).fate(32, 30), PixelFate::island);
-  EXPECT_EQ(filter(scene_with_web(1.07F), island_rule()).fate(32, 30), PixelFate::obstacle);
+/// A web that gets deeper by so much from column to column.
+FlatScene scene_with_slope(float step_m) {
+  FlatScene scene = scene_with_web(1.0F);
+  for (int u = kWeb.u_begin; u < kWeb.u_end; ++u) {
+    const float depth_m = 1.0F + step_m * static_cast<float>(u - kWeb.u_begin + 1);
+    scene.see({u, kWeb.v_begin, u + 1, kWeb.v_end}, depth_m);
+  }
+  return scene;
+}
+
+TEST(Islands, AWebThatSlopesAwayIsDroppedUpToTheRadius) {
+  EXPECT_EQ(filter(scene_with_slope(0.005F), island_rule()).fate(32, 30), PixelFate::island);
+  EXPECT_EQ(filter(scene_with_slope(0.015F), island_rule()).fate(32, 30), PixelFate::obstacle);
+}
+
+TEST(Islands, ARimThatShowsBesideTheRobotAStepBehindOrBeforeItIsKept) {
+  for (const float depth_m : {0.9F, 0.95F, 0.97F, 1.03F, 1.05F}) {
+    const ObstacleImage out = filter(scene_with_web(depth_m), island_rule());
+    EXPECT_EQ(out.count_of(PixelFate::island), 0) << depth_m;
+    EXPECT_EQ(out.fate(34, 30), PixelFate::obstacle) << depth_m;
+  }
+}
+
+TEST(Islands, APieceThatFloatsBesideTheRobotIsKept) {
+  FlatScene scene = scene_with_web(1.0F);
+  scene.see({30, 20, 31, 40}, kNoDepth);
+  EXPECT_EQ(filter(scene, island_rule()).fate(34, 30), PixelFate::obstacle);
+}
+
+TEST(Islands, AWebHangsAlsoWhereDilationTookItsBeginning) {
+  SelfFilterSettings settings = island_rule();
+  settings.padding_m = 0;
+  settings.dilation_px = 2;
+  EXPECT_EQ(filter(scene_with_web(1.0F), settings).fate(34, 30), PixelFate::island);
+}
+
+TEST(Islands, ReadingsBehindTheModelAreNotTheRobotsOwn) {
+  const PixelRect rim{30, 25, 34, 35};
+  const auto fate_at = [&](float depth_m) {
+    FlatScene scene;
+    scene.add_link(1, kLink, 1.0F);
+    scene.see(kLink, depth_m);
+    scene.see(rim, depth_m);
+    return filter(scene, island_rule()).fate(33, 30);
+  };
+  EXPECT_EQ(fate_at(1.035F), PixelFate::island);
+  EXPECT_EQ(fate_at(1.045F), PixelFate::obstacle);
 }
 
 TEST(Islands, WhatStandsInFrontOfTheRobotIsKeptHoweverSmall) {
@@ -69,8 +113,10 @@ TEST(Islands, WhatStandsInFrontOfTheRobotIsKeptHoweverSmall) {
 }
 
 TEST(Islands, APieceOfWhichMoreThanATenthStandsInFrontOfTheRobotIsKept) {
-  FlatScene scene = scene_with_web(1.0F);
-  scene.see({28, 28, 34, 31}, 0.94F);
+  FlatScene scene = scene_with_web(0.965F);
+  scene.see(kLink, 0.965F);
+  EXPECT_EQ(filter(scene, island_rule()).fate(33, 29), PixelFate::island);
+  scene.see({28, 28, 34, 31}, 0.95F);
   const ObstacleImage out = filter(scene, island_rule());
   EXPECT_EQ(out.fate(29, 29), PixelFate::obstacle);
   EXPECT_EQ(out.fate(33, 29), PixelFate::obstacle);
@@ -78,6 +124,7 @@ TEST(Islands, APieceOfWhichMoreThanATenthStandsInFrontOfTheRobotIsKept) {
 
 TEST(Islands, AWebThatTouchesTheRobotsRimIsDroppedAllTheSame) {
   FlatScene scene = scene_with_web(0.955F);
+  scene.see(kLink, 0.97F);
   scene.see({29, 30, 30, 31}, 0.955F);
   SelfFilterSettings settings = island_rule();
   settings.padding_m = 0;

@@ -130,6 +130,7 @@ class PlainFilter {
   void drop_islands() {
     const Image<PixelFate> before = fate_;
     Image<std::uint8_t> walked(camera_.width_px, camera_.height_px, 0);
+    const Image<std::uint8_t> reached = reached_from_robot(before);
     for_each([&](int u, int v) {
       if (before(u, v) != PixelFate::obstacle || walked(u, v) != 0) return;
       const std::vector<Pixel> piece = piece_at(u, v, before, walked);
@@ -137,9 +138,53 @@ class PlainFilter {
                                      [&](const Pixel& p) { return is_near(p.u, p.v); });
       const auto in_front = std::count_if(piece.begin(), piece.end(),
                                           [&](const Pixel& p) { return is_link(p.u, p.v); });
-      if (!stays || 10 * in_front > std::ssize(piece)) return;
+      if (!stays || 10 * in_front > std::ssize(piece) || !hangs(piece, reached)) return;
       for (const Pixel& p : piece) fate_(p.u, p.v) = PixelFate::island;
     });
+  }
+
+  bool is_joined(int u, int v, int du, int dv) const {
+    return is_inside(u + du, v + dv) && std::abs(sensor_(u + du, v + dv) - sensor_(u, v)) <=
+                                            static_cast<float>(settings_.island_jump_m);
+  }
+
+  /// The robot's own readings, and what they lead to within padding and dilation: flooded until
+  /// nothing changes.
+  Image<std::uint8_t> reached_from_robot(const Image<PixelFate>& fate) const {
+    Image<std::uint8_t> reached(camera_.width_px, camera_.height_px, 0);
+    const auto a = static_cast<float>(settings_.tolerance_m);
+    const auto b = static_cast<float>(settings_.tolerance_per_m);
+    const auto c = static_cast<float>(settings_.tolerance_per_m2);
+    for_each([&](int u, int v) {
+      const float z = robot_.depth_m(u, v);
+      reached(u, v) =
+          fate(u, v) == PixelFate::robot && sensor_(u, v) <= z + (a + (b * z + c * z * z));
+    });
+    bool changed = true;
+    while (changed) {
+      changed = false;
+      for_each([&](int u, int v) {
+        if (fate(u, v) != PixelFate::padding && fate(u, v) != PixelFate::dilation) return;
+        if (reached(u, v) != 0 || !touches(u, v, reached)) return;
+        reached(u, v) = 1;
+        changed = true;
+      });
+    }
+    return reached;
+  }
+
+  bool touches(int u, int v, const Image<std::uint8_t>& reached) const {
+    for (int n = 0; n < 9; ++n) {
+      const int du = n % 3 - 1;
+      const int dv = n / 3 - 1;
+      if (is_joined(u, v, du, dv) && reached(u + du, v + dv) != 0) return true;
+    }
+    return false;
+  }
+
+  bool hangs(const std::vector<Pixel>& piece, const Image<std::uint8_t>& reached) const {
+    return std::any_of(piece.begin(), piece.end(),
+                       [&](const Pixel& p) { return touches(p.u, p.v, reached); });
   }
 
   /// All that is joined by depth, wherever it goes.
@@ -151,11 +196,8 @@ class PlainFilter {
       const Pixel p = piece[i];
       for (int n = 0; n < 9; ++n) {
         const Pixel q{p.u + n % 3 - 1, p.v + n / 3 - 1};
-        if (!is_inside(q.u, q.v) || walked(q.u, q.v) != 0) continue;
+        if (!is_joined(p.u, p.v, n % 3 - 1, n / 3 - 1) || walked(q.u, q.v) != 0) continue;
         if (fate(q.u, q.v) != PixelFate::obstacle) continue;
-        if (std::abs(sensor_(q.u, q.v) - sensor_(p.u, p.v)) >
-            static_cast<float>(settings_.island_jump_m))
-          continue;
         walked(q.u, q.v) = 1;
         piece.push_back(q);
       }

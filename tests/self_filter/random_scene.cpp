@@ -63,17 +63,21 @@ void see_robot(Random& random, const RobotImage& robot, DepthImage& sensor_depth
   }
 }
 
-/// Small patches at about a robot pixel's depth, or between two depths, or holes.
+/// Small patches at about a robot pixel's depth, and larger ones that join it, or between two
+/// depths, or holes.
 void add_patches(Random& random, const RobotImage& robot, DepthImage& sensor_depth_m) {
-  for (int i = random.whole(0, 30); i > 0; --i) {
+  for (int i = random.whole(0, 45); i > 0; --i) {
     const int u0 = random.whole(0, sensor_depth_m.width() - 1);
     const int v0 = random.whole(0, sensor_depth_m.height() - 1);
-    const float z = robot.depth_m(u0, v0) + static_cast<float>(random(-0.15, 0.15));
+    const bool is_web = random.chance(0.5);
+    const double farthest_m = is_web ? 0.02 : 0.15;
+    const int longest_px = is_web ? 20 : 8;
+    const float z = robot.depth_m(u0, v0) + static_cast<float>(random(-farthest_m, farthest_m));
     const bool is_hole = random.chance(0.3);
-    const int u_begin = std::max(0, u0 - random.whole(0, 8));
-    const int v_begin = std::max(0, v0 - random.whole(0, 8));
-    const int u_end = std::min(sensor_depth_m.width(), u_begin + random.whole(1, 8));
-    const int v_end = std::min(sensor_depth_m.height(), v_begin + random.whole(1, 8));
+    const int u_begin = std::max(0, u0 - random.whole(0, longest_px));
+    const int v_begin = std::max(0, v0 - random.whole(0, longest_px));
+    const int u_end = std::min(sensor_depth_m.width(), u_begin + random.whole(1, longest_px));
+    const int v_end = std::min(sensor_depth_m.height(), v_begin + random.whole(1, longest_px));
     for (int v = v_begin; v < v_end; ++v) {
       for (int u = u_begin; u < u_end; ++u) {
         if (is_hole) sensor_depth_m(u, v) = kNoDepth;

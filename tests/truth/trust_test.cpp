@@ -1,6 +1,7 @@
 // berth's distances against the true ones; tools/measure_trust runs a thousand scenes of it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "tables.hpp"
@@ -56,6 +57,51 @@ TEST(Trust, NoDistanceOfARealRobotIsAboveTheTrueOneByMoreThanTheBound) {
   std::vector<TrialRobot> robots = load_trial_robots(folder);
   robots.erase(robots.begin());
   expect_within_bound(run_trials(robots, 1));
+}
+
+/// A scene in which the visible rest of a thing is small and near the robot.
+struct RimScene {
+  const char* robot;
+  std::uint32_t seed;
+  int width_px;
+  int height_px;
+};
+
+/// The island rule keeps the distances that there are without it.
+void expect_rims_kept(const std::vector<TrialRobot>& robots, const std::vector<RimScene>& scenes) {
+  Condition defaults{"test", "defaults"};
+  Condition no_islands = defaults;
+  no_islands.self_filter.island_radius_m = 0;
+  for (const RimScene& scene : scenes) {
+    const auto robot = std::find_if(robots.begin(), robots.end(),
+                                    [&](const TrialRobot& r) { return r.name == scene.robot; });
+    ASSERT_NE(robot, robots.end()) << scene.robot;
+    const Trial trial =
+        run_trial(*robot, {.width_px = scene.width_px, .height_px = scene.height_px}, scene.seed,
+                  {defaults, no_islands});
+    int checked = 0;
+    for (std::size_t i = 0; i < trial.truth.size(); ++i) {
+      if (trial.truth[i].sight != testing::Sight::covered) continue;
+      EXPECT_LE(trial.estimates[0][i].distance_m, trial.estimates[1][i].distance_m + 0.001)
+          << scene.robot << ", seed " << scene.seed << ", link " << i + 1;
+      ++checked;
+    }
+    EXPECT_GE(checked, 2) << scene.robot << ", seed " << scene.seed;
+  }
+}
+
+TEST(Trust, ARimBesideTheBundledArmKeepsItsDistance) {
+  std::vector<TrialRobot> robots;
+  robots.push_back(load_bundled_robot());
+  expect_rims_kept(robots, {{"bundled arm", 497, 640, 480}});
+}
+
+TEST(Trust, ARimBesideARealRobotKeepsItsDistance) {
+  const std::filesystem::path folder = data_folder() / "robots";
+  if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "no robots in " << folder;
+  expect_rims_kept(load_trial_robots(folder), {{"xarm7/xarm7_with_gripper", 129, 224, 172},
+                                               {"widowx/widowx", 58, 320, 240},
+                                               {"widowx/widowx", 816, 224, 172}});
 }
 
 TEST(Trust, EveryConditionIsMeasuredOnceInItsTable) {

@@ -39,6 +39,7 @@ GlSelfFilter::GlSelfFilter()
       near_program_("filter_near.comp.glsl"),
       join_program_("filter_join.comp.glsl"),
       weigh_program_("filter_weigh.comp.glsl"),
+      hang_program_("filter_hang.comp.glsl"),
       finish_program_("filter_finish.comp.glsl"),
       counts_(device(kPixelFateCount * sizeof(std::uint32_t))),
       counts_back_(kPixelFateCount * sizeof(std::uint32_t), GlMemory::read_back) {
@@ -89,7 +90,8 @@ void GlSelfFilter::take_memory() {
     program->bind("FilterFrame", frame_);
   }
   for (GlProgram* program : {&pixels_program_, &grow_program_}) program->bind("Discs", discs_);
-  for (GlProgram* program : {&near_program_, &join_program_, &weigh_program_, &finish_program_}) {
+  for (GlProgram* program : {&near_program_, &join_program_, &weigh_program_, &hang_program_,
+                             &finish_program_}) {
     program->bind("Pieces", pieces_);
   }
 }
@@ -147,14 +149,17 @@ void GlSelfFilter::find_islands(const Camera& camera, const Images& images,
   near_program_.set("camera", pinhole(camera));
   near_program_.set("island_radius_m", static_cast<float>(settings.island_radius_m));
   dispatch(near_program_);
-  join_program_.read("sensor_depth_m", images.sensor_depth_m);
-  join_program_.set("island_jump_m", static_cast<float>(settings.island_jump_m));
+  for (GlProgram* program : {&join_program_, &weigh_program_, &hang_program_}) {
+    program->read("sensor_depth_m", images.sensor_depth_m);
+    program->write("fate", images.out.fate);
+    program->set("island_jump_m", static_cast<float>(settings.island_jump_m));
+  }
   dispatch(join_program_);
-  weigh_program_.read("sensor_depth_m", images.sensor_depth_m);
+  weigh_program_.read("robot_depth_m", images.robot.depth_m);
   weigh_program_.read("link_id", images.robot.link_id);
-  weigh_program_.write("fate", images.out.fate);
-  weigh_program_.set("island_jump_m", static_cast<float>(settings.island_jump_m));
+  weigh_program_.set("tolerance", gl_tolerance(tolerance_of(settings)));
   dispatch(weigh_program_);
+  dispatch(hang_program_);
 }
 
 void GlSelfFilter::finish(const Images& images, const SelfFilterSettings& settings) {

@@ -61,6 +61,7 @@ class GlSelfFilter {
   GlProgram near_program_;
   GlProgram join_program_;
   GlProgram weigh_program_;
+  GlProgram hang_program_;
   GlProgram finish_program_;
   GlBuffer filter_tiles_;
   GlBuffer discs_;

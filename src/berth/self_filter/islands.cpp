@@ -18,13 +18,14 @@ constexpr double kMostInFront = 0.1;
 /// Pieces of pixels in the robot's neighbourhood, walked one by one.
 class Walk {
  public:
-  Walk(DepthView depth_m, const RobotImage& robot, float jump_m, IslandWorkspace& workspace,
-       ObstacleImage& out)
+  Walk(DepthView depth_m, const RobotImage& robot, const Tolerance& tolerance, float jump_m,
+       IslandWorkspace& workspace, ObstacleImage& out)
       : depth_m_(depth_m),
         robot_(robot),
         jump_m_(jump_m),
         state_(workspace.state),
         piece_(workspace.piece),
+        seam_(depth_m, robot, tolerance, jump_m, out.fate, workspace.seam),
         out_(out) {}
 
   void through(const PixelRect& tile) {
@@ -36,8 +37,8 @@ class Walk {
   }
 
  private:
-  /// The piece that holds `start` is an island unless it is joined to an obstacle pixel outside, or
-  /// stands in front.
+  /// The piece that holds `start` is an island unless it is joined to an obstacle pixel outside,
+  /// stands in front, or does not hang on the robot.
   void from(Pixel start) {
     piece_.assign(1, start);
     state_(start.u, start.v) = kWalked;
@@ -49,12 +50,18 @@ class Walk {
     }
     if (leaves || static_cast<double>(in_front) > kMostInFront * static_cast<double>(piece_.size()))
       return;
+    if (!hangs()) return;
     for (const Pixel& p : piece_) {
       out_.fate(p.u, p.v) = PixelFate::island;
       out_.depth_m(p.u, p.v) = kNoDepth;
     }
     out_.count[static_cast<std::size_t>(PixelFate::obstacle)] -= std::ssize(piece_);
     out_.count[static_cast<std::size_t>(PixelFate::island)] += std::ssize(piece_);
+  }
+
+  bool hangs() {
+    return std::any_of(piece_.begin(), piece_.end(),
+                       [this](const Pixel& p) { return seam_.leads_to(p); });
   }
 
   bool is_in_front(Pixel p) const {
@@ -87,6 +94,7 @@ class Walk {
   float jump_m_;
   Image<std::uint8_t>& state_;
   std::vector<Pixel>& piece_;
+  Seam seam_;
   ObstacleImage& out_;
 };
 
@@ -99,9 +107,9 @@ void for_near_tiles(const RobotNeighbourhood& neighbourhood, const Call& call) {
 
 }  // namespace
 
-void drop_islands(DepthView sensor_depth_m, const RobotImage& robot, float jump_m,
-                  IslandWorkspace& workspace, ObstacleImage& out) {
-  Walk walk(sensor_depth_m, robot, jump_m, workspace, out);
+void drop_islands(DepthView sensor_depth_m, const RobotImage& robot, const Tolerance& tolerance,
+                  float jump_m, IslandWorkspace& workspace, ObstacleImage& out) {
+  Walk walk(sensor_depth_m, robot, tolerance, jump_m, workspace, out);
   for_near_tiles(workspace.neighbourhood, [&](const PixelRect& tile) { walk.through(tile); });
   for_near_tiles(workspace.neighbourhood, [&](const PixelRect& tile) {
     for (int v = tile.v_begin; v < tile.v_end; ++v) {

@@ -25,8 +25,9 @@ struct SelfFilterSettings {
   /// A mixed pixel lies between two flat neighbours, more than this from each; 0 turns the rule
   /// off.
   double edge_jump_m = 0.03;
-  /// Depth-connected pieces (steps up to island_jump_m) that hang beside the robot and lie wholly
-  /// within this distance of it are its own leftovers; 0 turns the rule off.
+  /// Depth-connected pieces (steps up to island_jump_m) that hang on the robot's own readings by
+  /// such steps and lie wholly within this distance of it are its own leftovers; 0 turns the rule
+  /// off.
   double island_radius_m = 0.08;
   double island_jump_m = 0.02;
   /// The robot-shaped region of surveillance (Hirt 3.1.1): obstacles that are not seen through the

@@ -16,6 +16,11 @@ struct Tolerance {
   float least_reading_m(float z_m) const {
     return z_m - (constant_m + (per_m * z_m + per_m2 * z_m * z_m));
   }
+
+  /// The greatest reading that may be on a surface of this depth; a deeper one lies behind it.
+  float greatest_reading_m(float z_m) const {
+    return z_m + (constant_m + (per_m * z_m + per_m2 * z_m * z_m));
+  }
 };
 
 inline Tolerance tolerance_of(const SelfFilterSettings& settings) {

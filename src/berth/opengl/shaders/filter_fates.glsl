@@ -13,4 +13,7 @@ const uint kFates = 9u;
 const uint kNoLink = 0u;
 const uint kEnvironmentLink = 0xFFFFu;
 
+// What the robot's growth dropped.
+bool is_grown(uint fate) { return fate == kPadding || fate == kDilation; }
+
 bool is_evaluated(uint link) { return link != kNoLink && link != kEnvironmentLink; }

@@ -14,13 +14,13 @@ layout(std430) buffer FateCounts { uint fate_count[]; };
 
 shared uint tile_count[kFates];
 
-// A piece is an island unless it leaves the robot's neighbourhood or more than a tenth of it is in
-// front of the robot.
+// A piece is an island if it hangs on the robot's own readings, unless it leaves the robot's
+// neighbourhood or more than a tenth of it is in front of the robot.
 bool is_island(ivec2 pixel, ivec2 size) {
   uint number = number_of_pixel(pixel, size);
   if (pieces[number].parent == kNoPiece) return false;
   Piece piece = pieces[root_of(number)];
-  return piece.leaves == 0u && 10u * piece.in_front <= piece.pixels;
+  return piece.joined == kToOwn && 10u * piece.in_front <= piece.pixels;
 }
 
 uint last_fate(ivec2 pixel, ivec2 size) {

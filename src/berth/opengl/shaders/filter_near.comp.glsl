@@ -1,5 +1,5 @@
 // Which obstacle pixels lie within the island radius of the robot's visible surface. Each such
-// pixel begins as a piece of its own.
+// pixel begins as a piece of its own, and so does what the robot's growth dropped.
 #include "filter_fates.glsl"
 #include "filter_tile.glsl"
 #include "filter_point.glsl"
@@ -117,5 +117,6 @@ void main() {
   }
   if (!is_inside) return;
   uint number = number_of_pixel(pixel, size);
-  pieces[number] = Piece(was_open && !is_open ? number : kNoPiece, 0u, 0u, 0u);
+  bool begins = was_open ? !is_open : is_grown(imageLoad(fate, pixel).x);
+  pieces[number] = Piece(begins ? number : kNoPiece, 0u, 0u, 0u);
 }

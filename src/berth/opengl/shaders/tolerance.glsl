@@ -6,3 +6,9 @@ float least_reading_m(float z_m) {
   precise float least_m = z_m - (tolerance.x + (tolerance.y * z_m + tolerance.z * z_m * z_m));
   return least_m;
 }
+
+// The greatest reading that may be on a surface; a deeper one lies behind it.
+float greatest_reading_m(float z_m) {
+  precise float greatest_m = z_m + (tolerance.x + (tolerance.y * z_m + tolerance.z * z_m * z_m));
+  return greatest_m;
+}
