@@ -1,5 +1,5 @@
 # Thin fronts of CMake. Each target does all set-up that it needs, on a bare Debian 12 too.
-.PHONY: demo test build bench study sanitize fuzz trust trust-distances trust-long-runs setup format clean
+.PHONY: demo test build bench study sanitize sanitize-thinned fuzz trust trust-distances trust-long-runs setup format clean
 
 demo: setup
 	cmake --preset release
@@ -28,10 +28,17 @@ study: setup
 	cmake --build --preset release --target berth
 	build/release/berth study --out build/study $(if $(BERTH_DATA),$(recordings)) $(STUDY_OPTIONS)
 
-# The tests under AddressSanitizer and UBSan, then under ThreadSanitizer.
-sanitize: setup
-	for preset in asan tsan; do \
-	  cmake --preset $$preset && cmake --build --preset $$preset && ctest --preset $$preset -j2 || exit 1; done
+# The tests under AddressSanitizer and UBSan, then under ThreadSanitizer: all, or what CI runs (readers, and what has threads).
+sanitize: sanitize-asan sanitize-tsan
+sanitize-%: setup
+	cmake --preset $*
+	cmake --build --preset $*
+	ctest --preset $* -j2
+sanitize-thinned: sanitize-thinned-asan sanitize-thinned-tsan
+sanitize-thinned-%: setup
+	cmake --preset $*
+	cmake --build --preset $* --target $*_thinned
+	ctest --preset $* -j2 --label-regex $* --no-tests=error
 
 # Each reader of a file under libFuzzer.
 FUZZ_SECONDS ?= 300
@@ -41,10 +48,10 @@ fuzz:
 	cmake --build --preset fuzz --target fuzzers
 	scripts/fuzz.sh $(FUZZ_SECONDS)
 
-# What `make test` shows thinned, in full.
+# What `make test` shows thinned, in full. TRUST_OPTIONS: of measure_trust, such as --scenes 20.
 trust: trust-distances trust-long-runs
 trust-distances: build
-	build/release/tools/measure_trust/measure_trust $(if $(BERTH_DATA),--robots $(BERTH_DATA)/robots)
+	build/release/tools/measure_trust/measure_trust $(if $(BERTH_DATA),--robots $(BERTH_DATA)/robots) $(TRUST_OPTIONS)
 trust-long-runs: build
 	BERTH_LONG_RUN=full build/release/tests/pipeline/long_run_test
 
