@@ -1,5 +1,5 @@
 # Thin fronts of CMake. Each target does all set-up that it needs, on a bare Debian 12 too.
-.PHONY: demo test build bench study bench-gpu sanitize fuzz trust trust-distances trust-long-runs setup format clean
+.PHONY: demo test build bench study bench-gpu sanitize sanitize-thinned fuzz trust trust-distances trust-long-runs setup format clean
 
 demo: setup
 	cmake --preset release
@@ -40,10 +40,17 @@ bench-gpu:
 	  $(if $(BERTH_DATA),$(recordings)) $(STUDY_OPTIONS)
 	bench/gpu_results.py build/bench_gpu
 
-# The tests under AddressSanitizer and UBSan, then under ThreadSanitizer.
-sanitize: setup
-	for preset in asan tsan; do \
-	  cmake --preset $$preset && cmake --build --preset $$preset && ctest --preset $$preset -j2 || exit 1; done
+# The tests under AddressSanitizer and UBSan, then under ThreadSanitizer: all, or readers and what has threads.
+sanitize: sanitize-asan sanitize-tsan
+sanitize-%: setup
+	cmake --preset $*
+	cmake --build --preset $*
+	ctest --preset $* -j2
+sanitize-thinned: sanitize-thinned-asan sanitize-thinned-tsan
+sanitize-thinned-%: setup
+	cmake --preset $*
+	cmake --build --preset $* --target $*_thinned
+	ctest --preset $* -j2 --label-regex $* --no-tests=error
 
 # Each reader of a file under libFuzzer.
 FUZZ_SECONDS ?= 300
@@ -53,10 +60,10 @@ fuzz:
 	cmake --build --preset fuzz --target fuzzers
 	scripts/fuzz.sh $(FUZZ_SECONDS)
 
-# What `make test` shows thinned, in full.
+# What `make test` shows thinned, in full. TRUST_OPTIONS: of measure_trust, such as --scenes 20.
 trust: trust-distances trust-long-runs
 trust-distances: build
-	build/release/tools/measure_trust/measure_trust $(if $(BERTH_DATA),--robots $(BERTH_DATA)/robots)
+	build/release/tools/measure_trust/measure_trust $(if $(BERTH_DATA),--robots $(BERTH_DATA)/robots) $(TRUST_OPTIONS)
 trust-long-runs: build
 	BERTH_LONG_RUN=full build/release/tests/pipeline/long_run_test
 

@@ -30,12 +30,20 @@ function(berth_program name)
   berth_compile_options(${name})
 endfunction()
 
-# berth_test(<name> SOURCES ... DEPENDS ...): a GoogleTest program, each of its tests one line of ctest.
+# berth_test(<name> SOURCES ... DEPENDS ... SANITIZE ...): a GoogleTest program, each of its tests one line of ctest.
+# SANITIZE: the presets, asan or tsan, whose thinned run has it: the targets asan_thinned and tsan_thinned, the label in ctest.
 function(berth_test name)
-  berth_program(${name} ${ARGN})
-  target_link_libraries(${name} PRIVATE GTest::gtest_main)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;SANITIZE" ${ARGN})
+  berth_program(${name} SOURCES ${ARG_SOURCES} DEPENDS ${ARG_DEPENDS} GTest::gtest_main)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+  foreach(preset ${ARG_SANITIZE})
+    if(NOT TARGET ${preset}_thinned)
+      add_custom_target(${preset}_thinned)
+    endif()
+    add_dependencies(${preset}_thinned ${name})
+  endforeach()
+  list(JOIN ARG_SANITIZE _ label)  # one word, because gtest_discover_tests takes no list
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS "${label}")
 endfunction()
 
 # berth_vector_code(<folder>): its sources compile parts of themselves once for each instruction set (Highway). Without

@@ -9,7 +9,7 @@ shift
 export ASAN_OPTIONS="allocator_may_return_null=0:detect_odr_violation=0"
 export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
 # A ring of links leaves urdfdom's shared pointers holding each other.
-export LSAN_OPTIONS="suppressions=$PWD/fuzz/lsan.supp:print_suppressions=0"
+export LSAN_OPTIONS="suppressions=$PWD/cmake/lsan.supp:print_suppressions=0"
 status=0
 for reader in "$@"; do
   mkdir -p "build/fuzz/corpus/$reader" "build/fuzz/found/$reader"

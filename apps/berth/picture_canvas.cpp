@@ -7,11 +7,6 @@
 #include <numbers>
 #include <stdexcept>
 
-#ifdef __SANITIZE_ADDRESS__
-// fontconfig keeps its cache until the process ends, which the leak checker would report.
-extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig\n"; }
-#endif
-
 namespace berth {
 namespace {
 

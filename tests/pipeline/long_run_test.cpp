@@ -20,6 +20,7 @@
 #include "berth/pipeline/observer.hpp"
 #include "testing/allocation_count.hpp"
 #include "testing/temporary_folder.hpp"
+#include "testing/thinned.hpp"
 
 namespace berth {
 namespace {
@@ -132,9 +133,9 @@ TEST(LongRun, QuestionsTakeNoMemoryAndTheirAnswersStayTheSame) {
   observer.observe(image_of(3), joints_of(3), frame);
   std::vector<JointState> joints;
   for (int pose = 0; pose < kPoses; ++pose) joints.push_back(joints_of(pose));
-  run_long("questions", is_full() ? 1'000'000 : 2'000, [&](int pose) -> const LinkDistances& {
-    return asker.ask(frame, joints[pose]).distances;
-  });
+  run_long(
+      "questions", is_full() ? 1'000'000 : thinned(2'000),
+      [&](int pose) -> const LinkDistances& { return asker.ask(frame, joints[pose]).distances; });
 }
 
 TEST(LongRun, FramesTakeNoMemoryAndTheirAnswersStayTheSame) {
@@ -148,7 +149,7 @@ TEST(LongRun, FramesTakeNoMemoryAndTheirAnswersStayTheSame) {
     joints.push_back(joints_of(pose));
     images.push_back(image_of(pose));
   }
-  run_long("frames", is_full() ? 100'000 : 1'000, [&](int pose) -> const LinkDistances& {
+  run_long("frames", is_full() ? 100'000 : thinned(1'000), [&](int pose) -> const LinkDistances& {
     observer.observe(images[pose], joints[pose], frame);
     return asker.ask(frame).distances;
   });
@@ -174,7 +175,7 @@ class LatestFrame {
 
 TEST(LongRun, AFrameThatIsReplacedWhileTwoThreadsAskGivesTheAnswersOfOneFrameEach) {
   const Rig rig = make_rig();
-  const int frames = is_full() ? 20'000 : 300;
+  const int frames = is_full() ? 20'000 : thinned(300);
   const JointState asked = joints_of(1);
   LinkDistances expected[2];
   for (int i = 0; i < 2; ++i) {

@@ -6,6 +6,7 @@
 #include "berth/render/robot_renderer.hpp"
 #include "berth/robot/primitives.hpp"
 #include "testing/data_folder.hpp"
+#include "testing/thinned.hpp"
 #include "tests/render/comparison.hpp"
 #include "tests/render/small_robot.hpp"
 
@@ -40,7 +41,7 @@ Pose at(double x_m, double y_m, double z_m) { return Pose(Eigen::Translation3d(x
 TEST(RendererAndTwin, AgreeOnRandomRobots) {
   std::mt19937 random(42);
   Comparison sum;
-  for (int trial = 0; trial < 25; ++trial) {
+  for (int trial = 0; trial < thinned(25); ++trial) {
     SCOPED_TRACE(trial);
     std::vector<TriangleMesh> meshes;
     std::vector<Pose> X_CL;

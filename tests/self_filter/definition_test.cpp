@@ -8,6 +8,7 @@
 
 #include "berth/self_filter/self_filter.hpp"
 #include "testing/only_target.hpp"
+#include "testing/thinned.hpp"
 #include "tests/self_filter/plain_definition.hpp"
 #include "tests/self_filter/random_scene.hpp"
 
@@ -46,18 +47,18 @@ void expect_definition(std::uint32_t first_seed, std::uint32_t end_seed) {
 
 TEST(Definition, HoldsWithOneThread) {
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  expect_definition(0, 200);
+  expect_definition(0, thinned(200));
 }
 
 TEST(Definition, HoldsWithTwoThreads) {
   const tbb::global_control two(tbb::global_control::max_allowed_parallelism, 2);
-  expect_definition(200, 400);
+  expect_definition(200, 200 + thinned(200));
 }
 
 TEST(Definition, HoldsWithEveryInstructionSet) {
   on_every_target([](const char* target) {
     SCOPED_TRACE(target);
-    expect_definition(400, 440);
+    expect_definition(400, 400 + thinned(40));
   });
 }
 

@@ -9,6 +9,7 @@
 
 #include "berth/distance/evaluate.hpp"
 #include "berth/sensor/sensor_rules.hpp"
+#include "testing/thinned.hpp"
 #include "tests/self_filter/random_scene.hpp"
 #include "tests/sensor/images.hpp"
 
@@ -134,7 +135,7 @@ class NewObstacle {
 
 TEST(NewObstacle, IsNeverHiddenAtThousandsOfPlaces) {
   std::array<int, kPixelFateCount> scenes{};
-  for (std::uint32_t seed = 0; seed < 2000; ++seed) {
+  for (std::uint32_t seed = 0; seed < thinned(2000U); ++seed) {
     SCOPED_TRACE(seed);
     const NewObstacle thing(seed);
     thing.expect_nothing_hidden();
@@ -143,9 +144,9 @@ TEST(NewObstacle, IsNeverHiddenAtThousandsOfPlaces) {
     for (int fate = 0; fate < kPixelFateCount; ++fate)
       scenes[fate] += thing.has(static_cast<PixelFate>(fate));
   }
-  EXPECT_GT(scenes[static_cast<int>(PixelFate::averaged)], 300);
-  EXPECT_GT(scenes[static_cast<int>(PixelFate::background)], 300);
-  EXPECT_GT(scenes[static_cast<int>(PixelFate::hole)], 300);
+  EXPECT_GT(scenes[static_cast<int>(PixelFate::averaged)], thinned(300));
+  EXPECT_GT(scenes[static_cast<int>(PixelFate::background)], thinned(300));
+  EXPECT_GT(scenes[static_cast<int>(PixelFate::hole)], thinned(300));
 }
 
 TEST(SensorRules, ChangeNothingWhereAllAreOff) {
