@@ -118,7 +118,11 @@ def rank_correlation(a, b):
         return (numpy.cumsum(count) - (count - 1) / 2)[place]
     if len(a) < 2 or numpy.ptp(a) == 0 or numpy.ptp(b) == 0:
         return numpy.nan
-    return float(numpy.corrcoef(ranks(numpy.asarray(a)), ranks(numpy.asarray(b)))[0, 1])
+    a, b = ranks(numpy.asarray(a)), ranks(numpy.asarray(b))
+    # Values that are all missing have one rank.
+    if numpy.ptp(a) == 0 or numpy.ptp(b) == 0:
+        return numpy.nan
+    return float(numpy.corrcoef(a, b)[0, 1])
 
 
 def set_means(rows):

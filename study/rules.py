@@ -144,22 +144,27 @@ def fastest_at_800_mm(rows):
 
 
 def errors_of_the_fastest(rows):
-    """The mean errors of the fastest set of each step_x + step_y, and those of all of them."""
+    """The mean errors of the fastest set of each step_x + step_y, and those of all of them; None
+    where none of them has an error."""
     rows = parameters(rows)
     sums = rows["step_x"] + rows["step_y"]
     parts = [rows.take(sums == both) for both in numpy.unique(sums)]
     found = [(fastest(part)["distance_error_mm"], distance_error(part)) for part in parts]
-    return numpy.nanmean(found, axis=0)
+    found = [pair for pair in found if numpy.all(numpy.isfinite(pair))]
+    return numpy.mean(found, axis=0) if found else None
 
 
 def fastest_errs_more(rows):
-    best, mean = errors_of_the_fastest(rows)
+    errors = errors_of_the_fastest(rows)
+    if errors is None:
+        return None
+    best, mean = errors
     return best > mean, ratio(best, mean)
 
 
 def fastest_is_acceptable(rows):
-    best, _ = errors_of_the_fastest(rows)
-    return best <= 5, best
+    errors = errors_of_the_fastest(rows)
+    return None if errors is None else (errors[0] <= 5, errors[0])
 
 
 def times_and_errors(rows):
@@ -177,7 +182,7 @@ def slower_is_more_accurate(rows):
 def scatter_is_wide(rows):
     """The errors' deviation among sets of about the same time, over all errors' deviation."""
     time, error = times_and_errors(rows)
-    if numpy.std(error) == 0:
+    if len(error) == 0 or numpy.std(error) == 0:
         return None
     tenths = numpy.array_split(error[numpy.argsort(time)], 10)
     within = numpy.sqrt(numpy.mean([numpy.var(tenth) for tenth in tenths if len(tenth)]))

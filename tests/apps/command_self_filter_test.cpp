@@ -84,11 +84,11 @@ TEST(SelfFilterKey, MixedPixelsAreDroppedByTheirJump) {
   EXPECT_EQ(count_with(scene, rest + "edge_jump_m: 0.12", "edge"), 0);
 }
 
-/// A patch of 2 x 3 pixels that the sensor makes up beside the upper link, 7 cm wide.
+/// A patch of 2 x 3 pixels, 7 cm wide, that the sensor makes up beside the upper link, at its depth.
 class Island : public ::testing::Test {
  protected:
   Island() {
-    scene.surroundings.rectangles.push_back({{34, 24, 36, 27}, 1.96});
+    scene.surroundings.rectangles.push_back({{34, 24, 36, 27}, 1.985});
     scene.write_images();
   }
   CommandScene scene;
