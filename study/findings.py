@@ -123,7 +123,7 @@ def judge(finding, rows):
     names = (rows.where(kind="worst_case").values("scene") if finding.on_worst_case
              else scenes_of(rows))
     results = [finding.rule(rows.where(scene=name)) for name in names]
-    results = [result for result in results if result is not None]
+    results = [result for result in results if result is not None and not numpy.isnan(result[1])]
     if not results:
         return None
     share = sum(bool(holds) for holds, _ in results) / len(results)

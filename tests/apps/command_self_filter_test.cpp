@@ -84,7 +84,7 @@ TEST(SelfFilterKey, MixedPixelsAreDroppedByTheirJump) {
   EXPECT_EQ(count_with(scene, rest + "edge_jump_m: 0.12", "edge"), 0);
 }
 
-/// A patch of 2 x 3 pixels, 7 cm wide, that the sensor makes up beside the upper link, at its depth.
+/// A patch of 2 x 3 pixels, 7 cm wide, that the sensor makes up beside the upper link at its depth.
 class Island : public ::testing::Test {
  protected:
   Island() {
