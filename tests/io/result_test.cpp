@@ -136,10 +136,11 @@ TEST_F(ResultText, LowerBoundsAreToldWhereASearchMayEndEarly) {
 
 TEST_F(ResultText, VisibilityIsToldWhereItIsGiven) {
   EXPECT_FALSE(Json::parse(result_json(result))["links"][0].contains("visibility"));
-  const std::vector<LinkVisibility> visibility = {
-      {1, {0.41F, 0.02F, 0.5525F, 0.0175F, 0}, {0.5F, 0.1F, 0.2F, 0.15F, 0.05F}, 0.4F},
-      {2, {0, 0, 0, 0, 1}, {}},
-      {3, {}, {}}};
+  std::vector<LinkVisibility> visibility(3);
+  visibility[0].surface = {0.41F, 0.02F, 0.5525F, 0.0175F, 0};
+  visibility[0].space = {0.5F, 0.1F, 0.2F, 0.15F, 0.05F};
+  visibility[0].space_unknown = 0.4F;
+  visibility[1].surface = {0, 0, 0, 0, 1};
   result.visibility = &visibility;
   const std::string text = result_json(result);
   EXPECT_NE(
@@ -147,7 +148,8 @@ TEST_F(ResultText, VisibilityIsToldWhereItIsGiven) {
           R"("robot_pixels":4012,"visibility":{"surface":{"seen":0.41,"hidden_by_obstacles":0.02,)"
           R"("hidden_by_robot":0.5525,"no_reading":0.0175,"outside_image":0.0},)"
           R"("space":{"seen":0.5,"hidden_by_obstacles":0.1,"hidden_by_robot":0.2,)"
-          R"("no_reading":0.15,"outside_image":0.05},"space_unknown":0.4}})"),
+          R"("no_reading":0.15,"outside_image":0.05},"space_unknown":0.4,)"
+          R"("doubtful_distance_m":null,"doubtful_pixel":null}})"),
       std::string::npos)
       << text;
   const Json links = Json::parse(text)["links"];
@@ -161,6 +163,21 @@ TEST_F(ResultText, VisibilityIsToldWhereItIsGiven) {
       "link_1  ok                   0.1234   (312, 200)      (340, 211)          4012  41 %\n"
       "link_2  none_in_range             -            -               -            12   0 %\n"
       "a \"b\"   not_visible               -            -               -             0     -\n");
+  visibility[1].doubtful_distance_m = 0.0625F;
+  visibility[1].doubtful_pixel = {7, 8};
+  const Json doubtful = Json::parse(result_json(result))["links"][1]["visibility"];
+  EXPECT_EQ(doubtful["doubtful_distance_m"], 0.0625);
+  EXPECT_EQ(doubtful["doubtful_pixel"], Json({7, 8}));
+  EXPECT_EQ(
+      result_table(result),
+      "link    status         distance [m]  robot pixel  obstacle pixel  robot pixels  seen  "
+      "doubtful [m]\n"
+      "link_1  ok                   0.1234   (312, 200)      (340, 211)          4012  41 %  "
+      "           -\n"
+      "link_2  none_in_range             -            -               -            12   0 %  "
+      "      0.0625\n"
+      "a \"b\"   not_visible               -            -               -             0     -  "
+      "           -\n");
 }
 
 TEST_F(ResultText, FloatsCanBeReadBackExactlyAndHaveFewDigits) {

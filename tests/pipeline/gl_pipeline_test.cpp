@@ -5,6 +5,7 @@
 #include "berth/pipeline/gl_observer.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "testing/gl_test.hpp"
+#include "tests/pipeline/web.hpp"
 
 namespace berth {
 namespace {
@@ -26,9 +27,10 @@ class GlPipeline : public testing::GlTest {
     return {camera_.rig->model(), mount, settings};
   }
 
-  Frame observe_on_cpu(std::size_t i) const {
+  Frame observe_on_cpu(std::size_t i) const { return observe_on_cpu(i, camera_.read_depth(i)); }
+  Frame observe_on_cpu(std::size_t i, const DepthImage& depth_m) const {
     Frame frame;
-    Observer(*camera_.rig).observe(camera_.read_depth(i), camera_.at_exposure[i], frame);
+    Observer(*camera_.rig).observe(depth_m, camera_.at_exposure[i], frame);
     return frame;
   }
 
@@ -72,6 +74,33 @@ TEST_F(GlPipeline, AnswersAreThoseOfTheCpu) {
     }
     EXPECT_LT(differing, 60);
   }
+}
+
+TEST_F(GlPipeline, WhatIsDoubtfulIsThatOfTheCpu) {
+  const Rig gl_rig = rig_with(Method::gl_exact);
+  DepthImage depth_m = camera_.read_depth(3);
+  draw_web(observe_on_cpu(3).robot, depth_m);
+  const Frame frame = observe_on_cpu(3, depth_m);
+  GlObserver observer(gl_rig);
+  GlFrame gl_frame(gl_rig.camera());
+  observer.observe(depth_m, camera_.at_exposure[3], gl_frame);
+  const Answer expected = Asker(*camera_.rig).ask(frame);
+  GlAsker gl_asker(gl_rig);
+  int doubts = 0;
+  const auto expect_doubts = [&](const Answer& found) {
+    for (std::size_t i = 0; i < expected.visibility.size(); ++i) {
+      const float expected_m = expected.visibility[i].doubtful_distance_m;
+      const float found_m = found.visibility[i].doubtful_distance_m;
+      ASSERT_EQ(std::isnan(found_m), std::isnan(expected_m)) << "link " << i + 1;
+      if (std::isnan(expected_m)) continue;
+      EXPECT_NEAR(found_m, expected_m, kDistanceError_m) << "link " << i + 1;
+      ++doubts;
+    }
+  };
+  expect_doubts(gl_asker.ask(gl_frame));
+  expect_doubts(gl_asker.ask(frame));
+  EXPECT_EQ(doubts % 2, 0) << "both frames tell the same links";
+  EXPECT_GT(doubts, 0);
 }
 
 TEST_F(GlPipeline, AFrameOfTheCpuIsUploadedForTheQuestion) {

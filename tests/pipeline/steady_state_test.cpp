@@ -6,6 +6,7 @@
 #include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "testing/allocation_count.hpp"
+#include "tests/pipeline/web.hpp"
 
 namespace berth {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 TEST(SteadyState, TheWholeWayAllocatesNothingOnceItHasSeenTheImages) {
   const OpenScene scene = open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml", {});
   const OpenCamera& camera = scene.cameras.front();
-  const DepthImage images[] = {camera.read_depth(3), camera.read_depth(17), camera.read_depth(30)};
+  DepthImage images[] = {camera.read_depth(3), camera.read_depth(17), camera.read_depth(30)};
   const std::size_t numbers[] = {3, 17, 30};
   RigSettings with_region = camera.rig->settings();
   with_region.self_filter.robot_region_scale = 3;
@@ -26,10 +27,13 @@ TEST(SteadyState, TheWholeWayAllocatesNothingOnceItHasSeenTheImages) {
     Asker asker(*camera.rig);
     Observer region_observer(region_rig);
     Frame frame;
+    observer.observe(images[0], camera.at_exposure[numbers[0]], frame);
+    draw_web(frame.robot, images[0]);
     const auto go_through = [&] {
       for (int i = 0; i < 3; ++i) {
         region_observer.observe(images[i], camera.at_exposure[numbers[i]], frame);
         observer.observe(images[i], camera.at_exposure[numbers[i]], frame);
+        EXPECT_EQ(frame.obstacles.count_of(PixelFate::island) > 0, i == 0);
         asker.ask(frame);
         for (const std::size_t other : numbers) asker.ask(frame, camera.at_exposure[other]);
       }

@@ -6,6 +6,7 @@
 #include "apps/berth/open_scene.hpp"
 #include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/observer.hpp"
+#include "tests/pipeline/web.hpp"
 
 namespace berth {
 namespace {
@@ -82,6 +83,41 @@ TEST_F(VisibilityOfAnswers, TwoThreadsAskOneFrame) {
   other.join();
   EXPECT_EQ(shares[0], shares[1]);
   EXPECT_FALSE(shares[0].empty());
+}
+
+TEST_F(VisibilityOfAnswers, WithWhatIsDoubtfulDistancesAreThoseWithoutTheIslandRule) {
+  DepthImage with_web_m = camera_.read_depth(3);
+  draw_web(frame_.robot, with_web_m);
+  RigSettings settings = camera_.rig->settings();
+  settings.self_filter.island_radius_m = 0;
+  const Rig no_islands(camera_.rig->model(), {camera_.rig->camera(), "table", camera_.source.X_PC},
+                       settings);
+  Observer observer(*camera_.rig);
+  Observer observer_of_all(no_islands);
+  Asker asker(*camera_.rig);
+  Asker asker_of_all(no_islands);
+  Frame all;
+  observer.observe(with_web_m, camera_.at_exposure[3], frame_);
+  observer_of_all.observe(with_web_m, camera_.at_exposure[3], all);
+  ASSERT_GT(frame_.obstacles.count_of(PixelFate::island), 100);
+  for (const std::size_t asked : {3, 6}) {
+    const Answer& answer = asker.ask(frame_, camera_.at_exposure[asked]);
+    const Answer& answer_of_all = asker_of_all.ask(all, camera_.at_exposure[asked]);
+    int doubts = 0;
+    for (std::size_t i = 0; i < answer.visibility.size(); ++i) {
+      const bool has_doubt = !std::isnan(answer.visibility[i].doubtful_distance_m);
+      const LinkDistance& link = answer.distances.links[i];
+      EXPECT_NEAR(has_doubt ? answer.visibility[i].doubtful_distance_m : link.distance_m,
+                  answer_of_all.distances.links[i].distance_m, 1e-5);
+      EXPECT_TRUE(std::isnan(answer_of_all.visibility[i].doubtful_distance_m));
+      doubts += has_doubt;
+    }
+    EXPECT_GT(doubts, 0) << "joints " << asked;
+  }
+  observer.observe(camera_.read_depth(3), camera_.at_exposure[3], frame_);
+  for (const LinkVisibility& link : asker.ask(frame_).visibility) {
+    EXPECT_TRUE(std::isnan(link.doubtful_distance_m)) << "of the image before";
+  }
 }
 
 }  // namespace

@@ -47,6 +47,7 @@ const std::array kSensors = {
 struct NamedSettings {
   const char* name;
   SelfFilterSettings settings;
+  bool counts_doubtful = false;
 };
 
 std::vector<NamedSettings> filter_settings() {
@@ -60,6 +61,7 @@ std::vector<NamedSettings> filter_settings() {
     return settings;
   };
   return {{"defaults: 5 cm, 2 cm, edges, islands", {}},
+          {"defaults, the doubtful distance where there is one", {}, true},
           {"no islands: 5 cm, 2 cm, edges", make(0.05, 0.02, 0.03, 0)},
           {"5 cm, 2 cm", make(0.05, 0.02, 0, 0)},
           {"2 cm, 1 cm", make(0.02, 0.01, 0, 0)},
@@ -98,7 +100,7 @@ std::vector<Condition> all_conditions() {
     for (const NamedSettings& settings : filter_settings()) {
       conditions.push_back({fmt::format("Settings of the self filter: {}", errors.name),
                             settings.name, errors.image, errors.pose, MeasuredFilter::berth,
-                            settings.settings});
+                            settings.settings, MeasuredMetric::hirt, settings.counts_doubtful});
     }
   }
   return conditions;

@@ -48,6 +48,8 @@ struct Condition {
   MeasuredFilter filter = MeasuredFilter::berth;
   SelfFilterSettings self_filter = {};
   MeasuredMetric metric = MeasuredMetric::hirt;
+  /// Whether the doubtful distance counts where there is one (LinkVisibility).
+  bool counts_doubtful = false;
 };
 
 /// In the order of the report; those of one table follow each other.

@@ -17,6 +17,7 @@ std::vector<Condition> looked_at() {
   no_islands.island_radius_m = 0;
   return {{"", "ideal filter", {}, {}, MeasuredFilter::ideal},
           {"", "default settings"},
+          {"", "doubtful", {}, {}, MeasuredFilter::berth, {}, MeasuredMetric::hirt, true},
           {"", "no islands", {}, {}, MeasuredFilter::berth, no_islands}};
 }
 
@@ -27,7 +28,7 @@ std::string text_of(const Eigen::Vector3d& p) {
 void print_links(const Trial& trial, const std::vector<Condition>& conditions) {
   fmt::print("| link | sight | robot's point | obstacle's point | true |");
   for (const Condition& condition : conditions) fmt::print(" {} |", condition.name);
-  fmt::print("\n| --- | --- | --- | --- | ---: | ---: | ---: | ---: |\n");
+  fmt::print("\n| --- | --- | --- | --- | ---: | ---: | ---: | ---: | ---: |\n");
   constexpr std::array kSights = {"covered", "behind the robot", "outside"};
   for (std::size_t i = 0; i < trial.truth.size(); ++i) {
     const testing::TrueDistance& truth = trial.truth[i];

@@ -5,6 +5,7 @@
 
 #include "berth/distance/evaluate.hpp"
 #include "berth/self_filter/self_filter.hpp"
+#include "berth/visibility/doubtful.hpp"
 #include "scene_images.hpp"
 #include "testing/other_metric.hpp"
 
@@ -26,15 +27,32 @@ std::vector<Estimate> to_estimates(const LinkDistances& distances) {
   return estimates;
 }
 
-std::vector<Estimate> evaluate_berth(const TrialRobot& robot, const Camera& camera,
-                                     const RobotImage& image, const DepthImage& obstacle_depth_m) {
+LinkDistances evaluate_berth(const TrialRobot& robot, const Camera& camera, const RobotImage& image,
+                             const DepthImage& obstacle_depth_m) {
   ObstacleTree tree;
   build_obstacle_tree(obstacle_depth_m, tree);
   EvaluateWorkspace workspace;
   LinkDistances distances;
   evaluate(Method::exact, camera, image, obstacle_depth_m, tree, robot.model.link_count(),
            {.range_m = kTrialRange_m, .mean_direction = false}, workspace, distances);
-  return to_estimates(distances);
+  return distances;
+}
+
+/// A link's doubtful distance in place of its distance, where there is one.
+std::vector<Estimate> with_doubtful(const Camera& camera, const RobotImage& image,
+                                    DepthView sensed_m, const ObstacleImage& obstacles,
+                                    const LinkDistances& distances) {
+  std::vector<Estimate> estimates = to_estimates(distances);
+  DoubtfulImage doubtful;
+  DoubtfulWorkspace workspace;
+  std::vector<LinkVisibility> links(estimates.size());
+  find_doubtful(sensed_m, obstacles, doubtful);
+  find_doubtful_distances(camera, image, doubtful, distances, kTrialRange_m, workspace, links);
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    if (std::isnan(links[i].doubtful_distance_m)) continue;
+    estimates[i] = {LinkStatus::ok, links[i].doubtful_distance_m};
+  }
+  return estimates;
 }
 
 std::vector<Estimate> evaluate_other(testing::OtherMetric metric, const TrialRobot& robot,
@@ -59,15 +77,16 @@ std::vector<Estimate> estimate(const TrialRobot& robot, const testing::DrawnScen
                                const Condition& condition, SceneImages& images) {
   const Camera& camera = scene.camera;
   const RobotImage& image = images.believed(condition.pose);
-  DepthImage depth_m = images.sensed(condition.image);
+  const DepthImage& sensed_m = images.sensed(condition.image);
+  ObstacleImage obstacles;
   if (condition.filter == MeasuredFilter::ideal) {
-    remove_robot(scene, depth_m);
+    obstacles.depth_m = sensed_m;
+    remove_robot(scene, obstacles.depth_m);
   } else {
     SelfFilterWorkspace workspace;
-    ObstacleImage obstacles;
-    self_filter(camera, depth_m, image, condition.self_filter, workspace, obstacles);
-    depth_m = std::move(obstacles.depth_m);
+    self_filter(camera, sensed_m, image, condition.self_filter, workspace, obstacles);
   }
+  const DepthImage& depth_m = obstacles.depth_m;
   switch (condition.metric) {
     case MeasuredMetric::reading:
       return evaluate_other(testing::OtherMetric::reading, robot, camera, image, depth_m);
@@ -76,7 +95,9 @@ std::vector<Estimate> estimate(const TrialRobot& robot, const testing::DrawnScen
     case MeasuredMetric::hirt:
       break;
   }
-  return evaluate_berth(robot, camera, image, depth_m);
+  const LinkDistances distances = evaluate_berth(robot, camera, image, depth_m);
+  return condition.counts_doubtful ? with_doubtful(camera, image, sensed_m, obstacles, distances)
+                                   : to_estimates(distances);
 }
 
 }  // namespace

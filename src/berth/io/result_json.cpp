@@ -37,9 +37,13 @@ Json json_of(const SightShares& shares) {
 
 Json json_of(const LinkVisibility& visibility) {
   const bool is_known = visibility.space.is_known();
-  return {{"surface", json_of(visibility.surface)},
-          {"space", json_of(visibility.space)},
-          {"space_unknown", is_known ? Json(shortest(visibility.space_unknown)) : Json()}};
+  const bool has_doubt = !std::isnan(visibility.doubtful_distance_m);
+  return {
+      {"surface", json_of(visibility.surface)},
+      {"space", json_of(visibility.space)},
+      {"space_unknown", is_known ? Json(shortest(visibility.space_unknown)) : Json()},
+      {"doubtful_distance_m", has_doubt ? Json(shortest(visibility.doubtful_distance_m)) : Json()},
+      {"doubtful_pixel", has_doubt ? json_of(visibility.doubtful_pixel) : Json()}};
 }
 
 Json json_of(const EvaluateTiming& timing) {

@@ -41,6 +41,12 @@ std::string seen_text(const LinkVisibility& link) {
   return link.surface.is_known() ? fmt::format("{:.0f} %", 100 * link.surface.seen) : "-";
 }
 
+bool has_doubt(const LinkVisibility& link) { return !std::isnan(link.doubtful_distance_m); }
+
+std::string doubtful_text(const LinkVisibility& link) {
+  return has_doubt(link) ? fmt::format("{:.4f}", link.doubtful_distance_m) : "-";
+}
+
 std::vector<std::size_t> widths_of(const std::vector<Line>& lines) {
   std::vector<std::size_t> widths(lines.front().size());
   for (const Line& line : lines) {
@@ -67,9 +73,13 @@ std::string result_table(const FrameResult& result) {
   std::vector<Line> lines = {
       {"link", "status", "distance [m]", "robot pixel", "obstacle pixel", "robot pixels"}};
   if (result.visibility) lines.front().push_back("seen");
+  const bool has_doubts = result.visibility && std::any_of(result.visibility->begin(),
+                                                           result.visibility->end(), has_doubt);
+  if (has_doubts) lines.front().push_back("doubtful [m]");
   for (std::size_t i = 0; i < links.size(); ++i) {
     lines.push_back(line_of(links[i], result.link_names[i], result.has_bounds));
     if (result.visibility) lines.back().push_back(seen_text((*result.visibility)[i]));
+    if (has_doubts) lines.back().push_back(doubtful_text((*result.visibility)[i]));
   }
   const std::vector<std::size_t> widths = widths_of(lines);
   std::string table;

@@ -30,12 +30,15 @@ bool begin_answer(const Rig& rig, double frame_stamp_s, double joints_stamp_s,
 }
 
 void tell_visibility(const Rig& rig, const Frame& frame, const AskedRobot& robot,
-                     VisibilityWorkspace& workspace, Answer& out) {
+                     TellWorkspace& workspace, Answer& out) {
   if (!rig.settings().visibility) return;
   const SeenFrame seen{rig.camera(), frame.robot, frame.obstacles,
                        tolerance_of(rig.settings().self_filter)};
-  find_visibility(rig.model(), rig.sample_points(), seen, robot, out.distances,
-                  rig.settings().distance.range_m, workspace, out.visibility);
+  const double range_m = rig.settings().distance.range_m;
+  find_visibility(rig.model(), rig.sample_points(), seen, robot, out.distances, range_m,
+                  workspace.visibility, out.visibility);
+  find_doubtful_distances(rig.camera(), robot.image, frame.doubtful, out.distances, range_m,
+                          workspace.doubtful, out.visibility);
 }
 
 }  // namespace berth

@@ -29,9 +29,15 @@ struct Answer {
 bool begin_answer(const Rig& rig, double frame_stamp_s, double joints_stamp_s,
                   const Timeliness& time, Answer& out);
 
+/// The memory of tell_visibility(), one for each thread.
+struct TellWorkspace {
+  VisibilityWorkspace visibility;
+  DoubtfulWorkspace doubtful;
+};
+
 /// The last step of each question: fills the visibility where the rig's settings ask for it.
 /// `robot` is the one that `out.distances` are about.
 void tell_visibility(const Rig& rig, const Frame& frame, const AskedRobot& robot,
-                     VisibilityWorkspace& workspace, Answer& out);
+                     TellWorkspace& workspace, Answer& out);
 
 }  // namespace berth

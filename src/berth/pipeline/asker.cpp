@@ -40,7 +40,7 @@ const Answer& Asker::evaluate_robot(const Frame& frame, const AskedRobot& robot)
   evaluate(rig_.settings().method, rig_.camera(), robot.image, frame.obstacles.depth_m,
            frame.obstacle_tree, rig_.model().link_count(), rig_.settings().distance, workspace_,
            answer_.distances);
-  tell_visibility(rig_, frame, robot, visibility_, answer_);
+  tell_visibility(rig_, frame, robot, tell_, answer_);
   return answer_;
 }
 

@@ -43,7 +43,7 @@ class Asker {
   RobotImage robot_;
   JointState newest_;
   EvaluateWorkspace workspace_;
-  VisibilityWorkspace visibility_;
+  TellWorkspace tell_;
   Answer answer_;
 };
 

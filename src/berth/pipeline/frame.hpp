@@ -4,6 +4,7 @@
 #include "berth/pipeline/exposure.hpp"
 #include "berth/types/obstacle_image.hpp"
 #include "berth/types/robot_image.hpp"
+#include "berth/visibility/doubtful.hpp"
 
 namespace berth {
 
@@ -13,6 +14,8 @@ struct Frame : Exposure {
   RobotImage robot;
   ObstacleImage obstacles;
   ObstacleTree obstacle_tree;
+  /// Empty unless RigSettings::visibility is set.
+  DoubtfulImage doubtful;
 };
 
 /// Empties the images of a frame whose time is not ok: nothing of the image before may stay under a

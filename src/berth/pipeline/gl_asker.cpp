@@ -23,7 +23,7 @@ const Answer& GlAsker::ask(const GlFrame& frame, std::optional<double> now_s) {
   evaluate(frame, frame.robot);
   if (!rig_.settings().visibility) return answer_;
   read_back(rig_.camera(), frame, seen_);
-  tell_visibility(rig_, seen_, {seen_.pose, seen_.X_BC, seen_.robot}, visibility_, answer_);
+  tell_visibility(rig_, seen_, {seen_.pose, seen_.X_BC, seen_.robot}, tell_, answer_);
   return answer_;
 }
 
@@ -37,7 +37,7 @@ const Answer& GlAsker::ask(const GlFrame& frame, const JointState& joints,
   if (!rig_.settings().visibility) return answer_;
   read_back(rig_.camera(), frame, seen_);
   read_back(robot_, asked_);
-  tell_visibility(rig_, seen_, {pose_, frame.X_BC, asked_}, visibility_, answer_);
+  tell_visibility(rig_, seen_, {pose_, frame.X_BC, asked_}, tell_, answer_);
   return answer_;
 }
 
@@ -47,7 +47,7 @@ const Answer& GlAsker::ask(const Frame& frame, std::optional<double> now_s) {
   const RigSettings& settings = rig_.settings();
   evaluator_.evaluate(settings.method, rig_.camera(), frame.robot, frame.obstacles.depth_m,
                       rig_.model().link_count(), settings.distance, answer_.distances);
-  tell_visibility(rig_, frame, {frame.pose, frame.X_BC, frame.robot}, visibility_, answer_);
+  tell_visibility(rig_, frame, {frame.pose, frame.X_BC, frame.robot}, tell_, answer_);
   return answer_;
 }
 

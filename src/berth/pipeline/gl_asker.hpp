@@ -36,7 +36,7 @@ class GlAsker {
   /// Read back for the visibility.
   Frame seen_;
   RobotImage asked_;
-  VisibilityWorkspace visibility_;
+  TellWorkspace tell_;
   Answer answer_;
 };
 

@@ -8,8 +8,11 @@ namespace berth {
 /// A Frame whose images are on the GPU, in the context that was current when it was made.
 struct GlFrame : Exposure {
   explicit GlFrame(const Camera& camera)
-      : robot(camera.width_px, camera.height_px), obstacles(camera.width_px, camera.height_px) {}
+      : sensor_depth_m(GlPixel::depth_m, camera.width_px, camera.height_px),
+        robot(camera.width_px, camera.height_px),
+        obstacles(camera.width_px, camera.height_px) {}
 
+  GlTexture sensor_depth_m;
   GlRobotImage robot;
   GlObstacleImage obstacles;
 };

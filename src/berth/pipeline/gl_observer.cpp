@@ -23,7 +23,6 @@ void require_no_sensor_rules(const SensorSettings& sensor) {
 GlObserver::GlObserver(const Rig& rig)
     : rig_(rig),
       upload_(rig.camera().width_px, rig.camera().height_px),
-      sensor_depth_m_(GlPixel::depth_m, rig.camera().width_px, rig.camera().height_px),
       renderer_(rig.model(), rig.camera()),
       region_(rig.camera().width_px, rig.camera().height_px) {
   require_no_sensor_rules(rig.settings().sensor);
@@ -35,7 +34,7 @@ void GlObserver::observe(DepthView depth_m, const JointState& at_exposure, GlFra
                          FrameTime time) {
   has_images_ = begin_exposure(rig_, depth_m, at_exposure, time, frame);
   if (!has_images_) return;
-  upload_.send(depth_m, sensor_depth_m_);
+  upload_.send(depth_m, frame.sensor_depth_m);
   renderer_.render(frame.pose, frame.X_BC, frame.robot);
   filter(frame);
 }
@@ -43,11 +42,11 @@ void GlObserver::observe(DepthView depth_m, const JointState& at_exposure, GlFra
 void GlObserver::filter(GlFrame& frame) {
   const SelfFilterSettings& settings = rig_.settings().self_filter;
   if (!region_renderer_) {
-    filter_.filter(rig_.camera(), sensor_depth_m_, frame.robot, settings, frame.obstacles);
+    filter_.filter(rig_.camera(), frame.sensor_depth_m, frame.robot, settings, frame.obstacles);
     return;
   }
   region_renderer_->render(frame.pose, frame.X_BC, region_);
-  filter_.filter(rig_.camera(), sensor_depth_m_, frame.robot, region_.link_id, settings,
+  filter_.filter(rig_.camera(), frame.sensor_depth_m, frame.robot, region_.link_id, settings,
                  frame.obstacles);
 }
 

@@ -31,7 +31,6 @@ class GlObserver {
 
   const Rig& rig_;
   GlUpload upload_;
-  GlTexture sensor_depth_m_;
   GlRobotRenderer renderer_;
   /// Of the robot-shaped region, where there is one.
   std::optional<GlRobotRenderer> region_renderer_;

@@ -17,6 +17,11 @@ void Observer::observe(DepthView depth_m, const JointState& at_exposure, Frame& 
   apply_sensor_rules(depth_m, frame.robot, background_, rig_.settings().sensor, sensor_,
                      frame.obstacles);
   build_obstacle_tree(frame.obstacles.depth_m, frame.obstacle_tree);
+  if (rig_.settings().visibility) {
+    find_doubtful(depth_m, frame.obstacles, frame.doubtful);
+  } else {
+    clear_doubtful(depth_m.width, depth_m.height, frame.doubtful);
+  }
 }
 
 void Observer::filter(DepthView depth_m, Frame& frame) {

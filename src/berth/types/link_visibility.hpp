@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "berth/types/image.hpp"
 #include "berth/types/robot_image.hpp"
 
 namespace berth {
@@ -47,6 +48,12 @@ struct LinkVisibility {
   /// hidden_by_robot + no_reading + outside_image. What an obstacle hides is not part of it, since
   /// it counts as obstacle already (the gray area, Hirt 2.14).
   float space_unknown = std::numeric_limits<float>::quiet_NaN();
+  /// The least distance, as in LinkDistance, to what was dropped for its size and place alone
+  /// (PixelFate::island, speckle), and the pixel of that, where it is within the range and nearer
+  /// than the link's distance: who cannot rule out a small thing there has to take this one. NaN and
+  /// (-1, -1) where there is none.
+  float doubtful_distance_m = std::numeric_limits<float>::quiet_NaN();
+  Pixel doubtful_pixel;
 };
 
 }  // namespace berth

@@ -101,7 +101,10 @@ void find_visibility(const RobotModel& model, const SamplePoints& points, const 
         count_on_surface(frame, robot.image, id, X_CL, points.surface[i], workspace.drawn_C_m);
     const SightCount space =
         count_in_space(frame, distances.links[i], range_m, workspace.drawn_C_m, points.unit_ball);
-    out[i] = {id, surface.shares(), space.shares(), space.unknown_share()};
+    out[i].id = id;
+    out[i].surface = surface.shares();
+    out[i].space = space.shares();
+    out[i].space_unknown = space.unknown_share();
   }
 }
 
