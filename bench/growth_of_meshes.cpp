@@ -68,7 +68,7 @@ Table::Row measure(const OpenCamera& camera, const RobotModel& model, int rounds
 Table measure_growth_of_meshes(const std::filesystem::path& scene_file, int rounds) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, kThreads);
   const auto recording = open_recording(scene_file, "bundled");
-  const SceneRobot robot = read_scene(scene_file).robot;
+  const RobotSettings robot = read_scene(scene_file).robot;
   Table table{"Growth with the meshes",
               fmt::format("The robot of the bundled scene, its collision shapes made coarse and "
                           "then subdivided, the same surface in each row; {} threads, {} runs.",
