@@ -7,9 +7,9 @@ namespace berth::bench {
 
 constexpr float kCell_m = 0.02f;
 
-RobotModel coarse_robot(const SceneRobot& robot, int parts) {
-  RobotModel model = load_robot({robot.urdf, robot.package_paths, GeometryKind::collision,
-                                 robot.environment_links, robot.ignore_links});
+RobotModel coarse_robot(RobotSettings robot, int parts) {
+  robot.geometry = GeometryKind::collision;
+  RobotModel model = load_robot(robot);
   for (Link& link : model.links) link.mesh_L = subdivide(coarsen(link.mesh_L, kCell_m), parts);
   return model;
 }

@@ -8,13 +8,11 @@
 #include "apps/berth/interrupt.hpp"
 #include "apps/berth/progress_bar.hpp"
 #include "bench/coarse_robot.hpp"
-#include "bench/statistics.hpp"
+#include "bench/stage.hpp"
 #include "bench/triangle_count.hpp"
 #include "berth/opengl/gl_evaluate.hpp"
-#include "berth/opengl/gl_robot_renderer.hpp"
-#include "berth/opengl/gl_self_filter.hpp"
+#include "berth/pipeline/gl_observer.hpp"
 #include "berth/robot/robot_region.hpp"
-#include "measure/stopwatch.hpp"
 
 namespace berth::bench {
 namespace {
@@ -27,13 +25,7 @@ constexpr int kLatticeStep = 8;
 
 constexpr Method kGlMethods[] = {Method::gl_exact, Method::gl_lattice, Method::gl_hybrid};
 
-/// The runs of one stage.
-struct Stage {
-  std::string name;
-  std::vector<double> times_ms = {};
-};
-
-/// A rig's pipeline on the GPU.
+/// A rig's pipeline on the GPU, taken apart, and the whole of it.
 class GlStages {
  public:
   explicit GlStages(const Rig& rig)
@@ -41,10 +33,10 @@ class GlStages {
         camera_(rig.camera()),
         upload_(camera_.width_px, camera_.height_px),
         sensor_depth_m_(GlPixel::depth_m, camera_.width_px, camera_.height_px),
-        robot_(camera_.width_px, camera_.height_px),
         region_(camera_.width_px, camera_.height_px),
-        obstacles_(camera_.width_px, camera_.height_px),
+        frame_(camera_),
         renderer_(rig.model(), camera_),
+        observer_(rig),
         settings_(rig.settings().distance) {
     settings_.mean_direction = false;
     settings_.lattice.step_x = settings_.lattice.step_y = kLatticeStep;
@@ -59,30 +51,28 @@ class GlStages {
   }
 
   void run(DepthView depth_m, const JointState& joints) {
-    take(upload_stage_, [&] {
+    upload_stage_.take([&] {
       upload_.send(depth_m, sensor_depth_m_);
       wait();
     });
-    take(render_stage_, [&] {
+    render_stage_.take([&] {
       render(joints);
       wait();
     });
-    take(filter_stage_, [&] {
+    filter_stage_.take([&] {
       filter();
       wait();
     });
     for (std::size_t i = 0; i < std::size(kGlMethods); ++i) {
       const auto evaluate = [&] { this->evaluate(kGlMethods[i]); };
-      take(evaluate_[i], evaluate);
-      take(filter_and_evaluate_[i], [&] {
+      evaluate_[i].take(evaluate);
+      filter_and_evaluate_[i].take([&] {
         render(joints);
         filter();
         evaluate();
       });
-      take(whole_[i], [&] {
-        upload_.send(depth_m, sensor_depth_m_);
-        render(joints);
-        filter();
+      whole_[i].take([&] {
+        observer_.observe(depth_m, joints, frame_);
         evaluate();
       });
     }
@@ -101,52 +91,46 @@ class GlStages {
   }
 
  private:
-  template <class Call>
-  static void take(Stage& stage, Call call) {
-    const Stopwatch watch;
-    call();
-    stage.times_ms.push_back(watch.ms());
-  }
-
   void wait() {
     done_.set();
     done_.wait();
   }
 
   void render(const JointState& joints) {
-    forward_kinematics(rig_.model(), joints.position, pose_);
-    renderer_.render(pose_, rig_.camera_pose(pose_), robot_);
-    if (region_renderer_) region_renderer_->render(pose_, rig_.camera_pose(pose_), region_);
+    forward_kinematics(rig_.model(), joints.position, frame_.pose);
+    frame_.X_BC = rig_.camera_pose(frame_.pose);
+    renderer_.render(frame_.pose, frame_.X_BC, frame_.robot);
+    if (region_renderer_) region_renderer_->render(frame_.pose, frame_.X_BC, region_);
   }
 
   void filter() {
     const SelfFilterSettings& settings = rig_.settings().self_filter;
     if (region_renderer_) {
-      filter_.filter(camera_, sensor_depth_m_, robot_, region_.link_id, settings, obstacles_);
+      filter_.filter(camera_, sensor_depth_m_, frame_.robot, region_.link_id, settings,
+                     frame_.obstacles);
     } else {
-      filter_.filter(camera_, sensor_depth_m_, robot_, settings, obstacles_);
+      filter_.filter(camera_, sensor_depth_m_, frame_.robot, settings, frame_.obstacles);
     }
   }
 
   void evaluate(Method method) {
     answer_.links.clear();
-    evaluator_.evaluate(method, camera_, robot_, obstacles_.depth_m, rig_.model().link_count(),
-                        settings_, answer_);
+    evaluator_.evaluate(method, camera_, frame_.robot, frame_.obstacles.depth_m,
+                        rig_.model().link_count(), settings_, answer_);
   }
 
   const Rig& rig_;
   Camera camera_;
   GlUpload upload_;
   GlTexture sensor_depth_m_;
-  GlRobotImage robot_;
   GlRobotImage region_;
-  GlObstacleImage obstacles_;
+  GlFrame frame_;
   GlRobotRenderer renderer_;
   std::optional<GlRobotRenderer> region_renderer_;
   GlSelfFilter filter_;
+  GlObserver observer_;
   GlEvaluator evaluator_;
   GlFence done_;
-  RobotPose pose_;
   DistanceSettings settings_;
   LinkDistances answer_;
   Stage upload_stage_{"upload of the depth image"};
@@ -157,22 +141,21 @@ class GlStages {
   std::vector<Stage> whole_;
 };
 
-Table measure(const std::string& title, const OpenCamera& camera, const Rig& rig, int frames,
+Table measure(const std::string& title, const Recording& recording, const Rig& rig, int frames,
               int rounds) {
   GlStages stages(rig);
   ProgressBar progress(title, frames);
-  const std::size_t count = camera.source.depth.size();
   for (int i = 0; i < frames; ++i) {
-    const std::size_t frame = i * count / frames;
-    const DepthImage depth_m = camera.read_depth(frame);
+    const std::size_t frame = recording.sampled_frame(i, frames);
+    const DepthImage depth_m = recording.camera().read_depth(frame);
     for (int round = 0; round <= rounds; ++round) {
       stop_if_interrupted();
-      stages.run(depth_m, camera.at_exposure[frame]);
+      stages.run(depth_m, recording.camera().at_exposure[frame]);
       if (i == 0 && round == 0) stages.forget_times();
     }
     progress.step();
   }
-  Table table{
+  return table_of(
       title,
       fmt::format("{} x {}, {} triangles, {} links, {} frames, each {} times; without mean "
                   "directions, lattices with steps of {} px, by the clock on the wall. "
@@ -180,33 +163,22 @@ Table measure(const std::string& title, const OpenCamera& camera, const Rig& rig
                   "rows below those begin with images on the GPU, but for the last three.",
                   rig.camera().width_px, rig.camera().height_px, triangle_count(rig.model()),
                   rig.model().link_count(), frames, rounds + 1, kLatticeStep),
-      "stage",
-      {"median ms", "p99 ms", "max ms"},
-      {}};
-  for (const Stage* stage : stages.all()) {
-    table.rows.push_back({stage->name,
-                          {median(stage->times_ms), percentile(stage->times_ms, 0.99),
-                           percentile(stage->times_ms, 1)},
-                          ""});
-  }
-  return table;
+      stages.all());
 }
 
 }  // namespace
 
 Table measure_gl_stages(const Recording& recording, int max_frames, int rounds) {
-  const OpenCamera& camera = recording.camera();
-  return measure(fmt::format("Stages on OpenGL, {}", recording.title), camera, *camera.rig,
-                 std::min(max_frames, recording.frame_count()), rounds);
+  return measure(fmt::format("Stages on OpenGL, {}", recording.title), recording,
+                 *recording.camera().rig, std::min(max_frames, recording.frame_count()), rounds);
 }
 
 Table measure_gl_stages_of_100_000(const std::filesystem::path& scene_file, int rounds) {
   const auto recording = open_recording(scene_file, "bundled");
   const OpenCamera& camera = recording->camera();
-  const Rig rig(coarse_robot(read_scene(scene_file).robot, kParts),
-                {camera.rig->camera(), camera.source.parent_link, camera.source.X_PC},
+  const Rig rig(coarse_robot(read_scene(scene_file).robot, kParts), camera.rig->mount(),
                 camera.rig->settings());
-  return measure("Stages on OpenGL, 100 000 triangles", camera, rig, 1, rounds);
+  return measure("Stages on OpenGL, 100 000 triangles", *recording, rig, 1, rounds);
 }
 
 }  // namespace berth::bench

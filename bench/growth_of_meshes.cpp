@@ -8,8 +8,8 @@
 #include "bench/embree_rays.hpp"
 #include "bench/growth.hpp"
 #include "bench/recorded_scenes.hpp"
+#include "bench/stage.hpp"
 #include "bench/statistics.hpp"
-#include "measure/stopwatch.hpp"
 #include "bench/triangle_count.hpp"
 #include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/observer.hpp"
@@ -21,16 +21,8 @@ constexpr int kThreads = 2;
 /// Of each edge.
 constexpr int kParts[] = {1, 2, 5, 8, 16};
 
-template <class Call>
-void take(std::vector<double>& times_ms, Call call) {
-  const Stopwatch watch;
-  call();
-  times_ms.push_back(watch.ms());
-}
-
 Table::Row measure(const OpenCamera& camera, const RobotModel& model, int rounds) {
-  const Rig rig(model, {camera.rig->camera(), camera.source.parent_link, camera.source.X_PC},
-                camera.rig->settings());
+  const Rig rig(model, camera.rig->mount(), camera.rig->settings());
   const JointState& joints = camera.at_exposure.front();
   const DepthImage depth_m = camera.read_depth(0);
   Observer observer(rig);
@@ -43,23 +35,23 @@ Table::Row measure(const OpenCamera& camera, const RobotModel& model, int rounds
   Frame frame;
   forward_kinematics(model, joints.position, pose);
   const Pose X_BC = rig.camera_pose(pose);
-  std::vector<double> render_ms;
-  std::vector<double> whole_ms;
-  std::vector<double> embree_ms;
+  Stage render{"render"};
+  Stage whole{"depth image to result"};
+  Stage embree{"Embree rays"};
   for (int round = 0; round < rounds; ++round) {
     stop_if_interrupted();
-    take(render_ms, [&] { renderer.render(pose, X_BC, image); });
-    take(whole_ms, [&] {
+    render.take([&] { renderer.render(pose, X_BC, image); });
+    whole.take([&] {
       observer.observe(depth_m, joints, frame);
       asker.ask(frame);
     });
   }
   for (int round = 0; round < rounds; ++round) {
-    take(embree_ms, [&] { rays.render(pose, X_BC, traced); });
+    embree.take([&] { rays.render(pose, X_BC, traced); });
   }
   return {fmt::format("{}", triangle_count(model)),
-          {median(render_ms), percentile(render_ms, 0.99), median(whole_ms),
-           percentile(whole_ms, 0.99), median(embree_ms)},
+          {median(render.times_ms), percentile(render.times_ms, 0.99), median(whole.times_ms),
+           percentile(whole.times_ms, 0.99), median(embree.times_ms)},
           ""};
 }
 
@@ -68,7 +60,7 @@ Table::Row measure(const OpenCamera& camera, const RobotModel& model, int rounds
 Table measure_growth_of_meshes(const std::filesystem::path& scene_file, int rounds) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, kThreads);
   const auto recording = open_recording(scene_file, "bundled");
-  const SceneRobot robot = read_scene(scene_file).robot;
+  const RobotSettings robot = read_scene(scene_file).robot;
   Table table{"Growth with the meshes",
               fmt::format("The robot of the bundled scene, its collision shapes made coarse and "
                           "then subdivided, the same surface in each row; {} threads, {} runs.",

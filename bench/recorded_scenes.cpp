@@ -26,9 +26,7 @@ class Frames {
   BenchScene operator()(std::size_t frame_number) {
     const OpenCamera& camera = recording_->camera();
     const RobotModel& model = camera.rig->model();
-    const JointState& joints = camera.at_exposure[frame_number];
-    observer_.observe(camera.read_depth(frame_number), joints, frame_);
-    forward_kinematics(model, joints.position, pose_);
+    observer_.observe(camera.read_depth(frame_number), camera.at_exposure[frame_number], frame_);
 
     BenchScene scene;
     scene.camera = camera.rig->camera();
@@ -39,7 +37,7 @@ class Frames {
     scene.shapes_L = shapes_L_;
     const Pose X_CB = frame_.X_BC.inverse();
     for (const std::size_t link : model.evaluated_links) {
-      scene.X_CL.push_back(X_CB * pose_.X_BL[link]);
+      scene.X_CL.push_back(X_CB * frame_.pose.X_BL[link]);
     }
     return scene;
   }
@@ -49,7 +47,6 @@ class Frames {
   std::shared_ptr<const LinkShapes> shapes_L_;
   Observer observer_;
   Frame frame_;
-  RobotPose pose_;
 };
 
 }  // namespace
@@ -64,9 +61,8 @@ SceneSet recorded_scenes(std::shared_ptr<const Recording> recording, int max_cou
                       count, frames, camera.width_px, camera.height_px,
                       recording->camera().rig->model().link_count(),
                       recording->camera().rig->settings().distance.range_m),
-          count, [make, recording, count](int i) {
-            return (*make)(recording->sampled_frame(i, count));
-          }};
+          count,
+          [make, recording, count](int i) { return (*make)(recording->sampled_frame(i, count)); }};
 }
 
 }  // namespace berth::bench

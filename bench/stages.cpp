@@ -6,8 +6,7 @@
 #include "apps/berth/interrupt.hpp"
 #include "apps/berth/progress_bar.hpp"
 #include "bench/embree_rays.hpp"
-#include "bench/statistics.hpp"
-#include "measure/stopwatch.hpp"
+#include "bench/stage.hpp"
 #include "bench/triangle_count.hpp"
 #include "berth/distance/mean_direction.hpp"
 #include "berth/pipeline/asker.hpp"
@@ -18,12 +17,6 @@ namespace {
 
 /// Questions between two images: a controller asks more often than a camera sees.
 constexpr std::size_t kQuestions = 5;
-
-/// The runs of one stage.
-struct Stage {
-  std::string name;
-  std::vector<double> times_ms = {};
-};
 
 /// The pipeline taken apart. Each run fills the frame as Observer and Asker do.
 class Stages {
@@ -42,20 +35,19 @@ class Stages {
   void run(DepthView depth_m, std::size_t frame_number) {
     const JointState& joints = camera_.at_exposure[frame_number];
     run_apart(depth_m, joints);
-    take(whole_, [&] {
+    whole_.take([&] {
       observer_.observe(depth_m, joints, frame_);
       asker_.ask(frame_);
     });
     const std::vector<JointState>& joints_of = camera_.at_exposure;
     for (std::size_t k = 1; k <= kQuestions; ++k) {
-      take(question_,
-           [&] { asker_.ask(frame_, joints_of[(frame_number + k) % joints_of.size()]); });
+      question_.take([&] { asker_.ask(frame_, joints_of[(frame_number + k) % joints_of.size()]); });
     }
   }
 
   void run_embree(std::size_t frame_number) {
     forward_kinematics(rig_.model(), camera_.at_exposure[frame_number].position, pose_);
-    take(embree_, [&] { rays_.render(pose_, rig_.camera_pose(pose_), traced_); });
+    embree_.take([&] { rays_.render(pose_, rig_.camera_pose(pose_), traced_); });
   }
 
   void forget_times() {
@@ -68,30 +60,23 @@ class Stages {
   }
 
  private:
-  template <class Call>
-  static void take(Stage& stage, Call call) {
-    const Stopwatch watch;
-    call();
-    stage.times_ms.push_back(watch.ms());
-  }
-
   void run_apart(DepthView depth_m, const JointState& joints) {
-    take(render_, [&] {
+    render_.take([&] {
       forward_kinematics(rig_.model(), joints.position, pose_);
       renderer_.render(pose_, rig_.camera_pose(pose_), frame_.robot);
     });
-    take(self_filter_, [&] {
+    self_filter_.take([&] {
       self_filter(rig_.camera(), depth_m, frame_.robot, rig_.settings().self_filter, filter_,
                   frame_.obstacles);
     });
     both_.times_ms.push_back(render_.times_ms.back() + self_filter_.times_ms.back());
-    take(tree_, [&] { build_obstacle_tree(frame_.obstacles.depth_m, frame_.obstacle_tree); });
+    tree_.take([&] { build_obstacle_tree(frame_.obstacles.depth_m, frame_.obstacle_tree); });
     distances_.links.clear();
-    take(exact_, [&] {
+    exact_.take([&] {
       evaluate(Method::exact, rig_.camera(), frame_.robot, frame_.obstacles.depth_m,
                frame_.obstacle_tree, rig_.model().link_count(), settings_, workspace_, distances_);
     });
-    take(mean_, [&] {
+    mean_.take([&] {
       fill_mean_directions(rig_.camera(), frame_.robot, frame_.obstacles.depth_m,
                            frame_.obstacle_tree, settings_, workspace_.directions, distances_);
     });
@@ -146,23 +131,15 @@ Table measure_stages(const Recording& recording, int threads, int rounds) {
     for (int round = 0; round <= rounds; ++round) stages.run_embree(i);
   }
 
-  Table table{title,
-              fmt::format("{} x {}, {} triangles, {} links, {} frames, each {} times. The image to "
-                          "result and the question are the whole pipeline, with mean directions; "
-                          "Embree is beside it.",
-                          camera.rig->camera().width_px, camera.rig->camera().height_px,
-                          triangle_count(camera.rig->model()), camera.rig->model().link_count(),
-                          frames, rounds + 1),
-              "stage",
-              {"median ms", "p99 ms", "max ms"},
-              {}};
-  for (const Stage* stage : stages.all()) {
-    table.rows.push_back({stage->name,
-                          {median(stage->times_ms), percentile(stage->times_ms, 0.99),
-                           percentile(stage->times_ms, 1)},
-                          ""});
-  }
-  return table;
+  return table_of(
+      title,
+      fmt::format("{} x {}, {} triangles, {} links, {} frames, each {} times. The image to "
+                  "result and the question are the whole pipeline, with mean directions; "
+                  "Embree is beside it.",
+                  camera.rig->camera().width_px, camera.rig->camera().height_px,
+                  triangle_count(camera.rig->model()), camera.rig->model().link_count(), frames,
+                  rounds + 1),
+      stages.all());
 }
 
 }  // namespace berth::bench

@@ -210,10 +210,16 @@ def on_opengl(study):
              if runs_in_software(study) else "") + "</p>")
 
 
+def facts(study, rows):
+    """What the study is; its recordings by name, not by where they lie on somebody's disk."""
+    recordings = ", ".join(rows.where(kind="recording").values("scene")) or "none"
+    lines = "".join(f"<tr><th>{html.escape(name)}</th><td>{html.escape(str(value))}</td></tr>"
+                    for name, value in (study | {"recordings": recordings}).items())
+    return f'<table class="facts">{lines}</table>'
+
+
 def page(study, rows, svgs, verdicts):
     style = (Path(__file__).parent / "page.css").read_text(encoding="utf-8")
-    facts = "".join(f"<tr><th>{html.escape(name)}</th><td>{html.escape(str(value))}</td></tr>"
-                    for name, value in study.items())
     counts = ", ".join(f"{sum(found.verdict == kind for found in verdicts)} "
                        f"{kind.replace('holds', 'hold')}" if kind != FAILS else
                        f"{sum(found.verdict == kind for found in verdicts)} do not"
@@ -246,7 +252,7 @@ distance's difference, and how far robot and obstacle point lie from the right o
 not found by a lattice and have no error. A finding is judged on each scene by itself: it holds
 where it holds on nine of ten scenes, in part where it does on half of them; the number beside it
 is the median over the scenes. Hirt measured on one scene, an i7-4790K and a GTX 660.</p>
-{on_opengl(study)}<table class="facts">{facts}</table></section>
+{on_opengl(study)}{facts(study, rows)}</section>
 {"".join(section(number, svgs[number], verdicts) for number in FIGURES)}
 </body></html>
 """

@@ -14,60 +14,9 @@
 namespace berth {
 namespace {
 
-RobotSettings robot_settings(const SceneRobot& robot) {
-  return {robot.urdf, robot.package_paths,
-          robot.geometry == SceneRobot::Geometry::collision ? GeometryKind::collision
-                                                            : GeometryKind::visual,
-          robot.environment_links, robot.ignore_links};
-}
-
-template <typename T>
-void set_if(T& setting, const std::optional<T>& given) {
-  if (given) setting = *given;
-}
-
-SensorSettings sensor_settings(const SceneSensor& scene) {
-  SensorSettings settings;
-  set_if(settings.noise_m, scene.noise_m);
-  set_if(settings.speckle_px, scene.speckle_px);
-  set_if(settings.speckle_jump_m, scene.speckle_jump_m);
-  set_if(settings.average_frames, scene.average_frames);
-  set_if(settings.background_frames, scene.background_frames);
-  set_if(settings.background_clearance_m, scene.background_clearance_m);
-  for (const HolePolicy policy : kHolePolicies) {
-    if (scene.holes == name_of(policy)) settings.holes = policy;
-  }
-  return settings;
-}
-
-RigSettings rig_settings(const SceneFile& scene, const EvaluationArguments& arguments) {
-  RigSettings settings;
-  set_if(settings.self_filter.tolerance_m, scene.self_filter.tolerance_m);
-  set_if(settings.self_filter.tolerance_per_m, scene.self_filter.tolerance_per_m);
-  set_if(settings.self_filter.tolerance_per_m2, scene.self_filter.tolerance_per_m2);
-  set_if(settings.self_filter.padding_m, scene.self_filter.padding_m);
-  set_if(settings.self_filter.dilation_px, scene.self_filter.dilation_px);
-  set_if(settings.self_filter.edge_jump_m, scene.self_filter.edge_jump_m);
-  set_if(settings.self_filter.island_radius_m, scene.self_filter.island_radius_m);
-  set_if(settings.self_filter.island_jump_m, scene.self_filter.island_jump_m);
-  set_if(settings.self_filter.robot_region_scale, scene.self_filter.robot_region_scale);
-  settings.time.joints = kOnlyBetweenSamples;
-  set_if(settings.time.joints.max_skew_s, scene.time.max_skew_s);
-  set_if(settings.time.joints.max_extrapolation_s, scene.time.max_extrapolation_s);
-  settings.link_padding_m = scene.self_filter.link_padding_m;
-  settings.sensor = sensor_settings(scene.sensor);
-  set_if(settings.distance.range_m, scene.evaluation.range_m);
-  set_if(settings.distance.mean_direction, scene.evaluation.mean_direction);
-  set_if(settings.visibility, scene.evaluation.visibility);
-  set_if(settings.visibility, arguments.visibility);
-  if (scene.evaluation.method && !arguments.method) {
-    const auto method = method_from_name(*scene.evaluation.method);
-    if (!method) {
-      throw std::invalid_argument(fmt::format("evaluation.method: \"{}\"; expected one of {}",
-                                              *scene.evaluation.method, method_names()));
-    }
-    settings.method = *method;
-  }
+RigSettings settings_of(const SceneFile& scene, const EvaluationArguments& arguments) {
+  RigSettings settings = scene.settings;
+  settings.visibility = arguments.visibility.value_or(settings.visibility);
   settings.method = arguments.method_over(settings.method);
   settings.distance = arguments.settings_over(settings.distance, settings.method);
   return settings;
@@ -111,7 +60,7 @@ OpenCamera open_camera(const SceneFile& scene, const SceneCamera& source, const 
   try {
     camera.rig =
         std::make_unique<const Rig>(model, CameraMount{intrinsics, source.parent_link, source.X_PC},
-                                    rig_settings(scene, arguments));
+                                    settings_of(scene, arguments));
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(fmt::format("{}: {}", scene.file.string(), error.what()));
   }
@@ -132,7 +81,7 @@ DepthImage OpenCamera::read_depth(std::size_t frame) const {
 
 OpenScene open_scene(const std::filesystem::path& file, const EvaluationArguments& arguments) {
   const SceneFile source = read_scene(file);
-  const RobotModel model = load_robot(robot_settings(source.robot));
+  const RobotModel model = load_robot(source.robot);
   const JointTrajectory joints = read_trajectory(model, source.joints);
   OpenScene scene;
   scene.file = file;

@@ -55,7 +55,7 @@ void draw(const fs::path& file, const OpenScene& scene, const OpenCamera& camera
 
 /// Where the scene asks for a background, from all images of its camera.
 void learn_background(const OpenCamera& camera, Observer& observer) {
-  if (camera.rig->settings().sensor.background_frames == 0) return;
+  if (!camera.rig->settings().sensor.has_background()) return;
   ProgressBar progress("background", camera.source.depth.size());
   Observer learner(*camera.rig);
   Frame frame;

@@ -8,8 +8,9 @@
 #include "apps/berth/picture_layout.hpp"
 #include "apps/berth/picture_palette.hpp"
 #include "berth/io/file_bytes.hpp"
-#include "tests/apps/picture_scene.hpp"
+#include "testing/error_message.hpp"
 #include "testing/temporary_folder.hpp"
+#include "tests/apps/picture_scene.hpp"
 
 namespace berth {
 namespace {
@@ -98,12 +99,7 @@ std::vector<Pixel> changed(const Drawn& a, const Drawn& b, const DepthView& sens
 }
 
 std::string message_of(const std::filesystem::path& path, const PictureInput& input) {
-  try {
-    write_picture(path, input);
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
+  return error_message([&] { write_picture(path, input); });
 }
 
 TEST(Picture, FileHasTheSizeOfItsLayout) {

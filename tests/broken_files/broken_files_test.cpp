@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "berth/io/file_bytes.hpp"
+#include "testing/error_message.hpp"
 #include "testing/reader_inputs.hpp"
 
 namespace berth {
@@ -28,12 +29,9 @@ std::vector<fs::path> inputs_of(std::string_view reader) {
 /// The message of the refusal; empty where the input was read.
 std::string refusal(const ReaderInput& reader, const fs::path& input) {
   const std::string bytes = read_file_bytes(input);
-  try {
+  return error_message<std::exception>([&] {
     reader.read({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "";
+  });
 }
 
 double most_memory_mb() {

@@ -5,6 +5,7 @@
 #include <tbb/global_control.h>
 
 #include "berth/distance/brute_force.hpp"
+#include "testing/error_message.hpp"
 #include "testing/only_target.hpp"
 #include "testing/random_images.hpp"
 #include "tests/distance/smooth_images.hpp"
@@ -131,12 +132,7 @@ TEST(Exact, BadSettingsAreRefusedByName) {
   const auto message_of = [&](const DistanceSettings& settings) -> std::string {
     ExactWorkspace workspace;
     LinkDistances out;
-    try {
-      ask(images, workspace, out, settings);
-    } catch (const std::invalid_argument& error) {
-      return error.what();
-    }
-    return "";
+    return error_message<std::invalid_argument>([&] { ask(images, workspace, out, settings); });
   };
   EXPECT_EQ(message_of({1.0, false, -0.5}),
             "tolerance_m is -0.500000, expected a finite number of at least 0");

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "tests/distance/answer.hpp"
+#include "tests/distance/close_share.hpp"
 #include "tests/distance/plain_gl_lattice.hpp"
 
 namespace berth::testing {
@@ -150,34 +151,12 @@ TEST_P(GlLattices, StepsPassOverAThinObstacleAndCertifyNothing) {
   EXPECT_EQ(link.lower_bound_m, 0);
 }
 
-struct Share {
-  int links = 0;
-  int close = 0;
-};
-
-Share& operator+=(Share& share, const Share& other) {
-  share.links += other.links;
-  share.close += other.close;
-  return share;
-}
-
-/// The thesis's "close" is 5 mm.
-Share share_within_5_mm(const LinkDistances& truth, const LinkDistances& found) {
-  Share share;
-  for (std::size_t i = 0; i < truth.links.size(); ++i) {
-    if (truth.links[i].status != LinkStatus::ok) continue;
-    ++share.links;
-    share.close += found.links[i].distance_m <= truth.links[i].distance_m + 0.005f;
-  }
-  return share;
-}
-
 /// At the thesis's size: in smaller images 5 mm are less than a step.
 TEST_P(GlLattices, AreWithin5MillimetresForNineOfTenLinksWithStepsOf2) {
-  Share share;
+  CloseShare share;
   for (std::uint32_t seed = 0; seed < 8; ++seed) {
     const ImagePair images = random_images(seed, 640, 480, 8);
-    share += share_within_5_mm(answer(Method::exact, images), found(images, {2, 2, 10, 2, 16}));
+    share.add(answer(Method::exact, images), found(images, {2, 2, 10, 2, 16}));
   }
   std::printf("%d of %d links within 5 mm\n", share.close, share.links);
   EXPECT_GT(share.links, 50);

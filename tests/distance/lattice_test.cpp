@@ -8,6 +8,7 @@
 
 #include "berth/distance/obstacle_tree.hpp"
 #include "tests/distance/answer.hpp"
+#include "tests/distance/close_share.hpp"
 
 namespace berth::testing {
 namespace {
@@ -132,33 +133,18 @@ TEST(Lattice, StepsPassOverAThinObstacleThatTheFirstSearchDoesNotMeet) {
   EXPECT_EQ(status(4, 1), LinkStatus::none_in_range);
 }
 
-struct Share {
-  int links = 0;
-  int close = 0;
+/// Of 100 scenes as large as the thesis's.
+TEST(Lattice, IsWithin5MillimetresForNineOfTenLinks) {
+  CloseShare share;
   std::int64_t pairs = 0;
-};
-
-/// Of 100 scenes as large as the thesis's; its "close" is 5 mm.
-Share share_within_5_mm(const LatticeSettings& lattice) {
-  Share share;
   for (std::uint32_t seed = 0; seed < 100; ++seed) {
     const ImagePair images = random_images(seed, 640, 480, 8);
-    const LinkDistances truth = answer(Method::exact, images);
-    const LinkDistances found = answer(Method::lattice, images, settings_with(lattice));
-    share.pairs += found.pairs;
-    for (std::size_t i = 0; i < truth.links.size(); ++i) {
-      if (truth.links[i].status != LinkStatus::ok) continue;
-      ++share.links;
-      share.close += found.links[i].distance_m <= truth.links[i].distance_m + 0.005f;
-    }
+    const LinkDistances found = answer(Method::lattice, images, settings_with({}));
+    share.add(answer(Method::exact, images), found);
+    pairs += found.pairs;
   }
-  return share;
-}
-
-TEST(Lattice, IsWithin5MillimetresForNineOfTenLinks) {
-  const Share share = share_within_5_mm({});
   std::printf("%d of %d links within 5 mm, %lld pairs per scene\n", share.close, share.links,
-              static_cast<long long>(share.pairs / 100));
+              static_cast<long long>(pairs / 100));
   EXPECT_GT(share.links, 600);
   EXPECT_GE(share.close, 0.9 * share.links);
 }

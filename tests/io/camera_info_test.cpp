@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/io/error_message.hpp"
+#include "testing/error_message.hpp"
 #include "testing/temporary_folder.hpp"
 
 namespace berth {

@@ -6,7 +6,7 @@
 
 #include <csignal>
 
-#include "tests/io/error_message.hpp"
+#include "testing/error_message.hpp"
 #include "testing/temporary_folder.hpp"
 
 namespace berth {

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "berth/io/file_bytes.hpp"
-#include "tests/io/error_message.hpp"
+#include "testing/error_message.hpp"
 #include "testing/temporary_folder.hpp"
 
 namespace berth {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "tests/io/error_message.hpp"
+#include "testing/error_message.hpp"
 #include "tests/io/scene_text.hpp"
 
 namespace berth {

@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 
 #include "berth/io/camera_info.hpp"
 #include "berth/io/joints_csv.hpp"
 #include "berth/io/png.hpp"
+#include "testing/data_folder.hpp"
 #include "tests/io/scene_text.hpp"
 
 namespace berth {
@@ -66,7 +66,7 @@ time: {max_skew_s: 0.01, max_extrapolation_s: 0.02}
   EXPECT_EQ(scene.robot.package_paths,
             (std::map<std::string, fs::path>{{"my_description", folder / "my_description"},
                                              {"other", "/opt/other"}}));
-  EXPECT_EQ(scene.robot.geometry, SceneRobot::Geometry::collision);
+  EXPECT_EQ(scene.robot.geometry, GeometryKind::collision);
   EXPECT_EQ(scene.robot.environment_links, (std::vector<std::string>{"table", "wall"}));
   EXPECT_EQ(scene.robot.ignore_links, std::vector<std::string>{"tool"});
   EXPECT_EQ(scene.joints, folder / "a/joints.csv");
@@ -84,46 +84,54 @@ time: {max_skew_s: 0.01, max_extrapolation_s: 0.02}
   EXPECT_EQ(scene.cameras[1].name, "right");
   EXPECT_EQ(scene.cameras[1].parent_link, "hand");
 
-  const SceneSelfFilter& filter = scene.self_filter;
+  const SelfFilterSettings& filter = scene.settings.self_filter;
   EXPECT_EQ(filter.tolerance_m, 0.01);
   EXPECT_EQ(filter.tolerance_per_m, 0.02);
   EXPECT_EQ(filter.tolerance_per_m2, 0.03);
   EXPECT_EQ(filter.padding_m, 0.04);
-  EXPECT_EQ(filter.link_padding_m,
+  EXPECT_EQ(scene.settings.link_padding_m,
             (std::map<std::string, double>{{"link_3", 0.05}, {"link_4", 0}}));
   EXPECT_EQ(filter.dilation_px, 6);
   EXPECT_EQ(filter.edge_jump_m, 0.07);
   EXPECT_EQ(filter.island_radius_m, 0.08);
   EXPECT_EQ(filter.island_jump_m, 0.09);
   EXPECT_EQ(filter.robot_region_scale, 6.5);
-  EXPECT_EQ(scene.sensor.noise_m, 0.011);
-  EXPECT_EQ(scene.sensor.speckle_px, 12);
-  EXPECT_EQ(scene.sensor.speckle_jump_m, 0.013);
-  EXPECT_EQ(scene.sensor.average_frames, 14);
-  EXPECT_EQ(scene.sensor.background_frames, 15);
-  EXPECT_EQ(scene.sensor.background_clearance_m, 0.16);
-  EXPECT_EQ(scene.sensor.holes, "nearest_neighbour");
-  EXPECT_EQ(scene.evaluation.method, "lattice");
-  EXPECT_EQ(scene.evaluation.range_m, 0.5);
-  EXPECT_EQ(scene.evaluation.mean_direction, false);
-  EXPECT_EQ(scene.evaluation.visibility, false);
-  EXPECT_EQ(scene.time.max_skew_s, 0.01);
-  EXPECT_EQ(scene.time.max_extrapolation_s, 0.02);
+  const SensorSettings& sensor = scene.settings.sensor;
+  EXPECT_EQ(sensor.noise_m, 0.011);
+  EXPECT_EQ(sensor.speckle_px, 12);
+  EXPECT_EQ(sensor.speckle_jump_m, 0.013);
+  EXPECT_EQ(sensor.average_frames, 14);
+  EXPECT_EQ(sensor.background_frames, 15);
+  EXPECT_EQ(sensor.background_clearance_m, 0.16);
+  EXPECT_EQ(sensor.holes, HolePolicy::nearest_neighbour);
+  EXPECT_EQ(scene.settings.method, Method::lattice);
+  EXPECT_EQ(scene.settings.distance.range_m, 0.5);
+  EXPECT_EQ(scene.settings.distance.mean_direction, false);
+  EXPECT_EQ(scene.settings.visibility, false);
+  EXPECT_EQ(scene.settings.time.joints.max_skew_s, 0.01);
+  EXPECT_EQ(scene.settings.time.joints.max_extrapolation_s, 0.02);
 }
 
 TEST(Scene, LeavesDefaultsToThoseWhoOwnThem) {
   const SceneFile scene = read_text(with(&SceneText::more_camera, ""));
-  EXPECT_EQ(scene.robot.geometry, SceneRobot::Geometry::visual);
+  EXPECT_EQ(scene.robot.geometry, GeometryKind::visual);
   EXPECT_TRUE(scene.robot.package_paths.empty());
   EXPECT_EQ(scene.cameras[0].depth_scale_m, 0.001);
   EXPECT_TRUE(scene.cameras[0].stamps_s.empty());
   EXPECT_EQ(scene.cameras[0].near_m, 0);
   EXPECT_EQ(scene.cameras[0].far_m, std::numeric_limits<double>::infinity());
-  EXPECT_FALSE(scene.self_filter.tolerance_m || scene.self_filter.dilation_px);
-  EXPECT_TRUE(scene.self_filter.link_padding_m.empty());
-  EXPECT_FALSE(scene.sensor.noise_m || scene.sensor.speckle_px || scene.sensor.holes);
-  EXPECT_FALSE(scene.evaluation.method || scene.evaluation.range_m ||
-               scene.evaluation.mean_direction || scene.evaluation.visibility);
+  const RigSettings usual;
+  EXPECT_EQ(scene.settings.self_filter.tolerance_m, usual.self_filter.tolerance_m);
+  EXPECT_EQ(scene.settings.self_filter.dilation_px, usual.self_filter.dilation_px);
+  EXPECT_TRUE(scene.settings.link_padding_m.empty());
+  EXPECT_EQ(scene.settings.sensor.noise_m, usual.sensor.noise_m);
+  EXPECT_EQ(scene.settings.sensor.speckle_px, usual.sensor.speckle_px);
+  EXPECT_EQ(scene.settings.sensor.holes, usual.sensor.holes);
+  EXPECT_EQ(scene.settings.method, usual.method);
+  EXPECT_EQ(scene.settings.distance.range_m, usual.distance.range_m);
+  EXPECT_EQ(scene.settings.distance.mean_direction, usual.distance.mean_direction);
+  EXPECT_EQ(scene.settings.visibility, usual.visibility);
+  EXPECT_EQ(scene.settings.time.joints.max_skew_s, kOnlyBetweenSamples.max_skew_s);
 }
 
 TEST(Scene, PoseOfTheCameraTurnsAndMovesAsWritten) {
@@ -168,11 +176,6 @@ TEST(Scene, DepthPatternGivesTheFilesInTheOrderOfTheirNumbers) {
 }
 
 /// Somebody's real recordings, where they are.
-fs::path data_folder() {
-  const char* const given = std::getenv("BERTH_DATA");
-  return given != nullptr ? fs::path(given) : fs::path(BERTH_SOURCE_DIR) / "../shared/data";
-}
-
 TEST(Scene, TheRealRecordingsCanBeReadWhole) {
   const fs::path recordings = data_folder() / "recordings";
   if (!fs::exists(recordings)) GTEST_SKIP() << recordings << " is missing; set BERTH_DATA";

@@ -1,6 +1,7 @@
 #include "berth/opengl/gl_context.hpp"
 
 #include "berth/opengl/gl_buffer.hpp"
+#include "testing/error_message.hpp"
 #include "testing/gl_test.hpp"
 
 namespace berth {
@@ -9,12 +10,7 @@ namespace {
 class GlContextTest : public testing::GlTest {};
 
 std::string message_of(std::string_view device) {
-  try {
-    GlContext context(device);
-  } catch (const GlUnavailable& error) {
-    return error.what();
-  }
-  return "";
+  return error_message<GlUnavailable>([&] { GlContext context(device); });
 }
 
 TEST_F(GlContextTest, DevicesAreFoundByNumberAndByPartOfTheirName) {
@@ -41,14 +37,7 @@ TEST_F(GlContextTest, AnUnknownDeviceIsRefusedWithTheNamesThatThereAre) {
 TEST_F(GlContextTest, AFailedCallIsReportedOnceWithItsPlace) {
   GlBuffer buffer(16, GlMemory::device);
   buffer.copy_to(buffer, 1000);
-  try {
-    context().check("copying");
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("copying"), std::string::npos) << error.what();
-    EXPECT_NE(std::string(error.what()).find("GL_INVALID_VALUE"), std::string::npos)
-        << error.what();
-  }
+  expect_parts(error_message([&] { context().check("copying"); }), {"copying", "GL_INVALID_VALUE"});
   context().check("afterwards");
 }
 

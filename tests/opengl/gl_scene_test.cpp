@@ -5,10 +5,8 @@
 #include <algorithm>
 
 #include "apps/berth/open_scene.hpp"
-#include "berth/opengl/gl_robot_renderer.hpp"
-#include "berth/opengl/gl_self_filter.hpp"
+#include "berth/pipeline/gl_observer.hpp"
 #include "berth/pipeline/observer.hpp"
-#include "berth/robot/robot_region.hpp"
 #include "testing/data_folder.hpp"
 #include "testing/gl_test.hpp"
 #include "tests/opengl/robot_difference.hpp"
@@ -24,45 +22,11 @@ constexpr double kMostFates = 2e-4;
 /// robot's depth: a link's outermost pixel may be the next one.
 constexpr double kDistanceError_px = 1.5;
 
-/// A scene's first camera on the GPU.
-struct GlScene {
-  explicit GlScene(const Rig& rig)
-      : camera(rig.camera()),
-        upload(camera.width_px, camera.height_px),
-        sensor_depth_m(GlPixel::depth_m, camera.width_px, camera.height_px),
-        robot(camera.width_px, camera.height_px),
-        region(camera.width_px, camera.height_px),
-        obstacles(camera.width_px, camera.height_px),
-        renderer(rig.model(), camera) {
-    const double scale = rig.settings().self_filter.robot_region_scale;
-    if (scale > 0) region_renderer.emplace(robot_region(rig.model(), scale), camera);
-  }
+GlUpload upload_for(const Camera& camera) { return {camera.width_px, camera.height_px}; }
 
-  void observe(const Rig& rig, DepthView depth_m, const JointState& joints) {
-    RobotPose pose;
-    forward_kinematics(rig.model(), joints.position, pose);
-    const Pose X_BC = rig.camera_pose(pose);
-    upload.send(depth_m, sensor_depth_m);
-    renderer.render(pose, X_BC, robot);
-    if (!region_renderer) {
-      filter.filter(camera, sensor_depth_m, robot, rig.settings().self_filter, obstacles);
-      return;
-    }
-    region_renderer->render(pose, X_BC, region);
-    filter.filter(camera, sensor_depth_m, robot, region.link_id, rig.settings().self_filter,
-                  obstacles);
-  }
-
-  Camera camera;
-  GlUpload upload;
-  GlTexture sensor_depth_m;
-  GlRobotImage robot;
-  GlRobotImage region;
-  GlObstacleImage obstacles;
-  GlRobotRenderer renderer;
-  std::optional<GlRobotRenderer> region_renderer;
-  GlSelfFilter filter;
-};
+GlTexture depth_texture_for(const Camera& camera) {
+  return {GlPixel::depth_m, camera.width_px, camera.height_px};
+}
 
 std::int64_t differing_fates(const ObstacleImage& gpu, const ObstacleImage& cpu) {
   std::int64_t differing = 0;
@@ -91,9 +55,7 @@ class GlSceneTest : public testing::GlTest, public ::testing::WithParamInterface
   Rig rig_with(const SelfFilterSettings& self_filter) const {
     RigSettings settings = camera().rig->settings();
     settings.self_filter = self_filter;
-    return {camera().rig->model(),
-            {camera().rig->camera(), camera().source.parent_link, camera().source.X_PC},
-            settings};
+    return {camera().rig->model(), camera().rig->mount(), settings};
   }
 
   std::filesystem::path file_;
@@ -102,26 +64,30 @@ class GlSceneTest : public testing::GlTest, public ::testing::WithParamInterface
 
 TEST_P(GlSceneTest, FatesAreThoseOfTheCpuForTheSameRobot) {
   const Rig& rig = *camera().rig;
-  GlScene gl(rig);
+  const SelfFilterSettings& settings = rig.settings().self_filter;
+  GlUpload upload = upload_for(rig.camera());
+  const GlTexture sensor_depth_m = depth_texture_for(rig.camera());
+  GlFrame gl(rig.camera());
+  GlSelfFilter filter;
   Observer observer(rig);
   Frame frame;
   ObstacleImage found;
   for (const std::size_t i : frames()) {
     const DepthImage depth_m = camera().read_depth(i);
     observer.observe(depth_m, camera().at_exposure[i], frame);
-    gl.upload.send(depth_m, gl.sensor_depth_m);
-    gl.upload.send(frame.robot, gl.robot);
-    gl.filter.filter(gl.camera, gl.sensor_depth_m, gl.robot, rig.settings().self_filter,
-                     gl.obstacles);
+    upload.send(depth_m, sensor_depth_m);
+    upload.send(frame.robot, gl.robot);
+    filter.filter(rig.camera(), sensor_depth_m, gl.robot, settings, gl.obstacles);
     read_back(gl.obstacles, found);
     EXPECT_EQ(differing_fates(found, frame.obstacles), 0) << "frame " << i;
-    EXPECT_EQ(gl.filter.count(), frame.obstacles.count) << "frame " << i;
+    EXPECT_EQ(filter.count(), frame.obstacles.count) << "frame " << i;
   }
 }
 
 TEST_P(GlSceneTest, ImagesAndDistancesAreThoseOfTheCpuButAtEdges) {
   const Rig& rig = *camera().rig;
-  GlScene gl(rig);
+  GlObserver gl_observer(rig);
+  GlFrame gl(rig.camera());
   Observer observer(rig);
   Frame frame;
   RobotImage robot;
@@ -134,7 +100,7 @@ TEST_P(GlSceneTest, ImagesAndDistancesAreThoseOfTheCpuButAtEdges) {
   for (const std::size_t i : frames()) {
     const DepthImage depth_m = camera().read_depth(i);
     observer.observe(depth_m, camera().at_exposure[i], frame);
-    gl.observe(rig, depth_m, camera().at_exposure[i]);
+    gl_observer.observe(depth_m, camera().at_exposure[i], gl);
     read_back(gl.robot, robot);
     read_back(gl.obstacles, obstacles);
 
@@ -173,16 +139,18 @@ TEST_P(GlSceneTest, OnePassFiltersAsTheRulesForSinglePixelsDo) {
   settings.edge_jump_m = 0;
   settings.island_radius_m = 0;
   const Rig rig = rig_with(settings);
-  GlScene gl(rig);
-  const GlTexture filtered(GlPixel::depth_m, gl.camera.width_px, gl.camera.height_px);
+  GlFrame gl(rig.camera());
   const std::size_t i = frames()[1];
-  gl.observe(rig, camera().read_depth(i), camera().at_exposure[i]);
+  const DepthImage depth_m = camera().read_depth(i);
+  GlObserver(rig).observe(depth_m, camera().at_exposure[i], gl);
   ObstacleImage by_rules;
   read_back(gl.obstacles, by_rules);
-  RobotPose pose;
-  forward_kinematics(rig.model(), camera().at_exposure[i].position, pose);
-  gl.renderer.render_and_filter(pose, rig.camera_pose(pose), {}, gl.sensor_depth_m,
-                                tolerance_of(settings), gl.robot, filtered);
+  const GlTexture sensor_depth_m = depth_texture_for(rig.camera());
+  upload_for(rig.camera()).send(depth_m, sensor_depth_m);
+  const GlTexture filtered = depth_texture_for(rig.camera());
+  GlRobotRenderer renderer(rig.model(), rig.camera());
+  renderer.render_and_filter(gl.pose, gl.X_BC, {}, sensor_depth_m, tolerance_of(settings), gl.robot,
+                             filtered);
   DepthImage in_pass;
   read_back(filtered, in_pass);
   int differ = 0;
@@ -198,13 +166,13 @@ TEST_P(GlSceneTest, OnePassFiltersAsTheRulesForSinglePixelsDo) {
   EXPECT_GT(removed, 1000);
 
   // Enlarged, it removes more.
-  gl.renderer.render_and_filter(pose, rig.camera_pose(pose), {1, 0.02}, gl.sensor_depth_m,
-                                tolerance_of(settings), gl.robot, filtered);
+  renderer.render_and_filter(gl.pose, gl.X_BC, {1, 0.02}, sensor_depth_m, tolerance_of(settings),
+                             gl.robot, filtered);
   DepthImage padded;
   read_back(filtered, padded);
   const auto none = [](const DepthImage& image) {
     return std::count_if(image.pixels().begin(), image.pixels().end(),
-                         [](float depth_m) { return std::isnan(depth_m); });
+                         [](float z_m) { return std::isnan(z_m); });
   };
   fmt::print("{}: one pass removes {} pixels, with 2 cm along the normals {} more\n", GetParam(),
              removed, none(padded) - none(in_pass));
@@ -215,14 +183,15 @@ TEST_P(GlSceneTest, TheRobotShapedRegionIsThatOfTheCpuButAtEdges) {
   SelfFilterSettings settings = camera().rig->settings().self_filter;
   settings.robot_region_scale = 3;
   const Rig rig = rig_with(settings);
-  GlScene gl(rig);
+  GlObserver gl_observer(rig);
+  GlFrame gl(rig.camera());
   Observer observer(rig);
   Frame frame;
   ObstacleImage obstacles;
   const std::size_t i = frames()[1];
   const DepthImage depth_m = camera().read_depth(i);
   observer.observe(depth_m, camera().at_exposure[i], frame);
-  gl.observe(rig, depth_m, camera().at_exposure[i]);
+  gl_observer.observe(depth_m, camera().at_exposure[i], gl);
   read_back(gl.obstacles, obstacles);
   const std::int64_t fates = differing_fates(obstacles, frame.obstacles);
   fmt::print("{}: {} pixels ignored, {} fates differ\n", GetParam(),

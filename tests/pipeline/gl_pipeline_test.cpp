@@ -4,6 +4,7 @@
 #include "berth/pipeline/gl_asker.hpp"
 #include "berth/pipeline/gl_observer.hpp"
 #include "berth/pipeline/observer.hpp"
+#include "testing/error_message.hpp"
 #include "testing/gl_test.hpp"
 #include "tests/pipeline/web.hpp"
 
@@ -23,8 +24,7 @@ class GlPipeline : public testing::GlTest {
     RigSettings settings = camera_.rig->settings();
     settings.method = method;
     settings.sensor = sensor;
-    const CameraMount mount{camera_.rig->camera(), camera_.source.parent_link, camera_.source.X_PC};
-    return {camera_.rig->model(), mount, settings};
+    return {camera_.rig->model(), camera_.rig->mount(), settings};
   }
 
   Frame observe_on_cpu(std::size_t i) const { return observe_on_cpu(i, camera_.read_depth(i)); }
@@ -151,28 +151,18 @@ TEST_F(GlPipeline, AnUntimelyFrameHasNoAnswerAndNoImages) {
   EXPECT_EQ(observer.fate_counts(), frame.obstacles.count);
 }
 
-template <class Call>
-std::string message_of(Call call) {
-  try {
-    call();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
-}
-
 TEST_F(GlPipeline, AMethodOfTheOtherBackendIsRefused) {
   const Rig gl_rig = rig_with(Method::gl_exact);
-  EXPECT_EQ(message_of([&] { Asker asker(gl_rig); }),
+  EXPECT_EQ(error_message<std::invalid_argument>([&] { Asker asker(gl_rig); }),
             "method gl_exact runs on OpenGL; expected one that does not");
-  EXPECT_EQ(message_of([&] { GlAsker asker(*camera_.rig); }),
+  EXPECT_EQ(error_message<std::invalid_argument>([&] { GlAsker asker(*camera_.rig); }),
             "method exact does not run on OpenGL; expected one that does");
 }
 
 TEST_F(GlPipeline, ASensorRuleIsRefusedByName) {
   const auto refusal = [&](const SensorSettings& sensor) {
     const Rig rig = rig_with(Method::gl_exact, sensor);
-    return message_of([&] { GlObserver observer(rig); });
+    return error_message<std::invalid_argument>([&] { GlObserver observer(rig); });
   };
   const std::string rest = ": runs on the CPU alone; expected it off on OpenGL";
   EXPECT_EQ(refusal({.speckle_px = 20}), "sensor.speckle_px" + rest);
@@ -186,9 +176,9 @@ TEST_F(GlPipeline, AnImageOfAnotherSizeIsRefused) {
   const Rig gl_rig = rig_with(Method::gl_exact);
   GlObserver observer(gl_rig);
   GlFrame frame(gl_rig.camera());
-  EXPECT_EQ(
-      message_of([&] { observer.observe(DepthImage(3, 2, 1.0F), camera_.at_exposure[0], frame); }),
-      "depth image: 3 x 2 px; expected the camera's 640 x 480");
+  EXPECT_EQ(error_message<std::invalid_argument>(
+                [&] { observer.observe(DepthImage(3, 2, 1.0F), camera_.at_exposure[0], frame); }),
+            "depth image: 3 x 2 px; expected the camera's 640 x 480");
 }
 
 }  // namespace

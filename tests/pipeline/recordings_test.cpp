@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <iostream>
 #include <map>
@@ -14,16 +13,12 @@
 #include "berth/io/png.hpp"
 #include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/observer.hpp"
+#include "testing/data_folder.hpp"
 
 namespace berth {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path data_folder() {
-  const char* set = std::getenv("BERTH_DATA");
-  return set != nullptr ? fs::path(set) : fs::path(BERTH_SOURCE_DIR) / "../shared/data";
-}
 
 /// One line of expected.tsv.
 struct Range {
@@ -124,8 +119,7 @@ TEST_P(Recording, NoLinkIsTooFarAndMostAreInTheirRange) {
 Rig with_rules(const OpenCamera& camera, const SensorSettings& rules) {
   RigSettings settings = camera.rig->settings();
   settings.sensor = rules;
-  return Rig(camera.rig->model(),
-             {camera.rig->camera(), camera.source.parent_link, camera.source.X_PC}, settings);
+  return Rig(camera.rig->model(), camera.rig->mount(), settings);
 }
 
 TEST_P(Recording, SpeckleBackgroundAndHolesMakeNoDistanceLarger) {

@@ -18,9 +18,8 @@ class RobotRegion : public testing::Test {
   Rig rig_with(double scale) const {
     RigSettings settings = camera_.rig->settings();
     settings.self_filter.robot_region_scale = scale;
-    return {camera_.rig->model(), {camera_.rig->camera(), "table", X_PC()}, settings};
+    return {camera_.rig->model(), camera_.rig->mount(), settings};
   }
-  Pose X_PC() const { return camera_.source.X_PC; }
 
   Frame observe(const Rig& rig, std::size_t i) const {
     Frame frame;

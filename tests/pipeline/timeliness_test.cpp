@@ -28,8 +28,7 @@ class RunningRobot : public testing::Test {
       : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml", {})),
         camera_(scene_.cameras.front()),
         depth_m_(camera_.read_depth(3)),
-        rig_(camera_.rig->model(),
-             {camera_.rig->camera(), camera_.source.parent_link, camera_.source.X_PC}, {}),
+        rig_(camera_.rig->model(), camera_.rig->mount(), {}),
         names_(joint_names(rig_.model())) {
     push_until(10.5);
   }

@@ -108,9 +108,7 @@ TEST_F(TwoClocks, ABackgroundIsLearnedOnlyWhereItIsAskedForAndFromImagesOfTheCam
 
   RigSettings settings;
   settings.sensor.background_frames = 1;
-  const Rig& given = *camera_.rig;
-  const Rig rig(given.model(), {given.camera(), camera_.source.parent_link, camera_.source.X_PC},
-                settings);
+  const Rig rig(camera_.rig->model(), camera_.rig->mount(), settings);
   Observer observer(rig);
   EXPECT_THROW(observer.learn_background(DepthImage(10, 10, 1.0F), frame), std::invalid_argument);
   Frame learned;

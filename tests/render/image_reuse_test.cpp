@@ -3,7 +3,7 @@
 
 #include "berth/render/robot_renderer.hpp"
 #include "berth/robot/primitives.hpp"
-#include "tests/render/same_bits.hpp"
+#include "testing/same_bits.hpp"
 #include "tests/render/small_robot.hpp"
 
 namespace berth {

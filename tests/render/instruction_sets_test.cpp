@@ -3,8 +3,8 @@
 
 #include "berth/render/robot_renderer.hpp"
 #include "testing/only_target.hpp"
+#include "testing/same_bits.hpp"
 #include "tests/render/crowded_robot.hpp"
-#include "tests/render/same_bits.hpp"
 
 namespace berth {
 namespace {

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "berth/robot/primitives.hpp"
-#include "tests/render/same_bits.hpp"
+#include "testing/same_bits.hpp"
 #include "tests/render/small_robot.hpp"
 
 namespace berth {

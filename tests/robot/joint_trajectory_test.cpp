@@ -1,4 +1,5 @@
 #include "berth/robot/joint_trajectory.hpp"
+#include "testing/error_message.hpp"
 
 #include <gtest/gtest.h>
 
@@ -31,15 +32,6 @@ JointState at(const JointTrajectory& joints, double time_s) {
   JointState state;
   EXPECT_EQ(joints.at(time_s, kOnlyBetweenSamples, state).status, TimeStatus::ok);
   return state;
-}
-
-std::string message_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 TEST(JointTrajectory, TakesTheRobotsOrderAndLeavesMimicJointsOut) {
@@ -83,14 +75,14 @@ TEST(JointTrajectory, NothingIsExtrapolatedUnlessTheLimitAllowsIt) {
 }
 
 TEST(JointTrajectory, AMissingSampleIsNamed) {
-  const std::string message = message_of([] { trajectory({{1, {0, 0, 0, 0}}}).sample(1); });
+  const std::string message = error_message([] { trajectory({{1, {0, 0, 0, 0}}}).sample(1); });
   EXPECT_NE(message.find("joints.csv: 1 rows"), std::string::npos) << message;
   EXPECT_NE(message.find("frame 1"), std::string::npos) << message;
 }
 
 TEST(JointTrajectory, UnknownAndMissingJointsAreNamed) {
   const auto open = [](const std::vector<std::string>& names) {
-    return message_of([&] {
+    return error_message([&] {
       JointTrajectory(three_joints(), "joints.csv", names, {{0, {0, 0, 0, 0}}});
     });
   };

@@ -4,10 +4,10 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <cstring>
 
 #include "berth/self_filter/self_filter.hpp"
 #include "testing/only_target.hpp"
+#include "testing/same_bits.hpp"
 #include "testing/thinned.hpp"
 #include "tests/self_filter/plain_definition.hpp"
 #include "tests/self_filter/random_scene.hpp"
@@ -26,9 +26,7 @@ void expect_same(const ObstacleImage& found, const ObstacleImage& expected) {
       ASSERT_EQ(found.fate(u, v), expected.fate(u, v)) << "pixel " << u << ", " << v;
   }
   EXPECT_EQ(found.count, expected.count);
-  EXPECT_EQ(std::memcmp(found.depth_m.pixels().data(), expected.depth_m.pixels().data(),
-                        expected.depth_m.pixels().size() * sizeof(float)),
-            0);
+  EXPECT_TRUE(same_bits(found.depth_m, expected.depth_m));
 }
 
 /// One workspace for scenes of all sizes, so that nothing of a former one may show.

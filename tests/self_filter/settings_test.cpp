@@ -1,4 +1,5 @@
 #include "berth/self_filter/settings.hpp"
+#include "testing/error_message.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,12 +14,7 @@ namespace {
 std::string message_for(const std::function<void(SelfFilterSettings&)>& spoil) {
   SelfFilterSettings settings;
   spoil(settings);
-  try {
-    validate(settings);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
+  return error_message<std::invalid_argument>([&] { validate(settings); });
 }
 
 TEST(SelfFilterSettings, DefaultsAreValid) { EXPECT_NO_THROW(validate(SelfFilterSettings{})); }

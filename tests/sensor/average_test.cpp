@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "testing/same_bits.hpp"
 #include "tests/sensor/images.hpp"
 
 namespace berth {
@@ -58,7 +59,7 @@ TEST(Average, ForgetsImagesOfAnotherSize) {
   average_readings(settings, history, small);
   ObstacleImage large = kept_image(DepthImage(3, 2, 1.01F));
   average_readings(settings, history, large);
-  EXPECT_TRUE(same_depth(large.depth_m, DepthImage(3, 2, 1.01F)));
+  EXPECT_TRUE(same_bits(large.depth_m, DepthImage(3, 2, 1.01F)));
 }
 
 /// From the definition, with all frames at hand.

@@ -6,6 +6,7 @@
 #include <limits>
 #include <tuple>
 
+#include "testing/same_bits.hpp"
 #include "tests/sensor/images.hpp"
 
 namespace berth {
@@ -34,7 +35,7 @@ DepthImage two_readings() {
 TEST(Holes, FreeLeavesThem) {
   const DepthImage depth_m = two_readings();
   const ObstacleImage image = filled(depth_m, HolePolicy::free, no_robot(depth_m));
-  EXPECT_TRUE(same_depth(image.depth_m, depth_m));
+  EXPECT_TRUE(same_bits(image.depth_m, depth_m));
   EXPECT_EQ(image.fate(2, 1), PixelFate::no_reading);
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace berth {
 
@@ -22,11 +21,6 @@ DepthImage patchy_image(testing::Random& random) {
     if (random.chance(share)) z = 0.5F + 0.06F * static_cast<float>(random.whole(0, 8));
   }
   return depth_m;
-}
-
-bool same_depth(const DepthImage& a, const DepthImage& b) {
-  return a.pixels().size() == b.pixels().size() &&
-         std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size() * sizeof(float)) == 0;
 }
 
 }  // namespace berth

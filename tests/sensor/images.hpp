@@ -12,7 +12,4 @@ ObstacleImage kept_image(const DepthImage& depth_m);
 /// Up to 40 x 30 pixels of a few depths, some of them without reading.
 DepthImage patchy_image(testing::Random& random);
 
-/// Whether the depths are the same bits, NaN or not.
-bool same_depth(const DepthImage& a, const DepthImage& b);
-
 }  // namespace berth

@@ -9,6 +9,7 @@
 
 #include "berth/distance/evaluate.hpp"
 #include "berth/sensor/sensor_rules.hpp"
+#include "testing/same_bits.hpp"
 #include "testing/thinned.hpp"
 #include "tests/self_filter/random_scene.hpp"
 #include "tests/sensor/images.hpp"
@@ -157,7 +158,7 @@ TEST(SensorRules, ChangeNothingWhereAllAreOff) {
   ObstacleImage image = filtered;
   SensorWorkspace sensor;
   apply_sensor_rules(scene.sensor_depth_m, scene.robot, {}, {}, sensor, image);
-  EXPECT_TRUE(same_depth(image.depth_m, filtered.depth_m));
+  EXPECT_TRUE(same_bits(image.depth_m, filtered.depth_m));
   EXPECT_EQ(image.fate.pixels(), filtered.fate.pixels());
   EXPECT_EQ(image.count, filtered.count);
 }
@@ -185,7 +186,7 @@ TEST(SensorRules, DoNotDependOnTheNumberOfThreads) {
   };
   const ObstacleImage one = run(1);
   const ObstacleImage three = run(3);
-  EXPECT_TRUE(same_depth(one.depth_m, three.depth_m));
+  EXPECT_TRUE(same_bits(one.depth_m, three.depth_m));
   EXPECT_EQ(one.fate.pixels(), three.fate.pixels());
   EXPECT_EQ(one.count, three.count);
 }

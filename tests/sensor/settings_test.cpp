@@ -1,4 +1,5 @@
 #include "berth/sensor/settings.hpp"
+#include "testing/error_message.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,12 +14,16 @@ namespace {
 std::string message_for(const std::function<void(SensorSettings&)>& spoil) {
   SensorSettings settings;
   spoil(settings);
-  try {
-    validate(settings);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
+  return error_message<std::invalid_argument>([&] { validate(settings); });
+}
+
+TEST(SensorSettings, TellTheFirstRuleThatIsOn) {
+  EXPECT_EQ(SensorSettings{}.first_rule(), "");
+  EXPECT_EQ((SensorSettings{.speckle_px = 1, .average_frames = 1}.first_rule()), "");
+  EXPECT_EQ((SensorSettings{.speckle_px = 2, .average_frames = 2}.first_rule()), "speckle_px");
+  EXPECT_EQ((SensorSettings{.average_frames = 2}.first_rule()), "average_frames");
+  EXPECT_EQ((SensorSettings{.background_frames = 1}.first_rule()), "background_frames");
+  EXPECT_EQ((SensorSettings{.holes = HolePolicy::obstacle}.first_rule()), "holes");
 }
 
 TEST(SensorSettings, DefaultsAreValid) { EXPECT_NO_THROW(validate(SensorSettings{})); }

@@ -70,6 +70,8 @@ def main():
         assert f"figure_3_{figure:02}" in page.ids, f"index.html: lacks figure 3.{figure}"
     assert text.count("<svg") == len(MEASURED), "index.html: a figure is not in it"
     assert all(link.startswith(("#", "data:")) for link in page.loads), "index.html: loads files"
+    for made in [folder / "index.html", *folder.glob("*.csv"), *folder.glob("*.svg")]:
+        assert str(folder) not in made.read_text(encoding="utf-8"), f"{made}: tells where it lies"
     for words in ("does not hold", "holds", "commit", "seed", "What to choose"):
         assert words in text, f"index.html: lacks {words}"
 

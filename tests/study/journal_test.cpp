@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "berth/io/file_bytes.hpp"
+#include "testing/error_message.hpp"
 #include "testing/temporary_folder.hpp"
 
 namespace berth::study {
@@ -18,12 +19,7 @@ class JournalOnDisk : public ::testing::Test {
 
   /// The message of a journal that cannot be opened.
   std::string refusal(const Identity& identity) const {
-    try {
-      Journal(folder_.path(), identity, kHeader, 2);
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "it was opened";
+    return error_message([&] { Journal(folder_.path(), identity, kHeader, 2); });
   }
 
   void write_two_lines() const {

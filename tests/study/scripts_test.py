@@ -9,6 +9,7 @@ import numpy  # noqa: E402
 
 import figures_gpu  # noqa: E402
 import findings  # noqa: E402
+import make_page  # noqa: E402
 from measurements import (Rows, groups, missed_share, over_sets, pooled_error,  # noqa: E402
                           rank_correlation, set_means)
 
@@ -177,6 +178,18 @@ class Findings(unittest.TestCase):
     def test_what_times_a_gpu_is_told_from_what_does_not(self):
         times = [each.figure for each in findings.FINDINGS if each.times_a_gpu]
         self.assertEqual(times, ["3.13", "3.15", "3.16", "3.18", "3.19"])
+
+
+class Page(unittest.TestCase):
+    def test_names_the_recordings_but_not_where_they_lie(self):
+        study = {"commit": "abc", "recordings": "/home/me/arm/scene.yaml, /srv/hand/scene.yaml"}
+        arm, hand = ({"scene": f"Recording {name}; frame 3", "kind": "recording"}
+                     for name in ("arm", "hand"))
+        found = make_page.facts(study, rows({}, arm, hand))
+        self.assertIn("<td>Recording arm; frame 3, Recording hand; frame 3</td>", found)
+        self.assertIn("<td>abc</td>", found)
+        self.assertNotIn("/home", found)
+        self.assertIn("<td>none</td>", make_page.facts(study, rows({})))
 
 
 class GpuFigures(unittest.TestCase):

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "berth/render/robot_renderer.hpp"
+#include "testing/same_bits.hpp"
 
 namespace berth::testing {
 namespace {
@@ -21,11 +22,6 @@ class DrawnScenes : public ::testing::Test {
                                         .environment_links = {"table"}});
   const std::vector<MeshTree> trees_ = build_link_trees(model_);
 };
-
-bool same_bits(const DepthImage& a, const DepthImage& b) {
-  return std::equal(a.pixels().begin(), a.pixels().end(), b.pixels().begin(), b.pixels().end(),
-                    [](float x, float y) { return x == y || (std::isnan(x) && std::isnan(y)); });
-}
 
 /// Pixels whose depths differ by more than 1 mm, or where only one has any.
 int count_differences(const DepthImage& a, const DepthImage& b) {

@@ -10,10 +10,19 @@
 namespace berth {
 namespace {
 
-SceneRobot read_robot(const YamlValue& value) {
+/// The one of `all` whose name the value is.
+template <typename T, std::size_t n>
+T one_of(const YamlValue& value, const std::array<T, n>& all) {
+  std::vector<std::string_view> names;
+  for (const T one : all) names.push_back(name_of(one));
+  const std::string name = value.one_of(names);
+  return *std::find_if(all.begin(), all.end(), [&](T one) { return name_of(one) == name; });
+}
+
+RobotSettings read_robot(const YamlValue& value) {
   const YamlMap map(value,
                     {"urdf", "package_paths", "geometry", "environment_links", "ignore_links"});
-  SceneRobot robot;
+  RobotSettings robot;
   robot.urdf = map.at("urdf").path();
   if (const auto packages = map.find("package_paths")) {
     for (const auto& [name, folder] : packages->entries())
@@ -21,11 +30,10 @@ SceneRobot read_robot(const YamlValue& value) {
   }
   if (const auto geometry = map.find("geometry")) {
     const bool visual = geometry->one_of({"visual", "collision"}) == "visual";
-    robot.geometry = visual ? SceneRobot::Geometry::visual : SceneRobot::Geometry::collision;
+    robot.geometry = visual ? GeometryKind::visual : GeometryKind::collision;
   }
-  using Names = std::vector<std::string>;
-  robot.environment_links = map.get("environment_links", &YamlValue::texts).value_or(Names());
-  robot.ignore_links = map.get("ignore_links", &YamlValue::texts).value_or(Names());
+  map.read("environment_links", &YamlValue::texts, robot.environment_links);
+  map.read("ignore_links", &YamlValue::texts, robot.ignore_links);
   return robot;
 }
 
@@ -43,79 +51,69 @@ std::vector<SceneCamera> read_cameras(const YamlValue& value) {
   return cameras;
 }
 
-SceneSelfFilter read_self_filter(const YamlValue& value) {
+void read_self_filter(const YamlValue& value, RigSettings& settings) {
   const YamlMap map(value, {"tolerance_m", "tolerance_per_m", "tolerance_per_m2", "padding_m",
                             "link_padding_m", "dilation_px", "edge_jump_m", "island_radius_m",
                             "island_jump_m", "robot_region_scale"});
-  SceneSelfFilter filter;
-  filter.tolerance_m = map.get("tolerance_m", &YamlValue::non_negative);
-  filter.tolerance_per_m = map.get("tolerance_per_m", &YamlValue::non_negative);
-  filter.tolerance_per_m2 = map.get("tolerance_per_m2", &YamlValue::non_negative);
-  filter.padding_m = map.get("padding_m", &YamlValue::non_negative);
+  SelfFilterSettings& filter = settings.self_filter;
+  map.read("tolerance_m", &YamlValue::non_negative, filter.tolerance_m);
+  map.read("tolerance_per_m", &YamlValue::non_negative, filter.tolerance_per_m);
+  map.read("tolerance_per_m2", &YamlValue::non_negative, filter.tolerance_per_m2);
+  map.read("padding_m", &YamlValue::non_negative, filter.padding_m);
   if (const auto paddings = map.find("link_padding_m")) {
     for (const auto& [link, padding] : paddings->entries()) {
-      filter.link_padding_m[link] = padding.non_negative();
+      settings.link_padding_m[link] = padding.non_negative();
     }
   }
-  filter.dilation_px = map.get("dilation_px", &YamlValue::count);
-  filter.edge_jump_m = map.get("edge_jump_m", &YamlValue::non_negative);
-  filter.island_radius_m = map.get("island_radius_m", &YamlValue::non_negative);
-  filter.island_jump_m = map.get("island_jump_m", &YamlValue::non_negative);
-  filter.robot_region_scale = map.get("robot_region_scale", &YamlValue::non_negative);
-  return filter;
+  map.read("dilation_px", &YamlValue::count, filter.dilation_px);
+  map.read("edge_jump_m", &YamlValue::non_negative, filter.edge_jump_m);
+  map.read("island_radius_m", &YamlValue::non_negative, filter.island_radius_m);
+  map.read("island_jump_m", &YamlValue::non_negative, filter.island_jump_m);
+  map.read("robot_region_scale", &YamlValue::non_negative, filter.robot_region_scale);
 }
 
-SceneSensor read_sensor(const YamlValue& value) {
+void read_sensor(const YamlValue& value, SensorSettings& sensor) {
   const YamlMap map(value, {"noise_m", "speckle_px", "speckle_jump_m", "average_frames",
                             "background_frames", "background_clearance_m", "holes"});
-  SceneSensor sensor;
-  sensor.noise_m = map.get("noise_m", &YamlValue::non_negative);
-  sensor.speckle_px = map.get("speckle_px", &YamlValue::count);
-  sensor.speckle_jump_m = map.get("speckle_jump_m", &YamlValue::non_negative);
-  sensor.average_frames = map.get("average_frames", &YamlValue::count);
-  sensor.background_frames = map.get("background_frames", &YamlValue::count);
-  sensor.background_clearance_m = map.get("background_clearance_m", &YamlValue::non_negative);
-  if (const auto holes = map.find("holes")) {
-    sensor.holes = holes->one_of({"free", "obstacle", "nearest_neighbour"});
-  }
-  return sensor;
+  map.read("noise_m", &YamlValue::non_negative, sensor.noise_m);
+  map.read("speckle_px", &YamlValue::count, sensor.speckle_px);
+  map.read("speckle_jump_m", &YamlValue::non_negative, sensor.speckle_jump_m);
+  map.read("average_frames", &YamlValue::count, sensor.average_frames);
+  map.read("background_frames", &YamlValue::count, sensor.background_frames);
+  map.read("background_clearance_m", &YamlValue::non_negative, sensor.background_clearance_m);
+  if (const auto holes = map.find("holes")) sensor.holes = one_of(*holes, kHolePolicies);
 }
 
-SceneEvaluation read_evaluation(const YamlValue& value) {
+void read_evaluation(const YamlValue& value, RigSettings& settings) {
   const YamlMap map(value, {"method", "range_m", "mean_direction", "visibility"});
-  SceneEvaluation evaluation;
-  if (const auto method = map.find("method")) {
-    evaluation.method =
-        method->one_of({"exact", "brute_force", "lattice", "gl_lattice", "gl_hybrid", "gl_exact"});
-  }
-  evaluation.range_m = map.get("range_m", &YamlValue::positive);
-  evaluation.mean_direction = map.get("mean_direction", &YamlValue::boolean);
-  evaluation.visibility = map.get("visibility", &YamlValue::boolean);
-  return evaluation;
+  if (const auto method = map.find("method")) settings.method = one_of(*method, kMethods);
+  map.read("range_m", &YamlValue::positive, settings.distance.range_m);
+  map.read("mean_direction", &YamlValue::boolean, settings.distance.mean_direction);
+  map.read("visibility", &YamlValue::boolean, settings.visibility);
 }
 
-SceneTime read_time(const YamlValue& value) {
+void read_time(const YamlValue& value, JointTimeLimits& limits) {
   const YamlMap map(value, {"max_skew_s", "max_extrapolation_s"});
-  return {map.get("max_skew_s", &YamlValue::non_negative),
-          map.get("max_extrapolation_s", &YamlValue::non_negative)};
+  map.read("max_skew_s", &YamlValue::non_negative, limits.max_skew_s);
+  map.read("max_extrapolation_s", &YamlValue::non_negative, limits.max_extrapolation_s);
 }
 
 }  // namespace
 
 SceneFile read_scene(const std::filesystem::path& file) {
-  const YamlMap map(load_yaml(file), {"robot", "cameras", "joints", "self_filter", "sensor",
-                                      "evaluation", "time"});
+  const YamlMap map(load_yaml(file),
+                    {"robot", "cameras", "joints", "self_filter", "sensor", "evaluation", "time"});
   SceneFile scene;
   scene.file = file;
   scene.robot = read_robot(map.at("robot"));
   scene.cameras = read_cameras(map.at("cameras"));
   scene.joints = map.at("joints").path();
-  if (const auto filter = map.find("self_filter")) scene.self_filter = read_self_filter(*filter);
-  if (const auto sensor = map.find("sensor")) scene.sensor = read_sensor(*sensor);
-  if (const auto evaluation = map.find("evaluation")) {
-    scene.evaluation = read_evaluation(*evaluation);
-  }
-  if (const auto time = map.find("time")) scene.time = read_time(*time);
+  RigSettings& settings = scene.settings;
+  settings.time.joints = kOnlyBetweenSamples;
+  if (const auto filter = map.find("self_filter")) read_self_filter(*filter, settings);
+  if (const auto sensor = map.find("sensor")) read_sensor(*sensor, settings.sensor);
+  if (const auto evaluation = map.find("evaluation")) read_evaluation(*evaluation, settings);
+  if (const auto time = map.find("time")) read_time(*time, settings.time.joints);
   return scene;
 }
 

@@ -95,9 +95,8 @@ SceneCamera read_scene_camera(const YamlValue& value) {
   if (const auto stamps = map.find("stamps")) {
     camera.stamps_s = read_stamps(*stamps, camera.depth.size());
   }
-  camera.depth_scale_m =
-      map.get("depth_scale", &YamlValue::positive).value_or(camera.depth_scale_m);
-  camera.near_m = map.get("near_m", &YamlValue::non_negative).value_or(camera.near_m);
+  map.read("depth_scale", &YamlValue::positive, camera.depth_scale_m);
+  map.read("near_m", &YamlValue::non_negative, camera.near_m);
   if (const auto far = map.find("far_m")) {
     camera.far_m = far->positive();
     if (camera.far_m <= camera.near_m)

@@ -66,7 +66,7 @@ std::string YamlValue::text() const {
   return node_.Scalar();
 }
 
-std::string YamlValue::one_of(std::initializer_list<std::string_view> choices) const {
+std::string YamlValue::one_of(const std::vector<std::string_view>& choices) const {
   if (node_.IsScalar() &&
       std::find(choices.begin(), choices.end(), node_.Scalar()) != choices.end()) {
     return node_.Scalar();

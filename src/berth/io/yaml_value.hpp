@@ -22,7 +22,7 @@ class YamlValue {
   YamlValue(YAML::Node node, FilePlace place) : node_(std::move(node)), place_(std::move(place)) {}
 
   std::string text() const;  ///< not empty
-  std::string one_of(std::initializer_list<std::string_view> choices) const;
+  std::string one_of(const std::vector<std::string_view>& choices) const;
   /// A path that is relative to the YAML file's folder.
   std::filesystem::path path() const;
   bool boolean() const;
@@ -60,11 +60,10 @@ class YamlMap {
   /// Throws where the key is missing.
   YamlValue at(std::string_view key) const;
 
-  /// What `read` makes of the key's value; none where the key is missing.
+  /// Sets `out` to what `how` makes of the key's value; leaves it where the key is missing.
   template <typename T>
-  std::optional<T> get(std::string_view key, T (YamlValue::*read)() const) const {
-    const std::optional<YamlValue> value = find(key);
-    return value ? std::optional<T>(((*value).*read)()) : std::nullopt;
+  void read(std::string_view key, T (YamlValue::*how)() const, T& out) const {
+    if (const std::optional<YamlValue> value = find(key)) out = ((*value).*how)();
   }
 
   const FilePlace& place() const { return place_; }

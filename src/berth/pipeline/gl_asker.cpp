@@ -7,10 +7,7 @@
 
 namespace berth {
 
-GlAsker::GlAsker(const Rig& rig)
-    : rig_(rig),
-      renderer_(rig.model(), rig.camera()),
-      robot_(rig.camera().width_px, rig.camera().height_px) {
+GlAsker::GlAsker(const Rig& rig) : rig_(rig) {
   const Method method = rig.settings().method;
   if (runs_on_opengl(method)) return;
   throw std::invalid_argument("method " + std::string(name_of(method)) +
@@ -32,7 +29,7 @@ const Answer& GlAsker::ask(const GlFrame& frame, const JointState& joints,
   const Timeliness time = timeliness_of(frame, joints.stamp_s, now_s, rig_.settings().time);
   if (!begin_answer(rig_, frame.stamp_s, joints.stamp_s, time, answer_)) return answer_;
   forward_kinematics(rig_.model(), joints.position, pose_);
-  renderer_.render(pose_, frame.X_BC, robot_);
+  render(pose_, frame.X_BC);
   evaluate(frame, robot_);
   if (!rig_.settings().visibility) return answer_;
   read_back(rig_.camera(), frame, seen_);
@@ -49,6 +46,15 @@ const Answer& GlAsker::ask(const Frame& frame, std::optional<double> now_s) {
                       rig_.model().link_count(), settings.distance, answer_.distances);
   tell_visibility(rig_, frame, {frame.pose, frame.X_BC, frame.robot}, tell_, answer_);
   return answer_;
+}
+
+void GlAsker::render(const RobotPose& pose, const Pose& X_BC) {
+  if (!renderer_) {
+    const Camera& camera = rig_.camera();
+    renderer_.emplace(rig_.model(), camera);
+    robot_ = GlRobotImage(camera.width_px, camera.height_px);
+  }
+  renderer_->render(pose, X_BC, robot_);
 }
 
 void GlAsker::evaluate(const GlFrame& frame, const GlRobotImage& robot) {

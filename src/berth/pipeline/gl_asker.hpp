@@ -11,8 +11,9 @@
 namespace berth {
 
 /// Asker on OpenGL, for a rig whose method runs there. What comes back from the GPU is the answer;
-/// with RigSettings::visibility also the images, once for each question. It belongs to the context
-/// that is current when it is made, and to its thread; the rig has to outlive it.
+/// with RigSettings::visibility also the images, once for each question. Shaders are compiled and
+/// the robot is uploaded at the first question that needs them. It belongs to the context that is
+/// current when it is made, and to its thread; the rig has to outlive it.
 class GlAsker {
  public:
   /// Throws std::invalid_argument if the rig's method does not run on OpenGL.
@@ -26,11 +27,13 @@ class GlAsker {
   const Answer& ask(const Frame& frame, std::optional<double> now_s = {});
 
  private:
+  void render(const RobotPose& pose, const Pose& X_BC);
   void evaluate(const GlFrame& frame, const GlRobotImage& robot);
 
   const Rig& rig_;
-  GlRobotRenderer renderer_;
   GlEvaluator evaluator_;
+  /// Made at the first question at other joint angles than those of the exposure.
+  std::optional<GlRobotRenderer> renderer_;
   RobotPose pose_;
   GlRobotImage robot_;
   /// Read back for the visibility.

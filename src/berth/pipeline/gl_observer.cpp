@@ -1,5 +1,7 @@
 #include "berth/pipeline/gl_observer.hpp"
 
+#include <fmt/format.h>
+
 #include <stdexcept>
 
 #include "berth/robot/robot_region.hpp"
@@ -8,14 +10,10 @@ namespace berth {
 namespace {
 
 void require_no_sensor_rules(const SensorSettings& sensor) {
-  const char* key = sensor.speckle_px > 1              ? "speckle_px"
-                    : sensor.average_frames > 1        ? "average_frames"
-                    : sensor.background_frames > 0     ? "background_frames"
-                    : sensor.holes != HolePolicy::free ? "holes"
-                                                       : nullptr;
-  if (!key) return;
-  throw std::invalid_argument(std::string("sensor.") + key +
-                              ": runs on the CPU alone; expected it off on OpenGL");
+  const std::string_view key = sensor.first_rule();
+  if (key.empty()) return;
+  throw std::invalid_argument(
+      fmt::format("sensor.{}: runs on the CPU alone; expected it off on OpenGL", key));
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ void Observer::observe(DepthView depth_m, double stamp_s, const JointBuffer& joi
 void Observer::learn_background(DepthView depth_m, const Frame& frame) {
   require_size(rig_.camera(), depth_m);
   const SensorSettings& settings = rig_.settings().sensor;
-  if (settings.background_frames == 0) {
+  if (!settings.has_background()) {
     throw std::invalid_argument(
         "sensor.background_frames: 0; expected 1 or more, to learn a background");
   }

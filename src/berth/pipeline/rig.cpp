@@ -69,7 +69,7 @@ Rig::Rig(RobotModel model, CameraMount mount, RigSettings settings)
   }
   validate(settings_.self_filter);
   validate(settings_.sensor);
-  if (settings_.sensor.background_frames > 0) {
+  if (settings_.sensor.has_background()) {
     require_fixed_camera(model_, parent_, settings_.sensor.background_frames);
   }
   validate(settings_.distance);

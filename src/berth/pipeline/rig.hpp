@@ -45,6 +45,7 @@ class Rig {
   Rig(RobotModel model, CameraMount mount, RigSettings settings);
 
   const RobotModel& model() const { return model_; }
+  const CameraMount& mount() const { return mount_; }
   const Camera& camera() const { return mount_.camera; }
   const RigSettings& settings() const { return settings_; }
   const std::shared_ptr<const LinkMeshes>& meshes() const { return meshes_; }

@@ -22,13 +22,10 @@ void count_again(ObstacleImage& out) {
 void apply_sensor_rules(DepthView sensor_depth_m, const RobotImage& robot,
                         const Background& background, const SensorSettings& settings,
                         SensorWorkspace& workspace, ObstacleImage& out) {
-  const bool has_speckle = settings.speckle_px > 1;
-  const bool averages = settings.average_frames > 1;
-  const bool has_background = settings.background_frames > 0;
-  if (!has_speckle && !averages && !has_background && settings.holes == HolePolicy::free) return;
-  if (has_speckle) drop_speckle(settings, workspace.speckle, out);
-  if (averages) average_readings(settings, workspace.history, out);
-  if (has_background) background.complete(sensor_depth_m, settings, out);
+  if (settings.first_rule().empty()) return;
+  if (settings.drops_speckle()) drop_speckle(settings, workspace.speckle, out);
+  if (settings.averages()) average_readings(settings, workspace.history, out);
+  if (settings.has_background()) background.complete(sensor_depth_m, settings, out);
   fill_holes(settings.holes, robot, workspace.holes, out);
   count_again(out);
 }

@@ -24,6 +24,14 @@ std::string_view name_of(HolePolicy policy) {
   return kNames.at(static_cast<std::size_t>(policy));
 }
 
+std::string_view SensorSettings::first_rule() const {
+  if (drops_speckle()) return "speckle_px";
+  if (averages()) return "average_frames";
+  if (has_background()) return "background_frames";
+  if (fills_holes()) return "holes";
+  return {};
+}
+
 void validate(const SensorSettings& settings) {
   require_length("noise_m", settings.noise_m);
   require(settings.speckle_px >= 0, "speckle_px", settings.speckle_px, "a number of at least 0");

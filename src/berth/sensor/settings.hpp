@@ -36,6 +36,13 @@ struct SensorSettings {
   /// No background is learned where the robot is within this length in the image, at its depth.
   double background_clearance_m = 0.15;
   HolePolicy holes = HolePolicy::free;
+
+  bool drops_speckle() const { return speckle_px > 1; }
+  bool averages() const { return average_frames > 1; }
+  bool has_background() const { return background_frames > 0; }
+  bool fills_holes() const { return holes != HolePolicy::free; }
+  /// The key of the first rule that is on; empty where all are off.
+  std::string_view first_rule() const;
 };
 
 /// Most of average_frames: that many images are held.

@@ -8,12 +8,12 @@
 
 namespace berth {
 
-/// what() of the std::runtime_error that `run` throws; empty where it throws none.
-template <typename Run>
-std::string error_message(Run run) {
+/// what() of the Error that `call` throws; empty where it throws none.
+template <typename Error = std::runtime_error, typename Call>
+std::string error_message(Call&& call) {
   try {
-    run();
-  } catch (const std::runtime_error& error) {
+    call();
+  } catch (const Error& error) {
     return error.what();
   }
   return {};
