@@ -25,15 +25,6 @@ constexpr double kLeastCameraClearance_m = 0.25;
 constexpr double kRoomHalf_m = 4;
 constexpr double kWallThickness_m = 0.1;
 
-JointState draw_joints(Random& random, const RobotModel& model) {
-  JointState joints;
-  for (const MovableJoint& joint : model.joints) {
-    joints.position.push_back(
-        random(std::max(joint.lower, -std::numbers::pi), std::min(joint.upper, std::numbers::pi)));
-  }
-  return joints;
-}
-
 /// A ball around the evaluated links, and the lowest point of all links.
 struct Extent {
   Eigen::Vector3d centre_B_m;
@@ -197,6 +188,15 @@ void cast_obstacles(DrawnScene& scene) {
 }
 
 }  // namespace
+
+JointState draw_joints(Random& random, const RobotModel& model) {
+  JointState joints;
+  for (const MovableJoint& joint : model.joints) {
+    joints.position.push_back(
+        random(std::max(joint.lower, -std::numbers::pi), std::min(joint.upper, std::numbers::pi)));
+  }
+  return joints;
+}
 
 RobotModel obstacle_model(const std::vector<DrawnObstacle>& obstacles) {
   RobotModel model;

@@ -7,6 +7,7 @@
 
 #include "berth/robot/kinematics.hpp"
 #include "testing/mesh_distance.hpp"
+#include "testing/random.hpp"
 
 namespace berth::testing {
 
@@ -49,6 +50,9 @@ struct DrawnScene {
 /// robot cannot be seen from anywhere.
 DrawnScene draw_scene(const RobotModel& model, const std::vector<MeshTree>& link_trees,
                       const DrawnSceneSettings& settings, std::uint32_t seed);
+
+/// Within the limits, continuous joints within +- pi.
+JointState draw_joints(Random& random, const RobotModel& model);
 
 /// The obstacles as links of a robot, [i] that of obstacles[i], for whoever renders them.
 RobotModel obstacle_model(const std::vector<DrawnObstacle>& obstacles);

@@ -93,16 +93,16 @@ void Canvas::line(PointPx a, PointPx b, Rgb color, double width_px, double alpha
   cairo_stroke(cairo_->context);
 }
 
-void Canvas::disc(PointPx center, double radius_px, Rgb color, double alpha) {
+void Canvas::disc(PointPx centre, double radius_px, Rgb color, double alpha) {
   set_color(cairo_->context, color, alpha);
-  cairo_arc(cairo_->context, center.x, center.y, radius_px, 0, 2 * kPi);
+  cairo_arc(cairo_->context, centre.x, centre.y, radius_px, 0, 2 * kPi);
   cairo_fill(cairo_->context);
 }
 
-void Canvas::ring(PointPx center, double radius_px, Rgb color, double width_px, double alpha) {
+void Canvas::ring(PointPx centre, double radius_px, Rgb color, double width_px, double alpha) {
   set_color(cairo_->context, color, alpha);
   cairo_set_line_width(cairo_->context, width_px);
-  cairo_arc(cairo_->context, center.x, center.y, radius_px, 0, 2 * kPi);
+  cairo_arc(cairo_->context, centre.x, centre.y, radius_px, 0, 2 * kPi);
   cairo_stroke(cairo_->context);
 }
 

@@ -41,8 +41,8 @@ class Canvas {
   void fill_box(const BoxPx& box, Rgb color, double radius_px = 0, double alpha = 1);
   void stroke_box(const BoxPx& box, Rgb color, double width_px, double radius_px = 0);
   void line(PointPx a, PointPx b, Rgb color, double width_px, double alpha = 1);
-  void disc(PointPx center, double radius_px, Rgb color, double alpha = 1);
-  void ring(PointPx center, double radius_px, Rgb color, double width_px, double alpha = 1);
+  void disc(PointPx centre, double radius_px, Rgb color, double alpha = 1);
+  void ring(PointPx centre, double radius_px, Rgb color, double width_px, double alpha = 1);
   /// `pixels` are 0x00RRGGBB.
   void pixels(PointPx top_left, const Image<std::uint32_t>& pixels);
 

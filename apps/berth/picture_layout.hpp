@@ -33,7 +33,7 @@ struct PictureLayout {
   TablePlan table;
 
   /// The middle of a sensor pixel.
-  PointPx center(Pixel p) const {
+  PointPx centre(Pixel p) const {
     return {image.x + (p.u + 0.5) * factor, image.y + (p.v + 0.5) * factor};
   }
 };
@@ -45,8 +45,8 @@ inline constexpr double kKeyEm = 1.7;
 inline constexpr double kFateRowEm = 1.3;
 inline constexpr double kScaleEm = 4.0;
 
-/// The fates that the legend lists: those of the self filter up to `island`, and of the others those
-/// that some pixel has.
+/// The fates that the legend lists: those of the self filter up to `island`, and of the others
+/// those that some pixel has.
 std::vector<PixelFate> shown_fates(const ObstacleImage& obstacles);
 
 PictureLayout layout_picture(const PictureInput& input);

@@ -29,7 +29,7 @@ std::vector<Pair> nearest_first(const PictureLayout& layout, const PictureInput&
                    [](const auto& a, const auto& b) { return a.distance_m < b.distance_m; });
   std::vector<Pair> pairs;
   for (const LinkDistance& link : links) {
-    pairs.push_back({layout.center(link.robot_pixel), layout.center(link.obstacle_pixel),
+    pairs.push_back({layout.centre(link.robot_pixel), layout.centre(link.obstacle_pixel),
                      link_color(link.id), distance_text(link, input.range_m), pairs.empty(),
                      link.distance_m == 0});
   }
@@ -54,7 +54,7 @@ std::vector<PointPx> precious_points(const std::vector<Pair>& pairs, const Pictu
   for (int v = 0; v < input.sensor_depth_m.height; v += spacing) {
     for (int u = 0; u < input.sensor_depth_m.width; u += spacing) {
       const LinkId id = input.robot->link_id(u, v);
-      if (id != kNoLink && id != kEnvironmentLink) points.push_back(layout.center({u, v}));
+      if (id != kNoLink && id != kEnvironmentLink) points.push_back(layout.centre({u, v}));
     }
   }
   return points;
@@ -95,15 +95,15 @@ void draw_label(Canvas& canvas, const Pair& pair, const BoxPx& box, double em) {
 
 }  // namespace
 
-void draw_robot_end(Canvas& canvas, PointPx center, Rgb color, double em_px) {
-  canvas.disc(center, 0.44 * em_px, kBlack, 0.8);
-  canvas.disc(center, 0.34 * em_px, kWhite);
-  canvas.disc(center, 0.24 * em_px, color);
+void draw_robot_end(Canvas& canvas, PointPx centre, Rgb color, double em_px) {
+  canvas.disc(centre, 0.44 * em_px, kBlack, 0.8);
+  canvas.disc(centre, 0.34 * em_px, kWhite);
+  canvas.disc(centre, 0.24 * em_px, color);
 }
 
-void draw_obstacle_end(Canvas& canvas, PointPx center, Rgb color, double em_px) {
-  canvas.ring(center, 0.38 * em_px, kBlack, 0.36 * em_px, 0.8);
-  canvas.ring(center, 0.38 * em_px, color, 0.18 * em_px);
+void draw_obstacle_end(Canvas& canvas, PointPx centre, Rgb color, double em_px) {
+  canvas.ring(centre, 0.38 * em_px, kBlack, 0.36 * em_px, 0.8);
+  canvas.ring(centre, 0.38 * em_px, color, 0.18 * em_px);
 }
 
 void draw_pairs(Canvas& canvas, const PictureLayout& layout, const PictureInput& input) {

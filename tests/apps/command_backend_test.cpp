@@ -12,7 +12,10 @@ namespace {
 class Backend : public testing::GlTest {
  protected:
   // Two renderers may differ by a pixel at an outline.
-  Backend() { scene_.lines.self_filter = "{padding_m: 0.06, edge_jump_m: 0, island_radius_m: 0}"; }
+  Backend() {
+    scene_.lines.self_filter =
+        "{padding_m: 0.06, padding_depth_m: 2, edge_jump_m: 0, island_radius_m: 0}";
+  }
 
   static std::vector<Json> lines_of(const std::string& text) {
     std::vector<Json> lines;

@@ -14,13 +14,13 @@
 namespace berth {
 namespace {
 
-std::string box_stl(const Eigen::Vector3d& size_m, const Eigen::Vector3d& center_m) {
+std::string box_stl(const Eigen::Vector3d& size_m, const Eigen::Vector3d& centre_m) {
   const TriangleMesh box = make_box(size_m);
   std::string text = "solid box\n";
   for (const auto& triangle : box.triangles) {
     text += "facet normal 0 0 0\nouter loop\n";
     for (const auto corner : triangle) {
-      const Eigen::Vector3d p = box.vertices_m[corner].template cast<double>() + center_m;
+      const Eigen::Vector3d p = box.vertices_m[corner].template cast<double>() + centre_m;
       text += fmt::format("vertex {} {} {}\n", p.x(), p.y(), p.z());
     }
     text += "endloop\nendfacet\n";

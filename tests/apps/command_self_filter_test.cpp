@@ -13,7 +13,8 @@ int count_with(CommandScene& scene, const std::string& settings, const char* fat
   return scene.run().at(0)["self_filter"][fate];
 }
 
-constexpr const char* kOff = "padding_m: 0, edge_jump_m: 0, island_radius_m: 0";
+/// What grows takes the wall, 1 m behind the robot.
+constexpr const char* kOff = "padding_m: 0, padding_depth_m: 2, edge_jump_m: 0, island_radius_m: 0";
 
 std::string with_off(const std::string& setting) { return std::string(kOff) + ", " + setting; }
 
@@ -45,12 +46,12 @@ TEST_F(Tolerance, GrowsWithTheSquareOfDepth) {
 TEST(SelfFilterKey, PaddingGrowsTheSilhouette) {
   CommandScene scene;
   EXPECT_EQ(count_with(scene, kOff, "padding"), 0);
-  const int some =
-      count_with(scene, "padding_m: 0.05, edge_jump_m: 0, island_radius_m: 0", "padding");
-  const int more =
-      count_with(scene, "padding_m: 0.1, edge_jump_m: 0, island_radius_m: 0", "padding");
+  const std::string rest = "edge_jump_m: 0, island_radius_m: 0, padding_depth_m: ";
+  const int some = count_with(scene, rest + "2, padding_m: 0.05", "padding");
+  const int more = count_with(scene, rest + "2, padding_m: 0.1", "padding");
   EXPECT_GT(some, 20);
   EXPECT_GT(more, 1.5 * some);
+  EXPECT_LT(count_with(scene, rest + "0.3, padding_m: 0.1", "padding"), some);
 }
 
 TEST(SelfFilterKey, LinkPaddingIsThatOfOneLink) {

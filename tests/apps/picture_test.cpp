@@ -40,7 +40,7 @@ class Drawn {
   const Image<Rgb>& pixels() const { return pixels_; }
   /// The colour in the middle of a sensor pixel.
   Rgb at(int u, int v) const {
-    const PointPx p = layout_.center({u, v});
+    const PointPx p = layout_.centre({u, v});
     return pixels_(static_cast<int>(p.x), static_cast<int>(p.y));
   }
 
@@ -199,11 +199,11 @@ TEST(Picture, ContactStandsOut) {
   one.distances.links[0].obstacle_pixel = one.distances.links[0].robot_pixel;
   const Drawn drawn(one.input()), bare(one.without_distances());
   // A ring around the place, beside the two ends.
-  const PointPx center = drawn.layout().center({60, 60});
+  const PointPx centre = drawn.layout().centre({60, 60});
   const double radius_px = 0.95 * drawn.layout().em_px;
   for (const double angle : {2.0, 3.0, 4.0}) {
-    const int x = static_cast<int>(center.x + radius_px * std::cos(angle));
-    const int y = static_cast<int>(center.y + radius_px * std::sin(angle));
+    const int x = static_cast<int>(centre.x + radius_px * std::cos(angle));
+    const int y = static_cast<int>(centre.y + radius_px * std::sin(angle));
     EXPECT_EQ(drawn.pixels()(x, y), kWhite);
     EXPECT_NE(bare.pixels()(x, y), kWhite);
   }

@@ -213,7 +213,6 @@ TEST(Methods, HaveNames) {
   EXPECT_EQ(method_from_name("brute_force"), Method::brute_force);
   EXPECT_EQ(method_from_name("Exact"), std::nullopt);
   EXPECT_EQ(method_from_name(""), std::nullopt);
-  EXPECT_EQ(method_names(), "exact, brute_force, lattice, gl_exact, gl_lattice, gl_hybrid");
 }
 
 TEST(BranchAndBound, ComputesFewOfThePairs) {

@@ -11,8 +11,8 @@ constexpr int kWidth = 150;
 constexpr int kHeight = 60;
 
 bool is_within(const PixelDisc& disc, Pixel p) {
-  const int du = p.u - disc.center.u;
-  const int dv = p.v - disc.center.v;
+  const int du = p.u - disc.centre.u;
+  const int dv = p.v - disc.centre.v;
   return du * du + dv * dv <= disc.radius_px * disc.radius_px;
 }
 
@@ -49,9 +49,9 @@ std::vector<Pixel> take_all(PixelSet& set) {
 std::vector<PixelDisc> discs() {
   std::vector<PixelDisc> all;
   for (const int radius_px : {0, 1, 2, 7, 31, 64, 200, 65536}) {
-    for (const Pixel center :
+    for (const Pixel centre :
          {Pixel{0, 0}, {kWidth - 1, kHeight - 1}, {63, 20}, {64, 20}, {90, 41}}) {
-      all.push_back({center, radius_px});
+      all.push_back({centre, radius_px});
     }
   }
   return all;

@@ -50,12 +50,12 @@ std::vector<Pixel> tile_points(const Question& question, const PixelRect& window
   return points;
 }
 
-std::vector<Pixel> disc_points(const Question& question, Pixel center, int radius_px) {
+std::vector<Pixel> disc_points(const Question& question, Pixel centre, int radius_px) {
   std::vector<Pixel> points;
-  for (int v = center.v - radius_px; v <= center.v + radius_px; ++v) {
-    for (int u = center.u - radius_px; u <= center.u + radius_px; ++u) {
-      const int du = u - center.u;
-      const int dv = v - center.v;
+  for (int v = centre.v - radius_px; v <= centre.v + radius_px; ++v) {
+    for (int u = centre.u - radius_px; u <= centre.u + radius_px; ++u) {
+      const int du = u - centre.u;
+      const int dv = v - centre.v;
       const bool is_within = du * du + dv * dv <= radius_px * radius_px;
       if (is_within && is_of_link(question, {u, v})) points.push_back({u, v});
     }

@@ -170,8 +170,8 @@ TEST(SceneErrors, RefusesABadValueAndSaysWhere) {
 
 TEST(SceneErrors, RefusesEveryNegativeNumberOfTheSelfFilter) {
   for (const std::string key :
-       {"tolerance_m", "tolerance_per_m", "tolerance_per_m2", "padding_m", "edge_jump_m",
-        "island_radius_m", "island_jump_m", "robot_region_scale"}) {
+       {"tolerance_m", "tolerance_per_m", "tolerance_per_m2", "padding_m", "padding_depth_m",
+        "edge_jump_m", "island_radius_m", "island_jump_m", "robot_region_scale"}) {
     for (const std::string value : {"-0.01", ".nan", "wide"}) {
       const SceneText scene =
           with(&SceneText::end, "joints: j\nself_filter: {" + key + ": " + value + "}");

@@ -76,7 +76,7 @@ void expect_same(const ObstacleImage& gpu, const ObstacleImage& cpu) {
 
 TEST_F(GlSelfFilterTest, GivesTheSameFatesOnRandomScenes) {
   std::array<int, kSelfFilterFateCount> scenes{};
-  for (std::uint32_t seed = 0; seed < 60; ++seed) {
+  for (std::uint32_t seed = 0; seed < 90; ++seed) {
     SCOPED_TRACE(seed);
     const RandomScene scene = random_scene(seed);
     const ObstacleImage cpu = on_cpu(scene);

@@ -90,8 +90,7 @@ TEST_F(VisibilityOfAnswers, WithWhatIsDoubtfulDistancesAreThoseWithoutTheIslandR
   draw_web(frame_.robot, with_web_m);
   RigSettings settings = camera_.rig->settings();
   settings.self_filter.island_radius_m = 0;
-  const Rig no_islands(camera_.rig->model(), {camera_.rig->camera(), "table", camera_.source.X_PC},
-                       settings);
+  const Rig no_islands(camera_.rig->model(), camera_.rig->mount(), settings);
   Observer observer(*camera_.rig);
   Observer observer_of_all(no_islands);
   Asker asker(*camera_.rig);

@@ -31,6 +31,7 @@ SelfFilterSettings no_rules() {
   SelfFilterSettings settings;
   settings.tolerance_m = 0;
   settings.padding_m = 0;
+  settings.padding_depth_m = 100;
   settings.edge_jump_m = 0;
   settings.island_radius_m = 0;
   return settings;

@@ -69,6 +69,25 @@ class PlainFilter {
     return sensor_(u, v) >= z - (a + (b * z + c * z * z));
   }
 
+  /// What the robot's outline of this depth takes beside it.
+  bool belongs_beside(int u, int v, float z) const {
+    const float most_m = z + static_cast<float>(settings_.padding_depth_m);
+    return belongs(u, v, z) && (sensor_(u, v) <= most_m || !is_on_surface(u, v));
+  }
+
+  bool is_on_surface(int u, int v) const {
+    const float z = sensor_(u, v);
+    const float jump = 0.03F * std::max(1.0F, z * z);
+    int joined = 0;
+    for (int dv = -1; dv <= 1; ++dv) {
+      for (int du = -1; du <= 1; ++du) {
+        const bool is_neighbour = (du != 0 || dv != 0) && is_inside(u + du, v + dv);
+        joined += is_neighbour && std::abs(sensor_(u + du, v + dv) - z) <= jump;
+      }
+    }
+    return joined >= 5;
+  }
+
   bool is_outline(int u, int v) const {
     if (!is_link(u, v)) return false;
     const auto pixel_rad = static_cast<float>(1 / std::max(camera_.fx_px, camera_.fy_px));
@@ -92,7 +111,7 @@ class PlainFilter {
     return std::any_of(outline_.begin(), outline_.end(), [&](const Pixel& p) {
       const float z = robot_.depth_m(p.u, p.v);
       const double padding_m = settings_.padding_of(robot_.link_id(p.u, p.v));
-      return padding_m > 0 && belongs(u, v, z) &&
+      return padding_m > 0 && belongs_beside(u, v, z) &&
              in_disc(u - p.u, v - p.v, std::min(longest_px, padding_m * camera_.fx_px / z),
                      std::min(longest_px, padding_m * camera_.fy_px / z));
     });
@@ -101,7 +120,7 @@ class PlainFilter {
   bool is_dilation(int u, int v) const {
     if (settings_.dilation_px == 0) return false;
     return std::any_of(outline_.begin(), outline_.end(), [&](const Pixel& p) {
-      return belongs(u, v, robot_.depth_m(p.u, p.v)) &&
+      return belongs_beside(u, v, robot_.depth_m(p.u, p.v)) &&
              in_disc(u - p.u, v - p.v, settings_.dilation_px, settings_.dilation_px);
     });
   }

@@ -22,6 +22,7 @@ SelfFilterSettings random_settings(Random& random) {
   settings.tolerance_per_m = random.chance(0.3) ? random(0, 0.03) : 0;
   settings.tolerance_per_m2 = random.chance(0.3) ? random(0, 0.03) : 0;
   settings.padding_m = random_setting(random, 0.005, 0.12);
+  settings.padding_depth_m = random_setting(random, 0.05, 1.5);
   if (random.chance(0.3)) {
     settings.link_padding_m = {random(0, 0.2), std::numeric_limits<double>::quiet_NaN(), 0.0};
   }

@@ -109,6 +109,43 @@ TEST(SelfFilter, PaddingIsADiscOfThatLengthAtTheLinksDepth) {
   EXPECT_EQ(out.fate(16, 16), PixelFate::obstacle);
 }
 
+/// A link before the wall; beside it a thing at this depth, and one mixed pixel at 2 m.
+FlatScene scene_beside_link(float thing_depth_m) {
+  FlatScene scene;
+  scene.add_link(1, kLink, 1.0F);
+  scene.see(kLink, 1.0F);
+  scene.see({40, 20, 44, 30}, thing_depth_m);
+  scene.see({41, 35, 42, 36}, 2.0F);
+  return scene;
+}
+
+TEST(SelfFilter, PaddingTakesNoSurfaceThatIsSeenFartherBehindTheRobot) {
+  SelfFilterSettings settings = no_rules();
+  settings.padding_m = 0.05;
+  settings.padding_depth_m = 0.3;
+  const ObstacleImage near = filter(scene_beside_link(1.29F), settings);
+  const ObstacleImage far = filter(scene_beside_link(1.31F), settings);
+  EXPECT_EQ(near.fate(42, 25), PixelFate::padding);
+  EXPECT_EQ(far.fate(42, 25), PixelFate::obstacle);
+  EXPECT_EQ(far.depth_m(42, 25), 1.31F);
+  EXPECT_EQ(far.fate(40, 25), PixelFate::obstacle) << "next to the link";
+  EXPECT_EQ(far.fate(42, 38), PixelFate::obstacle) << "the wall";
+  settings.padding_depth_m = 0.32;
+  EXPECT_EQ(filter(scene_beside_link(1.31F), settings).fate(42, 25), PixelFate::padding);
+}
+
+TEST(SelfFilter, PaddingAndDilationTakeAMixedPixelHoweverFarBehind) {
+  SelfFilterSettings settings = no_rules();
+  settings.padding_depth_m = 0.3;
+  EXPECT_EQ(filter(scene_beside_link(1.31F), settings).fate(41, 35), PixelFate::obstacle);
+  settings.padding_m = 0.05;
+  EXPECT_EQ(filter(scene_beside_link(1.31F), settings).fate(41, 35), PixelFate::padding);
+  settings.padding_m = 0;
+  settings.dilation_px = 3;
+  EXPECT_EQ(filter(scene_beside_link(1.31F), settings).fate(41, 35), PixelFate::dilation);
+  EXPECT_EQ(filter(scene_beside_link(1.31F), settings).fate(41, 38), PixelFate::obstacle);
+}
+
 TEST(SelfFilter, PaddingOfASingleLinkReplacesTheCommonOne) {
   FlatScene scene;
   scene.add_link(1, {5, 20, 20, 40}, 1.0F);

@@ -28,6 +28,7 @@ TEST(SelfFilterSettings, EachKeyOutsideItsDomainIsNamed) {
        [](Settings& s) { s.tolerance_per_m2 = std::numeric_limits<double>::infinity(); }},
       {"padding_m: nan",
        [](Settings& s) { s.padding_m = std::numeric_limits<double>::quiet_NaN(); }},
+      {"padding_depth_m: -0.1", [](Settings& s) { s.padding_depth_m = -0.1; }},
       {"link_padding_m: -0.5",
        [](Settings& s) {
          s.link_padding_m = {0.1, -0.5};

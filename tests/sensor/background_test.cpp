@@ -127,10 +127,11 @@ TEST(Background, WhatStandsOnSceneryIsLearned) {
 }
 
 /// F of one image: the robot's pixels dropped, and what the background made of it.
-ObstacleImage completed(const Place& place, const DepthImage& depth_m, const RobotImage& robot) {
+ObstacleImage completed(const Place& place, const DepthImage& depth_m, const RobotImage& robot,
+                        const SelfFilterSettings& settings = {}) {
   SelfFilterWorkspace workspace;
   ObstacleImage image;
-  self_filter(camera(), depth_m, robot, {}, workspace, image);
+  self_filter(camera(), depth_m, robot, settings, workspace, image);
   place.background.complete(depth_m, place.settings, image);
   return image;
 }
@@ -148,7 +149,9 @@ TEST(Background, IsPutBehindTheRobotAndInItsPaddingAndWhereThereIsNoReading) {
   const RobotImage robot = robot_at(20, 20);
   DepthImage depth_m = wall_and_robot(robot);
   depth_m(50, 50) = kNoDepth;
-  const ObstacleImage image = completed(KnownPlace(), depth_m, robot);
+  SelfFilterSettings settings;
+  settings.padding_depth_m = kWall_m;
+  const ObstacleImage image = completed(KnownPlace(), depth_m, robot, settings);
   for (const Pixel p : {Pixel{25, 25}, Pixel{31, 25}, Pixel{50, 50}}) {
     EXPECT_EQ(image.fate(p.u, p.v), PixelFate::background) << p.u;
     EXPECT_EQ(image.depth_m(p.u, p.v), kWall_m);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "real_image.hpp"
 #include "tables.hpp"
 #include "testing/data_folder.hpp"
 #include "trial_robots.hpp"
@@ -102,6 +103,41 @@ TEST(Trust, ARimBesideARealRobotKeepsItsDistance) {
   expect_rims_kept(load_trial_robots(folder), {{"xarm7/xarm7_with_gripper", 129, 224, 172},
                                                {"widowx/widowx", 58, 320, 240},
                                                {"widowx/widowx", 816, 224, 172}});
+}
+
+/// Nothing is hidden in silence: what a rule drops beside the arm, where there is no padding, is
+/// told as doubtful, or was dropped for a mixed pixel.
+TEST(Trust, InRealDepthImagesTheDoubtfulDistanceLosesNothing) {
+  const std::filesystem::path data = data_folder();
+  if (!std::filesystem::is_directory(data / "depth")) GTEST_SKIP() << "no images in " << data;
+  const std::vector<RealImage> images = load_real_images(data / "depth");
+  const std::vector<TrialRobot> robots = load_trial_robots(data / "robots");
+  RealImageRules rules;
+  rules.self_filter.padding_m = rules.self_filter.edge_jump_m = 0;
+  rules.sensor.speckle_px = 60;
+  rules.counts_doubtful = true;
+  RealImageRules in_silence = rules;
+  in_silence.counts_doubtful = false;
+  int checked = 0, farther_in_silence = 0;
+  for (int i = 0; i < 120; ++i) {
+    const RealImage& image = images[i % images.size()];
+    const TrialRobot& robot = robots[i / images.size() % robots.size()];
+    const auto scene = draw_into(image, robot, static_cast<std::uint32_t>(i));
+    if (!scene) continue;
+    const std::vector<Estimate> estimates = estimate(*scene, rules);
+    const std::vector<Estimate> silent = estimate(*scene, in_silence);
+    for (std::size_t link = 0; link < estimates.size(); ++link) {
+      if (scene->ideal.links[link].status != LinkStatus::ok) continue;
+      const double ideal_m = scene->ideal.links[link].distance_m;
+      ASSERT_EQ(estimates[link].status, LinkStatus::ok) << image.name << ", seed " << i;
+      EXPECT_LE(estimates[link].distance_m, ideal_m + 1e-5) << image.name << ", seed " << i;
+      farther_in_silence +=
+          silent[link].status != LinkStatus::ok || silent[link].distance_m > ideal_m + 1e-5;
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 300);
+  EXPECT_GT(farther_in_silence, 0) << "the rules drop nothing here";
 }
 
 TEST(Trust, EveryConditionIsMeasuredOnceInItsTable) {

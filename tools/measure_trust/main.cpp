@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "look.hpp"
+#include "real_image.hpp"
 #include "tables.hpp"
 #include "trial_robots.hpp"
 
@@ -68,12 +69,17 @@ int main(int argc, char** argv) {
   CLI::App app("Compares berth's distances with the true ones, mesh to mesh, on random scenes");
   int scenes = 1000;
   std::filesystem::path robots_folder;
+  std::filesystem::path real_images;
   std::optional<int> look;
   std::filesystem::path picture = "scene.png";
   app.add_option("--scenes", scenes, "How many; their seeds count from 0")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   app.add_option("--robots", robots_folder, "Folder of robots, besides the bundled one")
+      ->check(CLI::ExistingDirectory);
+  app.add_option(
+         "--real-images", real_images,
+         "Instead, draw the robots into real depth images (folder depth/ of the recordings)")
       ->check(CLI::ExistingDirectory);
   app.add_option("--look", look, "Instead, print and draw the scene of this seed")
       ->check(CLI::Range(0, 1000000));
@@ -88,6 +94,9 @@ int main(int argc, char** argv) {
     if (look) {
       berth::look_at_scene(berth::robot_of(robots, *look), berth::settings_of(*look),
                            static_cast<std::uint32_t>(*look), picture);
+    } else if (!real_images.empty()) {
+      const auto images = berth::load_real_images(real_images);
+      fmt::print("{}", berth::real_image_table(images, robots, scenes));
     } else {
       berth::measure_trust(robots, scenes);
     }

@@ -10,14 +10,6 @@
 #include "testing/other_metric.hpp"
 
 namespace berth {
-namespace {
-
-/// Removes what shows the robot in truth.
-void remove_robot(const testing::DrawnScene& scene, DepthImage& depth_m) {
-  for (std::size_t i = 0; i < depth_m.pixels().size(); ++i) {
-    if (std::isnan(scene.obstacle_depth_m.pixels()[i])) depth_m.pixels()[i] = kNoDepth;
-  }
-}
 
 std::vector<Estimate> to_estimates(const LinkDistances& distances) {
   std::vector<Estimate> estimates;
@@ -27,8 +19,8 @@ std::vector<Estimate> to_estimates(const LinkDistances& distances) {
   return estimates;
 }
 
-LinkDistances evaluate_berth(const TrialRobot& robot, const Camera& camera, const RobotImage& image,
-                             const DepthImage& obstacle_depth_m) {
+LinkDistances exact_distances(const TrialRobot& robot, const Camera& camera,
+                              const RobotImage& image, const DepthImage& obstacle_depth_m) {
   ObstacleTree tree;
   build_obstacle_tree(obstacle_depth_m, tree);
   EvaluateWorkspace workspace;
@@ -38,7 +30,6 @@ LinkDistances evaluate_berth(const TrialRobot& robot, const Camera& camera, cons
   return distances;
 }
 
-/// A link's doubtful distance in place of its distance, where there is one.
 std::vector<Estimate> with_doubtful(const Camera& camera, const RobotImage& image,
                                     DepthView sensed_m, const ObstacleImage& obstacles,
                                     const LinkDistances& distances) {
@@ -53,6 +44,15 @@ std::vector<Estimate> with_doubtful(const Camera& camera, const RobotImage& imag
     estimates[i] = {LinkStatus::ok, links[i].doubtful_distance_m};
   }
   return estimates;
+}
+
+namespace {
+
+/// Removes what shows the robot in truth.
+void remove_robot(const testing::DrawnScene& scene, DepthImage& depth_m) {
+  for (std::size_t i = 0; i < depth_m.pixels().size(); ++i) {
+    if (std::isnan(scene.obstacle_depth_m.pixels()[i])) depth_m.pixels()[i] = kNoDepth;
+  }
 }
 
 std::vector<Estimate> evaluate_other(testing::OtherMetric metric, const TrialRobot& robot,
@@ -95,7 +95,7 @@ std::vector<Estimate> estimate(const TrialRobot& robot, const testing::DrawnScen
     case MeasuredMetric::hirt:
       break;
   }
-  const LinkDistances distances = evaluate_berth(robot, camera, image, depth_m);
+  const LinkDistances distances = exact_distances(robot, camera, image, depth_m);
   return condition.counts_doubtful ? with_doubtful(camera, image, sensed_m, obstacles, distances)
                                    : to_estimates(distances);
 }

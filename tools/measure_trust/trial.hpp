@@ -7,6 +7,7 @@
 
 #include "berth/render/robot_renderer.hpp"
 #include "berth/types/link_distance.hpp"
+#include "berth/types/obstacle_image.hpp"
 #include "condition.hpp"
 #include "testing/true_distance.hpp"
 
@@ -40,6 +41,16 @@ struct Trial {
 
 /// Distances are asked for up to here.
 inline constexpr double kTrialRange_m = 1.0;
+
+/// By the method `exact` within kTrialRange_m, without mean directions.
+LinkDistances exact_distances(const TrialRobot& robot, const Camera& camera,
+                              const RobotImage& image, const DepthImage& obstacle_depth_m);
+std::vector<Estimate> to_estimates(const LinkDistances& distances);
+/// A link's doubtful distance in place of its distance, where there is one.
+std::vector<Estimate> with_doubtful(const Camera& camera, const RobotImage& image,
+                                    DepthView sensed_m, const ObstacleImage& obstacles,
+                                    const LinkDistances& distances);
+
 /// Draws the scene and measures it under every condition. Depends on its arguments alone.
 Trial run_trial(const TrialRobot& robot, const testing::DrawnSceneSettings& settings,
                 std::uint32_t seed, const std::vector<Condition>& conditions);

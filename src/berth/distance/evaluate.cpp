@@ -33,15 +33,6 @@ std::optional<Method> method_from_name(std::string_view name) {
   return std::nullopt;
 }
 
-std::string method_names() {
-  std::string names;
-  for (const Method method : kMethods) {
-    if (!names.empty()) names += ", ";
-    names += name_of(method);
-  }
-  return names;
-}
-
 void evaluate(Method method, const Camera& camera, const RobotImage& robot,
               DepthView obstacle_depth_m, const ObstacleTree& obstacles, int link_count,
               const DistanceSettings& settings, EvaluateWorkspace& workspace, LinkDistances& out) {

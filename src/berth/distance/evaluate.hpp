@@ -2,7 +2,6 @@
 
 #include <array>
 #include <optional>
-#include <string>
 #include <string_view>
 
 #include "berth/distance/exact.hpp"
@@ -24,8 +23,6 @@ bool runs_on_opengl(Method method);
 std::string_view name_of(Method method);
 /// Nothing if no method has this name.
 std::optional<Method> method_from_name(std::string_view name);
-/// "exact, brute_force, ...", for messages.
-std::string method_names();
 
 /// The memory of evaluate(), made once and used for every question; one for each thread. It carries
 /// nothing from one answer to the next.

@@ -21,13 +21,13 @@ std::uint64_t bits_within(int first, int u_begin, int u_end) {
 template <class Visit>
 void visit_words(const PixelDisc& disc, int width, int height, int words_per_row, Visit visit) {
   const double radius_px = disc.radius_px;
-  const int v_begin = std::max(disc.center.v - disc.radius_px, 0);
-  const int v_end = std::min(disc.center.v + disc.radius_px + 1, height);
+  const int v_begin = std::max(disc.centre.v - disc.radius_px, 0);
+  const int v_end = std::min(disc.centre.v + disc.radius_px + 1, height);
   for (int v = v_begin; v < v_end; ++v) {
-    const double dv = v - disc.center.v;
+    const double dv = v - disc.centre.v;
     const int du = static_cast<int>(std::sqrt(radius_px * radius_px - dv * dv));
-    const int u_begin = std::max(disc.center.u - du, 0);
-    const int u_end = std::min(disc.center.u + du + 1, width);
+    const int u_begin = std::max(disc.centre.u - du, 0);
+    const int u_end = std::min(disc.centre.u + du + 1, width);
     for (int word = u_begin / kWordPixels; word * kWordPixels < u_end; ++word) {
       visit(v * words_per_row + word, bits_within(word * kWordPixels, u_begin, u_end));
     }
@@ -99,7 +99,7 @@ const std::vector<Pixel>& LinkLattice::of_link(int radius_px) {
 
 const std::vector<Pixel>& LinkLattice::within(const PixelDisc& disc, int radius_px) {
   candidates_.insert_within(disc, link_);
-  take_lattice(radius_px, std::max(disc.center.v - disc.radius_px, 0), candidates_, points_);
+  take_lattice(radius_px, std::max(disc.centre.v - disc.radius_px, 0), candidates_, points_);
   return points_;
 }
 

@@ -12,7 +12,7 @@ namespace berth {
 
 /// The pixels at most radius_px away from the centre.
 struct PixelDisc {
-  Pixel center;
+  Pixel centre;
   int radius_px = 0;
 };
 

@@ -53,7 +53,7 @@ std::vector<SceneCamera> read_cameras(const YamlValue& value) {
 
 void read_self_filter(const YamlValue& value, RigSettings& settings) {
   const YamlMap map(value, {"tolerance_m", "tolerance_per_m", "tolerance_per_m2", "padding_m",
-                            "link_padding_m", "dilation_px", "edge_jump_m", "island_radius_m",
+                            "link_padding_m", "padding_depth_m", "dilation_px", "edge_jump_m", "island_radius_m",
                             "island_jump_m", "robot_region_scale"});
   SelfFilterSettings& filter = settings.self_filter;
   map.read("tolerance_m", &YamlValue::non_negative, filter.tolerance_m);
@@ -66,6 +66,7 @@ void read_self_filter(const YamlValue& value, RigSettings& settings) {
     }
   }
   map.read("dilation_px", &YamlValue::count, filter.dilation_px);
+  map.read("padding_depth_m", &YamlValue::non_negative, filter.padding_depth_m);
   map.read("edge_jump_m", &YamlValue::non_negative, filter.edge_jump_m);
   map.read("island_radius_m", &YamlValue::non_negative, filter.island_radius_m);
   map.read("island_jump_m", &YamlValue::non_negative, filter.island_jump_m);

@@ -11,7 +11,7 @@ constexpr int kTilePx = 16;
 
 /// Bytes of the structs of filter_tile.glsl and filter_pieces.glsl.
 constexpr std::size_t kTileBytes = 48;
-constexpr std::size_t kDiscBytes = 24;
+constexpr std::size_t kDiscBytes = 32;
 constexpr std::size_t kPieceBytes = 16;
 
 GlBuffer device(std::size_t bytes) { return {bytes, GlMemory::device}; }
@@ -104,6 +104,7 @@ void GlSelfFilter::set_paddings(const SelfFilterSettings& settings) {
   bool same = link_paddings_.name() != 0 && count == link_padding_m_.size();
   for (std::size_t i = 0; same && i < count; ++i) same = is_same(i);
   pixels_program_.set("padding_m", settings.padding_m);
+  pixels_program_.set("padding_depth_m", static_cast<float>(settings.padding_depth_m));
   if (same) return;
   link_padding_m_.resize(count);
   for (std::size_t i = 0; i < count; ++i) {

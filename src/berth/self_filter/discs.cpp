@@ -1,6 +1,7 @@
 #include "berth/self_filter/discs.hpp"
 
 #include <algorithm>
+#include <limits>
 
 // Compiles the rest of this file once for each instruction set.
 #undef HWY_TARGET_INCLUDE
@@ -35,8 +36,40 @@ struct Pixels {
   int v;
   hn::Vec<D> u;
   hn::Vec<D> reading_m;
+  /// The reading, below all depths where it is on no surface.
+  hn::Vec<D> on_surface_m;
   hn::Mask<D> open;
 };
+
+/// The image from (u, v) on; no reading beside it.
+template <class D>
+HWY_INLINE hn::Vec<D> load_readings(D d, DepthView depth_m, int u, int v) {
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  if (v < 0 || v >= depth_m.height) return hn::Set(d, kNoDepth);
+  if (u >= 0 && u + lanes <= depth_m.width) return hn::LoadU(d, depth_m.row(v) + u);
+  float readings_m[16];
+  for (int i = 0; i < lanes; ++i) {
+    readings_m[i] = u + i >= 0 && u + i < depth_m.width ? depth_m(u + i, v) : kNoDepth;
+  }
+  return hn::LoadU(d, readings_m);
+}
+
+template <class D>
+HWY_INLINE hn::Mask<D> is_on_surface(D d, DepthView depth_m, int u, int v, hn::Vec<D> reading_m) {
+  const auto one = hn::Set(d, 1.0F);
+  const auto jump_m =
+      hn::Mul(hn::Set(d, kSurfaceJump_m), hn::Max(one, hn::Mul(reading_m, reading_m)));
+  auto joined = hn::Zero(d);
+  for (int dv = -1; dv <= 1; ++dv) {
+    for (int du = -1; du <= 1; ++du) {
+      if (du == 0 && dv == 0) continue;
+      const auto neighbour_m = load_readings(d, depth_m, u + du, v + dv);
+      const auto is_joined = hn::Le(hn::Abs(hn::Sub(neighbour_m, reading_m)), jump_m);
+      joined = hn::Add(joined, hn::IfThenElseZero(is_joined, one));
+    }
+  }
+  return hn::Ge(joined, hn::Set(d, static_cast<float>(kLeastOnSurface)));
+}
 
 template <class D>
 HWY_INLINE bool may_reach(D d, const Pixels<D>& pixels, const DiscTile& tile) {
@@ -48,8 +81,9 @@ HWY_INLINE bool may_reach(D d, const Pixels<D>& pixels, const DiscTile& tile) {
   const auto du = hn::Max(hn::Zero(d), hn::Max(left, right));
   const auto in_reach =
       hn::Le(hn::Mul(du, du), hn::Set(d, tile.reach_px * tile.reach_px - dv * dv));
-  const auto deep_enough = hn::Ge(pixels.reading_m, hn::Set(d, tile.least_m));
-  return !hn::AllFalse(d, hn::And(pixels.open, hn::And(in_reach, deep_enough)));
+  const auto in_depth = hn::And(hn::Ge(pixels.reading_m, hn::Set(d, tile.least_m)),
+                                hn::Le(pixels.on_surface_m, hn::Set(d, tile.most_m)));
+  return !hn::AllFalse(d, hn::And(pixels.open, hn::And(in_reach, in_depth)));
 }
 
 /// Closes the pixels that the disc covers.
@@ -62,7 +96,8 @@ HWY_INLINE void cover(D d, const Disc& disc, Pixels<D>& pixels) {
   // Squares of whole numbers: rounding down to one makes the comparison of floats exact.
   const auto whole = static_cast<float>(static_cast<std::int64_t>(width2));
   const auto inside = hn::Le(hn::Mul(du, du), hn::Set(d, whole));
-  const auto belongs = hn::Ge(pixels.reading_m, hn::Set(d, disc.least_m));
+  const auto belongs = hn::And(hn::Ge(pixels.reading_m, hn::Set(d, disc.least_m)),
+                               hn::Le(pixels.on_surface_m, hn::Set(d, disc.most_m)));
   pixels.open = hn::AndNot(hn::And(inside, belongs), pixels.open);
 }
 
@@ -87,8 +122,11 @@ void cover_tile(const PixelRect& rect, const std::vector<NearDiscTile>& tiles, P
       const auto was = load_fate(d, fate);
       const auto open = is_open(d, was);
       if (hn::AllFalse(d, open)) return;
-      Pixels<D> pixels{v, hn::Iota(d, static_cast<float>(u)),
-                       hn::LoadU(d, images.sensor_depth_m.row(v) + u), open};
+      const auto reading_m = hn::LoadU(d, images.sensor_depth_m.row(v) + u);
+      const auto below_all = hn::Set(d, -std::numeric_limits<float>::infinity());
+      const auto on_surface = is_on_surface(d, images.sensor_depth_m, u, v, reading_m);
+      Pixels<D> pixels{v, hn::Iota(d, static_cast<float>(u)), reading_m,
+                       hn::IfThenElse(on_surface, reading_m, below_all), open};
       cover_all(d, tiles, pixels);
       const auto covered = hn::AndNot(pixels.open, open);
       store_fate(d, choose(d, covered, code(d, grown), was), fate);

@@ -9,12 +9,20 @@
 
 namespace berth {
 
+/// A reading of z metres is on a surface if at least so many of its eight neighbours differ from it
+/// by at most kSurfaceJump_m max(1, z^2). A mixed pixel is not: its neighbours lie before or
+/// behind.
+inline constexpr int kLeastOnSurface = 5;
+inline constexpr float kSurfaceJump_m = 0.03F;
+
 /// The pixels around an outline pixel that its growth reaches, a circle or an ellipse: those with
-/// du^2 + squash dv^2 <= radius2_px2. A reading there belongs to the robot from least_m on.
+/// du^2 + squash dv^2 <= radius2_px2. A reading there belongs to the robot from least_m to most_m,
+/// and beyond most_m where it is on no surface.
 struct Disc {
   float u_px;
   float v_px;
   float least_m;
+  float most_m;
   double radius2_px2;
   double squash;
 };
@@ -23,9 +31,11 @@ struct Disc {
 struct DiscTile {
   /// Around the outline pixels.
   PixelRect bounds;
-  /// No disc reaches farther, and no nearer reading belongs to one.
+  /// No disc reaches farther, and no nearer reading belongs to one, nor one that is farther away
+  /// and on a surface.
   float reach_px = 0;
   float least_m = 0;
+  float most_m = 0;
   std::uint32_t first = 0;
   std::uint32_t count = 0;
 };

@@ -67,7 +67,8 @@ void GrownRobot::append_disc(int u, int v, Row& row, DiscTile& tile) const {
   if (radius.u_px <= 0) return;
   const double ratio = radius.u_px / radius.v_px;
   const float least_m = tolerance_.least_reading_m(depth_m);
-  row.discs.push_back({static_cast<float>(u), static_cast<float>(v), least_m,
+  const float most_m = depth_m + static_cast<float>(settings_->padding_depth_m);
+  row.discs.push_back({static_cast<float>(u), static_cast<float>(v), least_m, most_m,
                        radius.u_px * radius.u_px * kRoundingMargin, ratio * ratio});
   ++tile.count;
   tile.bounds = united(tile.bounds, {u, v, u + 1, v + 1});
@@ -75,6 +76,7 @@ void GrownRobot::append_disc(int u, int v, Row& row, DiscTile& tile) const {
   tile.reach_px =
       std::max(tile.reach_px, static_cast<float>(std::max(radius.u_px, radius.v_px)) + 1);
   tile.least_m = std::min(tile.least_m, least_m);
+  tile.most_m = std::max(tile.most_m, most_m);
 }
 
 void GrownRobot::find_outline(int tile_row) {

@@ -36,6 +36,7 @@ void validate(const SelfFilterSettings& settings) {
   for (const double padding_m : settings.link_padding_m) {
     if (!std::isnan(padding_m)) require_not_negative("link_padding_m", padding_m);
   }
+  require_not_negative("padding_depth_m", settings.padding_depth_m);
   require_not_negative("dilation_px", settings.dilation_px);
   require_not_negative("edge_jump_m", settings.edge_jump_m);
   require_not_negative("island_radius_m", settings.island_radius_m);

@@ -22,6 +22,10 @@ struct SelfFilterSettings {
   std::vector<double> link_padding_m;
   /// The silhouette also grows by this number of pixels.
   int dilation_px = 0;
+  /// Padding and dilation take what lies behind the robot's outline by no more than this: a camera
+  /// that smooths draws webs from the arm to what is behind it. Farther behind they take only what
+  /// is on no surface (discs.hpp), as mixed pixels are: a thing that is seen there is one.
+  double padding_depth_m = 0.3;
   /// A mixed pixel lies between two flat neighbours, more than this from each; 0 turns the rule
   /// off.
   double edge_jump_m = 0.03;

@@ -13,7 +13,7 @@ namespace {
 /// The self filter with these keeps what the grown links do not cover.
 SelfFilterSettings clearance(double clearance_m) {
   SelfFilterSettings settings;
-  settings.tolerance_m = 1e6;  // all depths
+  settings.tolerance_m = settings.padding_depth_m = 1e6;  // all depths
   settings.padding_m = clearance_m;
   settings.edge_jump_m = 0;
   settings.island_radius_m = 0;

@@ -24,11 +24,33 @@ shared Disc near_discs[kTilePixels];
 Disc grown_disc(Disc disc) {
   if (grown == kPadding) return disc;
   double radius_px = double(dilation_px);
-  return Disc(radius_px * radius_px, 1.0LF, disc.least_m, disc.place);
+  return Disc(radius_px * radius_px, 1.0LF, disc.least_m, disc.most_m, disc.place, 0u);
 }
 
-bool covers(Disc disc, ivec2 pixel, float reading_m) {
-  if (reading_m < disc.least_m) return false;
+// As in self_filter/discs.hpp.
+const int kLeastOnSurface = 5;
+const float kSurfaceJump_m = 0.03;
+
+bool is_on_surface(ivec2 pixel, float reading_m) {
+  ivec2 size = textureSize(sensor_depth_m, 0);
+  precise float jump_m = kSurfaceJump_m * max(1.0, reading_m * reading_m);
+  int joined = 0;
+  for (int dv = -1; dv <= 1; ++dv) {
+    for (int du = -1; du <= 1; ++du) {
+      ivec2 neighbour = pixel + ivec2(du, dv);
+      if ((du == 0 && dv == 0) || any(lessThan(neighbour, ivec2(0))) ||
+          any(greaterThanEqual(neighbour, size))) {
+        continue;
+      }
+      float neighbour_m = texelFetch(sensor_depth_m, neighbour, 0).x;
+      if (neighbour_m > 0.0 && abs(neighbour_m - reading_m) <= jump_m) ++joined;
+    }
+  }
+  return joined >= kLeastOnSurface;
+}
+
+bool covers(Disc disc, ivec2 pixel, float reading_m, bool on_surface) {
+  if (reading_m < disc.least_m || (on_surface && reading_m > disc.most_m)) return false;
   ivec2 offset = pixel - unpack(disc.place);
   double dv = double(offset.y);
   precise double width2_px2 = disc.radius2_px2 - disc.squash * dv * dv;
@@ -59,6 +81,7 @@ void main() {
   if (open_pixels == 0u) return;
 
   float reading_m = is_open ? texelFetch(sensor_depth_m, pixel, 0).x : 0.0;
+  bool on_surface = is_open && is_on_surface(pixel, reading_m);
   int reach = grown == kPadding ? int(reach_px) : dilation_px + 1;
   int near = (reach + kTilePx - 1) / kTilePx;
   ivec2 last_tile = ivec2(tile_columns(size), tile_rows(size)) - 1;
@@ -75,7 +98,7 @@ void main() {
       }
       barrier();
       for (uint i = 0u; is_open && i < tile.discs; ++i) {
-        if (!covers(near_discs[i], pixel, reading_m)) continue;
+        if (!covers(near_discs[i], pixel, reading_m, on_surface)) continue;
         is_open = false;
         imageStore(fate, pixel, uvec4(grown));
         atomicAdd(open_pixels, 0xFFFFFFFFu);

@@ -14,6 +14,7 @@ layout(r32ui) uniform writeonly uimage2D fate;
 uniform float edge_jump_m;
 uniform float deeper;  // an outline's neighbour is deeper by more than this factor
 uniform double padding_m;
+uniform float padding_depth_m;
 uniform int link_paddings;
 layout(std430) readonly buffer LinkPadding { double link_padding_m[]; };  // links 1 to link_paddings
 layout(std430) writeonly buffer FilterTiles { FilterTile tiles[]; };
@@ -71,7 +72,8 @@ void add_disc(ivec2 pixel, uint link, float robot_m, uint tile) {
   ivec2 size = textureSize(link_id, 0);
   double longest_px = double(max(size.x, size.y));
   precise dvec2 radius_px = min(dvec2(longest_px), own_padding_m * camera.zw / double(robot_m));
-  Disc disc = Disc(-1.0LF, 1.0LF, least_reading_m(robot_m), pack(pixel));
+  precise float most_m = robot_m + padding_depth_m;
+  Disc disc = Disc(-1.0LF, 1.0LF, least_reading_m(robot_m), most_m, pack(pixel), 0u);
   if (radius_px.x > 0.0LF) {
     // Keeps a pixel that is as far away as the radius itself.
     const double kRoundingMargin = 1.0LF + 1e-9LF;

@@ -15,7 +15,9 @@ struct Disc {
   double radius2_px2;  // negative where nothing
   double squash;
   float least_m;
+  float most_m;
   uint place;  // packed pixel (pixels.glsl)
+  uint spare;
 };
 
 int tile_columns(ivec2 size) { return (size.x + kTilePx - 1) / kTilePx; }
