@@ -8,7 +8,7 @@
 
 #include "berth/io/error.hpp"
 #include "berth/io/file_bytes.hpp"
-#include "berth/io/number.hpp"
+#include "berth/robot/number.hpp"
 
 namespace berth {
 namespace {

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <initializer_list>
 #include <map>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
@@ -24,10 +26,14 @@ class Guard {
     parse_xml(path, text, "the mesh cannot be read", document_);
   }
 
-  void check() {
+  std::string checked() {
     check_numbers(document_);
     for (const pugi::xml_node& accessor : accessors_) check_accessor(accessor);
     for (const pugi::xml_node& scene : scenes_) unfolded(scene);
+    remove_all_but_geometry();
+    std::ostringstream text;
+    document_.save(text, "", pugi::format_raw);
+    return text.str();
   }
 
  private:
@@ -125,6 +131,24 @@ class Guard {
     return unfolded(target->second);
   }
 
+  /// Assimp need not look at what berth has no use for.
+  void remove_all_but_geometry() {
+    pugi::xml_node root = document_.document_element();
+    constexpr std::array<std::string_view, 6> kKept{"asset",
+                                                    "library_geometries",
+                                                    "library_nodes",
+                                                    "library_controllers",
+                                                    "library_visual_scenes",
+                                                    "scene"};
+    for (pugi::xml_node child = root.first_child(); child;) {
+      const pugi::xml_node next = child.next_sibling();
+      if (std::find(kKept.begin(), kKept.end(), child.name()) == kKept.end()) {
+        root.remove_child(child);
+      }
+      child = next;
+    }
+  }
+
   const std::filesystem::path& path_;
   const std::string& text_;
   pugi::xml_document document_;
@@ -138,8 +162,8 @@ class Guard {
 
 }  // namespace
 
-void require_harmless_collada(const std::filesystem::path& path, const std::string& text) {
-  Guard(path, text).check();
+std::string checked_collada(const std::filesystem::path& path, const std::string& text) {
+  return Guard(path, text).checked();
 }
 
 }  // namespace berth
