@@ -56,8 +56,15 @@ class Guard {
                          key, digits, text_.size()));
       }
     }
+    // Assimp ends the process at a skew, and at some skins.
+    if (std::string_view(node.name()) == "skew") {
+      fail(node, "not supported; expected matrix, translate, rotate, scale or lookat");
+    }
+    if (std::string_view(node.name()) == "instance_controller") {
+      fail(node, "a skin, which bends with its bones; expected a rigid mesh, <instance_geometry>");
+    }
     require_only(node, {"p", "v", "vcount"}, " \t\r\n0123456789");
-    require_only(node, {"float_array", "matrix", "translate", "rotate", "scale", "lookat", "skew"},
+    require_only(node, {"float_array", "matrix", "translate", "rotate", "scale", "lookat"},
                  " \t\r\n0123456789+-.eE");
     const std::string_view name = node.name();
     if (name == "accessor") accessors_.push_back(node);
@@ -134,12 +141,8 @@ class Guard {
   /// Assimp need not look at what berth has no use for.
   void remove_all_but_geometry() {
     pugi::xml_node root = document_.document_element();
-    constexpr std::array<std::string_view, 6> kKept{"asset",
-                                                    "library_geometries",
-                                                    "library_nodes",
-                                                    "library_controllers",
-                                                    "library_visual_scenes",
-                                                    "scene"};
+    constexpr std::array<std::string_view, 5> kKept{"asset", "library_geometries", "library_nodes",
+                                                    "library_visual_scenes", "scene"};
     for (pugi::xml_node child = root.first_child(); child;) {
       const pugi::xml_node next = child.next_sibling();
       if (std::find(kKept.begin(), kKept.end(), child.name()) == kKept.end()) {

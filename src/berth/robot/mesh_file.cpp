@@ -14,12 +14,12 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
-#include <optional>
 #include <stdexcept>
 #include <string>
 
 #include "berth/robot/collada_guard.hpp"
-#include "berth/robot/obj_guard.hpp"
+#include "berth/robot/obj_polygons.hpp"
+#include "berth/robot/polygon_reader.hpp"
 #include "berth/robot/stl_guard.hpp"
 
 namespace berth {
@@ -101,7 +101,7 @@ void configure(Assimp::Importer& importer) {
           aiComponent_TEXTURES | aiComponent_LIGHTS | aiComponent_CAMERAS | aiComponent_MATERIALS);
 }
 
-/// Assimp would follow what a mesh file names, such as its materials.
+/// Assimp would follow what a mesh file names, wherever it is.
 class NoFiles : public Assimp::IOSystem {
  public:
   bool Exists(const char*) const override { return false; }
@@ -110,9 +110,9 @@ class NoFiles : public Assimp::IOSystem {
   void Close(Assimp::IOStream*) override {}
 };
 
-/// Else Assimp tries all its readers on a file that the one of this ending does not know.
-void keep_only_reader_of(const std::string& extension, Assimp::Importer& importer) {
-  const auto* const kept = importer.GetImporter(importer.GetImporterIndex(extension.c_str()));
+/// All but the reader of this ending, which Assimp else tries on a file that that one refuses.
+void delete_other_readers(const char* extension, Assimp::Importer& importer) {
+  const auto* const kept = importer.GetImporter(importer.GetImporterIndex(extension));
   for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
     Assimp::BaseImporter* const other = importer.GetImporter(i);
     if (other == kept) continue;
@@ -121,26 +121,24 @@ void keep_only_reader_of(const std::string& extension, Assimp::Importer& importe
   }
 }
 
-/// The bytes that Assimp gets of a file of a kind that berth looks into; none of another kind.
-std::optional<std::string> checked_bytes(const std::filesystem::path& path,
-                                         const std::string& extension) {
-  if (extension == ".obj") return checked_obj(path, read_bytes(path));
-  if (extension == ".dae") return checked_collada(path, read_bytes(path));
-  if (extension != ".stl") return std::nullopt;
-  std::string bytes = read_bytes(path);
-  require_whole_stl(path, bytes);
-  return bytes;
-}
-
+/// STL, OBJ and DAE are looked into before Assimp gets them.
 const aiScene* import(const std::filesystem::path& path, Assimp::Importer& importer) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return std::tolower(c); });
-  const std::optional<std::string> bytes = checked_bytes(path, extension);
-  if (!bytes) return importer.ReadFile(path.string(), 0);
+  if (extension != ".stl" && extension != ".obj" && extension != ".dae") {
+    return importer.ReadFile(path.string(), 0);
+  }
+  std::string bytes = read_bytes(path);
   importer.SetIOHandler(std::make_unique<NoFiles>().release());
-  keep_only_reader_of(extension, importer);
-  return importer.ReadFileFromMemory(bytes->data(), bytes->size(), 0, extension.c_str() + 1);
+  delete_other_readers(extension == ".obj" ? "" : extension.c_str(), importer);
+  if (extension == ".stl") require_whole_stl(path, bytes);
+  if (extension == ".dae") bytes = checked_collada(path, bytes);
+  if (extension == ".obj") {
+    importer.RegisterLoader(
+        std::make_unique<PolygonReader>(read_obj_polygons(path, bytes)).release());
+  }
+  return importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, extension.c_str() + 1);
 }
 
 }  // namespace

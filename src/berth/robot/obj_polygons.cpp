@@ -1,11 +1,12 @@
-#include "berth/robot/obj_guard.hpp"
+#include "berth/robot/obj_polygons.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
-#include <vector>
+#include <utility>
 
 #include "berth/robot/number.hpp"
 
@@ -36,7 +37,7 @@ class ObjText {
     if (rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
   }
 
-  std::string checked() {
+  Polygons read() {
     while (!rest_.empty()) {
       const std::string line = next_line();
       const std::vector<std::string_view> words = words_of(line);
@@ -45,12 +46,12 @@ class ObjText {
       if (words[0] == "f") add_face(words);
     }
     line_ = line_of_greatest_;
-    if (greatest_index_ > vertices_) fail_index(std::to_string(greatest_index_));
-    if (faces_ == 0) {
+    if (greatest_index_ > vertex_count()) fail_index(std::to_string(greatest_index_));
+    if (polygons_.faces.empty()) {
       throw std::runtime_error(fmt::format(
           "{}: the mesh has no face of three corners or more; expected one", path_.string()));
     }
-    return checked_;
+    return std::move(polygons_);
   }
 
  private:
@@ -77,21 +78,19 @@ class ObjText {
     if (words.size() != 4 && words.size() != 5 && words.size() != 7) {
       fail(fmt::format("a vertex of {} numbers", words.size() - 1), "3, 4 (with w) or 6 (a color)");
     }
-    for (std::size_t i = 1; i < words.size(); ++i) {
-      const auto value = parse_finite(words[i]);
-      if (!value)
-        fail(fmt::format("vertex {}: \"{:.40}\"", vertices_ + 1, words[i]), "a finite number");
-      if (words.size() == 5 && i == 4 && *value == 0) {
-        fail(fmt::format("vertex {}: w is {}", vertices_ + 1, words[i]), "a number other than 0");
-      }
+    Eigen::Vector3d p_m(coordinate(words[1]), coordinate(words[2]), coordinate(words[3]));
+    if (words.size() == 5) {
+      const double w = coordinate(words[4]);
+      if (w == 0) fail("w of a vertex is 0", "another number");
+      p_m /= w;
     }
-    checked_ += 'v';
-    for (std::size_t i = 1; i < std::min<std::size_t>(words.size(), 5); ++i) {
-      if (words.size() == 7 && i == 4) break;
-      checked_.append(" ").append(words[i]);
-    }
-    checked_ += '\n';
-    ++vertices_;
+    polygons_.vertices_m.push_back(p_m.cast<float>());
+  }
+
+  double coordinate(std::string_view word) const {
+    const std::optional<double> value = parse_finite(word);
+    if (!value) fail(fmt::format("a vertex has \"{:.40}\"", word), "finite numbers");
+    return *value;
   }
 
   void add_face(const std::vector<std::string_view>& words) {
@@ -99,34 +98,29 @@ class ObjText {
       fail(fmt::format("a face of {} corners", words.size() - 1),
            fmt::format("{} at most", kMostCorners));
     }
-    std::string line = "f";
-    for (std::size_t i = 1; i < words.size(); ++i) {
-      line += fmt::format(" {}", vertex_index(words[i]));
-    }
+    std::vector<std::uint32_t> face;
+    for (std::size_t i = 1; i < words.size(); ++i) face.push_back(vertex_index(words[i]));
     // Points and lines have no surface.
-    if (words.size() < 4) return;
-    checked_ += line + '\n';
-    ++faces_;
+    if (face.size() >= 3) polygons_.faces.push_back(std::move(face));
   }
 
-  /// Of a corner such as 3, 3/1, 3//2 or -1/1/2, counted from 1.
-  int vertex_index(std::string_view corner) {
-    const auto index = parse_integer(corner.substr(0, corner.find('/')));
-    if (!index || *index == 0 || corner.find_first_not_of("0123456789-+/") != corner.npos) {
-      fail_index(corner);
-    }
-    if (*index < 0 && *index < -vertices_) fail_index(corner);
-    if (*index < 0) return vertices_ + 1 + *index;
+  /// Of a corner such as 3, 3/1, 3//2 or -1/1/2. A vertex may stand behind its face.
+  std::uint32_t vertex_index(std::string_view corner) {
+    const std::optional<int> index = parse_integer(corner.substr(0, corner.find('/')));
+    if (!index || *index == 0 || *index < -vertex_count()) fail_index(corner);
+    if (*index < 0) return static_cast<std::uint32_t>(vertex_count() + *index);
     if (*index > greatest_index_) {
       greatest_index_ = *index;
       line_of_greatest_ = line_;
     }
-    return *index;
+    return static_cast<std::uint32_t>(*index - 1);
   }
+
+  int vertex_count() const { return static_cast<int>(polygons_.vertices_m.size()); }
 
   [[noreturn]] void fail_index(std::string_view corner) const {
     fail(fmt::format("a face's corner is \"{:.40}\"", corner),
-         fmt::format("the number of one of the {} vertices", vertices_));
+         fmt::format("the number of one of the {} vertices", vertex_count()));
   }
 
   [[noreturn]] void fail(std::string_view found, std::string_view expected) const {
@@ -136,19 +130,17 @@ class ObjText {
 
   const std::filesystem::path& path_;
   std::string_view rest_;
-  std::string checked_;
+  Polygons polygons_;
   int line_ = 1;
   int next_line_ = 1;
-  int vertices_ = 0;
-  int faces_ = 0;
   int greatest_index_ = 0;
   int line_of_greatest_ = 0;
 };
 
 }  // namespace
 
-std::string checked_obj(const std::filesystem::path& path, const std::string& text) {
-  return ObjText(path, text).checked();
+Polygons read_obj_polygons(const std::filesystem::path& path, const std::string& text) {
+  return ObjText(path, text).read();
 }
 
 }  // namespace berth
