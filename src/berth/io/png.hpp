@@ -10,6 +10,11 @@
 
 namespace berth {
 
+/// Whether a unit of a depth image can be so many metres. 1 or 1000 would put a whole room out of
+/// every range.
+bool is_depth_scale(double depth_scale_m);
+constexpr const char* kDepthScaleExpected = "metres per unit from 1e-6 to 0.1, such as 0.001";
+
 /// Depth in metres of a 16-bit grayscale PNG whose unit is `depth_scale_m`. The pixel value 0 and
 /// depths outside [near_m, far_m] become NaN. Throws std::runtime_error where the file is missing,
 /// empty, incomplete, damaged, of another pixel format, of another size than the camera's, or the

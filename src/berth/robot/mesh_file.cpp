@@ -11,8 +11,6 @@
 #include <assimp/Importer.hpp>
 #include <cctype>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -20,6 +18,7 @@
 #include "berth/robot/collada_guard.hpp"
 #include "berth/robot/obj_polygons.hpp"
 #include "berth/robot/polygon_reader.hpp"
+#include "berth/robot/read_file.hpp"
 #include "berth/robot/stl_guard.hpp"
 
 namespace berth {
@@ -66,12 +65,6 @@ void append_node(const std::filesystem::path& path, const aiScene& scene, const 
   }
   for (unsigned i = 0; i < node.mNumChildren; ++i)
     append_node(path, scene, *node.mChildren[i], X, mesh);
-}
-
-std::string read_bytes(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) fail(path, "the mesh file cannot be opened for reading");
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 void require_finite(const std::filesystem::path& path, const aiScene& scene) {
@@ -126,10 +119,11 @@ const aiScene* import(const std::filesystem::path& path, Assimp::Importer& impor
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return std::tolower(c); });
+  std::string bytes = read_file_bytes(path);
+  if (bytes.empty()) fail(path, "the mesh file is empty; expected an STL, OBJ or DAE file");
   if (extension != ".stl" && extension != ".obj" && extension != ".dae") {
     return importer.ReadFile(path.string(), 0);
   }
-  std::string bytes = read_bytes(path);
   importer.SetIOHandler(std::make_unique<NoFiles>().release());
   delete_other_readers(extension == ".obj" ? "" : extension.c_str(), importer);
   if (extension == ".stl") require_whole_stl(path, bytes);
@@ -144,9 +138,6 @@ const aiScene* import(const std::filesystem::path& path, Assimp::Importer& impor
 }  // namespace
 
 TriangleMesh read_mesh_file(const std::filesystem::path& path) {
-  if (!std::filesystem::is_regular_file(path)) fail(path, "there is no such mesh file");
-  if (std::filesystem::file_size(path) == 0) fail(path, "the mesh file is empty (0 bytes)");
-
   Assimp::Importer importer;
   configure(importer);
   const aiScene* scene = import(path, importer);
@@ -157,15 +148,17 @@ TriangleMesh read_mesh_file(const std::filesystem::path& path) {
                                          aiProcess_JoinIdenticalVertices | aiProcess_SortByPType);
   }
   if (scene == nullptr)
-    fail(path, fmt::format("the mesh cannot be read: {}", importer.GetErrorString()));
+    fail(path, fmt::format("the mesh cannot be read: {}; expected an STL, OBJ or DAE file",
+                           importer.GetErrorString()));
 
   TriangleMesh mesh;
   if (scene->mRootNode != nullptr)
     append_node(path, *scene, *scene->mRootNode, Eigen::Affine3d::Identity(), mesh);
-  if (mesh.empty()) fail(path, "the mesh has no triangle");
+  if (mesh.empty()) fail(path, "the mesh has no triangle; expected one at least");
   for (std::size_t i = 0; i < mesh.vertices_m.size(); ++i) {
     if (!mesh.vertices_m[i].allFinite())
-      fail(path, fmt::format("vertex {} is not finite after its node's transform", i));
+      fail(path,
+           fmt::format("vertex {} is not finite after its node's transform; expected numbers", i));
   }
   return mesh;
 }
