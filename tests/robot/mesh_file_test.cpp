@@ -87,8 +87,8 @@ TEST(StlFile, TrailingBytesAreAnError) {
 }
 
 TEST(StlFile, NoTriangleIsAnError) {
-  expect_unreadable("part.stl", binary_stl({}), "");
-  expect_unreadable("part.stl", text_stl({}), "");
+  expect_unreadable("part.stl", binary_stl({}), "the STL has 0 triangles; expected one at least");
+  expect_unreadable("part.stl", text_stl({}), "no facet; expected one at least");
 }
 
 TEST(StlFile, VertexThatIsNotFiniteIsAnError) {
@@ -115,6 +115,13 @@ TEST(StlFile, TextIsRefusedWithLineAndValue) {
   expect_unreadable("part.stl", with("vertex 1 0 0", "vertex 1 0 0 vertex 1 1 1"),
                     ":7: a loop of 4 corners; expected three");
   expect_unreadable("part.stl", with("vertex 1 0 0", "vertx 1 0 0"), ":5: \"vertx\"; expected");
+}
+
+TEST(StlFile, NormalOfATextMayBeNoNumber) {
+  std::string text = text_stl(two_triangles());
+  text.replace(text.find("0 0 1"), 5, "-nan(ind) x 1,5");
+  const TemporaryFolder folder;
+  expect_two_triangles(read_mesh_file(folder.write("part.stl", text)));
 }
 
 TEST(StlFile, LinesMayBeOne) {

@@ -14,6 +14,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "berth/robot/collada_guard.hpp"
 #include "berth/robot/obj_polygons.hpp"
@@ -126,7 +127,7 @@ const aiScene* import(const std::filesystem::path& path, Assimp::Importer& impor
   }
   importer.SetIOHandler(std::make_unique<NoFiles>().release());
   delete_other_readers(extension == ".obj" ? "" : extension.c_str(), importer);
-  if (extension == ".stl") require_whole_stl(path, bytes);
+  if (extension == ".stl") bytes = checked_stl(path, std::move(bytes));
   if (extension == ".dae") bytes = checked_collada(path, bytes);
   if (extension == ".obj") {
     importer.RegisterLoader(

@@ -12,6 +12,7 @@
 namespace berth {
 namespace {
 
+constexpr std::size_t kHeader = 84;
 constexpr std::string_view kBlanks = " \t\r\n\v\f";
 
 /// A text word by word, with the line of the last one.
@@ -42,16 +43,17 @@ class Words {
 /// solid NAME, facets, endsolid NAME; several times where there are several solids.
 class TextStl {
  public:
-  TextStl(const std::filesystem::path& path, std::string_view text) : path_(path), words_(text) {}
+  TextStl(const std::filesystem::path& path, std::string& text)
+      : path_(path), text_(text), words_(text) {}
 
   void check() {
+    if (text_.find('\0') != std::string::npos) fail("the text has a zero byte", "letters");
     for (std::string_view word = words_.next(); !word.empty(); word = words_.next()) {
       if (word == "solid" || word == "endsolid") {
         words_.skip_line();
       } else if (word == "facet") {
         expect("normal");
-        // Nobody uses the normal, and some tools write nan.
-        for (int i = 0; i < 3; ++i) words_.next();
+        for (int i = 0; i < 3; ++i) set_to_zero(words_.next());
       } else if (word == "outer") {
         expect("loop");
         corners_ = 0;
@@ -59,14 +61,23 @@ class TextStl {
         check_vertex();
       } else if (word == "endloop") {
         if (corners_ != 3) fail(fmt::format("a loop of {} corners", corners_), "three");
+        ++facets_;
       } else if (word != "endfacet") {
         fail(fmt::format("\"{:.40}\"", word),
              "solid, facet, outer loop, vertex, endloop, endfacet or endsolid");
       }
     }
+    if (facets_ == 0) fail("no facet", "one at least");
   }
 
  private:
+  void set_to_zero(std::string_view word) {
+    if (word.empty()) fail("the normal is cut", "three numbers");
+    const auto begin = text_.begin() + (word.data() - text_.data());
+    std::fill(begin, begin + static_cast<std::ptrdiff_t>(word.size()), ' ');
+    *begin = '0';
+  }
+
   void check_vertex() {
     for (const char axis : {'x', 'y', 'z'}) {
       const std::string_view word = words_.next();
@@ -88,8 +99,10 @@ class TextStl {
   }
 
   const std::filesystem::path& path_;
+  std::string& text_;
   Words words_;
   int corners_ = 0;
+  int facets_ = 0;
 };
 
 bool ends_with_endsolid(const std::string& text) {
@@ -101,7 +114,6 @@ bool ends_with_endsolid(const std::string& text) {
 
 /// 0 where the header is cut.
 std::size_t binary_size(const std::string& bytes) {
-  constexpr std::size_t kHeader = 84;
   constexpr std::size_t kTriangle = 50;
   if (bytes.size() < kHeader) return 0;
   std::uint32_t count = 0;
@@ -111,9 +123,13 @@ std::size_t binary_size(const std::string& bytes) {
 
 }  // namespace
 
-void require_whole_stl(const std::filesystem::path& path, const std::string& bytes) {
+std::string checked_stl(const std::filesystem::path& path, std::string bytes) {
   const std::size_t size = binary_size(bytes);
-  if (bytes.size() == size) return;
+  if (size == kHeader && bytes.size() == size) {
+    throw std::runtime_error(
+        fmt::format("{}: the STL has 0 triangles; expected one at least", path.string()));
+  }
+  if (bytes.size() == size) return bytes;
   if (!bytes.starts_with("solid") || !ends_with_endsolid(bytes)) {
     throw std::runtime_error(fmt::format(
         "{}: the STL holds {} bytes; expected text from \"solid\" to \"endsolid\", or {} bytes as "
@@ -121,6 +137,7 @@ void require_whole_stl(const std::filesystem::path& path, const std::string& byt
         path.string(), bytes.size(), size == 0 ? "at least 84" : std::to_string(size)));
   }
   TextStl(path, bytes).check();
+  return bytes;
 }
 
 }  // namespace berth
