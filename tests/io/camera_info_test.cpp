@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/io/error_message.hpp"
 #include "testing/temporary_folder.hpp"
+#include "tests/io/error_message.hpp"
 
 namespace berth {
 namespace {
@@ -64,22 +64,30 @@ TEST(CameraInfo, RefusesWhatIsNoRectifiedPinholeAndSaysWhere) {
       {info_text("7"), {"camera_matrix.data: 7; expected a list of 9 numbers"}},
       {info_text("[0, 0, 4, 0, 5, 6, 0, 0, 1]"),
        {"info.yaml:6: camera_matrix.data[0]: 0; expected a number above 0"}},
-      {info_text("[5, 0, 4, 0, -5, 6, 0, 0, 1]"),
+      {info_text("[500, 0, 4, 0, -5, 6, 0, 0, 1]"),
        {"camera_matrix.data[4]: -5; expected a number above 0"}},
       {info_text("[.nan, 0, 4, 0, 5, 6, 0, 0, 1]"),
        {"camera_matrix.data[0]: .nan; expected a finite number"}},
-      {info_text("[5, 0, 4, 0, inf, 6, 0, 0, 1]"),
+      {info_text("[500, 0, 4, 0, inf, 6, 0, 0, 1]"),
        {"camera_matrix.data[4]: inf; expected a finite"}},
-      {info_text("[5, 0, .inf, 0, 5, 6, 0, 0, 1]"),
+      {info_text("[500, 0, .inf, 0, 500, 6, 0, 0, 1]"),
        {"camera_matrix.data[2]: .inf; expected a finite"}},
-      {info_text("[5, 0, 4, 0, 5, nan, 0, 0, 1]"),
+      {info_text("[500, 0, 4, 0, 500, nan, 0, 0, 1]"),
        {"camera_matrix.data[5]: nan; expected a finite"}},
-      {info_text("[5, 0.1, 4, 0, 5, 6, 0, 0, 1]"),
+      {info_text("[500, 0.1, 4, 0, 500, 6, 0, 0, 1]"),
        {"camera_matrix.data[1]: 0.1; expected 0 (no skew)"}},
-      {info_text("[5, 0, 4, 1, 5, 6, 0, 0, 1]"), {"camera_matrix.data[3]: 1; expected 0"}},
-      {info_text("[5, 0, 4, 0, 5, 6, 1, 0, 1]"), {"camera_matrix.data[6]: 1; expected 0"}},
-      {info_text("[5, 0, 4, 0, 5, 6, 0, 2, 1]"), {"camera_matrix.data[7]: 2; expected 0"}},
-      {info_text("[5, 0, 4, 0, 5, 6, 0, 0, 2]"), {"camera_matrix.data[8]: 2; expected 1"}},
+      {info_text("[9, 0, 4, 0, 500, 6, 0, 0, 1]"),
+       {"camera_matrix.data[0]: 9; expected pixels, from 9.6 to 960000"}},
+      {info_text("[500, 0, 4, 0, 6e5, 6, 0, 0, 1]"),
+       {"camera_matrix.data[4]: 6e5; expected pixels, from 5.4 to 540000"}},
+      {info_text("[500, 0, 1e5, 0, 500, 6, 0, 0, 1]"),
+       {"camera_matrix.data[2]: 1e5; expected pixels, from -96000 to 96000"}},
+      {info_text("[500, 0, 4, 0, 500, -6e4, 0, 0, 1]"),
+       {"camera_matrix.data[5]: -6e4; expected pixels, from -54000 to 54000"}},
+      {info_text("[500, 0, 4, 1, 5, 6, 0, 0, 1]"), {"camera_matrix.data[3]: 1; expected 0"}},
+      {info_text("[500, 0, 4, 0, 500, 6, 1, 0, 1]"), {"camera_matrix.data[6]: 1; expected 0"}},
+      {info_text("[500, 0, 4, 0, 500, 6, 0, 2, 1]"), {"camera_matrix.data[7]: 2; expected 0"}},
+      {info_text("[500, 0, 4, 0, 500, 6, 0, 0, 2]"), {"camera_matrix.data[8]: 2; expected 1"}},
       {info_text(kMatrix, "[0, 0.01]"),
        {"info.yaml:9: distortion_coefficients.data[1]: 0.01; expected all zeros",
         "rectify the images first"}},
@@ -91,9 +99,9 @@ TEST(CameraInfo, RefusesWhatIsNoRectifiedPinholeAndSaysWhere) {
         "rectify"}},
       {info_text(kMatrix, "[]", "pinholy"), {"distortion_model: pinholy; expected"}},
       {info_text(kMatrix, "[]", "''"), {"distortion_model: an empty text; expected"}},
-      {"image_width: 2\nimage_height: 3\ncamera_matrix: {data: " + kMatrix + "}\n",
+      {"image_width: 960\nimage_height: 540\ncamera_matrix: {data: " + kMatrix + "}\n",
        {"the key distortion_model is missing"}},
-      {"image_width: 2\nimage_height: 3\ncamera_matrix: {data: " + kMatrix +
+      {"image_width: 960\nimage_height: 540\ncamera_matrix: {data: " + kMatrix +
            "}\ndistortion_model: plumb_bob\n",
        {"the key distortion_coefficients is missing"}},
       {"image_width: 2\nimage_height: 3\nimage_width: 4\n" + rest,
