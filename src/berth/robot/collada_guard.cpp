@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <initializer_list>
 #include <map>
 #include <set>
 #include <sstream>
@@ -12,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "berth/robot/number.hpp"
 #include "berth/robot/xml.hpp"
 
 namespace berth {
@@ -63,9 +63,8 @@ class Guard {
     if (std::string_view(node.name()) == "instance_controller") {
       fail(node, "a skin, which bends with its bones; expected a rigid mesh, <instance_geometry>");
     }
-    require_only(node, {"p", "v", "vcount"}, " \t\r\n0123456789");
-    require_only(node, {"float_array", "matrix", "translate", "rotate", "scale", "lookat"},
-                 " \t\r\n0123456789+-.eE");
+    require_whole_numbers(node);
+    require_floats(node);
     const std::string_view name = node.name();
     if (name == "accessor") accessors_.push_back(node);
     if (name.ends_with("_array")) {
@@ -101,13 +100,39 @@ class Guard {
   }
 
   /// Assimp reads a list of numbers on and on where one does not begin with a digit.
-  void require_only(const pugi::xml_node& node, std::initializer_list<std::string_view> names,
-                    std::string_view allowed) const {
-    if (std::find(names.begin(), names.end(), std::string_view(node.name())) == names.end()) return;
+  void require_whole_numbers(const pugi::xml_node& node) const {
+    const std::string_view name = node.name();
+    if (name != "p" && name != "v" && name != "vcount") return;
     const std::string_view text = node.child_value();
-    const std::size_t bad = text.find_first_not_of(allowed);
+    const std::size_t bad = text.find_first_not_of(" \t\r\n0123456789");
     if (bad == std::string_view::npos) return;
     fail(node, fmt::format("holds \"{}\"; expected numbers", text.substr(bad, 12)));
+  }
+
+  /// At a list that is too short, or a word that is no number, Assimp leaks memory.
+  void require_floats(const pugi::xml_node& node) const {
+    const std::map<std::string_view, std::size_t> counts{
+        {"float_array", node.attribute("count").as_uint()},
+        {"matrix", 16},
+        {"translate", 3},
+        {"rotate", 4},
+        {"scale", 3},
+        {"lookat", 9}};
+    const auto expected = counts.find(node.name());
+    if (expected == counts.end()) return;
+    constexpr std::string_view kBlanks = " \t\r\n";
+    std::string_view rest = node.child_value();
+    std::size_t found = 0;
+    for (std::size_t begin = rest.find_first_not_of(kBlanks); begin != std::string_view::npos;
+         begin = rest.find_first_not_of(kBlanks)) {
+      rest.remove_prefix(begin);
+      const std::string_view word = rest.substr(0, rest.find_first_of(kBlanks));
+      if (!parse_finite(word)) fail(node, fmt::format("holds \"{:.40}\"; expected numbers", word));
+      rest.remove_prefix(word.size());
+      ++found;
+    }
+    if (found < expected->second)
+      fail(node, fmt::format("holds {} numbers; expected {}", found, expected->second));
   }
 
   /// How many nodes stand below this one once each reference is replaced by what it names.

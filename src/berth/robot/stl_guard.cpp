@@ -13,7 +13,8 @@ namespace berth {
 namespace {
 
 constexpr std::size_t kHeader = 84;
-constexpr std::string_view kBlanks = " \t\r\n\v\f";
+// Assimp knows no others.
+constexpr std::string_view kBlanks = " \t\r\n";
 
 /// A text word by word, with the line of the last one.
 class Words {
