@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "berth/robot/mesh_file.hpp"
@@ -202,6 +203,20 @@ TEST(DaeFile, WhatIsNotGeometryIsNotRead) {
               "source=\"#nothing\"/></sampler><channel source=\"#s\" target=\"n/x\"/></animation>"
               "</library_animations><library_images><image id=\"i\"/></library_images>");
   expect_box(read("part.dae", text), {0, 0, 0}, {1, 2, 3});
+}
+
+TEST(DaeFile, IsRefusedWithElementAndValue) {
+  const std::string shape = R"(<instance_geometry url="#shape"/></node>)";
+  const std::vector<std::pair<std::string, std::string>> all{
+      {"<matrix>1 0 0</matrix>", "<matrix>: holds 3 numbers; expected 16"},
+      {"<translate>1 0,5 0</translate>", "<translate>: holds \"0,5\"; expected numbers"},
+      {"<skew>30 1 0 0 0 1 0</skew>", "<skew>: not supported; expected matrix"},
+      {"<instance_controller url=\"#c\"/>", "<instance_controller>: a skin"}};
+  for (const auto& [inside, told] : all) {
+    const TemporaryFolder folder;
+    const auto file = folder.write("part.dae", dae({.nodes = "<node id=\"n\">" + inside + shape}));
+    expect_error([&] { read_mesh_file(file); }, {file.string(), told});
+  }
 }
 
 TEST(DaeFile, CutOrWithoutGeometryIsAnError) {
