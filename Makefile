@@ -52,13 +52,10 @@ sanitize-thinned-%: setup
 	cmake --build --preset $* --target $*_thinned
 	ctest --preset $* -j2 --label-regex $* --no-tests=error
 
-# Each reader of a file under libFuzzer.
+# Each reader of a file under libFuzzer, for so many seconds each.
 FUZZ_SECONDS ?= 300
 fuzz:
-	scripts/setup.sh packages.txt packages-fuzz.txt
-	cmake --preset fuzz
-	cmake --build --preset fuzz --target fuzzers
-	scripts/fuzz.sh $(FUZZ_SECONDS)
+	scripts/fuzz.sh "$(FUZZ_SECONDS)"
 
 # What `make test` shows thinned, in full. TRUST_OPTIONS: of measure_trust, such as --scenes 20.
 trust: trust-distances trust-long-runs

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "berth/io/number.hpp"
+#include "berth/robot/number.hpp"
 
 namespace berth {
 namespace {

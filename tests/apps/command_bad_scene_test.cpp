@@ -1,8 +1,10 @@
 // A bad input gives exit status 1, a message with file, place, value and what was expected, and
 // neither output nor files.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <functional>
+#include <utility>
 
 #include "berth/io/file_bytes.hpp"
 #include "berth/io/png.hpp"
@@ -56,6 +58,49 @@ std::function<void(S&)> cut_image(const std::string& name) {
   };
 }
 
+std::function<void(S&)> pipe(const std::string& name) {
+  return [=](S& s) {
+    fs::remove(s / name);
+    EXPECT_EQ(::mkfifo((s / name).c_str(), 0600), 0);
+  };
+}
+
+std::function<void(S&)> link_to(const std::string& name, const std::string& target) {
+  return [=](S& s) {
+    fs::remove(s / name);
+    fs::create_symlink(target, s / name);
+  };
+}
+
+std::vector<BadInput> no_files() {
+  std::vector<BadInput> inputs;
+  for (const auto& [label, name] :
+       {std::pair("DepthImage", "depth/000000.png"), std::pair("CameraInfo", "camera_info.yaml"),
+        std::pair("Joints", "joints.csv"), std::pair("Robot", "arm.urdf"),
+        std::pair("Mesh", "parts/lower.stl")}) {
+    const std::string file = name;
+    const std::string own_name = fs::path(file).filename();
+    inputs.push_back({std::string(label) + "IsAPipe",
+                      pipe(file),
+                      {file + ": is a pipe or device; expected a regular file"}});
+    inputs.push_back({std::string(label) + "HasNoEnd",
+                      link_to(file, "/dev/zero"),
+                      {file + ": is a pipe or device; expected a regular file"}});
+    inputs.push_back({std::string(label) + "IsALinkToItself",
+                      link_to(file, own_name),
+                      {file + ": Too many levels of symbolic links; expected a readable file"}});
+    inputs.push_back({std::string(label) + "IsAFolder",
+                      [=](S& s) {
+                        fs::remove(s / file);
+                        fs::create_directory(s / file);
+                      },
+                      {file + ": is a folder; expected a file"}});
+  }
+  return inputs;
+}
+
+INSTANTIATE_TEST_SUITE_P(NoFile, BadScene, ::testing::ValuesIn(no_files()), name_of_case);
+
 INSTANTIATE_TEST_SUITE_P(
     DepthImage, BadScene,
     ::testing::Values(
@@ -98,6 +143,13 @@ INSTANTIATE_TEST_SUITE_P(
             "FocalLengthNaN",
             write("camera_info.yaml", camera_info_text("[.nan, 0, 31.5, 0, 60, 23.5, 0, 0, 1]")),
             {"camera_info.yaml:3: camera_matrix.data[0]: .nan; expected a finite number"}},
+        BadInput{
+            "FocalLengthAsAPartOfTheWidth",
+            write("camera_info.yaml", camera_info_text("[0.5, 0, 31.5, 0, 60, 23.5, 0, 0, 1]")),
+            {"camera_info.yaml:3: camera_matrix.data[0]: 0.5; expected pixels, from 0.64 to"}},
+        BadInput{"CenterFarAway",
+                 write("camera_info.yaml", camera_info_text("[60, 0, 1e30, 0, 60, 23.5, 0, 0, 1]")),
+                 {"camera_info.yaml:3: camera_matrix.data[2]: 1e30; expected pixels, from -6400"}},
         BadInput{"OfAnotherSize",
                  [](S& s) {
                    std::string text = camera_info_text();
@@ -119,6 +171,9 @@ INSTANTIATE_TEST_SUITE_P(
                       BadInput{"NaN",
                                write("joints.csv", "time,shoulder,elbow\n0,0,0\n1,nan,0\n2,0,0\n"),
                                {"joints.csv:3: shoulder: 'nan'; expected a finite number"}},
+                      BadInput{"Utf16",
+                               write("joints.csv", std::string("t\0i\0m\0e\0", 8)),
+                               {"joints.csv: holds a zero byte; expected UTF-8 text"}},
                       BadInput{"CutRow",
                                write("joints.csv", "time,shoulder,elbow\n0,0,0\n1,0,0\n2,0\n"),
                                {"joints.csv:4: 2 fields; expected 3"}},
@@ -210,6 +265,13 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"StampsTooFew",
                  set(&SceneLines::more_camera, "stamps: [0, 1]"),
                  {"scene.yaml:7: cameras[0].stamps: 2 stamps; expected one for each of the 3"}},
+        BadInput{
+            "DepthScaleTurnedUpsideDown",
+            set(&SceneLines::more_camera, "depth_scale: 1000"),
+            {"scene.yaml:7: cameras[0].depth_scale: 1000; expected metres per unit from 1e-6"}},
+        BadInput{"PoseOutOfThisWorld",
+                 set(&SceneLines::pose, "{parent: base, xyz: [0, 1e300, 0], rpy: [0, 0, 0]}"),
+                 {"scene.yaml:5: cameras[0].pose.xyz[1]: 1e300; expected metres, 100 km at"}},
         BadInput{"DepthScaleZero",
                  set(&SceneLines::more_camera, "depth_scale: 0"),
                  {"scene.yaml:7: cameras[0].depth_scale: 0; expected a number above 0"}}),

@@ -1,7 +1,7 @@
 // Ctrl-C: exit status 130, no file left half-written.
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/stat.h>
+#include <poll.h>
+#include <sys/inotify.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -9,7 +9,6 @@
 #include <sstream>
 #include <thread>
 
-#include "berth/io/file_bytes.hpp"
 #include "tests/apps/command_scene.hpp"
 
 namespace berth {
@@ -110,20 +109,17 @@ TEST(Interrupt, FilterLeavesWholeImagesOnly) {
 
 TEST(Interrupt, IsHeardWhileTheImagesAreRead) {
   CommandScene scene;
-  // berth waits for the pipe's bytes; the image after it is one that it would complain about.
-  ASSERT_EQ(::mkfifo((scene / "pipe.png").c_str(), 0600), 0);
-  scene.lines.depth = "[pipe.png, missing.png]";
+  // The last image is one that berth would complain about.
+  make_long(scene);
+  scene.lines.depth.replace(scene.lines.depth.rfind("depth/"), std::string::npos, "missing.png]");
   scene.write_scene();
-  const std::string image = read_file_bytes(scene / "depth/000000.png");
+  const int events = ::inotify_init1(IN_CLOEXEC);
+  ASSERT_GE(::inotify_add_watch(events, (scene / "depth/000000.png").c_str(), IN_OPEN), 0);
   BerthProgram run(scene.folder(), {"run", "scene.yaml"});
-  int pipe = -1;
-  ASSERT_TRUE(becomes_true([&] {
-    pipe = ::open((scene / "pipe.png").c_str(), O_WRONLY | O_NONBLOCK);
-    return pipe >= 0;
-  }));
+  pollfd opened{events, POLLIN, 0};
+  ASSERT_EQ(::poll(&opened, 1, 30'000), 1);
   run.interrupt();
-  EXPECT_EQ(::write(pipe, image.data(), image.size()), static_cast<ssize_t>(image.size()));
-  ::close(pipe);
+  ::close(events);
   const Outcome outcome = run.wait();
   EXPECT_EQ(outcome.exit_status, 130) << outcome.err;
   EXPECT_EQ(outcome.out, "");

@@ -70,7 +70,7 @@ TEST_P(EachReader, RefusesEveryBomb) {
     const std::vector<std::string> bombs{"bomb", "claims_4", "of_itself", "unfolds", "deep_"};
     const auto is_in_name = [&](const std::string& word) { return name.find(word) != name.npos; };
     if (std::none_of(bombs.begin(), bombs.end(), is_in_name)) continue;
-    if (name == "material_of_itself.obj") continue;  // harmless, read
+    if (name.starts_with("material_of_itself")) continue;  // not opened
     EXPECT_NE(refusal(GetParam(), file), "") << name;
   }
 #ifndef __SANITIZE_ADDRESS__

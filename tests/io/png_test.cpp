@@ -213,9 +213,10 @@ TEST(Png, ABadScaleIsRefused) {
   const TemporaryFolder folder;
   const DepthImage depth_m(3, 2, 1.0F);
   write_depth_png(folder / "x.png", depth_m, 0.001);
-  for (const double scale_m : {0.0, -0.001, static_cast<double>(kInfinity), std::nan("")}) {
+  for (const double scale_m :
+       {0.0, -0.001, 9e-7, 0.2, 1000.0, static_cast<double>(kInfinity), std::nan("")}) {
     expect_parts(error_message([&] { read_depth_png(folder / "x.png", camera_of(3, 2), scale_m); }),
-                 {"x.png: depth scale: ", "expected metres per unit, above 0"});
+                 {"x.png: depth scale: ", "expected metres per unit from 1e-6 to 0.1"});
     expect_parts(error_message([&] { write_depth_png(folder / "y.png", depth_m, scale_m); }),
                  {"y.png: depth scale: "});
   }

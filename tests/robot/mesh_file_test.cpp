@@ -2,12 +2,14 @@
 #include "berth/robot/mesh_file.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <algorithm>
 #include <limits>
 
+#include "testing/temporary_folder.hpp"
 #include "tests/robot/error_text.hpp"
 #include "tests/robot/mesh_writing.hpp"
-#include "testing/temporary_folder.hpp"
 
 namespace berth {
 namespace {
@@ -85,8 +87,8 @@ TEST(StlFile, TrailingBytesAreAnError) {
 }
 
 TEST(StlFile, NoTriangleIsAnError) {
-  expect_unreadable("part.stl", binary_stl({}), "");
-  expect_unreadable("part.stl", text_stl({}), "");
+  expect_unreadable("part.stl", binary_stl({}), "the STL has 0 triangles; expected one at least");
+  expect_unreadable("part.stl", text_stl({}), "no facet; expected one at least");
 }
 
 TEST(StlFile, VertexThatIsNotFiniteIsAnError) {
@@ -99,6 +101,43 @@ TEST(StlFile, VertexThatIsNotFiniteIsAnError) {
   }
 }
 
+TEST(StlFile, TextIsRefusedWithLineAndValue) {
+  const std::string whole = text_stl(two_triangles());
+  const auto with = [&](const std::string& old, const std::string& spoilt) {
+    return std::string(whole).replace(whole.find(old), old.size(), spoilt);
+  };
+  expect_unreadable("part.stl", with("vertex 1 0 0", "vertex 0,5 0 0"),
+                    ":5: x of a vertex is \"0,5\"; expected finite numbers");
+  expect_unreadable("part.stl", with("vertex 1 0 0", "vertex 1 0"),
+                    ":6: z of a vertex is \"vertex\"");
+  expect_unreadable("part.stl", with("  vertex 1 0 0\n", ""),
+                    ":6: a loop of 2 corners; expected three");
+  expect_unreadable("part.stl", with("vertex 1 0 0", "vertex 1 0 0 vertex 1 1 1"),
+                    ":7: a loop of 4 corners; expected three");
+  expect_unreadable("part.stl", with("vertex 1 0 0", "vertx 1 0 0"), ":5: \"vertx\"; expected");
+}
+
+TEST(StlFile, NormalOfATextMayBeNoNumber) {
+  std::string text = text_stl(two_triangles());
+  text.replace(text.find("0 0 1"), 5, "-nan(ind) x 1,5");
+  const TemporaryFolder folder;
+  expect_two_triangles(read_mesh_file(folder.write("part.stl", text)));
+}
+
+TEST(StlFile, LinesMayBeOne) {
+  std::string text = text_stl(two_triangles());
+  std::replace(text.begin() + 11, text.begin() + text.rfind("endsolid") - 1, '\n', ' ');
+  const TemporaryFolder folder;
+  expect_two_triangles(read_mesh_file(folder.write("part.stl", text)));
+}
+
+TEST(MeshFile, PipeIsRefusedAndNotWaitedFor) {
+  const TemporaryFolder folder;
+  const auto pipe = folder.path() / "part.stl";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  expect_error([&] { read_mesh_file(pipe); }, {pipe.string() + ": is a pipe or device; expected"});
+}
+
 TEST(MeshFile, EmptyFileIsAnError) {
   for (const char* name : {"part.stl", "part.obj", "part.dae"})
     expect_unreadable(name, "", "empty");
@@ -107,9 +146,9 @@ TEST(MeshFile, EmptyFileIsAnError) {
 TEST(MeshFile, MissingFileAndFolderAreErrors) {
   const TemporaryFolder folder;
   const auto missing = folder.path() / "missing.stl";
-  expect_error([&] { read_mesh_file(missing); }, {missing.string(), "no such mesh file"});
+  expect_error([&] { read_mesh_file(missing); }, {missing.string() + ": No such file"});
   expect_error([&] { read_mesh_file(folder.path()); },
-               {folder.path().string(), "no such mesh file"});
+               {folder.path().string() + ": is a folder; expected a file"});
 }
 
 TEST(MeshFile, GarbageIsAnError) {

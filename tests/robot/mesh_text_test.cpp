@@ -1,10 +1,14 @@
 // OBJ and DAE files.
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "berth/robot/mesh_file.hpp"
+#include "testing/temporary_folder.hpp"
 #include "tests/robot/error_text.hpp"
 #include "tests/robot/mesh_writing.hpp"
-#include "testing/temporary_folder.hpp"
 
 namespace berth {
 namespace {
@@ -77,6 +81,73 @@ TEST(ObjFile, LineBesideTrianglesIsLeftOut) {
   expect_box(mesh, {0, 0, 0}, {1, 2, 3});
 }
 
+TEST(ObjFile, LinesMayGoOnAndEndAnyWay) {
+  const auto mesh = read("part.obj",
+                         "\xEF\xBB\xBFv 0 0 0 # origin\r\nv 1 0 0 1 0.5 0\r\nv 0 2 \\\r\n 3\r\n"
+                         "f 1 2 \\\n3");
+  EXPECT_EQ(mesh.triangles.size(), 1U);
+  expect_box(mesh, {0, 0, 0}, {1, 2, 3});
+}
+
+TEST(ObjFile, FourthNumberDividesTheOthers) {
+  expect_box(read("part.obj", "v 0 0 0\nv 2 0 0 2\nv 0 4 6 2\nf 1 2 3\n"), {0, 0, 0}, {1, 2, 3});
+}
+
+TEST(ObjFile, ConcavePolygonKeepsItsArea) {
+  // A square of 4 with a notch down to its middle: a fan around the first corner would cover it.
+  const auto mesh = read("part.obj", "v 0 4 0\nv 0 0 0\nv 4 0 0\nv 4 4 0\nv 2 2 0\nf 1 2 3 4 5\n");
+  EXPECT_NEAR(area_m2(mesh), 12, 1e-5);
+}
+
+TEST(ObjFile, MaterialsAreNotOpened) {
+  const TemporaryFolder folder;
+  folder.write("part.mtl", "newmtl a\nmap_Kd /nowhere.png\n");
+  const auto file = folder.write("part.obj",
+                                 "mtllib part.obj part.mtl\nv 0 0 0\nv 1 0 0\nv 0 2 3\n"
+                                 "usemtl a\nf 1 2 3\n");
+  EXPECT_EQ(read_mesh_file(file).triangles.size(), 1U);
+}
+
+TEST(ObjFile, IsRefusedWithLineAndValue) {
+  struct Bad {
+    const char* line;
+    std::string told;
+  };
+  const std::vector<Bad> all{
+      {"v 0,5 0 0", ":4: a vertex has \"0,5\"; expected finite numbers"},
+      {"v nan 0 0", ":4: a vertex has \"nan\"; expected"},
+      {"v 1 2", ":4: a vertex of 2 numbers; expected 3"},
+      {"v 1 2 3 4 5", ":4: a vertex of 5 numbers; expected 3"},
+      {"v 1 2 3 0", ":4: w of a vertex is 0; expected"},
+      {"f 1 2 9", ":4: a face's corner is \"9\"; expected the number of one of the 3 vertices"},
+      {"f 1 2 0", ":4: a face's corner is \"0\"; expected"},
+      {"f 1 2 -4", ":4: a face's corner is \"-4\"; expected"},
+      {"f 1 2 x", ":4: a face's corner is \"x\"; expected"}};
+  for (const auto& [line, told] : all) {
+    const TemporaryFolder folder;
+    const auto file =
+        folder.write("part.obj", "v 0 0 0\nv 1 0 0\nv 0 2 3\n" + std::string(line) + "\nf 1 2 3\n");
+    expect_error([&] { read_mesh_file(file); }, {file.string() + told});
+  }
+}
+
+TEST(ObjFile, Utf16IsRefused) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("part.obj", std::string("v\0 \0"
+                                                         "0\0\n\0",
+                                                         8));
+  expect_error([&] { read_mesh_file(file); }, {file.string() + ":1: a zero byte; expected"});
+}
+
+TEST(ObjFile, PolygonThatWouldTakeSecondsIsRefused) {
+  const TemporaryFolder folder;
+  std::string face = "f";
+  for (int i = 0; i < 5000; ++i) face += " 1 2 3";
+  const auto file = folder.write("part.obj", "v 0 0 0\nv 1 0 0\nv 0 2 3\n" + face + "\n");
+  expect_error([&] { read_mesh_file(file); },
+               {file.string() + ":4: a face of 15000 corners; expected 4096 at most"});
+}
+
 TEST(DaeFile, OnlyCornersOfTrianglesCount) {
   expect_box(read("part.dae", dae({})), {0, 0, 0}, {1, 2, 3});
 }
@@ -123,6 +194,29 @@ TEST(DaeFile, GeometryUsedTwiceAppearsTwice) {
     <node id="b"><translate>0 0 -5</translate><instance_geometry url="#shape"/></node>)"}));
   EXPECT_EQ(mesh.triangles.size(), 2U);
   expect_box(mesh, {0, 0, -5}, {1, 2, 3});
+}
+
+TEST(DaeFile, WhatIsNotGeometryIsNotRead) {
+  std::string text = dae({});
+  text.insert(text.find("<library_geometries>"),
+              "<library_animations><animation id=\"a\"><sampler id=\"s\"><input semantic=\"INPUT\" "
+              "source=\"#nothing\"/></sampler><channel source=\"#s\" target=\"n/x\"/></animation>"
+              "</library_animations><library_images><image id=\"i\"/></library_images>");
+  expect_box(read("part.dae", text), {0, 0, 0}, {1, 2, 3});
+}
+
+TEST(DaeFile, IsRefusedWithElementAndValue) {
+  const std::string shape = R"(<instance_geometry url="#shape"/></node>)";
+  const std::vector<std::pair<std::string, std::string>> all{
+      {"<matrix>1 0 0</matrix>", "<matrix>: holds 3 numbers; expected 16"},
+      {"<translate>1 0,5 0</translate>", "<translate>: holds \"0,5\"; expected numbers"},
+      {"<skew>30 1 0 0 0 1 0</skew>", "<skew>: not supported; expected matrix"},
+      {"<instance_controller url=\"#c\"/>", "<instance_controller>: a skin"}};
+  for (const auto& [inside, told] : all) {
+    const TemporaryFolder folder;
+    const auto file = folder.write("part.dae", dae({.nodes = "<node id=\"n\">" + inside + shape}));
+    expect_error([&] { read_mesh_file(file); }, {file.string(), told});
+  }
 }
 
 TEST(DaeFile, CutOrWithoutGeometryIsAnError) {

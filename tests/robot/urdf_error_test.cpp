@@ -28,13 +28,13 @@ std::string shape_robot_xml(const std::string& geometry) {
 
 TEST(UrdfError, FileMissing) {
   expect_error([] { load_robot({.urdf = "/nowhere/robot.urdf"}); },
-               {"/nowhere/robot.urdf", "no such URDF file"});
+               {"/nowhere/robot.urdf: No such file", "expected a readable file"});
 }
 
 TEST(UrdfError, FileIsAFolder) {
   const TemporaryFolder folder;
   expect_error([&] { load_robot({.urdf = folder.path()}); },
-               {folder.path().string(), "no such URDF file"});
+               {folder.path().string() + ": is a folder; expected a file"});
 }
 
 TEST(UrdfError, FileEmptyOrNotXmlOrCut) {
@@ -44,6 +44,7 @@ TEST(UrdfError, FileEmptyOrNotXmlOrCut) {
   expect_refused("<robot name=\"a\"><link", {"not a valid URDF"});
   const std::string whole = pair_xml("fixed");
   expect_refused(whole.substr(0, whole.size() * 2 / 3), {"not a valid URDF"});
+  expect_refused(std::string("<\0r\0", 4), {"zero byte; expected UTF-8, not UTF-16"});
 }
 
 TEST(UrdfError, NoRobotElement) {
@@ -185,6 +186,46 @@ TEST(UrdfError, SeveralShapesInOneGeometryOfWhichOnlyOneWouldBeTaken) {
   }
 }
 
+TEST(UrdfError, NumbersAreRefusedWithLineElementAndValue) {
+  expect_refused(pair_xml("fixed", R"(<origin xyz="0,5 0 0"/>)"),
+                 {":5: joint \"elbow\": <origin> has xyz=\"0,5 0 0\"; expected 3 finite numbers"});
+  expect_refused(pair_xml("revolute", R"(<mimic joint="elbow" offset="a"/>)"),
+                 {"<mimic> has offset=\"a\"; expected 1 finite number"});
+  expect_refused(shape_robot_xml(R"(<sphere radius="0,1"/>)"),
+                 {":3: link \"base\": <sphere> has radius=\"0,1\"; expected 1 finite number"});
+  expect_refused(shape_robot_xml(R"(<mesh filename="a.stl" scale="0.001"/>)"),
+                 {"<mesh> has scale=\"0.001\"; expected 3 finite numbers"});
+}
+
+TEST(UrdfError, SizesOfNoRobot) {
+  expect_refused(
+      shape_robot_xml(R"(<box size="500 1 1"/>)"),
+      {"link \"base\": reaches 250.001 m from its origin; expected at most 100 m", "millimetres"});
+  expect_refused(shape_robot_xml(R"(<box size="1e39 1 1"/>)"), {"link \"base\": reaches"});
+  expect_refused(pair_xml("fixed", R"(<origin xyz="1e300 0 0"/>)"),
+                 {"joint \"elbow\" is", "expected at most 100000 m"});
+  expect_refused(
+      robot_xml(box_link_xml("base") + link_xml("hall", shape_xml(R"(<box size="3e5 1 1"/>)")) +
+                joint_xml("j", "fixed", "base", "hall")),
+      {"link \"hall\": reaches 150000 m", "expected at most 100000 m"},
+      {.environment_links = {"hall"}});
+}
+
+TEST(UrdfError, MeshOfTrianglesWithoutArea) {
+  const TemporaryFolder folder;
+  const Eigen::Vector3f p(1, 2, 3);
+  folder.write("part.stl", binary_stl({{p, p, p}}));
+  expect_error([&] { load_text(folder, shape_robot_xml(R"(<mesh filename="part.stl"/>)")); },
+               {"robot.urdf", "\"base\""});
+}
+
+TEST(UrdfError, MeshOfAnUnknownScheme) {
+  for (const char* name : {"model://a/part.stl", "http://a/part.stl"}) {
+    expect_refused(shape_robot_xml(std::string("<mesh filename=\"") + name + "\"/>"),
+                   {name, "expected package://NAME/PATH, file://PATH or a path"});
+  }
+}
+
 TEST(UrdfError, ElementsNestedWithoutEnd) {
   std::string deep;
   for (int i = 0; i < 300; ++i) deep += "<a>\n";
@@ -207,7 +248,7 @@ TEST(UrdfError, MeshMissing) {
   const TemporaryFolder folder;
   const std::string path = (folder.path() / "meshes/part.stl").string();
   expect_error([&] { load_text(folder, shape_robot_xml(R"(<mesh filename="meshes/part.stl"/>)")); },
-               {"robot.urdf", "\"base\"", path, "no such mesh file"});
+               {"robot.urdf", "\"base\"", path + ": No such file"});
 }
 
 TEST(UrdfError, MeshUnreadable) {

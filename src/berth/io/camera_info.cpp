@@ -1,5 +1,9 @@
 #include "berth/io/camera_info.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
+
 #include "berth/io/yaml_value.hpp"
 
 namespace berth {
@@ -30,6 +34,24 @@ void check_rectified(const YamlMap& info) {
   }
 }
 
+/// In pixels: some tools write it as a part of the image's width, and some in millimetres.
+double read_focal_length(const YamlValue& value, int size_px) {
+  const double f_px = value.positive();
+  if (f_px < 0.01 * size_px || f_px > 1000.0 * size_px) {
+    value.fail(fmt::format("pixels, from {} to {}", 0.01 * size_px, 1000.0 * size_px));
+  }
+  return f_px;
+}
+
+/// May lie outside of an image that was cut out of a larger one.
+double read_center(const YamlValue& value, int size_px) {
+  const double c_px = value.number();
+  if (std::abs(c_px) > 100.0 * size_px) {
+    value.fail(fmt::format("pixels, from {} to {}", -100.0 * size_px, 100.0 * size_px));
+  }
+  return c_px;
+}
+
 /// [fx 0 cx; 0 fy cy; 0 0 1], row by row.
 void read_camera_matrix(const YamlValue& data, Camera& camera) {
   data.numbers(9);
@@ -38,10 +60,10 @@ void read_camera_matrix(const YamlValue& data, Camera& camera) {
     if (items[i].number() != 0) items[i].fail("0 (no skew)");
   }
   if (items[8].number() != 1) items[8].fail("1");
-  camera.fx_px = items[0].positive();
-  camera.fy_px = items[4].positive();
-  camera.cx_px = items[2].number();
-  camera.cy_px = items[5].number();
+  camera.fx_px = read_focal_length(items[0], camera.width_px);
+  camera.fy_px = read_focal_length(items[4], camera.height_px);
+  camera.cx_px = read_center(items[2], camera.width_px);
+  camera.cy_px = read_center(items[5], camera.height_px);
 }
 
 }  // namespace

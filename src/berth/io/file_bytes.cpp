@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <random>
-#include <sstream>
 #include <system_error>
 
 #include "berth/io/error.hpp"
@@ -23,17 +21,6 @@ fs::path temporary_beside(const fs::path& file) {
 }
 
 }  // namespace
-
-std::string read_file_bytes(const fs::path& file) {
-  if (fs::is_directory(file)) throw_bad_file({file}, "is a folder", "a file");
-  errno = 0;
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw_bad_file({file}, std::strerror(errno), "a readable file");
-  std::ostringstream bytes;
-  if (in.peek() != std::ifstream::traits_type::eof()) bytes << in.rdbuf();
-  if (in.bad() || !bytes) throw_bad_file({file}, "reading failed", "a readable file");
-  return bytes.str();
-}
 
 void write_file_bytes(const fs::path& file, std::string_view bytes) {
   // A rename would put a file in the place of a device such as /dev/stdout.

@@ -2,13 +2,11 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 #include <string_view>
 
-namespace berth {
+#include "berth/robot/read_file.hpp"
 
-/// Throws std::runtime_error where the file is missing, unreadable or a folder.
-std::string read_file_bytes(const std::filesystem::path& file);
+namespace berth {
 
 /// Writes to a temporary file beside `file` and renames it: afterwards `file` is complete, or as it
 /// was before. Throws std::runtime_error where the folder is missing or cannot be written to, the

@@ -8,7 +8,7 @@
 
 #include "berth/io/error.hpp"
 #include "berth/io/file_bytes.hpp"
-#include "berth/io/number.hpp"
+#include "berth/robot/number.hpp"
 
 namespace berth {
 namespace {
@@ -84,6 +84,9 @@ JointTable::Row read_row(const FilePlace& place, const std::vector<std::string>&
 
 JointTable read_joints_csv(const std::filesystem::path& file) {
   const std::string text = read_file_bytes(file);
+  if (text.find('\0') != std::string::npos) {
+    throw_bad_file({file}, "holds a zero byte", "UTF-8 text, not UTF-16");
+  }
   const std::vector<std::string_view> lines = lines_of(text);
   if (lines.empty()) throw_bad_file({file}, "is empty", "a header: time, then joint names");
   JointTable table{file, read_header({file, 1, ""}, lines[0]), {}};

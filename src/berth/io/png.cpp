@@ -15,9 +15,8 @@ namespace {
 constexpr double kLargestUnit = 65535;
 
 void check_scale(const std::filesystem::path& file, double depth_scale_m) {
-  if (std::isfinite(depth_scale_m) && depth_scale_m > 0) return;
-  throw_bad_file({file, 0, "depth scale"}, fmt::format("{}", depth_scale_m),
-                 "metres per unit, above 0");
+  if (is_depth_scale(depth_scale_m)) return;
+  throw_bad_file({file, 0, "depth scale"}, fmt::format("{}", depth_scale_m), kDepthScaleExpected);
 }
 
 float depth_of(std::uint16_t units, double depth_scale_m, float near_m, float far_m) {
@@ -42,6 +41,8 @@ Image<std::uint16_t> numbers_of(ImageView<T> image, ToNumber to_number) {
 }
 
 }  // namespace
+
+bool is_depth_scale(double depth_scale_m) { return depth_scale_m >= 1e-6 && depth_scale_m <= 0.1; }
 
 DepthImage read_depth_png(const std::filesystem::path& file, const Camera& expected_size,
                           double depth_scale_m, double near_m, double far_m) {

@@ -10,10 +10,15 @@
 
 namespace berth {
 
+/// Whether a unit of a depth image can be so many metres. 1 or 1000 would put a whole room out of
+/// every range.
+bool is_depth_scale(double depth_scale_m);
+constexpr const char* kDepthScaleExpected = "metres per unit from 1e-6 to 0.1, such as 0.001";
+
 /// Depth in metres of a 16-bit grayscale PNG whose unit is `depth_scale_m`. The pixel value 0 and
 /// depths outside [near_m, far_m] become NaN. Throws std::runtime_error where the file is missing,
 /// empty, incomplete, damaged, of another pixel format, of another size than the camera's, or the
-/// scale is not above 0.
+/// scale is no is_depth_scale.
 DepthImage read_depth_png(const std::filesystem::path& file, const Camera& expected_size,
                           double depth_scale_m, double near_m = 0,
                           double far_m = std::numeric_limits<double>::infinity());
@@ -25,7 +30,7 @@ Image<LinkId> read_link_ids_png(const std::filesystem::path& file, const Camera&
 /// A depth is never written as 0 (no reading), which would remove an obstacle: the least is one
 /// unit. Depths beyond 65535 units are written as 65535: nearer to the camera than they are, never
 /// farther. Throws std::runtime_error where the file cannot be written, which leaves no part of it
-/// behind, or the scale is not above 0.
+/// behind, or the scale is no is_depth_scale.
 void write_depth_png(const std::filesystem::path& file, DepthView depth_m, double depth_scale_m);
 
 /// Writes 8-bit grayscale where all IDs fit, else 16-bit. Throws as write_depth_png does.

@@ -6,11 +6,13 @@
 #include <cmath>
 
 #include "berth/io/glob.hpp"
+#include "berth/io/png.hpp"
 
 namespace berth {
 namespace {
 
 constexpr double kUnitLengthTolerance = 1e-3;
+constexpr double kFarthest_m = 1e5;
 
 std::string read_name(const YamlValue& value) {
   const std::string name = value.text();
@@ -41,6 +43,9 @@ Eigen::Quaterniond read_rpy(const YamlValue& value) {
 
 Pose read_pose(const YamlMap& pose) {
   const std::vector<double> xyz_m = pose.at("xyz").numbers(3);
+  for (std::size_t i = 0; i < xyz_m.size(); ++i) {
+    if (std::abs(xyz_m[i]) > kFarthest_m) pose.at("xyz").list()[i].fail("metres, 100 km at most");
+  }
   const auto quaternion = pose.find("quaternion_xyzw");
   const auto rpy = pose.find("rpy");
   if (quaternion.has_value() == rpy.has_value()) {
@@ -95,7 +100,10 @@ SceneCamera read_scene_camera(const YamlValue& value) {
   if (const auto stamps = map.find("stamps")) {
     camera.stamps_s = read_stamps(*stamps, camera.depth.size());
   }
-  map.read("depth_scale", &YamlValue::positive, camera.depth_scale_m);
+  if (const auto scale = map.find("depth_scale")) {
+    camera.depth_scale_m = scale->positive();
+    if (!is_depth_scale(camera.depth_scale_m)) scale->fail(kDepthScaleExpected);
+  }
   map.read("near_m", &YamlValue::non_negative, camera.near_m);
   if (const auto far = map.find("far_m")) {
     camera.far_m = far->positive();

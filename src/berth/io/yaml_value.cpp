@@ -10,7 +10,7 @@
 
 #include "berth/io/edit_distance.hpp"
 #include "berth/io/file_bytes.hpp"
-#include "berth/io/number.hpp"
+#include "berth/robot/number.hpp"
 
 namespace berth {
 namespace {

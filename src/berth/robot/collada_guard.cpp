@@ -3,13 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <initializer_list>
+#include <array>
 #include <map>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
 
+#include "berth/robot/number.hpp"
 #include "berth/robot/xml.hpp"
 
 namespace berth {
@@ -24,10 +26,14 @@ class Guard {
     parse_xml(path, text, "the mesh cannot be read", document_);
   }
 
-  void check() {
+  std::string checked() {
     check_numbers(document_);
     for (const pugi::xml_node& accessor : accessors_) check_accessor(accessor);
     for (const pugi::xml_node& scene : scenes_) unfolded(scene);
+    remove_all_but_geometry();
+    std::ostringstream text;
+    document_.save(text, "", pugi::format_raw);
+    return text.str();
   }
 
  private:
@@ -50,9 +56,15 @@ class Guard {
                          key, digits, text_.size()));
       }
     }
-    require_only(node, {"p", "v", "vcount"}, " \t\r\n0123456789");
-    require_only(node, {"float_array", "matrix", "translate", "rotate", "scale", "lookat", "skew"},
-                 " \t\r\n0123456789+-.eE");
+    // Assimp ends the process at a skew, and at some skins.
+    if (std::string_view(node.name()) == "skew") {
+      fail(node, "not supported; expected matrix, translate, rotate, scale or lookat");
+    }
+    if (std::string_view(node.name()) == "instance_controller") {
+      fail(node, "a skin, which bends with its bones; expected a rigid mesh, <instance_geometry>");
+    }
+    require_whole_numbers(node);
+    require_floats(node);
     const std::string_view name = node.name();
     if (name == "accessor") accessors_.push_back(node);
     if (name.ends_with("_array")) {
@@ -88,13 +100,39 @@ class Guard {
   }
 
   /// Assimp reads a list of numbers on and on where one does not begin with a digit.
-  void require_only(const pugi::xml_node& node, std::initializer_list<std::string_view> names,
-                    std::string_view allowed) const {
-    if (std::find(names.begin(), names.end(), std::string_view(node.name())) == names.end()) return;
+  void require_whole_numbers(const pugi::xml_node& node) const {
+    const std::string_view name = node.name();
+    if (name != "p" && name != "v" && name != "vcount") return;
     const std::string_view text = node.child_value();
-    const std::size_t bad = text.find_first_not_of(allowed);
+    const std::size_t bad = text.find_first_not_of(" \t\r\n0123456789");
     if (bad == std::string_view::npos) return;
     fail(node, fmt::format("holds \"{}\"; expected numbers", text.substr(bad, 12)));
+  }
+
+  /// At a list that is too short, or a word that is no number, Assimp leaks memory.
+  void require_floats(const pugi::xml_node& node) const {
+    const std::map<std::string_view, std::size_t> counts{
+        {"float_array", node.attribute("count").as_uint()},
+        {"matrix", 16},
+        {"translate", 3},
+        {"rotate", 4},
+        {"scale", 3},
+        {"lookat", 9}};
+    const auto expected = counts.find(node.name());
+    if (expected == counts.end()) return;
+    constexpr std::string_view kBlanks = " \t\r\n";
+    std::string_view rest = node.child_value();
+    std::size_t found = 0;
+    for (std::size_t begin = rest.find_first_not_of(kBlanks); begin != std::string_view::npos;
+         begin = rest.find_first_not_of(kBlanks)) {
+      rest.remove_prefix(begin);
+      const std::string_view word = rest.substr(0, rest.find_first_of(kBlanks));
+      if (!parse_finite(word)) fail(node, fmt::format("holds \"{:.40}\"; expected numbers", word));
+      rest.remove_prefix(word.size());
+      ++found;
+    }
+    if (found < expected->second)
+      fail(node, fmt::format("holds {} numbers; expected {}", found, expected->second));
   }
 
   /// How many nodes stand below this one once each reference is replaced by what it names.
@@ -125,6 +163,20 @@ class Guard {
     return unfolded(target->second);
   }
 
+  /// Assimp need not look at what berth has no use for.
+  void remove_all_but_geometry() {
+    pugi::xml_node root = document_.document_element();
+    constexpr std::array<std::string_view, 5> kKept{"asset", "library_geometries", "library_nodes",
+                                                    "library_visual_scenes", "scene"};
+    for (pugi::xml_node child = root.first_child(); child;) {
+      const pugi::xml_node next = child.next_sibling();
+      if (std::find(kKept.begin(), kKept.end(), child.name()) == kKept.end()) {
+        root.remove_child(child);
+      }
+      child = next;
+    }
+  }
+
   const std::filesystem::path& path_;
   const std::string& text_;
   pugi::xml_document document_;
@@ -138,8 +190,8 @@ class Guard {
 
 }  // namespace
 
-void require_harmless_collada(const std::filesystem::path& path, const std::string& text) {
-  Guard(path, text).check();
+std::string checked_collada(const std::filesystem::path& path, const std::string& text) {
+  return Guard(path, text).checked();
 }
 
 }  // namespace berth

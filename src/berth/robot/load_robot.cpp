@@ -8,6 +8,7 @@
 
 #include "berth/robot/mesh_file.hpp"
 #include "berth/robot/package_path.hpp"
+#include "berth/robot/plausible_size.hpp"
 #include "berth/robot/primitives.hpp"
 #include "berth/robot/robot_model.hpp"
 #include "berth/robot/urdf.hpp"
@@ -244,7 +245,9 @@ RobotModel load_robot(const RobotSettings& settings) {
       link.mesh_L = meshes.load(*source->getLink(link.name));
   }
   assign_roles(settings, model);
-  if (model.evaluated_links.empty()) fail(settings, "no link with geometry is left to evaluate");
+  require_plausible_size(settings.urdf, model);
+  if (model.evaluated_links.empty())
+    fail(settings, "no link with geometry is left to evaluate; expected one at least");
   return model;
 }
 

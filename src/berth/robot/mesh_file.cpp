@@ -1,20 +1,26 @@
 #include "berth/robot/mesh_file.hpp"
 
+#include <assimp/BaseImporter.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
 #include <cctype>
 #include <cmath>
-#include <fstream>
-#include <iterator>
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "berth/robot/collada_guard.hpp"
+#include "berth/robot/obj_polygons.hpp"
+#include "berth/robot/polygon_reader.hpp"
+#include "berth/robot/read_file.hpp"
+#include "berth/robot/stl_guard.hpp"
 
 namespace berth {
 namespace {
@@ -62,40 +68,6 @@ void append_node(const std::filesystem::path& path, const aiScene& scene, const 
     append_node(path, scene, *node.mChildren[i], X, mesh);
 }
 
-bool ends_with_endsolid(const std::string& text) {
-  const auto end = text.find_last_not_of(" \t\r\n");
-  if (end == std::string::npos) return false;
-  const auto line = text.find_last_of("\r\n", end) + 1;
-  return text.compare(text.find_first_not_of(" \t", line), 8, "endsolid") == 0;
-}
-
-std::string read_bytes(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-/// Assimp reads a text STL that was cut as if it were whole.
-void require_whole_stl(const std::filesystem::path& path) {
-  const std::string bytes = read_bytes(path);
-  constexpr std::size_t kHeader = 84;
-  constexpr std::size_t kTriangle = 50;
-  std::size_t binary_size = 0;
-  if (bytes.size() >= kHeader) {
-    std::uint32_t count = 0;
-    std::copy_n(bytes.data() + kHeader - sizeof count, sizeof count,
-                reinterpret_cast<char*>(&count));
-    binary_size = kHeader + kTriangle * count;
-  }
-  if (bytes.size() == binary_size) return;
-  if (bytes.rfind("solid", 0) == 0 && ends_with_endsolid(bytes)) return;
-  fail(path,
-       fmt::format(
-           "the STL holds {} bytes; expected text from \"solid\" to \"endsolid\", or {} bytes "
-           "as its header says",
-           bytes.size(),
-           binary_size == 0 ? std::string("at least 84") : std::to_string(binary_size)));
-}
-
 void require_finite(const std::filesystem::path& path, const aiScene& scene) {
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
     const aiMesh& mesh = *scene.mMeshes[m];
@@ -123,20 +95,53 @@ void configure(Assimp::Importer& importer) {
           aiComponent_TEXTURES | aiComponent_LIGHTS | aiComponent_CAMERAS | aiComponent_MATERIALS);
 }
 
-}  // namespace
+/// Assimp would follow what a mesh file names, wherever it is.
+class NoFiles : public Assimp::IOSystem {
+ public:
+  bool Exists(const char*) const override { return false; }
+  char getOsSeparator() const override { return '/'; }
+  Assimp::IOStream* Open(const char*, const char*) override { return nullptr; }
+  void Close(Assimp::IOStream*) override {}
+};
 
-TriangleMesh read_mesh_file(const std::filesystem::path& path) {
-  if (!std::filesystem::is_regular_file(path)) fail(path, "there is no such mesh file");
-  if (std::filesystem::file_size(path) == 0) fail(path, "the mesh file is empty (0 bytes)");
+/// All but the reader of this ending, which Assimp else tries on a file that that one refuses.
+void delete_other_readers(const char* extension, Assimp::Importer& importer) {
+  const auto* const kept = importer.GetImporter(importer.GetImporterIndex(extension));
+  for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+    Assimp::BaseImporter* const other = importer.GetImporter(i);
+    if (other == kept) continue;
+    importer.UnregisterLoader(other);
+    const std::unique_ptr<Assimp::BaseImporter> deleted_here(other);
+  }
+}
+
+/// STL, OBJ and DAE are looked into before Assimp gets them.
+const aiScene* import(const std::filesystem::path& path, Assimp::Importer& importer) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return std::tolower(c); });
-  if (extension == ".stl") require_whole_stl(path);
-  if (extension == ".dae") require_harmless_collada(path, read_bytes(path));
+  std::string bytes = read_file_bytes(path);
+  if (bytes.empty()) fail(path, "the mesh file is empty; expected an STL, OBJ or DAE file");
+  if (extension != ".stl" && extension != ".obj" && extension != ".dae") {
+    return importer.ReadFile(path.string(), 0);
+  }
+  importer.SetIOHandler(std::make_unique<NoFiles>().release());
+  delete_other_readers(extension == ".obj" ? "" : extension.c_str(), importer);
+  if (extension == ".stl") bytes = checked_stl(path, std::move(bytes));
+  if (extension == ".dae") bytes = checked_collada(path, bytes);
+  if (extension == ".obj") {
+    importer.RegisterLoader(
+        std::make_unique<PolygonReader>(read_obj_polygons(path, bytes)).release());
+  }
+  return importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, extension.c_str() + 1);
+}
 
+}  // namespace
+
+TriangleMesh read_mesh_file(const std::filesystem::path& path) {
   Assimp::Importer importer;
   configure(importer);
-  const aiScene* scene = importer.ReadFile(path.string(), 0);
+  const aiScene* scene = import(path, importer);
   // Joining takes a vertex that is NaN for another one: look before.
   if (scene != nullptr) {
     require_finite(path, *scene);
@@ -144,15 +149,17 @@ TriangleMesh read_mesh_file(const std::filesystem::path& path) {
                                          aiProcess_JoinIdenticalVertices | aiProcess_SortByPType);
   }
   if (scene == nullptr)
-    fail(path, fmt::format("the mesh cannot be read: {}", importer.GetErrorString()));
+    fail(path, fmt::format("the mesh cannot be read: {}; expected an STL, OBJ or DAE file",
+                           importer.GetErrorString()));
 
   TriangleMesh mesh;
   if (scene->mRootNode != nullptr)
     append_node(path, *scene, *scene->mRootNode, Eigen::Affine3d::Identity(), mesh);
-  if (mesh.empty()) fail(path, "the mesh has no triangle");
+  if (mesh.empty()) fail(path, "the mesh has no triangle; expected one at least");
   for (std::size_t i = 0; i < mesh.vertices_m.size(); ++i) {
     if (!mesh.vertices_m[i].allFinite())
-      fail(path, fmt::format("vertex {} is not finite after its node's transform", i));
+      fail(path,
+           fmt::format("vertex {} is not finite after its node's transform; expected numbers", i));
   }
   return mesh;
 }

@@ -46,6 +46,10 @@ fs::path resolve_mesh_path(const std::string& name, const fs::path& urdf,
            rest.substr(slash + 1);
   }
   if (name.rfind(kFile, 0) == 0) return name.substr(kFile.size());
+  if (name.find("://") != std::string::npos) {
+    throw std::runtime_error(
+        fmt::format("mesh \"{}\": expected package://NAME/PATH, file://PATH or a path", name));
+  }
   return (urdf_folder / name).lexically_normal();
 }
 

@@ -5,8 +5,6 @@
 #include <fmt/ranges.h>
 #include <urdf_parser/urdf_parser.h>
 
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <mutex>
 #include <set>
@@ -14,6 +12,8 @@
 #include <string_view>
 #include <vector>
 
+#include "berth/robot/read_file.hpp"
+#include "berth/robot/urdf_numbers.hpp"
 #include "berth/robot/xml.hpp"
 
 namespace berth {
@@ -42,14 +42,15 @@ class LogListener : public console_bridge::OutputHandler {
 };
 
 std::string read_text(const std::filesystem::path& path) {
-  if (!std::filesystem::is_regular_file(path)) fail(path, "there is no such URDF file");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) fail(path, "the URDF cannot be opened for reading");
-  std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::string text = read_file_bytes(path);
   if (text.find_first_not_of(" \t\r\n") == std::string::npos)
     fail(path, "the URDF is empty; expected <robot>");
+  if (text.find('\0') != std::string::npos)
+    fail(path, "the URDF holds a zero byte; expected UTF-8, not UTF-16");
   return text;
 }
+
+constexpr const char* kExpected = "one <robot>, a tree of links, as in wiki.ros.org/urdf/XML";
 
 urdf::ModelInterfaceSharedPtr parse(const std::filesystem::path& path, const std::string& text) {
   LogListener log;
@@ -57,16 +58,12 @@ urdf::ModelInterfaceSharedPtr parse(const std::filesystem::path& path, const std
   try {
     model = urdf::parseURDF(text);
   } catch (const std::exception& error) {
-    fail(path, fmt::format("not a valid URDF: {}", error.what()));
+    fail(path, fmt::format("not a valid URDF: {}; expected {}", error.what(), kExpected));
   }
-  if (!model) {
-    fail(path,
-         fmt::format("not a valid URDF: {}",
-                     log.errors().empty() ? "expected one <robot> that is a tree of links"
-                                          : fmt::format("{}", fmt::join(log.errors(), "; "))));
+  if (!model || !log.errors().empty()) {
+    fail(path, fmt::format("not a valid URDF: {}; expected {}", fmt::join(log.errors(), "; "),
+                           kExpected));
   }
-  if (!log.errors().empty())
-    fail(path, fmt::format("not a valid URDF: {}", fmt::join(log.errors(), "; ")));
   return model;
 }
 
@@ -135,15 +132,15 @@ void require_usable_xml(const std::filesystem::path& path, const std::string& te
   const pugi::xml_node robot = document.document_element();
   if (std::string_view(robot.name()) != "robot")
     fail(path, fmt::format("not a valid URDF: the root is <{}>; expected <robot>", robot.name()));
+  require_urdf_numbers(path, text, robot);
   for (const pugi::xml_node& link : robot.children("link")) {
     for (const pugi::xml_node& part : link.children()) {
       const pugi::xml_node geometry = part.child("geometry");
       const auto shapes = geometry.select_nodes("*");
       if (shapes.size() <= 1) continue;
-      throw std::runtime_error(
-          fmt::format("{}:{}: link \"{}\": <geometry> holds {} shapes; expected one", path.string(),
-                      line_of(text, geometry.offset_debug()), link.attribute("name").value(),
-                      shapes.size()));
+      throw std::runtime_error(fmt::format(
+          "{}:{}: link \"{}\": <geometry> holds {} shapes; expected one", path.string(),
+          line_of(text, geometry.offset_debug()), link.attribute("name").value(), shapes.size()));
     }
   }
 }

@@ -1,4 +1,4 @@
-#include "berth/io/number.hpp"
+#include "berth/robot/number.hpp"
 
 #include <charconv>
 #include <cmath>
