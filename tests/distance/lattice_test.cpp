@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "berth/distance/obstacle_tree.hpp"
+#include "testing/thinned.hpp"
 #include "tests/distance/answer.hpp"
 
 namespace berth::testing {
@@ -138,10 +139,12 @@ struct Share {
   std::int64_t pairs = 0;
 };
 
-/// Of 100 scenes as large as the thesis's; its "close" is 5 mm.
+constexpr int kLargeScenes = thinned(100);
+
+/// Of scenes as large as the thesis's; its "close" is 5 mm.
 Share share_within_5_mm(const LatticeSettings& lattice) {
   Share share;
-  for (std::uint32_t seed = 0; seed < 100; ++seed) {
+  for (int seed = 0; seed < kLargeScenes; ++seed) {
     const ImagePair images = random_images(seed, 640, 480, 8);
     const LinkDistances truth = answer(Method::exact, images);
     const LinkDistances found = answer(Method::lattice, images, settings_with(lattice));
@@ -158,8 +161,8 @@ Share share_within_5_mm(const LatticeSettings& lattice) {
 TEST(Lattice, IsWithin5MillimetresForNineOfTenLinks) {
   const Share share = share_within_5_mm({});
   std::printf("%d of %d links within 5 mm, %lld pairs per scene\n", share.close, share.links,
-              static_cast<long long>(share.pairs / 100));
-  EXPECT_GT(share.links, 600);
+              static_cast<long long>(share.pairs / kLargeScenes));
+  EXPECT_GT(share.links, 6 * kLargeScenes);
   EXPECT_GE(share.close, 0.9 * share.links);
 }
 
