@@ -25,7 +25,7 @@ const LatticeSettings kManyLattices[] = {{1, 1, 40, 2},   {2, 3, 60, 1},    {4, 
                                          {8, 32, 100, 2}, {65536, 1, 7, 7}, {1, 65536, 65536, 1}};
 
 TEST(Lattice, IsNeverBelowBruteForceWhateverItsSettings) {
-  for (std::uint32_t seed = 0; seed < 12; ++seed) {
+  for (std::uint32_t seed = 0; seed < thinned(12u); ++seed) {
     const ImagePair images = random_images(seed, 131, 97, 5);
     const LinkDistances truth = answer(Method::brute_force, images);
     for (const LatticeSettings& lattice : kManyLattices) {
@@ -44,7 +44,7 @@ TEST(Lattice, IsNeverBelowBruteForceWhateverItsSettings) {
 }
 
 TEST(Lattice, GivesTheSameDistancesInEachPattern) {
-  for (std::uint32_t seed = 0; seed < 20; ++seed) {
+  for (std::uint32_t seed = 0; seed < thinned(20u); ++seed) {
     SCOPED_TRACE(seed);
     const ImagePair images = random_images(seed, 160, 120, 6);
     for (const LatticeSettings& lattice : kManyLattices) {
@@ -64,7 +64,7 @@ TEST(Lattice, GivesTheSameDistancesInEachPattern) {
 }
 
 TEST(Lattice, IsExactWhereTheLastStepHasAllPixelsOfTheLink) {
-  for (std::uint32_t seed = 0; seed < 20; ++seed) {
+  for (std::uint32_t seed = 0; seed < thinned(20u); ++seed) {
     SCOPED_TRACE(seed);
     const ImagePair images = random_images(seed, 90, 70, 4);
     DistanceSettings settings = settings_with({1, 1, 200, 200});
@@ -80,7 +80,7 @@ TEST(Lattice, IsExactWhereTheLastStepHasAllPixelsOfTheLink) {
 }
 
 TEST(Lattice, IsExactForLinksOfOnePixel) {
-  for (std::uint32_t seed = 0; seed < 40; ++seed) {
+  for (std::uint32_t seed = 0; seed < thinned(40u); ++seed) {
     SCOPED_TRACE(seed);
     const ImagePair scene = random_images(seed, 80, 60, 1);
     ImagePair images = scene;
