@@ -166,9 +166,9 @@ TEST(Lattice, IsWithin5MillimetresForNineOfTenLinks) {
   EXPECT_GE(share.close, 0.9 * share.links);
 }
 
-std::int64_t pairs_of_30_scenes(const LatticeSettings& lattice, SurveillanceRegion region) {
+std::int64_t pairs_of_scenes(const LatticeSettings& lattice, SurveillanceRegion region) {
   std::int64_t pairs = 0;
-  for (std::uint32_t seed = 0; seed < 30; ++seed) {
+  for (std::uint32_t seed = 0; seed < thinned(30u); ++seed) {
     pairs += answer(Method::lattice, random_images(seed, 240, 180, 6),
                     settings_with(lattice, {.region = region}))
                  .pairs;
@@ -181,7 +181,7 @@ TEST(Lattice, LargerStepsComputeFewerPairs) {
   for (const SurveillanceRegion region : kSurveillanceRegions) {
     std::int64_t last = std::numeric_limits<std::int64_t>::max();
     for (const int step : {1, 2, 4}) {
-      const std::int64_t pairs = pairs_of_30_scenes({step, step, 40, 2}, region);
+      const std::int64_t pairs = pairs_of_scenes({step, step, 40, 2}, region);
       EXPECT_LT(pairs, last);
       last = pairs;
     }
@@ -192,7 +192,7 @@ TEST(Lattice, LargerStepsComputeFewerPairs) {
 TEST(Lattice, ALargerFinalRadiusComputesMorePairs) {
   std::int64_t last = 0;
   for (const int radius_px : {2, 4, 8}) {
-    const std::int64_t pairs = pairs_of_30_scenes({1, 1, 40, radius_px}, SurveillanceRegion::image);
+    const std::int64_t pairs = pairs_of_scenes({1, 1, 40, radius_px}, SurveillanceRegion::image);
     EXPECT_GT(pairs, last);
     last = pairs;
   }
@@ -202,15 +202,15 @@ TEST(Lattice, ALargerFinalRadiusComputesMorePairs) {
 TEST(Lattice, ALargerFirstRadiusComputesFewerPairsUpToThatOfTheLinks) {
   std::int64_t last = std::numeric_limits<std::int64_t>::max();
   for (const int radius_px : {3, 5, 10, 20}) {
-    const std::int64_t pairs = pairs_of_30_scenes({1, 1, radius_px, 2}, SurveillanceRegion::image);
+    const std::int64_t pairs = pairs_of_scenes({1, 1, radius_px, 2}, SurveillanceRegion::image);
     EXPECT_LT(pairs, last);
     last = pairs;
   }
 }
 
 TEST(Lattice, ASmallerRegionComputesFewerPairs) {
-  const std::int64_t image = pairs_of_30_scenes({}, SurveillanceRegion::image);
-  const std::int64_t cube = pairs_of_30_scenes({}, SurveillanceRegion::cube_projection);
+  const std::int64_t image = pairs_of_scenes({}, SurveillanceRegion::image);
+  const std::int64_t cube = pairs_of_scenes({}, SurveillanceRegion::cube_projection);
   EXPECT_LT(cube, image);
 }
 
