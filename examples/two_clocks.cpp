@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <mutex>
 #include <thread>
 
 #include "berth/pipeline/asker.hpp"
@@ -18,6 +19,24 @@ double now_s() {
 
 void sleep_ms(int ms) { std::this_thread::sleep_for(std::chrono::milliseconds(ms)); }
 
+/// The newest frame. It is swapped as a whole: who asks the one before keeps it alive until the
+/// answer is there. GCC 12's std::atomic<std::shared_ptr> has a race between reading and swapping.
+class LatestFrame {
+ public:
+  void set(std::shared_ptr<const berth::Frame> frame) {
+    const std::lock_guard lock(mutex_);
+    frame_.swap(frame);
+  }
+  std::shared_ptr<const berth::Frame> get() const {
+    const std::lock_guard lock(mutex_);
+    return frame_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::shared_ptr<const berth::Frame> frame_;
+};
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -31,8 +50,7 @@ int main(int argc, char** argv) {
   const berth::Rig rig(robot, mount, settings);
   berth::JointBuffer joints(robot, 500);
 
-  // A frame is swapped as a whole: who asks the old one keeps it alive until the answer is there.
-  std::atomic<std::shared_ptr<const berth::Frame>> latest;
+  LatestFrame latest;
   std::atomic<bool> stop = false;
   std::thread encoders([&] {
     std::vector<std::string> names;
@@ -46,13 +64,13 @@ int main(int argc, char** argv) {
       sleep_ms(33);  // the image is on its way
       auto frame = std::make_shared<berth::Frame>();
       observer.observe(berth::DepthImage(640, 480, 2.6F), exposure_s, joints, *frame);
-      latest = std::move(frame);
+      latest.set(std::move(frame));
     }
   });
   berth::Asker asker(rig);
-  while (!latest.load()) sleep_ms(1);
+  while (!latest.get()) sleep_ms(1);
   for (int i = 0; i < 100; ++i, sleep_ms(1)) {
-    const std::shared_ptr<const berth::Frame> frame = latest;
+    const std::shared_ptr<const berth::Frame> frame = latest.get();
     const berth::Answer& answer = asker.ask(*frame, joints, now_s());
     if (answer.time.status != berth::TimeStatus::ok) continue;  // a controller would slow down
     if (i % 20 == 0) {

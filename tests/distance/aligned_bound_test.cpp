@@ -7,6 +7,7 @@
 #include <random>
 
 #include "berth/distance/aligned_box-inl.hpp"
+#include "testing/thinned.hpp"
 
 namespace berth {
 namespace {
@@ -68,7 +69,7 @@ Axes random_axes(Sampler& sample, const Metric& metric, const RandomTile& robot)
 TEST(AlignedBound, IsNeverAboveTheComputedDistanceOfAnyPair) {
   Sampler sample;
   int tight = 0;
-  for (int i = 0; i < 4000; ++i) {
+  for (int i = 0; i < thinned(4000); ++i) {
     const float scale_m = std::exp(sample.real(-2, 4));
     const Metric metric = random_metric(sample);
     const RandomTile robot(sample, scale_m);
@@ -95,7 +96,7 @@ TEST(AlignedBound, IsNeverAboveTheComputedDistanceOfAnyPair) {
       }
     }
   }
-  EXPECT_GT(tight, 1000);
+  EXPECT_GT(tight, thinned(1000));
 }
 
 TEST(AlignedBound, PixelsFarFromTheBoxAreNotNear) {

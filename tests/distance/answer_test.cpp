@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "testing/thinned.hpp"
 #include "tests/distance/answer.hpp"
 
 namespace berth::testing {
@@ -94,7 +95,7 @@ TEST_P(Answer, TheRangeIsPartOfTheRange) {
 }
 
 TEST_P(ExactAnswer, TheRangeIsPartOfTheRangeOnRandomScenes) {
-  for (std::uint32_t seed = 0; seed < 30; ++seed) {
+  for (std::uint32_t seed = 0; seed < thinned(30u); ++seed) {
     const ImagePair images = random_images(seed, 64, 48, 1);
     const LinkDistance link = only_link(images, 5.0);
     if (link.status != LinkStatus::ok || link.distance_m == 0) continue;
@@ -149,7 +150,7 @@ void keep_separate_columns(ImagePair& images) {
 }
 
 TEST_P(ExactAnswer, AMirroredSceneHasTheSameDistances) {
-  for (std::uint32_t seed = 0; seed < 20; ++seed) {
+  for (std::uint32_t seed = 0; seed < thinned(20u); ++seed) {
     SCOPED_TRACE(seed);
     ImagePair images = random_images(seed, 131, 90, 5);
     keep_separate_columns(images);

@@ -7,6 +7,7 @@
 #include "berth/distance/brute_force.hpp"
 #include "berth/distance/exact.hpp"
 #include "testing/random_images.hpp"
+#include "testing/thinned.hpp"
 #include "tests/distance/smooth_images.hpp"
 
 namespace berth::testing {
@@ -71,7 +72,8 @@ void expect_certified(const LinkDistances& found, const LinkDistances& true_link
 std::vector<ImagePair> all_kinds() {
   std::vector<ImagePair> kinds = {tilted_plates(0.3, 120, 90), ball_in_shell(120, 90),
                                   bowl_in_shell(120, 90)};
-  for (std::uint32_t seed = 0; seed < 12; ++seed) kinds.push_back(random_images(seed, 130, 94, 5));
+  for (std::uint32_t seed = 0; seed < thinned(12u); ++seed)
+    kinds.push_back(random_images(seed, 130, 94, 5));
   return kinds;
 }
 

@@ -8,6 +8,7 @@
 #include "testing/error_message.hpp"
 #include "testing/only_target.hpp"
 #include "testing/random_images.hpp"
+#include "testing/thinned.hpp"
 #include "tests/distance/smooth_images.hpp"
 
 namespace berth::testing {
@@ -75,7 +76,7 @@ TEST(Exact, IsBruteForceWhereASlopeCutsThroughTheRobot) {
 TEST(Exact, TheLastAnswerChangesNoDistance) {
   ExactWorkspace workspace;
   LinkDistances out;
-  for (std::uint32_t seed = 0; seed < 40; ++seed) {
+  for (std::uint32_t seed = 0; seed < thinned(40u); ++seed) {
     SCOPED_TRACE(seed);
     // Sizes and numbers of links change as well, so that old pixels lie outside or on other links.
     const int side = 40 + static_cast<int>(seed * 37 % 90);

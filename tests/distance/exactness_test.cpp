@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "testing/only_target.hpp"
+#include "testing/thinned.hpp"
 #include "tests/distance/answer.hpp"
 #include "tests/distance/plain_definition.hpp"
 
@@ -31,7 +32,7 @@ struct Size {
 };
 
 TEST_P(Exactness, IsTheLeastPlainDistanceOnSmallRandomScenes) {
-  for (std::uint32_t seed = 0; seed < 30; ++seed) {
+  for (std::uint32_t seed = 0; seed < thinned(30u); ++seed) {
     SCOPED_TRACE(seed);
     const ImagePair images = random_images(seed, 60, 44, 3);
     const LinkDistances found = answer(GetParam(), images);
@@ -52,7 +53,7 @@ TEST_P(Exactness, IsTheLeastPlainDistanceOnSmallRandomScenes) {
 
 TEST_P(Exactness, HoldsForImagesThatNoTileDivides) {
   for (const Size size : {Size{1, 1}, {7, 5}, {8, 8}, {33, 17}, {31, 64}, {129, 65}, {3, 200}}) {
-    for (std::uint32_t seed = 0; seed < 40; ++seed) {
+    for (std::uint32_t seed = 0; seed < thinned(40u); ++seed) {
       SCOPED_TRACE(std::to_string(size.width) + " x " + std::to_string(size.height) + " seed " +
                    std::to_string(seed));
       expect_as_brute_force(random_images(seed, size.width, size.height, 3));
@@ -61,7 +62,7 @@ TEST_P(Exactness, HoldsForImagesThatNoTileDivides) {
 }
 
 TEST_P(Exactness, HoldsForRandomScenes) {
-  for (std::uint32_t seed = 100; seed < 110; ++seed) {
+  for (std::uint32_t seed = 100; seed < 100 + thinned(10u); ++seed) {
     SCOPED_TRACE(seed);
     expect_as_brute_force(random_images(seed, 240, 180, 8));
   }
@@ -87,7 +88,7 @@ TEST_P(Exactness, HoldsForAnyRange) {
 }
 
 TEST_P(Exactness, HoldsForRangesThatJustReachOrMiss) {
-  for (std::uint32_t seed = 0; seed < 60; ++seed) {
+  for (std::uint32_t seed = 0; seed < thinned(60u); ++seed) {
     SCOPED_TRACE(seed);
     const ImagePair images = random_images(seed, 70, 50, 3);
     for (const LinkDistance& link : answer(Method::brute_force, images, 3.0).links) {

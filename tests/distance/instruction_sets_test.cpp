@@ -2,6 +2,7 @@
 #include <bit>
 
 #include "testing/only_target.hpp"
+#include "testing/thinned.hpp"
 #include "tests/distance/answer.hpp"
 
 namespace berth::testing {
@@ -11,7 +12,7 @@ class InstructionSets : public ::testing::TestWithParam<Method> {};
 INSTANTIATE_TEST_SUITE_P(Methods, InstructionSets, ::testing::ValuesIn(kCpuMethods), method_test_name);
 
 TEST_P(InstructionSets, GiveTheSameDistances) {
-  for (std::uint32_t seed = 0; seed < 10; ++seed) {
+  for (std::uint32_t seed = 0; seed < thinned(10u); ++seed) {
     const ImagePair images = random_images(seed, 90, 70, 4);
     const LinkDistances best = answer(GetParam(), images);
     on_every_target([&](const char* target) {

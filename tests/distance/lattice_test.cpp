@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "berth/distance/obstacle_tree.hpp"
+#include "testing/thinned.hpp"
 #include "tests/distance/answer.hpp"
 #include "tests/distance/close_share.hpp"
 
@@ -25,7 +26,7 @@ const LatticeSettings kManyLattices[] = {{1, 1, 40, 2},   {2, 3, 60, 1},    {4, 
                                          {8, 32, 100, 2}, {65536, 1, 7, 7}, {1, 65536, 65536, 1}};
 
 TEST(Lattice, IsNeverBelowBruteForceWhateverItsSettings) {
-  for (std::uint32_t seed = 0; seed < 12; ++seed) {
+  for (std::uint32_t seed = 0; seed < thinned(12u); ++seed) {
     const ImagePair images = random_images(seed, 131, 97, 5);
     const LinkDistances truth = answer(Method::brute_force, images);
     for (const LatticeSettings& lattice : kManyLattices) {
@@ -44,7 +45,7 @@ TEST(Lattice, IsNeverBelowBruteForceWhateverItsSettings) {
 }
 
 TEST(Lattice, GivesTheSameDistancesInEachPattern) {
-  for (std::uint32_t seed = 0; seed < 20; ++seed) {
+  for (std::uint32_t seed = 0; seed < thinned(20u); ++seed) {
     SCOPED_TRACE(seed);
     const ImagePair images = random_images(seed, 160, 120, 6);
     for (const LatticeSettings& lattice : kManyLattices) {
@@ -64,7 +65,7 @@ TEST(Lattice, GivesTheSameDistancesInEachPattern) {
 }
 
 TEST(Lattice, IsExactWhereTheLastStepHasAllPixelsOfTheLink) {
-  for (std::uint32_t seed = 0; seed < 20; ++seed) {
+  for (std::uint32_t seed = 0; seed < thinned(20u); ++seed) {
     SCOPED_TRACE(seed);
     const ImagePair images = random_images(seed, 90, 70, 4);
     DistanceSettings settings = settings_with({1, 1, 200, 200});
@@ -80,7 +81,7 @@ TEST(Lattice, IsExactWhereTheLastStepHasAllPixelsOfTheLink) {
 }
 
 TEST(Lattice, IsExactForLinksOfOnePixel) {
-  for (std::uint32_t seed = 0; seed < 40; ++seed) {
+  for (std::uint32_t seed = 0; seed < thinned(40u); ++seed) {
     SCOPED_TRACE(seed);
     const ImagePair scene = random_images(seed, 80, 60, 1);
     ImagePair images = scene;
@@ -133,25 +134,27 @@ TEST(Lattice, StepsPassOverAThinObstacleThatTheFirstSearchDoesNotMeet) {
   EXPECT_EQ(status(4, 1), LinkStatus::none_in_range);
 }
 
-/// Of 100 scenes as large as the thesis's.
+constexpr int kLargeScenes = thinned(100);
+
+/// Of scenes as large as the thesis's.
 TEST(Lattice, IsWithin5MillimetresForNineOfTenLinks) {
   CloseShare share;
   std::int64_t pairs = 0;
-  for (std::uint32_t seed = 0; seed < 100; ++seed) {
+  for (int seed = 0; seed < kLargeScenes; ++seed) {
     const ImagePair images = random_images(seed, 640, 480, 8);
     const LinkDistances found = answer(Method::lattice, images, settings_with({}));
     share.add(answer(Method::exact, images), found);
     pairs += found.pairs;
   }
   std::printf("%d of %d links within 5 mm, %lld pairs per scene\n", share.close, share.links,
-              static_cast<long long>(pairs / 100));
-  EXPECT_GT(share.links, 600);
+              static_cast<long long>(pairs / kLargeScenes));
+  EXPECT_GT(share.links, 6 * kLargeScenes);
   EXPECT_GE(share.close, 0.9 * share.links);
 }
 
-std::int64_t pairs_of_30_scenes(const LatticeSettings& lattice, SurveillanceRegion region) {
+std::int64_t pairs_of_scenes(const LatticeSettings& lattice, SurveillanceRegion region) {
   std::int64_t pairs = 0;
-  for (std::uint32_t seed = 0; seed < 30; ++seed) {
+  for (std::uint32_t seed = 0; seed < thinned(30u); ++seed) {
     pairs += answer(Method::lattice, random_images(seed, 240, 180, 6),
                     settings_with(lattice, {.region = region}))
                  .pairs;
@@ -164,7 +167,7 @@ TEST(Lattice, LargerStepsComputeFewerPairs) {
   for (const SurveillanceRegion region : kSurveillanceRegions) {
     std::int64_t last = std::numeric_limits<std::int64_t>::max();
     for (const int step : {1, 2, 4}) {
-      const std::int64_t pairs = pairs_of_30_scenes({step, step, 40, 2}, region);
+      const std::int64_t pairs = pairs_of_scenes({step, step, 40, 2}, region);
       EXPECT_LT(pairs, last);
       last = pairs;
     }
@@ -175,7 +178,7 @@ TEST(Lattice, LargerStepsComputeFewerPairs) {
 TEST(Lattice, ALargerFinalRadiusComputesMorePairs) {
   std::int64_t last = 0;
   for (const int radius_px : {2, 4, 8}) {
-    const std::int64_t pairs = pairs_of_30_scenes({1, 1, 40, radius_px}, SurveillanceRegion::image);
+    const std::int64_t pairs = pairs_of_scenes({1, 1, 40, radius_px}, SurveillanceRegion::image);
     EXPECT_GT(pairs, last);
     last = pairs;
   }
@@ -185,15 +188,15 @@ TEST(Lattice, ALargerFinalRadiusComputesMorePairs) {
 TEST(Lattice, ALargerFirstRadiusComputesFewerPairsUpToThatOfTheLinks) {
   std::int64_t last = std::numeric_limits<std::int64_t>::max();
   for (const int radius_px : {3, 5, 10, 20}) {
-    const std::int64_t pairs = pairs_of_30_scenes({1, 1, radius_px, 2}, SurveillanceRegion::image);
+    const std::int64_t pairs = pairs_of_scenes({1, 1, radius_px, 2}, SurveillanceRegion::image);
     EXPECT_LT(pairs, last);
     last = pairs;
   }
 }
 
 TEST(Lattice, ASmallerRegionComputesFewerPairs) {
-  const std::int64_t image = pairs_of_30_scenes({}, SurveillanceRegion::image);
-  const std::int64_t cube = pairs_of_30_scenes({}, SurveillanceRegion::cube_projection);
+  const std::int64_t image = pairs_of_scenes({}, SurveillanceRegion::image);
+  const std::int64_t cube = pairs_of_scenes({}, SurveillanceRegion::cube_projection);
   EXPECT_LT(cube, image);
 }
 

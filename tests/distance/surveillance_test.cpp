@@ -7,6 +7,7 @@
 
 #include "berth/distance/region_of_surveillance.hpp"
 
+#include "testing/thinned.hpp"
 #include "tests/distance/answer.hpp"
 
 namespace berth::testing {
@@ -42,7 +43,7 @@ void expect_identical(const LinkDistances& expected, const LinkDistances& actual
 TEST_P(BruteForceWithARegion, GivesTheDistancesThatItGivesWithout) {
   for (const PixelRect size :
        {PixelRect{0, 0, 90, 70}, {0, 0, 33, 17}, {0, 0, 1, 1}, {0, 0, 3, 60}}) {
-    for (std::uint32_t seed = 0; seed < 30; ++seed) {
+    for (std::uint32_t seed = 0; seed < thinned(30u); ++seed) {
       SCOPED_TRACE(seed);
       const ImagePair images = random_images(seed, size.u_end, size.v_end, 4);
       for (const double range_m : {0.05, 0.3, 1.0, 30.0}) {
@@ -56,7 +57,7 @@ TEST_P(BruteForceWithARegion, GivesTheDistancesThatItGivesWithout) {
 }
 
 TEST_P(BruteForceWithARegion, HoldsForRangesThatJustReachOrMiss) {
-  for (std::uint32_t seed = 0; seed < 30; ++seed) {
+  for (std::uint32_t seed = 0; seed < thinned(30u); ++seed) {
     const ImagePair images = random_images(seed, 60, 45, 3);
     for (const LinkDistance& link : answer(Method::brute_force, images, 3.0).links) {
       if (link.status != LinkStatus::ok || link.distance_m == 0) continue;
