@@ -1,5 +1,5 @@
 # Thin fronts of CMake. Each target does all set-up that it needs, on a bare Debian 12 too.
-.PHONY: demo test build bench study bench-gpu sanitize sanitize-thinned fuzz trust trust-distances trust-long-runs setup format clean
+.PHONY: demo test build bench study bench-gpu sanitize sanitize-thinned fuzz trust trust-distances trust-real-images trust-long-runs setup format clean
 
 demo: setup
 	cmake --preset release
@@ -58,9 +58,15 @@ fuzz:
 	scripts/fuzz.sh "$(FUZZ_SECONDS)"
 
 # What `make test` shows thinned, in full. TRUST_OPTIONS: of measure_trust, such as --scenes 20.
-trust: trust-distances trust-long-runs
+trust: trust-distances trust-real-images trust-long-runs
 trust-distances: build
 	build/release/tools/measure_trust/measure_trust $(if $(BERTH_DATA),--robots $(BERTH_DATA)/robots) $(TRUST_OPTIONS)
+trust-real-images: build
+ifneq ($(BERTH_DATA),)
+	build/release/tools/measure_trust/measure_trust --robots $(BERTH_DATA)/robots --real-images $(BERTH_DATA)/depth $(TRUST_OPTIONS)
+else
+	@echo "trust-real-images: skipped; BERTH_DATA=FOLDER names the folder with robots/ and depth/"
+endif
 trust-long-runs: build
 	BERTH_LONG_RUN=full build/release/tests/pipeline/long_run_test
 
