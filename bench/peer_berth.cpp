@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <optional>
 
-#include "measure/instruction_set.hpp"
 #include "bench/peer.hpp"
 #include "berth/distance/evaluate.hpp"
+#include "measure/instruction_set.hpp"
 
 namespace berth::bench {
 namespace {

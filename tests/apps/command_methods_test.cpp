@@ -78,12 +78,10 @@ TEST(Methods, OptionsAreRefusedForAMethodThatDoesNotHaveThem) {
     std::string option;
     std::string value;
   };
-  std::vector<Wrong> table = {{"exact", "--region", "image"},
-                              {"exact", "--depth-interval", "cube"},
-                              {"exact", "--search-pattern", "spiral"},
-                              {"exact", "--shrinking", "none"},
-                              {"lattice", "--tolerance-m", "0.1"},
-                              {"lattice", "--deadline-us", "5"}};
+  std::vector<Wrong> table = {
+      {"exact", "--region", "image"},          {"exact", "--depth-interval", "cube"},
+      {"exact", "--search-pattern", "spiral"}, {"exact", "--shrinking", "none"},
+      {"lattice", "--tolerance-m", "0.1"},     {"lattice", "--deadline-us", "5"}};
   for (const std::string option : {"--step-x", "--step-y", "--initial-grid-radius-px",
                                    "--final-grid-radius-px", "--tile-px"}) {
     table.push_back({"exact", option, "2"});

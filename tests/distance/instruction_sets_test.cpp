@@ -9,7 +9,8 @@ namespace berth::testing {
 namespace {
 
 class InstructionSets : public ::testing::TestWithParam<Method> {};
-INSTANTIATE_TEST_SUITE_P(Methods, InstructionSets, ::testing::ValuesIn(kCpuMethods), method_test_name);
+INSTANTIATE_TEST_SUITE_P(Methods, InstructionSets, ::testing::ValuesIn(kCpuMethods),
+                         method_test_name);
 
 TEST_P(InstructionSets, GiveTheSameDistances) {
   for (std::uint32_t seed = 0; seed < thinned(10u); ++seed) {

@@ -8,9 +8,9 @@
 #include "berth/robot/robot_model.hpp"
 #include "testing/data_folder.hpp"
 #include "testing/mesh_reading.hpp"
+#include "testing/temporary_folder.hpp"
 #include "testing/urdf_reading.hpp"
 #include "tests/robot/error_text.hpp"
-#include "testing/temporary_folder.hpp"
 
 namespace berth {
 namespace {

@@ -18,8 +18,8 @@ const char* status_name(TimeStatus status) {
 
 const char* fate_name(PixelFate fate) {
   constexpr std::array<const char*, kPixelFateCount> kNames = {
-      "obstacle", "no_reading", "robot",          "environment", "padding",  "dilation",   "edge",
-      "island",   "outside_region", "speckle", "averaged", "background", "hole"};
+      "obstacle", "no_reading",     "robot",   "environment", "padding",    "dilation", "edge",
+      "island",   "outside_region", "speckle", "averaged",    "background", "hole"};
   return kNames.at(static_cast<std::size_t>(fate));
 }
 

@@ -53,8 +53,8 @@ std::vector<SceneCamera> read_cameras(const YamlValue& value) {
 
 void read_self_filter(const YamlValue& value, RigSettings& settings) {
   const YamlMap map(value, {"tolerance_m", "tolerance_per_m", "tolerance_per_m2", "padding_m",
-                            "link_padding_m", "padding_depth_m", "dilation_px", "edge_jump_m", "island_radius_m",
-                            "island_jump_m", "robot_region_scale"});
+                            "link_padding_m", "padding_depth_m", "dilation_px", "edge_jump_m",
+                            "island_radius_m", "island_jump_m", "robot_region_scale"});
   SelfFilterSettings& filter = settings.self_filter;
   map.read("tolerance_m", &YamlValue::non_negative, filter.tolerance_m);
   map.read("tolerance_per_m", &YamlValue::non_negative, filter.tolerance_per_m);

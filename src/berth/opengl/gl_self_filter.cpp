@@ -90,8 +90,8 @@ void GlSelfFilter::take_memory() {
     program->bind("FilterFrame", frame_);
   }
   for (GlProgram* program : {&pixels_program_, &grow_program_}) program->bind("Discs", discs_);
-  for (GlProgram* program : {&near_program_, &join_program_, &weigh_program_, &hang_program_,
-                             &finish_program_}) {
+  for (GlProgram* program :
+       {&near_program_, &join_program_, &weigh_program_, &hang_program_, &finish_program_}) {
     program->bind("Pieces", pieces_);
   }
 }

@@ -51,8 +51,8 @@ class Filter {
     tbb::parallel_for(0, grid_.rows(), [this](int tile_row) { look_around(tile_row); });
     add_counts();
     if (has_islands()) {
-      drop_islands(sensor_depth_m_, robot_, tolerance_,
-                   static_cast<float>(settings_.island_jump_m), workspace_.islands, out_);
+      drop_islands(sensor_depth_m_, robot_, tolerance_, static_cast<float>(settings_.island_jump_m),
+                   workspace_.islands, out_);
     }
   }
 
