@@ -27,8 +27,8 @@ struct VisibilityWorkspace {
 
 /// What the camera cannot know of each link and of the space around its answer. `points` belong to
 /// `model`; `distances` are the answer for `robot.image` and frame.obstacles within range_m. The
-/// shares are those of kSamplePoints points. Writes all but the doubtful distance of out[i] for the link with the id i + 1 and
-/// allocates nothing once workspace and `out` have grown to the robot.
+/// shares are those of kSamplePoints points. Writes all but the doubtful distance of out[i] for the
+/// link with the id i + 1 and allocates nothing once workspace and `out` have grown to the robot.
 void find_visibility(const RobotModel& model, const SamplePoints& points, const SeenFrame& frame,
                      const AskedRobot& robot, const LinkDistances& distances, double range_m,
                      VisibilityWorkspace& workspace, std::vector<LinkVisibility>& out);
