@@ -11,7 +11,7 @@
 #include "bench/stage.hpp"
 #include "bench/triangle_count.hpp"
 #include "berth/opengl/gl_evaluate.hpp"
-#include "berth/pipeline/gl_observer.hpp"
+#include "berth/opengl/gl_observer.hpp"
 #include "berth/robot/robot_region.hpp"
 
 namespace berth::bench {
@@ -25,23 +25,23 @@ constexpr int kLatticeStep = 8;
 
 constexpr Method kGlMethods[] = {Method::gl_exact, Method::gl_lattice, Method::gl_hybrid};
 
-/// A rig's pipeline on the GPU, taken apart, and the whole of it.
+/// A view's pipeline on the GPU, taken apart, and the whole of it.
 class GlStages {
  public:
-  explicit GlStages(const Rig& rig)
-      : rig_(rig),
-        camera_(rig.camera()),
+  explicit GlStages(const std::shared_ptr<const View>& view)
+      : view_(view),
+        camera_(view->camera()),
         upload_(camera_.width_px, camera_.height_px),
         sensor_depth_m_(GlPixel::depth_m, camera_.width_px, camera_.height_px),
         region_(camera_.width_px, camera_.height_px),
         frame_(camera_),
-        renderer_(rig.model(), camera_),
-        observer_(rig),
-        settings_(rig.settings().distance) {
+        renderer_(view->robot()->model(), camera_),
+        observer_(view),
+        settings_(view->robot()->settings().distance) {
     settings_.mean_direction = false;
     settings_.lattice.step_x = settings_.lattice.step_y = kLatticeStep;
-    const double scale = rig.settings().self_filter.robot_region_scale;
-    if (scale > 0) region_renderer_.emplace(robot_region(rig.model(), scale), camera_);
+    const double scale = view->settings().self_filter.robot_region_scale;
+    if (scale > 0) region_renderer_.emplace(robot_region(view->robot()->model(), scale), camera_);
     for (const Method method : kGlMethods) {
       const std::string_view name = name_of(method);
       evaluate_.push_back({fmt::format("{}, read-back included", name)});
@@ -97,14 +97,14 @@ class GlStages {
   }
 
   void render(const JointState& joints) {
-    forward_kinematics(rig_.model(), joints.position, frame_.pose);
-    frame_.X_BC = rig_.camera_pose(frame_.pose);
+    forward_kinematics(view_->robot()->model(), joints.position, frame_.pose);
+    frame_.X_BC = view_->camera_pose(frame_.pose);
     renderer_.render(frame_.pose, frame_.X_BC, frame_.robot);
     if (region_renderer_) region_renderer_->render(frame_.pose, frame_.X_BC, region_);
   }
 
   void filter() {
-    const SelfFilterSettings& settings = rig_.settings().self_filter;
+    const SelfFilterSettings& settings = view_->settings().self_filter;
     if (region_renderer_) {
       filter_.filter(camera_, sensor_depth_m_, frame_.robot, region_.link_id, settings,
                      frame_.obstacles);
@@ -116,10 +116,10 @@ class GlStages {
   void evaluate(Method method) {
     answer_.links.clear();
     evaluator_.evaluate(method, camera_, frame_.robot, frame_.obstacles.depth_m,
-                        rig_.model().link_count(), settings_, answer_);
+                        view_->robot()->model().link_count(), settings_, answer_);
   }
 
-  const Rig& rig_;
+  std::shared_ptr<const View> view_;
   Camera camera_;
   GlUpload upload_;
   GlTexture sensor_depth_m_;
@@ -141,9 +141,9 @@ class GlStages {
   std::vector<Stage> whole_;
 };
 
-Table measure(const std::string& title, const Recording& recording, const Rig& rig, int frames,
-              int rounds) {
-  GlStages stages(rig);
+Table measure(const std::string& title, const Recording& recording,
+              const std::shared_ptr<const View>& view, int frames, int rounds) {
+  GlStages stages(view);
   ProgressBar progress(title, frames);
   for (int i = 0; i < frames; ++i) {
     const std::size_t frame = recording.sampled_frame(i, frames);
@@ -161,8 +161,8 @@ Table measure(const std::string& title, const Recording& recording, const Rig& r
                   "directions, lattices with steps of {} px, by the clock on the wall. "
                   "Upload, render and self filter each until the GPU has done them; the "
                   "rows below those begin with images on the GPU, but for the last three.",
-                  rig.camera().width_px, rig.camera().height_px, triangle_count(rig.model()),
-                  rig.model().link_count(), frames, rounds + 1, kLatticeStep),
+                  view->camera().width_px, view->camera().height_px, triangle_count(view->robot()->model()),
+                  view->robot()->model().link_count(), frames, rounds + 1, kLatticeStep),
       stages.all());
 }
 
@@ -170,15 +170,17 @@ Table measure(const std::string& title, const Recording& recording, const Rig& r
 
 Table measure_gl_stages(const Recording& recording, int max_frames, int rounds) {
   return measure(fmt::format("Stages on OpenGL, {}", recording.title), recording,
-                 *recording.camera().rig, std::min(max_frames, recording.frame_count()), rounds);
+                 recording.camera().view, std::min(max_frames, recording.frame_count()), rounds);
 }
 
 Table measure_gl_stages_of_100_000(const std::filesystem::path& scene_file, int rounds) {
   const auto recording = open_recording(scene_file, "bundled");
   const OpenCamera& camera = recording->camera();
-  const Rig rig(coarse_robot(read_scene(scene_file).robot, kParts), camera.rig->mount(),
-                camera.rig->settings());
-  return measure("Stages on OpenGL, 100 000 triangles", *recording, rig, 1, rounds);
+  const auto robot = std::make_shared<const Robot>(
+      coarse_robot(read_scene(scene_file).robot, kParts), camera.view->robot()->settings());
+  const auto view =
+      std::make_shared<const View>(robot, camera.view->mount(), camera.view->settings());
+  return measure("Stages on OpenGL, 100 000 triangles", *recording, view, 1, rounds);
 }
 
 }  // namespace berth::bench

@@ -2,7 +2,7 @@
 #include <tbb/global_control.h>
 
 #include "apps/berth/interrupt.hpp"
-#include "apps/berth/open_scene.hpp"
+#include "berth/scene/open_scene.hpp"
 #include "apps/berth/progress_bar.hpp"
 #include "bench/coarse_robot.hpp"
 #include "bench/embree_rays.hpp"
@@ -22,19 +22,21 @@ constexpr int kThreads = 2;
 constexpr int kParts[] = {1, 2, 5, 8, 16};
 
 Table::Row measure(const OpenCamera& camera, const RobotModel& model, int rounds) {
-  const Rig rig(model, camera.rig->mount(), camera.rig->settings());
+  const auto view = std::make_shared<const View>(
+      std::make_shared<const Robot>(model, camera.view->robot()->settings()), camera.view->mount(),
+      camera.view->settings());
   const JointState& joints = camera.at_exposure.front();
   const DepthImage depth_m = camera.read_depth(0);
-  Observer observer(rig);
-  Asker asker(rig);
-  RobotRenderer renderer(rig.meshes(), rig.camera());
-  EmbreeRays rays(model, rig.camera());
+  Observer observer(view);
+  Asker asker(view->robot());
+  RobotRenderer renderer(view->robot()->meshes(), view->camera());
+  EmbreeRays rays(model, view->camera());
   RobotPose pose;
   RobotImage image;
   RobotImage traced;
   Frame frame;
   forward_kinematics(model, joints.position, pose);
-  const Pose X_BC = rig.camera_pose(pose);
+  const Pose X_BC = view->camera_pose(pose);
   Stage render{"render"};
   Stage whole{"depth image to result"};
   Stage embree{"Embree rays"};

@@ -23,12 +23,12 @@ class Stages {
  public:
   explicit Stages(const OpenCamera& camera)
       : camera_(camera),
-        rig_(*camera.rig),
-        renderer_(rig_.meshes(), rig_.camera()),
-        rays_(rig_.model(), rig_.camera()),
-        observer_(rig_),
-        asker_(rig_),
-        settings_(rig_.settings().distance) {
+        view_(camera.view),
+        renderer_(view_->robot()->meshes(), view_->camera()),
+        rays_(view_->robot()->model(), view_->camera()),
+        observer_(view_),
+        asker_(view_->robot()),
+        settings_(view_->robot()->settings().distance) {
     settings_.mean_direction = false;
   }
 
@@ -46,8 +46,8 @@ class Stages {
   }
 
   void run_embree(std::size_t frame_number) {
-    forward_kinematics(rig_.model(), camera_.at_exposure[frame_number].position, pose_);
-    embree_.take([&] { rays_.render(pose_, rig_.camera_pose(pose_), traced_); });
+    forward_kinematics(view_->robot()->model(), camera_.at_exposure[frame_number].position, pose_);
+    embree_.take([&] { rays_.render(pose_, view_->camera_pose(pose_), traced_); });
   }
 
   void forget_times() {
@@ -62,28 +62,28 @@ class Stages {
  private:
   void run_apart(DepthView depth_m, const JointState& joints) {
     render_.take([&] {
-      forward_kinematics(rig_.model(), joints.position, pose_);
-      renderer_.render(pose_, rig_.camera_pose(pose_), frame_.robot);
+      forward_kinematics(view_->robot()->model(), joints.position, pose_);
+      renderer_.render(pose_, view_->camera_pose(pose_), frame_.robot);
     });
     self_filter_.take([&] {
-      self_filter(rig_.camera(), depth_m, frame_.robot, rig_.settings().self_filter, filter_,
+      self_filter(view_->camera(), depth_m, frame_.robot, view_->settings().self_filter, filter_,
                   frame_.obstacles);
     });
     both_.times_ms.push_back(render_.times_ms.back() + self_filter_.times_ms.back());
     tree_.take([&] { build_obstacle_tree(frame_.obstacles.depth_m, frame_.obstacle_tree); });
     distances_.links.clear();
     exact_.take([&] {
-      evaluate(Method::exact, rig_.camera(), frame_.robot, frame_.obstacles.depth_m,
-               frame_.obstacle_tree, rig_.model().link_count(), settings_, workspace_, distances_);
+      evaluate(Method::exact, view_->camera(), frame_.robot, frame_.obstacles.depth_m,
+               frame_.obstacle_tree, view_->robot()->model().link_count(), settings_, workspace_, distances_);
     });
     mean_.take([&] {
-      fill_mean_directions(rig_.camera(), frame_.robot, frame_.obstacles.depth_m,
+      fill_mean_directions(view_->camera(), frame_.robot, frame_.obstacles.depth_m,
                            frame_.obstacle_tree, settings_, workspace_.directions, distances_);
     });
   }
 
   const OpenCamera& camera_;
-  const Rig& rig_;
+  std::shared_ptr<const View> view_;
   RobotRenderer renderer_;
   EmbreeRays rays_;
   RobotImage traced_;
@@ -136,8 +136,8 @@ Table measure_stages(const Recording& recording, int threads, int rounds) {
       fmt::format("{} x {}, {} triangles, {} links, {} frames, each {} times. The image to "
                   "result and the question are the whole pipeline, with mean directions; "
                   "Embree is beside it.",
-                  camera.rig->camera().width_px, camera.rig->camera().height_px,
-                  triangle_count(camera.rig->model()), camera.rig->model().link_count(), frames,
+                  camera.view->camera().width_px, camera.view->camera().height_px,
+                  triangle_count(camera.view->robot()->model()), camera.view->robot()->model().link_count(), frames,
                   rounds + 1),
       stages.all());
 }

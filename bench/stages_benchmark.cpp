@@ -20,20 +20,20 @@ constexpr std::size_t kFrame = 19;
 struct Example {
   std::shared_ptr<const Recording> recording =
       open_recording(std::filesystem::path(BERTH_BUNDLED_SCENE) / "scene.yaml", "bundled");
-  const Rig& rig = *recording->camera().rig;
+  const std::shared_ptr<const View>& view = recording->camera().view;
   const JointState& joints = recording->camera().at_exposure[kFrame];
   const JointState& other_joints = recording->camera().at_exposure[kFrame + 1];
   DepthImage depth_m = recording->camera().read_depth(kFrame);
-  int links = rig.model().link_count();
-  DistanceSettings settings = rig.settings().distance;
+  int links = view->robot()->model().link_count();
+  DistanceSettings settings = view->robot()->settings().distance;
   RobotPose pose;
   Frame frame;
   EvaluateWorkspace workspace;
   LinkDistances distances;
 
   Example() {
-    Observer(rig).observe(depth_m, joints, frame);
-    forward_kinematics(rig.model(), joints.position, pose);
+    Observer(view).observe(depth_m, joints, frame);
+    forward_kinematics(view->robot()->model(), joints.position, pose);
     settings.mean_direction = false;
     run_exact();
   }
@@ -41,7 +41,7 @@ struct Example {
   /// Without an answer to begin from.
   void run_exact() {
     distances.links.clear();
-    exact(rig.camera(), frame.robot, frame.obstacles.depth_m, frame.obstacle_tree, links, settings,
+    exact(view->camera(), frame.robot, frame.obstacles.depth_m, frame.obstacle_tree, links, settings,
           workspace.exact, distances);
   }
 };
@@ -58,12 +58,12 @@ void repeat(benchmark::State& state, Call call) {
 
 void kinematics(benchmark::State& state) {
   Example e;
-  repeat(state, [&] { forward_kinematics(e.rig.model(), e.joints.position, e.pose); });
+  repeat(state, [&] { forward_kinematics(e.view->robot()->model(), e.joints.position, e.pose); });
 }
 
 void render(benchmark::State& state) {
   Example e;
-  RobotRenderer renderer(e.rig.meshes(), e.rig.camera());
+  RobotRenderer renderer(e.view->robot()->meshes(), e.view->camera());
   repeat(state, [&] { renderer.render(e.pose, e.frame.X_BC, e.frame.robot); });
 }
 
@@ -71,7 +71,7 @@ void filter(benchmark::State& state) {
   Example e;
   SelfFilterWorkspace workspace;
   repeat(state, [&] {
-    self_filter(e.rig.camera(), e.depth_m, e.frame.robot, e.rig.settings().self_filter, workspace,
+    self_filter(e.view->camera(), e.depth_m, e.frame.robot, e.view->settings().self_filter, workspace,
                 e.frame.obstacles);
   });
 }
@@ -95,20 +95,20 @@ void exact_search(benchmark::State& state) {
 void mean_direction(benchmark::State& state) {
   Example e;
   repeat(state, [&] {
-    fill_mean_directions(e.rig.camera(), e.frame.robot, e.frame.obstacles.depth_m,
+    fill_mean_directions(e.view->camera(), e.frame.robot, e.frame.obstacles.depth_m,
                          e.frame.obstacle_tree, e.settings, e.workspace.directions, e.distances);
   });
 }
 
 void visibility(benchmark::State& state) {
   Example e;
-  const SamplePoints points = sample_points(e.rig.model());
-  const SeenFrame seen{e.rig.camera(), e.frame.robot, e.frame.obstacles,
-                       tolerance_of(e.rig.settings().self_filter)};
+  const SamplePoints points = sample_points(e.view->robot()->model());
+  const SeenFrame seen{e.view->camera(), e.frame.robot, e.frame.obstacles,
+                       tolerance_of(e.view->settings().self_filter)};
   VisibilityWorkspace workspace;
   std::vector<LinkVisibility> links;
   repeat(state, [&] {
-    find_visibility(e.rig.model(), points, seen, {e.pose, e.frame.X_BC, e.frame.robot}, e.distances,
+    find_visibility(e.view->robot()->model(), points, seen, {e.pose, e.frame.X_BC, e.frame.robot}, e.distances,
                     e.settings.range_m, workspace, links);
   });
 }
@@ -116,15 +116,15 @@ void visibility(benchmark::State& state) {
 void all_pairs(benchmark::State& state) {
   Example e;
   repeat(state, [&] {
-    brute_force(e.rig.camera(), e.frame.robot, e.frame.obstacles.depth_m, e.links, e.settings,
+    brute_force(e.view->camera(), e.frame.robot, e.frame.obstacles.depth_m, e.links, e.settings,
                 e.distances);
   });
 }
 
 void depth_image_to_result(benchmark::State& state) {
   Example e;
-  Observer observer(e.rig);
-  Asker asker(e.rig);
+  Observer observer(e.view);
+  Asker asker(e.view->robot());
   repeat(state, [&] {
     observer.observe(e.depth_m, e.joints, e.frame);
     asker.ask(e.frame);
@@ -133,7 +133,7 @@ void depth_image_to_result(benchmark::State& state) {
 
 void question_at_new_joints(benchmark::State& state) {
   Example e;
-  Asker asker(e.rig);
+  Asker asker(e.view->robot());
   repeat(state, [&] { asker.ask(e.frame, e.other_joints); });
 }
 

@@ -41,24 +41,26 @@ class LatestFrame {
 
 int main(int argc, char** argv) {
   if (argc != 2) return std::fprintf(stderr, "usage: two_clocks robot.urdf\n"), 2;
-  const berth::RobotModel robot = berth::load_robot({.urdf = argv[1]});
-  berth::CameraMount mount{{640, 480, 525, 525, 319.5, 239.5}, robot.links.front().name};
+  berth::EvaluationSettings evaluation;
+  evaluation.time.max_joints_age_s = 0.1;  // this is no real-time system
+  const auto robot =
+      std::make_shared<const berth::Robot>(berth::load_robot({.urdf = argv[1]}), evaluation);
+  const berth::RobotModel& model = robot->model();
+  berth::CameraMount mount{{640, 480, 525, 525, 319.5, 239.5}, model.links.front().name};
   mount.X_PC.linear() << 0, 0, -1, 1, 0, 0, 0, -1, 0;
   mount.X_PC.translation() << 2, 0, 0.5;
-  berth::RigSettings settings;
-  settings.time.max_joints_age_s = 0.1;  // this is no real-time system
-  const berth::Rig rig(robot, mount, settings);
-  berth::JointBuffer joints(robot, 500);
+  const auto view = std::make_shared<const berth::View>(robot, mount);
+  berth::JointBuffer joints(model, 500);
 
   LatestFrame latest;
   std::atomic<bool> stop = false;
   std::thread encoders([&] {
     std::vector<std::string> names;
-    for (const auto& joint : robot.joints) names.push_back(joint.name);
+    for (const auto& joint : model.joints) names.push_back(joint.name);
     for (; !stop; sleep_ms(1)) joints.push(now_s(), names, std::vector<double>(names.size(), 0.0));
   });
   std::thread camera([&] {
-    berth::Observer observer(rig);
+    berth::Observer observer(view);
     while (!stop) {
       const double exposure_s = now_s();
       sleep_ms(33);  // the image is on its way
@@ -67,7 +69,7 @@ int main(int argc, char** argv) {
       latest.set(std::move(frame));
     }
   });
-  berth::Asker asker(rig);
+  berth::Asker asker(robot);
   while (!latest.get()) sleep_ms(1);
   for (int i = 0; i < 100; ++i, sleep_ms(1)) {
     const std::shared_ptr<const berth::Frame> frame = latest.get();

@@ -4,10 +4,9 @@ namespace berth {
 
 std::shared_ptr<const Recording> open_recording(const std::filesystem::path& file,
                                                 std::string title) {
-  EvaluationArguments arguments;
-  arguments.visibility = false;
-  return std::make_shared<const Recording>(
-      Recording{std::move(title), open_scene(file, arguments)});
+  SceneFile scene = read_scene(file);
+  scene.evaluation.visibility = false;
+  return std::make_shared<const Recording>(Recording{std::move(title), open_scene(scene)});
 }
 
 std::string recording_title(const std::filesystem::path& scene_file) {

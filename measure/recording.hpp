@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "apps/berth/open_scene.hpp"
+#include "berth/scene/open_scene.hpp"
 
 namespace berth {
 

@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "berth/io/error.hpp"
-#include "berth/io/file_bytes.hpp"
+#include "berth/files/error.hpp"
+#include "berth/files/file_bytes.hpp"
 
 namespace berth::study {
 namespace {

@@ -2,13 +2,13 @@
 
 #include <array>
 
-#include "berth/io/camera_info.hpp"
-#include "berth/io/joints_csv.hpp"
-#include "berth/io/png.hpp"
-#include "berth/io/scene.hpp"
+#include "berth/files/camera_info.hpp"
+#include "berth/files/joints_csv.hpp"
+#include "berth/files/png.hpp"
+#include "berth/scene/scene_file.hpp"
 #include "berth/robot/joint_trajectory.hpp"
 #include "berth/robot/kinematics.hpp"
-#include "berth/robot/mesh_file.hpp"
+#include "berth/robot/mesh_file/mesh_file.hpp"
 #include "testing/temporary_folder.hpp"
 
 namespace berth {

@@ -1,16 +1,17 @@
 #include "apps/berth/arguments.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
+#include <cctype>
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <vector>
 
-#include "berth/robot/number.hpp"
+#include "berth/files/number.hpp"
+#include "berth/types/setting.hpp"
 
 namespace berth {
 namespace {
@@ -21,49 +22,103 @@ std::string require_positive_finite(const std::string& text) {
   return value && *value > 0 ? "" : text + " is no finite number above 0";
 }
 
-std::string require_not_negative(const std::string& text) {
-  const std::optional<double> value = parse_finite(text);
-  return value && *value >= 0 ? "" : text + " is no finite number of at least 0";
-}
+template <class T>
+struct ValueOf {
+  using Type = T;
+};
+template <class T>
+struct ValueOf<std::optional<T>> {
+  using Type = T;
+};
 
-template <class T, std::size_t n>
-std::vector<std::string> names_of(const std::array<T, n>& all) {
+template <class Enum>
+std::vector<std::string> names_of() {
   std::vector<std::string> names;
-  for (const T one : all) names.emplace_back(name_of(one));
+  for (const Enum one : all_of(Enum{})) names.emplace_back(name_of(one));
   return names;
 }
 
-/// `name` is one of them.
-template <class T, std::size_t n>
-T named(const std::array<T, n>& all, const std::string& name) {
-  return *std::find_if(all.begin(), all.end(), [&](T one) { return name_of(one) == name; });
+/// Throws std::invalid_argument with what was expected.
+template <class T>
+T parse(const Setting& setting, const std::string& text) {
+  const auto number = [&](auto value) {
+    if (value && setting.domain.holds(*value)) return *value;
+    throw std::invalid_argument(
+        fmt::format("{} is not {}", text, setting.domain.text(std::is_same_v<T, int>)));
+  };
+  if constexpr (std::is_same_v<T, bool>) {
+    return text == "on";
+  } else if constexpr (std::is_same_v<T, int>) {
+    return number(parse_integer(text));
+  } else if constexpr (std::is_same_v<T, double>) {
+    return number(parse_finite(text));
+  } else {
+    const auto& all = all_of(T{});
+    return *std::find_if(all.begin(), all.end(), [&](T one) { return name_of(one) == text; });
+  }
+}
+
+template <class T>
+std::string default_text(const T& value) {
+  if constexpr (std::is_same_v<T, bool>) {
+    return value ? "on" : "off";
+  } else if constexpr (std::is_arithmetic_v<T>) {
+    return fmt::format("{}", value);
+  } else if constexpr (std::is_enum_v<T>) {
+    return std::string(name_of(value));
+  } else {
+    return "none";
+  }
+}
+
+/// The setting's name as an option.
+std::string option_of(std::string_view name) {
+  if (name == "range_m") return "--range";
+  std::string option = "--" + std::string(name);
+  std::replace(option.begin(), option.end(), '_', '-');
+  return option;
+}
+
+/// The unit that the name ends in.
+std::string unit_of(std::string_view name) {
+  const std::string_view end = name.substr(name.rfind('_') + 1);
+  return end == "m" ? "M" : end == "px" ? "PX" : end == "us" ? "US" : "N";
+}
+
+void add_setting(CLI::App& command, const Setting& setting, const auto& value,
+                 EvaluationArguments& arguments) {
+  using T = typename ValueOf<std::remove_cvref_t<decltype(value)>>::Type;
+  std::string what(setting.sentence);
+  what = setting.methods.empty() ? fmt::format("{}{}", char(std::toupper(what[0])), what.substr(1))
+                                 : fmt::format("{}: {}", setting.methods, what);
+  CLI::Option* option = command.add_option_function<std::string>(
+      option_of(setting.name),
+      [&arguments, name = std::string(setting.name)](const std::string& text) {
+        arguments.given[name] = text;
+      },
+      fmt::format("{} (default: {})", what, default_text(value)));
+  if constexpr (std::is_same_v<T, bool>) {
+    option->check(CLI::IsMember({"on", "off"}));
+  } else if constexpr (std::is_enum_v<T>) {
+    option->check(CLI::IsMember(names_of<T>()));
+  } else {
+    option->type_name(unit_of(setting.name))->check([setting](const std::string& text) {
+      try {
+        parse<T>(setting, text);
+        return std::string();
+      } catch (const std::invalid_argument& error) {
+        return std::string(error.what());
+      }
+    });
+  }
 }
 
 void add_evaluation(CLI::App& command, EvaluationArguments& arguments) {
   command.add_option("--method", arguments.method, "How to find the distances (default: exact)")
-      ->check(CLI::IsMember(names_of(kMethods)));
-  command
-      .add_option("--range", arguments.range_m,
-                  "Distances are looked for up to here, in metres (default: 1)")
-      ->check(require_positive_finite)
-      ->type_name("M");
-  command
-      .add_option_function<std::string>(
-          "--mean-direction",
-          [&arguments](const std::string& value) { arguments.mean_direction = value == "on"; },
-          "Whether to give the mean direction of what is near each link (default: on)")
-      ->check(CLI::IsMember({"on", "off"}));
-  command
-      .add_option("--tolerance-m", arguments.tolerance_m,
-                  "exact may stop once a link's distance is known to this, in metres (default: 0)")
-      ->check(require_not_negative)
-      ->type_name("E");
-  command
-      .add_option("--deadline-us", arguments.deadline_us,
-                  "exact stops after so many microseconds, mean directions not counted, and tells "
-                  "what it knows by then: distance and lower bound (default: none)")
-      ->check(require_not_negative)
-      ->type_name("N");
+      ->check(CLI::IsMember(names_of<Method>()));
+  visit_settings(DistanceSettings{}, [&](const Setting& setting, const auto& value) {
+    add_setting(command, setting, value, arguments);
+  });
 }
 
 void add_visibility(CLI::App& command, EvaluationArguments& arguments) {
@@ -74,50 +129,6 @@ void add_visibility(CLI::App& command, EvaluationArguments& arguments) {
           "Whether to give how much of each link and of the space around its answer the camera "
           "sees (default: on)")
       ->check(CLI::IsMember({"on", "off"}));
-}
-
-void add_surveillance(CLI::App& command, EvaluationArguments& arguments) {
-  command
-      .add_option("--region", arguments.region,
-                  "brute_force and lattice: where obstacles of a robot pixel are looked for "
-                  "(default: image for brute_force, cube_projection for lattice)")
-      ->check(CLI::IsMember(names_of(kSurveillanceRegions)));
-  command
-      .add_option("--depth-interval", arguments.depth_interval,
-                  "brute_force and lattice: whether obstacles in front of the cube around a robot "
-                  "pixel count (default: gray_area, they do)")
-      ->check(CLI::IsMember(names_of(kDepthIntervals)));
-  command
-      .add_option("--search-pattern", arguments.search_pattern,
-                  "brute_force and lattice: the order of obstacle pixels (default: row_major)")
-      ->check(CLI::IsMember(names_of(kSearchPatterns)));
-  command
-      .add_option("--shrinking", arguments.shrinking,
-                  "brute_force and lattice: whether the region shrinks with a link's closest pair "
-                  "(default: per_link, it does)")
-      ->check(CLI::IsMember(names_of(kShrinkings)));
-}
-
-void add_lattice(CLI::App& command, EvaluationArguments& arguments) {
-  const auto pixels = [&command](const char* name, std::optional<int>& value, int most_px,
-                                 const char* what) {
-    command.add_option(name, value, what)->check(CLI::Range(1, most_px))->type_name("PX");
-  };
-  pixels("--step-x", arguments.step_x, kMaxLatticePx,
-         "lattice, gl_lattice and gl_hybrid: tries every so many columns of obstacle pixels "
-         "(default: 1)");
-  pixels("--step-y", arguments.step_y, kMaxLatticePx,
-         "lattice, gl_lattice and gl_hybrid: tries every so many rows of obstacle pixels "
-         "(default: 1)");
-  pixels(
-      "--initial-grid-radius-px", arguments.initial_grid_radius_px, kMaxLatticePx,
-      "lattice and gl_hybrid: radius around the robot pixels that are tried first (default: 40)");
-  pixels("--final-grid-radius-px", arguments.final_grid_radius_px, kMaxLatticePx,
-         "lattice, gl_lattice and gl_hybrid: radius within which all robot pixels are tried last "
-         "(default: 2)");
-  pixels(
-      "--tile-px", arguments.tile_px, kMaxTilePx,
-      "gl_lattice: size of the tiles of which one robot pixel each is tried first (default: 16)");
 }
 
 void add_output(CLI::App& command, CommonArguments& arguments) {
@@ -134,51 +145,20 @@ void add_output(CLI::App& command, CommonArguments& arguments) {
   add_threads(command, arguments.threads);
 }
 
-/// Throws if an option was given that belongs to other methods.
-template <class T>
-void require_method(const std::optional<T>& option, const char* name, Method used,
-                    std::initializer_list<Method> expected) {
-  if (!option || std::find(expected.begin(), expected.end(), used) != expected.end()) return;
-  std::vector<std::string_view> names;
-  for (const Method method : expected) names.push_back(name_of(method));
-  throw std::invalid_argument(fmt::format("method {}: has no {}; expected method {}", name_of(used),
-                                          name, fmt::join(names, " or ")));
+/// Whether the words hold this one.
+bool has_word(std::string_view words, std::string_view word) {
+  return fmt::format(" {} ", words).find(fmt::format(" {} ", word)) != std::string::npos;
 }
 
-void require_methods(const EvaluationArguments& arguments, Method used) {
-  const auto exact = {Method::exact};
-  const auto lattices = {Method::lattice, Method::gl_lattice, Method::gl_hybrid};
-  const auto with_circles = {Method::lattice, Method::gl_hybrid};
-  const auto watching = {Method::brute_force, Method::lattice};
-  require_method(arguments.tolerance_m, "--tolerance-m", used, exact);
-  require_method(arguments.deadline_us, "--deadline-us", used, exact);
-  require_method(arguments.region, "--region", used, watching);
-  require_method(arguments.depth_interval, "--depth-interval", used, watching);
-  require_method(arguments.search_pattern, "--search-pattern", used, watching);
-  require_method(arguments.shrinking, "--shrinking", used, watching);
-  require_method(arguments.step_x, "--step-x", used, lattices);
-  require_method(arguments.step_y, "--step-y", used, lattices);
-  require_method(arguments.initial_grid_radius_px, "--initial-grid-radius-px", used, with_circles);
-  require_method(arguments.final_grid_radius_px, "--final-grid-radius-px", used, lattices);
-  require_method(arguments.tile_px, "--tile-px", used, {Method::gl_lattice});
-}
-
-template <class T>
-void set_if(T& setting, const std::optional<T>& given) {
-  if (given) setting = *given;
-}
-
-SurveillanceSettings surveillance_over(SurveillanceSettings settings,
-                                       const EvaluationArguments& arguments) {
-  if (arguments.region) settings.region = named(kSurveillanceRegions, *arguments.region);
-  if (arguments.depth_interval) {
-    settings.depth_interval = named(kDepthIntervals, *arguments.depth_interval);
+/// Throws where a setting was given that belongs to other methods.
+void require_method(const Setting& setting, Method used) {
+  if (setting.methods.empty() || has_word(setting.methods, name_of(used))) return;
+  std::string expected(setting.methods);
+  for (std::size_t at = 0; (at = expected.find(' ', at)) != std::string::npos; at += 4) {
+    expected.replace(at, 1, " or ");
   }
-  if (arguments.search_pattern) {
-    settings.search_pattern = named(kSearchPatterns, *arguments.search_pattern);
-  }
-  if (arguments.shrinking) settings.shrinking = named(kShrinkings, *arguments.shrinking);
-  return settings;
+  throw std::invalid_argument(fmt::format("method {}: has no {}; expected method {}",
+                                          name_of(used), option_of(setting.name), expected));
 }
 
 }  // namespace
@@ -191,23 +171,26 @@ void add_threads(CLI::App& command, int& threads) {
 
 DistanceSettings EvaluationArguments::settings_over(DistanceSettings settings,
                                                     Method method_used) const {
-  require_methods(*this, method_used);
-  set_if(settings.tolerance_m, tolerance_m);
-  if (deadline_us) settings.deadline_us = *deadline_us;
-  set_if(settings.range_m, range_m);
-  set_if(settings.mean_direction, mean_direction);
-  settings.surveillance = surveillance_over(settings.surveillance, *this);
-  set_if(settings.lattice.step_x, step_x);
-  set_if(settings.lattice.step_y, step_y);
-  set_if(settings.lattice.initial_grid_radius_px, initial_grid_radius_px);
-  set_if(settings.lattice.final_grid_radius_px, final_grid_radius_px);
-  set_if(settings.lattice.tile_px, tile_px);
+  visit_settings(settings, [&](const Setting& setting, auto& value) {
+    const auto text = given.find(setting.name);
+    if (text == given.end()) return;
+    require_method(setting, method_used);
+    value = parse<typename ValueOf<std::remove_cvref_t<decltype(value)>>::Type>(setting,
+                                                                               text->second);
+  });
   validate(settings);
   return settings;
 }
 
 Method EvaluationArguments::method_over(Method otherwise) const {
   return method ? method_from_name(*method).value() : otherwise;
+}
+
+EvaluationSettings EvaluationArguments::over(EvaluationSettings settings) const {
+  settings.visibility = visibility.value_or(settings.visibility);
+  settings.method = method_over(settings.method);
+  settings.distance = settings_over(settings.distance, settings.method);
+  return settings;
 }
 
 void add_run_options(CLI::App& command, RunArguments& arguments) {
@@ -219,8 +202,6 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
       ->type_name("DIR");
   add_evaluation(command, arguments.evaluation);
   add_visibility(command, arguments.evaluation);
-  add_surveillance(command, arguments.evaluation);
-  add_lattice(command, arguments.evaluation);
   add_backend_options(command, "Where images are rendered and filtered", arguments.where);
   add_output(command, arguments);
   command.footer(
@@ -261,8 +242,6 @@ void add_evaluate_options(CLI::App& command, EvaluateArguments& arguments) {
       ->check(CLI::Range(1, 1000000000))
       ->type_name("N");
   add_evaluation(command, arguments.evaluation);
-  add_surveillance(command, arguments.evaluation);
-  add_lattice(command, arguments.evaluation);
   add_gl_device(command, arguments.where);
   add_output(command, arguments);
   command.footer(

@@ -3,12 +3,15 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 
 #include "apps/berth/backend_arguments.hpp"
 #include "berth/distance/evaluate.hpp"
 #include "berth/distance/settings.hpp"
+#include "berth/pipeline/robot.hpp"
 
 namespace berth {
 
@@ -18,31 +21,21 @@ enum class OutputFormat { table, json };
 /// or, without one, to DistanceSettings.
 struct EvaluationArguments {
   std::optional<std::string> method;
-  std::optional<double> range_m;
-  std::optional<bool> mean_direction;
   /// Of `run` alone: three images without meshes and fates cannot tell.
   std::optional<bool> visibility;
-  std::optional<double> tolerance_m;
-  std::optional<double> deadline_us;
-  std::optional<std::string> region;
-  std::optional<std::string> depth_interval;
-  std::optional<std::string> search_pattern;
-  std::optional<std::string> shrinking;
-  std::optional<int> step_x;
-  std::optional<int> step_y;
-  std::optional<int> initial_grid_radius_px;
-  std::optional<int> final_grid_radius_px;
-  std::optional<int> tile_px;
+  /// Settings of DistanceSettings by name, as they were written.
+  std::map<std::string, std::string, std::less<>> given;
 
   /// Throws std::invalid_argument for values outside their domain, and for those that the method
   /// does not have.
   DistanceSettings settings_over(DistanceSettings settings, Method method_used) const;
   Method method_over(Method otherwise) const;
+  EvaluationSettings over(EvaluationSettings settings) const;
 };
 
 struct CommonArguments {
   EvaluationArguments evaluation;
-  BackendArguments where;
+  BackendChoice where;
   OutputFormat format = OutputFormat::table;
   /// Nothing: standard output.
   std::filesystem::path out;
@@ -58,7 +51,7 @@ struct RunArguments : CommonArguments {
 struct FilterArguments {
   std::filesystem::path scene;
   std::filesystem::path out_folder;
-  BackendArguments where;
+  BackendChoice where;
   int threads = 0;
 };
 

@@ -2,7 +2,7 @@
 
 namespace berth {
 
-void add_gl_device(CLI::App& command, BackendArguments& arguments) {
+void add_gl_device(CLI::App& command, BackendChoice& arguments) {
   command
       .add_option("--gl-device", arguments.gl_device,
                   "For OpenGL: number of the device, or a part of its name (default: the first, "
@@ -10,7 +10,7 @@ void add_gl_device(CLI::App& command, BackendArguments& arguments) {
       ->type_name("NAME");
 }
 
-void add_backend_options(CLI::App& command, const std::string& what, BackendArguments& arguments) {
+void add_backend_options(CLI::App& command, const std::string& what, BackendChoice& arguments) {
   command
       .add_option_function<std::string>(
           "--backend",

@@ -6,7 +6,7 @@
 #include "apps/berth/commands.hpp"
 #include "apps/berth/data_folders.hpp"
 #include "apps/berth/run_frames.hpp"
-#include "berth/io/result_table.hpp"
+#include "berth/scene/result_table.hpp"
 
 namespace berth {
 namespace {
@@ -26,7 +26,7 @@ std::optional<float> least_distance_m(const FrameResult& result) {
 }  // namespace
 
 void demo_command(const DemoArguments& arguments) {
-  const OpenScene scene = open_scene(bundled_scene_file(), {});
+  const OpenScene scene = open_scene_over(bundled_scene_file(), {});
   std::optional<float> least_m;
   std::string closest;
   run_frames(scene, {}, arguments.picture_folder, [&](const FrameResult& result) {

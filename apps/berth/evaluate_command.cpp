@@ -4,19 +4,17 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/berth/commands.hpp"
-#include "apps/berth/frame_pipeline.hpp"
 #include "apps/berth/interrupt.hpp"
 #include "apps/berth/output.hpp"
 #include "berth/distance/evaluate.hpp"
-#include "berth/io/camera_info.hpp"
-#include "berth/io/error.hpp"
-#include "berth/io/png.hpp"
-#include "berth/opengl/gl_evaluate.hpp"
+#include "berth/files/camera_info.hpp"
+#include "berth/files/error.hpp"
+#include "berth/files/png.hpp"
+#include "berth/scene/gl_backend.hpp"
 
 namespace berth {
 namespace {
@@ -67,16 +65,15 @@ ThreeImages read_images(const EvaluateArguments& arguments) {
 /// From three images in memory to the result, on the backend that the method runs on.
 class Evaluator {
  public:
-  Evaluator(Method method, const BackendArguments& where)
-      : method_(method), context_(open_context(where, method)) {
-    if (context_) gl_.emplace();
+  Evaluator(Method method, const BackendChoice& where) : method_(method) {
+    if (runs_on_opengl(method)) gl_ = open_gl_backend(where.gl_device);
   }
 
   void evaluate(const ThreeImages& images, const DistanceSettings& settings, LinkDistances& out) {
     if (gl_) {
       gl_->evaluate(method_, images.camera, images.robot, images.obstacle_depth_m,
                     images.link_count, settings, out);
-      context_->check("evaluate");
+      gl_->check("evaluate");
       return;
     }
     build_obstacle_tree(images.obstacle_depth_m, tree_);
@@ -84,12 +81,11 @@ class Evaluator {
                     images.link_count, settings, workspace_, out);
   }
 
-  std::string gl_renderer() const { return context_ ? context_->renderer() : ""; }
+  std::string gl_renderer() const { return gl_ ? gl_->renderer() : ""; }
 
  private:
   Method method_;
-  std::unique_ptr<GlContext> context_;
-  std::optional<GlEvaluator> gl_;
+  std::unique_ptr<GlBackend> gl_;
   ObstacleTree tree_;
   EvaluateWorkspace workspace_;
 };

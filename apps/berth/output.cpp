@@ -7,10 +7,10 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "berth/io/error.hpp"
-#include "berth/io/file_bytes.hpp"
-#include "berth/io/result_json.hpp"
-#include "berth/io/result_table.hpp"
+#include "berth/files/error.hpp"
+#include "berth/files/file_bytes.hpp"
+#include "berth/scene/result_json.hpp"
+#include "berth/scene/result_table.hpp"
 
 namespace berth {
 namespace {
@@ -21,7 +21,7 @@ std::string text_of(const FrameResult& result, OutputFormat format) {
   if (format == OutputFormat::json) return result_json(result) + "\n";
   const bool timely = !result.time || result.time->status == TimeStatus::ok;
   const std::string trouble =
-      timely ? "" : fmt::format(", no answer: {}", status_name(result.time->status));
+      timely ? "" : fmt::format(", no answer: {}", name_of(result.time->status));
   return fmt::format("frame {}, {:.3f} s, camera {}, method {}, range {} m{}\n{}\n", result.frame,
                      result.stamp_s, result.camera, result.method, result.range_m, trouble,
                      result_table(result));

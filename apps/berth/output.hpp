@@ -4,7 +4,7 @@
 #include <string>
 
 #include "apps/berth/arguments.hpp"
-#include "berth/io/frame_result.hpp"
+#include "berth/scene/frame_result.hpp"
 
 namespace berth {
 

@@ -12,7 +12,7 @@
 #include "apps/berth/picture_pairs.hpp"
 #include "apps/berth/picture_pixels.hpp"
 #include "apps/berth/picture_text.hpp"
-#include "berth/io/file_bytes.hpp"
+#include "berth/files/file_bytes.hpp"
 
 namespace berth {
 namespace {

@@ -5,7 +5,6 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "apps/berth/interrupt.hpp"
 #include "apps/berth/picture.hpp"
 #include "apps/berth/progress_bar.hpp"
 
@@ -24,51 +23,26 @@ void make_folder(const fs::path& folder) {
   }
 }
 
-FrameResult result_of(const OpenCamera& camera, std::size_t frame_number, FramePipeline& pipeline) {
-  const Answer& answer = pipeline.ask();
-  FrameResult result;
-  result.frame = static_cast<int>(frame_number);
-  result.stamp_s = pipeline.exposure().stamp_s;
-  result.camera = camera.source.name;
-  result.method = name_of(camera.rig->settings().method);
-  const DistanceSettings& settings = camera.rig->settings().distance;
-  result.range_m = settings.range_m;
-  result.has_bounds = settings.tolerance_m > 0 || settings.deadline_us;
-  result.link_names = camera.rig->model().evaluated_link_names();
-  result.distances = &answer.distances;
-  if (camera.rig->settings().visibility) result.visibility = &answer.visibility;
-  result.X_BC = pipeline.exposure().X_BC;
-  result.time = answer.time;
-  result.self_filter = pipeline.fate_counts();
-  return result;
-}
-
-void draw(const fs::path& file, const OpenScene& scene, const OpenCamera& camera,
-          DepthView sensor_depth_m, const Frame& frame, const FrameResult& result) {
+void draw(const fs::path& folder, const OpenScene& scene, SceneRun& run,
+          const FrameResult& result) {
   const std::string which =
-      scene.cameras.size() > 1 ? fmt::format(", camera {}", camera.source.name) : "";
-  write_picture(file, {sensor_depth_m, &frame.robot, &frame.obstacles, result.distances,
-                       result.link_names, result.range_m,
-                       fmt::format("{}{}, frame {}, {:.3f} s", camera.rig->model().name, which,
-                                   result.frame, frame.stamp_s)});
-}
-
-/// Where the scene asks for a background, from all images of its camera.
-void learn_background(const OpenCamera& camera, Observer& observer) {
-  if (!camera.rig->settings().sensor.has_background()) return;
-  ProgressBar progress("background", camera.source.depth.size());
-  Observer learner(*camera.rig);
-  Frame frame;
-  for (std::size_t i = 0; i < camera.source.depth.size(); ++i) {
-    stop_if_interrupted();
-    const DepthImage depth_m = camera.read_depth(i);
-    learner.observe(depth_m, camera.at_exposure[i], frame, camera.exposure_time[i]);
-    observer.learn_background(depth_m, frame);
-    progress.step();
-  }
+      scene.cameras.size() > 1 ? fmt::format(", camera {}", run.camera().source.name) : "";
+  const Frame& frame = run.frame();
+  write_picture(folder_of(scene, run.camera(), folder) /
+                    fmt::format("frame_{:06}.png", run.frame_number()),
+                {run.sensor_depth_m(), &frame.robot, &frame.obstacles, result.distances,
+                 result.link_names, result.range_m,
+                 fmt::format("{}{}, frame {}, {:.3f} s", scene.robot->model().name, which,
+                             result.frame, frame.stamp_s)});
 }
 
 }  // namespace
+
+OpenScene open_scene_over(const fs::path& file, const EvaluationArguments& arguments) {
+  SceneFile scene = read_scene(file);
+  scene.evaluation = arguments.over(scene.evaluation);
+  return open_scene(scene, stop_if_interrupted);
+}
 
 fs::path folder_of(const OpenScene& scene, const OpenCamera& camera, const fs::path& folder) {
   return scene.cameras.size() > 1 ? folder / camera.source.name : folder;
@@ -78,54 +52,27 @@ void make_folders(const OpenScene& scene, const fs::path& folder) {
   for (const OpenCamera& camera : scene.cameras) make_folder(folder_of(scene, camera, folder));
 }
 
-std::vector<std::unique_ptr<FramePipeline>> open_pipelines(const OpenScene& scene,
-                                                           Backend backend) {
-  std::vector<std::unique_ptr<FramePipeline>> pipelines;
-  for (const OpenCamera& camera : scene.cameras) {
-    try {
-      pipelines.push_back(make_frame_pipeline(*camera.rig, backend));
-    } catch (const std::invalid_argument& error) {
-      throw std::runtime_error(fmt::format("{}: {}", scene.file.string(), error.what()));
-    }
+void each_frame(const OpenScene& scene, SceneRun& run, const char* doing,
+                const std::function<void()>& take) {
+  ProgressBar progress(doing, scene.frame_count);
+  while (run.next()) {
+    stop_if_interrupted();
+    progress.clear();
+    take();
+    progress.step();
   }
-  return pipelines;
 }
 
-void run_frames(const OpenScene& scene, const BackendArguments& where,
-                const fs::path& picture_folder,
+void run_frames(const OpenScene& scene, const BackendChoice& where, const fs::path& picture_folder,
                 const std::function<void(const FrameResult&)>& take) {
-  const auto context = open_context(where, scene.method());
-  const auto pipelines = open_pipelines(scene, where.backend);
+  SceneRun run(scene, where, stop_if_interrupted);
   const bool draws = !picture_folder.empty();
   if (draws) make_folders(scene, picture_folder);
-  ProgressBar progress("run", scene.frame_count);
-  for (std::size_t c = 0; c < scene.cameras.size(); ++c) {
-    const OpenCamera& camera = scene.cameras[c];
-    const fs::path pictures = folder_of(scene, camera, picture_folder);
-    observe_frames(camera, *pipelines[c], [&](std::size_t i, DepthView depth_m) {
-      FrameResult result = result_of(camera, i, *pipelines[c]);
-      if (context) result.gl_renderer = context->renderer();
-      if (draws) {
-        draw(pictures / fmt::format("frame_{:06}.png", i), scene, camera, depth_m,
-             pipelines[c]->frame(), result);
-      }
-      if (context) context->check(camera.source.name);
-      progress.clear();
-      take(result);
-      progress.step();
-    });
-  }
-}
-
-void observe_frames(const OpenCamera& camera, FramePipeline& pipeline,
-                    const std::function<void(std::size_t, DepthView)>& take) {
-  if (Observer* observer = pipeline.cpu_observer()) learn_background(camera, *observer);
-  for (std::size_t i = 0; i < camera.source.depth.size(); ++i) {
-    stop_if_interrupted();
-    const DepthImage depth_m = camera.read_depth(i);
-    pipeline.observe(depth_m, camera.at_exposure[i], camera.exposure_time[i]);
-    take(i, depth_m);
-  }
+  each_frame(scene, run, "run", [&] {
+    const FrameResult result = run.ask();
+    if (draws) draw(picture_folder, scene, run, result);
+    take(result);
+  });
 }
 
 }  // namespace berth

@@ -1,15 +1,18 @@
+// The frames of a scene, with a progress bar, and pictures of them.
 #pragma once
 
 #include <filesystem>
 #include <functional>
-#include <memory>
-#include <vector>
 
-#include "apps/berth/frame_pipeline.hpp"
-#include "apps/berth/open_scene.hpp"
-#include "berth/io/frame_result.hpp"
+#include "apps/berth/arguments.hpp"
+#include "apps/berth/interrupt.hpp"
+#include "berth/scene/scene_run.hpp"
 
 namespace berth {
+
+/// The scene, with the arguments over what its file says. Throws as open_scene does, and
+/// Interrupted.
+OpenScene open_scene_over(const std::filesystem::path& file, const EvaluationArguments& arguments);
 
 /// Several cameras have a folder each below `folder`.
 std::filesystem::path folder_of(const OpenScene& scene, const OpenCamera& camera,
@@ -18,20 +21,13 @@ std::filesystem::path folder_of(const OpenScene& scene, const OpenCamera& camera
 /// Makes the folders of all cameras. Throws std::runtime_error where one cannot be made.
 void make_folders(const OpenScene& scene, const std::filesystem::path& folder);
 
-/// One for each camera. Throws std::runtime_error where the scene's settings do not go with the
-/// backend.
-std::vector<std::unique_ptr<FramePipeline>> open_pipelines(const OpenScene& scene, Backend backend);
+/// Calls `take` after each image that `run` has observed, with a progress bar on a terminal.
+void each_frame(const OpenScene& scene, SceneRun& run, const char* doing,
+                const std::function<void()>& take);
 
-/// All images of a camera, one after another: `take` gets the frame's number and the image when the
-/// pipeline has observed it. Where the scene asks for a background, that is learned from all of
-/// them first.
-void observe_frames(const OpenCamera& camera, FramePipeline& pipeline,
-                    const std::function<void(std::size_t, DepthView)>& take);
-
-/// All frames of a scene through the whole pipeline, with a progress bar on a terminal: `take` gets
-/// each result, camera by camera. Each frame is drawn into picture_folder unless that is empty.
-/// Throws as open_context and open_pipelines do, before anything is written.
-void run_frames(const OpenScene& scene, const BackendArguments& where,
+/// All frames of a scene through the whole pipeline: `take` gets each result. Each frame is drawn
+/// into picture_folder unless that is empty. Throws as SceneRun does, before anything is written.
+void run_frames(const OpenScene& scene, const BackendChoice& where,
                 const std::filesystem::path& picture_folder,
                 const std::function<void(const FrameResult&)>& take);
 

@@ -2,11 +2,9 @@
 #include <fmt/format.h>
 
 #include "apps/berth/commands.hpp"
-#include "apps/berth/interrupt.hpp"
 #include "apps/berth/output.hpp"
-#include "apps/berth/progress_bar.hpp"
 #include "apps/berth/run_frames.hpp"
-#include "berth/io/png.hpp"
+#include "berth/files/png.hpp"
 #include "berth/self_filter/scenery.hpp"
 
 namespace berth {
@@ -14,11 +12,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void write_images(const fs::path& folder, std::size_t frame_number, double depth_scale_m,
-                  const Frame& frame) {
+void write_images(const fs::path& folder, const SceneRun& run, const Frame& frame) {
   const auto file = [&](const char* name) {
-    return folder / fmt::format("{}_{:06}.png", name, frame_number);
+    return folder / fmt::format("{}_{:06}.png", name, run.frame_number());
   };
+  const double depth_scale_m = run.camera().source.depth_scale_m;
   RobotImage links = frame.robot;
   take_out_scenery(links);
   write_depth_png(file("robot_depth"), links.depth_m, depth_scale_m);
@@ -29,7 +27,7 @@ void write_images(const fs::path& folder, std::size_t frame_number, double depth
 }  // namespace
 
 void run_command(const RunArguments& arguments) {
-  const OpenScene scene = open_scene(arguments.scene, arguments.evaluation);
+  const OpenScene scene = open_scene_over(arguments.scene, arguments.evaluation);
   Output output(arguments.format, arguments.out);
   run_frames(scene, arguments.where, arguments.picture_folder,
              [&output](const FrameResult& result) { output.write(result); });
@@ -37,21 +35,15 @@ void run_command(const RunArguments& arguments) {
 }
 
 void filter_command(const FilterArguments& arguments) {
-  const OpenScene scene = open_scene(arguments.scene, {});
   // Whatever the scene's method is, it is not asked.
-  const auto context = open_context(arguments.where, Method::exact);
-  const auto pipelines = open_pipelines(scene, arguments.where.backend);
+  EvaluationArguments on_the_cpu;
+  on_the_cpu.method = name_of(Method::exact);
+  const OpenScene scene = open_scene_over(arguments.scene, on_the_cpu);
+  SceneRun run(scene, arguments.where, stop_if_interrupted);
   make_folders(scene, arguments.out_folder);
-  ProgressBar progress("filter", scene.frame_count);
-  for (std::size_t c = 0; c < scene.cameras.size(); ++c) {
-    const OpenCamera& camera = scene.cameras[c];
-    const fs::path folder = folder_of(scene, camera, arguments.out_folder);
-    observe_frames(camera, *pipelines[c], [&](std::size_t i, DepthView) {
-      write_images(folder, i, camera.source.depth_scale_m, pipelines[c]->frame());
-      progress.step();
-    });
-    if (context) context->check(camera.source.name);
-  }
+  each_frame(scene, run, "filter", [&] {
+    write_images(folder_of(scene, run.camera(), arguments.out_folder), run, run.frame());
+  });
 }
 
 }  // namespace berth

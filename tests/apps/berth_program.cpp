@@ -8,7 +8,7 @@
 
 #include <system_error>
 
-#include "berth/io/file_bytes.hpp"
+#include "berth/files/file_bytes.hpp"
 
 namespace berth {
 namespace {

@@ -1,8 +1,8 @@
 // `berth evaluate` refuses images that do not fit together.
 #include <gtest/gtest.h>
 
-#include "berth/io/file_bytes.hpp"
-#include "berth/io/png.hpp"
+#include "berth/files/file_bytes.hpp"
+#include "berth/files/png.hpp"
 #include "tests/apps/refusal.hpp"
 
 namespace berth {

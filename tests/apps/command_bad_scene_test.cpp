@@ -6,8 +6,8 @@
 #include <functional>
 #include <utility>
 
-#include "berth/io/file_bytes.hpp"
-#include "berth/io/png.hpp"
+#include "berth/files/file_bytes.hpp"
+#include "berth/files/png.hpp"
 #include "tests/apps/refusal.hpp"
 
 namespace berth {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "berth/io/file_bytes.hpp"
+#include "berth/files/file_bytes.hpp"
 #include "tests/apps/berth_program.hpp"
 
 namespace berth {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "berth/io/file_bytes.hpp"
-#include "berth/io/png.hpp"
+#include "berth/files/file_bytes.hpp"
+#include "berth/files/png.hpp"
 #include "tests/apps/command_scene.hpp"
 
 namespace berth {

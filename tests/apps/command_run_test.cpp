@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "berth/io/file_bytes.hpp"
+#include "berth/files/file_bytes.hpp"
 #include "tests/apps/command_scene.hpp"
 
 namespace berth {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "berth/io/png.hpp"
+#include "berth/files/png.hpp"
 #include "berth/render/robot_renderer.hpp"
 #include "berth/robot/kinematics.hpp"
 #include "berth/robot/primitives.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "berth/io/png.hpp"
+#include "berth/files/png.hpp"
 #include "tests/apps/command_scene.hpp"
 #include "tests/apps/refusal.hpp"
 

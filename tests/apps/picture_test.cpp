@@ -7,7 +7,7 @@
 
 #include "apps/berth/picture_layout.hpp"
 #include "apps/berth/picture_palette.hpp"
-#include "berth/io/file_bytes.hpp"
+#include "berth/files/file_bytes.hpp"
 #include "testing/error_message.hpp"
 #include "testing/temporary_folder.hpp"
 #include "tests/apps/picture_scene.hpp"

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "berth/io/file_bytes.hpp"
+#include "berth/files/file_bytes.hpp"
 #include "testing/error_message.hpp"
 #include "testing/reader_inputs.hpp"
 

@@ -4,11 +4,12 @@
 
 #include <algorithm>
 
-#include "apps/berth/open_scene.hpp"
-#include "berth/pipeline/gl_observer.hpp"
+#include "berth/scene/open_scene.hpp"
+#include "berth/opengl/gl_observer.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "testing/data_folder.hpp"
 #include "testing/gl_test.hpp"
+#include "testing/view_with.hpp"
 #include "tests/opengl/robot_difference.hpp"
 
 namespace berth {
@@ -46,16 +47,16 @@ class GlSceneTest : public testing::GlTest, public ::testing::WithParamInterface
             "scene.yaml";
     if (!std::filesystem::exists(file_))
       GTEST_SKIP() << "needs the recordings; BERTH_DATA names their folder";
-    scene_ = open_scene(file_, {});
+    scene_ = open_scene(file_);
   }
 
   const OpenCamera& camera() const { return scene_.cameras.front(); }
   /// A few of the frames: software renders slowly.
   std::vector<std::size_t> frames() const { return {0, camera().source.depth.size() / 2}; }
-  Rig rig_with(const SelfFilterSettings& self_filter) const {
-    RigSettings settings = camera().rig->settings();
+  std::shared_ptr<const View> view_filtered(const SelfFilterSettings& self_filter) const {
+    ViewSettings settings = camera().view->settings();
     settings.self_filter = self_filter;
-    return {camera().rig->model(), camera().rig->mount(), settings};
+    return testing::view_with(*camera().view, settings);
   }
 
   std::filesystem::path file_;
@@ -63,13 +64,13 @@ class GlSceneTest : public testing::GlTest, public ::testing::WithParamInterface
 };
 
 TEST_P(GlSceneTest, FatesAreThoseOfTheCpuForTheSameRobot) {
-  const Rig& rig = *camera().rig;
-  const SelfFilterSettings& settings = rig.settings().self_filter;
-  GlUpload upload = upload_for(rig.camera());
-  const GlTexture sensor_depth_m = depth_texture_for(rig.camera());
-  GlFrame gl(rig.camera());
+  const std::shared_ptr<const View>& view = camera().view;
+  const SelfFilterSettings& settings = view->settings().self_filter;
+  GlUpload upload = upload_for(view->camera());
+  const GlTexture sensor_depth_m = depth_texture_for(view->camera());
+  GlFrame gl(view->camera());
   GlSelfFilter filter;
-  Observer observer(rig);
+  Observer observer(view);
   Frame frame;
   ObstacleImage found;
   for (const std::size_t i : frames()) {
@@ -77,7 +78,7 @@ TEST_P(GlSceneTest, FatesAreThoseOfTheCpuForTheSameRobot) {
     observer.observe(depth_m, camera().at_exposure[i], frame);
     upload.send(depth_m, sensor_depth_m);
     upload.send(frame.robot, gl.robot);
-    filter.filter(rig.camera(), sensor_depth_m, gl.robot, settings, gl.obstacles);
+    filter.filter(view->camera(), sensor_depth_m, gl.robot, settings, gl.obstacles);
     read_back(gl.obstacles, found);
     EXPECT_EQ(differing_fates(found, frame.obstacles), 0) << "frame " << i;
     EXPECT_EQ(filter.count(), frame.obstacles.count) << "frame " << i;
@@ -85,10 +86,10 @@ TEST_P(GlSceneTest, FatesAreThoseOfTheCpuForTheSameRobot) {
 }
 
 TEST_P(GlSceneTest, ImagesAndDistancesAreThoseOfTheCpuButAtEdges) {
-  const Rig& rig = *camera().rig;
-  GlObserver gl_observer(rig);
-  GlFrame gl(rig.camera());
-  Observer observer(rig);
+  const std::shared_ptr<const View>& view = camera().view;
+  GlObserver gl_observer(view);
+  GlFrame gl(view->camera());
+  Observer observer(view);
   Frame frame;
   RobotImage robot;
   ObstacleImage obstacles;
@@ -112,18 +113,18 @@ TEST_P(GlSceneTest, ImagesAndDistancesAreThoseOfTheCpuButAtEdges) {
     EXPECT_LE(d.edge_share(), kMostAtEdges) << "frame " << i;
     EXPECT_LE(fates, kMostFates * depth_m.width() * depth_m.height()) << "frame " << i;
 
-    const int links = rig.model().link_count();
-    evaluate(Method::exact, rig.camera(), frame.robot, frame.obstacles.depth_m, frame.obstacle_tree,
-             links, rig.settings().distance, workspace, from_cpu);
+    const int links = view->robot()->model().link_count();
+    evaluate(Method::exact, view->camera(), frame.robot, frame.obstacles.depth_m, frame.obstacle_tree,
+             links, view->robot()->settings().distance, workspace, from_cpu);
     build_obstacle_tree(obstacles.depth_m, tree);
-    evaluate(Method::exact, rig.camera(), robot, obstacles.depth_m, tree, links,
-             rig.settings().distance, workspace, from_gpu);
+    evaluate(Method::exact, view->camera(), robot, obstacles.depth_m, tree, links,
+             view->robot()->settings().distance, workspace, from_gpu);
     for (int link = 0; link < links; ++link) {
       EXPECT_EQ(from_gpu.links[link].status, from_cpu.links[link].status);
       if (from_cpu.links[link].status != LinkStatus::ok) continue;
       const double error_m =
           std::abs(from_gpu.links[link].distance_m - from_cpu.links[link].distance_m);
-      const double pixel_m = from_cpu.links[link].robot_point_C_m.z() / rig.camera().fx_px;
+      const double pixel_m = from_cpu.links[link].robot_point_C_m.z() / view->camera().fx_px;
       EXPECT_LE(error_m, kDistanceError_px * pixel_m) << "frame " << i << ", link " << link + 1;
       largest_m = std::max(largest_m, error_m);
     }
@@ -132,23 +133,23 @@ TEST_P(GlSceneTest, ImagesAndDistancesAreThoseOfTheCpuButAtEdges) {
 }
 
 TEST_P(GlSceneTest, OnePassFiltersAsTheRulesForSinglePixelsDo) {
-  SelfFilterSettings settings = camera().rig->settings().self_filter;
+  SelfFilterSettings settings = camera().view->settings().self_filter;
   settings.padding_m = 0;
   settings.link_padding_m.clear();
   settings.dilation_px = 0;
   settings.edge_jump_m = 0;
   settings.island_radius_m = 0;
-  const Rig rig = rig_with(settings);
-  GlFrame gl(rig.camera());
+  const auto view = view_filtered(settings);
+  GlFrame gl(view->camera());
   const std::size_t i = frames()[1];
   const DepthImage depth_m = camera().read_depth(i);
-  GlObserver(rig).observe(depth_m, camera().at_exposure[i], gl);
+  GlObserver(view).observe(depth_m, camera().at_exposure[i], gl);
   ObstacleImage by_rules;
   read_back(gl.obstacles, by_rules);
-  const GlTexture sensor_depth_m = depth_texture_for(rig.camera());
-  upload_for(rig.camera()).send(depth_m, sensor_depth_m);
-  const GlTexture filtered = depth_texture_for(rig.camera());
-  GlRobotRenderer renderer(rig.model(), rig.camera());
+  const GlTexture sensor_depth_m = depth_texture_for(view->camera());
+  upload_for(view->camera()).send(depth_m, sensor_depth_m);
+  const GlTexture filtered = depth_texture_for(view->camera());
+  GlRobotRenderer renderer(view->robot()->model(), view->camera());
   renderer.render_and_filter(gl.pose, gl.X_BC, {}, sensor_depth_m, tolerance_of(settings), gl.robot,
                              filtered);
   DepthImage in_pass;
@@ -180,12 +181,12 @@ TEST_P(GlSceneTest, OnePassFiltersAsTheRulesForSinglePixelsDo) {
 }
 
 TEST_P(GlSceneTest, TheRobotShapedRegionIsThatOfTheCpuButAtEdges) {
-  SelfFilterSettings settings = camera().rig->settings().self_filter;
+  SelfFilterSettings settings = camera().view->settings().self_filter;
   settings.robot_region_scale = 3;
-  const Rig rig = rig_with(settings);
-  GlObserver gl_observer(rig);
-  GlFrame gl(rig.camera());
-  Observer observer(rig);
+  const auto view = view_filtered(settings);
+  GlObserver gl_observer(view);
+  GlFrame gl(view->camera());
+  Observer observer(view);
   Frame frame;
   ObstacleImage obstacles;
   const std::size_t i = frames()[1];

@@ -7,7 +7,7 @@
 #include <map>
 #include <sstream>
 
-#include "apps/berth/open_scene.hpp"
+#include "berth/scene/open_scene.hpp"
 #include "berth/distance/brute_force.hpp"
 #include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/observer.hpp"
@@ -48,11 +48,11 @@ std::map<std::pair<int, std::string>, Truth> read_truth(const std::string& file)
 TEST(BundledScene, NoDistanceIsAboveTheTrueOneByMoreThanTheNamedBound) {
   const std::string folder = BERTH_SOURCE_DIR "/data/bundled";
   const auto truth = read_truth(folder + "/truth.csv");
-  const OpenScene scene = open_scene(folder + "/scene.yaml", {});
+  const OpenScene scene = open_scene(folder + "/scene.yaml");
   const OpenCamera& camera = scene.cameras.front();
-  const std::vector<std::string> names = camera.rig->model().evaluated_link_names();
-  Observer observer(*camera.rig);
-  Asker asker(*camera.rig);
+  const std::vector<std::string> names = camera.view->robot()->model().evaluated_link_names();
+  Observer observer(camera.view);
+  Asker asker(camera.view->robot());
   Frame frame;
   std::map<std::string, std::pair<double, double>>
       over_m;  // least and greatest, against what is seen
@@ -79,18 +79,18 @@ TEST(BundledScene, NoDistanceIsAboveTheTrueOneByMoreThanTheNamedBound) {
 }
 
 TEST(BundledScene, BruteForceGivesTheSameDistances) {
-  const OpenScene scene = open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml", {});
+  const OpenScene scene = open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml");
   const OpenCamera& camera = scene.cameras.front();
-  Observer observer(*camera.rig);
-  Asker asker(*camera.rig);
+  Observer observer(camera.view);
+  Asker asker(camera.view->robot());
   Frame frame;
   const std::size_t closest_approach = 19;
   observer.observe(camera.read_depth(closest_approach), camera.at_exposure[closest_approach],
                    frame);
   const Answer exact = asker.ask(frame);
   LinkDistances brute;
-  brute_force(camera.rig->camera(), frame.robot, frame.obstacles.depth_m,
-              camera.rig->model().link_count(), {}, brute);
+  brute_force(camera.view->camera(), frame.robot, frame.obstacles.depth_m,
+              camera.view->robot()->model().link_count(), {}, brute);
   ASSERT_EQ(brute.links.size(), exact.distances.links.size());
   for (std::size_t i = 0; i < brute.links.size(); ++i) {
     EXPECT_EQ(brute.links[i].status, exact.distances.links[i].status);

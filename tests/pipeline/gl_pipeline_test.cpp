@@ -1,11 +1,12 @@
 // The two clocks on OpenGL, against those of the CPU.
-#include "apps/berth/open_scene.hpp"
+#include "berth/scene/open_scene.hpp"
 #include "berth/pipeline/asker.hpp"
-#include "berth/pipeline/gl_asker.hpp"
-#include "berth/pipeline/gl_observer.hpp"
+#include "berth/opengl/gl_asker.hpp"
+#include "berth/opengl/gl_observer.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "testing/error_message.hpp"
 #include "testing/gl_test.hpp"
+#include "testing/view_with.hpp"
 #include "tests/pipeline/web.hpp"
 
 namespace berth {
@@ -17,20 +18,21 @@ constexpr float kDistanceError_m = 0.005F;
 class GlPipeline : public testing::GlTest {
  protected:
   GlPipeline()
-      : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml", {})),
+      : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml")),
         camera_(scene_.cameras.front()) {}
 
-  Rig rig_with(Method method, const SensorSettings& sensor = {}) const {
-    RigSettings settings = camera_.rig->settings();
-    settings.method = method;
+  std::shared_ptr<const View> view_with(Method method, const SensorSettings& sensor = {}) const {
+    EvaluationSettings evaluation = camera_.view->robot()->settings();
+    evaluation.method = method;
+    ViewSettings settings = camera_.view->settings();
     settings.sensor = sensor;
-    return {camera_.rig->model(), camera_.rig->mount(), settings};
+    return testing::view_with(*camera_.view, evaluation, settings);
   }
 
   Frame observe_on_cpu(std::size_t i) const { return observe_on_cpu(i, camera_.read_depth(i)); }
   Frame observe_on_cpu(std::size_t i, const DepthImage& depth_m) const {
     Frame frame;
-    Observer(*camera_.rig).observe(depth_m, camera_.at_exposure[i], frame);
+    Observer(camera_.view).observe(depth_m, camera_.at_exposure[i], frame);
     return frame;
   }
 
@@ -55,11 +57,11 @@ class GlPipeline : public testing::GlTest {
 };
 
 TEST_F(GlPipeline, AnswersAreThoseOfTheCpu) {
-  const Rig gl_rig = rig_with(Method::gl_exact);
-  GlObserver observer(gl_rig);
-  GlAsker gl_asker(gl_rig);
-  Asker asker(*camera_.rig);
-  GlFrame gl_frame(gl_rig.camera());
+  const auto gl_view = view_with(Method::gl_exact);
+  GlObserver observer(gl_view);
+  GlAsker gl_asker(gl_view->robot());
+  Asker asker(camera_.view->robot());
+  GlFrame gl_frame(gl_view->camera());
   for (const std::size_t i : {3, 29}) {
     SCOPED_TRACE(i);
     const Frame frame = observe_on_cpu(i);
@@ -77,15 +79,15 @@ TEST_F(GlPipeline, AnswersAreThoseOfTheCpu) {
 }
 
 TEST_F(GlPipeline, WhatIsDoubtfulIsThatOfTheCpu) {
-  const Rig gl_rig = rig_with(Method::gl_exact);
+  const auto gl_view = view_with(Method::gl_exact);
   DepthImage depth_m = camera_.read_depth(3);
   draw_web(observe_on_cpu(3).robot, depth_m);
   const Frame frame = observe_on_cpu(3, depth_m);
-  GlObserver observer(gl_rig);
-  GlFrame gl_frame(gl_rig.camera());
+  GlObserver observer(gl_view);
+  GlFrame gl_frame(gl_view->camera());
   observer.observe(depth_m, camera_.at_exposure[3], gl_frame);
-  const Answer expected = Asker(*camera_.rig).ask(frame);
-  GlAsker gl_asker(gl_rig);
+  const Answer expected = Asker(camera_.view->robot()).ask(frame);
+  GlAsker gl_asker(gl_view->robot());
   int doubts = 0;
   const auto expect_doubts = [&](const Answer& found) {
     for (std::size_t i = 0; i < expected.visibility.size(); ++i) {
@@ -104,37 +106,37 @@ TEST_F(GlPipeline, WhatIsDoubtfulIsThatOfTheCpu) {
 }
 
 TEST_F(GlPipeline, AFrameOfTheCpuIsUploadedForTheQuestion) {
-  const Rig gl_rig = rig_with(Method::gl_exact);
-  GlAsker gl_asker(gl_rig);
+  const auto gl_view = view_with(Method::gl_exact);
+  GlAsker gl_asker(gl_view->robot());
   const Frame frame = observe_on_cpu(12);
   const Answer& found = gl_asker.ask(frame);
-  const Answer expected = Asker(*camera_.rig).ask(frame);
+  const Answer expected = Asker(camera_.view->robot()).ask(frame);
   for (std::size_t i = 0; i < found.distances.links.size(); ++i) {
     EXPECT_NEAR(found.distances.links[i].distance_m, expected.distances.links[i].distance_m, 2e-5);
   }
 }
 
 TEST_F(GlPipeline, AFrameReadBackIsWhatWasAsked) {
-  const Rig gl_rig = rig_with(Method::gl_exact);
-  GlObserver observer(gl_rig);
-  GlFrame gl_frame(gl_rig.camera());
+  const auto gl_view = view_with(Method::gl_exact);
+  GlObserver observer(gl_view);
+  GlFrame gl_frame(gl_view->camera());
   observer.observe(camera_.read_depth(5), camera_.at_exposure[5], gl_frame);
   Frame frame;
-  read_back(gl_rig.camera(), gl_frame, frame);
+  read_back(gl_frame, frame);
   EXPECT_EQ(frame.stamp_s, camera_.at_exposure[5].stamp_s);
   EXPECT_EQ(frame.obstacles.count, observer.fate_counts());
-  const auto from_gpu = GlAsker(gl_rig).ask(gl_frame).distances.links;
-  const auto from_cpu = Asker(*camera_.rig).ask(frame).distances.links;
+  const auto from_gpu = GlAsker(gl_view->robot()).ask(gl_frame).distances.links;
+  const auto from_cpu = Asker(camera_.view->robot()).ask(frame).distances.links;
   for (std::size_t i = 0; i < from_cpu.size(); ++i) {
     EXPECT_NEAR(from_gpu[i].distance_m, from_cpu[i].distance_m, 2e-5);
   }
 }
 
 TEST_F(GlPipeline, AnUntimelyFrameHasNoAnswerAndNoImages) {
-  const Rig gl_rig = rig_with(Method::gl_exact);
-  GlObserver observer(gl_rig);
-  GlAsker asker(gl_rig);
-  GlFrame gl_frame(gl_rig.camera());
+  const auto gl_view = view_with(Method::gl_exact);
+  GlObserver observer(gl_view);
+  GlAsker asker(gl_view->robot());
+  GlFrame gl_frame(gl_view->camera());
   observer.observe(camera_.read_depth(5), camera_.at_exposure[5], gl_frame);
   asker.ask(gl_frame);
   FrameTime late;
@@ -145,24 +147,24 @@ TEST_F(GlPipeline, AnUntimelyFrameHasNoAnswerAndNoImages) {
     EXPECT_TRUE(std::isnan(link.distance_m));
   }
   Frame frame;
-  read_back(gl_rig.camera(), gl_frame, frame);
+  read_back(gl_frame, frame);
   const std::int64_t all = std::int64_t{640} * 480;
   EXPECT_EQ(frame.obstacles.count_of(PixelFate::no_reading), all);
   EXPECT_EQ(observer.fate_counts(), frame.obstacles.count);
 }
 
 TEST_F(GlPipeline, AMethodOfTheOtherBackendIsRefused) {
-  const Rig gl_rig = rig_with(Method::gl_exact);
-  EXPECT_EQ(error_message<std::invalid_argument>([&] { Asker asker(gl_rig); }),
+  const auto gl_view = view_with(Method::gl_exact);
+  EXPECT_EQ(error_message<std::invalid_argument>([&] { Asker asker(gl_view->robot()); }),
             "method gl_exact runs on OpenGL; expected one that does not");
-  EXPECT_EQ(error_message<std::invalid_argument>([&] { GlAsker asker(*camera_.rig); }),
+  EXPECT_EQ(error_message<std::invalid_argument>([&] { GlAsker asker(camera_.view->robot()); }),
             "method exact does not run on OpenGL; expected one that does");
 }
 
 TEST_F(GlPipeline, ASensorRuleIsRefusedByName) {
   const auto refusal = [&](const SensorSettings& sensor) {
-    const Rig rig = rig_with(Method::gl_exact, sensor);
-    return error_message<std::invalid_argument>([&] { GlObserver observer(rig); });
+    const auto view = view_with(Method::gl_exact, sensor);
+    return error_message<std::invalid_argument>([&] { GlObserver observer(view); });
   };
   const std::string rest = ": runs on the CPU alone; expected it off on OpenGL";
   EXPECT_EQ(refusal({.speckle_px = 20}), "sensor.speckle_px" + rest);
@@ -173,9 +175,9 @@ TEST_F(GlPipeline, ASensorRuleIsRefusedByName) {
 }
 
 TEST_F(GlPipeline, AnImageOfAnotherSizeIsRefused) {
-  const Rig gl_rig = rig_with(Method::gl_exact);
-  GlObserver observer(gl_rig);
-  GlFrame frame(gl_rig.camera());
+  const auto gl_view = view_with(Method::gl_exact);
+  GlObserver observer(gl_view);
+  GlFrame frame(gl_view->camera());
   EXPECT_EQ(error_message<std::invalid_argument>(
                 [&] { observer.observe(DepthImage(3, 2, 1.0F), camera_.at_exposure[0], frame); }),
             "depth image: 3 x 2 px; expected the camera's 640 x 480");

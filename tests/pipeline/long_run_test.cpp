@@ -46,11 +46,11 @@ RobotModel make_robot() {
       {.urdf = folder.write("robot.urdf", "<robot name=\"chain\">" + links + "</robot>")});
 }
 
-Rig make_rig() {
+std::shared_ptr<const View> make_view() {
   CameraMount mount{{64, 48, 50, 50, 31.5, 23.5}, "l0"};
   mount.X_PC.linear() << 0, 0, -1, 1, 0, 0, 0, -1, 0;
   mount.X_PC.translation() << 2, 0, 0.5;
-  return Rig(make_robot(), mount, {});
+  return std::make_shared<const View>(std::make_shared<const Robot>(make_robot()), mount);
 }
 
 JointState joints_of(int pose) {
@@ -126,9 +126,9 @@ void run_long(const char* what, int count, Step step) {
 }
 
 TEST(LongRun, QuestionsTakeNoMemoryAndTheirAnswersStayTheSame) {
-  const Rig rig = make_rig();
-  Observer observer(rig);
-  Asker asker(rig);
+  const auto view = make_view();
+  Observer observer(view);
+  Asker asker(view->robot());
   Frame frame;
   observer.observe(image_of(3), joints_of(3), frame);
   std::vector<JointState> joints;
@@ -139,9 +139,9 @@ TEST(LongRun, QuestionsTakeNoMemoryAndTheirAnswersStayTheSame) {
 }
 
 TEST(LongRun, FramesTakeNoMemoryAndTheirAnswersStayTheSame) {
-  const Rig rig = make_rig();
-  Observer observer(rig);
-  Asker asker(rig);
+  const auto view = make_view();
+  Observer observer(view);
+  Asker asker(view->robot());
   Frame frame;
   std::vector<JointState> joints;
   std::vector<DepthImage> images;
@@ -174,14 +174,14 @@ class LatestFrame {
 };
 
 TEST(LongRun, AFrameThatIsReplacedWhileTwoThreadsAskGivesTheAnswersOfOneFrameEach) {
-  const Rig rig = make_rig();
+  const auto view = make_view();
   const int frames = is_full() ? 20'000 : thinned(300);
   const JointState asked = joints_of(1);
   LinkDistances expected[2];
   for (int i = 0; i < 2; ++i) {
     Frame frame;
-    Observer(rig).observe(image_of(5 * i), joints_of(5 * i), frame);
-    expected[i] = Asker(rig).ask(frame, asked).distances;
+    Observer(view).observe(image_of(5 * i), joints_of(5 * i), frame);
+    expected[i] = Asker(view->robot()).ask(frame, asked).distances;
   }
   ASSERT_FALSE(same_bits(expected[0], expected[1]));
   LatestFrame latest;
@@ -194,10 +194,10 @@ TEST(LongRun, AFrameThatIsReplacedWhileTwoThreadsAskGivesTheAnswersOfOneFrameEac
     observer.observe(image_of(5 * (i % 2)), joints, *frame);
     latest.set(std::move(frame));
   };
-  Observer observer(rig);
+  Observer observer(view);
   observe(observer, 0);
   const auto ask = [&] {
-    Asker asker(rig);
+    Asker asker(view->robot());
     while (!stop) {
       const std::shared_ptr<const Frame> frame = latest.get();
       const Answer& answer = asker.ask(*frame, asked);

@@ -9,10 +9,11 @@
 #include <map>
 #include <sstream>
 
-#include "apps/berth/open_scene.hpp"
-#include "berth/io/png.hpp"
+#include "berth/scene/open_scene.hpp"
+#include "berth/files/png.hpp"
 #include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/observer.hpp"
+#include "testing/view_with.hpp"
 #include "testing/data_folder.hpp"
 
 namespace berth {
@@ -69,14 +70,14 @@ class Recording : public testing::TestWithParam<std::string> {
 };
 
 TEST_P(Recording, AtLeast99PercentOfTheRobotIsFiltered) {
-  const OpenScene scene = open_scene(folder_ / "scene.yaml", {});
+  const OpenScene scene = open_scene(folder_ / "scene.yaml");
   const OpenCamera& camera = scene.cameras.front();
-  Observer observer(*camera.rig);
+  Observer observer(camera.view);
   Frame frame;
   for (std::size_t i = 0; i < camera.source.depth.size(); ++i) {
     observer.observe(camera.read_depth(i), camera.at_exposure[i], frame);
     const auto mask = read_link_ids_png(folder_ / fmt::format("reference/robot_mask_{:06}.png", i),
-                                        camera.rig->camera());
+                                        camera.view->camera());
     const double share = filtered_share(mask, frame.obstacles);
     fmt::print("{} frame {}: {:.2f} % of the mask filtered\n", GetParam(), i, 100 * share);
     EXPECT_GE(share, 0.99) << "frame " << i;
@@ -84,12 +85,12 @@ TEST_P(Recording, AtLeast99PercentOfTheRobotIsFiltered) {
 }
 
 TEST_P(Recording, NoLinkIsTooFarAndMostAreInTheirRange) {
-  const OpenScene scene = open_scene(folder_ / "scene.yaml", {});
+  const OpenScene scene = open_scene(folder_ / "scene.yaml");
   const OpenCamera& camera = scene.cameras.front();
   const Ranges ranges = read_ranges(folder_ / "expected.tsv");
-  const std::vector<std::string> names = camera.rig->model().evaluated_link_names();
-  Observer observer(*camera.rig);
-  Asker asker(*camera.rig);
+  const std::vector<std::string> names = camera.view->robot()->model().evaluated_link_names();
+  Observer observer(camera.view);
+  Asker asker(camera.view->robot());
   Frame frame;
   int checked = 0;
   int inside = 0;
@@ -115,23 +116,23 @@ TEST_P(Recording, NoLinkIsTooFarAndMostAreInTheirRange) {
   EXPECT_EQ(free_links_at_contact, 0);
 }
 
-/// The camera again, its rig with these rules.
-Rig with_rules(const OpenCamera& camera, const SensorSettings& rules) {
-  RigSettings settings = camera.rig->settings();
+/// The camera again, its view with these rules.
+std::shared_ptr<const View> with_rules(const OpenCamera& camera, const SensorSettings& rules) {
+  ViewSettings settings = camera.view->settings();
   settings.sensor = rules;
-  return Rig(camera.rig->model(), camera.rig->mount(), settings);
+  return testing::view_with(*camera.view, settings);
 }
 
 TEST_P(Recording, SpeckleBackgroundAndHolesMakeNoDistanceLarger) {
-  const OpenScene scene = open_scene(folder_ / "scene.yaml", {});
+  const OpenScene scene = open_scene(folder_ / "scene.yaml");
   const OpenCamera& camera = scene.cameras.front();
   SensorSettings rules;
   rules.speckle_px = 20;
   rules.background_frames = 2;
   rules.holes = HolePolicy::nearest_neighbour;
-  const Rig ruled = with_rules(camera, rules);
-  Observer observer(*camera.rig), ruled_observer(ruled);
-  Asker asker(*camera.rig), ruled_asker(ruled);
+  const auto ruled = with_rules(camera, rules);
+  Observer observer(camera.view), ruled_observer(ruled);
+  Asker asker(camera.view->robot()), ruled_asker(ruled->robot());
   Frame frame;
   for (std::size_t i = 0; i < camera.source.depth.size(); ++i) {
     const DepthImage depth_m = camera.read_depth(i);

@@ -1,9 +1,10 @@
 // The robot-shaped region of surveillance in the pipeline.
 #include <gtest/gtest.h>
 
-#include "apps/berth/open_scene.hpp"
+#include "berth/scene/open_scene.hpp"
 #include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/observer.hpp"
+#include "testing/view_with.hpp"
 
 namespace berth {
 namespace {
@@ -11,19 +12,19 @@ namespace {
 class RobotRegion : public testing::Test {
  protected:
   RobotRegion()
-      : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml", {})),
+      : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml")),
         camera_(scene_.cameras.front()) {}
 
   /// The bundled scene with a region.
-  Rig rig_with(double scale) const {
-    RigSettings settings = camera_.rig->settings();
+  std::shared_ptr<const View> view_with(double scale) const {
+    ViewSettings settings = camera_.view->settings();
     settings.self_filter.robot_region_scale = scale;
-    return {camera_.rig->model(), camera_.rig->mount(), settings};
+    return testing::view_with(*camera_.view, settings);
   }
 
-  Frame observe(const Rig& rig, std::size_t i) const {
+  Frame observe(const std::shared_ptr<const View>& view, std::size_t i) const {
     Frame frame;
-    Observer observer(rig);
+    Observer observer(view);
     // Twice, so that the second has the memory of the first.
     observer.observe(camera_.read_depth(i + 1), camera_.at_exposure[i + 1], frame);
     observer.observe(camera_.read_depth(i), camera_.at_exposure[i], frame);
@@ -35,13 +36,13 @@ class RobotRegion : public testing::Test {
 };
 
 TEST_F(RobotRegion, IgnoresOnlyWhatIsNotSeenThroughIt) {
-  const Rig rig = rig_with(3);
-  const Frame all = observe(*camera_.rig, 19);
-  const Frame some = observe(rig, 19);
+  const auto view = view_with(3);
+  const Frame all = observe(camera_.view, 19);
+  const Frame some = observe(view, 19);
   RobotPose pose;
-  forward_kinematics(rig.model(), camera_.at_exposure[19].position, pose);
+  forward_kinematics(view->robot()->model(), camera_.at_exposure[19].position, pose);
   RobotImage region;
-  RobotRenderer(rig.region_meshes(), rig.camera()).render(pose, some.X_BC, region);
+  RobotRenderer(view->region_meshes(), view->camera()).render(pose, some.X_BC, region);
   for (std::size_t i = 0; i < region.link_id.pixels().size(); ++i) {
     PixelFate expected = all.obstacles.fate.pixels()[i];
     if (expected == PixelFate::obstacle && region.link_id.pixels()[i] == kNoLink)
@@ -53,11 +54,11 @@ TEST_F(RobotRegion, IgnoresOnlyWhatIsNotSeenThroughIt) {
 }
 
 TEST_F(RobotRegion, NeverMakesADistanceSmaller) {
-  const Rig rig = rig_with(2);
-  const Frame all = observe(*camera_.rig, 19);
-  const Frame some = observe(rig, 19);
-  Asker everything(*camera_.rig);
-  Asker ignoring(rig);
+  const auto view = view_with(2);
+  const Frame all = observe(camera_.view, 19);
+  const Frame some = observe(view, 19);
+  Asker everything(camera_.view->robot());
+  Asker ignoring(view->robot());
   const auto& larger = ignoring.ask(some).distances.links;
   const auto& least = everything.ask(all).distances.links;
   for (std::size_t i = 0; i < least.size(); ++i) {

@@ -2,10 +2,11 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "apps/berth/open_scene.hpp"
+#include "berth/scene/open_scene.hpp"
 #include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "testing/allocation_count.hpp"
+#include "testing/view_with.hpp"
 #include "tests/pipeline/web.hpp"
 
 namespace berth {
@@ -13,19 +14,18 @@ namespace {
 
 /// From the depth image to the answer, and the answer at other joint angles.
 TEST(SteadyState, TheWholeWayAllocatesNothingOnceItHasSeenTheImages) {
-  const OpenScene scene = open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml", {});
+  const OpenScene scene = open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml");
   const OpenCamera& camera = scene.cameras.front();
   DepthImage images[] = {camera.read_depth(3), camera.read_depth(17), camera.read_depth(30)};
   const std::size_t numbers[] = {3, 17, 30};
-  RigSettings with_region = camera.rig->settings();
+  ViewSettings with_region = camera.view->settings();
   with_region.self_filter.robot_region_scale = 3;
-  const Rig region_rig(camera.rig->model(), {camera.rig->camera(), "table", camera.source.X_PC},
-                       with_region);
+  const auto region_view = testing::view_with(*camera.view, with_region);
   for (const int threads : {1, 2}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    Observer observer(*camera.rig);
-    Asker asker(*camera.rig);
-    Observer region_observer(region_rig);
+    Observer observer(camera.view);
+    Asker asker(camera.view->robot());
+    Observer region_observer(region_view);
     Frame frame;
     observer.observe(images[0], camera.at_exposure[numbers[0]], frame);
     draw_web(frame.robot, images[0]);
@@ -47,14 +47,14 @@ TEST(SteadyState, TheWholeWayAllocatesNothingOnceItHasSeenTheImages) {
 
 /// Joints pushed and looked up, frames that are refused, answers that are withheld.
 TEST(SteadyState, TheRunningRobotsWayAllocatesNothingOnceItsBufferIsFull) {
-  const OpenScene scene = open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml", {});
+  const OpenScene scene = open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml");
   const OpenCamera& camera = scene.cameras.front();
   const DepthImage depth_m = camera.read_depth(3);
   std::vector<std::string> names;
-  for (const MovableJoint& joint : camera.rig->model().joints) names.push_back(joint.name);
-  JointBuffer joints(camera.rig->model(), 50);
-  Observer observer(*camera.rig);
-  Asker asker(*camera.rig);
+  for (const MovableJoint& joint : camera.view->robot()->model().joints) names.push_back(joint.name);
+  JointBuffer joints(camera.view->robot()->model(), 50);
+  Observer observer(camera.view);
+  Asker asker(camera.view->robot());
   Frame frame;
   int ms = 0;
   const auto run_100_ms = [&] {

@@ -5,9 +5,10 @@
 
 #include <cmath>
 
-#include "apps/berth/open_scene.hpp"
+#include "berth/scene/open_scene.hpp"
 #include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/observer.hpp"
+#include "testing/view_with.hpp"
 
 namespace berth {
 namespace {
@@ -25,11 +26,11 @@ std::vector<std::string> joint_names(const RobotModel& model) {
 class RunningRobot : public testing::Test {
  protected:
   RunningRobot()
-      : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml", {})),
+      : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml")),
         camera_(scene_.cameras.front()),
         depth_m_(camera_.read_depth(3)),
-        rig_(camera_.rig->model(), camera_.rig->mount(), {}),
-        names_(joint_names(rig_.model())) {
+        view_(testing::view_with(*camera_.view, EvaluationSettings{}, {})),
+        names_(joint_names(view_->robot()->model())) {
     push_until(10.5);
   }
 
@@ -47,12 +48,12 @@ class RunningRobot : public testing::Test {
   OpenScene scene_;
   const OpenCamera& camera_;
   DepthImage depth_m_;
-  Rig rig_;
+  std::shared_ptr<const View> view_;
   std::vector<std::string> names_;
   double next_s_ = 10;
-  JointBuffer buffer_{rig_.model(), 100};
-  Observer observer_{rig_};
-  Asker asker_{rig_};
+  JointBuffer buffer_{view_->robot()->model(), 100};
+  Observer observer_{view_};
+  Asker asker_{view_->robot()};
   Frame frame_;
 };
 
@@ -92,7 +93,7 @@ TEST_F(RunningRobot, TheAnswerIsThatOfTheSameJointsWithoutAnyClock) {
   ASSERT_EQ(observe(10.303), TimeStatus::ok);
   const Answer timed = asker_.ask(frame_, 10.35);
   Frame plain;
-  Observer(rig_).observe(depth_m_, camera_.at_exposure[3], plain);
+  Observer(view_).observe(depth_m_, camera_.at_exposure[3], plain);
   const Answer& untimed = asker_.ask(plain);
   EXPECT_TRUE(std::isnan(untimed.time.frame_age_s));
   EXPECT_EQ(untimed.time.status, TimeStatus::ok);
@@ -105,10 +106,10 @@ TEST_F(RunningRobot, AStaleFrameGivesNoAnswerHoweverOftenItIsAsked) {
   ASSERT_EQ(observe(10.2), TimeStatus::ok);
   EXPECT_TRUE(all_ok(asker_.ask(frame_, 10.349)));
   for (const double now_s : {10.351, 11.0, 1e9, kNaN}) {
-    expect_withheld(asker_.ask(frame_, now_s), TimeStatus::stale_frame, rig_.model().link_count());
+    expect_withheld(asker_.ask(frame_, now_s), TimeStatus::stale_frame, view_->robot()->model().link_count());
   }
   expect_withheld(asker_.ask(frame_, 10.194), TimeStatus::frame_in_future,
-                  rig_.model().link_count());
+                  view_->robot()->model().link_count());
   EXPECT_TRUE(all_ok(asker_.ask(frame_, 10.349))) << "an earlier refusal leaves nothing behind";
 }
 
@@ -116,7 +117,7 @@ TEST_F(RunningRobot, StaleJointsGiveNoAnswerAndPlannedOnesDo) {
   ASSERT_EQ(observe(10.4), TimeStatus::ok);
   EXPECT_TRUE(all_ok(asker_.ask(frame_, buffer_, 10.51)));
   expect_withheld(asker_.ask(frame_, buffer_, 10.53), TimeStatus::stale_joints,
-                  rig_.model().link_count());
+                  view_->robot()->model().link_count());
   const JointState planned{10.9, camera_.at_exposure[3].position};
   const Answer& answer = asker_.ask(frame_, planned, 10.45);
   EXPECT_NEAR(answer.time.joints_age_s, -0.45, 1e-9);
@@ -127,9 +128,9 @@ TEST_F(RunningRobot, AnExposureThatTheJointsDoNotReachLeavesNothingOfTheFrameBef
   ASSERT_EQ(observe(10.4), TimeStatus::ok);
   ASSERT_TRUE(all_ok(asker_.ask(frame_)));
   EXPECT_EQ(observe(10.52), TimeStatus::extrapolated_too_far);
-  expect_withheld(asker_.ask(frame_), TimeStatus::extrapolated_too_far, rig_.model().link_count());
+  expect_withheld(asker_.ask(frame_), TimeStatus::extrapolated_too_far, view_->robot()->model().link_count());
   expect_withheld(asker_.ask(frame_, camera_.at_exposure[3]), TimeStatus::extrapolated_too_far,
-                  rig_.model().link_count());
+                  view_->robot()->model().link_count());
   EXPECT_EQ(asker_.ask(frame_).frame_stamp_s, 10.52);
   for (const float z_m : frame_.obstacles.depth_m.pixels()) ASSERT_TRUE(std::isnan(z_m));
   for (const LinkId id : frame_.robot.link_id.pixels()) ASSERT_EQ(id, kNoLink);
@@ -153,7 +154,7 @@ TEST_F(RunningRobot, StampsThatGoBackRepeatOrJumpCostTheirFrame) {
   EXPECT_EQ(observe(10.3), TimeStatus::ok);
   EXPECT_EQ(observe(10.3), TimeStatus::stamp_went_back) << "the same image again";
   EXPECT_EQ(observe(10.2), TimeStatus::stamp_went_back);
-  expect_withheld(asker_.ask(frame_), TimeStatus::stamp_went_back, rig_.model().link_count());
+  expect_withheld(asker_.ask(frame_), TimeStatus::stamp_went_back, view_->robot()->model().link_count());
   EXPECT_EQ(observe(10.2 + kPeriod_s), TimeStatus::ok) << "judged by the frame before alone";
   EXPECT_EQ(observe(1e9), TimeStatus::stamp_jumped);
   EXPECT_EQ(observe(10.4), TimeStatus::stamp_went_back);
@@ -167,12 +168,12 @@ TEST_F(RunningRobot, AMissingJointIsTheStatusOfFramesAndQuestions) {
   buffer_.push(10.52, fewer, std::vector<double>(fewer.size(), 0.0));
   EXPECT_EQ(buffer_.missing_joint(), names_.front());
   expect_withheld(asker_.ask(frame_, buffer_, 10.45), TimeStatus::missing_joint,
-                  rig_.model().link_count());
+                  view_->robot()->model().link_count());
   EXPECT_EQ(observe(10.52), TimeStatus::missing_joint);
-  expect_withheld(asker_.ask(frame_, 10.53), TimeStatus::missing_joint, rig_.model().link_count());
-  const JointBuffer empty(rig_.model(), 2);
+  expect_withheld(asker_.ask(frame_, 10.53), TimeStatus::missing_joint, view_->robot()->model().link_count());
+  const JointBuffer empty(view_->robot()->model(), 2);
   expect_withheld(asker_.ask(frame_, empty, 10.45), TimeStatus::no_joints,
-                  rig_.model().link_count());
+                  view_->robot()->model().link_count());
 }
 
 TEST(FrameClock, AStampThatIsNoTimeTellsNothingOfTheNext) {

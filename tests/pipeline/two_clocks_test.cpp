@@ -3,9 +3,10 @@
 
 #include <thread>
 
-#include "apps/berth/open_scene.hpp"
+#include "berth/scene/open_scene.hpp"
 #include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/observer.hpp"
+#include "testing/view_with.hpp"
 
 namespace berth {
 namespace {
@@ -19,11 +20,11 @@ std::vector<float> distances_of(const Answer& answer) {
 class TwoClocks : public testing::Test {
  protected:
   TwoClocks()
-      : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml", {})),
+      : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml")),
         camera_(scene_.cameras.front()) {}
 
   Frame observe(std::size_t i) {
-    Observer observer(*camera_.rig);
+    Observer observer(camera_.view);
     Frame frame;
     observer.observe(camera_.read_depth(i), camera_.at_exposure[i], frame);
     return frame;
@@ -35,14 +36,14 @@ class TwoClocks : public testing::Test {
 
 TEST_F(TwoClocks, TheJointsOfTheExposureGiveTheAnswerOfTheExposure) {
   const Frame frame = observe(3);
-  Asker asker(*camera_.rig);
+  Asker asker(camera_.view->robot());
   const auto at_exposure = distances_of(asker.ask(frame));
   EXPECT_EQ(distances_of(asker.ask(frame, camera_.at_exposure[3])), at_exposure);
 }
 
 TEST_F(TwoClocks, OtherJointsGiveTheRobotOfThatPoseAgainstWhatTheFrameSaw) {
   const Frame frame = observe(3);
-  Asker asker(*camera_.rig);
+  Asker asker(camera_.view->robot());
   JointState next = camera_.at_exposure[20];
   const Answer answer = asker.ask(frame, next);
   EXPECT_EQ(answer.frame_stamp_s, camera_.at_exposure[3].stamp_s);
@@ -50,21 +51,21 @@ TEST_F(TwoClocks, OtherJointsGiveTheRobotOfThatPoseAgainstWhatTheFrameSaw) {
   EXPECT_NE(distances_of(answer), distances_of(asker.ask(frame)));
 
   RobotPose pose;
-  forward_kinematics(camera_.rig->model(), next.position, pose);
+  forward_kinematics(camera_.view->robot()->model(), next.position, pose);
   RobotImage robot;
-  RobotRenderer(camera_.rig->meshes(), camera_.rig->camera()).render(pose, frame.X_BC, robot);
+  RobotRenderer(camera_.view->robot()->meshes(), camera_.view->camera()).render(pose, frame.X_BC, robot);
   EvaluateWorkspace workspace;
   LinkDistances expected;
-  evaluate(Method::exact, camera_.rig->camera(), robot, frame.obstacles.depth_m,
-           frame.obstacle_tree, camera_.rig->model().link_count(), {}, workspace, expected);
+  evaluate(Method::exact, camera_.view->camera(), robot, frame.obstacles.depth_m,
+           frame.obstacle_tree, camera_.view->robot()->model().link_count(), {}, workspace, expected);
   for (std::size_t i = 0; i < expected.links.size(); ++i) {
     EXPECT_EQ(answer.distances.links[i].distance_m, expected.links[i].distance_m);
   }
 }
 
 TEST_F(TwoClocks, FramesAndAskersCarryNothingOver) {
-  Observer observer(*camera_.rig);
-  Asker asker(*camera_.rig);
+  Observer observer(camera_.view);
+  Asker asker(camera_.view->robot());
   Frame frame;
   const auto run = [&](std::size_t i) {
     observer.observe(camera_.read_depth(i), camera_.at_exposure[i], frame);
@@ -79,7 +80,7 @@ TEST_F(TwoClocks, TwoThreadsAskOneFrame) {
   const Frame frame = observe(7);
   std::vector<float> answers[2];
   const auto ask = [&](std::vector<float>& out) {
-    Asker asker(*camera_.rig);
+    Asker asker(camera_.view->robot());
     for (int i = 0; i < 20; ++i) out = distances_of(asker.ask(frame, camera_.at_exposure[8]));
   };
   std::thread other(ask, std::ref(answers[0]));
@@ -90,8 +91,8 @@ TEST_F(TwoClocks, TwoThreadsAskOneFrame) {
 }
 
 TEST_F(TwoClocks, WrongSizesAndJointsAreRefused) {
-  Observer observer(*camera_.rig);
-  Asker asker(*camera_.rig);
+  Observer observer(camera_.view);
+  Asker asker(camera_.view->robot());
   Frame frame = observe(0);
   EXPECT_THROW(observer.observe(DepthImage(10, 10, 1.0F), camera_.at_exposure[0], frame),
                std::invalid_argument);
@@ -104,12 +105,11 @@ TEST_F(TwoClocks, WrongSizesAndJointsAreRefused) {
 TEST_F(TwoClocks, ABackgroundIsLearnedOnlyWhereItIsAskedForAndFromImagesOfTheCamerasSize) {
   const Frame frame = observe(0);
   const DepthImage depth_m = camera_.read_depth(0);
-  EXPECT_THROW(Observer(*camera_.rig).learn_background(depth_m, frame), std::invalid_argument);
+  EXPECT_THROW(Observer(camera_.view).learn_background(depth_m, frame), std::invalid_argument);
 
-  RigSettings settings;
+  ViewSettings settings;
   settings.sensor.background_frames = 1;
-  const Rig rig(camera_.rig->model(), camera_.rig->mount(), settings);
-  Observer observer(rig);
+  Observer observer(testing::view_with(*camera_.view, settings));
   EXPECT_THROW(observer.learn_background(DepthImage(10, 10, 1.0F), frame), std::invalid_argument);
   Frame learned;
   observer.observe(depth_m, camera_.at_exposure[0], learned);

@@ -3,9 +3,10 @@
 
 #include <thread>
 
-#include "apps/berth/open_scene.hpp"
+#include "berth/scene/open_scene.hpp"
 #include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/observer.hpp"
+#include "testing/view_with.hpp"
 #include "tests/pipeline/web.hpp"
 
 namespace berth {
@@ -27,9 +28,9 @@ std::vector<float> shares_of(const Answer& answer) {
 class VisibilityOfAnswers : public testing::Test {
  protected:
   VisibilityOfAnswers()
-      : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml", {})),
+      : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml")),
         camera_(scene_.cameras.front()) {
-    Observer(*camera_.rig).observe(camera_.read_depth(3), camera_.at_exposure[3], frame_);
+    Observer(camera_.view).observe(camera_.read_depth(3), camera_.at_exposure[3], frame_);
   }
 
   OpenScene scene_;
@@ -38,7 +39,7 @@ class VisibilityOfAnswers : public testing::Test {
 };
 
 TEST_F(VisibilityOfAnswers, TheJointsOfTheExposureGiveTheSharesOfTheExposure) {
-  Asker asker(*camera_.rig);
+  Asker asker(camera_.view->robot());
   const auto at_exposure = shares_of(asker.ask(frame_));
   ASSERT_EQ(at_exposure.size(), 8U * 10);
   const auto later = shares_of(asker.ask(frame_, camera_.at_exposure[20]));
@@ -47,7 +48,7 @@ TEST_F(VisibilityOfAnswers, TheJointsOfTheExposureGiveTheSharesOfTheExposure) {
 }
 
 TEST_F(VisibilityOfAnswers, LinksAreInTheOrderOfTheirIdsAndSeenInPart) {
-  Asker asker(*camera_.rig);
+  Asker asker(camera_.view->robot());
   const Answer& answer = asker.ask(frame_);
   for (std::size_t i = 0; i < answer.visibility.size(); ++i) {
     EXPECT_EQ(answer.visibility[i].id, i + 1);
@@ -62,8 +63,8 @@ TEST_F(VisibilityOfAnswers, OffLeavesThemOutAndChangesNoDistance) {
   EvaluationArguments arguments;
   arguments.visibility = false;
   const OpenScene off = open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml", arguments);
-  Asker asker(*camera_.rig);
-  Asker asker_off(*off.cameras.front().rig);
+  Asker asker(camera_.view->robot());
+  Asker asker_off(off.robot);
   const Answer& answer = asker.ask(frame_);
   const Answer& answer_off = asker_off.ask(frame_);
   EXPECT_TRUE(answer_off.visibility.empty());
@@ -75,7 +76,7 @@ TEST_F(VisibilityOfAnswers, OffLeavesThemOutAndChangesNoDistance) {
 TEST_F(VisibilityOfAnswers, TwoThreadsAskOneFrame) {
   std::vector<float> shares[2];
   const auto ask = [&](std::vector<float>& out) {
-    Asker asker(*camera_.rig);
+    Asker asker(camera_.view->robot());
     for (int i = 0; i < 20; ++i) out = shares_of(asker.ask(frame_, camera_.at_exposure[8]));
   };
   std::thread other(ask, std::ref(shares[0]));
@@ -88,12 +89,12 @@ TEST_F(VisibilityOfAnswers, TwoThreadsAskOneFrame) {
 TEST_F(VisibilityOfAnswers, WithWhatIsDoubtfulDistancesAreThoseWithoutTheIslandRule) {
   DepthImage with_web_m = camera_.read_depth(3);
   draw_web(frame_.robot, with_web_m);
-  RigSettings settings = camera_.rig->settings();
+  ViewSettings settings = camera_.view->settings();
   settings.self_filter.island_radius_m = 0;
-  const Rig no_islands(camera_.rig->model(), camera_.rig->mount(), settings);
-  Observer observer(*camera_.rig);
+  const auto no_islands = testing::view_with(*camera_.view, settings);
+  Observer observer(camera_.view);
   Observer observer_of_all(no_islands);
-  Asker asker(*camera_.rig);
+  Asker asker(camera_.view->robot());
   Asker asker_of_all(no_islands);
   Frame all;
   observer.observe(with_web_m, camera_.at_exposure[3], frame_);

@@ -1,5 +1,5 @@
 // STL files, whole and broken. OBJ and DAE: mesh_text_test.cpp.
-#include "berth/robot/mesh_file.hpp"
+#include "berth/robot/mesh_file/mesh_file.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

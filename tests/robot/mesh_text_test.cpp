@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "berth/robot/mesh_file.hpp"
+#include "berth/robot/mesh_file/mesh_file.hpp"
 #include "testing/temporary_folder.hpp"
 #include "tests/robot/error_text.hpp"
 #include "tests/robot/mesh_writing.hpp"

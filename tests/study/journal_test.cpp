@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "berth/io/file_bytes.hpp"
+#include "berth/files/file_bytes.hpp"
 #include "testing/error_message.hpp"
 #include "testing/temporary_folder.hpp"
 

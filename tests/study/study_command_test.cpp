@@ -6,7 +6,7 @@
 #include <chrono>
 #include <thread>
 
-#include "berth/io/file_bytes.hpp"
+#include "berth/files/file_bytes.hpp"
 #include "tests/apps/berth_program.hpp"
 
 namespace berth {

@@ -7,7 +7,7 @@
 #include <map>
 #include <sstream>
 
-#include "berth/io/file_bytes.hpp"
+#include "berth/files/file_bytes.hpp"
 #include "testing/gl_test.hpp"
 #include "testing/temporary_folder.hpp"
 

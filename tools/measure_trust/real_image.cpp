@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "berth/distance/evaluate.hpp"
-#include "berth/io/png.hpp"
+#include "berth/files/png.hpp"
 #include "testing/drawn_obstacles.hpp"
 #include "testing/drawn_scene.hpp"
 #include "testing/sensor_model.hpp"

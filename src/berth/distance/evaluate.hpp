@@ -18,6 +18,8 @@ inline constexpr std::array kMethods = {Method::exact,    Method::brute_force, M
                                         Method::gl_exact, Method::gl_lattice,  Method::gl_hybrid};
 inline constexpr std::array kCpuMethods = {Method::exact, Method::brute_force, Method::lattice};
 
+constexpr const auto& all_of(Method) { return kMethods; }
+
 bool runs_on_opengl(Method method);
 
 std::string_view name_of(Method method);

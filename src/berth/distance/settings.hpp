@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "berth/distance/surveillance_settings.hpp"
+#include "berth/types/setting.hpp"
 
 namespace berth {
 
@@ -43,6 +44,52 @@ struct DistanceSettings {
 inline constexpr int kMaxLatticePx = 65536;
 /// And tile_px between 1 and this.
 inline constexpr int kMaxTilePx = 64;
+
+/// The list of these settings.
+template <SettingsOf<DistanceSettings> Settings, class Visitor>
+void visit_settings(Settings& s, Visitor&& visit) {
+  constexpr Domain kPixels{.least = 1, .most = kMaxLatticePx};
+  visit({"range_m", kAboveZero, "distances are looked for up to here"}, s.range_m);
+  visit({"mean_direction", {}, "whether to give the mean direction of what is near each link"},
+        s.mean_direction);
+  visit({"tolerance_m", kNotNegative, "the search may stop once a link's distance is known to this",
+         "exact"},
+        s.tolerance_m);
+  visit({"deadline_us", {.may_be_infinite = true},
+         "the search stops after so many microseconds, mean directions not counted, and tells what "
+         "it knows by then: distance and lower bound",
+         "exact"},
+        s.deadline_us);
+  visit({"region", {},
+         "where obstacles of a robot pixel are looked for; without it image for brute_force, "
+         "cube_projection for lattice",
+         "brute_force lattice"},
+        s.surveillance.region);
+  visit({"depth_interval", {},
+         "whether obstacles in front of the cube around a robot pixel count: in gray_area they do",
+         "brute_force lattice"},
+        s.surveillance.depth_interval);
+  visit({"search_pattern", {}, "the order of obstacle pixels", "brute_force lattice"},
+        s.surveillance.search_pattern);
+  visit({"shrinking", {}, "whether the region shrinks with a link's closest pair",
+         "brute_force lattice"},
+        s.surveillance.shrinking);
+  visit({"step_x", kPixels, "tries every so many columns of obstacle pixels",
+         "lattice gl_lattice gl_hybrid"},
+        s.lattice.step_x);
+  visit({"step_y", kPixels, "tries every so many rows of obstacle pixels",
+         "lattice gl_lattice gl_hybrid"},
+        s.lattice.step_y);
+  visit({"initial_grid_radius_px", kPixels, "radius around the robot pixels that are tried first",
+         "lattice gl_hybrid"},
+        s.lattice.initial_grid_radius_px);
+  visit({"final_grid_radius_px", kPixels, "radius within which all robot pixels are tried last",
+         "lattice gl_lattice gl_hybrid"},
+        s.lattice.final_grid_radius_px);
+  visit({"tile_px", {.least = 1, .most = kMaxTilePx},
+         "size of the tiles of which one robot pixel each is tried first", "gl_lattice"},
+        s.lattice.tile_px);
+}
 
 /// Throws std::invalid_argument, naming key and value, unless range_m is finite and above 0,
 /// tolerance_m finite and at least 0, deadline_us at least 0, steps and radii of the lattice from 1

@@ -46,6 +46,11 @@ std::string_view name_of(DepthInterval interval);
 std::string_view name_of(SearchPattern pattern);
 std::string_view name_of(Shrinking shrinking);
 
+constexpr const auto& all_of(SurveillanceRegion) { return kSurveillanceRegions; }
+constexpr const auto& all_of(DepthInterval) { return kDepthIntervals; }
+constexpr const auto& all_of(SearchPattern) { return kSearchPatterns; }
+constexpr const auto& all_of(Shrinking) { return kShrinkings; }
+
 /// For brute_force and lattice. L begins with the range.
 struct SurveillanceSettings {
   /// Nothing: image for brute_force, cube_projection for lattice.

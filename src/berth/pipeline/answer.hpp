@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "berth/pipeline/frame.hpp"
-#include "berth/pipeline/rig.hpp"
+#include "berth/pipeline/view.hpp"
 #include "berth/types/link_distance.hpp"
 #include "berth/types/link_visibility.hpp"
 #include "berth/types/time_status.hpp"
@@ -20,13 +20,13 @@ struct Answer {
   Timeliness time;
   LinkDistances distances;
   /// What the camera cannot know: visibility[i] belongs to the link with the id i + 1. Empty unless
-  /// RigSettings::visibility is set.
+  /// EvaluationSettings::visibility is set.
   std::vector<LinkVisibility> visibility;
 };
 
 /// The first step of each question: writes the stamps. Whether the answer is in time; if not it is
 /// withheld, with every link untimely.
-bool begin_answer(const Rig& rig, double frame_stamp_s, double joints_stamp_s,
+bool begin_answer(const Robot& robot, double frame_stamp_s, double joints_stamp_s,
                   const Timeliness& time, Answer& out);
 
 /// The memory of tell_visibility(), one for each thread.
@@ -35,9 +35,9 @@ struct TellWorkspace {
   DoubtfulWorkspace doubtful;
 };
 
-/// The last step of each question: fills the visibility where the rig's settings ask for it.
+/// The last step of each question: fills the visibility where the settings ask for it.
 /// `robot` is the one that `out.distances` are about.
-void tell_visibility(const Rig& rig, const Frame& frame, const AskedRobot& robot,
+void tell_visibility(const Frame& frame, const AskedRobot& robot,
                      TellWorkspace& workspace, Answer& out);
 
 }  // namespace berth

@@ -4,23 +4,23 @@
 
 #include "berth/pipeline/answer.hpp"
 #include "berth/pipeline/frame.hpp"
-#include "berth/pipeline/rig.hpp"
+#include "berth/pipeline/robot.hpp"
 #include "berth/pipeline/timeliness.hpp"
 #include "berth/robot/joint_buffer.hpp"
 #include "berth/types/joint_state.hpp"
 
 namespace berth {
 
-/// The controller's clock: questions about a frame. One for each thread; the rig has to outlive it.
-/// Several may ask one frame at the same time.
+/// The controller's clock: questions about a frame. One for each thread. Several may ask one frame
+/// at the same time.
 class Asker {
  public:
-  /// Throws std::invalid_argument if the rig's method runs on OpenGL (GlAsker).
-  explicit Asker(const Rig& rig);
+  /// Throws std::invalid_argument if the robot's method runs on OpenGL (GlAsker).
+  explicit Asker(std::shared_ptr<const Robot> robot);
 
   /// The distances of the robot as it stood when the image was exposed. With the time of the
-  /// question the frame's age is told and judged by RigSettings::time, here and below. Valid until
-  /// the next question.
+  /// question the frame's age is told and judged by EvaluationSettings::time, here and below. Valid
+  /// until the next question.
   const Answer& ask(const Frame& frame, std::optional<double> now_s = {});
 
   /// The distances with the robot at other joint angles, now or where it is about to go, against
@@ -32,15 +32,18 @@ class Asker {
   const Answer& ask(const Frame& frame, const JointBuffer& joints, double now_s);
 
   /// The robot of the last question at other joint angles.
-  const RobotImage& robot_image() const { return robot_; }
+  const RobotImage& robot_image() const { return image_; }
 
  private:
   const Answer& evaluate_robot(const Frame& frame, const AskedRobot& robot);
+  RobotRenderer& renderer_of(const std::shared_ptr<const View>& view);
 
-  const Rig& rig_;
-  RobotRenderer renderer_;
+  std::shared_ptr<const Robot> robot_;
+  /// Of the view that was asked last, made at the first question at other joint angles.
+  std::optional<RobotRenderer> renderer_;
+  std::shared_ptr<const View> rendered_view_;
   RobotPose pose_;
-  RobotImage robot_;
+  RobotImage image_;
   JointState newest_;
   EvaluateWorkspace workspace_;
   TellWorkspace tell_;

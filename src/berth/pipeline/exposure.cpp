@@ -4,13 +4,14 @@
 
 #include <stdexcept>
 
-#include "berth/pipeline/rig.hpp"
+#include "berth/pipeline/view.hpp"
 
 namespace berth {
 
-bool begin_exposure(const Rig& rig, DepthView depth_m, const JointState& at_exposure,
-                    FrameTime time, Exposure& out) {
-  require_size(rig.camera(), depth_m);
+bool begin_exposure(const std::shared_ptr<const View>& view, DepthView depth_m,
+                    const JointState& at_exposure, FrameTime time, Exposure& out) {
+  require_size(view->camera(), depth_m);
+  out.view = view;
   out.stamp_s = at_exposure.stamp_s;
   out.time = time;
   if (time.status != TimeStatus::ok) {
@@ -18,8 +19,8 @@ bool begin_exposure(const Rig& rig, DepthView depth_m, const JointState& at_expo
     out.pose.X_BL.clear();
     return false;
   }
-  forward_kinematics(rig.model(), at_exposure.position, out.pose);
-  out.X_BC = rig.camera_pose(out.pose);
+  forward_kinematics(view->robot()->model(), at_exposure.position, out.pose);
+  out.X_BC = view->camera_pose(out.pose);
   return true;
 }
 

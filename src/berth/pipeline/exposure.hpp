@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "berth/robot/kinematics.hpp"
 #include "berth/types/camera.hpp"
 #include "berth/types/image.hpp"
@@ -8,10 +10,12 @@
 
 namespace berth {
 
-class Rig;
+class View;
 
 /// When and where one depth image was taken.
 struct Exposure {
+  /// Whose image it is; null in a frame that nobody has observed.
+  std::shared_ptr<const View> view;
   double stamp_s = 0;
   /// Unless its status is ok there is no robot and no reading in the frame, and no answer from it.
   FrameTime time;
@@ -23,7 +27,7 @@ struct Exposure {
 /// The first step of each observer: writes `out`. Whether its time is ok; if not, the joints are
 /// not looked at and the poses are unset. Throws std::invalid_argument unless the image has the
 /// camera's size, and for wrong joints.
-bool begin_exposure(const Rig& rig, DepthView depth_m, const JointState& at_exposure,
+bool begin_exposure(const std::shared_ptr<const View>& view, DepthView depth_m, const JointState& at_exposure,
                     FrameTime time, Exposure& out);
 
 /// Throws std::invalid_argument unless the image has the camera's size.

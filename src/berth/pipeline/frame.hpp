@@ -14,7 +14,7 @@ struct Frame : Exposure {
   RobotImage robot;
   ObstacleImage obstacles;
   ObstacleTree obstacle_tree;
-  /// Empty unless RigSettings::visibility is set.
+  /// Empty unless EvaluationSettings::visibility is set.
   DoubtfulImage doubtful;
 };
 

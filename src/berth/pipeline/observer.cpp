@@ -4,20 +4,21 @@
 
 namespace berth {
 
-Observer::Observer(const Rig& rig) : rig_(rig), renderer_(rig.meshes(), rig.camera()) {
-  if (rig.region_meshes()) region_renderer_.emplace(rig.region_meshes(), rig.camera());
+Observer::Observer(std::shared_ptr<const View> view)
+    : view_(std::move(view)), renderer_(view_->robot()->meshes(), view_->camera()) {
+  if (view_->region_meshes()) region_renderer_.emplace(view_->region_meshes(), view_->camera());
 }
 
 void Observer::observe(DepthView depth_m, const JointState& at_exposure, Frame& frame,
                        FrameTime time) {
-  const Camera& camera = rig_.camera();
-  if (!begin_exposure(rig_, depth_m, at_exposure, time, frame)) return clear_images(camera, frame);
+  const Camera& camera = view_->camera();
+  if (!begin_exposure(view_, depth_m, at_exposure, time, frame)) return clear_images(camera, frame);
   renderer_.render(frame.pose, frame.X_BC, frame.robot);
   filter(depth_m, frame);
-  apply_sensor_rules(depth_m, frame.robot, background_, rig_.settings().sensor, sensor_,
+  apply_sensor_rules(depth_m, frame.robot, background_, view_->settings().sensor, sensor_,
                      frame.obstacles);
   build_obstacle_tree(frame.obstacles.depth_m, frame.obstacle_tree);
-  if (rig_.settings().visibility) {
+  if (view_->robot()->settings().visibility) {
     find_doubtful(depth_m, frame.obstacles, frame.doubtful);
   } else {
     clear_doubtful(depth_m.width, depth_m.height, frame.doubtful);
@@ -25,17 +26,17 @@ void Observer::observe(DepthView depth_m, const JointState& at_exposure, Frame& 
 }
 
 void Observer::filter(DepthView depth_m, Frame& frame) {
-  const SelfFilterSettings& settings = rig_.settings().self_filter;
+  const SelfFilterSettings& settings = view_->settings().self_filter;
   if (!region_renderer_) {
-    self_filter(rig_.camera(), depth_m, frame.robot, settings, workspace_, frame.obstacles);
+    self_filter(view_->camera(), depth_m, frame.robot, settings, workspace_, frame.obstacles);
     return;
   }
   region_renderer_->render(frame.pose, frame.X_BC, region_);
-  self_filter(rig_.camera(), depth_m, frame.robot, region_, settings, workspace_, frame.obstacles);
+  self_filter(view_->camera(), depth_m, frame.robot, region_, settings, workspace_, frame.obstacles);
 }
 
 void Observer::observe(DepthView depth_m, double stamp_s, const JointBuffer& joints, Frame& frame) {
-  const TimeSettings& settings = rig_.settings().time;
+  const TimeSettings& settings = view_->robot()->settings().time;
   const TimeStatus stamp = clock_.next(stamp_s, settings);
   FrameTime time = joints.at(stamp_s, settings.joints, at_exposure_);
   if (stamp != TimeStatus::ok) time.status = stamp;
@@ -43,15 +44,15 @@ void Observer::observe(DepthView depth_m, double stamp_s, const JointBuffer& joi
 }
 
 void Observer::learn_background(DepthView depth_m, const Frame& frame) {
-  require_size(rig_.camera(), depth_m);
-  const SensorSettings& settings = rig_.settings().sensor;
+  require_size(view_->camera(), depth_m);
+  const SensorSettings& settings = view_->settings().sensor;
   if (!settings.has_background()) {
     throw std::invalid_argument(
         "sensor.background_frames: 0; expected 1 or more, to learn a background");
   }
   // Without its robot the image would give the arm for a background.
   if (frame.time.status != TimeStatus::ok) return;
-  background_.learn(rig_.camera(), depth_m, frame.robot, frame.obstacles.fate, settings);
+  background_.learn(view_->camera(), depth_m, frame.robot, frame.obstacles.fate, settings);
 }
 
 }  // namespace berth

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "berth/pipeline/frame.hpp"
-#include "berth/pipeline/rig.hpp"
+#include "berth/pipeline/view.hpp"
 #include "berth/pipeline/timeliness.hpp"
 #include "berth/robot/joint_buffer.hpp"
 #include "berth/self_filter/self_filter.hpp"
@@ -12,10 +12,10 @@
 
 namespace berth {
 
-/// The camera's clock: depth images to frames. One for each thread; the rig has to outlive it.
+/// The camera's clock: depth images to frames. One for each thread.
 class Observer {
  public:
-  explicit Observer(const Rig& rig);
+  explicit Observer(std::shared_ptr<const View> view);
 
   /// Renders the robot at the joint angles of the exposure, removes it from the image, and writes
   /// all of `frame`, whose memory it reuses. `depth_m` is as large as the camera's image, NaN where
@@ -39,7 +39,7 @@ class Observer {
  private:
   void filter(DepthView depth_m, Frame& frame);
 
-  const Rig& rig_;
+  std::shared_ptr<const View> view_;
   RobotRenderer renderer_;
   /// Of the robot-shaped region, where there is one.
   std::optional<RobotRenderer> region_renderer_;

@@ -1,27 +1,11 @@
 #include "berth/pipeline/timeliness.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 namespace berth {
 
-void validate(const TimeSettings& settings) {
-  const std::pair<const char*, double> limits[] = {
-      {"max_skew_s", settings.joints.max_skew_s},
-      {"max_extrapolation_s", settings.joints.max_extrapolation_s},
-      {"max_frame_age_s", settings.max_frame_age_s},
-      {"max_joints_age_s", settings.max_joints_age_s},
-      {"max_frame_gap_s", settings.max_frame_gap_s},
-      {"max_clock_offset_s", settings.max_clock_offset_s}};
-  for (const auto& [name, limit_s] : limits) {
-    if (limit_s >= 0) continue;
-    throw std::invalid_argument(
-        fmt::format("time.{} is {}; expected a number of at least 0", name, limit_s));
-  }
-}
+void validate(const TimeSettings& settings) { visit_settings(settings, SettingCheck{"time"}); }
 
 TimeStatus FrameClock::next(double stamp_s, const TimeSettings& settings) {
   // A stamp that is no time tells nothing of the next one.

@@ -4,6 +4,7 @@
 
 #include "berth/pipeline/exposure.hpp"
 #include "berth/robot/joints_at_time.hpp"
+#include "berth/types/setting.hpp"
 
 namespace berth {
 
@@ -24,6 +25,22 @@ struct TimeSettings {
   /// How far a frame's stamp may lie after the question, where the camera's clock goes ahead.
   double max_clock_offset_s = 0.005;
 };
+
+/// The list of these settings.
+template <SettingsOf<TimeSettings> Settings, class Visitor>
+void visit_settings(Settings& s, Visitor&& visit) {
+  constexpr Domain kSeconds{.may_be_infinite = true};
+  visit_settings(s.joints, visit);
+  visit({"max_frame_age_s", kSeconds, "how old an image may be when it is asked"},
+        s.max_frame_age_s);
+  visit({"max_joints_age_s", kSeconds, "how old joints may be when they are asked about"},
+        s.max_joints_age_s);
+  visit({"max_frame_gap_s", kSeconds, "how far an image's stamp may lie above the one before"},
+        s.max_frame_gap_s);
+  visit({"max_clock_offset_s", kSeconds,
+         "how far an image's stamp may lie after the time of the question"},
+        s.max_clock_offset_s);
+}
 
 /// Throws std::invalid_argument with name, value and what was expected: a limit that is negative or
 /// NaN.

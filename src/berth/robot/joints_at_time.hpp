@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "berth/types/joint_state.hpp"
+#include "berth/types/setting.hpp"
 #include "berth/types/time_status.hpp"
 
 namespace berth {
@@ -16,6 +17,17 @@ struct JointTimeLimits {
   /// Beyond the first or the last sample.
   double max_extrapolation_s = 0;
 };
+
+/// The list of these settings.
+template <SettingsOf<JointTimeLimits> Settings, class Visitor>
+void visit_settings(Settings& s, Visitor&& visit) {
+  constexpr Domain kSeconds{.may_be_infinite = true};
+  visit({"max_skew_s", kSeconds, "how far the nearest sample of the joints may lie from an image"},
+        s.max_skew_s);
+  visit({"max_extrapolation_s", kSeconds,
+         "how far an image may lie before the first or after the last sample of the joints"},
+        s.max_extrapolation_s);
+}
 
 /// No limit but that nothing is extrapolated: for recordings whose joints are rare.
 inline constexpr JointTimeLimits kOnlyBetweenSamples{std::numeric_limits<double>::infinity(), 0};

@@ -6,7 +6,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "berth/robot/mesh_file.hpp"
+#include "berth/robot/mesh_file/mesh_file.hpp"
 #include "berth/robot/package_path.hpp"
 #include "berth/robot/plausible_size.hpp"
 #include "berth/robot/primitives.hpp"

@@ -12,9 +12,9 @@
 #include <string_view>
 #include <vector>
 
-#include "berth/robot/read_file.hpp"
+#include "berth/files/read_file.hpp"
 #include "berth/robot/urdf_numbers.hpp"
-#include "berth/robot/xml.hpp"
+#include "berth/files/xml.hpp"
 
 namespace berth {
 namespace {

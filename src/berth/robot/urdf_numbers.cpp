@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "berth/robot/number.hpp"
-#include "berth/robot/xml.hpp"
+#include "berth/files/number.hpp"
+#include "berth/files/xml.hpp"
 
 namespace berth {
 namespace {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "berth/types/robot_image.hpp"
+#include "berth/types/setting.hpp"
 
 namespace berth {
 
@@ -43,6 +44,43 @@ struct SelfFilterSettings {
 
   double padding_of(LinkId id) const;
 };
+
+/// The list of these settings but link_padding_m, which goes by link.
+template <SettingsOf<SelfFilterSettings> Settings, class Visitor>
+void visit_settings(Settings& s, Visitor&& visit) {
+  visit({"tolerance_m", kNotNegative,
+         "a reading is the robot's unless it is nearer than the model by more than tolerance_m + "
+         "tolerance_per_m z + tolerance_per_m2 z²"},
+        s.tolerance_m);
+  visit({"tolerance_per_m", kNotNegative, "part of the tolerance that grows with the depth z"},
+        s.tolerance_per_m);
+  visit({"tolerance_per_m2", kNotNegative, "part of the tolerance that grows with z²"},
+        s.tolerance_per_m2);
+  visit({"padding_m", kNotNegative,
+         "a reading beside the robot within this length is taken for the robot too"},
+        s.padding_m);
+  visit({"padding_depth_m", kNotNegative,
+         "padding and dilation take nothing farther behind the robot than this, but mixed pixels"},
+        s.padding_depth_m);
+  visit({"dilation_px", kNotNegative,
+         "a reading beside the robot within so many pixels is taken for the robot too"},
+        s.dilation_px);
+  visit({"edge_jump_m", kNotNegative,
+         "a single pixel between two flat surfaces is dropped where it is farther than this from "
+         "both (times z² beyond 1 m); 0 is off"},
+        s.edge_jump_m);
+  visit({"island_radius_m", kNotNegative,
+         "a small piece that touches the robot's own readings and stays within this distance of "
+         "the robot is dropped; 0 is off"},
+        s.island_radius_m);
+  visit({"island_jump_m", kNotNegative,
+         "two neighbouring pixels are of one piece where their depths differ by no more than this"},
+        s.island_jump_m);
+  visit({"robot_region_scale", {.least = 1, .has_off = true},
+         "what is not seen through the robot enlarged so many times is ignored, however near "
+         "(the thesis: 6); distances can be too large; 0 is off"},
+        s.robot_region_scale);
+}
 
 /// Throws std::invalid_argument that names key, value and what was expected.
 void validate(const SelfFilterSettings& settings);

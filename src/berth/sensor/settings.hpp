@@ -3,6 +3,8 @@
 #include <array>
 #include <string_view>
 
+#include "berth/types/setting.hpp"
+
 namespace berth {
 
 /// What a pixel without a reading means, where the model does not say that it shows the robot or
@@ -16,6 +18,7 @@ inline constexpr std::array kHolePolicies = {HolePolicy::free, HolePolicy::obsta
                                              HolePolicy::nearest_neighbour};
 
 std::string_view name_of(HolePolicy policy);
+constexpr const auto& all_of(HolePolicy) { return kHolePolicies; }
 
 /// What is known of the sensor's faults. Every rule is off by default. Only `speckle_px` ever drops
 /// anything; the other rules add obstacles or move them towards the camera.
@@ -47,6 +50,31 @@ struct SensorSettings {
 
 /// Most of average_frames: that many images are held.
 inline constexpr int kMostAverageFrames = 100;
+
+/// The list of these settings.
+template <SettingsOf<SensorSettings> Settings, class Visitor>
+void visit_settings(Settings& s, Visitor&& visit) {
+  visit({"noise_m", kNotNegative, "two readings of one surface at z differ by up to this times "
+                                  "max(1, z²)"},
+        s.noise_m);
+  visit({"speckle_px", kNotNegative, "blobs of fewer pixels are dropped; 0 and 1 are off"},
+        s.speckle_px);
+  visit({"speckle_jump_m", kNotNegative,
+         "two neighbouring pixels are of one blob where their depths differ by no more than this "
+         "times max(1, z²)"},
+        s.speckle_jump_m);
+  visit({"average_frames", {.most = kMostAverageFrames},
+         "a reading moves to the mean of this many of its pixel's last ones where that is nearer; "
+         "0 and 1 are off"},
+        s.average_frames);
+  visit({"background_frames", kNotNegative,
+         "what so many images agree on stands where the robot hides it now; 0 is off"},
+        s.background_frames);
+  visit({"background_clearance_m", kNotNegative,
+         "no background is learned this near to the robot in the image"},
+        s.background_clearance_m);
+  visit({"holes", {}, "what a pixel without a reading means, where the robot is not"}, s.holes);
+}
 
 /// Throws std::invalid_argument that names key, value and what was expected.
 void validate(const SensorSettings& settings);

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <limits>
+#include <string_view>
 #include <vector>
 
 #include "berth/types/image.hpp"
@@ -17,6 +19,13 @@ enum class LinkStatus : std::uint8_t {
   cut_short,      ///< the search was stopped before it found a pair within the range
   untimely,       ///< stamps or ages allow no answer (Answer::time): nothing is known
 };
+/// By enumerator.
+inline constexpr std::array<std::string_view, 5> kLinkStatusNames = {
+    "ok", "none_in_range", "not_visible", "cut_short", "untimely"};
+
+constexpr std::string_view name_of(LinkStatus status) {
+  return kLinkStatusNames[static_cast<std::size_t>(status)];
+}
 
 /// The closest pair of one link (Hirt 2.10 to 2.14). Unless status is ok, every length but the lower
 /// bound is NaN and every pixel (-1, -1): never 0, never a large number, never the answer before.

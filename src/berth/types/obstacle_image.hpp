@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string_view>
 
 #include "berth/types/image.hpp"
 
@@ -30,6 +31,15 @@ enum class PixelFate : std::uint8_t {
 inline constexpr int kPixelFateCount = 13;
 /// The self filter gives those up to `outside_region`.
 inline constexpr int kSelfFilterFateCount = 9;
+
+/// By enumerator.
+inline constexpr std::array<std::string_view, kPixelFateCount> kPixelFateNames = {
+    "obstacle", "no_reading",     "robot",   "environment", "padding",    "dilation", "edge",
+    "island",   "outside_region", "speckle", "averaged",    "background", "hole"};
+
+constexpr std::string_view name_of(PixelFate fate) {
+  return kPixelFateNames[static_cast<std::size_t>(fate)];
+}
 
 /// Whether F has a depth there.
 inline bool is_kept(PixelFate fate) {

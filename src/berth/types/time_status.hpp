@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
+#include <string_view>
 
 namespace berth {
 
@@ -19,6 +21,15 @@ enum class TimeStatus : std::uint8_t {
   stale_joints,     ///< the joints are too old
 };
 inline constexpr int kTimeStatusCount = 10;
+/// By enumerator.
+inline constexpr std::array<std::string_view, kTimeStatusCount> kTimeStatusNames = {
+    "ok",          "no_joints",       "missing_joint", "extrapolated_too_far",
+    "skewed",      "stamp_went_back", "stamp_jumped",  "frame_in_future",
+    "stale_frame", "stale_joints"};
+
+constexpr std::string_view name_of(TimeStatus status) {
+  return kTimeStatusNames[static_cast<std::size_t>(status)];
+}
 
 /// What is known of a frame's time before anybody asks it.
 struct FrameTime {

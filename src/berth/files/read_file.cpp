@@ -1,0 +1,43 @@
+#include "berth/files/read_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+
+namespace berth {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 30;
+
+[[noreturn]] void fail(const fs::path& file, std::string_view found, std::string_view expected) {
+  throw std::runtime_error(fmt::format("{}: {}; expected {}", file.string(), found, expected));
+}
+
+}  // namespace
+
+std::string read_file_bytes(const fs::path& file) {
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (fs::is_directory(status)) fail(file, "is a folder", "a file");
+  if (error) fail(file, error.message(), "a readable file");
+  if (!fs::is_regular_file(status)) fail(file, "is a pipe or device", "a regular file");
+  const std::uintmax_t size = fs::file_size(file);
+  if (size > kMostBytes) {
+    fail(file, fmt::format("holds {} bytes", size), fmt::format("{} at most", kMostBytes));
+  }
+  errno = 0;
+  std::ifstream in(file, std::ios::binary);
+  if (!in) fail(file, std::strerror(errno), "a readable file");
+  std::string bytes(size, '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(size));
+  if (!in) fail(file, "reading failed", "a readable file");
+  return bytes;
+}
+
+}  // namespace berth

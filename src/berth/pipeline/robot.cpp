@@ -1,0 +1,12 @@
+#include "berth/pipeline/robot.hpp"
+
+namespace berth {
+
+Robot::Robot(RobotModel model, EvaluationSettings settings)
+    : model_(std::move(model)), settings_(std::move(settings)), meshes_(build_link_meshes(model_)) {
+  validate(settings_.distance);
+  validate(settings_.time);
+  if (settings_.visibility) sample_points_ = berth::sample_points(model_);
+}
+
+}  // namespace berth

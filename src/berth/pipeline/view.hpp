@@ -1,0 +1,56 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "berth/pipeline/robot.hpp"
+#include "berth/self_filter/settings.hpp"
+#include "berth/sensor/settings.hpp"
+#include "berth/types/camera.hpp"
+
+namespace berth {
+
+/// A camera and what it is fixed to: any link of the robot, the root or the hand.
+struct CameraMount {
+  Camera camera;
+  std::string parent_link;
+  /// The pose of the optical frame C in the parent link's frame P; to be set, NaN is refused.
+  Pose X_PC = unset_pose();
+};
+
+/// What is known of one camera's images.
+struct ViewSettings {
+  SelfFilterSettings self_filter;
+  /// Padding of single links by name, instead of self_filter.padding_m.
+  std::map<std::string, double> link_padding_m;
+  SensorSettings sensor;
+};
+
+/// One camera that sees the robot: constant once made, shared by its observers, frames and their
+/// threads.
+class View {
+ public:
+  /// Throws std::invalid_argument that names the setting, its value and what was expected: an
+  /// unknown link, a pose that is not one, a camera without size, a value outside its domain, a
+  /// background for a camera that moves with the robot.
+  View(std::shared_ptr<const Robot> robot, CameraMount mount, ViewSettings settings = {});
+
+  const std::shared_ptr<const Robot>& robot() const { return robot_; }
+  const CameraMount& mount() const { return mount_; }
+  const Camera& camera() const { return mount_.camera; }
+  const ViewSettings& settings() const { return settings_; }
+  /// Those of robot_region(); null where SelfFilterSettings::robot_region_scale is 0.
+  const std::shared_ptr<const LinkMeshes>& region_meshes() const { return region_meshes_; }
+  /// The camera's pose X_BC in the robot's root link, with the robot in this pose.
+  Pose camera_pose(const RobotPose& pose) const { return pose.X_BL[parent_] * mount_.X_PC; }
+
+ private:
+  std::shared_ptr<const Robot> robot_;
+  CameraMount mount_;
+  ViewSettings settings_;
+  std::size_t parent_ = 0;
+  std::shared_ptr<const LinkMeshes> region_meshes_;
+};
+
+}  // namespace berth

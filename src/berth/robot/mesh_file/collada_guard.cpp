@@ -1,0 +1,197 @@
+#include "berth/robot/mesh_file/collada_guard.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+#include "berth/files/number.hpp"
+#include "berth/files/xml.hpp"
+
+namespace berth {
+namespace {
+
+constexpr std::size_t kMostNodes = 100'000;
+constexpr std::size_t kDeepestUnfolding = 200;
+
+class Guard {
+ public:
+  Guard(const std::filesystem::path& path, const std::string& text) : path_(path), text_(text) {
+    parse_xml(path, text, "the mesh cannot be read", document_);
+  }
+
+  std::string checked() {
+    check_numbers(document_);
+    for (const pugi::xml_node& accessor : accessors_) check_accessor(accessor);
+    for (const pugi::xml_node& scene : scenes_) unfolded(scene);
+    remove_all_but_geometry();
+    std::ostringstream text;
+    document_.save(text, "", pugi::format_raw);
+    return text.str();
+  }
+
+ private:
+  [[noreturn]] void fail(const pugi::xml_node& node, const std::string& what) const {
+    throw std::runtime_error(fmt::format("{}:{}: <{}>: {}", path_.string(),
+                                         line_of(text_, node.offset_debug()), node.name(), what));
+  }
+
+  /// Nothing can be there more often than the file has bytes.
+  void check_numbers(const pugi::xml_node& node) {
+    for (const char* key : {"count", "stride", "offset", "set"}) {
+      const pugi::xml_attribute value = node.attribute(key);
+      if (!value) continue;
+      const std::string_view digits = value.value();
+      if (digits.empty() || digits.size() > 9 ||
+          digits.find_first_not_of("0123456789") != std::string_view::npos ||
+          value.as_uint() > text_.size()) {
+        fail(node,
+             fmt::format("{} is \"{}\"; expected a whole number of at most the file's {} bytes",
+                         key, digits, text_.size()));
+      }
+    }
+    // Assimp ends the process at a skew, and at some skins.
+    if (std::string_view(node.name()) == "skew") {
+      fail(node, "not supported; expected matrix, translate, rotate, scale or lookat");
+    }
+    if (std::string_view(node.name()) == "instance_controller") {
+      fail(node, "a skin, which bends with its bones; expected a rigid mesh, <instance_geometry>");
+    }
+    require_whole_numbers(node);
+    require_floats(node);
+    const std::string_view name = node.name();
+    if (name == "accessor") accessors_.push_back(node);
+    if (name.ends_with("_array")) {
+      const std::size_t count = node.attribute("count").as_uint();
+      const auto [array, is_new] = array_count_.emplace(node.attribute("id").value(), count);
+      if (!is_new) array->second = std::min(array->second, count);
+    }
+    if (name == "visual_scene") scenes_.push_back(node);
+    if (const auto id = node.attribute("id"); id && name == "node") {
+      if (!by_id_.emplace(id.value(), node).second)
+        fail(node,
+             fmt::format("a second one has the id \"{}\"; expected ids that differ", id.value()));
+    }
+    for (const pugi::xml_node& child : node.children()) check_numbers(child);
+  }
+
+  /// Assimp reads beyond an array that is shorter than what its accessor says.
+  void check_accessor(const pugi::xml_node& accessor) const {
+    const std::string_view source = accessor.attribute("source").value();
+    const auto array = array_count_.find(std::string(source.substr(source.starts_with('#'))));
+    const auto params = std::distance(accessor.begin(), accessor.end());
+    const std::size_t stride = accessor.attribute("stride").as_uint(1);
+    const std::size_t count = accessor.attribute("count").as_uint();
+    const std::size_t needed = count == 0
+                                   ? 0
+                                   : accessor.attribute("offset").as_uint() + (count - 1) * stride +
+                                         std::max<std::size_t>(stride, params);
+    const std::size_t there = array == array_count_.end() ? 0 : array->second;
+    if (needed <= there) return;
+    fail(accessor, fmt::format("reaches {} values of \"{}\", which has {}; expected not more than "
+                               "that",
+                               needed, source, there));
+  }
+
+  /// Assimp reads a list of numbers on and on where one does not begin with a digit.
+  void require_whole_numbers(const pugi::xml_node& node) const {
+    const std::string_view name = node.name();
+    if (name != "p" && name != "v" && name != "vcount") return;
+    const std::string_view text = node.child_value();
+    const std::size_t bad = text.find_first_not_of(" \t\r\n0123456789");
+    if (bad == std::string_view::npos) return;
+    fail(node, fmt::format("holds \"{}\"; expected numbers", text.substr(bad, 12)));
+  }
+
+  /// At a list that is too short, or a word that is no number, Assimp leaks memory.
+  void require_floats(const pugi::xml_node& node) const {
+    const std::map<std::string_view, std::size_t> counts{
+        {"float_array", node.attribute("count").as_uint()},
+        {"matrix", 16},
+        {"translate", 3},
+        {"rotate", 4},
+        {"scale", 3},
+        {"lookat", 9}};
+    const auto expected = counts.find(node.name());
+    if (expected == counts.end()) return;
+    constexpr std::string_view kBlanks = " \t\r\n";
+    std::string_view rest = node.child_value();
+    std::size_t found = 0;
+    for (std::size_t begin = rest.find_first_not_of(kBlanks); begin != std::string_view::npos;
+         begin = rest.find_first_not_of(kBlanks)) {
+      rest.remove_prefix(begin);
+      const std::string_view word = rest.substr(0, rest.find_first_of(kBlanks));
+      if (!parse_finite(word)) fail(node, fmt::format("holds \"{:.40}\"; expected numbers", word));
+      rest.remove_prefix(word.size());
+      ++found;
+    }
+    if (found < expected->second)
+      fail(node, fmt::format("holds {} numbers; expected {}", found, expected->second));
+  }
+
+  /// How many nodes stand below this one once each reference is replaced by what it names.
+  std::size_t unfolded(const pugi::xml_node& node) {
+    const auto known = unfolded_.find(node.hash_value());
+    if (known != unfolded_.end()) return known->second;
+    if (!open_.insert(node.hash_value()).second) fail(node, "holds itself; expected a tree");
+    if (open_.size() > kDeepestUnfolding) {
+      fail(node, fmt::format("nodes unfold deeper than {}; expected less", kDeepestUnfolding));
+    }
+    std::size_t count = 1;
+    for (const pugi::xml_node& child : node.children()) {
+      const std::string_view name = child.name();
+      if (name == "node") count += unfolded(child);
+      if (name == "instance_node") count += unfolded_reference(child);
+      if (count > kMostNodes) {
+        fail(child, fmt::format("nodes unfold to more than {}; expected less", kMostNodes));
+      }
+    }
+    open_.erase(node.hash_value());
+    return unfolded_[node.hash_value()] = count;
+  }
+
+  std::size_t unfolded_reference(const pugi::xml_node& reference) {
+    const std::string_view url = reference.attribute("url").value();
+    const auto target = by_id_.find(std::string(url.substr(url.starts_with('#') ? 1 : 0)));
+    if (target == by_id_.end()) fail(reference, fmt::format("\"{}\"; expected a node's id", url));
+    return unfolded(target->second);
+  }
+
+  /// Assimp need not look at what berth has no use for.
+  void remove_all_but_geometry() {
+    pugi::xml_node root = document_.document_element();
+    constexpr std::array<std::string_view, 5> kKept{"asset", "library_geometries", "library_nodes",
+                                                    "library_visual_scenes", "scene"};
+    for (pugi::xml_node child = root.first_child(); child;) {
+      const pugi::xml_node next = child.next_sibling();
+      if (std::find(kKept.begin(), kKept.end(), child.name()) == kKept.end()) {
+        root.remove_child(child);
+      }
+      child = next;
+    }
+  }
+
+  const std::filesystem::path& path_;
+  const std::string& text_;
+  pugi::xml_document document_;
+  std::vector<pugi::xml_node> scenes_;
+  std::vector<pugi::xml_node> accessors_;
+  std::map<std::string, std::size_t> array_count_;
+  std::map<std::string, pugi::xml_node> by_id_;
+  std::map<std::size_t, std::size_t> unfolded_;
+  std::set<std::size_t> open_;
+};
+
+}  // namespace
+
+std::string checked_collada(const std::filesystem::path& path, const std::string& text) {
+  return Guard(path, text).checked();
+}
+
+}  // namespace berth

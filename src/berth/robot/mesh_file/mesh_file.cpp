@@ -1,0 +1,167 @@
+#include "berth/robot/mesh_file/mesh_file.hpp"
+
+#include <assimp/BaseImporter.h>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <assimp/IOSystem.hpp>
+#include <assimp/Importer.hpp>
+#include <cctype>
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "berth/robot/mesh_file/collada_guard.hpp"
+#include "berth/robot/mesh_file/obj_polygons.hpp"
+#include "berth/robot/mesh_file/polygon_reader.hpp"
+#include "berth/files/read_file.hpp"
+#include "berth/robot/mesh_file/stl_guard.hpp"
+
+namespace berth {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& what) {
+  throw std::runtime_error(fmt::format("{}: {}", path.string(), what));
+}
+
+Eigen::Affine3d to_eigen(const aiMatrix4x4& m) {
+  Eigen::Affine3d X;
+  X.matrix() << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2,
+      m.d3, m.d4;
+  return X;
+}
+
+/// Above what any robot has; a few nodes can repeat a mesh without end.
+constexpr std::size_t kMostTriangles = 10'000'000;
+
+TriangleMesh to_mesh(const aiMesh& source) {
+  TriangleMesh mesh;
+  mesh.vertices_m.reserve(source.mNumVertices);
+  for (unsigned i = 0; i < source.mNumVertices; ++i) {
+    const aiVector3D& p = source.mVertices[i];
+    mesh.vertices_m.emplace_back(p.x, p.y, p.z);
+  }
+  mesh.triangles.reserve(source.mNumFaces);
+  for (unsigned i = 0; i < source.mNumFaces; ++i) {
+    const aiFace& face = source.mFaces[i];
+    if (face.mNumIndices == 3)
+      mesh.triangles.push_back({face.mIndices[0], face.mIndices[1], face.mIndices[2]});
+  }
+  return mesh;
+}
+
+void append_node(const std::filesystem::path& path, const aiScene& scene, const aiNode& node,
+                 const Eigen::Affine3d& X_parent, TriangleMesh& mesh) {
+  const Eigen::Affine3d X = X_parent * to_eigen(node.mTransformation);
+  for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+    const aiMesh& part = *scene.mMeshes[node.mMeshes[i]];
+    if (mesh.triangles.size() + part.mNumFaces > kMostTriangles)
+      fail(path, fmt::format("the mesh has more than {} triangles; expected less", kMostTriangles));
+    mesh.append(to_mesh(part), X);
+  }
+  for (unsigned i = 0; i < node.mNumChildren; ++i)
+    append_node(path, scene, *node.mChildren[i], X, mesh);
+}
+
+void require_finite(const std::filesystem::path& path, const aiScene& scene) {
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& mesh = *scene.mMeshes[m];
+    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+      const aiVector3D& p = mesh.mVertices[i];
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+        fail(path, fmt::format("vertex {} is {} {} {}; expected finite numbers", i, p.x, p.y, p.z));
+      }
+    }
+  }
+}
+
+void configure(Assimp::Importer& importer) {
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  // Else a file without meshes gets made-up ones.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
+  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
+                              aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+  // Without normals and texture coordinates the corners that neighbouring triangles share become
+  // one.
+  importer.SetPropertyInteger(
+      AI_CONFIG_PP_RVC_FLAGS,
+      aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
+          aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
+          aiComponent_TEXTURES | aiComponent_LIGHTS | aiComponent_CAMERAS | aiComponent_MATERIALS);
+}
+
+/// Assimp would follow what a mesh file names, wherever it is.
+class NoFiles : public Assimp::IOSystem {
+ public:
+  bool Exists(const char*) const override { return false; }
+  char getOsSeparator() const override { return '/'; }
+  Assimp::IOStream* Open(const char*, const char*) override { return nullptr; }
+  void Close(Assimp::IOStream*) override {}
+};
+
+/// All but the reader of this ending, which Assimp else tries on a file that that one refuses.
+void delete_other_readers(const char* extension, Assimp::Importer& importer) {
+  const auto* const kept = importer.GetImporter(importer.GetImporterIndex(extension));
+  for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+    Assimp::BaseImporter* const other = importer.GetImporter(i);
+    if (other == kept) continue;
+    importer.UnregisterLoader(other);
+    const std::unique_ptr<Assimp::BaseImporter> deleted_here(other);
+  }
+}
+
+/// STL, OBJ and DAE are looked into before Assimp gets them.
+const aiScene* import(const std::filesystem::path& path, Assimp::Importer& importer) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  std::string bytes = read_file_bytes(path);
+  if (bytes.empty()) fail(path, "the mesh file is empty; expected an STL, OBJ or DAE file");
+  if (extension != ".stl" && extension != ".obj" && extension != ".dae") {
+    return importer.ReadFile(path.string(), 0);
+  }
+  importer.SetIOHandler(std::make_unique<NoFiles>().release());
+  delete_other_readers(extension == ".obj" ? "" : extension.c_str(), importer);
+  if (extension == ".stl") bytes = checked_stl(path, std::move(bytes));
+  if (extension == ".dae") bytes = checked_collada(path, bytes);
+  if (extension == ".obj") {
+    importer.RegisterLoader(
+        std::make_unique<PolygonReader>(read_obj_polygons(path, bytes)).release());
+  }
+  return importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, extension.c_str() + 1);
+}
+
+}  // namespace
+
+TriangleMesh read_mesh_file(const std::filesystem::path& path) {
+  Assimp::Importer importer;
+  configure(importer);
+  const aiScene* scene = import(path, importer);
+  // Joining takes a vertex that is NaN for another one: look before.
+  if (scene != nullptr) {
+    require_finite(path, *scene);
+    scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_RemoveComponent |
+                                         aiProcess_JoinIdenticalVertices | aiProcess_SortByPType);
+  }
+  if (scene == nullptr)
+    fail(path, fmt::format("the mesh cannot be read: {}; expected an STL, OBJ or DAE file",
+                           importer.GetErrorString()));
+
+  TriangleMesh mesh;
+  if (scene->mRootNode != nullptr)
+    append_node(path, *scene, *scene->mRootNode, Eigen::Affine3d::Identity(), mesh);
+  if (mesh.empty()) fail(path, "the mesh has no triangle; expected one at least");
+  for (std::size_t i = 0; i < mesh.vertices_m.size(); ++i) {
+    if (!mesh.vertices_m[i].allFinite())
+      fail(path,
+           fmt::format("vertex {} is not finite after its node's transform; expected numbers", i));
+  }
+  return mesh;
+}
+
+}  // namespace berth

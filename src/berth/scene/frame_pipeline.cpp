@@ -1,0 +1,47 @@
+#include "berth/scene/frame_pipeline.hpp"
+
+#include <optional>
+
+#include "berth/pipeline/asker.hpp"
+
+namespace berth {
+namespace {
+
+class CpuPipeline : public FramePipeline {
+ public:
+  CpuPipeline(const std::shared_ptr<const View>& view, GlBackend* gl) : observer_(view) {
+    if (runs_on_opengl(view->robot()->settings().method)) {
+      gl_asker_ = gl->make_asker(view->robot());
+    } else {
+      asker_.emplace(view->robot());
+    }
+  }
+
+  void observe(DepthView depth_m, const JointState& at_exposure, FrameTime time) override {
+    observer_.observe(depth_m, at_exposure, frame_, time);
+  }
+  const Answer& ask() override { return asker_ ? asker_->ask(frame_) : gl_asker_->ask(frame_); }
+  const Exposure& exposure() const override { return frame_; }
+  std::array<std::int64_t, kPixelFateCount> fate_counts() override {
+    return frame_.obstacles.count;
+  }
+  const Frame& frame() override { return frame_; }
+  void learn_background(DepthView depth_m, const Frame& frame) override {
+    observer_.learn_background(depth_m, frame);
+  }
+
+ private:
+  Observer observer_;
+  std::optional<Asker> asker_;
+  std::unique_ptr<FrameAsker> gl_asker_;
+  Frame frame_;
+};
+
+}  // namespace
+
+std::unique_ptr<FramePipeline> make_cpu_pipeline(const std::shared_ptr<const View>& view,
+                                                 GlBackend* gl) {
+  return std::make_unique<CpuPipeline>(view, gl);
+}
+
+}  // namespace berth

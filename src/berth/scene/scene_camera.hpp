@@ -1,0 +1,15 @@
+// Inside scene/ only: one entry of a scene's cameras.
+#pragma once
+
+#include "berth/scene/scene_file.hpp"
+#include "berth/files/yaml_value.hpp"
+
+namespace berth {
+
+/// `settings` are those of the scene. Throws as read_scene does.
+SceneCamera read_scene_camera(const YamlValue& value, const ViewSettings& settings);
+
+/// The maps self_filter and sensor of a scene or a camera, over `settings`.
+void read_view_settings(const YamlMap& map, ViewSettings& settings);
+
+}  // namespace berth

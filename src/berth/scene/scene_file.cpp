@@ -1,0 +1,84 @@
+#include "berth/scene/scene_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "berth/scene/scene_camera.hpp"
+#include "berth/files/yaml_value.hpp"
+#include "berth/scene/settings_yaml.hpp"
+
+namespace berth {
+namespace {
+
+RobotSettings read_robot(const YamlValue& value) {
+  const YamlMap map(value,
+                    {"urdf", "package_paths", "geometry", "environment_links", "ignore_links"});
+  RobotSettings robot;
+  robot.urdf = map.at("urdf").path();
+  if (const auto packages = map.find("package_paths")) {
+    for (const auto& [name, folder] : packages->entries())
+      robot.package_paths[name] = folder.path();
+  }
+  if (const auto geometry = map.find("geometry")) {
+    const bool visual = geometry->one_of({"visual", "collision"}) == "visual";
+    robot.geometry = visual ? GeometryKind::visual : GeometryKind::collision;
+  }
+  map.read("environment_links", &YamlValue::texts, robot.environment_links);
+  map.read("ignore_links", &YamlValue::texts, robot.ignore_links);
+  return robot;
+}
+
+std::vector<SceneCamera> read_cameras(const YamlValue& value, const ViewSettings& settings) {
+  std::vector<SceneCamera> cameras;
+  for (const YamlValue& item : value.list()) {
+    SceneCamera camera = read_scene_camera(item, settings);
+    const auto same = [&](const SceneCamera& earlier) { return earlier.name == camera.name; };
+    if (std::any_of(cameras.begin(), cameras.end(), same)) {
+      item.fail(fmt::format("a second camera is named {}", camera.name), "names that differ");
+    }
+    cameras.push_back(std::move(camera));
+  }
+  if (cameras.empty()) value.fail("one camera at least");
+  return cameras;
+}
+
+void read_evaluation(const YamlValue& value, EvaluationSettings& evaluation) {
+  const YamlMap map = read_settings(value, evaluation.distance, {"method", "visibility"});
+  if (const auto method = map.find("method")) evaluation.method = read_enum<Method>(*method);
+  map.read("visibility", &YamlValue::boolean, evaluation.visibility);
+}
+
+}  // namespace
+
+void read_view_settings(const YamlMap& map, ViewSettings& settings) {
+  if (const auto filter = map.find("self_filter")) {
+    const YamlMap keys = read_settings(*filter, settings.self_filter, {"link_padding_m"});
+    if (const auto paddings = keys.find("link_padding_m")) {
+      for (const auto& [link, padding] : paddings->entries()) {
+        settings.link_padding_m[link] = padding.non_negative();
+      }
+    }
+  }
+  if (const auto sensor = map.find("sensor")) read_settings(*sensor, settings.sensor);
+}
+
+SceneFile read_scene(const std::filesystem::path& file) {
+  const YamlMap map(load_yaml(file),
+                    {"robot", "cameras", "joints", "self_filter", "sensor", "evaluation", "time"});
+  SceneFile scene;
+  scene.file = file;
+  scene.robot = read_robot(map.at("robot"));
+  ViewSettings settings;
+  read_view_settings(map, settings);
+  scene.cameras = read_cameras(map.at("cameras"), settings);
+  scene.joints = map.at("joints").path();
+  scene.evaluation.time.joints = kOnlyBetweenSamples;
+  if (const auto evaluation = map.find("evaluation")) {
+    read_evaluation(*evaluation, scene.evaluation);
+  }
+  if (const auto time = map.find("time")) read_settings(*time, scene.evaluation.time.joints);
+  return scene;
+}
+
+}  // namespace berth

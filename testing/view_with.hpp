@@ -1,0 +1,21 @@
+// A view once more, with other settings.
+#pragma once
+
+#include <memory>
+
+#include "berth/pipeline/view.hpp"
+
+namespace berth::testing {
+
+inline std::shared_ptr<const View> view_with(const View& view, const ViewSettings& settings) {
+  return std::make_shared<const View>(view.robot(), view.mount(), settings);
+}
+
+/// Of a robot of its own.
+inline std::shared_ptr<const View> view_with(const View& view, const EvaluationSettings& evaluation,
+                                             const ViewSettings& settings) {
+  return std::make_shared<const View>(
+      std::make_shared<const Robot>(view.robot()->model(), evaluation), view.mount(), settings);
+}
+
+}  // namespace berth::testing

@@ -1,0 +1,225 @@
+#include <gtest/gtest.h>
+
+#include "testing/error_message.hpp"
+#include "tests/scene/scene_text.hpp"
+
+namespace berth {
+namespace {
+
+TEST(SceneErrors, RefusesABadValueAndSaysWhere) {
+  struct Case {
+    std::string SceneText::*line;
+    std::string text;
+    std::vector<std::string> parts;
+  };
+  using S = SceneText;
+  const std::string pose = "pose: {parent: base, xyz: [1, 2, 3], ";
+  const std::vector<Case> table = {
+      {&S::robot, "{}", {"scene.yaml:1: robot: the key urdf is missing; expected"}},
+      {&S::robot, "r.urdf", {"scene.yaml:1: robot: r.urdf; expected a map"}},
+      {&S::robot, "{urdf: }", {"robot.urdf: nothing; expected a text"}},
+      {&S::robot, "{urdf: ''}", {"robot.urdf: an empty text; expected a text"}},
+      {&S::robot, "{urdf: [a]}", {"robot.urdf: a list of 1; expected a text"}},
+      {&S::robot,
+       "{urdff: r}",
+       {"scene.yaml:1: robot.urdff: unknown key; expected urdf (the nearest)"}},
+      {&S::robot,
+       "{urdf: r, urdf: s}",
+       {"robot.urdf: the key stands here a second time; expected each key once"}},
+      {&S::robot,
+       "{urdf: r, geometry: mesh}",
+       {"robot.geometry: mesh; expected one of visual, collision"}},
+      {&S::robot, "{urdf: r, ignore_links: table}", {"robot.ignore_links: table; expected a list"}},
+      {&S::robot,
+       "{urdf: r, environment_links: [[a]]}",
+       {"robot.environment_links[0]: a list of 1; expected a text"}},
+      {&S::robot,
+       "{urdf: r, package_paths: [a]}",
+       {"robot.package_paths: a list of 1; expected a map"}},
+      {&S::robot,
+       "{urdf: r, package_paths: {a: b, a: c}}",
+       {"robot.package_paths.a: the key stands here a second time"}},
+      {&S::robot, "{urdf: r", {"scene.yaml:", "expected valid YAML"}},
+      {&S::name,
+       "name: a/b",
+       {"scene.yaml:3: cameras[0].name: a/b; expected a name that can be a folder's"}},
+      {&S::name, "name: .", {"cameras[0].name: .; expected a name"}},
+      {&S::name, "name: ..", {"cameras[0].name: ..; expected a name"}},
+      {&S::name,
+       "nam: front",
+       {"scene.yaml:3: cameras[0].nam: unknown key; expected name (the nearest)"}},
+      {&S::info, "", {"scene.yaml:3: cameras[0]: the key info is missing"}},
+      {&S::pose, "", {"cameras[0]: the key pose is missing"}},
+      {&S::pose, "pose: identity", {"scene.yaml:5: cameras[0].pose: identity; expected a map"}},
+      {&S::pose,
+       "pose: {xyz: [1, 2, 3], rpy: [0, 0, 0]}",
+       {"cameras[0].pose: the key parent is missing"}},
+      {&S::pose, "pose: {parent: b, rpy: [0, 0, 0]}", {"cameras[0].pose: the key xyz is missing"}},
+      {&S::pose,
+       "pose: {parent: b, xyz: [1, 2], rpy: [0, 0, 0]}",
+       {"cameras[0].pose.xyz: a list of 2; expected a list of 3 numbers"}},
+      {&S::pose,
+       "pose: {parent: b, xyz: [1, .nan, 2], rpy: [0, 0, 0]}",
+       {"cameras[0].pose.xyz[1]: .nan; expected a finite number"}},
+      {&S::pose,
+       "pose: {parent: b, xyz: [1, 1, 2]}",
+       {"cameras[0].pose: has no rotation; expected either quaternion_xyzw or rpy"}},
+      {&S::pose,
+       pose + "rpy: [0, 0, 0], quaternion_xyzw: [0, 0, 0, 1]}",
+       {"cameras[0].pose: has both rotations; expected either"}},
+      {&S::pose, pose + "rpy: [0, 0]}", {"cameras[0].pose.rpy: a list of 2; expected a list of 3"}},
+      {&S::pose,
+       pose + "quaternion_xyzw: [0, 0, 1]}",
+       {"cameras[0].pose.quaternion_xyzw: a list of 3; expected a list of 4"}},
+      {&S::pose,
+       pose + "quaternion_xyzw: [0, 0, 0, 0]}",
+       {"quaternion_xyzw: [0, 0, 0, 0] has length 0; expected a quaternion x, y, z, w of length "
+        "1"}},
+      {&S::pose, pose + "quaternion_xyzw: [0, 0, 0, 1.0011]}", {"has length 1.0011; expected"}},
+      {&S::pose,
+       pose + "quaternion: [0, 0, 0, 1]}",
+       {"scene.yaml:5: cameras[0].pose.quaternion: unknown key; expected quaternion_xyzw"}},
+      {&S::depth,
+       "depth: []",
+       {"scene.yaml:6: cameras[0].depth: a list of 0; expected one image at least"}},
+      {&S::depth,
+       "depth: none/*.png",
+       {"scene.yaml:6: cameras[0].depth: none/*.png; expected a pattern that some file matches"}},
+      {&S::depth, "depth: {a: b}", {"cameras[0].depth: a map; expected a text"}},
+      {&S::more_camera,
+       "stamps: [0]",
+       {"scene.yaml:7: cameras[0].stamps: 1 stamps; expected one for each of the 2 images"}},
+      {&S::more_camera,
+       "stamps: [1, 1]",
+       {"cameras[0].stamps[1]: 1; expected more than 1, the stamp before"}},
+      {&S::more_camera, "stamps: [1, 0.5]", {"cameras[0].stamps[1]: 0.5; expected more than 1"}},
+      {&S::more_camera,
+       "stamps: [1, later]",
+       {"cameras[0].stamps[1]: later; expected a finite number"}},
+      {&S::more_camera,
+       "depth_scale: 0",
+       {"scene.yaml:7: cameras[0].depth_scale: 0; expected a number above 0"}},
+      {&S::more_camera,
+       "depth_scale: -0.001",
+       {"cameras[0].depth_scale: -0.001; expected a number above 0"}},
+      {&S::more_camera,
+       "depth_scale: 1mm",
+       {"cameras[0].depth_scale: 1mm; expected a finite number"}},
+      {&S::more_camera, "near_m: -1", {"cameras[0].near_m: -1; expected a number, 0 or more"}},
+      {&S::more_camera, "far_m: 0", {"cameras[0].far_m: 0; expected a number above 0"}},
+      {&S::more_camera,
+       "near_m: 2\n    far_m: 2",
+       {"scene.yaml:8: cameras[0].far_m: 2; expected more than near_m, 2"}},
+      {&S::more_camera, "far_m: .inf", {"cameras[0].far_m: .inf; expected a finite number"}},
+      {&S::end, "", {"scene.yaml:1: the key joints is missing"}},
+      {&S::end,
+       "joints: j\njoins: k",
+       {"scene.yaml:9: joins: unknown key; expected joints (the nearest), or another of robot, "
+        "cameras"}},
+      {&S::end,
+       "joints: j\nself_filter: {tolerance: 1}",
+       {"scene.yaml:9: self_filter.tolerance: unknown key; expected tolerance_m"}},
+      {&S::end, "joints: j\nself_filter:", {"scene.yaml:9: self_filter: nothing; expected a map"}},
+      {&S::end,
+       "joints: j\nevaluation: {range: 1}",
+       {"scene.yaml:9: evaluation.range: unknown key; expected range_m"}},
+      {&S::end,
+       "joints: j\nevaluation: {range_m: 0}",
+       {"evaluation.range_m: 0; expected a number above 0"}},
+      {&S::end,
+       "joints: j\nevaluation: {range_m: -1}",
+       {"evaluation.range_m: -1; expected a number above 0"}},
+      {&S::end,
+       "joints: j\nevaluation: {range_m: .nan}",
+       {"evaluation.range_m: .nan; expected a finite number"}},
+      {&S::end,
+       "joints: j\nevaluation: {method: exakt}",
+       {"evaluation.method: exakt; expected one of exact, brute_force, lattice"}},
+      {&S::end,
+       "joints: j\nevaluation: {mean_direction: 1}",
+       {"evaluation.mean_direction: 1; expected true or false"}},
+      {&S::end,
+       "joints: j\nevaluation: {visibility: some}",
+       {"evaluation.visibility: some; expected true or false"}},
+      {&S::end,
+       "joints: j\nself_filter: {link_padding_m: {a: -1}}",
+       {"self_filter.link_padding_m.a: -1; expected a number, 0 or more"}},
+      {&S::end,
+       "joints: j\nself_filter: {dilation_px: -1}",
+       {"self_filter.dilation_px: -1; expected a whole number, 0 or more"}},
+      {&S::end,
+       "joints: j\nself_filter: {dilation_px: 1.5}",
+       {"self_filter.dilation_px: 1.5; expected a whole number"}},
+      {&S::end,
+       "joints: j\nsensor: {hole: free}",
+       {"scene.yaml:9: sensor.hole: unknown key; expected holes (the nearest)"}},
+      {&S::end,
+       "joints: j\nsensor: {holes: full}",
+       {"scene.yaml:9: sensor.holes: full; expected one of free, obstacle, nearest_neighbour"}},
+      {&S::end, "joints: j\nsensor: 3", {"scene.yaml:9: sensor: 3; expected a map"}},
+      {&S::end, "joints: j\n? [a, b]\n: c", {"scene.yaml:9: a list of 2; expected a text"}},
+      {&S::end, "joints: j\n---\njoints: k", {"scene.yaml: several YAML documents; expected one"}},
+      {&S::end, "joints: j\n  wrong: k", {"scene.yaml:9", "expected valid YAML"}},
+  };
+  for (const Case& bad : table) {
+    const SceneText scene = with(bad.line, bad.text);
+    SCOPED_TRACE(scene.text());
+    expect_parts(error_message([&] { read_text(scene); }), bad.parts);
+  }
+}
+
+TEST(SceneErrors, RefusesEveryNegativeNumberOfTheSelfFilter) {
+  for (const std::string key :
+       {"tolerance_m", "tolerance_per_m", "tolerance_per_m2", "padding_m", "padding_depth_m",
+        "edge_jump_m", "island_radius_m", "island_jump_m", "robot_region_scale"}) {
+    for (const std::string value : {"-0.01", ".nan", "wide"}) {
+      const SceneText scene =
+          with(&SceneText::end, "joints: j\nself_filter: {" + key + ": " + value + "}");
+      expect_parts(error_message([&] { read_text(scene); }),
+                   {"scene.yaml:9: self_filter." + key + ": " + value + "; expected"});
+    }
+  }
+}
+
+TEST(SceneErrors, RefusesEveryLengthAndCountOfTheSensorThatIsNone) {
+  const auto expect_refused = [](const std::string& key, const std::string& value) {
+    const SceneText scene =
+        with(&SceneText::end, "joints: j\nsensor: {" + key + ": " + value + "}");
+    expect_parts(error_message([&] { read_text(scene); }),
+                 {"scene.yaml:9: sensor." + key + ": " + value + "; expected"});
+  };
+  for (const std::string key : {"noise_m", "speckle_jump_m", "background_clearance_m"}) {
+    for (const std::string value : {"-0.01", ".nan", "wide"}) expect_refused(key, value);
+  }
+  for (const std::string key : {"speckle_px", "average_frames", "background_frames"}) {
+    for (const std::string value : {"-1", "1.5", "many"}) expect_refused(key, value);
+  }
+}
+
+TEST(SceneErrors, RefusesMissingOrSharedCameras) {
+  const TemporaryFolder folder;
+  const std::string camera =
+      "  - {name: a, info: i, depth: [0.png], pose: {parent: b, xyz: [0, 0, 0], rpy: [0, 0, 0]}}\n";
+  const std::vector<BadText> table = {
+      {"robot: {urdf: r}\njoints: j\n", {"scene.yaml:1: the key cameras is missing"}},
+      {"robot: {urdf: r}\njoints: j\ncameras: []\n",
+       {"scene.yaml:3: cameras: a list of 0; expected one camera at least"}},
+      {"robot: {urdf: r}\njoints: j\ncameras: {name: a}\n",
+       {"scene.yaml:3: cameras: a map; expected a list"}},
+      {"robot: {urdf: r}\njoints: j\ncameras:\n" + camera + camera,
+       {"scene.yaml:5: cameras[1]: a second camera is named a; expected names that differ"}},
+      {"joints: j\ncameras:\n" + camera, {"scene.yaml:1: the key robot is missing"}},
+      {"", {"scene.yaml: no YAML document; expected one"}},
+      {"~", {"scene.yaml:1: nothing; expected a map"}},
+  };
+  for (const BadText& bad : table) {
+    SCOPED_TRACE(bad.text);
+    const std::filesystem::path file = folder.write("scene.yaml", bad.text);
+    expect_parts(error_message([&] { read_scene(file); }), bad.message_parts);
+  }
+  expect_parts(error_message([&] { read_scene(folder / "none.yaml"); }),
+               {"none.yaml: No such file"});
+}
+
+}  // namespace
+}  // namespace berth
