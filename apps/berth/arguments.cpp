@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/support/threads_argument.hpp"
 #include "berth/robot/number.hpp"
 
 namespace berth {
@@ -131,7 +132,7 @@ void add_output(CLI::App& command, CommonArguments& arguments) {
       ->check(CLI::IsMember({"table", "json"}));
   command.add_option("--out", arguments.out, "Write there instead of to standard output")
       ->type_name("FILE");
-  add_threads(command, arguments.threads);
+  app::add_threads(command, arguments.threads);
 }
 
 /// Throws if an option was given that belongs to other methods.
@@ -183,12 +184,6 @@ SurveillanceSettings surveillance_over(SurveillanceSettings settings,
 
 }  // namespace
 
-void add_threads(CLI::App& command, int& threads) {
-  command.add_option("--threads", threads, "Threads to use (default: one for each processor)")
-      ->check(CLI::Range(1, 1024))
-      ->type_name("N");
-}
-
 DistanceSettings EvaluationArguments::settings_over(DistanceSettings settings,
                                                     Method method_used) const {
   require_methods(*this, method_used);
@@ -221,7 +216,7 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
   add_visibility(command, arguments.evaluation);
   add_surveillance(command, arguments.evaluation);
   add_lattice(command, arguments.evaluation);
-  add_backend_options(command, "Where images are rendered and filtered", arguments.where);
+  app::add_backend_options(command, "Where images are rendered and filtered", arguments.where);
   add_output(command, arguments);
   command.footer(
       "Example:\n  berth run scene.yaml --format json --out result.jsonl --picture pictures");
@@ -236,8 +231,8 @@ void add_filter_options(CLI::App& command, FilterArguments& arguments) {
       .add_option("--out", arguments.out_folder, "Folder for the images; made if it is not there")
       ->required()
       ->type_name("DIR");
-  add_backend_options(command, "Where images are rendered and filtered", arguments.where);
-  add_threads(command, arguments.threads);
+  app::add_backend_options(command, "Where images are rendered and filtered", arguments.where);
+  app::add_threads(command, arguments.threads);
   command.footer("Example:\n  berth filter scene.yaml --out filtered");
 }
 
@@ -263,7 +258,7 @@ void add_evaluate_options(CLI::App& command, EvaluateArguments& arguments) {
   add_evaluation(command, arguments.evaluation);
   add_surveillance(command, arguments.evaluation);
   add_lattice(command, arguments.evaluation);
-  add_gl_device(command, arguments.where);
+  app::add_gl_device(command, arguments.where);
   add_output(command, arguments);
   command.footer(
       "Example:\n  berth evaluate --camera camera_info.yaml --robot-depth robot_depth_000000.png "
@@ -277,7 +272,7 @@ void add_demo_options(CLI::App& command, DemoArguments& arguments) {
       .add_option("--picture", arguments.picture_folder,
                   "Folder for the pictures (default: berth_demo)")
       ->type_name("DIR");
-  add_threads(command, arguments.threads);
+  app::add_threads(command, arguments.threads);
   command.footer("Example:\n  berth demo --picture pictures");
 }
 

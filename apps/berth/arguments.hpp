@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "apps/berth/backend_arguments.hpp"
+#include "apps/support/backend_arguments.hpp"
 #include "berth/distance/evaluate.hpp"
 #include "berth/distance/settings.hpp"
 
@@ -42,7 +42,7 @@ struct EvaluationArguments {
 
 struct CommonArguments {
   EvaluationArguments evaluation;
-  BackendArguments where;
+  app::BackendArguments where;
   OutputFormat format = OutputFormat::table;
   /// Nothing: standard output.
   std::filesystem::path out;
@@ -58,7 +58,7 @@ struct RunArguments : CommonArguments {
 struct FilterArguments {
   std::filesystem::path scene;
   std::filesystem::path out_folder;
-  BackendArguments where;
+  app::BackendArguments where;
   int threads = 0;
 };
 
@@ -75,9 +75,6 @@ struct DemoArguments {
   std::filesystem::path picture_folder = "berth_demo";
   int threads = 0;
 };
-
-/// For every command that works on several threads.
-void add_threads(CLI::App& command, int& threads);
 
 void add_run_options(CLI::App& command, RunArguments& arguments);
 void add_filter_options(CLI::App& command, FilterArguments& arguments);

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "apps/berth/commands.hpp"
-#include "apps/berth/data_folders.hpp"
 #include "apps/berth/run_frames.hpp"
+#include "apps/support/data_folders.hpp"
 #include "berth/io/result_table.hpp"
 
 namespace berth {
@@ -26,7 +26,7 @@ std::optional<float> least_distance_m(const FrameResult& result) {
 }  // namespace
 
 void demo_command(const DemoArguments& arguments) {
-  const OpenScene scene = open_scene(bundled_scene_file(), {});
+  const OpenScene scene = open_scene(app::bundled_scene_file(), {});
   std::optional<float> least_m;
   std::string closest;
   run_frames(scene, {}, arguments.picture_folder, [&](const FrameResult& result) {

@@ -10,8 +10,8 @@
 
 #include "apps/berth/commands.hpp"
 #include "apps/berth/frame_pipeline.hpp"
-#include "apps/berth/interrupt.hpp"
 #include "apps/berth/output.hpp"
+#include "apps/support/interrupt.hpp"
 #include "berth/distance/evaluate.hpp"
 #include "berth/io/camera_info.hpp"
 #include "berth/io/error.hpp"
@@ -67,7 +67,7 @@ ThreeImages read_images(const EvaluateArguments& arguments) {
 /// From three images in memory to the result, on the backend that the method runs on.
 class Evaluator {
  public:
-  Evaluator(Method method, const BackendArguments& where)
+  Evaluator(Method method, const app::BackendArguments& where)
       : method_(method), context_(open_context(where, method)) {
     if (context_) gl_.emplace();
   }
@@ -117,7 +117,7 @@ void evaluate_command(const EvaluateArguments& arguments) {
   LinkDistances distances;
   std::vector<double> times_us;
   for (int i = 0; i < std::max(1, arguments.repeat); ++i) {
-    stop_if_interrupted();
+    app::stop_if_interrupted();
     // Each evaluation as if it were the first: exact would begin with the last answer.
     distances.links.clear();
     const auto start = std::chrono::steady_clock::now();

@@ -82,13 +82,13 @@ class GlPipeline : public FramePipeline {
 
 }  // namespace
 
-std::unique_ptr<GlContext> open_context(const BackendArguments& where, Method method) {
-  if (where.backend == Backend::cpu && !runs_on_opengl(method)) return nullptr;
+std::unique_ptr<GlContext> open_context(const app::BackendArguments& where, Method method) {
+  if (where.backend == app::Backend::cpu && !runs_on_opengl(method)) return nullptr;
   return std::make_unique<GlContext>(where.gl_device);
 }
 
-std::unique_ptr<FramePipeline> make_frame_pipeline(const Rig& rig, Backend backend) {
-  if (backend == Backend::opengl) return std::make_unique<GlPipeline>(rig);
+std::unique_ptr<FramePipeline> make_frame_pipeline(const Rig& rig, app::Backend backend) {
+  if (backend == app::Backend::opengl) return std::make_unique<GlPipeline>(rig);
   return std::make_unique<CpuPipeline>(rig);
 }
 

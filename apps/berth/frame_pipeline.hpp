@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "apps/berth/backend_arguments.hpp"
+#include "apps/support/backend_arguments.hpp"
 #include "berth/opengl/gl_context.hpp"
 #include "berth/pipeline/answer.hpp"
 #include "berth/pipeline/frame.hpp"
@@ -14,7 +14,7 @@
 namespace berth {
 
 /// A context, if the backend or the method needs one. Throws GlUnavailable where there is none.
-std::unique_ptr<GlContext> open_context(const BackendArguments& where, Method method);
+std::unique_ptr<GlContext> open_context(const app::BackendArguments& where, Method method);
 
 /// One camera's frames from depth image to answer, on the backend that was asked for.
 class FramePipeline {
@@ -34,6 +34,6 @@ class FramePipeline {
 
 /// The rig has to outlive it, and so has the context that it needs. Throws std::invalid_argument
 /// where the rig's settings do not go with the backend.
-std::unique_ptr<FramePipeline> make_frame_pipeline(const Rig& rig, Backend backend);
+std::unique_ptr<FramePipeline> make_frame_pipeline(const Rig& rig, app::Backend backend);
 
 }  // namespace berth

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "apps/berth/interrupt.hpp"
+#include "apps/support/interrupt.hpp"
 #include "berth/io/camera_info.hpp"
 #include "berth/io/joints_csv.hpp"
 #include "berth/io/png.hpp"
@@ -66,7 +66,7 @@ OpenCamera open_camera(const SceneFile& scene, const SceneCamera& source, const 
   }
   find_joints(joints, camera);
   for (std::size_t frame = 0; frame < source.depth.size(); ++frame) {
-    stop_if_interrupted();
+    app::stop_if_interrupted();
     camera.read_depth(frame);
   }
   return camera;

@@ -5,9 +5,9 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "apps/berth/interrupt.hpp"
 #include "apps/berth/picture.hpp"
-#include "apps/berth/progress_bar.hpp"
+#include "apps/support/interrupt.hpp"
+#include "apps/support/progress_bar.hpp"
 
 namespace berth {
 namespace {
@@ -56,11 +56,11 @@ void draw(const fs::path& file, const OpenScene& scene, const OpenCamera& camera
 /// Where the scene asks for a background, from all images of its camera.
 void learn_background(const OpenCamera& camera, Observer& observer) {
   if (!camera.rig->settings().sensor.has_background()) return;
-  ProgressBar progress("background", camera.source.depth.size());
+  app::ProgressBar progress("background", camera.source.depth.size());
   Observer learner(*camera.rig);
   Frame frame;
   for (std::size_t i = 0; i < camera.source.depth.size(); ++i) {
-    stop_if_interrupted();
+    app::stop_if_interrupted();
     const DepthImage depth_m = camera.read_depth(i);
     learner.observe(depth_m, camera.at_exposure[i], frame, camera.exposure_time[i]);
     observer.learn_background(depth_m, frame);
@@ -79,7 +79,7 @@ void make_folders(const OpenScene& scene, const fs::path& folder) {
 }
 
 std::vector<std::unique_ptr<FramePipeline>> open_pipelines(const OpenScene& scene,
-                                                           Backend backend) {
+                                                           app::Backend backend) {
   std::vector<std::unique_ptr<FramePipeline>> pipelines;
   for (const OpenCamera& camera : scene.cameras) {
     try {
@@ -91,14 +91,14 @@ std::vector<std::unique_ptr<FramePipeline>> open_pipelines(const OpenScene& scen
   return pipelines;
 }
 
-void run_frames(const OpenScene& scene, const BackendArguments& where,
+void run_frames(const OpenScene& scene, const app::BackendArguments& where,
                 const fs::path& picture_folder,
                 const std::function<void(const FrameResult&)>& take) {
   const auto context = open_context(where, scene.method());
   const auto pipelines = open_pipelines(scene, where.backend);
   const bool draws = !picture_folder.empty();
   if (draws) make_folders(scene, picture_folder);
-  ProgressBar progress("run", scene.frame_count);
+  app::ProgressBar progress("run", scene.frame_count);
   for (std::size_t c = 0; c < scene.cameras.size(); ++c) {
     const OpenCamera& camera = scene.cameras[c];
     const fs::path pictures = folder_of(scene, camera, picture_folder);
@@ -121,7 +121,7 @@ void observe_frames(const OpenCamera& camera, FramePipeline& pipeline,
                     const std::function<void(std::size_t, DepthView)>& take) {
   if (Observer* observer = pipeline.cpu_observer()) learn_background(camera, *observer);
   for (std::size_t i = 0; i < camera.source.depth.size(); ++i) {
-    stop_if_interrupted();
+    app::stop_if_interrupted();
     const DepthImage depth_m = camera.read_depth(i);
     pipeline.observe(depth_m, camera.at_exposure[i], camera.exposure_time[i]);
     take(i, depth_m);

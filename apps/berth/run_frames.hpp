@@ -20,7 +20,8 @@ void make_folders(const OpenScene& scene, const std::filesystem::path& folder);
 
 /// One for each camera. Throws std::runtime_error where the scene's settings do not go with the
 /// backend.
-std::vector<std::unique_ptr<FramePipeline>> open_pipelines(const OpenScene& scene, Backend backend);
+std::vector<std::unique_ptr<FramePipeline>> open_pipelines(const OpenScene& scene,
+                                                           app::Backend backend);
 
 /// All images of a camera, one after another: `take` gets the frame's number and the image when the
 /// pipeline has observed it. Where the scene asks for a background, that is learned from all of
@@ -31,7 +32,7 @@ void observe_frames(const OpenCamera& camera, FramePipeline& pipeline,
 /// All frames of a scene through the whole pipeline, with a progress bar on a terminal: `take` gets
 /// each result, camera by camera. Each frame is drawn into picture_folder unless that is empty.
 /// Throws as open_context and open_pipelines do, before anything is written.
-void run_frames(const OpenScene& scene, const BackendArguments& where,
+void run_frames(const OpenScene& scene, const app::BackendArguments& where,
                 const std::filesystem::path& picture_folder,
                 const std::function<void(const FrameResult&)>& take);
 

@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 
 #include "apps/berth/commands.hpp"
-#include "apps/berth/interrupt.hpp"
 #include "apps/berth/output.hpp"
-#include "apps/berth/progress_bar.hpp"
 #include "apps/berth/run_frames.hpp"
+#include "apps/support/interrupt.hpp"
+#include "apps/support/progress_bar.hpp"
 #include "berth/io/png.hpp"
 #include "berth/self_filter/scenery.hpp"
 
@@ -42,7 +42,7 @@ void filter_command(const FilterArguments& arguments) {
   const auto context = open_context(arguments.where, Method::exact);
   const auto pipelines = open_pipelines(scene, arguments.where.backend);
   make_folders(scene, arguments.out_folder);
-  ProgressBar progress("filter", scene.frame_count);
+  app::ProgressBar progress("filter", scene.frame_count);
   for (std::size_t c = 0; c < scene.cameras.size(); ++c) {
     const OpenCamera& camera = scene.cameras[c];
     const fs::path folder = folder_of(scene, camera, arguments.out_folder);

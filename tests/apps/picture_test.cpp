@@ -8,9 +8,9 @@
 #include "apps/berth/picture_layout.hpp"
 #include "apps/berth/picture_palette.hpp"
 #include "berth/io/file_bytes.hpp"
-#include "testing/error_message.hpp"
-#include "testing/temporary_folder.hpp"
 #include "tests/apps/picture_scene.hpp"
+#include "tests/support/error_message.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace berth {
 namespace {

@@ -7,8 +7,8 @@
 #include "berth/io/camera_info.hpp"
 #include "berth/io/joints_csv.hpp"
 #include "berth/io/png.hpp"
-#include "testing/data_folder.hpp"
 #include "tests/io/scene_text.hpp"
+#include "tests/support/data_folder.hpp"
 
 namespace berth {
 namespace {

@@ -7,9 +7,9 @@
 #include "apps/berth/open_scene.hpp"
 #include "berth/pipeline/gl_observer.hpp"
 #include "berth/pipeline/observer.hpp"
-#include "testing/data_folder.hpp"
-#include "testing/gl_test.hpp"
 #include "tests/opengl/robot_difference.hpp"
+#include "tests/support/data_folder.hpp"
+#include "tests/support/gl_test.hpp"
 
 namespace berth {
 namespace {

@@ -4,9 +4,9 @@
 #include "berth/pipeline/gl_asker.hpp"
 #include "berth/pipeline/gl_observer.hpp"
 #include "berth/pipeline/observer.hpp"
-#include "testing/error_message.hpp"
-#include "testing/gl_test.hpp"
 #include "tests/pipeline/web.hpp"
+#include "tests/support/error_message.hpp"
+#include "tests/support/gl_test.hpp"
 
 namespace berth {
 namespace {

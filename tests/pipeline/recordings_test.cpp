@@ -13,7 +13,7 @@
 #include "berth/io/png.hpp"
 #include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/observer.hpp"
-#include "testing/data_folder.hpp"
+#include "tests/support/data_folder.hpp"
 
 namespace berth {
 namespace {

@@ -5,8 +5,8 @@
 #include "apps/berth/open_scene.hpp"
 #include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/observer.hpp"
-#include "testing/allocation_count.hpp"
 #include "tests/pipeline/web.hpp"
+#include "tests/support/allocation_count.hpp"
 
 namespace berth {
 namespace {
