@@ -1,8 +1,11 @@
 # Thin fronts of CMake. Each target does all set-up that it needs, on a bare Debian 12 too.
-.PHONY: demo test build bench study bench-gpu sanitize sanitize-thinned fuzz trust trust-distances trust-real-images trust-long-runs setup format clean
+.PHONY: demo test build bench lab study bench-gpu sanitize sanitize-thinned fuzz trust berth_trust trust-distances trust-real-images trust-long-runs setup format clean
 
-demo: setup
-	cmake --preset release
+# A fresh build folder is configured for berth alone, which needs the fewest packages. One that has more keeps it.
+product = test -e build/release/build.ninja || cmake --preset product
+demo:
+	scripts/setup.sh packages.txt
+	$(product)
 	cmake --build --preset release --target berth
 	build/release/berth demo --picture build/demo
 
@@ -13,32 +16,37 @@ build: setup
 	cmake --preset release
 	cmake --build --preset release
 
-# BERTH_DATA: a folder with recordings to measure as well, here and below. BENCH_OPTIONS: of `berth bench`, such as --quick.
+# BERTH_DATA: a folder with recordings to measure as well, here and below. BENCH_OPTIONS: of berth_bench, such as --quick.
 recordings = $(addprefix --scene ,$(wildcard $(BERTH_DATA)/recordings/*/scene.yaml))
 bench:
-	scripts/setup.sh packages.txt packages-bench.txt
+	scripts/setup.sh packages.txt packages-lab.txt packages-bench.txt
 	cmake --preset bench
 	cmake --build --preset bench
-	build/bench/berth bench --out build/bench_results $(if $(BERTH_DATA),$(recordings)) $(BENCH_OPTIONS)
-	bench/plot.py build/bench_results/bench.csv build/bench_results/results.svg
+	build/bench/lab/berth_bench --out build/bench_results $(if $(BERTH_DATA),$(recordings)) $(BENCH_OPTIONS)
+	lab/bench/plot.py build/bench_results/bench.csv build/bench_results/results.svg
 
-# STUDY_OPTIONS: of `berth study`, such as --quick. A study that was stopped goes on.
-study: setup
-	cmake --preset release
-	cmake --build --preset release --target berth
-	build/release/berth study --out build/study $(if $(BERTH_DATA),$(recordings)) $(STUDY_OPTIONS)
+# Adds the laboratory to what build/release has.
+lab:
+	scripts/setup.sh packages.txt packages-lab.txt
+	$(product)
+	cmake -B build/release -DBERTH_BUILD_LAB=ON
 
-# Both on OpenGL. GL_DEVICE: as for `berth run --gl-device`; results.md is ready for bench/RESULTS.md.
+# STUDY_OPTIONS: of berth_study, such as --quick. A study that was stopped goes on.
+study: lab
+	cmake --build --preset release --target berth_study
+	build/release/lab/berth_study --out build/study $(if $(BERTH_DATA),$(recordings)) $(STUDY_OPTIONS)
+
+# Both on OpenGL. GL_DEVICE: as for `berth run --gl-device`; results.md is ready for lab/bench/RESULTS.md.
 gl_device = $(if $(GL_DEVICE),--gl-device "$(GL_DEVICE)")
 bench-gpu:
-	scripts/setup.sh packages.txt packages-bench.txt
+	scripts/setup.sh packages.txt packages-lab.txt packages-bench.txt
 	cmake --preset bench
-	cmake --build --preset bench --target berth
-	build/bench/berth bench --backend opengl $(gl_device) --out build/bench_gpu \
+	cmake --build --preset bench --target berth_bench berth_study
+	build/bench/lab/berth_bench --backend opengl $(gl_device) --out build/bench_gpu \
 	  $(if $(BERTH_DATA),$(recordings)) $(BENCH_OPTIONS)
-	build/bench/berth study --backend opengl $(gl_device) --out build/bench_gpu/study \
+	build/bench/lab/berth_study --backend opengl $(gl_device) --out build/bench_gpu/study \
 	  $(if $(BERTH_DATA),$(recordings)) $(STUDY_OPTIONS)
-	bench/gpu_results.py build/bench_gpu
+	lab/bench/gpu_results.py build/bench_gpu
 
 # The tests under AddressSanitizer and UBSan, then under ThreadSanitizer: all, or readers and what has threads.
 sanitize: sanitize-asan sanitize-tsan
@@ -57,21 +65,26 @@ FUZZ_SECONDS ?= 300
 fuzz:
 	scripts/fuzz.sh "$(FUZZ_SECONDS)"
 
-# What `make test` shows thinned, in full. TRUST_OPTIONS: of measure_trust, such as --scenes 20.
+# What `make test` shows thinned, in full. TRUST_OPTIONS: of berth_trust, such as --scenes 20.
 trust: trust-distances trust-real-images trust-long-runs
-trust-distances: build
-	build/release/tools/measure_trust/measure_trust $(if $(BERTH_DATA),--robots $(BERTH_DATA)/robots) $(TRUST_OPTIONS)
-trust-real-images: build
+berth_trust: lab
+	cmake --build --preset release --target berth_trust
+trust-distances: berth_trust
+	build/release/lab/berth_trust $(if $(BERTH_DATA),--robots $(BERTH_DATA)/robots) $(TRUST_OPTIONS)
+trust-real-images: berth_trust
 ifneq ($(BERTH_DATA),)
-	build/release/tools/measure_trust/measure_trust --robots $(BERTH_DATA)/robots --real-images $(BERTH_DATA)/depth $(TRUST_OPTIONS)
+	build/release/lab/berth_trust --robots $(BERTH_DATA)/robots --real-images $(BERTH_DATA)/depth $(TRUST_OPTIONS)
 else
 	@echo "trust-real-images: skipped; BERTH_DATA=FOLDER names the folder with robots/ and depth/"
 endif
-trust-long-runs: build
+trust-long-runs: setup
+	cmake --preset release
+	cmake --build --preset release --target long_run_test
 	BERTH_LONG_RUN=full build/release/tests/pipeline/long_run_test
 
+# All that the tests need.
 setup:
-	scripts/setup.sh
+	scripts/setup.sh packages.txt packages-lab.txt packages-tests.txt
 
 format:
 	git ls-files '*.hpp' '*.cpp' | xargs clang-format -i

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <exception>
 
-#include "testing/reader_inputs.hpp"
+#include "tests/support/reader_inputs.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto readers = berth::reader_inputs();

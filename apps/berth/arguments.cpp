@@ -10,10 +10,11 @@
 #include <type_traits>
 #include <vector>
 
+#include "apps/support/threads_argument.hpp"
 #include "berth/files/number.hpp"
 #include "berth/types/setting.hpp"
 
-namespace berth {
+namespace berth::app {
 namespace {
 
 /// CLI::PositiveNumber lets NaN and infinity through.
@@ -163,12 +164,6 @@ void require_method(const Setting& setting, Method used) {
 
 }  // namespace
 
-void add_threads(CLI::App& command, int& threads) {
-  command.add_option("--threads", threads, "Threads to use (default: one for each processor)")
-      ->check(CLI::Range(1, 1024))
-      ->type_name("N");
-}
-
 DistanceSettings EvaluationArguments::settings_over(DistanceSettings settings,
                                                     Method method_used) const {
   visit_settings(settings, [&](const Setting& setting, auto& value) {
@@ -260,4 +255,4 @@ void add_demo_options(CLI::App& command, DemoArguments& arguments) {
   command.footer("Example:\n  berth demo --picture pictures");
 }
 
-}  // namespace berth
+}  // namespace berth::app

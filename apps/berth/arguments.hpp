@@ -8,12 +8,12 @@
 #include <optional>
 #include <string>
 
-#include "apps/berth/backend_arguments.hpp"
+#include "apps/support/backend_arguments.hpp"
 #include "berth/distance/evaluate.hpp"
 #include "berth/distance/settings.hpp"
 #include "berth/pipeline/robot.hpp"
 
-namespace berth {
+namespace berth::app {
 
 enum class OutputFormat { table, json };
 
@@ -69,12 +69,9 @@ struct DemoArguments {
   int threads = 0;
 };
 
-/// For every command that works on several threads.
-void add_threads(CLI::App& command, int& threads);
-
 void add_run_options(CLI::App& command, RunArguments& arguments);
 void add_filter_options(CLI::App& command, FilterArguments& arguments);
 void add_evaluate_options(CLI::App& command, EvaluateArguments& arguments);
 void add_demo_options(CLI::App& command, DemoArguments& arguments);
 
-}  // namespace berth
+}  // namespace berth::app

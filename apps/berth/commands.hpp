@@ -2,7 +2,7 @@
 
 #include "apps/berth/arguments.hpp"
 
-namespace berth {
+namespace berth::app {
 
 /// Each runs one command. Throws std::exception where it cannot be done, with the message for the
 /// user, and Interrupted where the user stopped it.
@@ -11,4 +11,4 @@ void filter_command(const FilterArguments& arguments);
 void evaluate_command(const EvaluateArguments& arguments);
 void demo_command(const DemoArguments& arguments);
 
-}  // namespace berth
+}  // namespace berth::app

@@ -4,11 +4,11 @@
 #include <optional>
 
 #include "apps/berth/commands.hpp"
-#include "apps/berth/data_folders.hpp"
+#include "apps/support/data_folders.hpp"
 #include "apps/berth/run_frames.hpp"
 #include "berth/scene/result_table.hpp"
 
-namespace berth {
+namespace berth::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -40,4 +40,4 @@ void demo_command(const DemoArguments& arguments) {
              fs::absolute(arguments.picture_folder).lexically_normal().string());
 }
 
-}  // namespace berth
+}  // namespace berth::app

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/berth/commands.hpp"
-#include "apps/berth/interrupt.hpp"
+#include "apps/support/interrupt.hpp"
 #include "apps/berth/output.hpp"
 #include "berth/distance/evaluate.hpp"
 #include "berth/files/camera_info.hpp"
@@ -16,7 +16,7 @@
 #include "berth/files/png.hpp"
 #include "berth/scene/gl_backend.hpp"
 
-namespace berth {
+namespace berth::app {
 namespace {
 
 struct ThreeImages {
@@ -136,4 +136,4 @@ void evaluate_command(const EvaluateArguments& arguments) {
   output.finish();
 }
 
-}  // namespace berth
+}  // namespace berth::app

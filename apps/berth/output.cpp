@@ -12,7 +12,7 @@
 #include "berth/scene/result_json.hpp"
 #include "berth/scene/result_table.hpp"
 
-namespace berth {
+namespace berth::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -62,4 +62,4 @@ void Output::finish() {
   if (!file_.empty()) write_file_bytes(file_, kept_);
 }
 
-}  // namespace berth
+}  // namespace berth::app

@@ -6,7 +6,7 @@
 #include "apps/berth/arguments.hpp"
 #include "berth/scene/frame_result.hpp"
 
-namespace berth {
+namespace berth::app {
 
 /// Where results go: standard output at once, or a file that appears complete when all is done.
 class Output {
@@ -25,4 +25,4 @@ class Output {
   std::string kept_;
 };
 
-}  // namespace berth
+}  // namespace berth::app

@@ -14,7 +14,7 @@
 #include "apps/berth/picture_text.hpp"
 #include "berth/files/file_bytes.hpp"
 
-namespace berth {
+namespace berth::app {
 namespace {
 
 template <typename AnyImage>
@@ -90,4 +90,4 @@ void write_picture(const std::filesystem::path& path, const PictureInput& input)
   write_file_bytes(path, png);
 }
 
-}  // namespace berth
+}  // namespace berth::app

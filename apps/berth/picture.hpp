@@ -11,7 +11,7 @@
 #include "berth/types/obstacle_image.hpp"
 #include "berth/types/robot_image.hpp"
 
-namespace berth {
+namespace berth::app {
 
 /// What write_picture() draws. A null pointer leaves that layer out; the images have the sensor's
 /// size.
@@ -34,4 +34,4 @@ struct PictureInput {
 /// together, text that is not UTF-8, a file that cannot be written.
 void write_picture(const std::filesystem::path& path, const PictureInput& input);
 
-}  // namespace berth
+}  // namespace berth::app

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace berth {
+namespace berth::app {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -148,4 +148,4 @@ std::string Canvas::png() const {
   return bytes;
 }
 
-}  // namespace berth
+}  // namespace berth::app

@@ -9,7 +9,7 @@
 #include "apps/berth/picture_palette.hpp"
 #include "berth/types/image.hpp"
 
-namespace berth {
+namespace berth::app {
 
 struct PointPx {
   double x = 0;
@@ -59,4 +59,4 @@ class Canvas {
   std::unique_ptr<Cairo> cairo_;
 };
 
-}  // namespace berth
+}  // namespace berth::app

@@ -4,7 +4,7 @@
 
 #include "apps/berth/picture_pairs.hpp"
 
-namespace berth {
+namespace berth::app {
 namespace {
 
 bool overlap(const BoxPx& a, const BoxPx& b, double gap_px) {
@@ -64,4 +64,4 @@ std::vector<std::optional<BoxPx>> place_labels(const std::vector<LabelRequest>& 
   return placed;
 }
 
-}  // namespace berth
+}  // namespace berth::app

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace berth {
+namespace berth::app {
 namespace {
 
 constexpr double kMarginEm = 0.9;
@@ -90,4 +90,4 @@ PictureLayout layout_picture(const PictureInput& input) {
   return layout;
 }
 
-}  // namespace berth
+}  // namespace berth::app

@@ -5,7 +5,7 @@
 #include "apps/berth/picture.hpp"
 #include "apps/berth/picture_canvas.hpp"
 
-namespace berth {
+namespace berth::app {
 
 /// The legend's table of links.
 struct TablePlan {
@@ -51,4 +51,4 @@ std::vector<PixelFate> shown_fates(const ObstacleImage& obstacles);
 
 PictureLayout layout_picture(const PictureInput& input);
 
-}  // namespace berth
+}  // namespace berth::app

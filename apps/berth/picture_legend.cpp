@@ -9,7 +9,7 @@
 #include "apps/berth/picture_pairs.hpp"
 #include "apps/berth/picture_text.hpp"
 
-namespace berth {
+namespace berth::app {
 namespace {
 
 constexpr Rgb kCard{0x22, 0x27, 0x2F};
@@ -229,4 +229,4 @@ void draw_legend(Canvas& canvas, const PictureLayout& layout, const PictureInput
   draw_depth_scale(legend, tone);
 }
 
-}  // namespace berth
+}  // namespace berth::app

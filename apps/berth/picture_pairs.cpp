@@ -5,7 +5,7 @@
 
 #include "apps/berth/picture_text.hpp"
 
-namespace berth {
+namespace berth::app {
 namespace {
 
 constexpr double kLineEm = 0.16;
@@ -124,4 +124,4 @@ void draw_pairs(Canvas& canvas, const PictureLayout& layout, const PictureInput&
     if (boxes[i]) draw_label(canvas, pairs[i], *boxes[i], em);
 }
 
-}  // namespace berth
+}  // namespace berth::app

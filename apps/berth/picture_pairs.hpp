@@ -8,7 +8,7 @@
 #include "apps/berth/picture_canvas.hpp"
 #include "apps/berth/picture_layout.hpp"
 
-namespace berth {
+namespace berth::app {
 
 /// A label that belongs near `anchor`.
 struct LabelRequest {
@@ -32,4 +32,4 @@ void draw_obstacle_end(Canvas& canvas, PointPx centre, Rgb color, double em_px);
 /// distance beside it. The nearest link comes last, on top of the others.
 void draw_pairs(Canvas& canvas, const PictureLayout& layout, const PictureInput& input);
 
-}  // namespace berth
+}  // namespace berth::app

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-namespace berth {
+namespace berth::app {
 namespace {
 
 // Okabe and Ito (2008), then five that stay apart from these and from one another in all kinds of
@@ -75,4 +75,4 @@ Rgb fate_color(PixelFate fate) {
   return kBlack;
 }
 
-}  // namespace berth
+}  // namespace berth::app

@@ -6,7 +6,7 @@
 #include "berth/types/obstacle_image.hpp"
 #include "berth/types/robot_image.hpp"
 
-namespace berth {
+namespace berth::app {
 
 /// sRGB, 0 to 255.
 struct Rgb {
@@ -30,4 +30,4 @@ Rgb link_color(LinkId id);
 /// have the grey that the legend shows.
 Rgb fate_color(PixelFate fate);
 
-}  // namespace berth
+}  // namespace berth::app

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace berth {
+namespace berth::app {
 namespace {
 
 constexpr double kDarkest = 66;
@@ -125,4 +125,4 @@ Image<std::uint32_t> paint_pixels(const PictureInput& input, const DepthTone& to
   return picture;
 }
 
-}  // namespace berth
+}  // namespace berth::app

@@ -6,7 +6,7 @@
 #include "apps/berth/picture.hpp"
 #include "apps/berth/picture_palette.hpp"
 
-namespace berth {
+namespace berth::app {
 
 /// Grey for depth: near is bright, far is dark, by the logarithm of the depth.
 struct DepthTone {
@@ -29,4 +29,4 @@ Rgb hatch(int x, int y, int stripe_px);
 Image<std::uint32_t> paint_pixels(const PictureInput& input, const DepthTone& tone, int factor,
                                   int line_px);
 
-}  // namespace berth
+}  // namespace berth::app

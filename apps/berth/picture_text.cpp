@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace berth {
+namespace berth::app {
 namespace {
 
 /// Cuts UTF-8 between code points.
@@ -97,4 +97,4 @@ std::string fit_text(const Canvas& canvas, const std::string& text, const Font& 
   return "…";
 }
 
-}  // namespace berth
+}  // namespace berth::app

@@ -8,7 +8,7 @@
 #include "berth/types/link_distance.hpp"
 #include "berth/types/obstacle_image.hpp"
 
-namespace berth {
+namespace berth::app {
 
 /// "1.00 m"; a third decimal where the second would round.
 std::string range_text(double range_m);
@@ -25,4 +25,4 @@ std::string grouped(std::int64_t count);
 std::string fit_text(const Canvas& canvas, const std::string& text, const Font& font,
                      double width_px);
 
-}  // namespace berth
+}  // namespace berth::app

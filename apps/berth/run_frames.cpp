@@ -6,9 +6,9 @@
 #include <system_error>
 
 #include "apps/berth/picture.hpp"
-#include "apps/berth/progress_bar.hpp"
+#include "apps/support/progress_bar.hpp"
 
-namespace berth {
+namespace berth::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -75,4 +75,4 @@ void run_frames(const OpenScene& scene, const BackendChoice& where, const fs::pa
   });
 }
 
-}  // namespace berth
+}  // namespace berth::app

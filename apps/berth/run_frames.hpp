@@ -5,10 +5,10 @@
 #include <functional>
 
 #include "apps/berth/arguments.hpp"
-#include "apps/berth/interrupt.hpp"
+#include "apps/support/interrupt.hpp"
 #include "berth/scene/scene_run.hpp"
 
-namespace berth {
+namespace berth::app {
 
 /// The scene, with the arguments over what its file says. Throws as open_scene does, and
 /// Interrupted.
@@ -31,4 +31,4 @@ void run_frames(const OpenScene& scene, const BackendChoice& where,
                 const std::filesystem::path& picture_folder,
                 const std::function<void(const FrameResult&)>& take);
 
-}  // namespace berth
+}  // namespace berth::app

@@ -7,7 +7,7 @@
 #include "berth/files/png.hpp"
 #include "berth/self_filter/scenery.hpp"
 
-namespace berth {
+namespace berth::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -46,4 +46,4 @@ void filter_command(const FilterArguments& arguments) {
   });
 }
 
-}  // namespace berth
+}  // namespace berth::app

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "testing/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace berth {
 

@@ -3,8 +3,8 @@
 
 #include <cstdlib>
 
-#include "testing/gl_test.hpp"
 #include "tests/apps/command_scene.hpp"
+#include "tests/support/gl_test.hpp"
 
 namespace berth {
 namespace {

@@ -95,9 +95,11 @@ TEST(Usage, WrongCommandLineIsRefused) {
 
 TEST(Usage, HelpIsOnStandardOutputAndHasAnExample) {
   const TemporaryFolder folder;
-  const std::vector<Words> table = {{"--help"},           {"run", "--help"},
-                                    {"filter", "--help"}, {"evaluate", "--help"},
-                                    {"demo", "--help"},   {"study", "--help"}};
+  const std::vector<Words> table = {{"--help"},
+                                    {"run", "--help"},
+                                    {"filter", "--help"},
+                                    {"evaluate", "--help"},
+                                    {"demo", "--help"}};
   for (const Words& arguments : table) {
     const Outcome outcome = run_berth(folder / "", arguments);
     SCOPED_TRACE(arguments[0]);
@@ -112,7 +114,7 @@ TEST(Usage, HelpIsOnStandardOutputAndHasAnExample) {
 TEST(Usage, HelpNamesEveryCommand) {
   const TemporaryFolder folder;
   const std::string out = run_berth(folder / "", {"--help"}).out;
-  for (const char* command : {"demo", "run", "filter", "evaluate", "study"}) {
+  for (const char* command : {"demo", "run", "filter", "evaluate"}) {
     EXPECT_NE(out.find(command), std::string::npos) << command;
   }
 }

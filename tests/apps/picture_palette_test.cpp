@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-namespace berth {
+namespace berth::app {
 namespace {
 
 double linear(std::uint8_t value) {
@@ -68,4 +68,4 @@ TEST(PicturePalette, NeighboursOfALongChainStayApart) {
 }
 
 }  // namespace
-}  // namespace berth
+}  // namespace berth::app

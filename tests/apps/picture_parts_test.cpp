@@ -8,7 +8,7 @@
 #include "apps/berth/picture_pixels.hpp"
 #include "apps/berth/picture_text.hpp"
 
-namespace berth {
+namespace berth::app {
 namespace {
 
 bool overlap(const BoxPx& a, const BoxPx& b) {
@@ -166,4 +166,4 @@ TEST(PictureTone, NearIsBrighterThanFarWhateverTheOutliers) {
 }
 
 }  // namespace
-}  // namespace berth
+}  // namespace berth::app

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-namespace berth {
+namespace berth::app {
 namespace {
 
 constexpr double kRange_m = 1.0;
@@ -238,4 +238,4 @@ PictureScene make_picture_scene(int width_px, int height_px, int links) {
   return scene;
 }
 
-}  // namespace berth
+}  // namespace berth::app

@@ -3,7 +3,7 @@
 
 #include "apps/berth/picture.hpp"
 
-namespace berth {
+namespace berth::app {
 
 struct PictureScene {
   DepthImage sensor_depth_m;
@@ -19,4 +19,4 @@ struct PictureScene {
 /// The first link is said to have nothing within the range; the last one is not in the image.
 PictureScene make_picture_scene(int width_px, int height_px, int links);
 
-}  // namespace berth
+}  // namespace berth::app

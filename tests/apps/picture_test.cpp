@@ -8,11 +8,11 @@
 #include "apps/berth/picture_layout.hpp"
 #include "apps/berth/picture_palette.hpp"
 #include "berth/files/file_bytes.hpp"
-#include "testing/error_message.hpp"
-#include "testing/temporary_folder.hpp"
 #include "tests/apps/picture_scene.hpp"
+#include "tests/support/error_message.hpp"
+#include "tests/support/temporary_folder.hpp"
 
-namespace berth {
+namespace berth::app {
 namespace {
 
 /// A picture as it lies in its file, asked at the sensor's pixels.
@@ -278,4 +278,4 @@ TEST(PictureErrors, InputsThatDoNotFitTogetherAreRefused) {
 }
 
 }  // namespace
-}  // namespace berth
+}  // namespace berth::app

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "berth/files/file_bytes.hpp"
-#include "testing/error_message.hpp"
-#include "testing/reader_inputs.hpp"
+#include "tests/support/error_message.hpp"
+#include "tests/support/reader_inputs.hpp"
 
 namespace berth {
 namespace {

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "berth/distance/aligned_box-inl.hpp"
-#include "testing/thinned.hpp"
+#include "tests/support/thinned.hpp"
 
 namespace berth {
 namespace {

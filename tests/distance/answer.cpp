@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "testing/shared_gl.hpp"
 #include "tests/distance/plain_definition.hpp"
+#include "tests/support/shared_gl.hpp"
 
 namespace berth::testing {
 

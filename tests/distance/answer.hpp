@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "berth/distance/evaluate.hpp"
-#include "testing/random_images.hpp"
+#include "tests/support/random_images.hpp"
 
 namespace berth::testing {
 

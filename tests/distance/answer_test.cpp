@@ -2,8 +2,8 @@
 #include <cmath>
 #include <limits>
 
-#include "testing/thinned.hpp"
 #include "tests/distance/answer.hpp"
+#include "tests/support/thinned.hpp"
 
 namespace berth::testing {
 namespace {

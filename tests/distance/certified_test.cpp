@@ -6,9 +6,9 @@
 
 #include "berth/distance/brute_force.hpp"
 #include "berth/distance/exact.hpp"
-#include "testing/random_images.hpp"
-#include "testing/thinned.hpp"
 #include "tests/distance/smooth_images.hpp"
+#include "tests/support/random_images.hpp"
+#include "tests/support/thinned.hpp"
 
 namespace berth::testing {
 namespace {

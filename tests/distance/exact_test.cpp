@@ -5,11 +5,11 @@
 #include <tbb/global_control.h>
 
 #include "berth/distance/brute_force.hpp"
-#include "testing/error_message.hpp"
-#include "testing/only_target.hpp"
-#include "testing/random_images.hpp"
-#include "testing/thinned.hpp"
 #include "tests/distance/smooth_images.hpp"
+#include "tests/support/error_message.hpp"
+#include "tests/support/only_target.hpp"
+#include "tests/support/random_images.hpp"
+#include "tests/support/thinned.hpp"
 
 namespace berth::testing {
 namespace {

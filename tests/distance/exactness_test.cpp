@@ -2,10 +2,10 @@
 // every instruction set that this machine has.
 #include <cmath>
 
-#include "testing/only_target.hpp"
-#include "testing/thinned.hpp"
 #include "tests/distance/answer.hpp"
 #include "tests/distance/plain_definition.hpp"
+#include "tests/support/only_target.hpp"
+#include "tests/support/thinned.hpp"
 
 namespace berth::testing {
 namespace {

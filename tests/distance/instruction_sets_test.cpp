@@ -1,9 +1,9 @@
 // Every instruction set that this machine has computes the same bits.
 #include <bit>
 
-#include "testing/only_target.hpp"
-#include "testing/thinned.hpp"
 #include "tests/distance/answer.hpp"
+#include "tests/support/only_target.hpp"
+#include "tests/support/thinned.hpp"
 
 namespace berth::testing {
 namespace {

@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include "berth/distance/obstacle_tree.hpp"
-#include "testing/thinned.hpp"
 #include "tests/distance/answer.hpp"
 #include "tests/distance/close_share.hpp"
+#include "tests/support/thinned.hpp"
 
 namespace berth::testing {
 namespace {

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <random>
 
-#include "testing/only_target.hpp"
 #include "tests/distance/plain_mean.hpp"
+#include "tests/support/only_target.hpp"
 
 namespace berth::testing {
 namespace {

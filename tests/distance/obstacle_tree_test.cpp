@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "testing/random_images.hpp"
+#include "tests/support/random_images.hpp"
 
 namespace berth {
 namespace {

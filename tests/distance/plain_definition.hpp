@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "testing/random_images.hpp"
+#include "tests/support/random_images.hpp"
 
 namespace berth::testing {
 

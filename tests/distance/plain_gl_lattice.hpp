@@ -2,7 +2,7 @@
 
 #include "berth/distance/settings.hpp"
 #include "berth/types/link_distance.hpp"
-#include "testing/random_images.hpp"
+#include "tests/support/random_images.hpp"
 
 namespace berth::testing {
 

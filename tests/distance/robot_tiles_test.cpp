@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "testing/random_images.hpp"
+#include "tests/support/random_images.hpp"
 
 namespace berth {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "testing/random_images.hpp"
+#include "tests/support/random_images.hpp"
 
 namespace berth::testing {
 

@@ -1,6 +1,6 @@
 // A program of its own, because allocation_count replaces the global operator new.
-#include "testing/allocation_count.hpp"
 #include "tests/distance/answer.hpp"
+#include "tests/support/allocation_count.hpp"
 
 namespace berth::testing {
 namespace {

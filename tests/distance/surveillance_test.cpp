@@ -7,8 +7,8 @@
 
 #include "berth/distance/region_of_surveillance.hpp"
 
-#include "testing/thinned.hpp"
 #include "tests/distance/answer.hpp"
+#include "tests/support/thinned.hpp"
 
 namespace berth::testing {
 namespace {

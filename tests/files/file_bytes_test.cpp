@@ -6,8 +6,8 @@
 
 #include <csignal>
 
-#include "testing/error_message.hpp"
-#include "testing/temporary_folder.hpp"
+#include "tests/support/error_message.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace berth {
 namespace {

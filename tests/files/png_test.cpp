@@ -9,8 +9,8 @@
 #include <random>
 
 #include "berth/files/file_bytes.hpp"
-#include "testing/error_message.hpp"
-#include "testing/temporary_folder.hpp"
+#include "tests/support/error_message.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace berth {
 namespace {

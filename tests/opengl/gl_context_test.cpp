@@ -1,8 +1,8 @@
 #include "berth/opengl/gl_context.hpp"
 
 #include "berth/opengl/gl_buffer.hpp"
-#include "testing/error_message.hpp"
-#include "testing/gl_test.hpp"
+#include "tests/support/error_message.hpp"
+#include "tests/support/gl_test.hpp"
 
 namespace berth {
 namespace {

@@ -1,8 +1,8 @@
 // What the tests of all methods (tests/distance) do not ask of gl_exact.
 #include <thread>
 
-#include "testing/gl_test.hpp"
 #include "tests/distance/answer.hpp"
+#include "tests/support/gl_test.hpp"
 
 namespace berth::testing {
 namespace {

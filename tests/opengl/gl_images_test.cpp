@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "testing/gl_test.hpp"
+#include "tests/support/gl_test.hpp"
 
 namespace berth {
 namespace {

@@ -1,7 +1,7 @@
 #include "berth/opengl/gl_program.hpp"
 
-#include "testing/error_message.hpp"
-#include "testing/gl_test.hpp"
+#include "tests/support/error_message.hpp"
+#include "tests/support/gl_test.hpp"
 
 namespace berth {
 namespace {

@@ -7,11 +7,11 @@
 
 #include "berth/render/robot_renderer.hpp"
 #include "berth/robot/primitives.hpp"
-#include "testing/data_folder.hpp"
-#include "testing/gl_test.hpp"
 #include "tests/opengl/robot_difference.hpp"
 #include "tests/render/crowded_robot.hpp"
 #include "tests/render/small_robot.hpp"
+#include "tests/support/data_folder.hpp"
+#include "tests/support/gl_test.hpp"
 
 namespace berth {
 namespace {

@@ -7,10 +7,10 @@
 #include "berth/scene/open_scene.hpp"
 #include "berth/opengl/gl_observer.hpp"
 #include "berth/pipeline/observer.hpp"
-#include "testing/data_folder.hpp"
-#include "testing/gl_test.hpp"
-#include "testing/view_with.hpp"
 #include "tests/opengl/robot_difference.hpp"
+#include "tests/support/data_folder.hpp"
+#include "tests/support/gl_test.hpp"
+#include "tests/support/view_with.hpp"
 
 namespace berth {
 namespace {

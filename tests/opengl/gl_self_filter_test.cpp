@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "berth/self_filter/self_filter.hpp"
-#include "testing/gl_test.hpp"
 #include "tests/self_filter/random_scene.hpp"
+#include "tests/support/gl_test.hpp"
 
 namespace berth {
 namespace {

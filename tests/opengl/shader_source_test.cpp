@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "testing/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace berth {
 namespace {

@@ -4,10 +4,10 @@
 #include "berth/opengl/gl_asker.hpp"
 #include "berth/opengl/gl_observer.hpp"
 #include "berth/pipeline/observer.hpp"
-#include "testing/error_message.hpp"
-#include "testing/gl_test.hpp"
-#include "testing/view_with.hpp"
 #include "tests/pipeline/web.hpp"
+#include "tests/support/error_message.hpp"
+#include "tests/support/gl_test.hpp"
+#include "tests/support/view_with.hpp"
 
 namespace berth {
 namespace {

@@ -18,9 +18,9 @@
 
 #include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/observer.hpp"
-#include "testing/allocation_count.hpp"
-#include "testing/temporary_folder.hpp"
-#include "testing/thinned.hpp"
+#include "tests/support/allocation_count.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/thinned.hpp"
 
 namespace berth {
 namespace {

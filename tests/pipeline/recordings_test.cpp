@@ -13,8 +13,8 @@
 #include "berth/files/png.hpp"
 #include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/observer.hpp"
-#include "testing/view_with.hpp"
-#include "testing/data_folder.hpp"
+#include "tests/support/view_with.hpp"
+#include "tests/support/data_folder.hpp"
 
 namespace berth {
 namespace {

@@ -5,9 +5,9 @@
 #include "berth/scene/open_scene.hpp"
 #include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/observer.hpp"
-#include "testing/allocation_count.hpp"
-#include "testing/view_with.hpp"
 #include "tests/pipeline/web.hpp"
+#include "tests/support/allocation_count.hpp"
+#include "tests/support/view_with.hpp"
 
 namespace berth {
 namespace {

@@ -6,7 +6,7 @@
 #include "berth/scene/open_scene.hpp"
 #include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/observer.hpp"
-#include "testing/view_with.hpp"
+#include "tests/support/view_with.hpp"
 #include "tests/pipeline/web.hpp"
 
 namespace berth {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "testing/ray_hit.hpp"
+#include "tests/support/ray_hit.hpp"
 
 namespace berth {
 

@@ -1,5 +1,5 @@
 // RobotRenderer against Embree, on robots with many triangles.
-#include "testing/embree_renderer.hpp"
+#include "tests/support/embree_renderer.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <ostream>
 
 #include "berth/render/robot_renderer.hpp"
-#include "testing/data_folder.hpp"
 #include "tests/render/comparison.hpp"
 #include "tests/render/small_robot.hpp"
+#include "tests/support/data_folder.hpp"
 
 namespace berth {
 namespace {

@@ -3,8 +3,8 @@
 
 #include "berth/render/robot_renderer.hpp"
 #include "berth/robot/primitives.hpp"
-#include "testing/same_bits.hpp"
 #include "tests/render/small_robot.hpp"
+#include "tests/support/same_bits.hpp"
 
 namespace berth {
 namespace {

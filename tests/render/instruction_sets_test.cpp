@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "berth/render/robot_renderer.hpp"
-#include "testing/only_target.hpp"
-#include "testing/same_bits.hpp"
 #include "tests/render/crowded_robot.hpp"
+#include "tests/support/only_target.hpp"
+#include "tests/support/same_bits.hpp"
 
 namespace berth {
 namespace {

@@ -8,8 +8,8 @@
 #include <thread>
 
 #include "berth/robot/primitives.hpp"
-#include "testing/same_bits.hpp"
 #include "tests/render/small_robot.hpp"
+#include "tests/support/same_bits.hpp"
 
 namespace berth {
 namespace {

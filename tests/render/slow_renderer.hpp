@@ -7,7 +7,7 @@
 #include "berth/robot/kinematics.hpp"
 #include "berth/robot/robot_model.hpp"
 #include "berth/types/camera.hpp"
-#include "testing/ray_hit.hpp"
+#include "tests/support/ray_hit.hpp"
 
 namespace berth {
 

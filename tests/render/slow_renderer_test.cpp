@@ -5,10 +5,10 @@
 
 #include "berth/render/robot_renderer.hpp"
 #include "berth/robot/primitives.hpp"
-#include "testing/data_folder.hpp"
-#include "testing/thinned.hpp"
 #include "tests/render/comparison.hpp"
 #include "tests/render/small_robot.hpp"
+#include "tests/support/data_folder.hpp"
+#include "tests/support/thinned.hpp"
 
 namespace berth {
 namespace {

@@ -3,8 +3,8 @@
 #include <tbb/global_control.h>
 
 #include "berth/render/robot_renderer.hpp"
-#include "testing/allocation_count.hpp"
 #include "tests/render/crowded_robot.hpp"
+#include "tests/support/allocation_count.hpp"
 
 namespace berth {
 namespace {

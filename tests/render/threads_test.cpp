@@ -4,8 +4,8 @@
 #include <tbb/task_arena.h>
 
 #include "berth/render/robot_renderer.hpp"
-#include "testing/same_bits.hpp"
 #include "tests/render/crowded_robot.hpp"
+#include "tests/support/same_bits.hpp"
 
 namespace berth {
 namespace {

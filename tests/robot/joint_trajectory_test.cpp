@@ -1,5 +1,5 @@
 #include "berth/robot/joint_trajectory.hpp"
-#include "testing/error_message.hpp"
+#include "tests/support/error_message.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "testing/temporary_folder.hpp"
 #include "tests/robot/error_text.hpp"
 #include "tests/robot/mesh_writing.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace berth {
 namespace {

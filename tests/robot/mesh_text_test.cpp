@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "berth/robot/mesh_file/mesh_file.hpp"
-#include "testing/temporary_folder.hpp"
 #include "tests/robot/error_text.hpp"
 #include "tests/robot/mesh_writing.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace berth {
 namespace {

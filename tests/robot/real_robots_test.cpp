@@ -1,4 +1,4 @@
-// Real robots, read twice: by berth and by testing/urdf_reading.
+// Real robots, read twice: by berth and by tests/support/urdf_reading.
 #include <gtest/gtest.h>
 
 #include <ostream>
@@ -6,11 +6,11 @@
 
 #include "berth/robot/primitives.hpp"
 #include "berth/robot/robot_model.hpp"
-#include "testing/data_folder.hpp"
-#include "testing/mesh_reading.hpp"
-#include "testing/temporary_folder.hpp"
-#include "testing/urdf_reading.hpp"
 #include "tests/robot/error_text.hpp"
+#include "tests/support/data_folder.hpp"
+#include "tests/support/mesh_reading.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/urdf_reading.hpp"
 
 namespace berth {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "berth/robot/robot_model.hpp"
-#include "testing/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace berth {
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "testing/error_message.hpp"
 #include "tests/scene/scene_text.hpp"
+#include "tests/support/error_message.hpp"
 
 namespace berth {
 namespace {

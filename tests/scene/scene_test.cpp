@@ -7,8 +7,8 @@
 #include "berth/files/camera_info.hpp"
 #include "berth/files/joints_csv.hpp"
 #include "berth/files/png.hpp"
-#include "testing/data_folder.hpp"
 #include "tests/scene/scene_text.hpp"
+#include "tests/support/data_folder.hpp"
 
 namespace berth {
 namespace {

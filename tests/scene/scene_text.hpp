@@ -3,7 +3,7 @@
 #include <string>
 
 #include "berth/scene/scene_file.hpp"
-#include "testing/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace berth {
 

@@ -6,11 +6,11 @@
 #include <algorithm>
 
 #include "berth/self_filter/self_filter.hpp"
-#include "testing/only_target.hpp"
-#include "testing/same_bits.hpp"
-#include "testing/thinned.hpp"
 #include "tests/self_filter/plain_definition.hpp"
 #include "tests/self_filter/random_scene.hpp"
+#include "tests/support/only_target.hpp"
+#include "tests/support/same_bits.hpp"
+#include "tests/support/thinned.hpp"
 
 namespace berth {
 namespace {

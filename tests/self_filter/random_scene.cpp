@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "testing/random.hpp"
+#include "tests/support/random.hpp"
 
 namespace berth {
 namespace {

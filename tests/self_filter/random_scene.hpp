@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "berth/self_filter/settings.hpp"
-#include "testing/random_images.hpp"
+#include "tests/support/random_images.hpp"
 
 namespace berth {
 

@@ -3,8 +3,8 @@
 #include <tbb/global_control.h>
 
 #include "berth/self_filter/self_filter.hpp"
-#include "testing/allocation_count.hpp"
 #include "tests/self_filter/random_scene.hpp"
+#include "tests/support/allocation_count.hpp"
 
 namespace berth {
 namespace {

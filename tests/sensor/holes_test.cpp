@@ -6,8 +6,8 @@
 #include <limits>
 #include <tuple>
 
-#include "testing/same_bits.hpp"
 #include "tests/sensor/images.hpp"
+#include "tests/support/same_bits.hpp"
 
 namespace berth {
 namespace {

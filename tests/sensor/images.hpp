@@ -2,7 +2,7 @@
 #pragma once
 
 #include "berth/types/obstacle_image.hpp"
-#include "testing/random.hpp"
+#include "tests/support/random.hpp"
 
 namespace berth {
 

@@ -9,10 +9,10 @@
 
 #include "berth/distance/evaluate.hpp"
 #include "berth/sensor/sensor_rules.hpp"
-#include "testing/same_bits.hpp"
-#include "testing/thinned.hpp"
 #include "tests/self_filter/random_scene.hpp"
 #include "tests/sensor/images.hpp"
+#include "tests/support/same_bits.hpp"
+#include "tests/support/thinned.hpp"
 
 namespace berth {
 namespace {

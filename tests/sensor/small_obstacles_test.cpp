@@ -12,9 +12,9 @@
 #include "berth/render/robot_renderer.hpp"
 #include "berth/robot/primitives.hpp"
 #include "berth/sensor/sensor_rules.hpp"
-#include "testing/drawn_obstacles.hpp"
-#include "testing/drawn_scene.hpp"
-#include "testing/sensor_model.hpp"
+#include "tests/support/drawn_obstacles.hpp"
+#include "tests/support/drawn_scene.hpp"
+#include "tests/support/sensor_model.hpp"
 
 namespace berth::testing {
 namespace {

@@ -1,9 +1,9 @@
 // Errors against brute force, on answers made by hand.
-#include "study/errors.hpp"
+#include "lab/thesis/errors.hpp"
 
 #include <gtest/gtest.h>
 
-namespace berth::study {
+namespace berth::lab {
 namespace {
 
 LinkDistance link(float distance_m, Eigen::Vector3f robot_C_m, Eigen::Vector3f obstacle_C_m) {
@@ -62,4 +62,4 @@ TEST(Errors, OnlyLinksInRangeOfTheQuestionCount) {
 }
 
 }  // namespace
-}  // namespace berth::study
+}  // namespace berth::lab

@@ -1,13 +1,13 @@
 // What a study that was stopped leaves, and what it takes up again.
-#include "study/journal.hpp"
+#include "lab/thesis/journal.hpp"
 
 #include <gtest/gtest.h>
 
 #include "berth/files/file_bytes.hpp"
-#include "testing/error_message.hpp"
-#include "testing/temporary_folder.hpp"
+#include "tests/support/error_message.hpp"
+#include "tests/support/temporary_folder.hpp"
 
-namespace berth::study {
+namespace berth::lab {
 namespace {
 
 const Identity kIdentity = {{"commit", "abc"}, {"seed", "1"}};
@@ -85,4 +85,4 @@ TEST_F(JournalOnDisk, RefusesFilesThatAreNotItsOwn) {
 }
 
 }  // namespace
-}  // namespace berth::study
+}  // namespace berth::lab

@@ -1,12 +1,12 @@
 // What is varied.
-#include "study/parameter_sets.hpp"
+#include "lab/thesis/parameter_sets.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 
-namespace berth::study {
+namespace berth::lab {
 namespace {
 
 TEST(ParameterSets, AreTheThesiss2200) {
@@ -30,7 +30,7 @@ TEST(ParameterSets, HaveStepsUpTo32AndTheThesissRadii) {
 }
 
 TEST(ParameterSets, AreAllValidAndDifferByTheirColumns) {
-  for (const Extent& extent : {full_extent(), quick_extent()}) {
+  for (const SweepExtent& extent : {full_extent(), quick_extent()}) {
     std::set<std::string> columns;
     std::size_t count = 0;
     for (const Part part : kParts) {
@@ -63,4 +63,4 @@ TEST(ParameterSets, OfTheQuickStudyAreAmongTheFullOnes) {
 }
 
 }  // namespace
-}  // namespace berth::study
+}  // namespace berth::lab

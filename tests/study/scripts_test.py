@@ -3,7 +3,7 @@ import sys
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "study"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "lab" / "thesis"))
 
 import numpy  # noqa: E402
 

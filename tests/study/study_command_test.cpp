@@ -1,4 +1,4 @@
-// `berth study` as its user sees it.
+// berth_study as its user sees it.
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
@@ -39,7 +39,7 @@ TEST_F(Study, QuickStudyIsStoppedGoesOnAndMakesEveryFile) {
 #ifdef BERTH_IS_SLOW_BUILD
   GTEST_SKIP() << "in a release build only: brute force takes minutes in this one";
 #endif
-  BerthProgram first(folder_.path(), {"study", "--quick", "--out", "out"});
+  BerthProgram first(folder_.path(), {"--quick", "--out", "out"});
   ASSERT_TRUE(comes_to_lines(50));
   first.interrupt();
   const Outcome stopped = first.wait();
@@ -48,12 +48,12 @@ TEST_F(Study, QuickStudyIsStoppedGoesOnAndMakesEveryFile) {
   EXPECT_FALSE(fs::exists(folder_ / "out/index.html"));
   const std::int64_t kept = lines() - 1;
 
-  const Outcome other = run_berth(folder_.path(), {"study", "--out", "out"});
+  const Outcome other = run_berth(folder_.path(), {"--out", "out"});
   EXPECT_EQ(other.exit_status, 1);
   EXPECT_NE(other.err.find("study.json: extent: \"quick\"; expected \"full\""), std::string::npos)
       << other.err;
 
-  const Outcome done = run_berth(folder_.path(), {"study", "--quick", "--out", "out"});
+  const Outcome done = run_berth(folder_.path(), {"--quick", "--out", "out"});
   EXPECT_EQ(done.exit_status, 0) << done.err;
   EXPECT_NE(done.out.find("; " + std::to_string(kept) + " are there already"), std::string::npos)
       << done.out;
@@ -65,7 +65,7 @@ TEST_F(Study, QuickStudyIsStoppedGoesOnAndMakesEveryFile) {
 TEST_F(Study, SaysWhatToInstallBeforeItMeasures) {
   // Python finds none of its modules then.
   ::setenv("PYTHONHOME", folder_.path().c_str(), 1);
-  const Outcome outcome = run_berth(folder_.path(), {"study", "--quick", "--out", "out"});
+  const Outcome outcome = run_berth(folder_.path(), {"--quick", "--out", "out"});
   ::unsetenv("PYTHONHOME");
   EXPECT_EQ(outcome.exit_status, 1);
   EXPECT_NE(outcome.err.find("install Debian's python3-matplotlib"), std::string::npos)
@@ -82,14 +82,14 @@ TEST_F(Study, RefusesWhatItCannotUse) {
   const std::string bundled = BERTH_SOURCE_DIR "/data/bundled/scene.yaml";
   folder_.write("file", "");
   const std::vector<Wrong> table = {
-      {{"study", "--scene", "missing.yaml"}, 1, "missing.yaml"},
-      {{"study", "--scene", bundled, "--scene", bundled}, 1, "is there twice"},
-      {{"study", "--out", "file"}, 1, "file"},
-      {{"study", "--seed", "-1"}, 2, "--seed"},
-      {{"study", "--threads", "0"}, 2, "--threads"},
-      {{"study", "scene.yaml"}, 2, "scene.yaml"},
-      {{"study", "--backend", "vulkan"}, 2, "vulkan"},
-      {{"study", "--backend", "opengl", "--gl-device", "no such GPU"}, 1, "OpenGL"},
+      {{"--scene", "missing.yaml"}, 1, "missing.yaml"},
+      {{"--scene", bundled, "--scene", bundled}, 1, "is there twice"},
+      {{"--out", "file"}, 1, "file"},
+      {{"--seed", "-1"}, 2, "--seed"},
+      {{"--threads", "0"}, 2, "--threads"},
+      {{"scene.yaml"}, 2, "scene.yaml"},
+      {{"--backend", "vulkan"}, 2, "vulkan"},
+      {{"--backend", "opengl", "--gl-device", "no such GPU"}, 1, "OpenGL"},
   };
   for (const Wrong& wrong : table) {
     const Outcome outcome = run_berth(folder_.path(), wrong.arguments);

@@ -1,5 +1,5 @@
 // A sweep gives the same rows however often it was stopped, and on any number of threads.
-#include "study/sweep.hpp"
+#include "lab/thesis/sweep.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <sstream>
 
 #include "berth/files/file_bytes.hpp"
-#include "testing/gl_test.hpp"
-#include "testing/temporary_folder.hpp"
+#include "tests/support/gl_test.hpp"
+#include "tests/support/temporary_folder.hpp"
 
-namespace berth::study {
+namespace berth::lab {
 namespace {
 
 std::vector<StudyScene> small_scenes() {
@@ -24,7 +24,7 @@ std::vector<StudyScene> small_scenes() {
 }
 
 std::vector<Task> small_tasks() {
-  Extent extent = quick_extent();
+  SweepExtent extent = quick_extent();
   extent.brute_force_lengths_m = {6.0};
   std::vector<Task> tasks;
   for (const Part part : {Part::brute_force, Part::surveillance_length, Part::exact}) {
@@ -139,4 +139,4 @@ TEST(Scenes, TheWorstCaseIsAllObstacleBeforeAllRobot) {
 }
 
 }  // namespace
-}  // namespace berth::study
+}  // namespace berth::lab

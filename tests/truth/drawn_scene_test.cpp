@@ -1,4 +1,4 @@
-#include "testing/drawn_scene.hpp"
+#include "tests/support/drawn_scene.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "berth/render/robot_renderer.hpp"
-#include "testing/same_bits.hpp"
+#include "tests/support/same_bits.hpp"
 
 namespace berth::testing {
 namespace {

@@ -1,9 +1,9 @@
-#include "testing/mesh_distance.hpp"
+#include "tests/support/mesh_distance.hpp"
 
 #include <gtest/gtest.h>
 
 #include "berth/robot/primitives.hpp"
-#include "testing/drawn_obstacles.hpp"
+#include "tests/support/drawn_obstacles.hpp"
 
 namespace berth::testing {
 namespace {

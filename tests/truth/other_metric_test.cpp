@@ -1,4 +1,4 @@
-#include "testing/other_metric.hpp"
+#include "tests/support/other_metric.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "berth/distance/brute_force.hpp"
-#include "testing/random.hpp"
-#include "testing/random_images.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/random_images.hpp"
 
 namespace berth::testing {
 namespace {

@@ -1,4 +1,4 @@
-#include "testing/sensor_model.hpp"
+#include "tests/support/sensor_model.hpp"
 
 #include <gtest/gtest.h>
 

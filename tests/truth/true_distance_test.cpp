@@ -1,4 +1,4 @@
-#include "testing/true_distance.hpp"
+#include "tests/support/true_distance.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "berth/robot/primitives.hpp"
-#include "testing/embree_renderer.hpp"
-#include "testing/seen_surface.hpp"
+#include "tests/support/embree_renderer.hpp"
+#include "tests/support/seen_surface.hpp"
 
 namespace berth::testing {
 namespace {

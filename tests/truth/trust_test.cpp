@@ -1,15 +1,15 @@
-// berth's distances against the true ones; tools/measure_trust runs a thousand scenes of it.
+// berth's distances against the true ones; lab/trust runs a thousand scenes of it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 
-#include "real_image.hpp"
-#include "tables.hpp"
-#include "testing/data_folder.hpp"
-#include "trial_robots.hpp"
+#include "lab/trust/real_image.hpp"
+#include "lab/trust/tables.hpp"
+#include "lab/trust/trial_robots.hpp"
+#include "tests/support/data_folder.hpp"
 
-namespace berth {
+namespace berth::lab {
 namespace {
 
 constexpr testing::DrawnSceneSettings kImage{.width_px = 320, .height_px = 240};
@@ -198,4 +198,4 @@ TEST(TrustTables, TellTooLargeFromTooSmallAndWhatWasLost) {
 }
 
 }  // namespace
-}  // namespace berth
+}  // namespace berth::lab

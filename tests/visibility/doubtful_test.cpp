@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "berth/distance/brute_force.hpp"
-#include "testing/random_images.hpp"
+#include "tests/support/random_images.hpp"
 
 namespace berth {
 namespace {

@@ -6,7 +6,7 @@
 #include "berth/robot/robot_model.hpp"
 #include "berth/types/image.hpp"
 #include "berth/visibility/line_of_sight.hpp"
-#include "testing/embree_renderer.hpp"
+#include "tests/support/embree_renderer.hpp"
 
 namespace berth {
 

@@ -6,7 +6,7 @@
 #include "berth/render/robot_renderer.hpp"
 #include "berth/self_filter/self_filter.hpp"
 #include "berth/visibility/visibility.hpp"
-#include "testing/embree_renderer.hpp"
+#include "tests/support/embree_renderer.hpp"
 #include "tests/visibility/plain_definition.hpp"
 
 namespace berth {

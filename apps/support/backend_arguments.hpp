@@ -1,0 +1,16 @@
+// Where a command computes.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "berth/scene/backend.hpp"
+
+namespace berth::app {
+
+/// Adds --backend and --gl-device; `what` says what the backend does in this command.
+void add_backend_options(CLI::App& command, const std::string& what, BackendChoice& arguments);
+/// --gl-device alone.
+void add_gl_device(CLI::App& command, BackendChoice& arguments);
+
+}  // namespace berth::app

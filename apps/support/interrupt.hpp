@@ -1,0 +1,15 @@
+#pragma once
+
+namespace berth::app {
+
+/// Thrown where a command was asked to stop by SIGINT or SIGTERM.
+struct Interrupted {};
+
+/// From now on these signals are noted instead of ending the program, so that no file is left
+/// half-written. A second one ends it.
+void note_interrupts();
+
+/// Throws Interrupted if one came.
+void stop_if_interrupted();
+
+}  // namespace berth::app

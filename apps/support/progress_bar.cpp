@@ -1,0 +1,33 @@
+#include "apps/support/progress_bar.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace berth::app {
+namespace {
+
+constexpr std::size_t kWidth = 32;
+
+}  // namespace
+
+ProgressBar::ProgressBar(std::string doing, std::size_t total)
+    : doing_(std::move(doing)), total_(total), is_terminal_(isatty(STDERR_FILENO) != 0) {}
+
+ProgressBar::~ProgressBar() { clear(); }
+
+void ProgressBar::step() {
+  ++done_;
+  if (!is_terminal_) return;
+  const std::size_t filled = total_ == 0 ? kWidth : kWidth * done_ / total_;
+  fmt::print(stderr, "\r{} [{:=<{}}{: <{}}] {}/{}", doing_, "", filled, "", kWidth - filled, done_,
+             total_);
+  std::fflush(stderr);
+}
+
+void ProgressBar::clear() const {
+  if (is_terminal_) fmt::print(stderr, "\r\033[K");
+}
+
+}  // namespace berth::app

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace berth::app {
+
+/// A line that tells how far a command is, on standard error; nothing where that is no terminal.
+class ProgressBar {
+ public:
+  ProgressBar(std::string doing, std::size_t total);
+  /// Takes the line away.
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  void step();
+  /// Takes the line away for other output; the next step shows it again.
+  void clear() const;
+
+ private:
+  std::string doing_;
+  std::size_t total_;
+  std::size_t done_ = 0;
+  bool is_terminal_;
+};
+
+}  // namespace berth::app

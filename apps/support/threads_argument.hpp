@@ -1,0 +1,10 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace berth::app {
+
+/// Adds --threads, for every command that works on several of them; 0 where it is not given.
+void add_threads(CLI::App& command, int& threads);
+
+}  // namespace berth::app

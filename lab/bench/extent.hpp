@@ -1,0 +1,22 @@
+#pragma once
+
+#include "lab/bench/drawn_scenes.hpp"
+#include "lab/bench/timing.hpp"
+
+namespace berth::lab {
+
+/// How much is measured.
+struct BenchExtent {
+  int random_scenes = 0;
+  int hard_scenes = kHardScenes;
+  int bowl_scenes = kBowlScenes;
+  int recorded_frames = 12;
+  int growth_scenes = 40;
+  int stage_rounds = 20;
+  RunLimits limits = {};
+};
+
+/// In less than half a minute.
+inline constexpr BenchExtent kQuick{2, 1, 1, 1, 2, 1, {3, 5, 50}};
+
+}  // namespace berth::lab

@@ -1,0 +1,186 @@
+#include "lab/bench/gl_stages.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "apps/support/interrupt.hpp"
+#include "apps/support/progress_bar.hpp"
+#include "berth/opengl/gl_evaluate.hpp"
+#include "berth/opengl/gl_observer.hpp"
+#include "berth/robot/robot_region.hpp"
+#include "lab/bench/coarse_robot.hpp"
+#include "lab/bench/stage.hpp"
+#include "lab/bench/triangle_count.hpp"
+
+namespace berth::lab {
+namespace {
+
+/// Of each edge: 112 000 triangles of the bundled robot.
+constexpr int kParts = 5;
+
+/// Of the lattices' obstacle pixels, in x and y.
+constexpr int kLatticeStep = 8;
+
+constexpr Method kGlMethods[] = {Method::gl_exact, Method::gl_lattice, Method::gl_hybrid};
+
+/// A view's pipeline on the GPU, taken apart, and the whole of it.
+class GlStages {
+ public:
+  explicit GlStages(const std::shared_ptr<const View>& view)
+      : view_(view),
+        camera_(view->camera()),
+        upload_(camera_.width_px, camera_.height_px),
+        sensor_depth_m_(GlPixel::depth_m, camera_.width_px, camera_.height_px),
+        region_(camera_.width_px, camera_.height_px),
+        frame_(camera_),
+        renderer_(view->robot()->model(), camera_),
+        observer_(view),
+        settings_(view->robot()->settings().distance) {
+    settings_.mean_direction = false;
+    settings_.lattice.step_x = settings_.lattice.step_y = kLatticeStep;
+    const double scale = view->settings().self_filter.robot_region_scale;
+    if (scale > 0) region_renderer_.emplace(robot_region(view->robot()->model(), scale), camera_);
+    for (const Method method : kGlMethods) {
+      const std::string_view name = name_of(method);
+      evaluate_.push_back({fmt::format("{}, read-back included", name)});
+      filter_and_evaluate_.push_back({fmt::format("render, self filter and {}", name)});
+      whole_.push_back({fmt::format("depth image to result, {}", name)});
+    }
+  }
+
+  void run(DepthView depth_m, const JointState& joints) {
+    upload_stage_.take([&] {
+      upload_.send(depth_m, sensor_depth_m_);
+      wait();
+    });
+    render_stage_.take([&] {
+      render(joints);
+      wait();
+    });
+    filter_stage_.take([&] {
+      filter();
+      wait();
+    });
+    for (std::size_t i = 0; i < std::size(kGlMethods); ++i) {
+      const auto evaluate = [&] { this->evaluate(kGlMethods[i]); };
+      evaluate_[i].take(evaluate);
+      filter_and_evaluate_[i].take([&] {
+        render(joints);
+        filter();
+        evaluate();
+      });
+      whole_[i].take([&] {
+        observer_.observe(depth_m, joints, frame_);
+        evaluate();
+      });
+    }
+  }
+
+  void forget_times() {
+    for (Stage* stage : all()) stage->times_ms.clear();
+  }
+
+  std::vector<Stage*> all() {
+    std::vector<Stage*> stages = {&upload_stage_, &render_stage_, &filter_stage_};
+    for (auto* several : {&evaluate_, &filter_and_evaluate_, &whole_}) {
+      for (Stage& stage : *several) stages.push_back(&stage);
+    }
+    return stages;
+  }
+
+ private:
+  void wait() {
+    done_.set();
+    done_.wait();
+  }
+
+  void render(const JointState& joints) {
+    forward_kinematics(view_->robot()->model(), joints.position, frame_.pose);
+    frame_.X_BC = view_->camera_pose(frame_.pose);
+    renderer_.render(frame_.pose, frame_.X_BC, frame_.robot);
+    if (region_renderer_) region_renderer_->render(frame_.pose, frame_.X_BC, region_);
+  }
+
+  void filter() {
+    const SelfFilterSettings& settings = view_->settings().self_filter;
+    if (region_renderer_) {
+      filter_.filter(camera_, sensor_depth_m_, frame_.robot, region_.link_id, settings,
+                     frame_.obstacles);
+    } else {
+      filter_.filter(camera_, sensor_depth_m_, frame_.robot, settings, frame_.obstacles);
+    }
+  }
+
+  void evaluate(Method method) {
+    answer_.links.clear();
+    evaluator_.evaluate(method, camera_, frame_.robot, frame_.obstacles.depth_m,
+                        view_->robot()->model().link_count(), settings_, answer_);
+  }
+
+  std::shared_ptr<const View> view_;
+  Camera camera_;
+  GlUpload upload_;
+  GlTexture sensor_depth_m_;
+  GlRobotImage region_;
+  GlFrame frame_;
+  GlRobotRenderer renderer_;
+  std::optional<GlRobotRenderer> region_renderer_;
+  GlSelfFilter filter_;
+  GlObserver observer_;
+  GlEvaluator evaluator_;
+  GlFence done_;
+  DistanceSettings settings_;
+  LinkDistances answer_;
+  Stage upload_stage_{"upload of the depth image"};
+  Stage render_stage_{"render"};
+  Stage filter_stage_{"self filter"};
+  std::vector<Stage> evaluate_;
+  std::vector<Stage> filter_and_evaluate_;
+  std::vector<Stage> whole_;
+};
+
+Table measure(const std::string& title, const Recording& recording,
+              const std::shared_ptr<const View>& view, int frames, int rounds) {
+  GlStages stages(view);
+  app::ProgressBar progress(title, frames);
+  for (int i = 0; i < frames; ++i) {
+    const std::size_t frame = recording.sampled_frame(i, frames);
+    const DepthImage depth_m = recording.camera().read_depth(frame);
+    for (int round = 0; round <= rounds; ++round) {
+      app::stop_if_interrupted();
+      stages.run(depth_m, recording.camera().at_exposure[frame]);
+      if (i == 0 && round == 0) stages.forget_times();
+    }
+    progress.step();
+  }
+  return table_of(
+      title,
+      fmt::format("{} x {}, {} triangles, {} links, {} frames, each {} times; without mean "
+                  "directions, lattices with steps of {} px, by the clock on the wall. "
+                  "Upload, render and self filter each until the GPU has done them; the "
+                  "rows below those begin with images on the GPU, but for the last three.",
+                  view->camera().width_px, view->camera().height_px, triangle_count(view->robot()->model()),
+                  view->robot()->model().link_count(), frames, rounds + 1, kLatticeStep),
+      stages.all());
+}
+
+}  // namespace
+
+Table measure_gl_stages(const Recording& recording, int max_frames, int rounds) {
+  return measure(fmt::format("Stages on OpenGL, {}", recording.title), recording,
+                 recording.camera().view, std::min(max_frames, recording.frame_count()), rounds);
+}
+
+Table measure_gl_stages_of_100_000(const std::filesystem::path& scene_file, int rounds) {
+  const auto recording = open_recording(scene_file, "bundled");
+  const OpenCamera& camera = recording->camera();
+  const auto robot = std::make_shared<const Robot>(
+      coarse_robot(read_scene(scene_file).robot, kParts), camera.view->robot()->settings());
+  const auto view =
+      std::make_shared<const View>(robot, camera.view->mount(), camera.view->settings());
+  return measure("Stages on OpenGL, 100 000 triangles", *recording, view, 1, rounds);
+}
+
+}  // namespace berth::lab

@@ -1,0 +1,145 @@
+#include "lab/bench/stages.hpp"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include "apps/support/interrupt.hpp"
+#include "apps/support/progress_bar.hpp"
+#include "berth/distance/mean_direction.hpp"
+#include "berth/pipeline/asker.hpp"
+#include "berth/pipeline/observer.hpp"
+#include "lab/bench/embree_rays.hpp"
+#include "lab/bench/stage.hpp"
+#include "lab/bench/triangle_count.hpp"
+
+namespace berth::lab {
+namespace {
+
+/// Questions between two images: a controller asks more often than a camera sees.
+constexpr std::size_t kQuestions = 5;
+
+/// The pipeline taken apart. Each run fills the frame as Observer and Asker do.
+class Stages {
+ public:
+  explicit Stages(const OpenCamera& camera)
+      : camera_(camera),
+        view_(camera.view),
+        renderer_(view_->robot()->meshes(), view_->camera()),
+        rays_(view_->robot()->model(), view_->camera()),
+        observer_(view_),
+        asker_(view_->robot()),
+        settings_(view_->robot()->settings().distance) {
+    settings_.mean_direction = false;
+  }
+
+  void run(DepthView depth_m, std::size_t frame_number) {
+    const JointState& joints = camera_.at_exposure[frame_number];
+    run_apart(depth_m, joints);
+    whole_.take([&] {
+      observer_.observe(depth_m, joints, frame_);
+      asker_.ask(frame_);
+    });
+    const std::vector<JointState>& joints_of = camera_.at_exposure;
+    for (std::size_t k = 1; k <= kQuestions; ++k) {
+      question_.take([&] { asker_.ask(frame_, joints_of[(frame_number + k) % joints_of.size()]); });
+    }
+  }
+
+  void run_embree(std::size_t frame_number) {
+    forward_kinematics(view_->robot()->model(), camera_.at_exposure[frame_number].position, pose_);
+    embree_.take([&] { rays_.render(pose_, view_->camera_pose(pose_), traced_); });
+  }
+
+  void forget_times() {
+    for (Stage* stage : all()) stage->times_ms.clear();
+  }
+
+  std::vector<Stage*> all() {
+    return {&render_, &self_filter_, &both_,     &tree_,  &exact_,
+            &mean_,   &whole_,       &question_, &embree_};
+  }
+
+ private:
+  void run_apart(DepthView depth_m, const JointState& joints) {
+    render_.take([&] {
+      forward_kinematics(view_->robot()->model(), joints.position, pose_);
+      renderer_.render(pose_, view_->camera_pose(pose_), frame_.robot);
+    });
+    self_filter_.take([&] {
+      self_filter(view_->camera(), depth_m, frame_.robot, view_->settings().self_filter, filter_,
+                  frame_.obstacles);
+    });
+    both_.times_ms.push_back(render_.times_ms.back() + self_filter_.times_ms.back());
+    tree_.take([&] { build_obstacle_tree(frame_.obstacles.depth_m, frame_.obstacle_tree); });
+    distances_.links.clear();
+    exact_.take([&] {
+      evaluate(Method::exact, view_->camera(), frame_.robot, frame_.obstacles.depth_m,
+               frame_.obstacle_tree, view_->robot()->model().link_count(), settings_, workspace_, distances_);
+    });
+    mean_.take([&] {
+      fill_mean_directions(view_->camera(), frame_.robot, frame_.obstacles.depth_m,
+                           frame_.obstacle_tree, settings_, workspace_.directions, distances_);
+    });
+  }
+
+  const OpenCamera& camera_;
+  std::shared_ptr<const View> view_;
+  RobotRenderer renderer_;
+  EmbreeRays rays_;
+  RobotImage traced_;
+  RobotPose pose_;
+  SelfFilterWorkspace filter_;
+  EvaluateWorkspace workspace_;
+  LinkDistances distances_;
+  Observer observer_;
+  Asker asker_;
+  Frame frame_;
+  DistanceSettings settings_;
+  Stage render_{"render"};
+  Stage self_filter_{"self filter"};
+  Stage both_{"render and self filter"};
+  Stage tree_{"obstacle tree"};
+  Stage exact_{"exact, cold"};
+  Stage mean_{"mean direction, on top"};
+  Stage whole_{"depth image to result"};
+  Stage question_{"question at new joint angles"};
+  Stage embree_{"Embree rays, same pixels"};
+};
+
+}  // namespace
+
+Table measure_stages(const Recording& recording, int threads, int rounds) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+  const OpenCamera& camera = recording.camera();
+  const std::size_t frames = camera.source.depth.size();
+  const std::string title =
+      fmt::format("Stages, {}, {} thread{}", recording.title, threads, threads == 1 ? "" : "s");
+  Stages stages(camera);
+  app::ProgressBar progress(title, frames);
+  // Frame by frame, since the images of all of them together are large.
+  for (std::size_t i = 0; i < frames; ++i) {
+    const DepthImage depth_m = camera.read_depth(i);
+    for (int round = 0; round <= rounds; ++round) {
+      app::stop_if_interrupted();
+      stages.run(depth_m, i);
+      if (i == 0 && round == 0) stages.forget_times();
+    }
+    progress.step();
+  }
+  // Apart, since its meshes would drive berth's out of the caches.
+  for (std::size_t i = 0; i < frames; ++i) {
+    for (int round = 0; round <= rounds; ++round) stages.run_embree(i);
+  }
+
+  return table_of(
+      title,
+      fmt::format("{} x {}, {} triangles, {} links, {} frames, each {} times. The image to "
+                  "result and the question are the whole pipeline, with mean directions; "
+                  "Embree is beside it.",
+                  camera.view->camera().width_px, camera.view->camera().height_px,
+                  triangle_count(camera.view->robot()->model()), camera.view->robot()->model().link_count(), frames,
+                  rounds + 1),
+      stages.all());
+}
+
+}  // namespace berth::lab

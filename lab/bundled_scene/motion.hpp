@@ -1,0 +1,34 @@
+// Who is where at which time.
+#pragma once
+
+#include <vector>
+
+#include "lab/bundled_scene/arm.hpp"
+
+namespace berth::lab {
+
+/// A row of joints.csv.
+struct JointRow {
+  double time_s;
+  JointAngles angle_rad;
+};
+
+/// Smooth motion of all seven joints at 100 Hz, rounded as the file's text is.
+std::vector<JointRow> make_joint_rows();
+
+/// The arm at a time between two rows, linear between them.
+JointAngles interpolate(const std::vector<JointRow>& rows, double time_s);
+
+/// 36 exposures at 10 Hz, 3 ms away from the rows.
+std::vector<double> frame_stamps_s();
+
+/// The person's intention at a time; all smooth.
+struct PersonMotion {
+  double x_T_m;     ///< where the hips are
+  double walked_m;  ///< way that the legs have gone
+  double lean_rad;  ///< of the trunk, forward
+  double reach;     ///< of the left hand: 0 hangs down, 1 is at the arm
+};
+PersonMotion person_motion(double time_s);
+
+}  // namespace berth::lab

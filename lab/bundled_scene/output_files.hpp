@@ -1,0 +1,38 @@
+// Writers of the scene's files. Those that take a path throw std::runtime_error where they cannot
+// write.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "berth/types/camera.hpp"
+#include "berth/types/image.hpp"
+#include "lab/bundled_scene/mesh.hpp"
+#include "lab/bundled_scene/scene.hpp"
+#include "lab/bundled_scene/truth.hpp"
+
+namespace berth::lab {
+
+/// With all folders above it; nothing happens where it is there already.
+void make_folder(const std::filesystem::path& folder);
+
+void write_text(const std::filesystem::path& file, const std::string& text);
+
+/// 16-bit gray.
+void write_png(const std::filesystem::path& file, const Image<std::uint16_t>& image);
+
+/// Binary STL, metres.
+void write_stl(const std::filesystem::path& file, const TriangleMesh& mesh,
+               const std::string& title);
+
+/// ROS camera_info.
+std::string camera_info_yaml(const Camera& camera);
+std::string scene_yaml(const CameraPlace& place, const std::vector<double>& stamps_s);
+std::string joints_csv(const std::vector<JointRow>& rows);
+std::string truth_csv(const std::vector<TruthRow>& rows);
+
+/// The arm on its table; meshes as package://berth_arm/meshes/<link>.stl.
+std::string arm_urdf();
+
+}  // namespace berth::lab

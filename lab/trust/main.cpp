@@ -1,0 +1,101 @@
+// berth_trust: how far berth's distances are from the true ones, on random scenes.
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <atomic>
+#include <filesystem>
+#include <optional>
+
+#include "apps/support/program.hpp"
+#include "lab/trust/look.hpp"
+#include "lab/trust/real_image.hpp"
+#include "lab/trust/tables.hpp"
+#include "lab/trust/trial_robots.hpp"
+
+namespace berth::lab {
+namespace {
+
+/// One of a scene's seeds in turn.
+constexpr std::array<std::pair<int, int>, 3> kSizes_px = {{{224, 172}, {320, 240}, {640, 480}}};
+
+testing::DrawnSceneSettings settings_of(int seed) {
+  const auto [width_px, height_px] = kSizes_px[seed % kSizes_px.size()];
+  return {.width_px = width_px, .height_px = height_px};
+}
+
+const TrialRobot& robot_of(const std::vector<TrialRobot>& robots, int seed) {
+  return robots[seed / kSizes_px.size() % robots.size()];
+}
+
+std::vector<Trial> run_trials(const std::vector<TrialRobot>& robots,
+                              const std::vector<Condition>& conditions, int scenes) {
+  std::vector<Trial> trials(scenes);
+  std::atomic<int> done = 0;
+  tbb::parallel_for(0, scenes, [&](int i) {
+    // Else a waiting thread would begin another scene on top of this one.
+    tbb::this_task_arena::isolate([&] {
+      trials[i] =
+          run_trial(robot_of(robots, i), settings_of(i), static_cast<std::uint32_t>(i), conditions);
+    });
+    if (++done % 50 == 0) fmt::print(stderr, "{} of {} scenes\n", done.load(), scenes);
+  });
+  return trials;
+}
+
+void measure_trust(const std::vector<TrialRobot>& robots, int scenes) {
+  const std::vector<Condition> conditions = all_conditions();
+  const std::vector<Trial> trials = run_trials(robots, conditions, scenes);
+  fmt::print("{} scenes, {} robots\n", scenes, robots.size());
+  fmt::print("{}", condition_tables(trials, conditions));
+  const std::array titles = {
+      std::pair("The distance alone, clean image", std::size_t{0}),
+      std::pair("The nearest point of the hidden ray", std::size_t{1}),
+      std::pair("The whole pipeline, clean image", first_of_pipeline(conditions))};
+  for (const auto& [title, condition] : titles) {
+    fmt::print("\n## {}: where the obstacle's nearest point is\n{}", title,
+               sight_table(trials, condition));
+    fmt::print("\n## {}: by robot and image\n{}", title, bound_table(trials, condition));
+    fmt::print("\n## {}: the worst\n{}", title, worst_table(trials, condition, 8));
+  }
+}
+
+}  // namespace
+}  // namespace berth::lab
+
+int main(int argc, char** argv) {
+  CLI::App program("Compares berth's distances with the true ones, mesh to mesh, on random scenes");
+  int scenes = 1000;
+  std::filesystem::path robots_folder;
+  std::filesystem::path real_images;
+  std::optional<int> look;
+  std::filesystem::path picture = "scene.png";
+  program.add_option("--scenes", scenes, "How many; their seeds count from 0")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  program.add_option("--robots", robots_folder, "Folder of robots, besides the bundled one")
+      ->check(CLI::ExistingDirectory);
+  program
+      .add_option(
+          "--real-images", real_images,
+          "Instead, draw the robots into real depth images (folder depth/ of the recordings)")
+      ->check(CLI::ExistingDirectory);
+  program.add_option("--look", look, "Instead, print and draw the scene of this seed")
+      ->check(CLI::Range(0, 1000000));
+  program.add_option("--picture", picture, "Where --look draws to")->capture_default_str();
+  if (const auto status = berth::app::parse_command_line(program, argc, argv)) return *status;
+  return berth::app::carry_out("berth_trust", 0, [&] {
+    const auto robots = berth::lab::load_trial_robots(robots_folder);
+    if (look) {
+      berth::lab::look_at_scene(berth::lab::robot_of(robots, *look), berth::lab::settings_of(*look),
+                                static_cast<std::uint32_t>(*look), picture);
+    } else if (!real_images.empty()) {
+      const auto images = berth::lab::load_real_images(real_images);
+      fmt::print("{}", berth::lab::real_image_table(images, robots, scenes));
+    } else {
+      berth::lab::measure_trust(robots, scenes);
+    }
+  });
+}

@@ -1,0 +1,50 @@
+#include "lab/trust/scene_images.hpp"
+
+#include "tests/support/sensor_model.hpp"
+
+namespace berth::lab {
+namespace {
+
+/// The image of these errors, made if it is not there yet.
+template <class Errors, class Image, class Make>
+const Image& find_or_make(std::list<std::pair<Errors, Image>>& images, const Errors& errors,
+                          Make make) {
+  for (const auto& [key, image] : images) {
+    if (key == errors) return image;
+  }
+  return images.emplace_back(errors, make()).second;
+}
+
+}  // namespace
+
+const DepthImage& SceneImages::sensed(const ImageErrors& errors) {
+  return find_or_make(sensed_, errors, [&] { return sense(errors); });
+}
+
+const RobotImage& SceneImages::believed(const PoseErrors& errors) {
+  return find_or_make(believed_, errors, [&] { return render(errors); });
+}
+
+DepthImage SceneImages::sense(const ImageErrors& errors) const {
+  DepthImage depth_m = scene_.depth_m;
+  if (errors.outline_px > 0) testing::darken_outlines(errors.outline_px, depth_m);
+  if (errors.mixed_share > 0) testing::mix_edge_pixels(errors.mixed_share, seed_ + 1, depth_m);
+  if (errors.noise_m_at_1m > 0) testing::add_noise(errors.noise_m_at_1m, seed_ + 2, depth_m);
+  if (errors.step_m_at_1m > 0) testing::quantise(errors.step_m_at_1m, depth_m);
+  if (errors.dropout_share > 0) testing::drop_out(errors.dropout_share, seed_ + 3, depth_m);
+  return depth_m;
+}
+
+RobotImage SceneImages::render(const PoseErrors& errors) const {
+  const Pose X_BC =
+      testing::miscalibrated(scene_.X_BC, errors.offset_m, errors.angle_rad, seed_ + 4);
+  const JointState joints =
+      testing::delayed(model_, scene_.joints, errors.delay_s, kTrialJointSpeed_per_s, seed_ + 5);
+  RobotPose pose;
+  forward_kinematics(model_, joints.position, pose);
+  RobotImage image;
+  RobotRenderer(meshes_, scene_.camera).render(pose, X_BC, image);
+  return image;
+}
+
+}  // namespace berth::lab

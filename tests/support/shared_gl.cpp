@@ -1,0 +1,31 @@
+#include "tests/support/shared_gl.hpp"
+
+#include <memory>
+
+namespace berth::testing {
+namespace {
+
+struct Attempt {
+  Attempt() {
+    try {
+      gl = std::make_unique<SharedGl>();
+    } catch (const GlUnavailable& error) {
+      why_not = error.what();
+    }
+  }
+  std::unique_ptr<SharedGl> gl;
+  std::string why_not;
+};
+
+Attempt& attempt() {
+  static Attempt once;
+  return once;
+}
+
+}  // namespace
+
+SharedGl* shared_gl() { return attempt().gl.get(); }
+
+const std::string& why_no_gl() { return attempt().why_not; }
+
+}  // namespace berth::testing
