@@ -8,7 +8,7 @@
 #include "bench/embree_rays.hpp"
 #include "bench/stage.hpp"
 #include "bench/triangle_count.hpp"
-#include "berth/distance/mean_direction.hpp"
+#include "berth/distance/mean_direction/mean_direction.hpp"
 #include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/observer.hpp"
 

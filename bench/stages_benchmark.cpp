@@ -5,7 +5,7 @@
 
 #include "bench/recorded_scenes.hpp"
 #include "berth/distance/brute_force.hpp"
-#include "berth/distance/mean_direction.hpp"
+#include "berth/distance/mean_direction/mean_direction.hpp"
 #include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/observer.hpp"
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <random>
 
-#include "berth/distance/aligned_box-inl.hpp"
+#include "berth/distance/exact/aligned_box-inl.hpp"
 #include "testing/thinned.hpp"
 
 namespace berth {

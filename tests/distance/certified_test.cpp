@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "berth/distance/brute_force.hpp"
-#include "berth/distance/exact.hpp"
+#include "berth/distance/exact/exact.hpp"
 #include "testing/random_images.hpp"
 #include "testing/thinned.hpp"
 #include "tests/distance/smooth_images.hpp"
