@@ -50,6 +50,7 @@ endfunction()
 # contraction of a * b + c all of them compute the same bits. Vectors without a fixed size (SVE, RVV) cannot be members of
 # a struct; such machines use NEON.
 function(berth_vector_code folder)
+  target_link_libraries(berth_${folder} PRIVATE berth::vector)
   target_compile_options(berth_${folder} PRIVATE -ffp-contract=off)
   target_compile_definitions(berth_${folder} PRIVATE
     "HWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128|HWY_RVV)"

@@ -5,7 +5,7 @@
 
 #include "apps/support/interrupt.hpp"
 #include "apps/support/progress_bar.hpp"
-#include "berth/distance/mean_direction.hpp"
+#include "berth/distance/mean_direction/mean_direction.hpp"
 #include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "lab/bench/embree_rays.hpp"

@@ -4,7 +4,7 @@
 #include <tbb/global_control.h>
 
 #include "berth/distance/brute_force.hpp"
-#include "berth/distance/mean_direction.hpp"
+#include "berth/distance/mean_direction/mean_direction.hpp"
 #include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "lab/bench/recorded_scenes.hpp"

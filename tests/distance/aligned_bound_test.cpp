@@ -6,7 +6,7 @@
 #include <memory>
 #include <random>
 
-#include "berth/distance/aligned_box-inl.hpp"
+#include "berth/distance/exact/aligned_box-inl.hpp"
 #include "tests/support/thinned.hpp"
 
 namespace berth {

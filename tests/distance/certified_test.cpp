@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "berth/distance/brute_force.hpp"
-#include "berth/distance/exact.hpp"
+#include "berth/distance/exact/exact.hpp"
 #include "tests/distance/smooth_images.hpp"
 #include "tests/support/random_images.hpp"
 #include "tests/support/thinned.hpp"

@@ -1,5 +1,5 @@
 // What `exact` promises beyond the answer that all methods have in common.
-#include "berth/distance/exact.hpp"
+#include "berth/distance/exact/exact.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

@@ -1,5 +1,5 @@
 // What the thesis's evaluator promises, and how far it may be trusted.
-#include "berth/distance/lattice.hpp"
+#include "berth/distance/lattice/lattice.hpp"
 
 #include <cmath>
 #include <cstdio>

@@ -1,4 +1,4 @@
-#include "berth/distance/link_lattice.hpp"
+#include "berth/distance/lattice/link_lattice.hpp"
 
 #include <gtest/gtest.h>
 

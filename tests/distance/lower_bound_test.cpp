@@ -1,4 +1,4 @@
-#include "berth/distance/lower_bound.hpp"
+#include "berth/distance/exact/lower_bound.hpp"
 
 #include <gtest/gtest.h>
 

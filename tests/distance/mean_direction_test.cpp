@@ -1,4 +1,4 @@
-#include "berth/distance/mean_direction.hpp"
+#include "berth/distance/mean_direction/mean_direction.hpp"
 
 #include "tests/distance/answer.hpp"
 #include "tests/distance/plain_mean.hpp"

@@ -1,4 +1,4 @@
-#include "berth/distance/robot_tiles.hpp"
+#include "berth/distance/exact/robot_tiles.hpp"
 
 #include <gtest/gtest.h>
 

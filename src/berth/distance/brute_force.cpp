@@ -11,7 +11,7 @@
 #define HWY_TARGET_INCLUDE "berth/distance/brute_force.cpp"
 #include "hwy/foreach_target.h"
 
-#include "berth/distance/lanes-inl.hpp"
+#include "berth/distance/metric_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace berth {

@@ -18,8 +18,8 @@ namespace berth {
 /// With another region than `image` in settings.surveillance, or the depth interval `cube`, each
 /// robot pixel is tried against its region of surveillance only, which shrinks with the link's
 /// closest pair unless settings.surveillance.shrinking says none (the thesis's baseline, figure
-/// 3.5), and out.pairs counts what was tried. cube_projection and image change no distance. flacco and cube can lose pairs: lower_bound_m is
-/// then 0.
+/// 3.5), and out.pairs counts what was tried. cube_projection and image change no distance. flacco
+/// and cube can lose pairs: lower_bound_m is then 0.
 ///
 /// Throws std::invalid_argument for bad settings.
 void brute_force(const Camera& camera, const RobotImage& robot, DepthView obstacle_depth_m,

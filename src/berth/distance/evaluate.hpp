@@ -4,9 +4,9 @@
 #include <optional>
 #include <string_view>
 
-#include "berth/distance/exact.hpp"
-#include "berth/distance/lattice.hpp"
-#include "berth/distance/mean_direction.hpp"
+#include "berth/distance/exact/exact.hpp"
+#include "berth/distance/lattice/lattice.hpp"
+#include "berth/distance/mean_direction/mean_direction.hpp"
 
 namespace berth {
 

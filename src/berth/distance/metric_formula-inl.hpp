@@ -1,7 +1,7 @@
 // The metric, over Number: float in namespace berth (metric.hpp includes this), and
-// vectors of float in the namespace of each instruction set (lanes-inl.hpp includes it again).
-// Number has least, greatest and positive_part. As nobody contracts a * b + c, every instance
-// computes the same bits.
+// vectors of float in the namespace of each instruction set (metric_lanes-inl.hpp includes it
+// again). Number has least, greatest and positive_part. As nobody contracts a * b + c, every
+// instance computes the same bits.
 
 /// How far the obstacle lies behind the robot; 0 for one in front of it, since what an obstacle
 /// hides counts as obstacle (gray area, Hirt 2.14). NaN if either depth is.

@@ -13,7 +13,7 @@
 #define HWY_TARGET_INCLUDE "berth/distance/obstacle_tree.cpp"
 #include "hwy/foreach_target.h"
 
-#include "berth/distance/lanes-inl.hpp"
+#include "berth/vector/lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace berth {

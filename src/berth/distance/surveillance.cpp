@@ -12,7 +12,7 @@
 #define HWY_TARGET_INCLUDE "berth/distance/surveillance.cpp"
 #include "hwy/foreach_target.h"
 
-#include "berth/distance/lanes-inl.hpp"
+#include "berth/distance/metric_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace berth {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "berth/distance/link_lattice.hpp"
-#include "berth/distance/link_pixels.hpp"
+#include "berth/distance/lattice/link_lattice.hpp"
+#include "berth/distance/lattice/link_pixels.hpp"
 #include "berth/opengl/gl_lattice_search.hpp"
 #include "berth/types/robot_image.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "berth/distance/link_lattice.hpp"
+#include "berth/distance/lattice/link_lattice.hpp"
 #include "berth/opengl/gl_lattice_point.hpp"
 
 namespace berth {

@@ -21,7 +21,7 @@ constexpr float kSmall_pixels = 16;
 
 HWY_INLINE void draw_vector(const ImageTriangles& triangles, int first, PixelKey id,
                             Canvas& canvas) {
-  const Floats d;
+  const FloatTag d;
   const TrianglePlanes& planes = canvas.planes;
   const auto in_use = hn::FirstN(d, static_cast<std::size_t>(triangles.count - first));
   const auto sound = hn::And(in_use, plan(triangles, first, canvas.planes));

@@ -16,21 +16,21 @@
 HWY_BEFORE_NAMESPACE();
 namespace berth {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
 
-using Ints = hn::RebindToSigned<Floats>;
+using Ints = hn::RebindToSigned<FloatTag>;
 
 /// A plane of each lane's own triangle at the lane's own pixel.
 template <int size>
-HWY_INLINE Vector plane_at(const float (&plane)[3][size], Vector du, Vector dv) {
-  const Floats d;
+HWY_INLINE FloatVector plane_at(const float (&plane)[3][size], FloatVector du, FloatVector dv) {
+  const FloatTag d;
   const auto at_row = hn::Add(hn::Load(d, plane[0]), hn::Mul(hn::Load(d, plane[2]), dv));
   return hn::Add(at_row, hn::Mul(hn::Load(d, plane[1]), du));
 }
 
 /// Fills small triangles side by side: all lanes walk through their own rectangles, pixel by pixel.
-HWY_INLINE void fill_small(const TrianglePlanes& planes, Lanes lanes, PixelKey id, KeyImage& keys) {
-  const Floats d;
+HWY_INLINE void fill_small(const TrianglePlanes& planes, LaneMask lanes, PixelKey id,
+                           KeyImage& keys) {
+  const FloatTag d;
   const Ints di;
   alignas(64) std::int32_t pixel[kLanes];
   alignas(64) float inverse_depth[kLanes];

@@ -12,23 +12,22 @@
 HWY_BEFORE_NAMESPACE();
 namespace berth {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
 
 /// The corners as seen from the triangle's first pixel.
 struct Corners {
-  Vector x[3];
-  Vector y[3];
-  Vector inverse_depth[3];
+  FloatVector x[3];
+  FloatVector y[3];
+  FloatVector inverse_depth[3];
   /// Twice the area; its sign is the winding.
-  Vector area;
+  FloatVector area;
 };
 
-HWY_INLINE Vector cross(Vector ax, Vector ay, Vector bx, Vector by) {
+HWY_INLINE FloatVector cross(FloatVector ax, FloatVector ay, FloatVector bx, FloatVector by) {
   return hn::Sub(hn::Mul(ax, by), hn::Mul(ay, bx));
 }
 
 HWY_INLINE void load_corners(const ImageTriangles& t, int first, Corners& out) {
-  const Floats d;
+  const FloatTag d;
   for (int i = 0; i < 3; ++i) {
     out.x[i] = hn::Sub(hn::LoadU(d, t.u[i] + first), hn::LoadU(d, t.first_u + first));
     out.y[i] = hn::Sub(hn::LoadU(d, t.v[i] + first), hn::LoadU(d, t.first_v + first));
@@ -41,7 +40,7 @@ HWY_INLINE void load_corners(const ImageTriangles& t, int first, Corners& out) {
 /// The edge from corner j to corner k, positive on the third corner's side.
 HWY_INLINE void plan_edge(const Corners& c, int j, int k,
                           float (&out)[3][TrianglePlanes::kTriangles]) {
-  const Floats d;
+  const FloatTag d;
   const auto along_u = hn::CopySign(hn::Set(d, 1.0F), c.area);
   const auto du = hn::Mul(along_u, hn::Sub(c.y[j], c.y[k]));
   const auto dv = hn::Mul(along_u, hn::Sub(c.x[k], c.x[j]));
@@ -53,7 +52,7 @@ HWY_INLINE void plan_edge(const Corners& c, int j, int k,
 }
 
 HWY_INLINE void plan_depth(const Corners& c, TrianglePlanes& out) {
-  const Floats d;
+  const FloatTag d;
   const auto scale = hn::Div(hn::Set(d, 1.0F), c.area);
   const auto to_1 = hn::Sub(c.inverse_depth[1], c.inverse_depth[0]);
   const auto to_2 = hn::Sub(c.inverse_depth[2], c.inverse_depth[0]);
@@ -72,8 +71,8 @@ HWY_INLINE void plan_depth(const Corners& c, TrianglePlanes& out) {
 
 /// Plans one vector of triangles. Returns which of them have an area in the image: the others are
 /// seen edge on, and what they could show belongs to their neighbours.
-HWY_INLINE Lanes plan(const ImageTriangles& triangles, int first, TrianglePlanes& out) {
-  const Floats d;
+HWY_INLINE LaneMask plan(const ImageTriangles& triangles, int first, TrianglePlanes& out) {
+  const FloatTag d;
   Corners corners;
   load_corners(triangles, first, corners);
   plan_edge(corners, 1, 2, out.edge[0]);

@@ -11,26 +11,20 @@
 
 #include "berth/render/draw_triangles.hpp"
 #include "berth/render/set_bits.hpp"
-#include "hwy/highway.h"
+#include "berth/vector/lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace berth {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
 
-using Floats = hn::CappedTag<float, TriangleBlock::kTriangles>;
-using Vector = hn::Vec<Floats>;
-using Lanes = hn::Mask<Floats>;
-constexpr int kLanes = static_cast<int>(hn::MaxLanes(Floats()));
+static_assert(TriangleBlock::kTriangles % kLanes == 0);
 
-HWY_INLINE std::uint32_t bits_of(Lanes lanes) {
-  std::uint64_t bits = 0;
-  hn::StoreMaskBits(Floats(), lanes, reinterpret_cast<std::uint8_t*>(&bits));
-  return static_cast<std::uint32_t>(bits);
+HWY_INLINE FloatVector least(const FloatVector (&x)[3]) {
+  return hn::Min(hn::Min(x[0], x[1]), x[2]);
 }
-
-HWY_INLINE Vector least(const Vector (&x)[3]) { return hn::Min(hn::Min(x[0], x[1]), x[2]); }
-HWY_INLINE Vector greatest(const Vector (&x)[3]) { return hn::Max(hn::Max(x[0], x[1]), x[2]); }
+HWY_INLINE FloatVector greatest(const FloatVector (&x)[3]) {
+  return hn::Max(hn::Max(x[0], x[1]), x[2]);
+}
 
 /// LinkView in single precision.
 struct Projection {
@@ -57,20 +51,21 @@ struct Projection {
 
 /// One vector of triangles in the image.
 struct Projected {
-  Vector u[3];
-  Vector v[3];
-  Vector z_m[3];
-  Vector inverse_depth[3];
+  FloatVector u[3];
+  FloatVector v[3];
+  FloatVector z_m[3];
+  FloatVector inverse_depth[3];
 };
 
-HWY_INLINE Vector transform(const float (&row)[4], Vector x, Vector y, Vector z) {
-  const Floats d;
+HWY_INLINE FloatVector transform(const float (&row)[4], FloatVector x, FloatVector y,
+                                 FloatVector z) {
+  const FloatTag d;
   return hn::Add(hn::Add(hn::Mul(hn::Set(d, row[0]), x), hn::Mul(hn::Set(d, row[1]), y)),
                  hn::Add(hn::Mul(hn::Set(d, row[2]), z), hn::Set(d, row[3])));
 }
 
 HWY_INLINE void project(const TriangleBlock& block, int lane, const Projection& p, Projected& out) {
-  const Floats d;
+  const FloatTag d;
   for (int corner = 0; corner < 3; ++corner) {
     const auto x = hn::Load(d, block.corner_L_m[corner][0] + lane);
     const auto y = hn::Load(d, block.corner_L_m[corner][1] + lane);
@@ -84,12 +79,12 @@ HWY_INLINE void project(const TriangleBlock& block, int lane, const Projection& 
 
 /// The whole numbers from `first` to `last` that lie within a triangle's coordinates.
 struct Centres {
-  Vector first;
-  Vector last;
-  Vector extent;
+  FloatVector first;
+  FloatVector last;
+  FloatVector extent;
 
-  HWY_INLINE Centres(const Vector (&x)[3], float first_of_all, float last_of_all) {
-    const Floats d;
+  HWY_INLINE Centres(const FloatVector (&x)[3], float first_of_all, float last_of_all) {
+    const FloatTag d;
     const auto tolerance = hn::Set(d, kEdgeTolerance_px);
     const auto low = least(x);
     const auto high = greatest(x);
@@ -104,28 +99,28 @@ constexpr float kLargest_px = 512;
 
 /// The order in which the set lanes come first. Highway's Compress has it, but with AVX2 it would
 /// look its table up for each vector anew.
-HWY_INLINE auto set_lanes_first(Lanes lanes) {
-  const hn::RebindToUnsigned<Floats> d;
+HWY_INLINE auto set_lanes_first(LaneMask lanes) {
+  const hn::RebindToUnsigned<FloatTag> d;
   if constexpr (kLanes > 8) {
     const auto places = hn::Compress(hn::Iota(d, 0), hn::RebindMask(d, lanes));
-    return hn::IndicesFromVec(Floats(), places);
+    return hn::IndicesFromVec(FloatTag(), places);
   } else {
-    const hn::Rebind<std::uint8_t, Floats> bytes;
+    const hn::Rebind<std::uint8_t, FloatTag> bytes;
     const auto places = hn::LoadU(bytes, kSetBits.places[bits_of(lanes)]);
-    return hn::IndicesFromVec(Floats(), hn::PromoteTo(d, places));
+    return hn::IndicesFromVec(FloatTag(), hn::PromoteTo(d, places));
   }
 }
 
 template <class Order>
-HWY_INLINE void append(Vector x, Order order, float* to) {
-  hn::StoreU(hn::TableLookupLanes(x, order), Floats(), to);
+HWY_INLINE void append(FloatVector x, Order order, float* to) {
+  hn::StoreU(hn::TableLookupLanes(x, order), FloatTag(), to);
 }
 
 /// Puts those of the block's triangles that may cover a pixel's centre into `out`. Returns the bits
 /// of those that single precision cannot serve.
 HWY_INLINE std::uint32_t project_block(const TriangleBlock& block, int lane, const Projection& p,
                                        ImageTriangles& out) {
-  const Floats d;
+  const FloatTag d;
   Projected t;
   project(block, lane, p, t);
   const Centres u(t.u, p.u_first, p.u_last);

@@ -4,7 +4,6 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "berth/self_filter/boxes.cpp"
 #include "hwy/foreach_target.h"
-#include "hwy/highway.h"
 
 #include "berth/self_filter/pixels-inl.hpp"
 
@@ -13,7 +12,7 @@ namespace berth {
 namespace HWY_NAMESPACE {
 
 BoxC box_of_pack(const BoxPack& pack) {
-  const Floats d;
+  const FloatTag d;
   BoxC box;
   for (int axis = 0; axis < 3; ++axis) {
     auto low = hn::LoadU(d, pack.min_m[axis]);
@@ -29,7 +28,7 @@ BoxC box_of_pack(const BoxPack& pack) {
 }
 
 NearBits near_pack(const BoxC& box, const BoxPack& pack, float radius2_m2) {
-  const Floats d;
+  const FloatTag d;
   NearBits bits;
   for (int i = 0; i < kPackSize; i += static_cast<int>(hn::Lanes(d))) {
     auto least2 = hn::Zero(d);

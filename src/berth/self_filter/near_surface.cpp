@@ -7,7 +7,6 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "berth/self_filter/near_surface.cpp"
 #include "hwy/foreach_target.h"
-#include "hwy/highway.h"
 
 #include "berth/self_filter/pixels-inl.hpp"
 

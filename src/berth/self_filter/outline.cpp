@@ -6,7 +6,6 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "berth/self_filter/outline.cpp"
 #include "hwy/foreach_target.h"
-#include "hwy/highway.h"
 
 #include "berth/self_filter/pixels-inl.hpp"
 
@@ -66,9 +65,9 @@ TileBits outline_of_tile(const RobotImage& robot, const PixelRect& tile, float p
     for_pixels(std::max(1, tile.u_begin), std::min(last, tile.u_end), [&](auto d, int u) HWY_ATTR {
       row_bits |= outline_bits(d, row, u, -1, 1, deeper) << (u - tile.u_begin);
     });
-    if (tile.u_begin == 0) row_bits |= outline_bits(OneFloat(), row, 0, 0, last > 0, deeper);
+    if (tile.u_begin == 0) row_bits |= outline_bits(OneFloatTag(), row, 0, 0, last > 0, deeper);
     if (tile.u_end == last + 1 && last > 0)
-      row_bits |= outline_bits(OneFloat(), row, last, -1, 0, deeper) << (last - tile.u_begin);
+      row_bits |= outline_bits(OneFloatTag(), row, last, -1, 0, deeper) << (last - tile.u_begin);
   }
   return bits;
 }

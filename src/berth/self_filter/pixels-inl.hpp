@@ -11,24 +11,21 @@
 
 #include "berth/types/obstacle_image.hpp"
 #include "berth/types/robot_image.hpp"
-#include "hwy/highway.h"
+#include "berth/vector/lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace berth {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
 
-using Floats = hn::CappedTag<float, 16>;
-using OneFloat = hn::CappedTag<float, 1>;
 static_assert(sizeof(PixelFate) == 1);
 
 /// Calls action(tag, u) for whole vectors, then pixel by pixel.
 template <class Action>
 HWY_INLINE void for_pixels(int u_begin, int u_end, const Action& action) {
-  const int lanes = static_cast<int>(hn::Lanes(Floats()));
+  const int lanes = static_cast<int>(hn::Lanes(FloatTag()));
   int u = u_begin;
-  for (; u + lanes <= u_end; u += lanes) action(Floats(), u);
-  for (; u < u_end; ++u) action(OneFloat(), u);
+  for (; u + lanes <= u_end; u += lanes) action(FloatTag(), u);
+  for (; u < u_end; ++u) action(OneFloatTag(), u);
 }
 
 template <class D>
@@ -75,15 +72,6 @@ HWY_INLINE hn::Mask<D> is_scenery(D d, const LinkId* link_id) {
 template <class D>
 HWY_INLINE hn::Vec<D> load_link_depth(D d, const float* robot_depth_m, const LinkId* link_id) {
   return hn::IfThenElse(is_scenery(d, link_id), hn::Set(d, kNoDepth), hn::LoadU(d, robot_depth_m));
-}
-
-/// Bit i is lane i.
-template <class D>
-HWY_INLINE std::uint32_t bits_of(D d, hn::Mask<D> mask) {
-  std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(d, mask, bytes);
-  const std::uint32_t bits = bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8;
-  return bits & ((1U << hn::Lanes(d)) - 1);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -4,7 +4,6 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "berth/self_filter/rows.cpp"
 #include "hwy/foreach_target.h"
-#include "hwy/highway.h"
 
 #include "berth/self_filter/pixels-inl.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "berth/distance/exact.hpp"
+#include "berth/distance/exact/exact.hpp"
 #include "berth/types/link_visibility.hpp"
 #include "berth/types/obstacle_image.hpp"
 

@@ -1,0 +1,115 @@
+// What a search that turns out to be long does to sharpen its bounds: it looks along surfaces.
+#if defined(BERTH_DISTANCE_EXACT_SHARPEN_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef BERTH_DISTANCE_EXACT_SHARPEN_INL_HPP
+#undef BERTH_DISTANCE_EXACT_SHARPEN_INL_HPP
+#else
+#define BERTH_DISTANCE_EXACT_SHARPEN_INL_HPP
+#endif
+
+#include "berth/distance/exact/bounds-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace berth {
+namespace HWY_NAMESPACE {
+
+inline LeafTile robot_tile(const Search& search, const RobotTiles::Node& node, int i,
+                           TileCopy& copy) {
+  const RobotTiles::Tile& tile = search.input.robot.tiles[node.tile[i]];
+  const PixelBox box{node.u_lo[i], node.u_hi[i],       node.v_lo[i],
+                     node.v_hi[i], node.depth_lo_m[i], node.depth_hi_m[i]};
+  return {box, static_cast<float>(tile.u), static_cast<float>(tile.v),
+          tile_depths(search.input.robot_depth_m, tile.u, tile.v, copy), tile.bits};
+}
+
+inline LeafTile obstacle_tile(const Search& search, const PixelBox& box, TileCopy& copy) {
+  return {box, box.u_lo, box.v_lo,
+          tile_depths(search.input.obstacle_depth_m, static_cast<int>(box.u_lo),
+                      static_cast<int>(box.v_lo), copy),
+          ~std::uint64_t{0}};
+}
+
+inline const AlignedTile& aligned_tile(Search& search, int i, const LeafTile& tile) {
+  AlignedTile& out = search.aligned.tiles[i];
+  if ((search.aligned.tiles_made >> i & 1) != 0) return out;
+  search.aligned.tiles_made |= 1U << i;
+  out.axes = axes_along(search.input.metric, fit_plane(tile), tile.u, tile.v);
+  const AlignedView view(search.input.metric, out.axes, tile, {0, 0});
+  out.box = view.box_of(~std::uint64_t{0});
+  for (int q = 0; q < 4; ++q) out.quarters[q] = view.box_of(kQuarters[q]);
+  return out;
+}
+
+/// The normal of a node's surface: the mean of a few of its tiles'.
+inline Normal normal_of(const Search& search, const RobotTiles::Node& node) {
+  constexpr int kSamples = 4;
+  TileCopy copy;
+  Normal sum;
+  for (int k = 0; k < kSamples; ++k) {
+    const int i = k * (node.tile_count - 1) / (kSamples - 1);
+    const LeafTile tile = robot_tile(search, node, i, copy);
+    add_normal(axes_along(search.input.metric, fit_plane(tile), tile.u, tile.v), sum);
+  }
+  return sum;
+}
+
+/// The direction of the closest pair so far.
+inline Normal direction_of(const Metric& metric, const ClosestPair& pair) {
+  const auto vector = berth::pair_vector(metric, pair.ru, pair.rv, pair.robot_depth_m, pair.ou,
+                                         pair.ov, pair.obstacle_depth_m);
+  return {vector.x_m, vector.y_m, vector.z_m};
+}
+
+inline void make_boxes(const Search& search, const RobotTiles::Node& node, const Normal& normal,
+                       AlignedBoxes& out) {
+  out.is_made = true;
+  out.axes = axes_of(search.input.metric, normal);
+  TileCopy copy;
+  for (int i = 0; i < RobotTiles::kNodeTiles; ++i) {
+    AlignedBox box{{HUGE_VALF, HUGE_VALF, HUGE_VALF}, {HUGE_VALF, HUGE_VALF, HUGE_VALF}};
+    if (i < node.tile_count) {
+      const LeafTile tile = robot_tile(search, node, i, copy);
+      box = AlignedView(search.input.metric, out.axes, tile, {0, 0}).box_of(tile.bits);
+    }
+    for (int k = 0; k < 3; ++k) {
+      out.lo_m[k][i] = box.lo_m[k];
+      out.hi_m[k][i] = box.hi_m[k];
+    }
+  }
+}
+
+/// Sharpens the bounds of a robot node's tiles and an obstacle tile by boxes along the same axes.
+inline void sharpen_along(const Search& search, const RobotTiles::Node& robot,
+                          const AlignedBoxes& aligned, const LeafTile& obstacle, Bounds& bounds) {
+  const AlignedView view(search.input.metric, aligned.axes, obstacle,
+                         {robot.box.depth_lo_m, robot.box.depth_hi_m});
+  const AlignedBox box = view.box_of(~std::uint64_t{0});
+  bounds.may_improve = 0;
+  for (int i = 0; i < kChildren; i += kLanes) {
+    const Lanes bound_m2 =
+        aligned_bound_m2(box, {aligned.lo_m[0] + i, aligned.lo_m[1] + i, aligned.lo_m[2] + i},
+                         {aligned.hi_m[0] + i, aligned.hi_m[1] + i, aligned.hi_m[2] + i});
+    put(search, greatest(load(bounds.squared_m2 + i), bound_m2), i, bounds);
+  }
+}
+
+/// Along the robot's surface first, which is right where surfaces tie; then along the closest pair,
+/// which is right where much of the robot lies before one plane.
+inline void sharpen(Search& search, const RobotTiles::Node& robot, const LeafTile& obstacle,
+                    Bounds& bounds) {
+  AlignedNode& aligned = search.aligned;
+  if (!aligned.along_surface.is_made) {
+    make_boxes(search, robot, normal_of(search, robot), aligned.along_surface);
+  }
+  sharpen_along(search, robot, aligned.along_surface, obstacle, bounds);
+  if (bounds.may_improve == 0) return;
+  if (!aligned.along_pair.is_made) {
+    make_boxes(search, robot, direction_of(search.input.metric, search.best), aligned.along_pair);
+  }
+  sharpen_along(search, robot, aligned.along_pair, obstacle, bounds);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace berth
+HWY_AFTER_NAMESPACE();
+
+#endif

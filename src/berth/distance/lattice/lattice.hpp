@@ -1,0 +1,32 @@
+#pragma once
+
+#include "berth/distance/lattice/link_lattice.hpp"
+#include "berth/distance/lattice/link_pixels.hpp"
+#include "berth/distance/settings.hpp"
+#include "berth/types/camera.hpp"
+#include "berth/types/link_distance.hpp"
+#include "berth/types/robot_image.hpp"
+
+namespace berth {
+
+/// The memory of lattice(), made once and used for every question; one for each thread that asks.
+/// It carries nothing from one answer to the next.
+struct LatticeWorkspace {
+  LinkPixels pixels;
+  LinkLattice lattice;
+};
+
+/// The thesis's evaluator on the CPU (Hirt 2.2.4, 3.1.2), **approximate**: per link a lattice of
+/// its pixels against a lattice of obstacle pixels, made finer around the closest point until the
+/// final radius, where all its pixels are tried against all obstacle pixels of their region.
+///
+/// A distance is that of a real pair, so never below brute_force's; it can be too large, and a link
+/// can be none_in_range although a pair is in range, where the lattices passed over it. So
+/// lower_bound_m is 0 for every visible link: nothing is certified. Otherwise as brute_force;
+/// out.pairs counts the pairs computed. Allocates nothing once the workspace and `out` have grown
+/// to the scene. Throws std::invalid_argument for bad settings.
+void lattice(const Camera& camera, const RobotImage& robot, DepthView obstacle_depth_m,
+             int link_count, const DistanceSettings& settings, LatticeWorkspace& workspace,
+             LinkDistances& out);
+
+}  // namespace berth
