@@ -55,7 +55,7 @@ std::tuple<std::string, std::string, Rgb> headline(const PictureInput& input) {
   if (links.empty()) return {"no links", "nothing was evaluated", kFaintInk};
   const LinkDistance& first = links.front();
   if (first.status == LinkStatus::ok) {
-    return {distance_text(first, input.range_m), "nearest: " + input.link_names[first.id - 1],
+    return {distance_text(first, input.range_m), input.link_names[first.id - 1],
             link_color(first.id)};
   }
   if (first.status == LinkStatus::none_in_range)

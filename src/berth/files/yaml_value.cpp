@@ -53,6 +53,18 @@ int count_documents(const std::string& text) {
   return count;
 }
 
+/// The first line with a tab in its indentation, from 1; 0 where there is none. YAML forbids them
+/// there, and yaml-cpp calls that an illegal value.
+int indented_by_tab(const std::string& text) {
+  std::istringstream lines(text);
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    const std::size_t end = line.find_first_not_of(" \t");
+    if (end != std::string::npos && line.find('\t') < end) return number;
+  }
+  return 0;
+}
+
 }  // namespace
 
 void YamlValue::fail(std::string_view found, std::string_view expected) const {
@@ -174,14 +186,17 @@ YamlValue YamlMap::at(std::string_view key) const {
 }
 
 YamlValue load_yaml(const std::filesystem::path& file) {
+  const std::string text = read_file_bytes(file);
   try {
-    const std::string text = read_file_bytes(file);
     if (const int documents = count_documents(text); documents != 1) {
       throw_bad_file({file}, documents == 0 ? "no YAML document" : "several YAML documents", "one");
     }
     const YAML::Node document = YAML::Load(text);
     return {document, {file, line_of(document), ""}};
   } catch (const YAML::Exception& error) {
+    if (const int line = indented_by_tab(text)) {
+      throw_bad_file({file, line, ""}, "a tab in the indentation", "spaces");
+    }
     throw_bad_file({file, error.mark.line + 1, ""}, error.msg, "valid YAML");
   }
 }

@@ -231,6 +231,13 @@ std::optional<std::size_t> RobotModel::find_link(std::string_view link_name) con
   return std::nullopt;
 }
 
+bool RobotModel::is_moved(std::size_t index) const {
+  for (std::optional<std::size_t> i = index; i; i = links[*i].parent) {
+    if (links[*i].parent && links[*i].joint.type != JointType::fixed) return true;
+  }
+  return false;
+}
+
 RobotModel load_robot(const RobotSettings& settings) {
   const auto source = parse_urdf(settings.urdf);
   RobotModel model;
@@ -246,8 +253,14 @@ RobotModel load_robot(const RobotSettings& settings) {
   }
   assign_roles(settings, model);
   require_plausible_size(settings.urdf, model);
-  if (model.evaluated_links.empty())
-    fail(settings, "no link with geometry is left to evaluate; expected one at least");
+  if (model.evaluated_links.empty()) {
+    const bool visual = settings.geometry == GeometryKind::visual;
+    fail(settings, fmt::format("no link with {} geometry is left to evaluate; expected one at "
+                               "least{}",
+                               visual ? "visual" : "any",
+                               visual ? ", or geometry: collision to take the collision shapes"
+                                      : ""));
+  }
   return model;
 }
 

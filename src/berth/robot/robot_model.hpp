@@ -79,6 +79,9 @@ struct RobotModel {
   int link_count() const { return static_cast<int>(evaluated_links.size()); }
   std::vector<std::string> evaluated_link_names() const;
   std::optional<std::size_t> find_link(std::string_view link_name) const;
+  /// Whether a joint, or a mimic joint, lies between the root and links[index]. A link that none
+  /// moves stands where it stands, on a table as a rule.
+  bool is_moved(std::size_t index) const;
 };
 
 struct RobotSettings {

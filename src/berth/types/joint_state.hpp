@@ -4,7 +4,7 @@
 
 namespace berth {
 
-/// Joint positions at one time, in the order of RobotModel::joint_names(); rad, or m for prismatic joints.
+/// Joint positions at one time, in the order of RobotModel::joints; rad, or m for prismatic joints.
 struct JointState {
   double stamp_s = 0;
   std::vector<double> position;
