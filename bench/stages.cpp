@@ -70,16 +70,12 @@ class Stages {
                   frame_.obstacles);
     });
     both_.times_ms.push_back(render_.times_ms.back() + self_filter_.times_ms.back());
-    tree_.take([&] { build_obstacle_tree(frame_.obstacles.depth_m, frame_.obstacle_tree); });
+    tree_.take([&] { frame_.searchable.build(frame_.obstacles.depth_m); });
     distances_.links.clear();
-    exact_.take([&] {
-      evaluate(Method::exact, rig_.camera(), frame_.robot, frame_.obstacles.depth_m,
-               frame_.obstacle_tree, rig_.model().link_count(), settings_, workspace_, distances_);
-    });
-    mean_.take([&] {
-      fill_mean_directions(rig_.camera(), frame_.robot, frame_.obstacles.depth_m,
-                           frame_.obstacle_tree, settings_, workspace_.directions, distances_);
-    });
+    const Question question{rig_.camera(), frame_.robot, rig_.model().link_count(),
+                            frame_.searchable, settings_};
+    exact_.take([&] { evaluate(Method::exact, question, workspace_, distances_); });
+    mean_.take([&] { fill_mean_directions(question, workspace_.directions, distances_); });
   }
 
   const OpenCamera& camera_;

@@ -41,8 +41,11 @@ struct Example {
   /// Without an answer to begin from.
   void run_exact() {
     distances.links.clear();
-    exact(rig.camera(), frame.robot, frame.obstacles.depth_m, frame.obstacle_tree, links, settings,
-          workspace.exact, distances);
+    exact(question(), workspace.exact, distances);
+  }
+
+  Question question() const {
+    return {rig.camera(), frame.robot, links, frame.searchable, settings};
   }
 };
 
@@ -78,7 +81,7 @@ void filter(benchmark::State& state) {
 
 void obstacle_tree(benchmark::State& state) {
   Example e;
-  repeat(state, [&] { build_obstacle_tree(e.frame.obstacles.depth_m, e.frame.obstacle_tree); });
+  repeat(state, [&] { e.frame.searchable.build(e.frame.obstacles.depth_m); });
 }
 
 void robot_tiles(benchmark::State& state) {
@@ -94,10 +97,7 @@ void exact_search(benchmark::State& state) {
 
 void mean_direction(benchmark::State& state) {
   Example e;
-  repeat(state, [&] {
-    fill_mean_directions(e.rig.camera(), e.frame.robot, e.frame.obstacles.depth_m,
-                         e.frame.obstacle_tree, e.settings, e.workspace.directions, e.distances);
-  });
+  repeat(state, [&] { fill_mean_directions(e.question(), e.workspace.directions, e.distances); });
 }
 
 void visibility(benchmark::State& state) {
@@ -115,10 +115,7 @@ void visibility(benchmark::State& state) {
 
 void all_pairs(benchmark::State& state) {
   Example e;
-  repeat(state, [&] {
-    brute_force(e.rig.camera(), e.frame.robot, e.frame.obstacles.depth_m, e.links, e.settings,
-                e.distances);
-  });
+  repeat(state, [&] { brute_force(e.question(), e.distances); });
 }
 
 void depth_image_to_result(benchmark::State& state) {

@@ -74,14 +74,16 @@ class Evaluator {
 
   void evaluate(const ThreeImages& images, const DistanceSettings& settings, LinkDistances& out) {
     if (gl_) {
-      gl_->evaluate(method_, images.camera, images.robot, images.obstacle_depth_m,
-                    images.link_count, settings, out);
+      gl_->evaluate(method_,
+                    {images.camera, images.robot, images.link_count,
+                     SearchableDepth(images.obstacle_depth_m), settings},
+                    out);
       context_->check("evaluate");
       return;
     }
-    build_obstacle_tree(images.obstacle_depth_m, tree_);
-    berth::evaluate(method_, images.camera, images.robot, images.obstacle_depth_m, tree_,
-                    images.link_count, settings, workspace_, out);
+    obstacles_.build(images.obstacle_depth_m);
+    berth::evaluate(method_, {images.camera, images.robot, images.link_count, obstacles_, settings},
+                    workspace_, out);
   }
 
   std::string gl_renderer() const { return context_ ? context_->renderer() : ""; }
@@ -90,7 +92,7 @@ class Evaluator {
   Method method_;
   std::unique_ptr<GlContext> context_;
   std::optional<GlEvaluator> gl_;
-  ObstacleTree tree_;
+  SearchableDepth obstacles_;
   EvaluateWorkspace workspace_;
 };
 

@@ -93,7 +93,7 @@ TEST_P(GlSceneTest, ImagesAndDistancesAreThoseOfTheCpuButAtEdges) {
   RobotImage robot;
   ObstacleImage obstacles;
   EvaluateWorkspace workspace;
-  ObstacleTree tree;
+  SearchableDepth searchable;
   LinkDistances from_cpu;
   LinkDistances from_gpu;
   double largest_m = 0;
@@ -113,11 +113,12 @@ TEST_P(GlSceneTest, ImagesAndDistancesAreThoseOfTheCpuButAtEdges) {
     EXPECT_LE(fates, kMostFates * depth_m.width() * depth_m.height()) << "frame " << i;
 
     const int links = rig.model().link_count();
-    evaluate(Method::exact, rig.camera(), frame.robot, frame.obstacles.depth_m, frame.obstacle_tree,
-             links, rig.settings().distance, workspace, from_cpu);
-    build_obstacle_tree(obstacles.depth_m, tree);
-    evaluate(Method::exact, rig.camera(), robot, obstacles.depth_m, tree, links,
-             rig.settings().distance, workspace, from_gpu);
+    const DistanceSettings& settings = rig.settings().distance;
+    evaluate(Method::exact, {rig.camera(), frame.robot, links, frame.searchable, settings},
+             workspace, from_cpu);
+    searchable.build(obstacles.depth_m);
+    evaluate(Method::exact, {rig.camera(), robot, links, searchable, settings}, workspace,
+             from_gpu);
     for (int link = 0; link < links; ++link) {
       EXPECT_EQ(from_gpu.links[link].status, from_cpu.links[link].status);
       if (from_cpu.links[link].status != LinkStatus::ok) continue;

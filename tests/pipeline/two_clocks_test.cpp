@@ -55,8 +55,9 @@ TEST_F(TwoClocks, OtherJointsGiveTheRobotOfThatPoseAgainstWhatTheFrameSaw) {
   RobotRenderer(camera_.rig->meshes(), camera_.rig->camera()).render(pose, frame.X_BC, robot);
   EvaluateWorkspace workspace;
   LinkDistances expected;
-  evaluate(Method::exact, camera_.rig->camera(), robot, frame.obstacles.depth_m,
-           frame.obstacle_tree, camera_.rig->model().link_count(), {}, workspace, expected);
+  evaluate(Method::exact,
+           {camera_.rig->camera(), robot, camera_.rig->model().link_count(), frame.searchable, {}},
+           workspace, expected);
   for (std::size_t i = 0; i < expected.links.size(); ++i) {
     EXPECT_EQ(answer.distances.links[i].distance_m, expected.links[i].distance_m);
   }

@@ -37,9 +37,10 @@ const Answer& Asker::ask(const Frame& frame, const JointBuffer& joints, double n
 }
 
 const Answer& Asker::evaluate_robot(const Frame& frame, const AskedRobot& robot) {
-  evaluate(rig_.settings().method, rig_.camera(), robot.image, frame.obstacles.depth_m,
-           frame.obstacle_tree, rig_.model().link_count(), rig_.settings().distance, workspace_,
-           answer_.distances);
+  evaluate(rig_.settings().method,
+           {rig_.camera(), robot.image, rig_.model().link_count(), frame.searchable,
+            rig_.settings().distance},
+           workspace_, answer_.distances);
   tell_visibility(rig_, frame, robot, tell_, answer_);
   return answer_;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "berth/distance/obstacle_tree.hpp"
+#include "berth/distance/searchable_depth.hpp"
 #include "berth/pipeline/exposure.hpp"
 #include "berth/types/obstacle_image.hpp"
 #include "berth/types/robot_image.hpp"
@@ -13,7 +13,8 @@ struct Frame : Exposure {
   /// The robot at that time.
   RobotImage robot;
   ObstacleImage obstacles;
-  ObstacleTree obstacle_tree;
+  /// Of obstacles.depth_m.
+  SearchableDepth searchable;
   /// Empty unless RigSettings::visibility is set.
   DoubtfulImage doubtful;
 };

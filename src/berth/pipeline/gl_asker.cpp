@@ -42,8 +42,10 @@ const Answer& GlAsker::ask(const Frame& frame, std::optional<double> now_s) {
   const Timeliness time = timeliness_of(frame, now_s, rig_.settings().time);
   if (!begin_answer(rig_, frame.stamp_s, frame.stamp_s, time, answer_)) return answer_;
   const RigSettings& settings = rig_.settings();
-  evaluator_.evaluate(settings.method, rig_.camera(), frame.robot, frame.obstacles.depth_m,
-                      rig_.model().link_count(), settings.distance, answer_.distances);
+  evaluator_.evaluate(settings.method,
+                      {rig_.camera(), frame.robot, rig_.model().link_count(), frame.searchable,
+                       settings.distance},
+                      answer_.distances);
   tell_visibility(rig_, frame, {frame.pose, frame.X_BC, frame.robot}, tell_, answer_);
   return answer_;
 }

@@ -16,7 +16,7 @@ void Observer::observe(DepthView depth_m, const JointState& at_exposure, Frame& 
   filter(depth_m, frame);
   apply_sensor_rules(depth_m, frame.robot, background_, rig_.settings().sensor, sensor_,
                      frame.obstacles);
-  build_obstacle_tree(frame.obstacles.depth_m, frame.obstacle_tree);
+  frame.searchable.build(frame.obstacles.depth_m);
   if (rig_.settings().visibility) {
     find_doubtful(depth_m, frame.obstacles, frame.doubtful);
   } else {

@@ -9,17 +9,27 @@
 #include "testing/only_target.hpp"
 #include "testing/random_images.hpp"
 #include "testing/thinned.hpp"
-#include "tests/distance/smooth_images.hpp"
+#include "tests/distance/exact/smooth_images.hpp"
 
 namespace berth::testing {
 namespace {
 
 void ask(const ImagePair& images, ExactWorkspace& workspace, LinkDistances& out,
          const DistanceSettings& settings = {1.0, false}) {
-  ObstacleTree tree;
-  build_obstacle_tree(images.obstacle_depth_m, tree);
-  exact(images.camera, images.robot, images.obstacle_depth_m, tree, images.link_count, settings,
-        workspace, out);
+  SearchableDepth obstacles;
+  obstacles.build(images.obstacle_depth_m);
+  exact({images.camera, images.robot, images.link_count, obstacles, settings}, workspace, out);
+}
+
+LinkDistances true_answer(const ImagePair& images) {
+  LinkDistances out;
+  brute_force({images.camera,
+               images.robot,
+               images.link_count,
+               SearchableDepth(images.obstacle_depth_m),
+               {1.0, false}},
+              out);
+  return out;
 }
 
 LinkDistances fresh_answer(const ImagePair& images) {
@@ -45,9 +55,7 @@ TEST(Exact, IsBruteForceWhereAllTilesTie) {
   for (const ImagePair& images :
        {tilted_plates(0, 120, 90), tilted_plates(0.1, 120, 90), tilted_plates(-0.7, 120, 90),
         ball_in_shell(120, 90), bowl_in_shell(120, 90), bowl_in_shell(133, 101)}) {
-    LinkDistances truth;
-    brute_force(images.camera, images.robot, images.obstacle_depth_m, images.link_count,
-                {1.0, false}, truth);
+    const LinkDistances truth = true_answer(images);
     on_every_target([&](const char* target) {
       SCOPED_TRACE(target);
       expect_same_distances(truth, fresh_answer(images));
@@ -66,9 +74,7 @@ TEST(Exact, IsBruteForceWhereASlopeCutsThroughTheRobot) {
         depth_m -= 0.004f * static_cast<float>(v);
       }
     }
-    LinkDistances truth;
-    brute_force(images.camera, images.robot, images.obstacle_depth_m, images.link_count,
-                {1.0, false}, truth);
+    const LinkDistances truth = true_answer(images);
     expect_same_distances(truth, fresh_answer(images));
   }
 }

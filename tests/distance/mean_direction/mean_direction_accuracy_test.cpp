@@ -3,7 +3,7 @@
 #include <random>
 
 #include "testing/only_target.hpp"
-#include "tests/distance/plain_mean.hpp"
+#include "tests/distance/mean_direction/plain_mean.hpp"
 
 namespace berth::testing {
 namespace {

@@ -8,24 +8,27 @@
 #include "berth/distance/exact/exact.hpp"
 #include "testing/random_images.hpp"
 #include "testing/thinned.hpp"
-#include "tests/distance/smooth_images.hpp"
+#include "tests/distance/exact/smooth_images.hpp"
 
 namespace berth::testing {
 namespace {
 
 LinkDistances ask(const ImagePair& images, const DistanceSettings& settings) {
-  ObstacleTree tree;
-  build_obstacle_tree(images.obstacle_depth_m, tree);
+  SearchableDepth obstacles;
+  obstacles.build(images.obstacle_depth_m);
   ExactWorkspace workspace;
   LinkDistances out;
-  exact(images.camera, images.robot, images.obstacle_depth_m, tree, images.link_count, settings,
-        workspace, out);
+  exact({images.camera, images.robot, images.link_count, obstacles, settings}, workspace, out);
   return out;
 }
 
 LinkDistances truth(const ImagePair& images, double range_m) {
   LinkDistances out;
-  brute_force(images.camera, images.robot, images.obstacle_depth_m, images.link_count, {range_m},
+  brute_force({images.camera,
+               images.robot,
+               images.link_count,
+               SearchableDepth(images.obstacle_depth_m),
+               {range_m}},
               out);
   return out;
 }
