@@ -65,7 +65,7 @@ std::string draw(const PictureInput& input) {
   const PictureLayout layout = layout_picture(input);
   const DepthTone tone = depth_tone(input.sensor_depth_m);
   const int line_px = std::max(1, static_cast<int>(std::lround(layout.em_px / 10)));
-  Canvas canvas(layout.width_px, layout.height_px, kPaper);
+  PictureCanvas canvas(layout.width_px, layout.height_px, kPaper);
 
   const Font title_font{1.2 * layout.em_px, true};
   canvas.text({layout.title.x, layout.title.height / 2},

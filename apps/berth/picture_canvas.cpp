@@ -47,7 +47,7 @@ cairo_status_t append(void* bytes, const unsigned char* data, unsigned int lengt
 
 }  // namespace
 
-struct Canvas::Cairo {
+struct PictureCanvas::Cairo {
   Cairo(int width_px, int height_px)
       : surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_px, height_px)),
         context(cairo_create(surface)) {}
@@ -62,7 +62,7 @@ struct Canvas::Cairo {
   cairo_t* context;
 };
 
-Canvas::Canvas(int width_px, int height_px, Rgb background)
+PictureCanvas::PictureCanvas(int width_px, int height_px, Rgb background)
     : cairo_(std::make_unique<Cairo>(width_px, height_px)) {
   require(cairo_status(cairo_->context));
   cairo_set_line_cap(cairo_->context, CAIRO_LINE_CAP_ROUND);
@@ -70,22 +70,22 @@ Canvas::Canvas(int width_px, int height_px, Rgb background)
   cairo_paint(cairo_->context);
 }
 
-Canvas::~Canvas() = default;
+PictureCanvas::~PictureCanvas() = default;
 
-void Canvas::fill_box(const BoxPx& box, Rgb color, double radius_px, double alpha) {
+void PictureCanvas::fill_box(const BoxPx& box, Rgb color, double radius_px, double alpha) {
   box_path(cairo_->context, box, radius_px);
   set_color(cairo_->context, color, alpha);
   cairo_fill(cairo_->context);
 }
 
-void Canvas::stroke_box(const BoxPx& box, Rgb color, double width_px, double radius_px) {
+void PictureCanvas::stroke_box(const BoxPx& box, Rgb color, double width_px, double radius_px) {
   box_path(cairo_->context, box, radius_px);
   set_color(cairo_->context, color, 1);
   cairo_set_line_width(cairo_->context, width_px);
   cairo_stroke(cairo_->context);
 }
 
-void Canvas::line(PointPx a, PointPx b, Rgb color, double width_px, double alpha) {
+void PictureCanvas::line(PointPx a, PointPx b, Rgb color, double width_px, double alpha) {
   set_color(cairo_->context, color, alpha);
   cairo_set_line_width(cairo_->context, width_px);
   cairo_move_to(cairo_->context, a.x, a.y);
@@ -93,20 +93,21 @@ void Canvas::line(PointPx a, PointPx b, Rgb color, double width_px, double alpha
   cairo_stroke(cairo_->context);
 }
 
-void Canvas::disc(PointPx centre, double radius_px, Rgb color, double alpha) {
+void PictureCanvas::disc(PointPx centre, double radius_px, Rgb color, double alpha) {
   set_color(cairo_->context, color, alpha);
   cairo_arc(cairo_->context, centre.x, centre.y, radius_px, 0, 2 * kPi);
   cairo_fill(cairo_->context);
 }
 
-void Canvas::ring(PointPx centre, double radius_px, Rgb color, double width_px, double alpha) {
+void PictureCanvas::ring(PointPx centre, double radius_px, Rgb color, double width_px,
+                         double alpha) {
   set_color(cairo_->context, color, alpha);
   cairo_set_line_width(cairo_->context, width_px);
   cairo_arc(cairo_->context, centre.x, centre.y, radius_px, 0, 2 * kPi);
   cairo_stroke(cairo_->context);
 }
 
-void Canvas::pixels(PointPx top_left, const Image<std::uint32_t>& pixels) {
+void PictureCanvas::pixels(PointPx top_left, const Image<std::uint32_t>& pixels) {
   cairo_surface_t* copy =
       cairo_image_surface_create(CAIRO_FORMAT_RGB24, pixels.width(), pixels.height());
   require(cairo_surface_status(copy));
@@ -121,8 +122,8 @@ void Canvas::pixels(PointPx top_left, const Image<std::uint32_t>& pixels) {
   cairo_surface_destroy(copy);
 }
 
-void Canvas::text(PointPx point, const std::string& text, const Font& font, Rgb color,
-                  Align align) {
+void PictureCanvas::text(PointPx point, const std::string& text, const Font& font, Rgb color,
+                         Align align) {
   const double share = align == Align::left ? 0 : align == Align::middle ? 0.5 : 1;
   const double x = share == 0 ? point.x : point.x - share * text_width_px(text, font);
   set_font(cairo_->context, font);
@@ -132,14 +133,14 @@ void Canvas::text(PointPx point, const std::string& text, const Font& font, Rgb 
   cairo_new_path(cairo_->context);
 }
 
-double Canvas::text_width_px(const std::string& text, const Font& font) const {
+double PictureCanvas::text_width_px(const std::string& text, const Font& font) const {
   set_font(cairo_->context, font);
   cairo_text_extents_t extents{};
   cairo_text_extents(cairo_->context, text.c_str(), &extents);
   return extents.x_advance;
 }
 
-std::string Canvas::png() const {
+std::string PictureCanvas::png() const {
   // The first stroke that fails stops all later ones, so that one look at the end is enough.
   require(cairo_status(cairo_->context));
   cairo_surface_flush(cairo_->surface);

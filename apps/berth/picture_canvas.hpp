@@ -31,12 +31,12 @@ struct Font {
 /// Which part of the text stands at the point given.
 enum class Align { left, middle, right };
 
-class Canvas {
+class PictureCanvas {
  public:
-  Canvas(int width_px, int height_px, Rgb background);
-  ~Canvas();
-  Canvas(const Canvas&) = delete;
-  Canvas& operator=(const Canvas&) = delete;
+  PictureCanvas(int width_px, int height_px, Rgb background);
+  ~PictureCanvas();
+  PictureCanvas(const PictureCanvas&) = delete;
+  PictureCanvas& operator=(const PictureCanvas&) = delete;
 
   void fill_box(const BoxPx& box, Rgb color, double radius_px = 0, double alpha = 1);
   void stroke_box(const BoxPx& box, Rgb color, double width_px, double radius_px = 0);

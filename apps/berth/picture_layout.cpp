@@ -16,7 +16,7 @@ int enlargement(const DepthView& image) {
 }
 
 double longest_name_em(const PictureInput& input) {
-  const Canvas measure(1, 1, kBlack);
+  const PictureCanvas measure(1, 1, kBlack);
   double longest = 0;
   for (const std::string& name : input.link_names)
     longest = std::max(longest, measure.text_width_px(name, {100, true}) / 100);

@@ -17,7 +17,7 @@ constexpr Rgb kTrack{0x2E, 0x34, 0x3D};
 
 /// What every part of the legend draws with; y is where the next part begins.
 struct Legend {
-  Canvas& canvas;
+  PictureCanvas& canvas;
   const PictureLayout& layout;
   const PictureInput& input;
   double em;
@@ -218,7 +218,7 @@ void draw_depth_scale(Legend& legend, const DepthTone& tone) {
 
 }  // namespace
 
-void draw_legend(Canvas& canvas, const PictureLayout& layout, const PictureInput& input,
+void draw_legend(PictureCanvas& canvas, const PictureLayout& layout, const PictureInput& input,
                  const DepthTone& tone) {
   Legend legend{canvas, layout, input, layout.em_px, layout.legend.y};
   if (input.distances) {

@@ -13,7 +13,7 @@ inline constexpr Rgb kPaper{0x15, 0x18, 0x1D};
 inline constexpr Rgb kInk{0xEC, 0xEE, 0xF1};
 inline constexpr Rgb kFaintInk{0x98, 0xA0, 0xAA};
 
-void draw_legend(Canvas& canvas, const PictureLayout& layout, const PictureInput& input,
+void draw_legend(PictureCanvas& canvas, const PictureLayout& layout, const PictureInput& input,
                  const DepthTone& tone);
 
 }  // namespace berth::app

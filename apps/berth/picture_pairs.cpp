@@ -60,7 +60,7 @@ std::vector<PointPx> precious_points(const std::vector<Pair>& pairs, const Pictu
   return points;
 }
 
-void draw_pair(Canvas& canvas, const Pair& pair, double em) {
+void draw_pair(PictureCanvas& canvas, const Pair& pair, double em) {
   const double width = kLineEm * em * (pair.nearest ? 1.5 : 1);
   canvas.line(pair.robot, pair.obstacle, kBlack, width + 0.22 * em, 0.75);
   canvas.line(pair.robot, pair.obstacle, pair.color, width);
@@ -80,13 +80,13 @@ Font label_font(const Pair& pair, double em) {
   return {pair.nearest ? 1.1 * em : 0.85 * em, pair.nearest};
 }
 
-void draw_leader(Canvas& canvas, const Pair& pair, const BoxPx& box, double em) {
+void draw_leader(PictureCanvas& canvas, const Pair& pair, const BoxPx& box, double em) {
   const PointPx end = closest_point(box, pair.middle());
   canvas.line(pair.middle(), end, kBlack, 0.2 * em, 0.6);
   canvas.line(pair.middle(), end, mix(pair.color, kWhite, 0.35), 0.07 * em);
 }
 
-void draw_label(Canvas& canvas, const Pair& pair, const BoxPx& box, double em) {
+void draw_label(PictureCanvas& canvas, const Pair& pair, const BoxPx& box, double em) {
   canvas.fill_box(box, {0x0C, 0x0E, 0x12}, 0.3 * em, 0.84);
   canvas.stroke_box(box, pair.nearest ? kWhite : pair.color, 0.09 * em, 0.3 * em);
   canvas.text({box.x + box.width / 2, box.y + box.height / 2}, pair.text, label_font(pair, em),
@@ -95,18 +95,18 @@ void draw_label(Canvas& canvas, const Pair& pair, const BoxPx& box, double em) {
 
 }  // namespace
 
-void draw_robot_end(Canvas& canvas, PointPx centre, Rgb color, double em_px) {
+void draw_robot_end(PictureCanvas& canvas, PointPx centre, Rgb color, double em_px) {
   canvas.disc(centre, 0.44 * em_px, kBlack, 0.8);
   canvas.disc(centre, 0.34 * em_px, kWhite);
   canvas.disc(centre, 0.24 * em_px, color);
 }
 
-void draw_obstacle_end(Canvas& canvas, PointPx centre, Rgb color, double em_px) {
+void draw_obstacle_end(PictureCanvas& canvas, PointPx centre, Rgb color, double em_px) {
   canvas.ring(centre, 0.38 * em_px, kBlack, 0.36 * em_px, 0.8);
   canvas.ring(centre, 0.38 * em_px, color, 0.18 * em_px);
 }
 
-void draw_pairs(Canvas& canvas, const PictureLayout& layout, const PictureInput& input) {
+void draw_pairs(PictureCanvas& canvas, const PictureLayout& layout, const PictureInput& input) {
   const std::vector<Pair> pairs = nearest_first(layout, input);
   // Many lines get finer ones, or they would hide the image.
   const double em = layout.em_px * (pairs.size() > 16 ? 0.75 : 1);

@@ -25,11 +25,11 @@ std::vector<std::optional<BoxPx>> place_labels(const std::vector<LabelRequest>& 
                                                const std::vector<PointPx>& avoid);
 
 /// The end of a pair on the robot and the one on the obstacle.
-void draw_robot_end(Canvas& canvas, PointPx centre, Rgb color, double em_px);
-void draw_obstacle_end(Canvas& canvas, PointPx centre, Rgb color, double em_px);
+void draw_robot_end(PictureCanvas& canvas, PointPx centre, Rgb color, double em_px);
+void draw_obstacle_end(PictureCanvas& canvas, PointPx centre, Rgb color, double em_px);
 
 /// For each link with a distance: a line from its robot pixel to its obstacle pixel, and the
 /// distance beside it. The nearest link comes last, on top of the others.
-void draw_pairs(Canvas& canvas, const PictureLayout& layout, const PictureInput& input);
+void draw_pairs(PictureCanvas& canvas, const PictureLayout& layout, const PictureInput& input);
 
 }  // namespace berth::app

@@ -83,7 +83,7 @@ std::string grouped(std::int64_t count) {
   return digits;
 }
 
-std::string fit_text(const Canvas& canvas, const std::string& text, const Font& font,
+std::string fit_text(const PictureCanvas& canvas, const std::string& text, const Font& font,
                      double width_px) {
   if (canvas.text_width_px(text, font) <= width_px) return text;
   const std::vector<std::string> points = code_points(text);

@@ -22,7 +22,7 @@ std::string fate_text(PixelFate fate);
 std::string grouped(std::int64_t count);
 
 /// The text, or its two ends around an ellipsis so that it is not wider than width_px.
-std::string fit_text(const Canvas& canvas, const std::string& text, const Font& font,
+std::string fit_text(const PictureCanvas& canvas, const std::string& text, const Font& font,
                      double width_px);
 
 }  // namespace berth::app

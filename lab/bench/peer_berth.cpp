@@ -51,22 +51,25 @@ class BerthPeer : public Peer {
     range_m_ = scene.range_m;
     if (!variant_.warm) return;
     const DepthImage before_m = moved(scene.obstacle_depth_m);
-    build_obstacle_tree(before_m, tree_);
+    obstacles_.build(before_m);
     before_.links.clear();
-    ask(scene, before_m, before_);
+    ask(scene, before_);
   }
 
   void begin() override { answer_ = before_; }
 
   void prepare(const BenchScene& scene) override {
-    if (variant_.method != Method::exact) return;
+    if (variant_.method != Method::exact) {
+      obstacles_ = SearchableDepth(scene.obstacle_depth_m);
+      return;
+    }
     const Limit limit(variant_.instruction_set);
-    build_obstacle_tree(scene.obstacle_depth_m, tree_);
+    obstacles_.build(scene.obstacle_depth_m);
   }
 
   void evaluate(const BenchScene& scene, PeerDistances& distances_m) override {
     const Limit limit(variant_.instruction_set);
-    ask(scene, scene.obstacle_depth_m, answer_);
+    ask(scene, answer_);
     distances_m.clear();
     for (const LinkDistance& link : answer_.links) {
       distances_m.push_back(link.status == LinkStatus::ok ? std::optional(link.distance_m)
@@ -94,19 +97,20 @@ class BerthPeer : public Peer {
     std::optional<InstructionSetLimit> limit;
   };
 
-  void ask(const BenchScene& scene, const DepthImage& obstacle_depth_m, LinkDistances& answer) {
+  void ask(const BenchScene& scene, LinkDistances& answer) {
     DistanceSettings settings;
     settings.range_m = scene.range_m;
     settings.mean_direction = false;
     settings.tolerance_m = variant_.tolerance_m;
     settings.deadline_us = variant_.deadline_us;
-    berth::evaluate(variant_.method, scene.camera, scene.robot, obstacle_depth_m, tree_,
-                    scene.link_count, settings, workspace_, answer);
+    berth::evaluate(variant_.method,
+                    {scene.camera, scene.robot, scene.link_count, obstacles_, settings}, workspace_,
+                    answer);
   }
 
   Variant variant_;
   double range_m_ = 0;
-  ObstacleTree tree_;
+  SearchableDepth obstacles_;
   EvaluateWorkspace workspace_;
   /// Empty for a method that begins from nothing.
   LinkDistances before_;

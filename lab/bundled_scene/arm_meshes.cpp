@@ -13,8 +13,8 @@ constexpr double kPi = std::numbers::pi;
 const Eigen::Vector3d kX = Eigen::Vector3d::UnitX();
 const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();
 
-TriangleMesh make_base() {
-  TriangleMesh base;
+DrawnMesh make_base() {
+  DrawnMesh base;
   append(base, make_lathe(
                    {{0, 0}, {0.098, 0}, {0.100, 0.002}, {0.100, 0.012}, {0.097, 0.015}, {0, 0.015}},
                    kSegments));
@@ -29,8 +29,8 @@ TriangleMesh make_base() {
 }
 
 // An elbow with its collars and the motor cover that faces away from the y-axis joint.
-TriangleMesh make_elbow_link(double height_m, double z_end_radius_m, double y_end_radius_m) {
-  TriangleMesh link = make_elbow(height_m, z_end_radius_m, y_end_radius_m);
+DrawnMesh make_elbow_link(double height_m, double z_end_radius_m, double y_end_radius_m) {
+  DrawnMesh link = make_elbow(height_m, z_end_radius_m, y_end_radius_m);
   append(link, make_collar(z_end_radius_m), translation(0, 0, 0.001));
   append(link, make_collar(y_end_radius_m),
          translation(0, -0.001, height_m) * rotation(kPi / 2, kX));
@@ -40,8 +40,8 @@ TriangleMesh make_elbow_link(double height_m, double z_end_radius_m, double y_en
   return link;
 }
 
-TriangleMesh make_wrist() {
-  TriangleMesh wrist;
+DrawnMesh make_wrist() {
+  DrawnMesh wrist;
   const Profile barrel{{0, 0.001},      {0.049, 0.001},  {0.050, 0.002}, {0.050, 0.030},
                        {0.0475, 0.032}, {0.0475, 0.035}, {0.050, 0.037}, {0.049, 0.046},
                        {0.046, 0.055},  {0.040, 0.062},  {0.030, 0.066}, {0, 0.067}};
@@ -52,23 +52,23 @@ TriangleMesh make_wrist() {
   return wrist;
 }
 
-TriangleMesh make_finger() {
-  TriangleMesh finger = make_box({0.018, 0.012, 0.050});
+DrawnMesh make_finger() {
+  DrawnMesh finger = make_box({0.018, 0.012, 0.050});
   append(finger, make_capsule(0.030, 0.0085, 0.0065, 32), translation(0, 0, 0.02));
   return finger;
 }
 
 // The frame is the flange's; the gripper begins there.
-TriangleMesh make_flange_and_gripper() {
-  TriangleMesh hand = make_lathe({{0, -0.0245},
-                                  {0.038, -0.0245},
-                                  {0.040, -0.022},
-                                  {0.040, -0.008},
-                                  {0.037, -0.006},
-                                  {0.037, -0.002},
-                                  {0.039, 0},
-                                  {0, 0}},
-                                 kSegments);
+DrawnMesh make_flange_and_gripper() {
+  DrawnMesh hand = make_lathe({{0, -0.0245},
+                               {0.038, -0.0245},
+                               {0.040, -0.022},
+                               {0.040, -0.008},
+                               {0.037, -0.006},
+                               {0.037, -0.002},
+                               {0.039, 0},
+                               {0, 0}},
+                              kSegments);
   append(hand, make_screws(7, 0.032, 0));
   append(hand, make_lathe(smooth_profile({{0.026, 0},
                                           {0.027, 0.01},
@@ -86,8 +86,8 @@ TriangleMesh make_flange_and_gripper() {
 
 }  // namespace
 
-std::array<TriangleMesh, kArmLinks> make_arm_meshes() {
-  std::array<TriangleMesh, kArmLinks> mesh;
+std::array<DrawnMesh, kArmLinks> make_arm_meshes() {
+  std::array<DrawnMesh, kArmLinks> mesh;
   const Pose turned = rotation(kPi, kZ);
   mesh[0] = make_base();
   mesh[1] = make_elbow_link(0.200, 0.060, 0.060);

@@ -9,6 +9,6 @@ namespace berth::lab {
 
 /// The visual mesh of each link, in the link's frame: shells, collars, covers and screws, and a
 /// two-finger gripper on the last link.
-std::array<TriangleMesh, kArmLinks> make_arm_meshes();
+std::array<DrawnMesh, kArmLinks> make_arm_meshes();
 
 }  // namespace berth::lab

@@ -48,7 +48,7 @@ Ring make_ring(const PathPoint& at, double radius_m) {
   return ring;
 }
 
-TriangleMesh make_screw_head() {
+DrawnMesh make_screw_head() {
   const Profile head{{0.0040, -0.001}, {0.0040, 0.0022}, {0.0034, 0.0030},
                      {0.0022, 0.0030}, {0.0020, 0.0012}, {0, 0.0012}};
   return make_lathe(head, 12);
@@ -56,7 +56,7 @@ TriangleMesh make_screw_head() {
 
 }  // namespace
 
-TriangleMesh make_elbow(double height_m, double z_end_radius_m, double y_end_radius_m) {
+DrawnMesh make_elbow(double height_m, double z_end_radius_m, double y_end_radius_m) {
   // Arcs tighter than the tube would fold its inner side.
   const Path path = elbow_path(height_m, std::max(z_end_radius_m, y_end_radius_m) + 0.002);
   std::vector<Ring> rings{make_ring(path.front(), 0)};
@@ -72,7 +72,7 @@ Pose upside_down(double height_m) {
   return translation(0, 0, height_m) * rotation(kPi, Eigen::Vector3d::UnitX());
 }
 
-TriangleMesh make_collar(double tube_radius_m) {
+DrawnMesh make_collar(double tube_radius_m) {
   const double r = tube_radius_m, out = r + 0.0035, in = r + 0.0005;
   return make_lathe({{r - 0.010, 0.0005},
                      {out - 0.001, 0.0005},
@@ -91,9 +91,9 @@ TriangleMesh make_collar(double tube_radius_m) {
                     kSegments);
 }
 
-TriangleMesh make_screws(int count, double circle_radius_m, double z_m) {
-  TriangleMesh screws;
-  const TriangleMesh head = make_screw_head();
+DrawnMesh make_screws(int count, double circle_radius_m, double z_m) {
+  DrawnMesh screws;
+  const DrawnMesh head = make_screw_head();
   for (int i = 0; i < count; ++i)
     append(screws, head,
            rotation(2 * kPi * i / count, Eigen::Vector3d::UnitZ()) *
@@ -101,18 +101,18 @@ TriangleMesh make_screws(int count, double circle_radius_m, double z_m) {
   return screws;
 }
 
-TriangleMesh make_cover(double radius_m, int screws) {
+DrawnMesh make_cover(double radius_m, int screws) {
   const double r = radius_m;
-  TriangleMesh cover = make_lathe({{r, -0.062},
-                                   {r, 0.000},
-                                   {r - 0.001, 0.003},
-                                   {r - 0.004, 0.005},
-                                   {0.55 * r, 0.005},
-                                   {0.53 * r, 0.003},
-                                   {0.45 * r, 0.003},
-                                   {0.43 * r, 0.006},
-                                   {0, 0.007}},
-                                  kSegments);
+  DrawnMesh cover = make_lathe({{r, -0.062},
+                                {r, 0.000},
+                                {r - 0.001, 0.003},
+                                {r - 0.004, 0.005},
+                                {0.55 * r, 0.005},
+                                {0.53 * r, 0.003},
+                                {0.45 * r, 0.003},
+                                {0.43 * r, 0.006},
+                                {0, 0.007}},
+                               kSegments);
   append(cover, make_screws(screws, 0.77 * r, 0.005));
   return cover;
 }

@@ -70,8 +70,7 @@ void write_png(const std::filesystem::path& file, const Image<std::uint16_t>& im
   write_bytes(file, static_cast<const char*>(buffer.get()), size);
 }
 
-void write_stl(const std::filesystem::path& file, const TriangleMesh& mesh,
-               const std::string& title) {
+void write_stl(const std::filesystem::path& file, const DrawnMesh& mesh, const std::string& title) {
   std::string bytes = title;
   bytes.resize(80, ' ');
   put(bytes, static_cast<std::uint32_t>(mesh.triangle.size()));

@@ -40,7 +40,7 @@ void write_frames(const std::filesystem::path& folder, const Scene& scene) {
     everything.insert(everything.end(), posed.obstacles.begin(), posed.obstacles.end());
     const CleanView view = look(RayCaster(everything, X_TC), camera);
     write_png(folder / "depth" / fmt::format("{:06}.png", k), sense(view, random));
-    const Image<RayHit> robot_alone = RayCaster(posed.robot, X_TC).cast(camera);
+    const Image<SensorHit> robot_alone = RayCaster(posed.robot, X_TC).cast(camera);
     for (const TruthRow& row : measure_truth(k, posed, models, robot_alone)) truth.push_back(row);
   }
   write_text(folder / "truth.csv", truth_csv(truth));

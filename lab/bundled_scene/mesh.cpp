@@ -35,7 +35,7 @@ void add_dome(Profile& profile, double radius_m, double z_m, double begin, doubl
 
 }  // namespace
 
-void append(TriangleMesh& whole, const TriangleMesh& part, const Pose& X_AB) {
+void append(DrawnMesh& whole, const DrawnMesh& part, const Pose& X_AB) {
   const auto first = static_cast<std::uint32_t>(whole.vertex_m.size());
   for (const Eigen::Vector3f& p : part.vertex_m)
     whole.vertex_m.push_back((X_AB * p.cast<double>()).cast<float>());
@@ -43,8 +43,8 @@ void append(TriangleMesh& whole, const TriangleMesh& part, const Pose& X_AB) {
     whole.triangle.push_back({first + t[0], first + t[1], first + t[2]});
 }
 
-TriangleMesh make_skin(const std::vector<Ring>& rings) {
-  TriangleMesh mesh;
+DrawnMesh make_skin(const std::vector<Ring>& rings) {
+  DrawnMesh mesh;
   for (const Ring& ring : rings)
     for (const Eigen::Vector3d& p : ring) mesh.vertex_m.push_back(p.cast<float>());
   const auto add = [&mesh](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -62,7 +62,7 @@ TriangleMesh make_skin(const std::vector<Ring>& rings) {
   return mesh;
 }
 
-TriangleMesh make_lathe(const Profile& profile, int segments, double flatten) {
+DrawnMesh make_lathe(const Profile& profile, int segments, double flatten) {
   std::vector<Ring> rings;
   for (const ProfilePoint& p : profile)
     rings.push_back(make_circle(p.radius_m, p.z_m, segments, flatten));
@@ -86,25 +86,25 @@ Profile smooth_profile(const Profile& points, int steps) {
   return smooth;
 }
 
-TriangleMesh make_capsule(double length_m, double r0_m, double r1_m, int segments) {
+DrawnMesh make_capsule(double length_m, double r0_m, double r1_m, int segments) {
   Profile profile;
   add_dome(profile, r0_m, 0, -kPi / 2, 0);
   add_dome(profile, r1_m, length_m, 0, kPi / 2);
   return make_lathe(profile, segments);
 }
 
-TriangleMesh make_ellipsoid(const Eigen::Vector3d& half_axes_m, int segments) {
+DrawnMesh make_ellipsoid(const Eigen::Vector3d& half_axes_m, int segments) {
   Profile profile;
   add_dome(profile, 1, 0, -kPi / 2, 0);
   profile.pop_back();
   add_dome(profile, 1, 0, 0, kPi / 2);
-  TriangleMesh mesh = make_lathe(profile, segments);
+  DrawnMesh mesh = make_lathe(profile, segments);
   for (Eigen::Vector3f& p : mesh.vertex_m) p = p.cwiseProduct(half_axes_m.cast<float>()).eval();
   return mesh;
 }
 
-TriangleMesh make_box(const Eigen::Vector3d& size_m) {
-  TriangleMesh mesh;
+DrawnMesh make_box(const Eigen::Vector3d& size_m) {
+  DrawnMesh mesh;
   for (int i = 0; i < 8; ++i) {
     const Eigen::Vector3d sign(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
     mesh.vertex_m.push_back((0.5 * sign.cwiseProduct(size_m)).cast<float>());

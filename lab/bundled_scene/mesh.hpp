@@ -13,7 +13,7 @@ namespace berth::lab {
 /// A triangle soup with shared corners. Corners are float because binary STL is: what is written to
 /// the files is exactly what is rendered and measured. Triangles wind anticlockwise seen from
 /// outside.
-struct TriangleMesh {
+struct DrawnMesh {
   std::vector<Eigen::Vector3f> vertex_m;
   std::vector<std::array<std::uint32_t, 3>> triangle;
 };
@@ -29,27 +29,27 @@ struct ProfilePoint {
 using Profile = std::vector<ProfilePoint>;
 
 /// Adds `part`, placed at X_AB, to `whole`, whose frame is A.
-void append(TriangleMesh& whole, const TriangleMesh& part, const Pose& X_AB = Pose::Identity());
+void append(DrawnMesh& whole, const DrawnMesh& part, const Pose& X_AB = Pose::Identity());
 
 /// The surface between consecutive rings. Seen along the way from the first to the last ring, the
 /// points of a ring run clockwise. Triangles without area (a ring may shrink to a point) are left
 /// out.
-TriangleMesh make_skin(const std::vector<Ring>& rings);
+DrawnMesh make_skin(const std::vector<Ring>& rings);
 
 /// Turns the outline, from the lowest to the highest point, about z. `flatten` scales y.
-TriangleMesh make_lathe(const Profile& profile, int segments, double flatten = 1.0);
+DrawnMesh make_lathe(const Profile& profile, int segments, double flatten = 1.0);
 
 /// A smooth outline through the given points (Catmull-Rom), `steps` per span.
 Profile smooth_profile(const Profile& points, int steps);
 
 /// A capsule from the origin to (0, 0, length), with the radii r0 and r1 at its ends.
-TriangleMesh make_capsule(double length_m, double r0_m, double r1_m, int segments);
+DrawnMesh make_capsule(double length_m, double r0_m, double r1_m, int segments);
 
 /// An ellipsoid around the origin with the given half axes.
-TriangleMesh make_ellipsoid(const Eigen::Vector3d& half_axes_m, int segments);
+DrawnMesh make_ellipsoid(const Eigen::Vector3d& half_axes_m, int segments);
 
 /// A box around the origin with the given edge lengths.
-TriangleMesh make_box(const Eigen::Vector3d& size_m);
+DrawnMesh make_box(const Eigen::Vector3d& size_m);
 
 /// A pose without rotation.
 Pose translation(double x_m, double y_m, double z_m);

@@ -7,11 +7,11 @@
 
 namespace berth::lab {
 
-DistanceModel make_distance_model(const TriangleMesh& mesh) {
+DistanceModel make_distance_model(const DrawnMesh& mesh) {
   return make_distance_model(mesh, std::vector<bool>(mesh.triangle.size(), true));
 }
 
-DistanceModel make_distance_model(const TriangleMesh& mesh, const std::vector<bool>& chosen) {
+DistanceModel make_distance_model(const DrawnMesh& mesh, const std::vector<bool>& chosen) {
   if (std::find(chosen.begin(), chosen.end(), true) == chosen.end()) return nullptr;
   auto model = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
   model->beginModel();

@@ -17,8 +17,8 @@ using DistanceModel = std::shared_ptr<fcl::BVHModel<fcl::OBBRSSd>>;
 
 /// The tree of a mesh's triangles, or of those that are marked in `chosen` (one mark a triangle).
 /// Null where there are none.
-DistanceModel make_distance_model(const TriangleMesh& mesh);
-DistanceModel make_distance_model(const TriangleMesh& mesh, const std::vector<bool>& chosen);
+DistanceModel make_distance_model(const DrawnMesh& mesh);
+DistanceModel make_distance_model(const DrawnMesh& mesh, const std::vector<bool>& chosen);
 
 /// Models at their poses in the table's frame.
 using DistanceObjects = std::vector<fcl::CollisionObjectd>;

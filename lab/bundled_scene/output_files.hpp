@@ -23,8 +23,7 @@ void write_text(const std::filesystem::path& file, const std::string& text);
 void write_png(const std::filesystem::path& file, const Image<std::uint16_t>& image);
 
 /// Binary STL, metres.
-void write_stl(const std::filesystem::path& file, const TriangleMesh& mesh,
-               const std::string& title);
+void write_stl(const std::filesystem::path& file, const DrawnMesh& mesh, const std::string& title);
 
 /// ROS camera_info.
 std::string camera_info_yaml(const Camera& camera);

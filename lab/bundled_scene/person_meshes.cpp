@@ -8,18 +8,18 @@ namespace {
 
 constexpr int kSegments = 40;
 
-TriangleMesh make_trunk() {
+DrawnMesh make_trunk() {
   const Profile outline{{0, -0.10},    {0.115, -0.08}, {0.170, 0.00}, {0.150, 0.16},
                         {0.175, 0.34}, {0.190, 0.43},  {0.150, 0.51}, {0.085, 0.545},
                         {0.072, 0.60}, {0.070, 0.64},  {0, 0.65}};
-  TriangleMesh trunk;
+  DrawnMesh trunk;
   append(trunk, make_lathe(smooth_profile(outline, 6), kSegments, 0.62),
          rotation(std::numbers::pi / 2, Eigen::Vector3d::UnitZ()));
   return trunk;
 }
 
-TriangleMesh make_head() {
-  TriangleMesh head = make_ellipsoid({0.098, 0.077, 0.120}, kSegments);
+DrawnMesh make_head() {
+  DrawnMesh head = make_ellipsoid({0.098, 0.077, 0.120}, kSegments);
   append(head, make_ellipsoid({0.018, 0.013, 0.024}, 16), translation(0.098, 0, -0.015));
   for (const double side : {-1.0, 1.0})
     append(head, make_ellipsoid({0.018, 0.008, 0.030}, 16), translation(-0.005, side * 0.078, 0));
@@ -27,8 +27,8 @@ TriangleMesh make_head() {
 }
 
 // Along z from the wrist, the palm across x.
-TriangleMesh make_hand() {
-  TriangleMesh hand;
+DrawnMesh make_hand() {
+  DrawnMesh hand;
   append(hand, make_ellipsoid({0.042, 0.020, 0.056}, 32), translation(0, 0, 0.050));
   for (int finger = 0; finger < 4; ++finger) {
     const double x = -0.030 + 0.020 * finger;
@@ -40,13 +40,13 @@ TriangleMesh make_hand() {
   return hand;
 }
 
-TriangleMesh make_foot() {
-  TriangleMesh foot;
+DrawnMesh make_foot() {
+  DrawnMesh foot;
   append(foot, make_ellipsoid({0.135, 0.048, 0.042}, 32), translation(0.065, 0, -0.036));
   return foot;
 }
 
-TriangleMesh make_limb(double length_m, double r0_m, double bulge_m, double r1_m) {
+DrawnMesh make_limb(double length_m, double r0_m, double bulge_m, double r1_m) {
   const double l = length_m;
   return make_lathe(smooth_profile({{0, -0.95 * r0_m},
                                     {0.75 * r0_m, -0.65 * r0_m},
@@ -62,12 +62,12 @@ TriangleMesh make_limb(double length_m, double r0_m, double bulge_m, double r1_m
 
 }  // namespace
 
-std::vector<TriangleMesh> make_person_meshes() {
-  const TriangleMesh upper_arm = make_limb(kUpperArm_m, 0.056, 0.050, 0.040);
-  const TriangleMesh forearm = make_limb(kForearm_m, 0.040, 0.043, 0.027);
-  const TriangleMesh thigh = make_limb(kThigh_m, 0.085, 0.082, 0.056);
-  const TriangleMesh shin = make_limb(kShin_m, 0.054, 0.058, 0.038);
-  const TriangleMesh hand = make_hand(), foot = make_foot();
+std::vector<DrawnMesh> make_person_meshes() {
+  const DrawnMesh upper_arm = make_limb(kUpperArm_m, 0.056, 0.050, 0.040);
+  const DrawnMesh forearm = make_limb(kForearm_m, 0.040, 0.043, 0.027);
+  const DrawnMesh thigh = make_limb(kThigh_m, 0.085, 0.082, 0.056);
+  const DrawnMesh shin = make_limb(kShin_m, 0.054, 0.058, 0.038);
+  const DrawnMesh hand = make_hand(), foot = make_foot();
   return {make_trunk(), make_head(), upper_arm, forearm, hand,  upper_arm, forearm,
           hand,         thigh,       shin,      foot,    thigh, shin,      foot};
 }

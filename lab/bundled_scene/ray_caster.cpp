@@ -13,7 +13,7 @@ namespace {
 constexpr float kOffset_m = 1e-3f;
 
 void attach(RTCDevice device, RTCScene scene, const PosedMesh& posed, const Pose& X_CT) {
-  const TriangleMesh& mesh = *posed.mesh;
+  const DrawnMesh& mesh = *posed.mesh;
   const Pose X_CM = X_CT * posed.X_TM;
   const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
@@ -62,8 +62,8 @@ RayCaster::RayCaster(const std::vector<PosedMesh>& meshes, const Pose& X_TC) {
   rtcCommitScene(scene);
 }
 
-Image<RayHit> RayCaster::cast(const Camera& camera) const {
-  Image<RayHit> hits(camera.width_px, camera.height_px, {kNoDepth, kNothing, kNothing, 0});
+Image<SensorHit> RayCaster::cast(const Camera& camera) const {
+  Image<SensorHit> hits(camera.width_px, camera.height_px, {kNoDepth, kNothing, kNothing, 0});
   for (int v = 0; v < camera.height_px; ++v) {
     for (int u = 0; u < camera.width_px; ++u) {
       // The direction's z is 1, so the ray's parameter is the depth.

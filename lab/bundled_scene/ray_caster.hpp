@@ -11,14 +11,14 @@ namespace berth::lab {
 
 /// A mesh and its pose in the table's frame.
 struct PosedMesh {
-  const TriangleMesh* mesh;
+  const DrawnMesh* mesh;
   Pose X_TM;
 };
 
 inline constexpr std::uint32_t kNothing = 0xFFFFFFFF;
 
 /// What the ray through a pixel's centre meets first. mesh = kNothing where it meets nothing.
-struct RayHit {
+struct SensorHit {
   float depth_m;
   std::uint32_t mesh;
   std::uint32_t triangle;
@@ -32,7 +32,7 @@ class RayCaster {
   RayCaster(const std::vector<PosedMesh>& meshes, const Pose& X_TC);
 
   /// One ray for each pixel's centre.
-  Image<RayHit> cast(const Camera& camera) const;
+  Image<SensorHit> cast(const Camera& camera) const;
 
   /// Whether a surface stands between the two points.
   bool is_blocked(const Eigen::Vector3f& from_C_m, const Eigen::Vector3f& to_C_m) const;

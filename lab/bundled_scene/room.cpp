@@ -30,8 +30,8 @@ const std::vector<Box>& obstacle_boxes() {
   return boxes;
 }
 
-TriangleMesh to_mesh(const Box& box) {
-  TriangleMesh mesh;
+DrawnMesh to_mesh(const Box& box) {
+  DrawnMesh mesh;
   append(mesh, make_box(box.size_m), Pose(Eigen::Translation3d(box.centre_T_m)));
   return mesh;
 }

@@ -25,6 +25,6 @@ const std::vector<Box>& table_boxes();
 const std::vector<Box>& obstacle_boxes();
 
 /// The box as a mesh in T.
-TriangleMesh to_mesh(const Box& box);
+DrawnMesh to_mesh(const Box& box);
 
 }  // namespace berth::lab

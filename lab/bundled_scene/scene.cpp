@@ -8,14 +8,14 @@
 namespace berth::lab {
 namespace {
 
-std::vector<TriangleMesh> to_meshes(const std::vector<Box>& boxes) {
-  std::vector<TriangleMesh> meshes;
+std::vector<DrawnMesh> to_meshes(const std::vector<Box>& boxes) {
+  std::vector<DrawnMesh> meshes;
   for (const Box& box : boxes) meshes.push_back(to_mesh(box));
   return meshes;
 }
 
-void add_still(std::vector<PosedMesh>& to, const std::vector<TriangleMesh>& meshes) {
-  for (const TriangleMesh& mesh : meshes) to.push_back({&mesh, Pose::Identity()});
+void add_still(std::vector<PosedMesh>& to, const std::vector<DrawnMesh>& meshes) {
+  for (const DrawnMesh& mesh : meshes) to.push_back({&mesh, Pose::Identity()});
 }
 
 }  // namespace

@@ -11,10 +11,10 @@
 namespace berth::lab {
 
 struct Scene {
-  std::array<TriangleMesh, kArmLinks> arm;
-  std::vector<TriangleMesh> table;
-  std::vector<TriangleMesh> boxes;
-  std::vector<TriangleMesh> person;
+  std::array<DrawnMesh, kArmLinks> arm;
+  std::vector<DrawnMesh> table;
+  std::vector<DrawnMesh> boxes;
+  std::vector<DrawnMesh> person;
   std::vector<JointRow> rows;
 };
 Scene make_scene();

@@ -119,7 +119,7 @@ CleanView look(const RayCaster& scene, const Camera& camera) {
   const Eigen::Vector3f projector_C_m(kBaseline_m, 0, 0);
   for (int v = 0; v < camera.height_px; ++v) {
     for (int u = 0; u < camera.width_px; ++u) {
-      const RayHit& hit = view.hit(u, v);
+      const SensorHit& hit = view.hit(u, v);
       if (hit.mesh == kNothing) continue;
       const Eigen::Vector3f point_C_m =
           hit.depth_m * Eigen::Vector3f(static_cast<float>((u - camera.cx_px) / camera.fx_px),

@@ -12,7 +12,7 @@ namespace berth::lab {
 /// A ray of light for each pixel, and whether the projector beside the camera reaches the same
 /// point.
 struct CleanView {
-  Image<RayHit> hit;
+  Image<SensorHit> hit;
   Image<std::uint8_t> lit;
 };
 CleanView look(const RayCaster& scene, const Camera& camera);

@@ -17,9 +17,9 @@ std::vector<DistanceModel> make_models(const std::vector<PosedMesh>& meshes) {
 }
 
 // Which of a link's triangles a pixel shows.
-std::vector<bool> seen_triangles(const Image<RayHit>& hits, int link, std::size_t triangles) {
+std::vector<bool> seen_triangles(const Image<SensorHit>& hits, int link, std::size_t triangles) {
   std::vector<bool> seen(triangles, false);
-  for (const RayHit& hit : hits.pixels())
+  for (const SensorHit& hit : hits.pixels())
     if (hit.mesh == static_cast<std::uint32_t>(link)) seen[hit.triangle] = true;
   return seen;
 }
@@ -32,7 +32,7 @@ TruthModels make_truth_models(const Scene& scene) {
 }
 
 std::vector<TruthRow> measure_truth(int frame, const PosedScene& posed, const TruthModels& models,
-                                    const Image<RayHit>& robot_alone) {
+                                    const Image<SensorHit>& robot_alone) {
   const DistanceObjects obstacles = place(models.obstacles, posed.obstacles);
   std::vector<TruthRow> rows;
   for (int i = 0; i < kArmLinks; ++i) {

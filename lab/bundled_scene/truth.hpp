@@ -27,6 +27,6 @@ TruthModels make_truth_models(const Scene& scene);
 /// the robot depth image, whether an obstacle stands before it or not. Throws std::runtime_error
 /// where an obstacle is nearer than 2 cm: the scene is to stay free of contact.
 std::vector<TruthRow> measure_truth(int frame, const PosedScene& posed, const TruthModels& models,
-                                    const Image<RayHit>& robot_alone);
+                                    const Image<SensorHit>& robot_alone);
 
 }  // namespace berth::lab

@@ -23,9 +23,14 @@ double time_once_ms(const ParameterSet& set, const testing::ImagePair& images,
                     MeasureWorkspace& workspace) {
   workspace.answer.links.clear();
   const Stopwatch watch(CLOCK_THREAD_CPUTIME_ID);
-  if (set.method == Method::exact) build_obstacle_tree(images.obstacle_depth_m, workspace.tree);
-  evaluate(set.method, images.camera, images.robot, images.obstacle_depth_m, workspace.tree,
-           images.link_count, set.settings, workspace.evaluate, workspace.answer);
+  if (set.method == Method::exact) {
+    workspace.obstacles.build(images.obstacle_depth_m);
+  } else {
+    workspace.obstacles = SearchableDepth(images.obstacle_depth_m);
+  }
+  evaluate(set.method,
+           {images.camera, images.robot, images.link_count, workspace.obstacles, set.settings},
+           workspace.evaluate, workspace.answer);
   return watch.ms();
 }
 

@@ -34,7 +34,7 @@ double least_ms(const std::function<double()>& run_ms);
 
 /// The memory of measure(), one for each thread.
 struct MeasureWorkspace {
-  ObstacleTree tree;
+  SearchableDepth obstacles;
   EvaluateWorkspace evaluate;
   LinkDistances answer;
 };

@@ -69,8 +69,9 @@ MadeScene make_scene(const StudyScene& scene, double range_m) {
   settings.range_m = range_m;
   // Leaves out only pairs that are farther than one that was found.
   settings.surveillance.region = SurveillanceRegion::cube_projection;
-  brute_force(made.images.camera, made.images.robot, made.images.obstacle_depth_m,
-              made.images.link_count, settings, made.truth);
+  brute_force({made.images.camera, made.images.robot, made.images.link_count,
+               SearchableDepth(made.images.obstacle_depth_m), settings},
+              made.truth);
   return made;
 }
 

@@ -49,12 +49,17 @@ void draw(const TrialRobot& robot, const testing::DrawnScene& scene, std::uint32
   SelfFilterWorkspace workspace;
   ObstacleImage obstacles;
   self_filter(scene.camera, scene.depth_m, image, {}, workspace, obstacles);
-  ObstacleTree tree;
-  build_obstacle_tree(obstacles.depth_m, tree);
+  SearchableDepth searchable;
+  searchable.build(obstacles.depth_m);
   EvaluateWorkspace evaluating;
   LinkDistances distances;
-  evaluate(Method::exact, scene.camera, image, obstacles.depth_m, tree, robot.model.link_count(),
-           {.range_m = kTrialRange_m, .mean_direction = false}, evaluating, distances);
+  evaluate(Method::exact,
+           {scene.camera,
+            image,
+            robot.model.link_count(),
+            searchable,
+            {.range_m = kTrialRange_m, .mean_direction = false}},
+           evaluating, distances);
   write_picture(picture,
                 {scene.depth_m, &image, &obstacles, &distances, robot.model.evaluated_link_names(),
                  kTrialRange_m, fmt::format("{}, seed {}", robot.name, seed)});

@@ -21,12 +21,17 @@ std::vector<Estimate> to_estimates(const LinkDistances& distances) {
 
 LinkDistances exact_distances(const TrialRobot& robot, const Camera& camera,
                               const RobotImage& image, const DepthImage& obstacle_depth_m) {
-  ObstacleTree tree;
-  build_obstacle_tree(obstacle_depth_m, tree);
+  SearchableDepth searchable;
+  searchable.build(obstacle_depth_m);
   EvaluateWorkspace workspace;
   LinkDistances distances;
-  evaluate(Method::exact, camera, image, obstacle_depth_m, tree, robot.model.link_count(),
-           {.range_m = kTrialRange_m, .mean_direction = false}, workspace, distances);
+  evaluate(Method::exact,
+           {camera,
+            image,
+            robot.model.link_count(),
+            searchable,
+            {.range_m = kTrialRange_m, .mean_direction = false}},
+           workspace, distances);
   return distances;
 }
 

@@ -131,7 +131,7 @@ TEST(PictureText, CountsAreGroupedByThousands) {
 }
 
 TEST(PictureText, LongNamesKeepBothEnds) {
-  const Canvas canvas(1, 1, kBlack);
+  const PictureCanvas canvas(1, 1, kBlack);
   const Font font{20, false};
   const std::string name = "r_gripper_motor_accelerometer_link";
   const std::string shorter = fit_text(canvas, name, font, 150);
@@ -143,7 +143,7 @@ TEST(PictureText, LongNamesKeepBothEnds) {
 }
 
 TEST(PictureText, NamesAreCutBetweenCodePoints) {
-  Canvas canvas(10, 10, kBlack);
+  PictureCanvas canvas(10, 10, kBlack);
   canvas.text({0, 5}, fit_text(canvas, "ääääääääääööööööööööüüüüüüüüüü", {10, false}, 60),
               {10, false}, kWhite);
   EXPECT_NO_THROW(canvas.png());

@@ -40,13 +40,15 @@ void MethodTest::TearDown() {
 void answer(Method method, const ImagePair& images, DepthView obstacle_depth_m,
             const DistanceSettings& settings, AnswerWorkspace& workspace, LinkDistances& out) {
   if (runs_on_opengl(method)) {
-    shared_gl()->evaluator.evaluate(method, images.camera, images.robot, obstacle_depth_m,
-                                    images.link_count, settings, out);
+    shared_gl()->evaluator.evaluate(method,
+                                    {images.camera, images.robot, images.link_count,
+                                     SearchableDepth(obstacle_depth_m), settings},
+                                    out);
     return;
   }
-  build_obstacle_tree(obstacle_depth_m, workspace.tree);
-  evaluate(method, images.camera, images.robot, obstacle_depth_m, workspace.tree, images.link_count,
-           settings, workspace.evaluate, out);
+  workspace.obstacles.build(obstacle_depth_m);
+  evaluate(method, {images.camera, images.robot, images.link_count, workspace.obstacles, settings},
+           workspace.evaluate, out);
 }
 
 LinkDistances answer(Method method, const ImagePair& images, const DistanceSettings& settings) {

@@ -22,7 +22,7 @@ class MethodTest : public ::testing::TestWithParam<Method> {
 
 /// What may be used again for the next question.
 struct AnswerWorkspace {
-  ObstacleTree tree;
+  SearchableDepth obstacles;
   EvaluateWorkspace evaluate;
 };
 

@@ -11,14 +11,13 @@ INSTANTIATE_TEST_SUITE_P(Methods, SteadyState, ::testing::Values(Method::exact, 
 
 TEST_P(SteadyState, NothingIsAllocatedOnceTheSceneWasSeen) {
   const ImagePair images[] = {random_images(1, 160, 120, 8), random_images(2, 160, 120, 8)};
-  ObstacleTree tree;
+  SearchableDepth obstacles;
   EvaluateWorkspace workspace;
   LinkDistances out;
   const auto answer_both = [&] {
     for (const ImagePair& pair : images) {
-      build_obstacle_tree(pair.obstacle_depth_m, tree);
-      evaluate(GetParam(), pair.camera, pair.robot, pair.obstacle_depth_m, tree, 8, {1.0, true},
-               workspace, out);
+      obstacles.build(pair.obstacle_depth_m);
+      evaluate(GetParam(), {pair.camera, pair.robot, 8, obstacles, {1.0, true}}, workspace, out);
     }
   };
   answer_both();

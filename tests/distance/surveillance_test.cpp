@@ -191,9 +191,9 @@ TEST_P(BruteForceWithARegion, TellsThePairThatLiesInTheCube) {
 Surveillance surveillance_of(const ImagePair& images, const Metric& metric, DepthView obstacle_m,
                              SearchPattern pattern, Shrinking shrinking = Shrinking::per_link) {
   return berth::surveillance_of(
-      images.camera, metric, obstacle_m,
-      settings_with({.search_pattern = pattern, .shrinking = shrinking}, 0.9),
-      SurveillanceRegion::cube_projection);
+      {images.camera, images.robot, images.link_count, SearchableDepth(obstacle_m),
+       settings_with({.search_pattern = pattern, .shrinking = shrinking}, 0.9)},
+      metric, SurveillanceRegion::cube_projection);
 }
 
 TEST(SearchAround, ShrinksItsRegionAsItGoes) {
@@ -256,9 +256,9 @@ TEST(SearchAround, WithStepsSeesEveryStepthPixelOnly) {
   for (const SearchPattern pattern : kSearchPatterns) {
     for (const PixelStep step : {PixelStep{1, 1}, {3, 2}, {7, 7}, {16, 1}}) {
       const Surveillance surveillance = berth::surveillance_of(
-          images.camera, metric, images.obstacle_depth_m,
-          settings_with({.region = SurveillanceRegion::image, .search_pattern = pattern}),
-          SurveillanceRegion::cube_projection);
+          {images.camera, images.robot, images.link_count, SearchableDepth(images.obstacle_depth_m),
+           settings_with({.region = SurveillanceRegion::image, .search_pattern = pattern})},
+          metric, SurveillanceRegion::cube_projection);
       ClosestPair best{1e-30f};
       // The robot pixel itself has no reading, so that nothing touches it.
       images.obstacle_depth_m(30, 20) = kNoDepth;

@@ -63,8 +63,10 @@ TEST_F(GlExactTest, ItTriesFewerPairsThanThereAre) {
 TEST_F(GlExactTest, AMethodOfTheCpuIsRefused) {
   const ImagePair images = empty_images(8, 8, 1);
   LinkDistances out;
-  EXPECT_THROW(shared_gl()->evaluator.evaluate(Method::exact, images.camera, images.robot,
-                                               images.obstacle_depth_m, 1, {}, out),
+  const SearchableDepth obstacles(images.obstacle_depth_m);
+  const DistanceSettings settings;
+  const Question question{images.camera, images.robot, 1, obstacles, settings};
+  EXPECT_THROW(shared_gl()->evaluator.evaluate(Method::exact, question, out),
                std::invalid_argument);
 }
 
@@ -76,8 +78,13 @@ TEST_F(GlExactTest, TwoContextsInTwoThreadsGiveTheirOwnAnswers) {
       LinkDistances found;
       for (std::uint32_t seed = first_seed; seed < first_seed + 6; ++seed) {
         const ImagePair images = random_images(seed, 100, 80, 4);
-        evaluator.evaluate(Method::gl_exact, images.camera, images.robot, images.obstacle_depth_m,
-                           images.link_count, {1.0, false}, found);
+        evaluator.evaluate(Method::gl_exact,
+                           {images.camera,
+                            images.robot,
+                            images.link_count,
+                            SearchableDepth(images.obstacle_depth_m),
+                            {1.0, false}},
+                           found);
         const LinkDistances truth = answer(Method::brute_force, images);
         for (std::size_t i = 0; i < truth.links.size(); ++i) {
           if (truth.links[i].status != found.links[i].status) *error = "status";

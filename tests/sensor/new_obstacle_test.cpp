@@ -101,13 +101,13 @@ class NewObstacle {
 
   std::vector<LinkDistance> distances(const ObstacleImage& image) const {
     constexpr int kMostLinks = 5;
-    ObstacleTree tree;
-    build_obstacle_tree(image.depth_m, tree);
+    SearchableDepth searchable;
+    searchable.build(image.depth_m);
     DistanceSettings settings;
     settings.mean_direction = false;
     EvaluateWorkspace workspace;
     LinkDistances out;
-    evaluate(Method::exact, scene_.camera, scene_.robot, image.depth_m, tree, kMostLinks, settings,
+    evaluate(Method::exact, {scene_.camera, scene_.robot, kMostLinks, searchable, settings},
              workspace, out);
     return out.links;
   }

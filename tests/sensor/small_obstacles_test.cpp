@@ -133,14 +133,14 @@ class SmallObstacles : public ::testing::TestWithParam<Shape> {
 
   std::vector<LinkDistance> distances(const DrawnScene& scene,
                                       const DepthImage& obstacles_m) const {
-    ObstacleTree tree;
-    build_obstacle_tree(obstacles_m, tree);
+    SearchableDepth searchable;
+    searchable.build(obstacles_m);
     DistanceSettings settings;
     settings.mean_direction = false;
     EvaluateWorkspace workspace;
     LinkDistances out;
-    evaluate(Method::exact, scene.camera, scene.robot, obstacles_m, tree, model_.link_count(),
-             settings, workspace, out);
+    evaluate(Method::exact, {scene.camera, scene.robot, model_.link_count(), searchable, settings},
+             workspace, out);
     return out.links;
   }
 

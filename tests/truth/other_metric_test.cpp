@@ -62,7 +62,9 @@ TEST(OtherMetric, TheHiddenRayIsNeverFartherThanItsReadingNorThanHirtsPoint) {
     const auto reading_m = distances_m(OtherMetric::reading);
     const auto ray_m = distances_m(OtherMetric::hidden_ray);
     LinkDistances hirt;
-    brute_force(images.camera, images.robot, images.obstacle_depth_m, 3, {.range_m = 9}, hirt);
+    brute_force(
+        {images.camera, images.robot, 3, SearchableDepth(images.obstacle_depth_m), {.range_m = 9}},
+        hirt);
     for (int i = 0; i < 3; ++i) {
       if (hirt.links[i].status != LinkStatus::ok) continue;
       EXPECT_LE(*ray_m[i], *reading_m[i] + 1e-9);

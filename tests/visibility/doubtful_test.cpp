@@ -44,7 +44,11 @@ DroppedScene dropped_scene(std::uint32_t seed) {
 
 LinkDistances distances_to(const DroppedScene& scene, const DepthImage& depth_m, double range_m) {
   LinkDistances distances;
-  brute_force(scene.images.camera, scene.images.robot, depth_m, kLinks, {.range_m = range_m},
+  brute_force({scene.images.camera,
+               scene.images.robot,
+               kLinks,
+               SearchableDepth(depth_m),
+               {.range_m = range_m}},
               distances);
   return distances;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "berth/distance/settings.hpp"
-#include "berth/types/camera.hpp"
+#include "berth/distance/question.hpp"
 #include "berth/types/link_distance.hpp"
 
 namespace berth {
@@ -9,11 +8,8 @@ namespace berth {
 /// Per link the closest pair of all its pixels and all obstacle pixels: **the definition of
 /// correct** (Hirt 2.10 to 2.14), and the baseline of benchmarks.
 ///
-/// Both images have the camera's size; obstacle_depth_m is NaN where nothing is. Link ids go from 1
-/// to link_count; pixels of kEnvironmentLink are not evaluated, any other id is a programming
-/// error. Of several pairs equally close, the first by rows. Fills everything but the mean
-/// direction (see mean_direction.hpp); out.pairs counts robot pixels times obstacle pixels with a
-/// depth.
+/// Of several pairs equally close, the first by rows. Fills everything but the mean direction (see
+/// mean_direction.hpp); out.pairs counts robot pixels times obstacle pixels with a depth.
 ///
 /// With another region than `image` in settings.surveillance, or the depth interval `cube`, each
 /// robot pixel is tried against its region of surveillance only, which shrinks with the link's
@@ -22,7 +18,6 @@ namespace berth {
 /// and cube can lose pairs: lower_bound_m is then 0.
 ///
 /// Throws std::invalid_argument for bad settings.
-void brute_force(const Camera& camera, const RobotImage& robot, DepthView obstacle_depth_m,
-                 int link_count, const DistanceSettings& settings, LinkDistances& out);
+void brute_force(const Question& question, LinkDistances& out);
 
 }  // namespace berth

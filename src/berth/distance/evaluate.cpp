@@ -33,18 +33,17 @@ std::optional<Method> method_from_name(std::string_view name) {
   return std::nullopt;
 }
 
-void evaluate(Method method, const Camera& camera, const RobotImage& robot,
-              DepthView obstacle_depth_m, const ObstacleTree& obstacles, int link_count,
-              const DistanceSettings& settings, EvaluateWorkspace& workspace, LinkDistances& out) {
+void evaluate(Method method, const Question& question, EvaluateWorkspace& workspace,
+              LinkDistances& out) {
   switch (method) {
     case Method::exact:
-      exact(camera, robot, obstacle_depth_m, obstacles, link_count, settings, workspace.exact, out);
+      exact(question, workspace.exact, out);
       break;
     case Method::brute_force:
-      brute_force(camera, robot, obstacle_depth_m, link_count, settings, out);
+      brute_force(question, out);
       break;
     case Method::lattice:
-      lattice(camera, robot, obstacle_depth_m, link_count, settings, workspace.lattice, out);
+      lattice(question, workspace.lattice, out);
       break;
     case Method::gl_exact:
     case Method::gl_lattice:
@@ -52,9 +51,8 @@ void evaluate(Method method, const Camera& camera, const RobotImage& robot,
       throw std::invalid_argument("method " + std::string(name_of(method)) +
                                   " runs on OpenGL; expected one that does not");
   }
-  if (settings.mean_direction) {
-    fill_mean_directions(camera, robot, obstacle_depth_m, obstacles, settings, workspace.directions,
-                         out);
+  if (question.settings.mean_direction) {
+    fill_mean_directions(question, workspace.directions, out);
   }
 }
 

@@ -36,13 +36,8 @@ struct EvaluateWorkspace {
 
 /// Per link the closest pair by one method, and where asked for the mean direction.
 ///
-/// obstacle_depth_m and the tree built from it are the same image; only brute_force and lattice
-/// do without the tree, unless mean directions are asked for. Both images have the camera's size.
-/// Link ids go from 1 to link_count; pixels of kEnvironmentLink are not evaluated, any other id is
-/// a programming error. Throws std::invalid_argument for bad settings, and for a method that runs
-/// on OpenGL.
-void evaluate(Method method, const Camera& camera, const RobotImage& robot,
-              DepthView obstacle_depth_m, const ObstacleTree& obstacles, int link_count,
-              const DistanceSettings& settings, EvaluateWorkspace& workspace, LinkDistances& out);
+/// Throws std::invalid_argument for bad settings, and for a method that runs on OpenGL.
+void evaluate(Method method, const Question& question, EvaluateWorkspace& workspace,
+              LinkDistances& out);
 
 }  // namespace berth

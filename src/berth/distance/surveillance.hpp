@@ -3,10 +3,8 @@
 #include <cstdint>
 
 #include "berth/distance/closest_pair.hpp"
+#include "berth/distance/question.hpp"
 #include "berth/distance/search_pattern.hpp"
-#include "berth/distance/settings.hpp"
-#include "berth/types/camera.hpp"
-#include "berth/types/image.hpp"
 
 namespace berth {
 
@@ -25,8 +23,8 @@ struct Surveillance {
 };
 
 /// Where the settings name no region, it is `usual_region`. The settings are valid.
-Surveillance surveillance_of(const Camera& camera, const Metric& metric, DepthView obstacle_depth_m,
-                             const DistanceSettings& settings, SurveillanceRegion usual_region);
+Surveillance surveillance_of(const Question& question, const Metric& metric,
+                             SurveillanceRegion usual_region);
 
 /// Replaces `best` by the closest pair of the robot pixel and every step-th obstacle pixel of its
 /// region of surveillance, where that is closer. Unless told otherwise, the region's L is the

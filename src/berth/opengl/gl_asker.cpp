@@ -42,8 +42,10 @@ const Answer& GlAsker::ask(const Frame& frame, std::optional<double> now_s) {
   const Timeliness time = timeliness_of(frame, now_s, asked_robot_->settings().time);
   if (!begin_answer(*asked_robot_, frame.stamp_s, frame.stamp_s, time, answer_)) return answer_;
   const EvaluationSettings& settings = asked_robot_->settings();
-  evaluator_.evaluate(settings.method, frame.view->camera(), frame.robot, frame.obstacles.depth_m,
-                      asked_robot_->model().link_count(), settings.distance, answer_.distances);
+  evaluator_.evaluate(settings.method,
+                      {frame.view->camera(), frame.robot, asked_robot_->model().link_count(),
+                       frame.searchable, settings.distance},
+                      answer_.distances);
   tell_visibility(frame, {frame.pose, frame.X_BC, frame.robot}, tell_, answer_);
   return answer_;
 }

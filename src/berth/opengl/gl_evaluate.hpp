@@ -24,9 +24,7 @@ class GlEvaluator {
                 LinkDistances& out);
 
   /// The same with images of this program's memory: uploads them first.
-  void evaluate(Method method, const Camera& camera, const RobotImage& robot,
-                DepthView obstacle_depth_m, int link_count, const DistanceSettings& settings,
-                LinkDistances& out);
+  void evaluate(Method method, const Question& question, LinkDistances& out);
 
  private:
   struct State;

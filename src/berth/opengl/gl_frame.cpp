@@ -9,7 +9,7 @@ void read_back(const GlFrame& frame, Frame& out) {
   if (frame.time.status != TimeStatus::ok) return clear_images(frame.view->camera(), out);
   read_back(frame.robot, out.robot);
   read_back(frame.obstacles, out.obstacles);
-  build_obstacle_tree(out.obstacles.depth_m, out.obstacle_tree);
+  out.searchable.build(out.obstacles.depth_m);
   DepthImage sensor_depth_m;
   read_back(frame.sensor_depth_m, sensor_depth_m);
   find_doubtful(sensor_depth_m, out.obstacles, out.doubtful);

@@ -37,17 +37,8 @@ const Answer& Asker::ask(const Frame& frame, const JointBuffer& joints, double n
 }
 
 const Answer& Asker::evaluate_robot(const Frame& frame, const AskedRobot& robot) {
-  evaluate(robot_->settings().method, frame.view->camera(), robot.image, frame.obstacles.depth_m,
-           frame.obstacle_tree, robot_->model().link_count(), robot_->settings().distance,
+  evaluate(robot_->settings().method,
+           {frame.view->camera(), robot.image, robot_->model().link_count(), frame.searchable,
+            robot_->settings().distance},
            workspace_, answer_.distances);
   tell_visibility(frame, robot, tell_, answer_);
-  return answer_;
-}
-
-RobotRenderer& Asker::renderer_of(const std::shared_ptr<const View>& view) {
-  if (rendered_view_ == view) return *renderer_;
-  rendered_view_ = view;
-  return renderer_.emplace(robot_->meshes(), view->camera());
-}
-
-}  // namespace berth

@@ -11,7 +11,7 @@ void clear_images(const Camera& camera, Frame& frame) {
   frame.obstacles.fate.resize(width, height, PixelFate::no_reading);
   frame.obstacles.count = {};
   frame.obstacles.count[static_cast<std::size_t>(PixelFate::no_reading)] = width * height;
-  build_obstacle_tree(frame.obstacles.depth_m, frame.obstacle_tree);
+  frame.searchable.build(frame.obstacles.depth_m);
   clear_doubtful(width, height, frame.doubtful);
 }
 

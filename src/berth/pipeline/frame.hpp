@@ -1,6 +1,6 @@
 #pragma once
 
-#include "berth/distance/obstacle_tree.hpp"
+#include "berth/distance/searchable_depth.hpp"
 #include "berth/pipeline/exposure.hpp"
 #include "berth/types/obstacle_image.hpp"
 #include "berth/types/robot_image.hpp"
@@ -13,13 +13,6 @@ struct Frame : Exposure {
   /// The robot at that time.
   RobotImage robot;
   ObstacleImage obstacles;
-  ObstacleTree obstacle_tree;
+  /// Of obstacles.depth_m.
+  SearchableDepth searchable;
   /// Empty unless EvaluationSettings::visibility is set.
-  DoubtfulImage doubtful;
-};
-
-/// Empties the images of a frame whose time is not ok: nothing of the image before may stay under a
-/// new stamp.
-void clear_images(const Camera& camera, Frame& frame);
-
-}  // namespace berth

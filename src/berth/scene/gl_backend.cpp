@@ -67,11 +67,9 @@ class OpenGl : public GlBackend {
   std::unique_ptr<FrameAsker> make_asker(const std::shared_ptr<const Robot>& robot) override {
     return std::make_unique<FrameAskerOnGl>(robot);
   }
-  void evaluate(Method method, const Camera& camera, const RobotImage& robot,
-                DepthView obstacle_depth_m, int link_count, const DistanceSettings& settings,
-                LinkDistances& out) override {
+  void evaluate(Method method, const Question& question, LinkDistances& out) override {
     if (!evaluator_) evaluator_.emplace();
-    evaluator_->evaluate(method, camera, robot, obstacle_depth_m, link_count, settings, out);
+    evaluator_->evaluate(method, question, out);
   }
 
  private:

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "berth/distance/settings.hpp"
+#include "berth/distance/evaluate.hpp"
 #include "berth/pipeline/answer.hpp"
 #include "berth/pipeline/frame.hpp"
 #include "berth/pipeline/view.hpp"
@@ -33,9 +33,7 @@ class GlBackend {
   virtual std::unique_ptr<FramePipeline> make_pipeline(const std::shared_ptr<const View>& view) = 0;
   virtual std::unique_ptr<FrameAsker> make_asker(const std::shared_ptr<const Robot>& robot) = 0;
   /// As evaluate(), for a method that runs on OpenGL.
-  virtual void evaluate(Method method, const Camera& camera, const RobotImage& robot,
-                        DepthView obstacle_depth_m, int link_count,
-                        const DistanceSettings& settings, LinkDistances& out) = 0;
+  virtual void evaluate(Method method, const Question& question, LinkDistances& out) = 0;
 };
 
 /// Throws std::runtime_error where the device, OpenGL or berth's own part for it is not there.

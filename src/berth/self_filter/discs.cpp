@@ -31,7 +31,7 @@ bool has_open(const PixelRect& rect, const Image<PixelFate>& fate) {
 
 /// Some pixels of one row that may be covered.
 template <class D>
-struct Pixels {
+struct PixelLanes {
   int v;
   hn::Vec<D> u;
   hn::Vec<D> reading_m;
@@ -71,7 +71,7 @@ HWY_INLINE hn::Mask<D> is_on_surface(D d, DepthView depth_m, int u, int v, hn::V
 }
 
 template <class D>
-HWY_INLINE bool may_reach(D d, const Pixels<D>& pixels, const DiscTile& tile) {
+HWY_INLINE bool may_reach(D d, const PixelLanes<D>& pixels, const DiscTile& tile) {
   const PixelRect& bounds = tile.bounds;
   const auto dv =
       static_cast<float>(std::max({0, bounds.v_begin - pixels.v, pixels.v - (bounds.v_end - 1)}));
@@ -87,7 +87,7 @@ HWY_INLINE bool may_reach(D d, const Pixels<D>& pixels, const DiscTile& tile) {
 
 /// Closes the pixels that the disc covers.
 template <class D>
-HWY_INLINE void cover(D d, const Disc& disc, Pixels<D>& pixels) {
+HWY_INLINE void cover(D d, const Disc& disc, PixelLanes<D>& pixels) {
   const double dv = pixels.v - static_cast<double>(disc.v_px);
   const double width2 = disc.radius2_px2 - disc.squash * dv * dv;
   if (width2 < 0) return;
@@ -101,7 +101,7 @@ HWY_INLINE void cover(D d, const Disc& disc, Pixels<D>& pixels) {
 }
 
 template <class D>
-HWY_INLINE void cover_all(D d, const std::vector<NearDiscTile>& tiles, Pixels<D>& pixels) {
+HWY_INLINE void cover_all(D d, const std::vector<NearDiscTile>& tiles, PixelLanes<D>& pixels) {
   for (const NearDiscTile& near : tiles) {
     if (!may_reach(d, pixels, *near.tile)) continue;
     for (std::uint32_t i = 0; i < near.tile->count; ++i) {
@@ -124,8 +124,8 @@ void cover_tile(const PixelRect& rect, const std::vector<NearDiscTile>& tiles, P
       const auto reading_m = hn::LoadU(d, images.sensor_depth_m.row(v) + u);
       const auto below_all = hn::Set(d, -std::numeric_limits<float>::infinity());
       const auto on_surface = is_on_surface(d, images.sensor_depth_m, u, v, reading_m);
-      Pixels<D> pixels{v, hn::Iota(d, static_cast<float>(u)), reading_m,
-                       hn::IfThenElse(on_surface, reading_m, below_all), open};
+      PixelLanes<D> pixels{v, hn::Iota(d, static_cast<float>(u)), reading_m,
+                           hn::IfThenElse(on_surface, reading_m, below_all), open};
       cover_all(d, tiles, pixels);
       const auto covered = hn::AndNot(pixels.open, open);
       store_fate(d, choose(d, covered, code(d, grown), was), fate);

@@ -15,7 +15,7 @@ namespace berth {
 namespace HWY_NAMESPACE {
 
 template <class D>
-HWY_INLINE hn::Mask<D> is_candidate(D d, const Candidates& candidates, int u, int v) {
+HWY_INLINE hn::Mask<D> is_candidate(D d, const CandidatePixels& candidates, int u, int v) {
   const auto z = hn::LoadU(d, candidates.sensor_depth_m.row(v) + u);
   const auto in_range = hn::And(hn::Ge(z, hn::Set(d, candidates.range.min_m)),
                                 hn::Le(z, hn::Set(d, candidates.range.max_m)));
@@ -60,7 +60,7 @@ BoxC robot_box(const RobotSurface& surface, const PixelRect& pixels) {
   return box_of_boxes(columns);
 }
 
-BoxC candidate_box(const RobotSurface& surface, const Candidates& candidates,
+BoxC candidate_box(const RobotSurface& surface, const CandidatePixels& candidates,
                    const PixelRect& pixels) {
   BoxPack columns;
   for (int v = pixels.v_begin; v < pixels.v_end; ++v) {
@@ -72,7 +72,8 @@ BoxC candidate_box(const RobotSurface& surface, const Candidates& candidates,
   return box_of_boxes(columns);
 }
 
-void mark_all(const Candidates& candidates, const PixelRect& pixels, Image<std::uint8_t>& near) {
+void mark_all(const CandidatePixels& candidates, const PixelRect& pixels,
+              Image<std::uint8_t>& near) {
   for (int v = pixels.v_begin; v < pixels.v_end; ++v) {
     for_pixels(pixels.u_begin, pixels.u_end, [&](auto d, int u) HWY_ATTR {
       const hn::Rebind<std::int32_t, decltype(d)> di;
@@ -126,7 +127,7 @@ bool is_near_any(const RobotSurface& surface, const Point& p, float radius2_m2,
   return false;
 }
 
-bool mark_near_pixels(const RobotSurface& surface, const Candidates& candidates,
+bool mark_near_pixels(const RobotSurface& surface, const CandidatePixels& candidates,
                       const PixelRect& pixels, float radius2_m2, std::vector<RobotTile>& tiles,
                       Image<std::uint8_t>& near) {
   const DepthRange& range = candidates.range;
@@ -161,18 +162,19 @@ BoxC box_of_robot(const RobotSurface& surface, const PixelRect& pixels) {
   return HWY_DYNAMIC_DISPATCH(robot_box)(surface, pixels);
 }
 
-BoxC box_of_candidates(const RobotSurface& surface, const Candidates& candidates,
+BoxC box_of_candidates(const RobotSurface& surface, const CandidatePixels& candidates,
                        const PixelRect& pixels) {
   return HWY_DYNAMIC_DISPATCH(candidate_box)(surface, candidates, pixels);
 }
 
-void mark_candidates(const Candidates& candidates, const PixelRect& pixels,
+void mark_candidates(const CandidatePixels& candidates, const PixelRect& pixels,
                      Image<std::uint8_t>& near) {
   HWY_DYNAMIC_DISPATCH(mark_all)(candidates, pixels, near);
 }
 
-bool mark_near(const RobotSurface& surface, const Candidates& candidates, const PixelRect& pixels,
-               float radius2_m2, std::vector<RobotTile>& tiles, Image<std::uint8_t>& near) {
+bool mark_near(const RobotSurface& surface, const CandidatePixels& candidates,
+               const PixelRect& pixels, float radius2_m2, std::vector<RobotTile>& tiles,
+               Image<std::uint8_t>& near) {
   return HWY_DYNAMIC_DISPATCH(mark_near_pixels)(surface, candidates, pixels, radius2_m2, tiles,
                                                 near);
 }

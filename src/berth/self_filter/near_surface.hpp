@@ -24,7 +24,7 @@ struct DepthRange {
 };
 
 /// The obstacle pixels in a range of depths.
-struct Candidates {
+struct CandidatePixels {
   DepthView sensor_depth_m;
   const Image<PixelFate>& fate;
   DepthRange range;
@@ -34,7 +34,7 @@ struct Candidates {
 BoxC box_of_robot(const RobotSurface& surface, const PixelRect& pixels);
 
 /// The box around the candidates within `pixels`.
-BoxC box_of_candidates(const RobotSurface& surface, const Candidates& candidates,
+BoxC box_of_candidates(const RobotSurface& surface, const CandidatePixels& candidates,
                        const PixelRect& pixels);
 
 /// A tile of robot pixels.
@@ -44,12 +44,13 @@ struct RobotTile {
 };
 
 /// Writes 1 to near(u, v) for every candidate within `pixels`, 0 for the other pixels there.
-void mark_candidates(const Candidates& candidates, const PixelRect& pixels,
+void mark_candidates(const CandidatePixels& candidates, const PixelRect& pixels,
                      Image<std::uint8_t>& near);
 
 /// Writes 1 to near(u, v) for those candidates within `pixels` that some robot pixel of `tiles` is
 /// within the radius of; returns whether there is one. Reorders the tiles.
-bool mark_near(const RobotSurface& surface, const Candidates& candidates, const PixelRect& pixels,
-               float radius2_m2, std::vector<RobotTile>& tiles, Image<std::uint8_t>& near);
+bool mark_near(const RobotSurface& surface, const CandidatePixels& candidates,
+               const PixelRect& pixels, float radius2_m2, std::vector<RobotTile>& tiles,
+               Image<std::uint8_t>& near);
 
 }  // namespace berth

@@ -104,14 +104,15 @@ void RobotNeighbourhood::find_near(int tile_row, DepthView sensor_depth_m,
   Row& row = rows_[tile_row];
   row.near.clear();
   if (tile_row < candidate_tiles_.v_begin || tile_row >= candidate_tiles_.v_end) return;
-  const Candidates candidates{sensor_depth_m, fate, range_};
+  const CandidatePixels candidates{sensor_depth_m, fate, range_};
   for (int column = candidate_tiles_.u_begin; column < candidate_tiles_.u_end; ++column) {
     const PixelRect pixels = grid_.pixels(column, tile_row);
     if (find_near_in_tile(pixels, candidates, row.robot, near)) row.near.push_back(pixels);
   }
 }
 
-bool RobotNeighbourhood::find_near_in_tile(const PixelRect& pixels, const Candidates& candidates,
+bool RobotNeighbourhood::find_near_in_tile(const PixelRect& pixels,
+                                           const CandidatePixels& candidates,
                                            std::vector<RobotTile>& robot_tiles,
                                            Image<std::uint8_t>& near) const {
   const BoxC box = box_of_candidates(surface(), candidates, pixels);

@@ -49,7 +49,7 @@ class RobotNeighbourhood {
   PixelRect pixels_of(std::size_t group, int i) const;
   void set_range();
   PixelRect candidate_tiles() const;
-  bool find_near_in_tile(const PixelRect& pixels, const Candidates& candidates,
+  bool find_near_in_tile(const PixelRect& pixels, const CandidatePixels& candidates,
                          std::vector<RobotTile>& robot_tiles, Image<std::uint8_t>& near) const;
 
   const Camera* camera_ = nullptr;

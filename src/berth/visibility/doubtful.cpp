@@ -47,7 +47,7 @@ void find_doubtful(DepthView sensor_depth_m, const ObstacleImage& obstacles, Dou
       add({u, v}, out.extent);
     }
   }
-  build_obstacle_tree(out.depth_m, out.tree);
+  out.searchable.build(out.depth_m);
 }
 
 void find_doubtful_distances(const Camera& camera, const RobotImage& robot,
@@ -57,8 +57,8 @@ void find_doubtful_distances(const Camera& camera, const RobotImage& robot,
   assert(out.size() == distances.links.size());
   const bool has_any = !doubtful.extent.empty();
   if (has_any) {
-    exact(camera, robot, doubtful.depth_m, doubtful.tree, static_cast<int>(out.size()),
-          {.range_m = range_m}, workspace.exact, workspace.distances);
+    exact({camera, robot, static_cast<int>(out.size()), doubtful.searchable, {.range_m = range_m}},
+          workspace.exact, workspace.distances);
   }
   for (std::size_t i = 0; i < out.size(); ++i) {
     out[i].doubtful_distance_m = std::numeric_limits<float>::quiet_NaN();

@@ -16,7 +16,7 @@ struct DoubtfulImage {
   /// Holds them all; empty where there are none, and then the tree is not built.
   PixelRect extent;
   /// Of depth_m.
-  ObstacleTree tree;
+  SearchableDepth searchable;
 };
 
 /// Leaves an image of this size without doubtful pixels.

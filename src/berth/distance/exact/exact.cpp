@@ -15,97 +15,94 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// What all links have in common.
-struct Question {
-  const Metric& metric;
-  const RobotImage& robot;
-  DepthView obstacle_depth_m;
-  const ObstacleTree& obstacles;
+struct Task {
+  const Question& question;
+  Metric metric;
   float range_m;
   /// A link is done once its answer is known to this.
   float tolerance_m;
 };
 
 /// The last answer's pair as it is in the new images; a pair at the range where it is no more.
-ClosestPair first_guess(const Question& question, const LinkDistance& last, LinkId id) {
-  const ClosestPair none = no_pair_within(question.range_m);
+ClosestPair first_guess(const Task& task, const LinkDistance& last, LinkId id) {
+  const ClosestPair none = no_pair_within(task.range_m);
   const Pixel r = last.robot_pixel;
   const Pixel o = last.obstacle_pixel;
-  const DepthView& obstacle_m = question.obstacle_depth_m;
+  const DepthView obstacle_m = task.question.obstacles.depth_m();
   const auto is_inside = [&](Pixel p) {
     return p.u >= 0 && p.v >= 0 && p.u < obstacle_m.width && p.v < obstacle_m.height;
   };
-  if (!is_inside(r) || !is_inside(o) || question.robot.link_id(r.u, r.v) != id) return none;
+  if (!is_inside(r) || !is_inside(o) || task.question.robot.link_id(r.u, r.v) != id) return none;
   ClosestPair pair{0,
                    static_cast<float>(r.u),
                    static_cast<float>(r.v),
-                   question.robot.depth_m(r.u, r.v),
+                   task.question.robot.depth_m(r.u, r.v),
                    static_cast<float>(o.u),
                    static_cast<float>(o.v),
                    obstacle_m(o.u, o.v)};
-  pair.squared_m2 = squared_distance_m2(question.metric, pair.ru, pair.rv, pair.robot_depth_m,
-                                        pair.ou, pair.ov, pair.obstacle_depth_m);
+  pair.squared_m2 = squared_distance_m2(task.metric, pair.ru, pair.rv, pair.robot_depth_m, pair.ou,
+                                        pair.ov, pair.obstacle_depth_m);
   return pair.squared_m2 < none.squared_m2 ? pair : none;
 }
 
-void start(const Question& question, const LinkDistances& last, ExactWorkspace& workspace) {
+void start(const Task& task, const LinkDistances& last, ExactWorkspace& workspace) {
   workspace.links.resize(workspace.robot.links.size());
   workspace.order.resize(workspace.robot.nodes.size());
   int first_order = 0;
   for (std::size_t i = 0; i < workspace.links.size(); ++i) {
     const LinkDistance guess = i < last.links.size() ? last.links[i] : LinkDistance{};
-    workspace.links[i] = {first_guess(question, guess, static_cast<LinkId>(i + 1)), 0,
+    workspace.links[i] = {first_guess(task, guess, static_cast<LinkId>(i + 1)), 0,
                           workspace.robot.links[i].pixels == 0, 0, first_order};
     first_order += workspace.robot.links[i].node_count;
   }
 }
 
 /// Searches on for one link, from the best pair that it has.
-void search_on(const Question& question, const SearchLimits& limits, ExactWorkspace& workspace,
+void search_on(const Task& task, const SearchLimits& limits, ExactWorkspace& workspace,
                std::size_t i) {
   ExactWorkspace::LinkSearch& link = workspace.links[i];
   const bool is_late = limits.deadline != Clock::time_point::max() && link.best.ru >= 0 &&
                        link.lower_bound_m > 0 && Clock::now() >= limits.deadline;
   if (link.is_done || is_late) return;
-  const SearchResult result =
-      search_link({question.metric, workspace.robot, question.robot.depth_m, question.obstacles,
-                   question.obstacle_depth_m, workspace.order.data() + link.first_order},
-                  workspace.robot.links[i].last_node, limits, link.best);
+  const SearchResult result = search_link(
+      {task.metric, workspace.robot, task.question.robot.depth_m, task.question.obstacles.tree(),
+       task.question.obstacles.depth_m(), workspace.order.data() + link.first_order},
+      workspace.robot.links[i].last_node, limits, link.best);
   link.pairs += result.pairs;
   link.lower_bound_m = std::max(link.lower_bound_m, result.lower_bound_m);
-  link.is_done = result.complete && limits.tolerance_m <= question.tolerance_m;
+  link.is_done = result.complete && limits.tolerance_m <= task.tolerance_m;
 }
 
-void search_all(const Question& question, const SearchLimits& limits, ExactWorkspace& workspace) {
+void search_all(const Task& task, const SearchLimits& limits, ExactWorkspace& workspace) {
   tbb::parallel_for(std::size_t{0}, workspace.links.size(),
-                    [&](std::size_t i) { search_on(question, limits, workspace, i); });
+                    [&](std::size_t i) { search_on(task, limits, workspace, i); });
 }
 
 /// Against a deadline: a search that is cut leaves bounds of all sizes behind, but one that ends
 /// within a tolerance a bound near its answer. So what is not easy gets such a bound first.
-void search_until(Clock::time_point begin, Clock::duration wait, const Question& question,
+void search_until(Clock::time_point begin, Clock::duration wait, const Task& task,
                   ExactWorkspace& workspace) {
   constexpr double kEasyPart = 0.3;
   constexpr float kFirstTolerance_m = 4e-3f;
-  SearchLimits limits{question.tolerance_m};
+  SearchLimits limits{task.tolerance_m};
   limits.deadline = begin + std::chrono::duration_cast<Clock::duration>(kEasyPart * wait);
-  search_all(question, limits, workspace);
+  search_all(task, limits, workspace);
   limits.deadline = begin + wait;
-  if (question.tolerance_m < kFirstTolerance_m) {
-    search_all(question, {kFirstTolerance_m, limits.deadline, 0}, workspace);
+  if (task.tolerance_m < kFirstTolerance_m) {
+    search_all(task, {kFirstTolerance_m, limits.deadline, 0}, workspace);
   }
-  search_all(question, limits, workspace);
+  search_all(task, limits, workspace);
 }
 
-LinkDistance answer_of(const Question& question, LinkId id, int robot_pixels,
+LinkDistance answer_of(const Task& task, LinkId id, int robot_pixels,
                        const ExactWorkspace::LinkSearch& search) {
-  LinkDistance link =
-      link_distance(id, robot_pixels, question.metric, search.best, question.range_m);
-  if (search.is_done && question.tolerance_m == 0) return link;
+  LinkDistance link = link_distance(id, robot_pixels, task.metric, search.best, task.range_m);
+  if (search.is_done && task.tolerance_m == 0) return link;
   if (link.status == LinkStatus::ok) {
     link.lower_bound_m = std::min(search.lower_bound_m, link.distance_m);
   } else if (!search.is_done) {
     link.status = LinkStatus::cut_short;
-    link.lower_bound_m = std::min(search.lower_bound_m, question.range_m);
+    link.lower_bound_m = std::min(search.lower_bound_m, task.range_m);
   }
   return link;
 }
@@ -119,35 +116,30 @@ void sort_by_bound(ExactWorkspace::NodeOrder* order, int count) {
             [](const auto& a, const auto& b) { return a.bound_m2 < b.bound_m2; });
 }
 
-void exact(const Camera& camera, const RobotImage& robot, DepthView obstacle_depth_m,
-           const ObstacleTree& obstacles, int link_count, const DistanceSettings& settings,
-           ExactWorkspace& workspace, LinkDistances& out) {
+void exact(const Question& question, ExactWorkspace& workspace, LinkDistances& out) {
   const Clock::time_point begin = Clock::now();
+  const DistanceSettings& settings = question.settings;
   validate(settings);
-  assert(robot.depth_m.width() == obstacles.width && robot.depth_m.height() == obstacles.height);
-  const Metric metric = metric_of(camera);
-  const Question question{metric,
-                          robot,
-                          obstacle_depth_m,
-                          obstacles,
-                          static_cast<float>(settings.range_m),
-                          static_cast<float>(settings.tolerance_m)};
-  build_robot_tiles(robot, link_count, workspace.robot);
-  start(question, out, workspace);
+  assert(question.robot.depth_m.width() == question.obstacles.depth_m().width);
+  assert(question.robot.depth_m.height() == question.obstacles.depth_m().height);
+  const Task task{question, metric_of(question.camera), static_cast<float>(settings.range_m),
+                  static_cast<float>(settings.tolerance_m)};
+  build_robot_tiles(question.robot, question.link_count, workspace.robot);
+  start(task, out, workspace);
   if (settings.deadline_us) {
     const std::chrono::duration<double, std::micro> wait(std::min(*settings.deadline_us, 1e12));
-    search_until(begin, std::chrono::duration_cast<Clock::duration>(wait), question, workspace);
+    search_until(begin, std::chrono::duration_cast<Clock::duration>(wait), task, workspace);
   } else {
-    SearchLimits limits{question.tolerance_m};
-    if (question.tolerance_m > 0) limits.most_work_unaligned /= 2;
-    search_all(question, limits, workspace);
+    SearchLimits limits{task.tolerance_m};
+    if (task.tolerance_m > 0) limits.most_work_unaligned /= 2;
+    search_all(task, limits, workspace);
   }
 
   out.pairs = 0;
-  out.links.resize(link_count);
-  for (int i = 0; i < link_count; ++i) {
+  out.links.resize(question.link_count);
+  for (int i = 0; i < question.link_count; ++i) {
     out.pairs += workspace.links[i].pairs;
-    out.links[i] = answer_of(question, static_cast<LinkId>(i + 1), workspace.robot.links[i].pixels,
+    out.links[i] = answer_of(task, static_cast<LinkId>(i + 1), workspace.robot.links[i].pixels,
                              workspace.links[i]);
   }
 }

@@ -4,9 +4,7 @@
 
 #include "berth/distance/closest_pair.hpp"
 #include "berth/distance/exact/robot_tiles.hpp"
-#include "berth/distance/obstacle_tree.hpp"
-#include "berth/distance/settings.hpp"
-#include "berth/types/camera.hpp"
+#include "berth/distance/question.hpp"
 #include "berth/types/link_distance.hpp"
 
 namespace berth {
@@ -38,17 +36,12 @@ struct ExactWorkspace {
 /// links side by side on the threads that TBB has; of several pairs equally close it may name
 /// another one.
 ///
-/// obstacle_depth_m and the tree built from it are the same image; the images have the camera's
-/// size. Link ids go from 1 to link_count; pixels of kEnvironmentLink are not evaluated, any other
-/// id is a programming error. Fills everything but the mean direction (see mean_direction.hpp).
-/// With settings.tolerance_m or deadline_us every link has lower_bound_m <= true distance <=
-/// distance_m.
+/// Fills everything but the mean direction (see mean_direction.hpp). With settings.tolerance_m or
+/// deadline_us every link has lower_bound_m <= true distance <= distance_m.
 ///
 /// If `out` holds an answer on entry, its pairs, looked up in the new images, are the first guess:
 /// that saves time where little has moved and changes no distance. Allocates nothing once the
 /// workspace and `out` have grown to the scene. Throws std::invalid_argument for bad settings.
-void exact(const Camera& camera, const RobotImage& robot, DepthView obstacle_depth_m,
-           const ObstacleTree& obstacles, int link_count, const DistanceSettings& settings,
-           ExactWorkspace& workspace, LinkDistances& out);
+void exact(const Question& question, ExactWorkspace& workspace, LinkDistances& out);
 
 }  // namespace berth

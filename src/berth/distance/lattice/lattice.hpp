@@ -2,10 +2,8 @@
 
 #include "berth/distance/lattice/link_lattice.hpp"
 #include "berth/distance/lattice/link_pixels.hpp"
-#include "berth/distance/settings.hpp"
-#include "berth/types/camera.hpp"
+#include "berth/distance/question.hpp"
 #include "berth/types/link_distance.hpp"
-#include "berth/types/robot_image.hpp"
 
 namespace berth {
 
@@ -25,8 +23,6 @@ struct LatticeWorkspace {
 /// lower_bound_m is 0 for every visible link: nothing is certified. Otherwise as brute_force;
 /// out.pairs counts the pairs computed. Allocates nothing once the workspace and `out` have grown
 /// to the scene. Throws std::invalid_argument for bad settings.
-void lattice(const Camera& camera, const RobotImage& robot, DepthView obstacle_depth_m,
-             int link_count, const DistanceSettings& settings, LatticeWorkspace& workspace,
-             LinkDistances& out);
+void lattice(const Question& question, LatticeWorkspace& workspace, LinkDistances& out);
 
 }  // namespace berth

@@ -242,10 +242,10 @@ class Builder {
 
 }  // namespace
 
-void build_direction_blocks(const Camera& camera, DepthView obstacle_depth_m,
-                            const ObstacleTree& obstacles, const PixelRect& rect, float max_depth_m,
-                            DirectionBlocks& blocks) {
-  const ObstacleTree::Level& level = obstacles.levels[0];
+void build_direction_blocks(const Camera& camera, const SearchableDepth& obstacles,
+                            const PixelRect& rect, float max_depth_m, DirectionBlocks& blocks) {
+  const DepthView obstacle_depth_m = obstacles.depth_m();
+  const ObstacleTree::Level& level = obstacles.tree().levels[0];
   const int tiles = static_cast<int>(level.nodes.size()) * ObstacleTree::kChildren;
   // Each tile makes two blocks at most.
   blocks.chunks.resize(2 * tiles / Chunk::kBlocks + 1);

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "berth/distance/obstacle_tree.hpp"
+#include "berth/distance/searchable_depth.hpp"
 #include "berth/types/camera.hpp"
 
 namespace berth {
@@ -54,8 +54,7 @@ struct DirectionBlocks {
 
 /// Sums up the tiles of the tree that have a pixel in the rectangle and a reading no deeper than
 /// max_depth_m; reuses the blocks' memory.
-void build_direction_blocks(const Camera& camera, DepthView obstacle_depth_m,
-                            const ObstacleTree& obstacles, const PixelRect& rect, float max_depth_m,
-                            DirectionBlocks& blocks);
+void build_direction_blocks(const Camera& camera, const SearchableDepth& obstacles,
+                            const PixelRect& rect, float max_depth_m, DirectionBlocks& blocks);
 
 }  // namespace berth

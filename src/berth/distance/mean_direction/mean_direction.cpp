@@ -8,11 +8,12 @@
 namespace berth {
 namespace {
 
-DirectionSum start_at(const Camera& camera, const RobotImage& robot, Pixel pixel, double range_m) {
-  const float depth_m = robot.depth_m(pixel.u, pixel.v);
+DirectionSum start_at(const Question& question, Pixel pixel) {
+  const float depth_m = question.robot.depth_m(pixel.u, pixel.v);
+  const double range_m = question.settings.range_m;
   return {static_cast<float>(pixel.u), static_cast<float>(pixel.v), depth_m,
           static_cast<float>(depth_m + range_m),
-          region_of_surveillance(camera, pixel, depth_m, range_m)};
+          region_of_surveillance(question.camera, pixel, depth_m, range_m)};
 }
 
 void fill(const DirectionSum& sum, LinkDistance& link) {
@@ -23,16 +24,15 @@ void fill(const DirectionSum& sum, LinkDistance& link) {
 
 }  // namespace
 
-void fill_mean_directions(const Camera& camera, const RobotImage& robot, DepthView obstacle_depth_m,
-                          const ObstacleTree& obstacles, const DistanceSettings& settings,
-                          DirectionWorkspace& workspace, LinkDistances& distances) {
-  validate(settings);
+void fill_mean_directions(const Question& question, DirectionWorkspace& workspace,
+                          LinkDistances& distances) {
+  validate(question.settings);
   workspace.sums.clear();
   for (LinkDistance& link : distances.links) {
     link.mean_direction_C.setConstant(std::numeric_limits<float>::quiet_NaN());
     link.mean_count = 0;
     if (link.status != LinkStatus::ok) continue;
-    workspace.sums.push_back(start_at(camera, robot, link.robot_pixel, settings.range_m));
+    workspace.sums.push_back(start_at(question, link.robot_pixel));
   }
   if (workspace.sums.empty()) return;
 
@@ -42,9 +42,10 @@ void fill_mean_directions(const Camera& camera, const RobotImage& robot, DepthVi
     rect = united(rect, sum.rect);
     max_depth_m = std::max(max_depth_m, sum.max_depth_m);
   }
-  build_direction_blocks(camera, obstacle_depth_m, obstacles, rect, max_depth_m, workspace.blocks);
-  sum_directions(metric_of(camera), obstacle_depth_m, workspace.blocks, kMeanDirectionError,
-                 workspace.sums.data(), static_cast<int>(workspace.sums.size()));
+  build_direction_blocks(question.camera, question.obstacles, rect, max_depth_m, workspace.blocks);
+  sum_directions(metric_of(question.camera), question.obstacles.depth_m(), workspace.blocks,
+                 kMeanDirectionError, workspace.sums.data(),
+                 static_cast<int>(workspace.sums.size()));
   auto sum = workspace.sums.begin();
   for (LinkDistance& link : distances.links) {
     if (link.status == LinkStatus::ok) fill(*sum++, link);

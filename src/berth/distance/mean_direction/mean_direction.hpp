@@ -4,10 +4,8 @@
 
 #include "berth/distance/mean_direction/direction_blocks.hpp"
 #include "berth/distance/mean_direction/direction_sum.hpp"
-#include "berth/distance/settings.hpp"
-#include "berth/types/camera.hpp"
+#include "berth/distance/question.hpp"
 #include "berth/types/link_distance.hpp"
-#include "berth/types/robot_image.hpp"
 
 namespace berth {
 
@@ -28,10 +26,9 @@ struct DirectionWorkspace {
 /// farthest is the robot pixel's depth + range_m. A pair at distance 0 has no direction and does
 /// not count. The count is exact, the direction within kMeanDirectionError. NaN and 0 for a link
 /// that is not ok, or that nothing counts for. Allocates nothing once the workspace has grown to
-/// the scene. The images have the camera's size.
-void fill_mean_directions(const Camera& camera, const RobotImage& robot, DepthView obstacle_depth_m,
-                          const ObstacleTree& obstacles, const DistanceSettings& settings,
-                          DirectionWorkspace& workspace, LinkDistances& distances);
+/// the scene.
+void fill_mean_directions(const Question& question, DirectionWorkspace& workspace,
+                          LinkDistances& distances);
 
 /// The minimum's magnitude with the mean's direction (Flacco), in frame C; NaN where either is
 /// missing or the mean has no direction.

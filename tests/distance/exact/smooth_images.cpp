@@ -1,4 +1,4 @@
-#include "tests/distance/smooth_images.hpp"
+#include "tests/distance/exact/smooth_images.hpp"
 
 #include <algorithm>
 #include <cmath>

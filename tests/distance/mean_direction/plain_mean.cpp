@@ -1,4 +1,4 @@
-#include "tests/distance/plain_mean.hpp"
+#include "tests/distance/mean_direction/plain_mean.hpp"
 
 #include "berth/distance/metric.hpp"
 #include "berth/distance/region_of_surveillance.hpp"
@@ -7,10 +7,10 @@ namespace berth::testing {
 
 LinkDistances with_mean(const ImagePair& images, double range_m) {
   LinkDistances found = answer(Method::exact, images, range_m);
-  ObstacleTree tree;
-  build_obstacle_tree(images.obstacle_depth_m, tree);
+  SearchableDepth obstacles;
+  obstacles.build(images.obstacle_depth_m);
   DirectionWorkspace workspace;
-  fill_mean_directions(images.camera, images.robot, images.obstacle_depth_m, tree, {range_m, true},
+  fill_mean_directions({images.camera, images.robot, images.link_count, obstacles, {range_m, true}},
                        workspace, found);
   return found;
 }

@@ -1,7 +1,7 @@
 #include "berth/distance/mean_direction/mean_direction.hpp"
 
 #include "tests/distance/answer.hpp"
-#include "tests/distance/plain_mean.hpp"
+#include "tests/distance/mean_direction/plain_mean.hpp"
 
 namespace berth::testing {
 namespace {
@@ -53,13 +53,13 @@ TEST(MeanDirection, IsFilledOnlyWhereAskedFor) {
   ImagePair images = empty_images(60, 40, 1);
   put_robot(images, 20, 10, 1.0f);
   put_obstacle(images, {30, 10, 31, 11}, 1.0f);
-  ObstacleTree tree;
-  build_obstacle_tree(images.obstacle_depth_m, tree);
+  SearchableDepth obstacles;
+  obstacles.build(images.obstacle_depth_m);
   EvaluateWorkspace workspace;
   LinkDistances out;
   for (const bool asked : {true, false}) {
-    evaluate(Method::exact, images.camera, images.robot, images.obstacle_depth_m, tree, 1,
-             {1.0, asked}, workspace, out);
+    evaluate(Method::exact, {images.camera, images.robot, 1, obstacles, {1.0, asked}}, workspace,
+             out);
     EXPECT_EQ(out.links[0].mean_count, asked ? 1 : 0);
   }
 }

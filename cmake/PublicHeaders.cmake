@@ -1,0 +1,67 @@
+# What users of an installed berth include. Installed are these and what they include; nothing else. A header's name here is a
+# promise to document it (make docs) and to tell of its changes (CHANGELOG.md).
+set(BERTH_PUBLIC_HEADERS
+  berth/types/camera.hpp
+  berth/types/image.hpp
+  berth/types/joint_state.hpp
+  berth/types/link_distance.hpp
+  berth/types/link_visibility.hpp
+  berth/types/obstacle_image.hpp
+  berth/types/robot_image.hpp
+  berth/types/time_status.hpp
+  berth/robot/joint_buffer.hpp
+  berth/robot/joint_trajectory.hpp
+  berth/robot/kinematics.hpp
+  berth/robot/robot_model.hpp
+  berth/robot/robot_region.hpp
+  berth/render/robot_renderer.hpp
+  berth/self_filter/self_filter.hpp
+  berth/self_filter/settings.hpp
+  berth/sensor/sensor_rules.hpp
+  berth/sensor/settings.hpp
+  berth/distance/evaluate.hpp
+  berth/distance/settings.hpp
+  berth/opengl/gl_context.hpp
+  berth/opengl/gl_evaluate.hpp
+  berth/opengl/gl_robot_renderer.hpp
+  berth/opengl/gl_self_filter.hpp
+  berth/visibility/doubtful.hpp
+  berth/visibility/visibility.hpp
+  berth/pipeline/answer.hpp
+  berth/pipeline/asker.hpp
+  berth/pipeline/frame.hpp
+  berth/pipeline/gl_asker.hpp
+  berth/pipeline/gl_frame.hpp
+  berth/pipeline/gl_observer.hpp
+  berth/pipeline/observer.hpp
+  berth/pipeline/rig.hpp
+  berth/io/camera_info.hpp
+  berth/io/frame_result.hpp
+  berth/io/joints_csv.hpp
+  berth/io/png.hpp
+  berth/io/result_json.hpp
+  berth/io/result_table.hpp
+  berth/io/scene.hpp)
+
+# berth_with_includes(<out> <folder> <header>...): the headers, relative to the folder, and those of berth that they include.
+function(berth_with_includes out folder)
+  set(todo ${ARGN})
+  set(found)
+  while(todo)
+    list(POP_FRONT todo header)
+    if(header IN_LIST found)
+      continue()
+    endif()
+    if(NOT EXISTS ${folder}/${header})
+      message(FATAL_ERROR "${header} is not in ${folder}; cmake/PublicHeaders.cmake names it, or a header does that it names")
+    endif()
+    list(APPEND found ${header})
+    file(STRINGS ${folder}/${header} lines REGEX "^#include \"berth/")
+    foreach(line IN LISTS lines)
+      string(REGEX REPLACE "^#include \"(.*)\".*" "\\1" included "${line}")
+      list(APPEND todo ${included})
+    endforeach()
+  endwhile()
+  list(SORT found)
+  set(${out} ${found} PARENT_SCOPE)
+endfunction()
