@@ -16,10 +16,10 @@ class GlPipeline : public FramePipeline {
  public:
   explicit GlPipeline(const std::shared_ptr<const View>& view)
       : observer_(view), gl_frame_(view->camera()) {
-    if (runs_on_opengl(view->robot().settings().method)) {
-      gl_asker_.emplace(view->shared_robot());
+    if (runs_on_opengl(view->robot()->settings().method)) {
+      gl_asker_.emplace(view->robot());
     } else {
-      asker_.emplace(view->shared_robot());
+      asker_.emplace(view->robot());
     }
   }
 
