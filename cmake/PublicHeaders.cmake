@@ -43,6 +43,8 @@ set(BERTH_PUBLIC_HEADERS
   berth/io/result_table.hpp
   berth/io/scene.hpp)
 
+cmake_policy(VERSION 3.22)  # also where an install script includes this file
+
 # berth_with_includes(<out> <folder> <header>...): the headers, relative to the folder, and those of berth that they include.
 function(berth_with_includes out folder)
   set(todo ${ARGN})
