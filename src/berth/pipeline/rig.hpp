@@ -23,6 +23,7 @@ struct CameraMount {
   Pose X_PC = unset_pose();
 };
 
+/// How a camera's images become distances.
 struct RigSettings {
   SelfFilterSettings self_filter;
   /// Padding of single links by name, instead of self_filter.padding_m.
