@@ -54,8 +54,9 @@ sanitize-%: setup
 	cmake --preset $*
 	cmake --build --preset $*
 	ctest --preset $* -j2
-sanitize-thinned: sanitize-thinned-asan sanitize-thinned-tsan
-sanitize-thinned-%: setup
+sanitize-thinned: thinned-asan thinned-tsan
+# thinned-scalar: vector code for one lane through its own tests.
+thinned-%: setup
 	cmake --preset $*
 	cmake --build --preset $* --target $*_thinned
 	ctest --preset $* -j2 --label-regex $* --no-tests=error

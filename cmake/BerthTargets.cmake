@@ -17,9 +17,6 @@ function(berth_library folder)
   add_library(berth::${folder} ALIAS berth_${folder})
   set_target_properties(berth_${folder} PROPERTIES EXPORT_NAME ${folder} VERSION ${PROJECT_VERSION}
                         SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
-  if(BUILD_SHARED_LIBS)
-    set_target_properties(berth_${folder} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
-  endif()
   target_include_directories(berth_${folder} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(berth_${folder} PUBLIC ${ARG_DEPENDS} PRIVATE ${ARG_USES})
@@ -39,7 +36,7 @@ function(berth_program name)
 endfunction()
 
 # berth_test(<name> SOURCES ... DEPENDS ... SANITIZE ...): a GoogleTest program, each of its tests one line of ctest.
-# SANITIZE: the presets, asan or tsan, whose thinned run has it: the targets asan_thinned and tsan_thinned, the label in ctest.
+# SANITIZE: the presets (asan, tsan, scalar) whose thinned run has it: the target asan_thinned and so on, the label in ctest.
 function(berth_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;SANITIZE" ${ARGN})
   berth_program(${name} SOURCES ${ARG_SOURCES} DEPENDS ${ARG_DEPENDS} GTest::gtest_main)
