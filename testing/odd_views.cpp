@@ -32,9 +32,9 @@ class OddViews {
   DrawnViews odd_sizes() {
     for (const auto& [width_px, height_px] :
          {std::pair(101, 67), std::pair(7, 5), std::pair(1, 1), std::pair(2, 33)}) {
-      const DrawnView& like = drawn_.views[drawn_.views.size() % kCameras];
-      drawn_.views.push_back(like);
-      drawn_.views.back().camera = resized(like.camera, width_px, height_px);
+      DrawnView view = drawn_.views[drawn_.views.size() % kCameras];
+      view.camera = resized(view.camera, width_px, height_px);
+      drawn_.views.push_back(std::move(view));
     }
     drawn_.views.erase(drawn_.views.begin(), drawn_.views.begin() + 2);
     return recast();
@@ -99,6 +99,8 @@ class OddViews {
         for (int u = 0; u < view.camera.width_px; ++u) {
           if (keep(u, v)) continue;
           view.depth_m(u, v) = view.obstacles.depth_m(u, v) = kNoDepth;
+          --view.obstacles.count[static_cast<std::size_t>(view.obstacles.fate(u, v))];
+          ++view.obstacles.count[static_cast<std::size_t>(PixelFate::no_reading)];
           view.obstacles.fate(u, v) = PixelFate::no_reading;
         }
       }

@@ -20,7 +20,7 @@ struct TwinSettings {
   /// Cubes that hold an obstacle or not, nobody knows, are given up at this edge.
   double least_edge_m = 1e-4;
   /// The search is given up after so many cubes.
-  std::size_t most_cubes = 300000;
+  std::size_t most_cubes = 60000;
 };
 
 /// The true distance lies between both, which are as far apart as the search had to leave them.
