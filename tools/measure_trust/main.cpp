@@ -14,6 +14,7 @@
 #include "real_image.hpp"
 #include "tables.hpp"
 #include "trial_robots.hpp"
+#include "whole_robot_tables.hpp"
 
 namespace berth {
 namespace {
@@ -62,6 +63,26 @@ void measure_trust(const std::vector<TrialRobot>& robots, int scenes) {
   }
 }
 
+/// Scenes with several cameras, against the distances of whole links.
+void measure_whole_robot(const std::vector<TrialRobot>& robots, int scenes) {
+  const auto conditions = lab::whole_robot_conditions();
+  std::vector<lab::WholeRobotTrial> trials(scenes);
+  std::atomic<int> done = 0;
+  tbb::parallel_for(0, scenes, [&](int i) {
+    tbb::this_task_arena::isolate([&] {
+      trials[i] = lab::run_whole_robot_trial(robot_of(robots, i), settings_of(i),
+                                             static_cast<std::uint32_t>(i), conditions);
+    });
+    if (++done % 10 == 0) fmt::print(stderr, "{} of {} scenes\n", done.load(), scenes);
+  });
+  fmt::print("{} scenes, {} robots\n{}", scenes, robots.size(),
+             lab::whole_robot_table(trials, conditions));
+  for (std::size_t c = 0; c < conditions.size(); ++c) {
+    fmt::print("\n### {}: the worst\n{}", conditions[c].name,
+               lab::worst_whole_robot_table(trials, c, 4));
+  }
+}
+
 }  // namespace
 }  // namespace berth
 
@@ -71,6 +92,7 @@ int main(int argc, char** argv) {
   std::filesystem::path robots_folder;
   std::filesystem::path real_images;
   std::optional<int> look;
+  bool whole_robot = false;
   std::filesystem::path picture = "scene.png";
   app.add_option("--scenes", scenes, "How many; their seeds count from 0")
       ->check(CLI::Range(1, 1000000))
@@ -81,6 +103,8 @@ int main(int argc, char** argv) {
          "--real-images", real_images,
          "Instead, draw the robots into real depth images (folder depth/ of the recordings)")
       ->check(CLI::ExistingDirectory);
+  app.add_flag("--whole-robot", whole_robot,
+               "Instead, the method `mesh` with one to four cameras, on whole links");
   app.add_option("--look", look, "Instead, print and draw the scene of this seed")
       ->check(CLI::Range(0, 1000000));
   app.add_option("--picture", picture, "Where --look draws to")->capture_default_str();
@@ -94,6 +118,8 @@ int main(int argc, char** argv) {
     if (look) {
       berth::look_at_scene(berth::robot_of(robots, *look), berth::settings_of(*look),
                            static_cast<std::uint32_t>(*look), picture);
+    } else if (whole_robot) {
+      berth::measure_whole_robot(robots, scenes);
     } else if (!real_images.empty()) {
       const auto images = berth::load_real_images(real_images);
       fmt::print("{}", berth::real_image_table(images, robots, scenes));
