@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -32,10 +31,17 @@ struct SpaceSettings {
 struct MeshQuestion {
   /// L: a distance above it is no answer.
   double range_m = 1.0;
-  /// The search ends once no obstacle can be nearer to a link than the pair found by more than this.
+  /// The search ends once no obstacle can be nearer to a link than the pair found by more than
+  /// this.
   double tolerance_m = 0.001;
   /// The search ends this many microseconds after it began, with what it has found by then.
   std::optional<double> deadline_us = std::nullopt;
+  /// Whether hidden space is asked for; without it `nearest` is `reading`.
+  bool hidden = true;
 };
+
+/// Both throw std::invalid_argument that names key, value and what was expected.
+void validate(const SpaceSettings& settings);
+void validate(const MeshQuestion& question);
 
 }  // namespace berth
