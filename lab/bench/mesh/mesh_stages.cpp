@@ -20,7 +20,7 @@
 #include "berth/self_filter/self_filter.hpp"
 #include "tests/support/drawn_scene.hpp"
 
-namespace berth::bench {
+namespace berth::lab {
 namespace {
 
 /// Of this thread, so that neighbours on the machine count little; of the clock on the wall where
@@ -146,15 +146,15 @@ Scene make_scene(const RobotModel& model, const std::vector<testing::MeshTree>& 
 
 void measure_exact(const Scene& scene, int links, Table& table) {
   const View& view = scene.views[0];
-  ObstacleTree tree;
-  build_obstacle_tree(view.obstacles.depth_m, tree);
+  SearchableDepth searchable;
+  searchable.build(view.obstacles.depth_m);
+  const DistanceSettings settings{.range_m = 1.0, .mean_direction = false};
   ExactWorkspace workspace;
   LinkDistances out;
   table.measure(
       "exact, 1 camera", [&] { out.links.clear(); },
       [&] {
-        exact(scene.drawn.camera, view.robot, view.obstacles.depth_m, tree, links, {1.0, false},
-              workspace, out);
+        exact({scene.drawn.camera, view.robot, links, searchable, settings}, workspace, out);
       });
 }
 
@@ -236,12 +236,12 @@ void run(int scenes, const std::string& arm, int parts, int threads) {
 }
 
 }  // namespace
-}  // namespace berth::bench
+}  // namespace berth::lab
 
 int main(int argc, char** argv) {
   const auto number = [&](int i, int otherwise) {
     return argc > i ? std::atoi(argv[i]) : otherwise;
   };
-  berth::bench::run(number(1, 100), argc > 2 ? argv[2] : BERTH_BUNDLED_ARM, number(3, 3),
+  berth::lab::run(number(1, 100), argc > 2 ? argv[2] : BERTH_BUNDLED_ARM, number(3, 3),
                     number(4, 1));
 }
