@@ -114,9 +114,16 @@ void add_setting(CLI::App& command, const Setting& setting, const auto& value,
   }
 }
 
-void add_evaluation(CLI::App& command, EvaluationArguments& arguments) {
-  command.add_option("--method", arguments.method, "How to find the distances (default: exact)")
-      ->check(CLI::IsMember(names_of<Method>()));
+/// Three images without meshes cannot be asked by method mesh.
+void add_evaluation(CLI::App& command, bool has_mesh, EvaluationArguments& arguments) {
+  std::vector<std::string> methods;
+  for (const Method method : kMethods) {
+    if (has_mesh || asks_images(method)) methods.emplace_back(name_of(method));
+  }
+  command
+      .add_option("--method", arguments.method,
+                  fmt::format("How to find the distances (default: {})", methods.front()))
+      ->check(CLI::IsMember(methods));
   const DistanceSettings defaults;
   visit_settings(defaults, [&](const Setting& setting, const auto& value) {
     add_setting(command, setting, value, arguments);
@@ -196,8 +203,11 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
       ->type_name("SCENE.yaml");
   command.add_option("--picture", arguments.picture_folder, "Draw each frame into this folder")
       ->type_name("DIR");
-  add_evaluation(command, arguments.evaluation);
+  add_evaluation(command, true, arguments.evaluation);
   add_visibility(command, arguments.evaluation);
+  command.add_option("--repeat", arguments.repeat, "Ask each question so often, and tell the times")
+      ->check(CLI::Range(1, 1000000000))
+      ->type_name("N");
   add_backend_options(command, "Where images are rendered and filtered", arguments.where);
   add_output(command, arguments);
   command.footer(
@@ -237,7 +247,7 @@ void add_evaluate_options(CLI::App& command, EvaluateArguments& arguments) {
   command.add_option("--repeat", arguments.repeat, "Evaluate so often, and tell the times")
       ->check(CLI::Range(1, 1000000000))
       ->type_name("N");
-  add_evaluation(command, arguments.evaluation);
+  add_evaluation(command, false, arguments.evaluation);
   add_gl_device(command, arguments.where);
   add_output(command, arguments);
   command.footer(

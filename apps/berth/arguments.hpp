@@ -44,6 +44,8 @@ struct CommonArguments {
 };
 
 struct RunArguments : CommonArguments {
+  /// Of each question; 0: once, without its time.
+  int repeat = 0;
   std::filesystem::path scene;
   std::filesystem::path picture_folder;
 };

@@ -13,12 +13,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The least distance of any link; none where no link has one.
+/// The least distance of any link that a joint moves; none where no such link has one.
 std::optional<float> least_distance_m(const FrameResult& result) {
   std::optional<float> least;
-  for (const LinkDistance& link : result.distances->links) {
-    if (link.status == LinkStatus::ok && (!least || link.distance_m < *least))
-      least = link.distance_m;
+  const std::vector<LinkDistance>& links = result.distances->links;
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    if (links[i].status != LinkStatus::ok || !result.is_moved(i)) continue;
+    if (!least || links[i].distance_m < *least) least = links[i].distance_m;
   }
   return least;
 }
@@ -29,11 +30,11 @@ void demo_command(const DemoArguments& arguments) {
   const OpenScene scene = open_scene_over(bundled_scene_file(), {});
   std::optional<float> least_m;
   std::string closest;
-  run_frames(scene, {}, arguments.picture_folder, [&](const FrameResult& result) {
+  run_frames(scene, {}, arguments.picture_folder, 0, [&](const FrameResult& result) {
     const auto distance_m = least_distance_m(result);
     if (!distance_m || (least_m && *least_m <= *distance_m)) return;
     least_m = distance_m;
-    closest = fmt::format("The closest approach in {} frames is in frame {}, {:.3f} s:\n\n{}",
+    closest = fmt::format("The closest approach in {} images is in frame {}, {:.3f} s:\n\n{}",
                           scene.frame_count, result.frame, result.stamp_s, result_table(result));
   });
   fmt::print("{}\nPictures of all frames: {}\n", closest,

@@ -92,18 +92,6 @@ class Evaluator {
   EvaluateWorkspace workspace_;
 };
 
-EvaluateTiming summary_of(std::vector<double> times_us) {
-  std::sort(times_us.begin(), times_us.end());
-  // The least time that this share of the evaluations did not exceed.
-  const auto percentile = [&](double share) {
-    return times_us[static_cast<std::size_t>(
-                        std::ceil(share * static_cast<double>(times_us.size()))) -
-                    1];
-  };
-  return {static_cast<int>(times_us.size()), times_us.front(), percentile(0.5), percentile(0.99),
-          times_us.back()};
-}
-
 }  // namespace
 
 void evaluate_command(const EvaluateArguments& arguments) {
@@ -125,15 +113,17 @@ void evaluate_command(const EvaluateArguments& arguments) {
   }
 
   FrameResult result;
-  result.camera = "camera";
+  CameraResult& camera = result.cameras.emplace_back();
+  camera.name = "camera";
+  camera.state.status = CameraStatus::ok;
   result.method = name_of(method);
   result.gl_renderer = evaluator.gl_renderer();
   result.range_m = settings.range_m;
-  result.has_bounds = settings.tolerance_m > 0 || settings.deadline_us;
+  result.has_bounds = settings.tolerance_m.value_or(0) > 0 || settings.deadline_us;
   for (int id = 1; id <= images.link_count; ++id)
     result.link_names.push_back(fmt::format("link_{}", id));
   result.distances = &distances;
-  if (arguments.repeat > 0) result.timing = summary_of(std::move(times_us));
+  if (arguments.repeat > 0) result.timing = timing_of(std::move(times_us));
   output.write(result);
   output.finish();
 }

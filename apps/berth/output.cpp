@@ -17,13 +17,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Such as "camera left" or "cameras left, right (too_old, 0.210 s)".
+std::string cameras_text(const FrameResult& result) {
+  std::string text = result.cameras.size() == 1 ? "camera" : "cameras";
+  const char* before = " ";
+  for (const CameraResult& camera : result.cameras) {
+    text += before + camera.name;
+    before = ", ";
+    if (camera.state.status != CameraStatus::ok && !result.asks_images) {
+      text += fmt::format(" ({})", name_of(camera.state.status));
+    }
+  }
+  return text;
+}
+
 std::string text_of(const FrameResult& result, OutputFormat format) {
   if (format == OutputFormat::json) return result_json(result) + "\n";
   const bool timely = !result.time || result.time->status == TimeStatus::ok;
   const std::string trouble =
       timely ? "" : fmt::format(", no answer: {}", name_of(result.time->status));
-  return fmt::format("frame {}, {:.3f} s, camera {}, method {}, range {} m{}\n{}\n", result.frame,
-                     result.stamp_s, result.camera, result.method, result.range_m, trouble,
+  return fmt::format("frame {}, {:.3f} s, {}, method {}, range {} m{}\n{}\n", result.frame,
+                     result.stamp_s, cameras_text(result), result.method, result.range_m, trouble,
                      result_table(result));
 }
 

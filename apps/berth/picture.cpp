@@ -25,6 +25,7 @@ void check_size(const AnyImage& image, const DepthView& sensor, const char* what
 }
 
 void check_pixel(Pixel p, const DepthView& sensor, LinkId id) {
+  if (p == Pixel{}) return;
   if (p.u >= 0 && p.v >= 0 && p.u < sensor.width && p.v < sensor.height) return;
   throw std::runtime_error(
       fmt::format("link {} has the pixel ({}, {}), expected one of the {}x{} image", id, p.u, p.v,

@@ -13,7 +13,7 @@
 
 namespace berth::app {
 
-/// What write_picture() draws. A null pointer leaves that layer out; the images have the sensor's
+/// What write_picture() draws. A pair whose pixels are not in the image is not drawn. A null pointer leaves that layer out; the images have the sensor's
 /// size.
 struct PictureInput {
   DepthView sensor_depth_m;
@@ -23,6 +23,8 @@ struct PictureInput {
   /// link_names[i] is the name of the link with the id i + 1, UTF-8; at least one for each link in
   /// distances.
   std::vector<std::string> link_names;
+  /// Whether a joint moves it, in the same order; empty: all are moved. The others do not lead.
+  std::vector<bool> link_is_moved;
   /// Distances were looked for up to here.
   double range_m = 0;
   std::string title;

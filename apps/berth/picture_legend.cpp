@@ -34,10 +34,12 @@ int count_of(const PictureInput& input, LinkStatus status) {
 }
 
 /// Links with a distance, nearest first, then those with none in range, then those not visible.
-std::vector<LinkDistance> by_nearness(const LinkDistances& distances) {
-  std::vector<LinkDistance> links = distances.links;
-  std::ranges::stable_sort(links, {}, [](const LinkDistance& link) {
-    return std::pair{link.status, link.status == LinkStatus::ok ? link.distance_m : 0};
+/// Links that stand where they stand come after those with a distance that move.
+std::vector<LinkDistance> by_nearness(const PictureInput& input) {
+  std::vector<LinkDistance> links = input.distances->links;
+  std::ranges::stable_sort(links, {}, [&](const LinkDistance& link) {
+    const bool ok = link.status == LinkStatus::ok;
+    return std::tuple{link.status, ok && !is_moved(input, link.id), ok ? link.distance_m : 0};
   });
   return links;
 }
@@ -51,7 +53,7 @@ void heading(Legend& legend, const std::string& left, const std::string& right) 
 
 /// The message of the picture in two lines, and the colour that goes with it.
 std::tuple<std::string, std::string, Rgb> headline(const PictureInput& input) {
-  const std::vector<LinkDistance> links = by_nearness(*input.distances);
+  const std::vector<LinkDistance> links = by_nearness(input);
   if (links.empty()) return {"no links", "nothing was evaluated", kFaintInk};
   const LinkDistance& first = links.front();
   if (first.status == LinkStatus::ok) {
@@ -112,6 +114,12 @@ void draw_link_row(Legend& legend, const LinkDistance& link, double x, double y,
     draw_bar(legend, link, {bar_left, middle - 0.18 * em, right - 4.7 * em - bar_left, 0.36 * em});
 }
 
+bool has_hidden(const PictureInput& input) {
+  return std::ranges::any_of(input.distances->links, [](const LinkDistance& link) {
+    return link.status == LinkStatus::ok && link.obstacle_kind == ObstacleKind::hidden;
+  });
+}
+
 void draw_key(Legend& legend) {
   const double em = legend.em, middle = legend.y + 0.95 * em;
   const PointPx robot{legend.left() + 0.65 * em, middle}, obstacle{robot.x + 7.2 * em, middle};
@@ -120,11 +128,18 @@ void draw_key(Legend& legend) {
   legend.canvas.text({robot.x + 0.75 * em, middle}, "on the robot", {0.8 * em}, kFaintInk);
   legend.canvas.text({obstacle.x + 0.75 * em, middle}, "nearest obstacle", {0.8 * em}, kFaintInk);
   legend.y += kKeyEm * em;
+  if (!has_hidden(legend.input)) return;
+  const double y = legend.y - 0.15 * em;
+  draw_pair_line(legend.canvas, {legend.left(), y}, {legend.left() + 3 * em, y}, true, kFaintInk,
+                 0.16 * em, 1);
+  legend.canvas.text({legend.left() + 3.6 * em, y}, "to what no camera sees", {0.8 * em},
+                     kFaintInk);
+  legend.y += 1.2 * em;
 }
 
 void draw_table(Legend& legend) {
   const TablePlan& plan = legend.layout.table;
-  std::vector<LinkDistance> links = by_nearness(*legend.input.distances);
+  std::vector<LinkDistance> links = by_nearness(legend.input);
   if (links.empty()) return;
   const LinkId nearest = links.front().status == LinkStatus::ok ? links.front().id : kNoLink;
   const std::size_t left_out = links.size() - plan.shown;

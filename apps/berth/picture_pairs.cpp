@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "apps/berth/picture_text.hpp"
 
@@ -17,21 +18,30 @@ struct Pair {
   std::string text;
   bool nearest = false;
   bool contact = false;
+  /// No camera sees the obstacle's point.
+  bool hidden = false;
 
   PointPx middle() const { return {(robot.x + obstacle.x) / 2, (robot.y + obstacle.y) / 2}; }
 };
 
+bool is_drawn(const LinkDistance& link) {
+  return link.status == LinkStatus::ok && link.robot_pixel != Pixel{} &&
+         link.obstacle_pixel != Pixel{};
+}
+
 std::vector<Pair> nearest_first(const PictureLayout& layout, const PictureInput& input) {
   std::vector<LinkDistance> links;
   for (const LinkDistance& link : input.distances->links)
-    if (link.status == LinkStatus::ok) links.push_back(link);
-  std::stable_sort(links.begin(), links.end(),
-                   [](const auto& a, const auto& b) { return a.distance_m < b.distance_m; });
+    if (is_drawn(link)) links.push_back(link);
+  std::stable_sort(links.begin(), links.end(), [&](const auto& a, const auto& b) {
+    const bool a_stands = !is_moved(input, a.id), b_stands = !is_moved(input, b.id);
+    return std::pair(a_stands, a.distance_m) < std::pair(b_stands, b.distance_m);
+  });
   std::vector<Pair> pairs;
   for (const LinkDistance& link : links) {
     pairs.push_back({layout.centre(link.robot_pixel), layout.centre(link.obstacle_pixel),
                      link_color(link.id), distance_text(link, input.range_m), pairs.empty(),
-                     link.distance_m == 0});
+                     link.distance_m == 0, link.obstacle_kind == ObstacleKind::hidden});
   }
   return pairs;
 }
@@ -62,8 +72,8 @@ std::vector<PointPx> precious_points(const std::vector<Pair>& pairs, const Pictu
 
 void draw_pair(PictureCanvas& canvas, const Pair& pair, double em) {
   const double width = kLineEm * em * (pair.nearest ? 1.5 : 1);
-  canvas.line(pair.robot, pair.obstacle, kBlack, width + 0.22 * em, 0.75);
-  canvas.line(pair.robot, pair.obstacle, pair.color, width);
+  draw_pair_line(canvas, pair.robot, pair.obstacle, pair.hidden, kBlack, width + 0.22 * em, 0.75);
+  draw_pair_line(canvas, pair.robot, pair.obstacle, pair.hidden, pair.color, width, 1);
   if (pair.contact) {
     canvas.ring(pair.middle(), 0.95 * em, kBlack, 0.42 * em, 0.75);
     canvas.ring(pair.middle(), 0.95 * em, kWhite, 0.2 * em);
@@ -94,6 +104,24 @@ void draw_label(PictureCanvas& canvas, const Pair& pair, const BoxPx& box, doubl
 }
 
 }  // namespace
+
+bool is_moved(const PictureInput& input, LinkId id) {
+  return input.link_is_moved.empty() || input.link_is_moved[id - 1];
+}
+
+void draw_pair_line(PictureCanvas& canvas, PointPx from, PointPx to, bool dashed, Rgb color,
+                    double width_px, double alpha) {
+  if (!dashed) return canvas.line(from, to, color, width_px, alpha);
+  constexpr double kDashPx = 7;
+  const double length_px = std::hypot(to.x - from.x, to.y - from.y);
+  const auto at = [&](double px) {
+    const double share = std::min(1.0, px / length_px);
+    return PointPx{from.x + share * (to.x - from.x), from.y + share * (to.y - from.y)};
+  };
+  for (double px = 0; px < length_px; px += 2 * kDashPx) {
+    canvas.line(at(px), at(px + kDashPx), color, width_px, alpha);
+  }
+}
 
 void draw_robot_end(PictureCanvas& canvas, PointPx centre, Rgb color, double em_px) {
   canvas.disc(centre, 0.44 * em_px, kBlack, 0.8);

@@ -41,6 +41,8 @@ std::string distance_text(const LinkDistance& link, double range_m) {
       return "not known in time";
     case LinkStatus::untimely:
       return "untimely";
+    case LinkStatus::not_seen:
+      return "not seen";
   }
   return "";
 }

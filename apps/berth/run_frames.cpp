@@ -23,17 +23,39 @@ void make_folder(const fs::path& folder) {
   }
 }
 
+/// The pixel that shows p_B; (-1, -1) outside the image.
+Pixel pixel_of(const Camera& camera, const Pose& X_CB, const Eigen::Vector3f& p_B_m) {
+  const Eigen::Vector3d p_C_m = X_CB * p_B_m.cast<double>();
+  if (!(p_C_m.z() > 0)) return {};
+  const double u = camera.fx_px * p_C_m.x() / p_C_m.z() + camera.cx_px + 0.5;
+  const double v = camera.fy_px * p_C_m.y() / p_C_m.z() + camera.cy_px + 0.5;
+  const bool is_inside = u >= 0 && v >= 0 && u < camera.width_px && v < camera.height_px;
+  return is_inside ? Pixel{static_cast<int>(u), static_cast<int>(v)} : Pixel{};
+}
+
+/// The pixels of each pair in this camera's image, whichever camera saw the obstacle.
+void project_pairs(const Camera& camera, const Pose& X_BC, LinkDistances& distances) {
+  const Pose X_CB = X_BC.inverse();
+  for (LinkDistance& link : distances.links) {
+    if (!link.has_distance()) continue;
+    link.robot_pixel = pixel_of(camera, X_CB, link.robot_point_B_m);
+    link.obstacle_pixel = pixel_of(camera, X_CB, link.obstacle_point_B_m);
+  }
+}
+
 void draw(const fs::path& folder, const OpenScene& scene, SceneRun& run,
           const FrameResult& result) {
   const std::string which =
       scene.cameras.size() > 1 ? fmt::format(", camera {}", run.camera().source.name) : "";
   const Frame& frame = run.frame();
+  LinkDistances distances = *result.distances;
+  if (!result.asks_images) project_pairs(run.camera().view->camera(), frame.X_BC, distances);
   write_picture(folder_of(scene, run.camera(), folder) /
                     fmt::format("frame_{:06}.png", run.frame_number()),
-                {run.sensor_depth_m(), &frame.robot, &frame.obstacles, result.distances,
-                 result.link_names, result.range_m,
+                {run.sensor_depth_m(), &frame.robot, &frame.obstacles, &distances,
+                 result.link_names, result.link_is_moved, result.range_m,
                  fmt::format("{}{}, frame {}, {:.3f} s", scene.robot->model().name, which,
-                             result.frame, frame.stamp_s)});
+                             run.frame_number(), frame.stamp_s)});
 }
 
 }  // namespace
@@ -64,12 +86,12 @@ void each_frame(const OpenScene& scene, SceneRun& run, const char* doing,
 }
 
 void run_frames(const OpenScene& scene, const BackendChoice& where, const fs::path& picture_folder,
-                const std::function<void(const FrameResult&)>& take) {
+                int repeat, const std::function<void(const FrameResult&)>& take) {
   SceneRun run(scene, where, stop_if_interrupted);
   const bool draws = !picture_folder.empty();
   if (draws) make_folders(scene, picture_folder);
   each_frame(scene, run, "run", [&] {
-    const FrameResult result = run.ask();
+    const FrameResult result = run.ask(repeat);
     if (draws) draw(picture_folder, scene, run, result);
     take(result);
   });

@@ -25,10 +25,11 @@ void make_folders(const OpenScene& scene, const std::filesystem::path& folder);
 void each_frame(const OpenScene& scene, SceneRun& run, const char* doing,
                 const std::function<void()>& take);
 
-/// All frames of a scene through the whole pipeline: `take` gets each result. Each frame is drawn
+/// All frames of a scene through the whole pipeline, each question asked so often (SceneRun::ask):
+/// `take` gets each result. Each frame is drawn
 /// into picture_folder unless that is empty. Throws as SceneRun does, before anything is written.
 void run_frames(const OpenScene& scene, const BackendChoice& where,
-                const std::filesystem::path& picture_folder,
+                const std::filesystem::path& picture_folder, int repeat,
                 const std::function<void(const FrameResult&)>& take);
 
 }  // namespace berth::app

@@ -29,7 +29,7 @@ void write_images(const fs::path& folder, const SceneRun& run, const Frame& fram
 void run_command(const RunArguments& arguments) {
   const OpenScene scene = open_scene_over(arguments.scene, arguments.evaluation);
   Output output(arguments.format, arguments.out);
-  run_frames(scene, arguments.where, arguments.picture_folder,
+  run_frames(scene, arguments.where, arguments.picture_folder, arguments.repeat,
              [&output](const FrameResult& result) { output.write(result); });
   output.finish();
 }

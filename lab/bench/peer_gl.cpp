@@ -50,7 +50,7 @@ class GlPeer : public Peer {
 
 std::vector<std::unique_ptr<Peer>> make_gl_peers() {
   std::vector<std::unique_ptr<Peer>> peers;
-  for (const Method method : kMethods) {
+  for (const Method method : kImageMethods) {
     if (runs_on_opengl(method)) peers.push_back(std::make_unique<GlPeer>(method));
   }
   return peers;

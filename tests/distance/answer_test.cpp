@@ -14,7 +14,7 @@ class Answer : public MethodTest {
     return answer(GetParam(), images, range_m).links.at(0);
   }
 };
-INSTANTIATE_TEST_SUITE_P(Methods, Answer, ::testing::ValuesIn(kMethods), method_test_name);
+INSTANTIATE_TEST_SUITE_P(Methods, Answer, ::testing::ValuesIn(kImageMethods), method_test_name);
 
 /// What follows from finding the minimum.
 class ExactAnswer : public Answer {};

@@ -24,7 +24,7 @@ class Exactness : public MethodTest {
     });
   }
 };
-INSTANTIATE_TEST_SUITE_P(Methods, Exactness, ::testing::ValuesIn(kMethods), method_test_name);
+INSTANTIATE_TEST_SUITE_P(Methods, Exactness, ::testing::ValuesIn(kImageMethods), method_test_name);
 
 struct Size {
   int width;

@@ -8,6 +8,8 @@ namespace berth {
 
 std::string_view name_of(Method method) {
   switch (method) {
+    case Method::mesh:
+      return "mesh";
     case Method::exact:
       return "exact";
     case Method::brute_force:
@@ -45,6 +47,8 @@ void evaluate(Method method, const Question& question, EvaluateWorkspace& worksp
     case Method::lattice:
       lattice(question, workspace.lattice, out);
       break;
+    case Method::mesh:
+      throw std::invalid_argument("method mesh asks no images; expected one that does");
     case Method::gl_exact:
     case Method::gl_lattice:
     case Method::gl_hybrid:

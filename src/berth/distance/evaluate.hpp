@@ -12,15 +12,21 @@ namespace berth {
 
 /// The ways to find the closest pairs. Each has the name of its enumerator; those with gl_ run on
 /// OpenGL (GlEvaluator).
-enum class Method { exact, brute_force, lattice, gl_exact, gl_lattice, gl_hybrid };
+enum class Method { mesh, exact, brute_force, lattice, gl_exact, gl_lattice, gl_hybrid };
 
-inline constexpr std::array kMethods = {Method::exact,    Method::brute_force, Method::lattice,
-                                        Method::gl_exact, Method::gl_lattice,  Method::gl_hybrid};
+inline constexpr std::array kMethods = {Method::mesh,        Method::exact,    Method::brute_force,
+                                        Method::lattice,     Method::gl_exact, Method::gl_lattice,
+                                        Method::gl_hybrid};
+/// Those that compare one image of the robot with one of the obstacles.
+inline constexpr std::array kImageMethods = {Method::exact,    Method::brute_force,
+                                             Method::lattice,  Method::gl_exact,
+                                             Method::gl_lattice, Method::gl_hybrid};
 inline constexpr std::array kCpuMethods = {Method::exact, Method::brute_force, Method::lattice};
 
 constexpr const auto& all_of(Method) { return kMethods; }
 
 bool runs_on_opengl(Method method);
+inline bool asks_images(Method method) { return method != Method::mesh; }
 
 std::string_view name_of(Method method);
 /// Nothing if no method has this name.

@@ -30,12 +30,14 @@ struct DistanceSettings {
   double range_m = 1.0;
   /// Whether evaluate() fills LinkDistance::mean_direction_C (Hirt 2.2.5).
   bool mean_direction = true;
-  /// `exact` may stop as soon as no pair of a link can be closer than the one found by more than
-  /// this; 0 finds the closest.
-  double tolerance_m = 0;
-  /// `exact` stops this many microseconds after it was called, mean directions not counted, with
+  /// `exact` and `mesh` may stop as soon as no pair of a link can be closer than the one found by
+  /// more than this. Nothing: 0 for exact, which finds the closest, and 1 mm for mesh.
+  std::optional<double> tolerance_m = std::nullopt;
+  /// `exact` and `mesh` stop this many microseconds after it was called, mean directions not counted, with
   /// what it has found by then; the first pair of tiles of each link is always searched.
   std::optional<double> deadline_us = std::nullopt;
+  /// `mesh`: a link of whose surface the cameras see a smaller share is LinkStatus::not_seen.
+  double min_seen_share = 0.02;
   SurveillanceSettings surveillance = {};
   LatticeSettings lattice = {};
 };
@@ -52,14 +54,19 @@ void visit_settings(Settings& s, Visitor&& visit) {
   visit({"range_m", kAboveZero, "distances are looked for up to here"}, s.range_m);
   visit({"mean_direction", {}, "whether to give the mean direction of what is near each link"},
         s.mean_direction);
-  visit({"tolerance_m", kNotNegative, "the search may stop once a link's distance is known to this",
-         "exact"},
+  visit({"tolerance_m", kNotNegative,
+         "the search may stop once a link's distance is known to this; without it 0.001 for mesh, "
+         "0 for exact",
+         "mesh exact"},
         s.tolerance_m);
   visit({"deadline_us", {.may_be_infinite = true},
          "the search stops after so many microseconds, mean directions not counted, and tells what "
          "it knows by then: distance and lower bound",
-         "exact"},
+         "mesh exact"},
         s.deadline_us);
+  visit({"min_seen_share", {.most = 1},
+         "a link of whose surface the cameras see a smaller share is not_seen", "mesh"},
+        s.min_seen_share);
   visit({"region", {},
          "where obstacles of a robot pixel are looked for; without it image for brute_force, "
          "cube_projection for lattice",

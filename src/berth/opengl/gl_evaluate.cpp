@@ -44,6 +44,7 @@ void GlEvaluator::evaluate(Method method, const Camera& camera, const GlRobotIma
       state_->made_hybrid().evaluate(camera, state_->robot, obstacle_depth_m, link_count, settings,
                                      out);
       return;
+    case Method::mesh:
     case Method::exact:
     case Method::brute_force:
     case Method::lattice:

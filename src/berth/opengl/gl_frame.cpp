@@ -1,5 +1,6 @@
 #include "berth/opengl/gl_frame.hpp"
 
+#include "berth/pipeline/frame_space.hpp"
 #include "berth/pipeline/view.hpp"
 
 namespace berth {
@@ -13,6 +14,9 @@ void read_back(const GlFrame& frame, Frame& out) {
   DepthImage sensor_depth_m;
   read_back(frame.sensor_depth_m, sensor_depth_m);
   find_doubtful(sensor_depth_m, out.obstacles, out.doubtful);
+  if (out.view->robot()->settings().method != Method::mesh) return;
+  ObstacleImage as_obstacle;
+  find_frame_space(sensor_depth_m, as_obstacle, out);
 }
 
 }  // namespace berth

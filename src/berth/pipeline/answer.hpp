@@ -4,6 +4,7 @@
 
 #include "berth/pipeline/frame.hpp"
 #include "berth/pipeline/view.hpp"
+#include "berth/types/camera_status.hpp"
 #include "berth/types/link_distance.hpp"
 #include "berth/types/link_visibility.hpp"
 #include "berth/types/time_status.hpp"
@@ -19,7 +20,9 @@ struct Answer {
   /// Unless its status is ok, every link is LinkStatus::untimely.
   Timeliness time;
   LinkDistances distances;
-  /// What the camera cannot know: visibility[i] belongs to the link with the id i + 1. Empty unless
+  /// Method `mesh`: camera k's part in it, in the order of the question's frames.
+  std::vector<CameraState> cameras;
+  /// What the cameras cannot know: visibility[i] belongs to the link with the id i + 1. Empty unless
   /// EvaluationSettings::visibility is set.
   std::vector<LinkVisibility> visibility;
 };

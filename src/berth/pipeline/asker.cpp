@@ -7,6 +7,7 @@ namespace berth {
 
 Asker::Asker(std::shared_ptr<const Robot> robot) : robot_(std::move(robot)) {
   const Method method = robot_->settings().method;
+  if (method == Method::mesh) mesh_.emplace(robot_);
   if (!runs_on_opengl(method)) return;
   throw std::invalid_argument("method " + std::string(name_of(method)) +
                               " runs on OpenGL; expected one that does not");
@@ -15,6 +16,7 @@ Asker::Asker(std::shared_ptr<const Robot> robot) : robot_(std::move(robot)) {
 const Answer& Asker::ask(const Frame& frame, std::optional<double> now_s) {
   const Timeliness time = timeliness_of(frame, now_s, robot_->settings().time);
   if (!begin_answer(*robot_, frame.stamp_s, frame.stamp_s, time, answer_)) return answer_;
+  if (mesh_) return evaluate_mesh(set_of(frame), frame.pose);
   return evaluate_robot(frame, {frame.pose, frame.X_BC, frame.robot});
 }
 
@@ -23,6 +25,7 @@ const Answer& Asker::ask(const Frame& frame, const JointState& joints,
   const Timeliness time = timeliness_of(frame, joints.stamp_s, now_s, robot_->settings().time);
   if (!begin_answer(*robot_, frame.stamp_s, joints.stamp_s, time, answer_)) return answer_;
   forward_kinematics(robot_->model(), joints.position, pose_);
+  if (mesh_) return evaluate_mesh(set_of(frame), pose_);
   renderer_of(frame.view).render(pose_, frame.X_BC, image_);
   return evaluate_robot(frame, {pose_, frame.X_BC, image_});
 }
@@ -43,6 +46,63 @@ const Answer& Asker::evaluate_robot(const Frame& frame, const AskedRobot& robot)
            workspace_, answer_.distances);
   tell_visibility(frame, robot, tell_, answer_);
   return answer_;
+}
+
+const Answer& Asker::ask(const FrameSet& frames, std::optional<double> now_s) {
+  require_mesh();
+  const Timeliness time = timeliness_of(frames, now_s, robot_->settings().time);
+  const Frame* newest = frames.newest();
+  const double stamp_s = newest ? newest->stamp_s : std::numeric_limits<double>::quiet_NaN();
+  answer_.cameras = frames.cameras();
+  if (!begin_answer(*robot_, stamp_s, stamp_s, time, answer_)) return answer_;
+  return evaluate_mesh(frames, newest->pose);
+}
+
+const Answer& Asker::ask(const FrameSet& frames, const JointState& joints,
+                         std::optional<double> now_s) {
+  require_mesh();
+  const Timeliness time = timeliness_of(frames, joints.stamp_s, now_s, robot_->settings().time);
+  const Frame* newest = frames.newest();
+  const double stamp_s = newest ? newest->stamp_s : std::numeric_limits<double>::quiet_NaN();
+  answer_.cameras = frames.cameras();
+  if (!begin_answer(*robot_, stamp_s, joints.stamp_s, time, answer_)) return answer_;
+  forward_kinematics(robot_->model(), joints.position, pose_);
+  return evaluate_mesh(frames, pose_);
+}
+
+const Answer& Asker::ask(const FrameSet& frames, const JointBuffer& joints, double now_s) {
+  const TimeStatus status = joints.newest(newest_);
+  if (status == TimeStatus::ok) return ask(frames, newest_, now_s);
+  require_mesh();
+  Timeliness time = timeliness_of(frames, newest_.stamp_s, now_s, robot_->settings().time);
+  time.status = status;
+  answer_.cameras = frames.cameras();
+  const Frame* newest = frames.newest();
+  begin_answer(*robot_, newest ? newest->stamp_s : std::numeric_limits<double>::quiet_NaN(),
+               newest_.stamp_s, time, answer_);
+  return answer_;
+}
+
+const Answer& Asker::evaluate_mesh(const FrameSet& frames, const RobotPose& pose) {
+  answer_.cameras = frames.cameras();
+  mesh_->ask(frames, pose, answer_);
+  return answer_;
+}
+
+const FrameSet& Asker::set_of(const Frame& frame) {
+  const auto asked = alone_.frames();
+  if (alone_number_ == frame.number && asked.front() == &frame) return alone_;
+  const Frame* one = &frame;
+  // Its age is judged at each question.
+  alone_.assign({&one, 1}, robot_->settings().time);
+  alone_number_ = frame.number;
+  return alone_;
+}
+
+void Asker::require_mesh() const {
+  if (mesh_) return;
+  throw std::invalid_argument("method " + std::string(name_of(robot_->settings().method)) +
+                              " looks at one frame; expected mesh for several");
 }
 
 RobotRenderer& Asker::renderer_of(const std::shared_ptr<const View>& view) {

@@ -4,6 +4,8 @@
 
 #include "berth/pipeline/answer.hpp"
 #include "berth/pipeline/frame.hpp"
+#include "berth/pipeline/frame_set.hpp"
+#include "berth/pipeline/mesh_asker.hpp"
 #include "berth/pipeline/robot.hpp"
 #include "berth/pipeline/timeliness.hpp"
 #include "berth/robot/joint_buffer.hpp"
@@ -11,8 +13,9 @@
 
 namespace berth {
 
-/// The controller's clock: questions about a frame. One for each thread. Several may ask one frame
-/// at the same time.
+/// The controller's clock: questions about a frame, or with method `mesh` about the frames of
+/// several cameras. One for each thread. Several may ask one frame, or one set of frames, at the
+/// same time.
 class Asker {
  public:
   /// Throws std::invalid_argument if the robot's method runs on OpenGL (GlAsker).
@@ -31,11 +34,23 @@ class Asker {
   /// The same with the buffer's newest joints. Trouble with them is a status, never an exception.
   const Answer& ask(const Frame& frame, const JointBuffer& joints, double now_s);
 
-  /// The robot of the last question at other joint angles.
+  /// With method `mesh`: the robot as it stood at the newest frame that is used, here and below
+  /// against all frames of the set. A question costs the search alone, at any joint angles: no
+  /// picture is drawn. Throws std::invalid_argument where the robot's method is another one.
+  const Answer& ask(const FrameSet& frames, std::optional<double> now_s = {});
+  const Answer& ask(const FrameSet& frames, const JointState& joints,
+                    std::optional<double> now_s = {});
+  const Answer& ask(const FrameSet& frames, const JointBuffer& joints, double now_s);
+
+  /// The robot of the last question at other joint angles, of a method that asks images.
   const RobotImage& robot_image() const { return image_; }
 
  private:
   const Answer& evaluate_robot(const Frame& frame, const AskedRobot& robot);
+  const Answer& evaluate_mesh(const FrameSet& frames, const RobotPose& pose);
+  /// The set of this frame alone.
+  const FrameSet& set_of(const Frame& frame);
+  void require_mesh() const;
   RobotRenderer& renderer_of(const std::shared_ptr<const View>& view);
 
   std::shared_ptr<const Robot> robot_;
@@ -47,6 +62,10 @@ class Asker {
   JointState newest_;
   EvaluateWorkspace workspace_;
   TellWorkspace tell_;
+  /// With method `mesh`.
+  std::optional<MeshAsker> mesh_;
+  FrameSet alone_;
+  std::uint64_t alone_number_ = 0;
   Answer answer_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <stdexcept>
 
 #include "berth/pipeline/view.hpp"
@@ -11,7 +12,9 @@ namespace berth {
 bool begin_exposure(const std::shared_ptr<const View>& view, DepthView depth_m,
                     const JointState& at_exposure, FrameTime time, Exposure& out) {
   require_size(view->camera(), depth_m);
+  static std::atomic<std::uint64_t> exposures{0};
   out.view = view;
+  out.number = ++exposures;
   out.stamp_s = at_exposure.stamp_s;
   out.time = time;
   if (time.status != TimeStatus::ok) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "berth/robot/kinematics.hpp"
@@ -16,6 +17,8 @@ class View;
 struct Exposure {
   /// Whose image it is; null in a frame that nobody has observed.
   std::shared_ptr<const View> view;
+  /// Another one at each exposure of this program.
+  std::uint64_t number = 0;
   double stamp_s = 0;
   /// Unless its status is ok there is no robot and no reading in the frame, and no answer from it.
   FrameTime time;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "berth/distance/mesh/view_space.hpp"
 #include "berth/distance/searchable_depth.hpp"
 #include "berth/pipeline/exposure.hpp"
 #include "berth/types/obstacle_image.hpp"
@@ -17,7 +18,20 @@ struct Frame : Exposure {
   SearchableDepth searchable;
   /// Empty unless EvaluationSettings::visibility is set.
   DoubtfulImage doubtful;
+
+  // For method `mesh` alone:
+
+  /// What the image says of the space before the camera.
+  ViewSpace space;
+  /// The same of what is doubtful; only where there is any.
+  ViewSpace doubtful_space;
+  bool has_doubtful_space = false;
+  /// Whether a smaller share than kLeastReadings of the sensor's pixels has a reading: a camera
+  /// that is covered, or failed.
+  bool is_blind = false;
 };
+
+inline constexpr double kLeastReadings = 0.01;
 
 /// Empties the images of a frame whose time is not ok: nothing of the image before may stay under a
 /// new stamp.

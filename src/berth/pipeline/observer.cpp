@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "berth/pipeline/frame_space.hpp"
+
 namespace berth {
 
 Observer::Observer(std::shared_ptr<const View> view)
@@ -22,6 +24,9 @@ void Observer::observe(DepthView depth_m, const JointState& at_exposure, Frame& 
     find_doubtful(depth_m, frame.obstacles, frame.doubtful);
   } else {
     clear_doubtful(depth_m.width, depth_m.height, frame.doubtful);
+  }
+  if (view_->robot()->settings().method == Method::mesh) {
+    find_frame_space(depth_m, doubtful_, frame);
   }
 }
 

@@ -48,6 +48,8 @@ class Observer {
   SensorWorkspace sensor_;
   Background background_;
   FrameClock clock_;
+  /// What is doubtful, as if it were an obstacle.
+  ObstacleImage doubtful_;
   JointState at_exposure_;
 };
 

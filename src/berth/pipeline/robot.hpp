@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "berth/distance/evaluate.hpp"
+#include "berth/distance/mesh/robot_patches.hpp"
 #include "berth/pipeline/timeliness.hpp"
 #include "berth/render/robot_renderer.hpp"
 #include "berth/robot/robot_model.hpp"
@@ -12,7 +13,7 @@ namespace berth {
 
 /// How questions about a robot are answered, whichever cameras see it.
 struct EvaluationSettings {
-  Method method = Method::exact;
+  Method method = Method::mesh;
   DistanceSettings distance;
   /// Whether answers tell what the cameras cannot know (Answer::visibility).
   bool visibility = true;
@@ -29,13 +30,16 @@ class Robot {
   const RobotModel& model() const { return model_; }
   const EvaluationSettings& settings() const { return settings_; }
   const std::shared_ptr<const LinkMeshes>& meshes() const { return meshes_; }
-  /// Where find_visibility() looks; none unless the settings ask for it.
+  /// Of method `mesh`; null with the others.
+  const std::shared_ptr<const RobotPatches>& patches() const { return patches_; }
+  /// Where find_visibility() looks; none unless settings or method ask for it.
   const SamplePoints& sample_points() const { return sample_points_; }
 
  private:
   RobotModel model_;
   EvaluationSettings settings_;
   std::shared_ptr<const LinkMeshes> meshes_;
+  std::shared_ptr<const RobotPatches> patches_;
   SamplePoints sample_points_;
 };
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "berth/distance/mesh/settings.hpp"
 #include "berth/pipeline/robot.hpp"
 #include "berth/self_filter/settings.hpp"
 #include "berth/sensor/settings.hpp"
@@ -25,6 +26,8 @@ struct ViewSettings {
   /// Padding of single links by name, instead of self_filter.padding_m.
   std::map<std::string, double> link_padding_m;
   SensorSettings sensor;
+  /// For method `mesh`.
+  SpaceSettings space;
 };
 
 /// One camera that sees the robot: constant once made, shared by its observers, frames and their

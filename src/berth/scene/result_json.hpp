@@ -6,7 +6,7 @@
 
 namespace berth {
 
-/// The frame as one line of JSON, schema berth/result/1, without a line break at its end. Lengths
+/// The frame as one line of JSON, schema berth/result/2, without a line break at its end. Lengths
 /// in metres. A link whose status is not ok has null for distance, points, pixels and mean
 /// direction; the mean direction is null where its count is 0, too. Shares of visibility that are
 /// not known are null. Every float can be read back

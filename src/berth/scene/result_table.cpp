@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 namespace berth {
 namespace {
@@ -16,7 +17,7 @@ constexpr std::size_t kTextColumns = 2;
 std::string pixel_text(Pixel pixel) { return fmt::format("({}, {})", pixel.u, pixel.v); }
 
 std::string distance_text(const LinkDistance& link, bool has_bounds) {
-  const bool ok = link.status == LinkStatus::ok;
+  const bool ok = link.status == LinkStatus::ok || link.has_distance();
   const std::string distance = ok ? fmt::format("{:.4f}", link.distance_m) : "-";
   const bool is_known = !has_bounds || std::isnan(link.lower_bound_m) ||
                         (ok && link.lower_bound_m == link.distance_m);
@@ -27,14 +28,28 @@ std::string distance_text(const LinkDistance& link, bool has_bounds) {
             : fmt::format("{:.4f} or more", bound_m);
 }
 
-Line line_of(const LinkDistance& link, const std::string& name, bool has_bounds) {
+Line image_line(const LinkDistance& link, const FrameResult& result) {
   const bool ok = link.status == LinkStatus::ok;
-  return {name,
-          std::string(name_of(link.status)),
-          distance_text(link, has_bounds),
-          ok ? pixel_text(link.robot_pixel) : "-",
-          ok ? pixel_text(link.obstacle_pixel) : "-",
-          fmt::format("{}", link.robot_pixels)};
+  return {distance_text(link, result.has_bounds), ok ? pixel_text(link.robot_pixel) : "-",
+          ok ? pixel_text(link.obstacle_pixel) : "-", fmt::format("{}", link.robot_pixels)};
+}
+
+/// Within 1 mm, unless a deadline cut the search, the distance says enough without its bound.
+constexpr float kTellBound_m = 0.0015F;
+
+std::string mesh_distance_text(const LinkDistance& link) {
+  const bool is_sure = link.has_distance() && link.distance_m - link.lower_bound_m < kTellBound_m;
+  const bool is_none = link.status == LinkStatus::none_in_range;
+  return distance_text(link, !is_sure && !is_none && link.status != LinkStatus::untimely);
+}
+
+Line mesh_line(const LinkDistance& link, const FrameResult& result) {
+  const bool known = link.has_distance();
+  const std::string reading =
+      link.reading.is_known() ? fmt::format("{:.4f}", link.reading.distance_m) : "-";
+  return {mesh_distance_text(link), known ? std::string(name_of(link.obstacle_kind)) : "-", reading,
+          known ? result.cameras[link.view].name : "-",
+          known ? pixel_text(link.obstacle_pixel) : "-"};
 }
 
 std::string seen_text(const LinkVisibility& link) {
@@ -65,21 +80,37 @@ std::string padded(const Line& line, const std::vector<std::size_t>& widths) {
   return text + "\n";
 }
 
+/// Links that no joint moves come last: they stand on their table, as near as they always do.
+std::vector<std::size_t> moved_first(const FrameResult& result) {
+  std::vector<std::size_t> order(result.distances->links.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_partition(order.begin(), order.end(),
+                        [&](std::size_t i) { return result.is_moved(i); });
+  return order;
+}
+
 }  // namespace
 
 std::string result_table(const FrameResult& result) {
   const std::vector<LinkDistance>& links = result.distances->links;
   assert(result.link_names.size() == links.size());
-  std::vector<Line> lines = {
-      {"link", "status", "distance [m]", "robot pixel", "obstacle pixel", "robot pixels"}};
+  std::vector<Line> lines = {{"link", "status"}};
+  const Line columns =
+      result.asks_images
+          ? Line{"distance [m]", "robot pixel", "obstacle pixel", "robot pixels"}
+          : Line{"distance [m]", "to what is", "to readings [m]", "camera", "obstacle pixel"};
+  lines.front().insert(lines.front().end(), columns.begin(), columns.end());
   if (result.visibility) lines.front().push_back("seen");
   const bool has_doubts = result.visibility && std::any_of(result.visibility->begin(),
                                                            result.visibility->end(), has_doubt);
   if (has_doubts) lines.front().push_back("doubtful [m]");
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    lines.push_back(line_of(links[i], result.link_names[i], result.has_bounds));
-    if (result.visibility) lines.back().push_back(seen_text((*result.visibility)[i]));
-    if (has_doubts) lines.back().push_back(doubtful_text((*result.visibility)[i]));
+  for (const std::size_t i : moved_first(result)) {
+    Line& line = lines.emplace_back(Line{result.link_names[i], std::string(name_of(links[i].status))});
+    const Line cells =
+        result.asks_images ? image_line(links[i], result) : mesh_line(links[i], result);
+    line.insert(line.end(), cells.begin(), cells.end());
+    if (result.visibility) line.push_back(seen_text((*result.visibility)[i]));
+    if (has_doubts) line.push_back(doubtful_text((*result.visibility)[i]));
   }
   const std::vector<std::size_t> widths = widths_of(lines);
   std::string table;

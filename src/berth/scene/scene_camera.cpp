@@ -90,7 +90,7 @@ std::vector<double> read_stamps(const YamlValue& value, std::size_t image_count)
 SceneCamera read_scene_camera(const YamlValue& value, const ViewSettings& settings) {
   const YamlMap map(value,
                     {"name", "info", "pose", "depth", "depth_scale", "stamps", "near_m", "far_m", "self_filter",
-                     "sensor"});
+                     "sensor", "space"});
   const YamlMap pose(map.at("pose"), {"parent", "xyz", "quaternion_xyzw", "rpy"});
   SceneCamera camera;
   camera.name = read_name(map.at("name"));

@@ -9,7 +9,7 @@ namespace berth {
 /// `settings` are those of the scene. Throws as read_scene does.
 SceneCamera read_scene_camera(const YamlValue& value, const ViewSettings& settings);
 
-/// The maps self_filter and sensor of a scene or a camera, over `settings`.
+/// The maps self_filter, sensor and space of a scene or a camera, over `settings`.
 void read_view_settings(const YamlMap& map, ViewSettings& settings);
 
 }  // namespace berth

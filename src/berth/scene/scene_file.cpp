@@ -61,11 +61,13 @@ void read_view_settings(const YamlMap& map, ViewSettings& settings) {
     }
   }
   if (const auto sensor = map.find("sensor")) read_settings(*sensor, settings.sensor);
+  if (const auto space = map.find("space")) read_settings(*space, settings.space);
 }
 
 SceneFile read_scene(const std::filesystem::path& file) {
   const YamlMap map(load_yaml(file),
-                    {"robot", "cameras", "joints", "self_filter", "sensor", "evaluation", "time"});
+                    {"robot", "cameras", "joints", "self_filter", "sensor", "space",
+                     "evaluation", "time"});
   SceneFile scene;
   scene.file = file;
   scene.robot = read_robot(map.at("robot"));
@@ -77,7 +79,7 @@ SceneFile read_scene(const std::filesystem::path& file) {
   if (const auto evaluation = map.find("evaluation")) {
     read_evaluation(*evaluation, scene.evaluation);
   }
-  if (const auto time = map.find("time")) read_settings(*time, scene.evaluation.time.joints);
+  if (const auto time = map.find("time")) read_settings(*time, scene.evaluation.time);
   return scene;
 }
 

@@ -2,15 +2,26 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
 #include <stdexcept>
 
 #include "berth/scene/frame_pipeline.hpp"
 
 namespace berth {
+namespace {
+
+std::vector<bool> links_that_move(const RobotModel& model) {
+  std::vector<bool> moved;
+  for (const std::size_t link : model.evaluated_links) moved.push_back(model.is_moved(link));
+  return moved;
+}
+
+}  // namespace
 
 SceneRun::SceneRun(const OpenScene& scene, const BackendChoice& where,
                    const std::function<void()>& before_image)
-    : scene_(scene) {
+    : scene_(scene), newest_(scene.cameras.size()), frames_(scene.cameras.size()) {
   const bool on_gl = where.backend == Backend::opengl;
   if (on_gl || runs_on_opengl(scene.robot->settings().method)) {
     gl_ = open_gl_backend(where.gl_device);
@@ -24,9 +35,25 @@ SceneRun::SceneRun(const OpenScene& scene, const BackendChoice& where,
     }
     learn_background(i, before_image);
   }
+  if (has_mesh()) asker_.emplace(scene.robot);
+  plan_steps();
 }
 
 SceneRun::~SceneRun() = default;
+
+bool SceneRun::has_mesh() const { return scene_.robot->settings().method == Method::mesh; }
+
+void SceneRun::plan_steps() {
+  for (std::size_t c = 0; c < scene_.cameras.size(); ++c) {
+    const OpenCamera& camera = scene_.cameras[c];
+    for (std::size_t k = 0; k < camera.source.depth.size(); ++k) {
+      steps_.push_back({c, k, camera.at_exposure[k].stamp_s});
+    }
+  }
+  if (!has_mesh()) return;
+  std::stable_sort(steps_.begin(), steps_.end(),
+                   [](const Step& a, const Step& b) { return a.stamp_s < b.stamp_s; });
+}
 
 void SceneRun::learn_background(std::size_t i, const std::function<void()>& before_image) {
   const OpenCamera& camera = scene_.cameras[i];
@@ -41,42 +68,95 @@ void SceneRun::learn_background(std::size_t i, const std::function<void()>& befo
   }
 }
 
+void SceneRun::observe(const Step& step) {
+  const OpenCamera& camera = scene_.cameras[step.camera];
+  Newest& newest = newest_[step.camera];
+  newest.number = step.frame;
+  newest.depth_m = camera.read_depth(step.frame);
+  pipelines_[step.camera]->observe(newest.depth_m, camera.at_exposure[step.frame],
+                                   camera.exposure_time[step.frame]);
+}
+
 bool SceneRun::next() {
-  if (has_begun_ && gl_) gl_->check(camera().source.name);
-  frame_ = has_begun_ ? frame_ + 1 : 0;
-  has_begun_ = true;
-  while (camera_ < scene_.cameras.size() && frame_ >= camera().source.depth.size()) {
-    ++camera_;
-    frame_ = 0;
-  }
-  if (camera_ == scene_.cameras.size()) return false;
-  depth_m_ = camera().read_depth(frame_);
-  pipelines_[camera_]->observe(depth_m_, camera().at_exposure[frame_],
-                               camera().exposure_time[frame_]);
+  if (step_ > 0 && gl_) gl_->check(camera().source.name);
+  if (step_ == steps_.size()) return false;
+  ++step_;
+  if (observed_ >= step_) return true;
+  do {
+    observe(steps_[observed_]);
+    ++observed_;
+  } while (has_mesh() && observed_ < steps_.size() &&
+           steps_[observed_].stamp_s == step().stamp_s);
+  if (has_mesh()) assign_frames();
   return true;
 }
 
-const Frame& SceneRun::frame() { return pipelines_[camera_]->frame(); }
+void SceneRun::assign_frames() {
+  for (std::size_t c = 0; c < frames_.size(); ++c) {
+    if (newest_[c].number) frames_[c] = &pipelines_[c]->frame();
+  }
+  // One camera's frame is new whenever it is asked.
+  const std::optional<double> now_s =
+      frames_.size() > 1 ? std::optional(step().stamp_s) : std::nullopt;
+  frame_set_.assign(frames_, scene_.robot->settings().time, now_s);
+}
 
-FrameResult SceneRun::ask() {
-  FramePipeline& pipeline = *pipelines_[camera_];
-  const Answer& answer = pipeline.ask();
+const Frame& SceneRun::frame() { return pipelines_[step().camera]->frame(); }
+
+FrameResult SceneRun::ask(int repeat) {
+  std::vector<double> times_us;
+  const Answer* answer = nullptr;
+  for (int i = 0; i < std::max(1, repeat); ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    answer = asker_ ? &asker_->ask(frame_set_) : &pipelines_[step().camera]->ask();
+    const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
+    times_us.push_back(took.count());
+  }
+  FrameResult result = result_of(*answer);
+  if (repeat > 0) result.timing = timing_of(std::move(times_us));
+  result.timing_name = "ask_us";
+  return result;
+}
+
+FrameResult SceneRun::result_of(const Answer& answer) {
   const EvaluationSettings& settings = scene_.robot->settings();
   FrameResult result;
-  result.frame = static_cast<int>(frame_);
-  result.stamp_s = pipeline.exposure().stamp_s;
-  result.camera = camera().source.name;
+  // Lines are counted where all cameras answer together.
+  result.frame = static_cast<int>(has_mesh() ? step_ - 1 : step().frame);
+  result.stamp_s = step().stamp_s;
   result.method = name_of(settings.method);
+  result.asks_images = asks_images(settings.method);
   result.range_m = settings.distance.range_m;
-  result.has_bounds = settings.distance.tolerance_m > 0 || settings.distance.deadline_us;
+  result.has_bounds = has_mesh() || settings.distance.tolerance_m.value_or(0) > 0 ||
+                      settings.distance.deadline_us;
   result.link_names = scene_.robot->model().evaluated_link_names();
+  result.link_is_moved = links_that_move(scene_.robot->model());
   result.distances = &answer.distances;
   if (settings.visibility) result.visibility = &answer.visibility;
-  result.X_BC = pipeline.exposure().X_BC;
   result.time = answer.time;
-  result.self_filter = pipeline.fate_counts();
   if (gl_) result.gl_renderer = gl_->renderer();
+  for (std::size_t c = 0; c < scene_.cameras.size(); ++c) {
+    if (has_mesh() || c == step().camera) result.cameras.push_back(camera_result(c, answer));
+  }
   return result;
+}
+
+CameraResult SceneRun::camera_result(std::size_t c, const Answer& answer) {
+  CameraResult camera;
+  camera.name = scene_.cameras[c].source.name;
+  if (!newest_[c].number) return camera;
+  camera.frame = static_cast<int>(*newest_[c].number);
+  const Exposure& exposure = pipelines_[c]->exposure();
+  camera.X_BC = exposure.X_BC;
+  camera.self_filter = pipelines_[c]->fate_counts();
+  if (has_mesh()) {
+    camera.state = answer.cameras[c];
+  } else {
+    const bool ok = exposure.time.status == TimeStatus::ok;
+    camera.state = {ok ? CameraStatus::ok : CameraStatus::untimely, exposure.stamp_s, 0,
+                    exposure.time.status};
+  }
+  return camera;
 }
 
 }  // namespace berth

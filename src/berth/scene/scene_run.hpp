@@ -2,9 +2,11 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/frame.hpp"
 #include "berth/scene/backend.hpp"
 #include "berth/scene/frame_result.hpp"
@@ -15,11 +17,15 @@ namespace berth {
 
 class FramePipeline;
 
-/// The images of a scene, one after another, camera by camera, through the whole pipeline: what
-/// the command, and whoever else runs scenes, stands on.
+/// The images of a scene, one after another, through the whole pipeline: what the command, and
+/// whoever else runs scenes, stands on.
 ///
 ///     SceneRun run(scene);
 ///     while (run.next()) use(run.ask());
+///
+/// With method `mesh` the images of all cameras come in the order of their stamps, and each answer
+/// is that of the newest image of every camera; with a method that compares images they come camera
+/// by camera, and each answer is that of one image.
 class SceneRun {
  public:
   /// The scene has to outlive it. Learns the background of the cameras that ask for one;
@@ -31,29 +37,54 @@ class SceneRun {
   SceneRun(const SceneRun&) = delete;
   SceneRun& operator=(const SceneRun&) = delete;
 
-  /// Observes the next image; false where there is none.
+  /// Observes the next image, and all of other cameras that have its stamp; false where there is
+  /// none.
   bool next();
 
-  /// The rest is about that image. Its answer; valid until the next image.
-  FrameResult ask();
-  const OpenCamera& camera() const { return scene_.cameras[camera_]; }
+  /// The rest is about that image. The answer, asked so often, with the times of the questions
+  /// where that is more than once; valid until the next image.
+  FrameResult ask(int repeat = 0);
+  const OpenCamera& camera() const { return scene_.cameras[step().camera]; }
+  std::size_t camera_number() const { return step().camera; }
   /// Its number among the images of its camera.
-  std::size_t frame_number() const { return frame_; }
-  DepthView sensor_depth_m() const { return depth_m_; }
+  std::size_t frame_number() const { return step().frame; }
+  DepthView sensor_depth_m() const { return newest_[step().camera].depth_m; }
   /// The images in this program's memory; read back from the GPU at each call.
   const Frame& frame();
 
  private:
+  struct Step {
+    std::size_t camera;
+    std::size_t frame;
+    double stamp_s;
+  };
+  /// One camera's newest image.
+  struct Newest {
+    std::optional<std::size_t> number;
+    DepthImage depth_m;
+  };
+
+  const Step& step() const { return steps_[step_ - 1]; }
+  bool has_mesh() const;
+  void plan_steps();
   void learn_background(std::size_t camera, const std::function<void()>& before_image);
+  void observe(const Step& step);
+  void assign_frames();
+  FrameResult result_of(const Answer& answer);
+  CameraResult camera_result(std::size_t camera, const Answer& answer);
 
   const OpenScene& scene_;
   std::unique_ptr<GlBackend> gl_;
   /// One for each camera.
   std::vector<std::unique_ptr<FramePipeline>> pipelines_;
-  bool has_begun_ = false;
-  std::size_t camera_ = 0;
-  std::size_t frame_ = 0;
-  DepthImage depth_m_;
+  std::vector<Newest> newest_;
+  std::vector<Step> steps_;
+  /// How many of them were taken, and how many observed.
+  std::size_t step_ = 0;
+  std::size_t observed_ = 0;
+  std::vector<const Frame*> frames_;
+  FrameSet frame_set_;
+  std::optional<Asker> asker_;
 };
 
 }  // namespace berth

@@ -99,6 +99,9 @@ std::string settings_table(std::string_view group) {
   } else if (group == "sensor") {
     const SensorSettings settings;
     visit_settings(settings, write);
+  } else if (group == "space") {
+    const SpaceSettings settings;
+    visit_settings(settings, write);
   } else if (group == "evaluation") {
     const EvaluationSettings settings;
     write({"method", {}, "how the distances are found"}, settings.method);
@@ -108,7 +111,9 @@ std::string settings_table(std::string_view group) {
           settings.visibility);
   } else if (group == "time") {
     // What read_scene() begins with.
-    visit_settings(kOnlyBetweenSamples, write);
+    TimeSettings settings;
+    settings.joints = kOnlyBetweenSamples;
+    visit_settings(settings, write);
   } else {
     throw std::invalid_argument(fmt::format("settings group: \"{}\"; expected one of {}", group,
                                             fmt::join(kSettingGroups, ", ")));

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string_view>
@@ -9,6 +10,7 @@
 
 #include "berth/types/image.hpp"
 #include "berth/types/robot_image.hpp"
+#include "berth/types/space_pair.hpp"
 
 namespace berth {
 
@@ -18,10 +20,12 @@ enum class LinkStatus : std::uint8_t {
   not_visible,    ///< the camera sees no pixel of the link: nothing is known
   cut_short,      ///< the search was stopped before it found a pair within the range
   untimely,       ///< stamps or ages allow no answer (Answer::time): nothing is known
+  not_seen,       ///< method mesh: hardly anything of the link is seen by any camera. What is known
+                  ///< to be near stands beside it, but nothing is promised
 };
 /// By enumerator.
-inline constexpr std::array<std::string_view, 5> kLinkStatusNames = {
-    "ok", "none_in_range", "not_visible", "cut_short", "untimely"};
+inline constexpr std::array<std::string_view, 6> kLinkStatusNames = {
+    "ok", "none_in_range", "not_visible", "cut_short", "untimely", "not_seen"};
 
 constexpr std::string_view name_of(LinkStatus status) {
   return kLinkStatusNames[static_cast<std::size_t>(status)];
@@ -49,6 +53,21 @@ struct LinkDistance {
   std::int64_t mean_count = 0;
   /// Pixels of the link in the robot image.
   int robot_pixels = 0;
+
+  // The rest is of method mesh alone, and stands as it is here with the others.
+
+  /// The camera whose obstacle_pixel it is, and whose optical frame C is meant above: its place
+  /// among the frames of the question.
+  int view = -1;
+  ObstacleKind obstacle_kind = ObstacleKind::reading;
+  /// In the robot's root frame B.
+  Eigen::Vector3f robot_point_B_m = Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
+  Eigen::Vector3f obstacle_point_B_m = Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
+  Eigen::Vector3f mean_direction_B = Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
+  /// To what is seen alone: distance_m counts what obstacles hide as well.
+  SpacePair reading;
+
+  bool has_distance() const { return !std::isnan(distance_m); }
 };
 
 /// The answer for one image: links[i] has the id i + 1.

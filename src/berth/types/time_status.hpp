@@ -19,13 +19,14 @@ enum class TimeStatus : std::uint8_t {
   frame_in_future,  ///< the frame's stamp lies after the time of the question
   stale_frame,      ///< the frame is too old
   stale_joints,     ///< the joints are too old
+  no_frame,         ///< no camera has given a frame yet
 };
-inline constexpr int kTimeStatusCount = 10;
+inline constexpr int kTimeStatusCount = 11;
 /// By enumerator.
 inline constexpr std::array<std::string_view, kTimeStatusCount> kTimeStatusNames = {
     "ok",          "no_joints",       "missing_joint", "extrapolated_too_far",
     "skewed",      "stamp_went_back", "stamp_jumped",  "frame_in_future",
-    "stale_frame", "stale_joints"};
+    "stale_frame", "stale_joints",    "no_frame"};
 
 constexpr std::string_view name_of(TimeStatus status) {
   return kTimeStatusNames[static_cast<std::size_t>(status)];

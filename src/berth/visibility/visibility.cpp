@@ -1,38 +1,12 @@
 #include "berth/visibility/visibility.hpp"
 
-#include <array>
 #include <cassert>
 #include <span>
 
+#include "berth/visibility/sight_count.hpp"
+
 namespace berth {
 namespace {
-
-class SightCount {
- public:
-  void add(Sight sight) {
-    ++count_[static_cast<std::size_t>(sight)];
-    ++sum_;
-  }
-  SightShares shares() const {
-    if (sum_ == 0) return {};
-    return {share(Sight::seen), share(Sight::hidden_by_obstacles), share(Sight::hidden_by_robot),
-            share(Sight::no_reading), share(Sight::outside_image)};
-  }
-  /// Of what is neither seen nor part of an obstacle; NaN of nothing.
-  float unknown_share() const {
-    const int known = count(Sight::seen) + count(Sight::hidden_by_obstacles);
-    return static_cast<float>(sum_ - known) / static_cast<float>(sum_);
-  }
-
- private:
-  int count(Sight sight) const { return count_[static_cast<std::size_t>(sight)]; }
-  float share(Sight sight) const {
-    return static_cast<float>(count(sight)) / static_cast<float>(sum_);
-  }
-
-  std::array<int, kSightCount> count_{};
-  int sum_ = 0;
-};
 
 /// Writes the points that the robot image shows to drawn_C_m.
 SightCount count_on_surface(const SeenFrame& frame, const RobotImage& robot, LinkId id,
@@ -61,6 +35,7 @@ double radius_m(const LinkDistance& link, double range_m) {
       return link.lower_bound_m;
     case LinkStatus::not_visible:
     case LinkStatus::untimely:
+    case LinkStatus::not_seen:
       break;
   }
   return std::numeric_limits<double>::quiet_NaN();

@@ -215,7 +215,7 @@ TEST(Lattice, RefusesSettingsOutsideTheirDomainByName) {
                          {{1, 1, 40, 41}, "final_grid_radius_px", "from 1 to 40"},
                          {{1, 1, 40, 2, 0}, "tile_px", "0"},
                          {{1, 1, 40, 2, 65}, "tile_px", "from 1 to 64"}}) {
-    for (const Method method : kMethods) {
+    for (const Method method : kImageMethods) {
       try {
         answer(method, empty_images(4, 4, 1), settings_with(bad.lattice));
         FAIL() << bad.name;

@@ -123,7 +123,7 @@ void exact(const Question& question, ExactWorkspace& workspace, LinkDistances& o
   assert(question.robot.depth_m.width() == question.obstacles.depth_m().width);
   assert(question.robot.depth_m.height() == question.obstacles.depth_m().height);
   const Task task{question, metric_of(question.camera), static_cast<float>(settings.range_m),
-                  static_cast<float>(settings.tolerance_m)};
+                  static_cast<float>(settings.tolerance_m.value_or(0))};
   build_robot_tiles(question.robot, question.link_count, workspace.robot);
   start(task, out, workspace);
   if (settings.deadline_us) {

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <string_view>
+
+#include "berth/types/setting.hpp"
 
 namespace berth {
 
@@ -10,6 +14,12 @@ enum class NoReading : std::uint8_t {
   unknown,  ///< nothing: it frees nothing that another camera's obstacle hides
   free,     ///< nothing stands there, for a camera that sees no background within its range
 };
+
+inline constexpr std::array kNoReadings = {NoReading::unknown, NoReading::free};
+constexpr std::string_view name_of(NoReading meaning) {
+  return meaning == NoReading::free ? "free" : "unknown";
+}
+constexpr const auto& all_of(NoReading) { return kNoReadings; }
 
 /// What a camera's readings say of space.
 struct SpaceSettings {
@@ -26,6 +36,30 @@ struct SpaceSettings {
   /// v: how fast something may have come into space that an older frame saw free.
   double obstacle_speed_m_s = 1.6;
 };
+
+/// The list of these settings.
+template <SettingsOf<SpaceSettings> Settings, class Visitor>
+void visit_settings(Settings& s, Visitor&& visit) {
+  visit({"slab_m", kNotNegative, "how thick a surface is that the camera measured; what lies deeper "
+                               "is hidden"},
+        s.slab_m);
+  visit({"carve_margin_m", kNotNegative,
+         "a reading frees what is nearer to the camera than it by more than this"},
+        s.carve_margin_m);
+  visit({"behind_robot_m", kNotNegative,
+         "where the camera sees the robot, what is up to this far behind it is free as well"},
+        s.behind_robot_m);
+  visit({"no_reading", {},
+         "what a pixel without a reading says of its line of sight: free is for a camera that sees "
+         "no background within its range"},
+        s.no_reading);
+  visit({"carve_max_age_s", kNotNegative,
+         "an image frees nothing once it is older than the newest one by more than this"},
+        s.carve_max_age_s);
+  visit({"obstacle_speed_m_s", kNotNegative,
+         "how fast something may have come into space that an older image saw free"},
+        s.obstacle_speed_m_s);
+}
 
 /// What is asked of mesh_distances().
 struct MeshQuestion {

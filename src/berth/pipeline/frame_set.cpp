@@ -1,0 +1,92 @@
+#include "berth/pipeline/frame_set.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+#include "berth/pipeline/view.hpp"
+
+namespace berth {
+namespace {
+
+CameraState state_of(const Frame* frame, double now_s, const TimeSettings& settings) {
+  CameraState state;
+  if (!frame || !frame->view) return state;
+  state.stamp_s = frame->stamp_s;
+  state.age_s = now_s - frame->stamp_s;
+  state.time = frame->time.status;
+  if (frame->time.status != TimeStatus::ok) {
+    state.status = CameraStatus::untimely;
+  } else if (state.age_s < -settings.max_clock_offset_s) {
+    state.status = CameraStatus::untimely;
+    state.time = TimeStatus::frame_in_future;
+  } else if (!(state.age_s <= settings.max_frame_age_s)) {
+    state.status = CameraStatus::too_old;
+  } else {
+    state.status = frame->is_blind ? CameraStatus::blind : CameraStatus::ok;
+  }
+  return state;
+}
+
+bool is_used(CameraStatus status) {
+  return status == CameraStatus::ok || status == CameraStatus::blind;
+}
+
+}  // namespace
+
+void FrameSet::assign(std::span<const Frame* const> frames, const TimeSettings& settings,
+                      std::optional<double> now_s) {
+  frames_.assign(frames.begin(), frames.end());
+  cameras_.clear();
+  used_.clear();
+  posed_.clear();
+  posed_doubtful_.clear();
+  newest_ = nullptr;
+  double newest_s = -std::numeric_limits<double>::infinity();
+  for (const Frame* frame : frames_) {
+    if (frame && frame->view) newest_s = std::max(newest_s, frame->stamp_s);
+  }
+  for (std::size_t k = 0; k < frames_.size(); ++k) {
+    cameras_.push_back(state_of(frames_[k], now_s.value_or(newest_s), settings));
+    if (!is_used(cameras_[k].status)) continue;
+    used_.push_back(static_cast<int>(k));
+    if (!newest_ || frames_[k]->stamp_s > newest_->stamp_s) newest_ = frames_[k];
+  }
+  for (const int k : used_) {
+    const Frame& frame = *frames_[k];
+    assert(!frame.space.is_empty() && "the robot's method is mesh");
+    // Of age without end: its readings count, and it frees nothing.
+    const double age_s = cameras_[k].status == CameraStatus::blind
+                             ? std::numeric_limits<double>::infinity()
+                             : newest_->stamp_s - frame.stamp_s;
+    posed_.push_back({&frame.space, frame.X_BC, age_s});
+    if (frame.has_doubtful_space) posed_doubtful_.push_back({&frame.doubtful_space, frame.X_BC, 0});
+  }
+  space_.assign(posed_);
+  doubtful_.assign(posed_doubtful_);
+}
+
+Timeliness timeliness_of(const FrameSet& frames, std::optional<double> now_s,
+                         const TimeSettings& settings) {
+  if (frames.newest()) return timeliness_of(*frames.newest(), now_s, settings);
+  Timeliness time;
+  time.status = TimeStatus::no_frame;
+  double newest_s = -std::numeric_limits<double>::infinity();
+  for (const CameraState& camera : frames.cameras()) {
+    if (camera.status == CameraStatus::no_frame || !(camera.stamp_s >= newest_s)) continue;
+    newest_s = camera.stamp_s;
+    time.status =
+        camera.status == CameraStatus::too_old ? TimeStatus::stale_frame : camera.time;
+    if (now_s) time.frame_age_s = time.joints_age_s = *now_s - camera.stamp_s;
+  }
+  return time;
+}
+
+Timeliness timeliness_of(const FrameSet& frames, double joints_stamp_s,
+                         std::optional<double> now_s, const TimeSettings& settings) {
+  if (frames.newest()) return timeliness_of(*frames.newest(), joints_stamp_s, now_s, settings);
+  Timeliness time = timeliness_of(frames, now_s, settings);
+  if (now_s) time.joints_age_s = *now_s - joints_stamp_s;
+  return time;
+}
+
+}  // namespace berth

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "berth/distance/mesh/hidden_space.hpp"
+#include "berth/pipeline/frame.hpp"
+#include "berth/pipeline/timeliness.hpp"
+#include "berth/types/camera_status.hpp"
+
+namespace berth {
+
+/// The newest frame of each camera, as questions with method `mesh` see them: which of them are
+/// used, and the space that they leave. Assigned at the cameras' clock; then any number of askers
+/// may ask it, and what one of them finds out about hidden space is kept for all.
+class FrameSet {
+ public:
+  /// Camera k's newest frame, or null where it has none yet. Each belongs to another View of one
+  /// robot, whose method is `mesh`, and has to outlive the questions. A frame that is untimely, or
+  /// too old at `now_s`, is left out: its readings are not known any more, and what it would have
+  /// seen free is hidden again. Without now_s the newest stamp is taken for now. Nobody may ask
+  /// meanwhile. Reuses its memory.
+  void assign(std::span<const Frame* const> frames, const TimeSettings& settings,
+              std::optional<double> now_s = {});
+
+  /// frames()[k] and cameras()[k] belong to camera k.
+  std::span<const Frame* const> frames() const { return frames_; }
+  const std::vector<CameraState>& cameras() const { return cameras_; }
+  /// Of all that are used; null where none is.
+  const Frame* newest() const { return newest_; }
+  /// Its view i is frames()[used()[i]].
+  const HiddenSpace& space() const { return space_; }
+  const std::vector<int>& used() const { return used_; }
+  /// What was dropped as doubtful, as a space of its own; without views where nothing was.
+  const HiddenSpace& doubtful() const { return doubtful_; }
+
+ private:
+  std::vector<const Frame*> frames_;
+  std::vector<CameraState> cameras_;
+  std::vector<int> used_;
+  std::vector<PosedView> posed_;
+  std::vector<PosedView> posed_doubtful_;
+  const Frame* newest_ = nullptr;
+  HiddenSpace space_;
+  HiddenSpace doubtful_;
+};
+
+/// How an answer stands at `now_s` for the joints of the newest frame that is used. Where none is,
+/// the status is that of the newest of all.
+Timeliness timeliness_of(const FrameSet& frames, std::optional<double> now_s,
+                         const TimeSettings& settings);
+
+/// The same for joints of another stamp.
+Timeliness timeliness_of(const FrameSet& frames, double joints_stamp_s,
+                         std::optional<double> now_s, const TimeSettings& settings);
+
+}  // namespace berth
