@@ -19,8 +19,8 @@ struct Answer {
   /// Unless its status is ok, every link is LinkStatus::untimely.
   Timeliness time;
   LinkDistances distances;
-  /// What the camera cannot know: visibility[i] belongs to the link with the id i + 1. Empty unless
-  /// EvaluationSettings::visibility is set.
+  /// What the cameras see of each link and around it: visibility[i] belongs to the link with the id
+  /// i + 1. Empty unless EvaluationSettings::visibility is set.
   std::vector<LinkVisibility> visibility;
 };
 
