@@ -117,7 +117,8 @@ void add_setting(CLI::App& command, const Setting& setting, const auto& value,
 void add_evaluation(CLI::App& command, EvaluationArguments& arguments) {
   command.add_option("--method", arguments.method, "How to find the distances (default: exact)")
       ->check(CLI::IsMember(names_of<Method>()));
-  visit_settings(DistanceSettings{}, [&](const Setting& setting, const auto& value) {
+  const DistanceSettings defaults;
+  visit_settings(defaults, [&](const Setting& setting, const auto& value) {
     add_setting(command, setting, value, arguments);
   });
 }

@@ -76,3 +76,66 @@ class Evaluator {
                      SearchableDepth(images.obstacle_depth_m), settings},
                     out);
       gl_->check("evaluate");
+      return;
+    }
+    obstacles_.build(images.obstacle_depth_m);
+    berth::evaluate(method_, {images.camera, images.robot, images.link_count, obstacles_, settings},
+                    workspace_, out);
+  }
+
+  std::string gl_renderer() const { return gl_ ? gl_->renderer() : ""; }
+
+ private:
+  Method method_;
+  std::unique_ptr<GlBackend> gl_;
+  SearchableDepth obstacles_;
+  EvaluateWorkspace workspace_;
+};
+
+EvaluateTiming summary_of(std::vector<double> times_us) {
+  std::sort(times_us.begin(), times_us.end());
+  // The least time that this share of the evaluations did not exceed.
+  const auto percentile = [&](double share) {
+    return times_us[static_cast<std::size_t>(
+                        std::ceil(share * static_cast<double>(times_us.size()))) -
+                    1];
+  };
+  return {static_cast<int>(times_us.size()), times_us.front(), percentile(0.5), percentile(0.99),
+          times_us.back()};
+}
+
+}  // namespace
+
+void evaluate_command(const EvaluateArguments& arguments) {
+  const ThreeImages images = read_images(arguments);
+  const Method method = arguments.evaluation.method_over(Method::exact);
+  const DistanceSettings settings = arguments.evaluation.settings_over({}, method);
+  Output output(arguments.format, arguments.out);
+  Evaluator evaluator(method, arguments.where);
+  LinkDistances distances;
+  std::vector<double> times_us;
+  for (int i = 0; i < std::max(1, arguments.repeat); ++i) {
+    stop_if_interrupted();
+    // Each evaluation as if it were the first: exact would begin with the last answer.
+    distances.links.clear();
+    const auto start = std::chrono::steady_clock::now();
+    evaluator.evaluate(images, settings, distances);
+    const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
+    times_us.push_back(took.count());
+  }
+
+  FrameResult result;
+  result.camera = "camera";
+  result.method = name_of(method);
+  result.gl_renderer = evaluator.gl_renderer();
+  result.range_m = settings.range_m;
+  result.has_bounds = settings.tolerance_m > 0 || settings.deadline_us;
+  for (int id = 1; id <= images.link_count; ++id)
+    result.link_names.push_back(fmt::format("link_{}", id));
+  result.distances = &distances;
+  if (arguments.repeat > 0) result.timing = summary_of(std::move(times_us));
+  output.write(result);
+  output.finish();
+}
+
+}  // namespace berth::app

@@ -76,3 +76,66 @@ class Stages {
                             frame_.searchable, settings_};
     exact_.take([&] { evaluate(Method::exact, question, workspace_, distances_); });
     mean_.take([&] { fill_mean_directions(question, workspace_.directions, distances_); });
+  }
+
+  const OpenCamera& camera_;
+  std::shared_ptr<const View> view_;
+  RobotRenderer renderer_;
+  EmbreeRays rays_;
+  RobotImage traced_;
+  RobotPose pose_;
+  SelfFilterWorkspace filter_;
+  EvaluateWorkspace workspace_;
+  LinkDistances distances_;
+  Observer observer_;
+  Asker asker_;
+  Frame frame_;
+  DistanceSettings settings_;
+  Stage render_{"render"};
+  Stage self_filter_{"self filter"};
+  Stage both_{"render and self filter"};
+  Stage tree_{"obstacle tree"};
+  Stage exact_{"exact, cold"};
+  Stage mean_{"mean direction, on top"};
+  Stage whole_{"depth image to result"};
+  Stage question_{"question at new joint angles"};
+  Stage embree_{"Embree rays, same pixels"};
+};
+
+}  // namespace
+
+Table measure_stages(const Recording& recording, int threads, int rounds) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+  const OpenCamera& camera = recording.camera();
+  const std::size_t frames = camera.source.depth.size();
+  const std::string title =
+      fmt::format("Stages, {}, {} thread{}", recording.title, threads, threads == 1 ? "" : "s");
+  Stages stages(camera);
+  app::ProgressBar progress(title, frames);
+  // Frame by frame, since the images of all of them together are large.
+  for (std::size_t i = 0; i < frames; ++i) {
+    const DepthImage depth_m = camera.read_depth(i);
+    for (int round = 0; round <= rounds; ++round) {
+      app::stop_if_interrupted();
+      stages.run(depth_m, i);
+      if (i == 0 && round == 0) stages.forget_times();
+    }
+    progress.step();
+  }
+  // Apart, since its meshes would drive berth's out of the caches.
+  for (std::size_t i = 0; i < frames; ++i) {
+    for (int round = 0; round <= rounds; ++round) stages.run_embree(i);
+  }
+
+  return table_of(
+      title,
+      fmt::format("{} x {}, {} triangles, {} links, {} frames, each {} times. The image to "
+                  "result and the question are the whole pipeline, with mean directions; "
+                  "Embree is beside it.",
+                  camera.view->camera().width_px, camera.view->camera().height_px,
+                  triangle_count(camera.view->robot()->model()), camera.view->robot()->model().link_count(), frames,
+                  rounds + 1),
+      stages.all());
+}
+
+}  // namespace berth::lab

@@ -120,3 +120,91 @@ TEST_P(GlSceneTest, ImagesAndDistancesAreThoseOfTheCpuButAtEdges) {
     searchable.build(obstacles.depth_m);
     evaluate(Method::exact, {view->camera(), robot, links, searchable, settings}, workspace,
              from_gpu);
+    for (int link = 0; link < links; ++link) {
+      EXPECT_EQ(from_gpu.links[link].status, from_cpu.links[link].status);
+      if (from_cpu.links[link].status != LinkStatus::ok) continue;
+      const double error_m =
+          std::abs(from_gpu.links[link].distance_m - from_cpu.links[link].distance_m);
+      const double pixel_m = from_cpu.links[link].robot_point_C_m.z() / view->camera().fx_px;
+      EXPECT_LE(error_m, kDistanceError_px * pixel_m) << "frame " << i << ", link " << link + 1;
+      largest_m = std::max(largest_m, error_m);
+    }
+  }
+  fmt::print("{}: distances differ by at most {:.2e} m\n", GetParam(), largest_m);
+}
+
+TEST_P(GlSceneTest, OnePassFiltersAsTheRulesForSinglePixelsDo) {
+  SelfFilterSettings settings = camera().view->settings().self_filter;
+  settings.padding_m = 0;
+  settings.link_padding_m.clear();
+  settings.dilation_px = 0;
+  settings.edge_jump_m = 0;
+  settings.island_radius_m = 0;
+  const auto view = view_filtered(settings);
+  GlFrame gl(view->camera());
+  const std::size_t i = frames()[1];
+  const DepthImage depth_m = camera().read_depth(i);
+  GlObserver(view).observe(depth_m, camera().at_exposure[i], gl);
+  ObstacleImage by_rules;
+  read_back(gl.obstacles, by_rules);
+  const GlTexture sensor_depth_m = depth_texture_for(view->camera());
+  upload_for(view->camera()).send(depth_m, sensor_depth_m);
+  const GlTexture filtered = depth_texture_for(view->camera());
+  GlRobotRenderer renderer(view->robot()->model(), view->camera());
+  renderer.render_and_filter(gl.pose, gl.X_BC, {}, sensor_depth_m, tolerance_of(settings), gl.robot,
+                             filtered);
+  DepthImage in_pass;
+  read_back(filtered, in_pass);
+  int differ = 0;
+  int removed = 0;
+  for (std::size_t p = 0; p < in_pass.pixels().size(); ++p) {
+    const float expected_m = by_rules.depth_m.pixels()[p];
+    const float found_m = in_pass.pixels()[p];
+    differ += std::isnan(expected_m) != std::isnan(found_m) ||
+              (!std::isnan(expected_m) && expected_m != found_m);
+    removed += by_rules.fate.pixels()[p] == PixelFate::robot;
+  }
+  EXPECT_EQ(differ, 0);
+  EXPECT_GT(removed, 1000);
+
+  // Enlarged, it removes more.
+  renderer.render_and_filter(gl.pose, gl.X_BC, {1, 0.02}, sensor_depth_m, tolerance_of(settings),
+                             gl.robot, filtered);
+  DepthImage padded;
+  read_back(filtered, padded);
+  const auto none = [](const DepthImage& image) {
+    return std::count_if(image.pixels().begin(), image.pixels().end(),
+                         [](float z_m) { return std::isnan(z_m); });
+  };
+  fmt::print("{}: one pass removes {} pixels, with 2 cm along the normals {} more\n", GetParam(),
+             removed, none(padded) - none(in_pass));
+  EXPECT_GT(none(padded), none(in_pass) + 100);
+}
+
+TEST_P(GlSceneTest, TheRobotShapedRegionIsThatOfTheCpuButAtEdges) {
+  SelfFilterSettings settings = camera().view->settings().self_filter;
+  settings.robot_region_scale = 3;
+  const auto view = view_filtered(settings);
+  GlObserver gl_observer(view);
+  GlFrame gl(view->camera());
+  Observer observer(view);
+  Frame frame;
+  ObstacleImage obstacles;
+  const std::size_t i = frames()[1];
+  const DepthImage depth_m = camera().read_depth(i);
+  observer.observe(depth_m, camera().at_exposure[i], frame);
+  gl_observer.observe(depth_m, camera().at_exposure[i], gl);
+  read_back(gl.obstacles, obstacles);
+  const std::int64_t fates = differing_fates(obstacles, frame.obstacles);
+  fmt::print("{}: {} pixels ignored, {} fates differ\n", GetParam(),
+             frame.obstacles.count_of(PixelFate::outside_region), fates);
+  EXPECT_GT(frame.obstacles.count_of(PixelFate::outside_region), 1000);
+  EXPECT_LE(fates, kMostFates * depth_m.width() * depth_m.height());
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, GlSceneTest,
+                         ::testing::Values("bundled", "xarm7_realsense", "lbr_med7_zed2i"),
+                         [](const auto& test) { return test.param; });
+
+}  // namespace
+}  // namespace berth

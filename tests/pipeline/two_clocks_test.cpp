@@ -59,3 +59,66 @@ TEST_F(TwoClocks, OtherJointsGiveTheRobotOfThatPoseAgainstWhatTheFrameSaw) {
   evaluate(Method::exact,
            {camera_.view->camera(), robot, camera_.view->robot()->model().link_count(), frame.searchable, {}},
            workspace, expected);
+  for (std::size_t i = 0; i < expected.links.size(); ++i) {
+    EXPECT_EQ(answer.distances.links[i].distance_m, expected.links[i].distance_m);
+  }
+}
+
+TEST_F(TwoClocks, FramesAndAskersCarryNothingOver) {
+  Observer observer(camera_.view);
+  Asker asker(camera_.view->robot());
+  Frame frame;
+  const auto run = [&](std::size_t i) {
+    observer.observe(camera_.read_depth(i), camera_.at_exposure[i], frame);
+    return distances_of(asker.ask(frame));
+  };
+  const auto first = run(5);
+  run(25);
+  EXPECT_EQ(run(5), first);
+}
+
+TEST_F(TwoClocks, TwoThreadsAskOneFrame) {
+  const Frame frame = observe(7);
+  std::vector<float> answers[2];
+  const auto ask = [&](std::vector<float>& out) {
+    Asker asker(camera_.view->robot());
+    for (int i = 0; i < 20; ++i) out = distances_of(asker.ask(frame, camera_.at_exposure[8]));
+  };
+  std::thread other(ask, std::ref(answers[0]));
+  ask(answers[1]);
+  other.join();
+  EXPECT_EQ(answers[0], answers[1]);
+  EXPECT_FALSE(answers[0].empty());
+}
+
+TEST_F(TwoClocks, WrongSizesAndJointsAreRefused) {
+  Observer observer(camera_.view);
+  Asker asker(camera_.view->robot());
+  Frame frame = observe(0);
+  EXPECT_THROW(observer.observe(DepthImage(10, 10, 1.0F), camera_.at_exposure[0], frame),
+               std::invalid_argument);
+  EXPECT_THROW(asker.ask(frame, JointState{0, {1, 2}}), std::invalid_argument);
+  JointState bad = camera_.at_exposure[0];
+  bad.position[2] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(asker.ask(frame, bad), std::invalid_argument);
+}
+
+TEST_F(TwoClocks, ABackgroundIsLearnedOnlyWhereItIsAskedForAndFromImagesOfTheCamerasSize) {
+  const Frame frame = observe(0);
+  const DepthImage depth_m = camera_.read_depth(0);
+  EXPECT_THROW(Observer(camera_.view).learn_background(depth_m, frame), std::invalid_argument);
+
+  ViewSettings settings;
+  settings.sensor.background_frames = 1;
+  Observer observer(testing::view_with(*camera_.view, settings));
+  EXPECT_THROW(observer.learn_background(DepthImage(10, 10, 1.0F), frame), std::invalid_argument);
+  Frame learned;
+  observer.observe(depth_m, camera_.at_exposure[0], learned);
+  EXPECT_EQ(learned.obstacles.count_of(PixelFate::background), 0);
+  observer.learn_background(depth_m, learned);
+  observer.observe(camera_.read_depth(20), camera_.at_exposure[20], learned);
+  EXPECT_GT(learned.obstacles.count_of(PixelFate::background), 0);
+}
+
+}  // namespace
+}  // namespace berth

@@ -42,3 +42,13 @@ const Answer& Asker::evaluate_robot(const Frame& frame, const AskedRobot& robot)
             robot_->settings().distance},
            workspace_, answer_.distances);
   tell_visibility(frame, robot, tell_, answer_);
+  return answer_;
+}
+
+RobotRenderer& Asker::renderer_of(const std::shared_ptr<const View>& view) {
+  if (rendered_view_ == view) return *renderer_;
+  rendered_view_ = view;
+  return renderer_.emplace(robot_->meshes(), view->camera());
+}
+
+}  // namespace berth

@@ -16,3 +16,11 @@ struct Frame : Exposure {
   /// Of obstacles.depth_m.
   SearchableDepth searchable;
   /// Empty unless EvaluationSettings::visibility is set.
+  DoubtfulImage doubtful;
+};
+
+/// Empties the images of a frame whose time is not ok: nothing of the image before may stay under a
+/// new stamp.
+void clear_images(const Camera& camera, Frame& frame);
+
+}  // namespace berth

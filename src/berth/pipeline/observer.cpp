@@ -19,3 +19,40 @@ void Observer::observe(DepthView depth_m, const JointState& at_exposure, Frame& 
                      frame.obstacles);
   frame.searchable.build(frame.obstacles.depth_m);
   if (view_->robot()->settings().visibility) {
+    find_doubtful(depth_m, frame.obstacles, frame.doubtful);
+  } else {
+    clear_doubtful(depth_m.width, depth_m.height, frame.doubtful);
+  }
+}
+
+void Observer::filter(DepthView depth_m, Frame& frame) {
+  const SelfFilterSettings& settings = view_->settings().self_filter;
+  if (!region_renderer_) {
+    self_filter(view_->camera(), depth_m, frame.robot, settings, workspace_, frame.obstacles);
+    return;
+  }
+  region_renderer_->render(frame.pose, frame.X_BC, region_);
+  self_filter(view_->camera(), depth_m, frame.robot, region_, settings, workspace_, frame.obstacles);
+}
+
+void Observer::observe(DepthView depth_m, double stamp_s, const JointBuffer& joints, Frame& frame) {
+  const TimeSettings& settings = view_->robot()->settings().time;
+  const TimeStatus stamp = clock_.next(stamp_s, settings);
+  FrameTime time = joints.at(stamp_s, settings.joints, at_exposure_);
+  if (stamp != TimeStatus::ok) time.status = stamp;
+  observe(depth_m, at_exposure_, frame, time);
+}
+
+void Observer::learn_background(DepthView depth_m, const Frame& frame) {
+  require_size(view_->camera(), depth_m);
+  const SensorSettings& settings = view_->settings().sensor;
+  if (!settings.has_background()) {
+    throw std::invalid_argument(
+        "sensor.background_frames: 0; expected 1 or more, to learn a background");
+  }
+  // Without its robot the image would give the arm for a background.
+  if (frame.time.status != TimeStatus::ok) return;
+  background_.learn(view_->camera(), depth_m, frame.robot, frame.obstacles.fate, settings);
+}
+
+}  // namespace berth

@@ -94,9 +94,11 @@ std::string settings_table(std::string_view group) {
   std::string table = "| key | default | may be | what it does |\n| --- | --- | --- | --- |\n";
   const TableWriter write{table};
   if (group == "self_filter") {
-    visit_settings(SelfFilterSettings{}, write);
+    const SelfFilterSettings settings;
+    visit_settings(settings, write);
   } else if (group == "sensor") {
-    visit_settings(SensorSettings{}, write);
+    const SensorSettings settings;
+    visit_settings(settings, write);
   } else if (group == "evaluation") {
     const EvaluationSettings settings;
     write({"method", {}, "how the distances are found"}, settings.method);
