@@ -1,5 +1,5 @@
 # Thin fronts of CMake. Each target does all set-up that it needs, on a bare Debian 12 too.
-.PHONY: demo test build bench lab study bench-gpu sanitize sanitize-thinned fuzz trust berth_trust trust-distances trust-real-images trust-long-runs setup format clean
+.PHONY: demo test build bench lab study bench-gpu sanitize sanitize-thinned fuzz trust berth_trust trust-distances trust-real-images trust-long-runs setup docs lint format clean
 
 # A fresh build folder is configured for berth alone, which needs the fewest packages. One that has more keeps it.
 product = test -e build/release/build.ninja || cmake --preset product
@@ -54,8 +54,9 @@ sanitize-%: setup
 	cmake --preset $*
 	cmake --build --preset $*
 	ctest --preset $* -j2
-sanitize-thinned: sanitize-thinned-asan sanitize-thinned-tsan
-sanitize-thinned-%: setup
+sanitize-thinned: thinned-asan thinned-tsan
+# thinned-scalar: vector code for one lane through its own tests.
+thinned-%: setup
 	cmake --preset $*
 	cmake --build --preset $* --target $*_thinned
 	ctest --preset $* -j2 --label-regex $* --no-tests=error
@@ -85,6 +86,17 @@ trust-long-runs: setup
 # All that the tests need.
 setup:
 	scripts/setup.sh packages.txt packages-lab.txt packages-tests.txt
+
+# The API's pages: build/docs/html/index.html.
+docs:
+	scripts/setup.sh packages.txt packages-docs.txt
+	scripts/docs.sh
+
+# clang-tidy over all that build/dev configures. LINT: a part of the paths, such as src/berth/robot.
+lint: setup
+	scripts/setup.sh packages-lint.txt
+	cmake --preset dev
+	scripts/lint.sh $(LINT)
 
 format:
 	git ls-files '*.hpp' '*.cpp' | xargs clang-format -i

@@ -1,15 +1,27 @@
+# find_package(berth) gives berth::berth, all that computes on the processor, and berth::files;
+# find_package(berth COMPONENTS opengl) berth::opengl as well, COMPONENTS scene berth::scene, which runs scene files.
 include(CMakePackageConfigHelpers)
-get_property(libraries GLOBAL PROPERTY BERTH_LIBRARIES)
-install(TARGETS ${libraries} EXPORT berthTargets
-        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/berth DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-        FILES_MATCHING PATTERN "*.hpp")
-install(EXPORT berthTargets NAMESPACE berth:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/berth)
-file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/berthConfig.cmake
-"include(\${CMAKE_CURRENT_LIST_DIR}/BerthDependencies.cmake)
-include(\${CMAKE_CURRENT_LIST_DIR}/berthTargets.cmake)
-")
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/berth)
+foreach(component core opengl scene)
+  get_property(libraries GLOBAL PROPERTY BERTH_LIBRARIES_OF_${component})
+  if(libraries)
+    install(TARGETS ${libraries} EXPORT berth_${component}_targets
+            ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    install(EXPORT berth_${component}_targets NAMESPACE berth:: DESTINATION ${package})
+  endif()
+endforeach()
+
+# When it is installed, since an edit of a header does not configure anew.
+install(CODE "
+  include(${PROJECT_SOURCE_DIR}/cmake/PublicHeaders.cmake)
+  berth_with_includes(headers ${PROJECT_SOURCE_DIR}/src \${BERTH_PUBLIC_HEADERS})
+  foreach(header IN LISTS headers)
+    cmake_path(GET header PARENT_PATH folder)
+    file(INSTALL ${PROJECT_SOURCE_DIR}/src/\${header} DESTINATION \${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}/\${folder})
+  endforeach()")
+
+configure_file(${PROJECT_SOURCE_DIR}/cmake/berthConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/berthConfig.cmake @ONLY)
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/berthConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/berthConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/berthConfigVersion.cmake
-        ${PROJECT_SOURCE_DIR}/cmake/BerthDependencies.cmake
-        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/berth)
+              ${PROJECT_SOURCE_DIR}/cmake/BerthDependencies.cmake ${PROJECT_SOURCE_DIR}/cmake/BerthOpenglDependencies.cmake
+        DESTINATION ${package})

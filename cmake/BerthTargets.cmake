@@ -1,5 +1,6 @@
-# berth_library(<folder> SOURCES ... DEPENDS ... USES ...): one target for each folder of src/berth.
-# DEPENDS are libraries that its headers need, USES are those that only its sources need.
+# berth_library(<folder> SOURCES ... DEPENDS ... USES ... [COMPONENT opengl]): one target for each folder of src/berth.
+# DEPENDS are libraries that its headers need, USES are those that only its sources need. COMPONENT: users get it only where
+# they ask find_package for it.
 function(berth_compile_options target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor
@@ -11,15 +12,19 @@ function(berth_compile_options target)
 endfunction()
 
 function(berth_library folder)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;USES" ${ARGN})
+  cmake_parse_arguments(ARG "" "COMPONENT" "SOURCES;DEPENDS;USES" ${ARGN})
   add_library(berth_${folder} ${ARG_SOURCES})
   add_library(berth::${folder} ALIAS berth_${folder})
-  set_target_properties(berth_${folder} PROPERTIES EXPORT_NAME ${folder})
+  set_target_properties(berth_${folder} PROPERTIES EXPORT_NAME ${folder} VERSION ${PROJECT_VERSION}
+                        SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   target_include_directories(berth_${folder} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(berth_${folder} PUBLIC ${ARG_DEPENDS} PRIVATE ${ARG_USES})
   berth_compile_options(berth_${folder})
-  set_property(GLOBAL APPEND PROPERTY BERTH_LIBRARIES berth_${folder})
+  if(NOT ARG_COMPONENT)
+    set(ARG_COMPONENT core)
+  endif()
+  set_property(GLOBAL APPEND PROPERTY BERTH_LIBRARIES_OF_${ARG_COMPONENT} berth_${folder})
 endfunction()
 
 # berth_program(<name> SOURCES ... DEPENDS ...)
@@ -31,7 +36,7 @@ function(berth_program name)
 endfunction()
 
 # berth_test(<name> SOURCES ... DEPENDS ... SANITIZE ...): a GoogleTest program, each of its tests one line of ctest.
-# SANITIZE: the presets, asan or tsan, whose thinned run has it: the targets asan_thinned and tsan_thinned, the label in ctest.
+# SANITIZE: the presets (asan, tsan, scalar) whose thinned run has it: the target asan_thinned and so on, the label in ctest.
 function(berth_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;SANITIZE" ${ARGN})
   berth_program(${name} SOURCES ${ARG_SOURCES} DEPENDS ${ARG_DEPENDS} GTest::gtest_main)

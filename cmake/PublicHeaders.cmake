@@ -1,6 +1,7 @@
 # What users of an installed berth include. Installed are these and what they include; nothing else. A header's name here is a
 # promise to document it (make docs) and to tell of its changes (CHANGELOG.md).
 set(BERTH_PUBLIC_HEADERS
+  berth/berth.hpp
   berth/types/camera.hpp
   berth/types/image.hpp
   berth/types/joint_state.hpp
@@ -8,7 +9,11 @@ set(BERTH_PUBLIC_HEADERS
   berth/types/link_visibility.hpp
   berth/types/obstacle_image.hpp
   berth/types/robot_image.hpp
+  berth/types/setting.hpp
   berth/types/time_status.hpp
+  berth/files/camera_info.hpp
+  berth/files/joints_csv.hpp
+  berth/files/png.hpp
   berth/robot/joint_buffer.hpp
   berth/robot/joint_trajectory.hpp
   berth/robot/kinematics.hpp
@@ -21,27 +26,30 @@ set(BERTH_PUBLIC_HEADERS
   berth/sensor/settings.hpp
   berth/distance/evaluate.hpp
   berth/distance/settings.hpp
-  berth/opengl/gl_context.hpp
-  berth/opengl/gl_evaluate.hpp
-  berth/opengl/gl_robot_renderer.hpp
-  berth/opengl/gl_self_filter.hpp
   berth/visibility/doubtful.hpp
   berth/visibility/visibility.hpp
   berth/pipeline/answer.hpp
   berth/pipeline/asker.hpp
   berth/pipeline/frame.hpp
-  berth/pipeline/gl_asker.hpp
-  berth/pipeline/gl_frame.hpp
-  berth/pipeline/gl_observer.hpp
   berth/pipeline/observer.hpp
-  berth/pipeline/rig.hpp
-  berth/io/camera_info.hpp
-  berth/io/frame_result.hpp
-  berth/io/joints_csv.hpp
-  berth/io/png.hpp
-  berth/io/result_json.hpp
-  berth/io/result_table.hpp
-  berth/io/scene.hpp)
+  berth/pipeline/robot.hpp
+  berth/pipeline/view.hpp
+  berth/opengl/gl_asker.hpp
+  berth/opengl/gl_context.hpp
+  berth/opengl/gl_evaluate.hpp
+  berth/opengl/gl_frame.hpp
+  berth/opengl/gl_observer.hpp
+  berth/opengl/gl_robot_renderer.hpp
+  berth/opengl/gl_self_filter.hpp
+  berth/scene/backend.hpp
+  berth/scene/frame_result.hpp
+  berth/scene/open_scene.hpp
+  berth/scene/result_json.hpp
+  berth/scene/result_table.hpp
+  berth/scene/scene_file.hpp
+  berth/scene/scene_run.hpp)
+
+cmake_policy(VERSION 3.22)  # also where an install script includes this file
 
 # berth_with_includes(<out> <folder> <header>...): the headers, relative to the folder, and those of berth that they include.
 function(berth_with_includes out folder)

@@ -26,7 +26,7 @@ void add_options(CLI::App& program, BenchSettings& settings, BackendChoice& wher
       .add_option("--scene", settings.scenes,
                   "A recording to measure as well; may stand several times")
       ->type_name("SCENE.yaml");
-  add_backend_options(
+  berth::app::add_backend_options(
       program, "Which methods to measure: those of the processor, or those on OpenGL", where);
   program.footer("Example:\n  berth_bench --quick --out bench_results --scene scene.yaml");
 }
@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
   if (const auto status = berth::app::parse_command_line(program, argc, argv)) return *status;
   return berth::app::carry_out("berth_bench", 0, [&] {
     settings.bundled_scene = berth::app::bundled_scene_file();
-    if (where.backend == berth::app::Backend::opengl) settings.gl_device = where.gl_device;
+    if (where.backend == berth::Backend::opengl) settings.gl_device = where.gl_device;
     berth::lab::run_benchmarks(settings);
   });
 }

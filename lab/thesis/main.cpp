@@ -32,7 +32,7 @@ void add_options(CLI::App& program, StudySettings& settings, BackendChoice& wher
                   "A recording to measure on as well; may stand several times")
       ->type_name("SCENE.yaml");
   berth::app::add_threads(program, settings.threads);
-  add_backend_options(
+  berth::app::add_backend_options(
       program, "opengl measures the methods on OpenGL as well, for figures 3.13 to 3.19", where);
   program.footer("Example:\n  berth_study --quick --out study --scene scene.yaml");
 }
@@ -42,7 +42,7 @@ void run(StudySettings settings, const BackendChoice& where) {
     settings.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   }
   settings.bundled_scene = berth::app::bundled_scene_file();
-  if (where.backend == berth::app::Backend::opengl) settings.gl_device = where.gl_device;
+  if (where.backend == berth::Backend::opengl) settings.gl_device = where.gl_device;
   try {
     berth::lab::run_study(settings);
   } catch (const berth::app::Interrupted&) {

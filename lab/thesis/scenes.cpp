@@ -14,7 +14,7 @@ namespace {
 testing::ImagePair images_of(const Recording& recording, std::size_t frame_number) {
   const OpenCamera& camera = recording.camera();
   Frame frame;
-  Observer(camera_.view)
+  Observer(camera.view)
       .observe(camera.read_depth(frame_number), camera.at_exposure[frame_number], frame);
   return {camera.view->camera(), std::move(frame.robot), std::move(frame.obstacles.depth_m),
           camera.view->robot()->model().link_count()};

@@ -60,7 +60,7 @@ void draw(const TrialRobot& robot, const testing::DrawnScene& scene, std::uint32
             searchable,
             {.range_m = kTrialRange_m, .mean_direction = false}},
            evaluating, distances);
-  write_picture(picture,
+  app::write_picture(picture,
                 {scene.depth_m, &image, &obstacles, &distances, robot.model.evaluated_link_names(),
                  kTrialRange_m, fmt::format("{}, seed {}", robot.name, seed)});
 }

@@ -14,6 +14,7 @@
 #include "lab/trust/real_image.hpp"
 #include "lab/trust/tables.hpp"
 #include "lab/trust/trial_robots.hpp"
+#include "lab/trust/whole_robot_tables.hpp"
 
 namespace berth::lab {
 namespace {
@@ -62,6 +63,26 @@ void measure_trust(const std::vector<TrialRobot>& robots, int scenes) {
   }
 }
 
+/// Scenes with several cameras, against the distances of whole links.
+void measure_whole_robot(const std::vector<TrialRobot>& robots, int scenes) {
+  const auto conditions = whole_robot_conditions();
+  std::vector<WholeRobotTrial> trials(scenes);
+  std::atomic<int> done = 0;
+  tbb::parallel_for(0, scenes, [&](int i) {
+    tbb::this_task_arena::isolate([&] {
+      trials[i] = run_whole_robot_trial(robot_of(robots, i), settings_of(i),
+                                             static_cast<std::uint32_t>(i), conditions);
+    });
+    if (++done % 10 == 0) fmt::print(stderr, "{} of {} scenes\n", done.load(), scenes);
+  });
+  fmt::print("{} scenes, {} robots\n{}", scenes, robots.size(),
+             whole_robot_table(trials, conditions));
+  for (std::size_t c = 0; c < conditions.size(); ++c) {
+    fmt::print("\n### {}: the worst\n{}", conditions[c].name,
+               worst_whole_robot_table(trials, c, 4));
+  }
+}
+
 }  // namespace
 }  // namespace berth::lab
 
@@ -71,6 +92,7 @@ int main(int argc, char** argv) {
   std::filesystem::path robots_folder;
   std::filesystem::path real_images;
   std::optional<int> look;
+  bool whole_robot = false;
   std::filesystem::path picture = "scene.png";
   program.add_option("--scenes", scenes, "How many; their seeds count from 0")
       ->check(CLI::Range(1, 1000000))
@@ -82,6 +104,8 @@ int main(int argc, char** argv) {
           "--real-images", real_images,
           "Instead, draw the robots into real depth images (folder depth/ of the recordings)")
       ->check(CLI::ExistingDirectory);
+  program.add_flag("--whole-robot", whole_robot,
+                   "Instead, the method `mesh` with one to four cameras, on whole links");
   program.add_option("--look", look, "Instead, print and draw the scene of this seed")
       ->check(CLI::Range(0, 1000000));
   program.add_option("--picture", picture, "Where --look draws to")->capture_default_str();
@@ -91,6 +115,8 @@ int main(int argc, char** argv) {
     if (look) {
       berth::lab::look_at_scene(berth::lab::robot_of(robots, *look), berth::lab::settings_of(*look),
                                 static_cast<std::uint32_t>(*look), picture);
+    } else if (whole_robot) {
+      berth::lab::measure_whole_robot(robots, scenes);
     } else if (!real_images.empty()) {
       const auto images = berth::lab::load_real_images(real_images);
       fmt::print("{}", berth::lab::real_image_table(images, robots, scenes));

@@ -25,6 +25,10 @@ const RobotImage& SceneImages::believed(const PoseErrors& errors) {
   return find_or_make(believed_, errors, [&] { return render(errors); });
 }
 
+Pose SceneImages::believed_X_BC(const PoseErrors& errors) const {
+  return testing::miscalibrated(scene_.X_BC, errors.offset_m, errors.angle_rad, seed_ + 4);
+}
+
 DepthImage SceneImages::sense(const ImageErrors& errors) const {
   DepthImage depth_m = scene_.depth_m;
   if (errors.outline_px > 0) testing::darken_outlines(errors.outline_px, depth_m);
@@ -36,14 +40,12 @@ DepthImage SceneImages::sense(const ImageErrors& errors) const {
 }
 
 RobotImage SceneImages::render(const PoseErrors& errors) const {
-  const Pose X_BC =
-      testing::miscalibrated(scene_.X_BC, errors.offset_m, errors.angle_rad, seed_ + 4);
   const JointState joints =
       testing::delayed(model_, scene_.joints, errors.delay_s, kTrialJointSpeed_per_s, seed_ + 5);
   RobotPose pose;
   forward_kinematics(model_, joints.position, pose);
   RobotImage image;
-  RobotRenderer(meshes_, scene_.camera).render(pose, X_BC, image);
+  RobotRenderer(meshes_, scene_.camera).render(pose, believed_X_BC(errors), image);
   return image;
 }
 

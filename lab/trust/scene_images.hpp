@@ -22,6 +22,8 @@ class SceneImages {
   const DepthImage& sensed(const ImageErrors& errors);
   /// The robot where berth believes that it is.
   const RobotImage& believed(const PoseErrors& errors);
+  /// The camera where berth believes that it is.
+  Pose believed_X_BC(const PoseErrors& errors) const;
 
  private:
   DepthImage sense(const ImageErrors& errors) const;

@@ -254,7 +254,7 @@ TEST(SceneKey, SelfFilterAndEvaluationHaveDefaults) {
   scene.lines.self_filter =
       "{tolerance_m: 0.05, padding_m: 0.02, padding_depth_m: 0.3, dilation_px: 0, edge_jump_m: "
       "0.03, "
-      "island_radius_m: 0.08, island_jump_m: 0.02, robot_region_scale: 0}";
+      "island_radius_m: 0.07, island_jump_m: 0.03, robot_region_scale: 0}";
   scene.lines.evaluation = "{method: exact, range_m: 1, mean_direction: true, visibility: true}";
   EXPECT_EQ(scene.run().at(0), frame);
 }

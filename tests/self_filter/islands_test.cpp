@@ -67,9 +67,11 @@ FlatScene scene_with_slope(float step_m) {
   return scene;
 }
 
-TEST(Islands, AWebThatSlopesAwayIsDroppedUpToTheRadius) {
-  EXPECT_EQ(filter(scene_with_slope(0.005F), island_rule()).fate(32, 30), PixelFate::island);
-  EXPECT_EQ(filter(scene_with_slope(0.015F), island_rule()).fate(32, 30), PixelFate::obstacle);
+TEST(Islands, AWebThatSlopesAwayIsDroppedUpToThePaddingDepth) {
+  SelfFilterSettings settings = island_rule();
+  settings.padding_depth_m = 0.05;
+  EXPECT_EQ(filter(scene_with_slope(0.005F), settings).fate(32, 30), PixelFate::island);
+  EXPECT_EQ(filter(scene_with_slope(0.015F), settings).fate(32, 30), PixelFate::obstacle);
 }
 
 TEST(Islands, ARimThatShowsBesideTheRobotAStepBehindOrBeforeItIsKept) {
@@ -112,7 +114,7 @@ TEST(Islands, WhatStandsInFrontOfTheRobotIsKeptHoweverSmall) {
   EXPECT_EQ(filter(scene, island_rule()).fate(25, 29), PixelFate::obstacle);
 }
 
-TEST(Islands, APieceOfWhichMoreThanATenthStandsInFrontOfTheRobotIsKept) {
+TEST(Islands, APieceThatIsJoinedToSomethingInFrontOfTheRobotIsKept) {
   FlatScene scene = scene_with_web(0.965F);
   scene.see(kLink, 0.965F);
   EXPECT_EQ(filter(scene, island_rule()).fate(33, 29), PixelFate::island);
@@ -122,13 +124,30 @@ TEST(Islands, APieceOfWhichMoreThanATenthStandsInFrontOfTheRobotIsKept) {
   EXPECT_EQ(out.fate(33, 29), PixelFate::obstacle);
 }
 
-TEST(Islands, AWebThatTouchesTheRobotsRimIsDroppedAllTheSame) {
-  FlatScene scene = scene_with_web(0.955F);
-  scene.see(kLink, 0.97F);
-  scene.see({29, 30, 30, 31}, 0.955F);
-  SelfFilterSettings settings = island_rule();
-  settings.padding_m = 0;
-  EXPECT_EQ(filter(scene, settings).count_of(PixelFate::island), 61);
+TEST(Islands, WhatIsBesideTheRobotAndNearerThanTheToleranceAllowsIsKept) {
+  const auto islands_at = [](float depth_m) {
+    FlatScene scene = scene_with_web(depth_m);
+    scene.see(kLink, 0.97F);
+    SelfFilterSettings settings = island_rule();
+    settings.padding_m = 0;
+    return filter(scene, settings).count_of(PixelFate::island);
+  };
+  EXPECT_EQ(islands_at(0.965F), 60);
+  EXPECT_EQ(islands_at(0.955F), 0);
+}
+
+TEST(Islands, AFarCamerasStepsJoinTheWeb) {
+  for (const float depth_m : {1.0F, 2.0F}) {
+    FlatScene scene;
+    scene.add_link(1, kLink, depth_m);
+    scene.see(kLink, depth_m);
+    scene.see({30, 25, 32, 35}, depth_m + 0.05F);
+    SelfFilterSettings settings = island_rule();
+    settings.padding_m = 0;
+    settings.tolerance_m = 0.06;
+    const bool is_joined = depth_m > 1.5F;  // the jump is 2 cm at 1 m, 8 cm at 2 m
+    EXPECT_EQ(filter(scene, settings).count_of(PixelFate::island), is_joined ? 20 : 0);
+  }
 }
 
 TEST(Islands, SceneryHasNoIslands) {

@@ -1,6 +1,5 @@
 #include "tests/self_filter/plain_definition.hpp"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -16,7 +15,6 @@ class PlainFilter {
     fate_ = Image<PixelFate>(camera.width_px, camera.height_px, PixelFate::obstacle);
     for_each([&](int u, int v) {
       if (is_outline(u, v)) outline_.push_back({u, v});
-      if (is_link(u, v)) surface_C_.push_back(point_C(u, v, robot_.depth_m(u, v)));
     });
   }
 
@@ -47,10 +45,6 @@ class PlainFilter {
 
   bool is_link(int u, int v) const {
     return robot_.link_id(u, v) != kNoLink && robot_.link_id(u, v) != kEnvironmentLink;
-  }
-
-  Eigen::Vector3d point_C(int u, int v, double z) const {
-    return {(u - camera_.cx_px) * z / camera_.fx_px, (v - camera_.cy_px) * z / camera_.fy_px, z};
   }
 
   PixelFate fate_alone(int u, int v) const {
@@ -107,14 +101,18 @@ class PlainFilter {
   }
 
   bool is_padding(int u, int v) const {
-    const double longest_px = std::max(camera_.width_px, camera_.height_px);
     return std::any_of(outline_.begin(), outline_.end(), [&](const Pixel& p) {
-      const float z = robot_.depth_m(p.u, p.v);
-      const double padding_m = settings_.padding_of(robot_.link_id(p.u, p.v));
-      return padding_m > 0 && belongs_beside(u, v, z) &&
-             in_disc(u - p.u, v - p.v, std::min(longest_px, padding_m * camera_.fx_px / z),
-                     std::min(longest_px, padding_m * camera_.fy_px / z));
+      return is_beside(u, v, p, settings_.padding_of(robot_.link_id(p.u, p.v)));
     });
+  }
+
+  /// Within radius_m of an outline pixel in the image, and of a depth that belongs to it.
+  bool is_beside(int u, int v, Pixel outline, double radius_m) const {
+    const double longest_px = std::max(camera_.width_px, camera_.height_px);
+    const float z = robot_.depth_m(outline.u, outline.v);
+    return radius_m > 0 && belongs_beside(u, v, z) &&
+           in_disc(u - outline.u, v - outline.v, std::min(longest_px, radius_m * camera_.fx_px / z),
+                   std::min(longest_px, radius_m * camera_.fy_px / z));
   }
 
   bool is_dilation(int u, int v) const {
@@ -140,9 +138,8 @@ class PlainFilter {
   }
 
   bool is_near(int u, int v) const {
-    const Eigen::Vector3d p_C = point_C(u, v, sensor_(u, v));
-    return std::any_of(surface_C_.begin(), surface_C_.end(), [&](const Eigen::Vector3d& q_C) {
-      return (p_C - q_C).norm() <= settings_.island_radius_m;
+    return std::any_of(outline_.begin(), outline_.end(), [&](const Pixel& p) {
+      return is_beside(u, v, p, settings_.island_radius_m);
     });
   }
 
@@ -155,16 +152,17 @@ class PlainFilter {
       const std::vector<Pixel> piece = piece_at(u, v, before, walked);
       const bool stays = std::all_of(piece.begin(), piece.end(),
                                      [&](const Pixel& p) { return is_near(p.u, p.v); });
-      const auto in_front = std::count_if(piece.begin(), piece.end(),
-                                          [&](const Pixel& p) { return is_link(p.u, p.v); });
-      if (!stays || 10 * in_front > std::ssize(piece) || !hangs(piece, reached)) return;
+      if (!stays || !hangs(piece, reached)) return;
       for (const Pixel& p : piece) fate_(p.u, p.v) = PixelFate::island;
     });
   }
 
   bool is_joined(int u, int v, int du, int dv) const {
-    return is_inside(u + du, v + dv) && std::abs(sensor_(u + du, v + dv) - sensor_(u, v)) <=
-                                            static_cast<float>(settings_.island_jump_m);
+    if (!is_inside(u + du, v + dv)) return false;
+    const float a = sensor_(u, v);
+    const float b = sensor_(u + du, v + dv);
+    const float jump = static_cast<float>(settings_.island_jump_m);
+    return std::abs(a - b) <= jump * std::max(1.0F, std::min(a * a, b * b));
   }
 
   /// The robot's own readings, and what they lead to within padding and dilation: flooded until
@@ -230,7 +228,6 @@ class PlainFilter {
   const SelfFilterSettings& settings_;
   Image<PixelFate> fate_;
   std::vector<Pixel> outline_;
-  std::vector<Eigen::Vector3d> surface_C_;
 };
 
 }  // namespace

@@ -4,108 +4,32 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 
 #include "berth/robot/primitives.hpp"
+#include "tests/support/drawn_camera.hpp"
 #include "tests/support/drawn_obstacles.hpp"
 #include "tests/support/embree_renderer.hpp"
 
 namespace berth::testing {
 namespace {
 
-/// A camera that sees less than this share of its pixels filled by the robot is drawn again.
-constexpr double kLeastRobotShare = 0.01;
 constexpr int kMostCameras = 50;
 /// Of obstacles, most of which meet the robot where it is crowded.
 constexpr int kMostTries = 500;
-/// No obstacle comes nearer to the camera.
-constexpr double kLeastCameraClearance_m = 0.25;
 constexpr double kRoomHalf_m = 4;
 constexpr double kWallThickness_m = 0.1;
 
-/// A ball around the evaluated links, and the lowest point of all links.
-struct Extent {
-  Eigen::Vector3d centre_B_m;
-  double radius_m;
-  double lowest_z_m;
-};
-
-Extent extent_of(const RobotModel& model, const RobotPose& pose) {
-  Eigen::AlignedBox3d evaluated_B;
-  double lowest_z_m = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < model.links.size(); ++i) {
-    for (const auto& vertex : model.links[i].mesh_L.vertices_m) {
-      const Eigen::Vector3d p_B = pose.X_BL[i] * vertex.cast<double>();
-      if (model.links[i].role == LinkRole::evaluated) evaluated_B.extend(p_B);
-      lowest_z_m = std::min(lowest_z_m, p_B.z());
-    }
-  }
-  return {evaluated_B.center(), evaluated_B.diagonal().norm() / 2, lowest_z_m};
-}
-
-Camera draw_camera(Random& random, const DrawnSceneSettings& settings) {
-  Camera camera{settings.width_px, settings.height_px};
-  camera.fx_px = settings.width_px * random(0.6, 1.1);
-  camera.fy_px = camera.fx_px * random(0.98, 1.02);
-  camera.cx_px = settings.width_px * random(0.47, 0.53) - 0.5;
-  camera.cy_px = settings.height_px * random(0.47, 0.53) - 0.5;
-  return camera;
-}
-
-/// Around the robot, from a little below its middle up to steeply above.
-Pose draw_camera_pose(Random& random, const Extent& robot) {
-  const double around = random(-std::numbers::pi, std::numbers::pi);
-  const double up = random(-0.2, 1.2);
-  const Eigen::Vector3d away(std::cos(up) * std::cos(around), std::cos(up) * std::sin(around),
-                             std::sin(up));
-  const Eigen::Vector3d target_B_m =
-      robot.centre_B_m +
-      0.4 * robot.radius_m * Eigen::Vector3d(random(-1, 1), random(-1, 1), random(-1, 1));
-  const double distance_m = robot.radius_m * random(1.3, 3.5);
-  const Eigen::Vector3d z = -away;
-  const Eigen::Vector3d x = z.cross(Eigen::Vector3d::UnitZ()).normalized();
-  Pose X_BC;
-  X_BC.linear() << x, z.cross(x), z;
-  X_BC.linear() *=
-      Eigen::AngleAxisd(random(-0.3, 0.3), Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  X_BC.translation() = target_B_m + distance_m * away;
-  return X_BC;
-}
-
-RobotImage cast_image(const EmbreeRenderer& rays, const Camera& camera) {
-  RobotImage image;
-  image.depth_m = DepthImage(camera.width_px, camera.height_px, kNoDepth);
-  image.link_id = Image<LinkId>(camera.width_px, camera.height_px, kNoLink);
-  for (int v = 0; v < camera.height_px; ++v) {
-    for (int u = 0; u < camera.width_px; ++u) {
-      const RayHit hit = rays.hit(u, v);
-      if (hit.id == kNoLink) continue;
-      image.depth_m(u, v) = static_cast<float>(hit.depth_m);
-      image.link_id(u, v) = hit.id;
-    }
-  }
-  return image;
-}
-
-bool is_seen(const Image<LinkId>& link_id) {
-  const auto seen = std::count_if(link_id.pixels().begin(), link_id.pixels().end(), [](LinkId id) {
-    return id != kNoLink && id != kEnvironmentLink;
-  });
-  return static_cast<double>(seen) >
-         kLeastRobotShare * static_cast<double>(link_id.pixels().size());
-}
-
 /// Sets camera, X_BC and the robot's image.
-void look_at_robot(Random& random, const RobotModel& model, const Extent& robot,
+void look_at_robot(Random& random, const RobotModel& model, const RobotExtent& robot,
                    const DrawnSceneSettings& settings, DrawnScene& scene) {
   for (int i = 0; i < kMostCameras; ++i) {
-    scene.camera = draw_camera(random, settings);
+    scene.camera = draw_camera(random, settings.width_px, settings.height_px);
     scene.X_BC = draw_camera_pose(random, robot);
     scene.robot =
         cast_image(EmbreeRenderer(model, scene.pose, scene.X_BC, scene.camera), scene.camera);
-    if (is_seen(scene.robot.link_id)) return;
+    if (robot_share(scene.robot) > kLeastRobotShare) return;
   }
   throw std::runtime_error(
       fmt::format("robot \"{}\": none of {} cameras sees it", model.name, kMostCameras));
@@ -115,7 +39,7 @@ DrawnObstacle box_at(const Eigen::Vector3d& size_m, const Pose& X_BO) {
   return {make_box(size_m), X_BO};
 }
 
-void add_room(Random& random, const Extent& robot, DrawnScene& scene) {
+void add_room(Random& random, const RobotExtent& robot, DrawnScene& scene) {
   const double floor_z_m = std::min(robot.lowest_z_m - robot.radius_m * random(0.02, 0.3),
                                     scene.X_BC.translation().z() - kLeastCameraClearance_m);
   Pose X_BO = Pose::Identity();
@@ -155,7 +79,8 @@ bool is_clear_of_robot(const DrawnObstacle& obstacle, const std::vector<MeshTree
 
 /// Most stand near the robot: their distance from one of its points is of the order of their size.
 void add_obstacles(Random& random, const RobotModel& model, const std::vector<MeshTree>& link_trees,
-                   const Extent& robot, const DrawnSceneSettings& settings, DrawnScene& scene) {
+                   const RobotExtent& robot, const DrawnSceneSettings& settings,
+                   DrawnScene& scene) {
   const int count = random.whole(settings.least_obstacles, settings.most_obstacles);
   const std::size_t wanted = scene.obstacles.size() + count;
   for (int tries = 0; scene.obstacles.size() < wanted && tries < kMostTries; ++tries) {
@@ -225,7 +150,7 @@ DrawnScene draw_scene(const RobotModel& model, const std::vector<MeshTree>& link
   DrawnScene scene;
   scene.joints = draw_joints(random, model);
   forward_kinematics(model, scene.joints.position, scene.pose);
-  const Extent robot = extent_of(model, scene.pose);
+  const RobotExtent robot = extent_of(model, scene.pose);
   look_at_robot(random, model, robot, settings, scene);
   if (settings.has_room) add_room(random, robot, scene);
   add_obstacles(random, model, link_trees, robot, settings, scene);

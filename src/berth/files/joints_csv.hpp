@@ -8,6 +8,7 @@ namespace berth {
 
 /// Joint positions over time, in the file's own order of joints; rad, or m for prismatic joints.
 struct JointTable {
+  /// Where the joints were at a time.
   struct Row {
     double time_s = 0;
     std::vector<double> positions;  ///< one for each name

@@ -32,6 +32,7 @@ class GlProgram {
   void set(std::string_view uniform, float value);
   void set(std::string_view uniform, double value);
   void set(std::string_view uniform, const Eigen::Vector2i& value);
+  void set(std::string_view uniform, const Eigen::Vector2d& value);
   void set(std::string_view uniform, const Eigen::Vector4f& value);
   void set(std::string_view uniform, const Eigen::Vector4d& value);
   void set(std::string_view uniform, const Eigen::Matrix4f& value);

@@ -10,15 +10,13 @@ namespace {
 constexpr int kTilePx = 16;
 
 /// Bytes of the structs of filter_tile.glsl and filter_pieces.glsl.
-constexpr std::size_t kTileBytes = 48;
+constexpr std::size_t kTileBytes = 12;
 constexpr std::size_t kDiscBytes = 32;
-constexpr std::size_t kPieceBytes = 16;
+constexpr std::size_t kPieceBytes = 8;
 
 GlBuffer device(std::size_t bytes) { return {bytes, GlMemory::device}; }
 
-Eigen::Vector4d pinhole(const Camera& camera) {
-  return {camera.cx_px, camera.cy_px, camera.fx_px, camera.fy_px};
-}
+Eigen::Vector2d focal_px(const Camera& camera) { return {camera.fx_px, camera.fy_px}; }
 
 /// outline_of's limit of a neighbour's depth.
 float deeper(const Camera& camera) {
@@ -36,7 +34,7 @@ bool may_pad(const SelfFilterSettings& settings) {
 GlSelfFilter::GlSelfFilter()
     : pixels_program_("filter_pixels.comp.glsl"),
       grow_program_("filter_grow.comp.glsl"),
-      near_program_("filter_near.comp.glsl"),
+      begin_program_("filter_begin.comp.glsl"),
       join_program_("filter_join.comp.glsl"),
       weigh_program_("filter_weigh.comp.glsl"),
       hang_program_("filter_hang.comp.glsl"),
@@ -67,8 +65,8 @@ void GlSelfFilter::filter(const Camera& camera, const Images& images,
   look_at_pixels(camera, images, settings);
   if (may_pad(settings)) grow(PixelFate::padding, images, settings);
   if (settings.dilation_px > 0) grow(PixelFate::dilation, images, settings);
-  if (settings.island_radius_m > 0) find_islands(camera, images, settings);
-  finish(images, settings);
+  if (settings.island_radius_m > 0) find_islands(images, settings);
+  finish(images);
 }
 
 void GlSelfFilter::prepare(const Camera& camera) {
@@ -83,15 +81,15 @@ void GlSelfFilter::take_memory() {
   const auto tiles = static_cast<std::size_t>(tiles_.prod());
   filter_tiles_ = device(tiles * kTileBytes);
   discs_ = device(tiles * kTilePx * kTilePx * kDiscBytes);
-  frame_ = device((2 + tiles) * sizeof(std::uint32_t));
+  frame_ = device(2 * sizeof(std::uint32_t));
   pieces_ = device(static_cast<std::size_t>(size_.prod()) * kPieceBytes);
-  for (GlProgram* program : {&pixels_program_, &grow_program_, &near_program_}) {
+  for (GlProgram* program : {&pixels_program_, &grow_program_}) {
     program->bind("FilterTiles", filter_tiles_);
     program->bind("FilterFrame", frame_);
+    program->bind("Discs", discs_);
   }
-  for (GlProgram* program : {&pixels_program_, &grow_program_}) program->bind("Discs", discs_);
   for (GlProgram* program :
-       {&near_program_, &join_program_, &weigh_program_, &hang_program_, &finish_program_}) {
+       {&begin_program_, &join_program_, &weigh_program_, &hang_program_, &finish_program_}) {
     program->bind("Pieces", pieces_);
   }
 }
@@ -126,7 +124,10 @@ void GlSelfFilter::look_at_pixels(const Camera& camera, const Images& images,
   pixels_program_.read("robot_depth_m", images.robot.depth_m);
   pixels_program_.read("link_id", images.robot.link_id);
   pixels_program_.write("fate", images.out.fate);
-  pixels_program_.set("camera", pinhole(camera));
+  for (GlProgram* program : {&pixels_program_, &grow_program_}) {
+    program->set("focal_px", focal_px(camera));
+    program->set("island_radius_m", settings.island_radius_m);
+  }
   pixels_program_.set("tolerance", gl_tolerance(tolerance_of(settings)));
   pixels_program_.set("edge_jump_m", static_cast<float>(settings.edge_jump_m));
   pixels_program_.set("deeper", deeper(camera));
@@ -141,15 +142,10 @@ void GlSelfFilter::grow(PixelFate grown, const Images& images, const SelfFilterS
   dispatch(grow_program_);
 }
 
-void GlSelfFilter::find_islands(const Camera& camera, const Images& images,
-                                const SelfFilterSettings& settings) {
-  near_program_.read("sensor_depth_m", images.sensor_depth_m);
-  near_program_.read("robot_depth_m", images.robot.depth_m);
-  near_program_.read("link_id", images.robot.link_id);
-  near_program_.write("fate", images.out.fate);
-  near_program_.set("camera", pinhole(camera));
-  near_program_.set("island_radius_m", static_cast<float>(settings.island_radius_m));
-  dispatch(near_program_);
+void GlSelfFilter::find_islands(const Images& images, const SelfFilterSettings& settings) {
+  grow(PixelFate::island, images, settings);
+  begin_program_.write("fate", images.out.fate);
+  dispatch(begin_program_);
   for (GlProgram* program : {&join_program_, &weigh_program_, &hang_program_}) {
     program->read("sensor_depth_m", images.sensor_depth_m);
     program->write("fate", images.out.fate);
@@ -157,13 +153,12 @@ void GlSelfFilter::find_islands(const Camera& camera, const Images& images,
   }
   dispatch(join_program_);
   weigh_program_.read("robot_depth_m", images.robot.depth_m);
-  weigh_program_.read("link_id", images.robot.link_id);
   weigh_program_.set("tolerance", gl_tolerance(tolerance_of(settings)));
   dispatch(weigh_program_);
   dispatch(hang_program_);
 }
 
-void GlSelfFilter::finish(const Images& images, const SelfFilterSettings& settings) {
+void GlSelfFilter::finish(const Images& images) {
   counts_.fill(0);
   finish_program_.read("sensor_depth_m", images.sensor_depth_m);
   // A sampler needs a texture, also where it is not read.
@@ -171,7 +166,6 @@ void GlSelfFilter::finish(const Images& images, const SelfFilterSettings& settin
                        images.region_id != nullptr ? *images.region_id : images.robot.link_id);
   finish_program_.write("fate", images.out.fate);
   finish_program_.write("obstacle_depth_m", images.out.depth_m);
-  finish_program_.set("has_islands", settings.island_radius_m > 0 ? 1 : 0);
   finish_program_.set("has_region", images.region_id != nullptr ? 1 : 0);
   dispatch(finish_program_);
   counts_.copy_to(counts_back_, counts_.bytes());

@@ -50,15 +50,15 @@ class GlSelfFilter {
   void look_at_pixels(const Camera& camera, const Images& images,
                       const SelfFilterSettings& settings);
   void grow(PixelFate grown, const Images& images, const SelfFilterSettings& settings);
-  void find_islands(const Camera& camera, const Images& images, const SelfFilterSettings& settings);
-  void finish(const Images& images, const SelfFilterSettings& settings);
+  void find_islands(const Images& images, const SelfFilterSettings& settings);
+  void finish(const Images& images);
   void dispatch(GlProgram& program) { program.dispatch(tiles_.x(), tiles_.y()); }
 
   Eigen::Vector2i size_ = Eigen::Vector2i::Zero();
   Eigen::Vector2i tiles_ = Eigen::Vector2i::Zero();
   GlProgram pixels_program_;
   GlProgram grow_program_;
-  GlProgram near_program_;
+  GlProgram begin_program_;
   GlProgram join_program_;
   GlProgram weigh_program_;
   GlProgram hang_program_;

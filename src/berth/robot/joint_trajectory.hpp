@@ -12,6 +12,7 @@ namespace berth {
 /// Joint states over time, in the order of a robot's joints.
 class JointTrajectory {
  public:
+  /// Where the joints were at a time; rad, or m for prismatic joints.
   struct Sample {
     double time_s = 0;
     std::vector<double> positions;  ///< one for each name

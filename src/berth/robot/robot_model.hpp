@@ -44,6 +44,7 @@ struct Joint {
   double offset = 0;
 };
 
+/// A rigid part of the robot, or scenery that stands around it.
 struct Link {
   std::string name;
   /// Index into RobotModel::links, always smaller than the link's own; none for the root.
@@ -65,6 +66,7 @@ struct MovableJoint {
   double upper = std::numeric_limits<double>::infinity();
 };
 
+/// The robot as its URDF tells; constant once loaded.
 struct RobotModel {
   std::string name;
   /// Parents before children; links[0] is the root, whose frame is B.
@@ -84,6 +86,7 @@ struct RobotModel {
   bool is_moved(std::size_t index) const;
 };
 
+/// Which robot, and what its links are to be.
 struct RobotSettings {
   std::filesystem::path urdf = {};
   /// What package://NAME/ means. A NAME that is not here is looked for as a folder beside the URDF,

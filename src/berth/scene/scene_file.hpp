@@ -12,6 +12,7 @@
 
 namespace berth {
 
+/// A camera as SCENE.yaml tells of it, with the files of its images.
 struct SceneCamera {
   std::string name;
   std::filesystem::path info;
@@ -28,6 +29,7 @@ struct SceneCamera {
   ViewSettings settings;
 };
 
+/// All that SCENE.yaml says.
 struct SceneFile {
   std::filesystem::path file;
   RobotSettings robot;

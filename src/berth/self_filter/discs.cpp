@@ -15,8 +15,10 @@ namespace berth {
 namespace HWY_NAMESPACE {
 
 template <class D>
-HWY_INLINE hn::Mask<D> is_open(D d, FatesOf<D> fate) {
-  return hn::Or(has_fate(d, fate, PixelFate::obstacle), has_fate(d, fate, PixelFate::edge));
+HWY_INLINE hn::Mask<D> is_open(D d, FatesOf<D> fate, PixelFate grown = PixelFate::padding) {
+  const auto is_obstacle = has_fate(d, fate, PixelFate::obstacle);
+  if (grown == PixelFate::island) return is_obstacle;
+  return hn::Or(is_obstacle, has_fate(d, fate, PixelFate::edge));
 }
 
 bool has_open(const PixelRect& rect, const Image<PixelFate>& fate) {
@@ -119,7 +121,7 @@ void cover_tile(const PixelRect& rect, const std::vector<NearDiscTile>& tiles, P
       PixelFate* const fate = images.fate.row(v) + u;
       float* const depth_m = images.obstacle_depth_m.row(v) + u;
       const auto was = load_fate(d, fate);
-      const auto open = is_open(d, was);
+      const auto open = is_open(d, was, grown);
       if (hn::AllFalse(d, open)) return;
       const auto reading_m = hn::LoadU(d, images.sensor_depth_m.row(v) + u);
       const auto below_all = hn::Set(d, -std::numeric_limits<float>::infinity());

@@ -59,7 +59,7 @@ struct GrownImages {
 /// Whether there are obstacles or edges within `pixels`.
 bool may_be_covered(const PixelRect& pixels, const Image<PixelFate>& fate);
 
-/// Gives those obstacles and edges within `pixels` that belong to a disc the fate `grown`. Fastest
+/// Gives those obstacles, and unless they become islands those edges, within `pixels` that belong to a disc the fate `grown`. Fastest
 /// if the nearest tiles come first.
 void cover_with_discs(const PixelRect& pixels, const std::vector<NearDiscTile>& tiles,
                       PixelFate grown, const GrownImages& images);

@@ -55,7 +55,8 @@ GrownRobot::Radius GrownRobot::radius_of(LinkId id, float depth_m) const {
     const double radius_px = settings_->dilation_px;
     return {radius_px, radius_px};
   }
-  const double padding_m = settings_->padding_of(id);
+  const double padding_m =
+      grown_ == PixelFate::island ? settings_->island_radius_m : settings_->padding_of(id);
   const double longest_px = std::max(camera_->width_px, camera_->height_px);
   return {std::min(longest_px, padding_m * camera_->fx_px / depth_m),
           std::min(longest_px, padding_m * camera_->fy_px / depth_m)};

@@ -27,6 +27,13 @@ class GrownRobot {
   /// After all rows are found.
   void end_outline();
 
+  /// No pixel outside of these grows.
+  PixelRect grown_pixels() const {
+    return clip({grown_tiles_.u_begin * kTileWidth_px, grown_tiles_.v_begin * kTileHeight_px,
+                 grown_tiles_.u_end * kTileWidth_px, grown_tiles_.v_end * kTileHeight_px},
+                grid_.width_px, grid_.height_px);
+  }
+
   /// Gives obstacles and edges in one row of tiles that belong to the grown robot the fate `grown`.
   /// Each row is grown once, by any thread.
   void grow(int tile_row, const GrownImages& images);

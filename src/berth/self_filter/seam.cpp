@@ -1,7 +1,8 @@
 #include "berth/self_filter/seam.hpp"
 
 #include <algorithm>
-#include <cmath>
+
+#include "berth/self_filter/joined.hpp"
 
 namespace berth {
 namespace {
@@ -28,7 +29,7 @@ bool Seam::any_joined(Pixel p, const Call& call) const {
   const float depth_m = depth_m_(p.u, p.v);
   for (int v = std::max(0, p.v - 1); v <= std::min(depth_m_.height - 1, p.v + 1); ++v) {
     for (int u = std::max(0, p.u - 1); u <= std::min(depth_m_.width - 1, p.u + 1); ++u) {
-      if (std::abs(depth_m_(u, v) - depth_m) <= jump_m_ && call(u, v)) return true;
+      if (is_joined(depth_m_(u, v), depth_m, jump_m_) && call(u, v)) return true;
     }
   }
   return false;

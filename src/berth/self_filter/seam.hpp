@@ -18,7 +18,7 @@ struct SeamWorkspace {
 
 /// Where the robot's own readings go on into those beside it. Own are the readings on the model's
 /// surface: fate `robot`, and not behind it by more than the tolerance. They lead to a pixel beside
-/// it by steps to neighbours (8) of up to jump_m in depth, from pixel to pixel of what was dropped
+/// it by steps to neighbours (8) that are joined (joined.hpp), from pixel to pixel of what was dropped
 /// there as `padding` or `dilation`. What stands behind the robot, or before it, is a step away
 /// from its readings.
 class Seam {

@@ -37,8 +37,8 @@ class Filter {
     workspace.padding.begin(camera, robot, settings, PixelFate::padding);
     if (dilates()) workspace.dilation.begin(camera, robot, settings, PixelFate::dilation);
     if (!has_islands()) return;
-    workspace.islands.neighbourhood.begin(camera, robot, settings.island_radius_m);
-    set_size(camera, workspace.islands.state);
+    workspace.islands.neighbourhood.begin(camera, robot, settings, PixelFate::island);
+    set_size(camera, workspace.islands.walked);
     set_size(camera, workspace.islands.seam.state);
   }
 
@@ -47,11 +47,11 @@ class Filter {
     tbb::parallel_for(0, grid_.rows(), [this](int tile_row) { look_at_pixels(tile_row); });
     workspace_.padding.end_outline();
     if (dilates()) workspace_.dilation.end_outline();
-    if (has_islands()) workspace_.islands.neighbourhood.end_robot();
+    if (has_islands()) workspace_.islands.neighbourhood.end_outline();
     tbb::parallel_for(0, grid_.rows(), [this](int tile_row) { look_around(tile_row); });
     add_counts();
     if (has_islands()) {
-      drop_islands(sensor_depth_m_, robot_, tolerance_, static_cast<float>(settings_.island_jump_m),
+      keep_islands(sensor_depth_m_, robot_, tolerance_, static_cast<float>(settings_.island_jump_m),
                    workspace_.islands, out_);
     }
   }
@@ -73,7 +73,7 @@ class Filter {
     }
     workspace_.padding.find_outline(tile_row);
     if (dilates()) workspace_.dilation.find_outline(tile_row);
-    if (has_islands()) workspace_.islands.neighbourhood.add_robot(tile_row);
+    if (has_islands()) workspace_.islands.neighbourhood.find_outline(tile_row);
   }
 
   void classify(int v, const FilterRow& row) {
@@ -90,10 +90,7 @@ class Filter {
     const GrownImages images{sensor_depth_m_, out_.fate, out_.depth_m};
     workspace_.padding.grow(tile_row, images);
     if (dilates()) workspace_.dilation.grow(tile_row, images);
-    if (has_islands()) {
-      workspace_.islands.neighbourhood.find_near(tile_row, sensor_depth_m_, out_.fate,
-                                                 workspace_.islands.state);
-    }
+    if (has_islands()) workspace_.islands.neighbourhood.grow(tile_row, images);
     auto& count = workspace_.counts[tile_row];
     count.fill(0);
     for (int v = v_begin(tile_row); v < v_end(tile_row); ++v)

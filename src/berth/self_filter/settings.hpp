@@ -30,11 +30,12 @@ struct SelfFilterSettings {
   /// A mixed pixel lies between two flat neighbours, more than this from each; 0 turns the rule
   /// off.
   double edge_jump_m = 0.03;
-  /// Depth-connected pieces (steps up to island_jump_m) that hang on the robot's own readings by
-  /// such steps and lie wholly within this distance of it are its own leftovers; 0 turns the rule
-  /// off.
-  double island_radius_m = 0.08;
-  double island_jump_m = 0.02;
+  /// A camera that smooths draws webs from the robot's outline. Pieces of readings, joined by steps
+  /// in depth of up to island_jump_m max(1, z^2), are taken for such webs if steps lead from the
+  /// robot's own readings to them and they lie wholly where padding of this length would reach; 0
+  /// turns the rule off.
+  double island_radius_m = 0.07;
+  double island_jump_m = 0.03;
   /// The robot-shaped region of surveillance (Hirt 3.1.1): obstacles that are not seen through the
   /// robot enlarged this many times (robot_region) are **ignored**, however near they are in space;
   /// the thesis's picture uses 6. It is uneven: wide around thick links, narrow around thin ones,

@@ -6,7 +6,6 @@ layout(local_size_x = 16, local_size_y = 16) in;
 
 uniform sampler2D sensor_depth_m;
 uniform usampler2D region_id;
-uniform int has_islands;
 uniform int has_region;
 layout(r32ui) uniform uimage2D fate;
 layout(r32f) uniform writeonly image2D obstacle_depth_m;
@@ -14,19 +13,16 @@ layout(std430) buffer FateCounts { uint fate_count[]; };
 
 shared uint tile_count[kFates];
 
-// A piece is an island if it hangs on the robot's own readings, unless it leaves the robot's
-// neighbourhood or more than a tenth of it is in front of the robot.
+// A piece is an island if it hangs on the robot's own readings and is not joined to an obstacle
+// elsewhere.
 bool is_island(ivec2 pixel, ivec2 size) {
-  uint number = number_of_pixel(pixel, size);
-  if (pieces[number].parent == kNoPiece) return false;
-  Piece piece = pieces[root_of(number)];
-  return piece.joined == kToOwn && 10u * piece.in_front <= piece.pixels;
+  return pieces[root_of(number_of_pixel(pixel, size))].joined == kToOwn;
 }
 
 uint last_fate(ivec2 pixel, ivec2 size) {
   uint own = imageLoad(fate, pixel).x;
-  if (own != kObstacle) return own;
-  if (has_islands != 0 && is_island(pixel, size)) return kIsland;
+  if (own != kObstacle && own != kIsland) return own;
+  if (own == kIsland && is_island(pixel, size)) return kIsland;
   if (has_region != 0 && texelFetch(region_id, pixel, 0).x == kNoLink) return kOutsideRegion;
   return kObstacle;
 }

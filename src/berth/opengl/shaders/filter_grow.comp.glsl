@@ -1,20 +1,22 @@
-// Padding, or dilation: obstacles and edges that belong to a disc around an outline pixel.
+// Padding, dilation, or where islands may lie: obstacles, and edges unless for islands, that belong to
+// a disc around an outline pixel.
 #include "filter_fates.glsl"
 #include "filter_tile.glsl"
+#include "filter_disc.glsl"
 #include "pixels.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 
 uniform sampler2D sensor_depth_m;
 layout(r32ui) uniform uimage2D fate;
-uniform uint grown;      // kPadding or kDilation
+uniform uint grown;      // kPadding, kDilation or kIsland
 uniform int dilation_px;
+uniform double island_radius_m;
 layout(std430) readonly buffer FilterTiles { FilterTile tiles[]; };
 layout(std430) readonly buffer Discs { Disc discs[]; };
 layout(std430) readonly buffer FilterFrame {
   uint reach_px;
-  uint robot_tiles;
-  uint robot_tile[];
+  uint island_reach_px;
 };
 
 shared uint open_pixels;
@@ -23,8 +25,18 @@ shared Disc near_discs[kTilePixels];
 // The disc that grows: dilation's is a circle of so many pixels.
 Disc grown_disc(Disc disc) {
   if (grown == kPadding) return disc;
-  double radius_px = double(dilation_px);
-  return Disc(radius_px * radius_px, 1.0LF, disc.least_m, disc.most_m, disc.place, 0u);
+  if (grown == kDilation) return with_radius(disc, dvec2(dilation_px));
+  return with_radius(disc, disc_radius_px(island_radius_m, disc.depth_m, imageSize(fate)));
+}
+
+float reach_of_tile(FilterTile tile) {
+  if (grown == kPadding) return tile.reach_px;
+  return grown == kDilation ? float(dilation_px + 1) : tile.island_reach_px;
+}
+
+int greatest_reach() {
+  if (grown == kPadding) return int(reach_px);
+  return grown == kDilation ? dilation_px + 1 : int(island_reach_px);
 }
 
 // As in self_filter/discs.hpp.
@@ -74,7 +86,7 @@ void main() {
   bool is_open = false;
   if (all(lessThan(pixel, size))) {
     uint own = imageLoad(fate, pixel).x;
-    is_open = own == kObstacle || own == kEdge;
+    is_open = own == kObstacle || (own == kEdge && grown != kIsland);
   }
   if (is_open) atomicAdd(open_pixels, 1u);
   barrier();
@@ -82,8 +94,7 @@ void main() {
 
   float reading_m = is_open ? texelFetch(sensor_depth_m, pixel, 0).x : 0.0;
   bool on_surface = is_open && is_on_surface(pixel, reading_m);
-  int reach = grown == kPadding ? int(reach_px) : dilation_px + 1;
-  int near = (reach + kTilePx - 1) / kTilePx;
+  int near = (greatest_reach() + kTilePx - 1) / kTilePx;
   ivec2 last_tile = ivec2(tile_columns(size), tile_rows(size)) - 1;
   ivec2 first = clamp(ivec2(gl_WorkGroupID.xy) - near, ivec2(0), last_tile);
   ivec2 last = clamp(ivec2(gl_WorkGroupID.xy) + near, ivec2(0), last_tile);
@@ -91,7 +102,7 @@ void main() {
     for (int column = first.x; column <= last.x; ++column) {
       int number = row * (last_tile.x + 1) + column;
       FilterTile tile = tiles[number];
-      if (!may_reach(ivec2(column, row), tile, grown == kPadding ? tile.reach_px : float(reach))) continue;
+      if (!may_reach(ivec2(column, row), tile, reach_of_tile(tile))) continue;
       if (gl_LocalInvocationIndex < tile.discs) {
         near_discs[gl_LocalInvocationIndex] =
             grown_disc(discs[uint(number) * kTilePixels + gl_LocalInvocationIndex]);

@@ -1,4 +1,4 @@
-// A piece of obstacle pixels hangs on the robot's own readings also by way of what the robot's growth
+// A piece hangs on the robot's own readings also by way of what the robot's growth
 // dropped.
 #include "filter_fates.glsl"
 #include "filter_pieces.glsl"
@@ -7,7 +7,6 @@ layout(local_size_x = 16, local_size_y = 16) in;
 
 uniform sampler2D sensor_depth_m;
 layout(r32ui) uniform readonly uimage2D fate;
-uniform float island_jump_m;
 
 bool hangs(ivec2 pixel, ivec2 size) {
   float depth_m = texelFetch(sensor_depth_m, pixel, 0).x;
@@ -17,8 +16,7 @@ bool hangs(ivec2 pixel, ivec2 size) {
     for (int u = first.x; u <= last.x; ++u) {
       ivec2 next = ivec2(u, v);
       if (!is_grown(imageLoad(fate, next).x)) continue;
-      precise float step_m = abs(texelFetch(sensor_depth_m, next, 0).x - depth_m);
-      if (step_m > island_jump_m) continue;
+      if (!is_joined(texelFetch(sensor_depth_m, next, 0).x, depth_m)) continue;
       if ((pieces[root_of(number_of_pixel(next, size))].joined & kToOwn) != 0u) return true;
     }
   }
@@ -30,6 +28,6 @@ void main() {
   ivec2 size = textureSize(sensor_depth_m, 0);
   if (any(greaterThanEqual(pixel, size))) return;
   uint number = number_of_pixel(pixel, size);
-  if (pieces[number].parent == kNoPiece || imageLoad(fate, pixel).x != kObstacle) return;
+  if (pieces[number].parent == kNoPiece || imageLoad(fate, pixel).x != kIsland) return;
   if (hangs(pixel, size)) atomicOr(pieces[root_of(number)].joined, kToOwn);
 }

@@ -1,5 +1,5 @@
-// Joins neighbouring pixels near the robot whose depths differ little to pieces: obstacles, and what
-// the robot's growth dropped.
+// Joins neighbouring pixels whose depths differ little to pieces: where islands may lie, and what
+// padding or dilation dropped.
 #include "filter_fates.glsl"
 #include "filter_pieces.glsl"
 
@@ -7,7 +7,6 @@ layout(local_size_x = 16, local_size_y = 16) in;
 
 uniform sampler2D sensor_depth_m;
 layout(r32ui) uniform readonly uimage2D fate;
-uniform float island_jump_m;
 
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -15,7 +14,7 @@ void main() {
   if (any(greaterThanEqual(pixel, size))) return;
   uint number = number_of_pixel(pixel, size);
   if (pieces[number].parent == kNoPiece) return;
-  bool is_obstacle = imageLoad(fate, pixel).x == kObstacle;
+  bool is_island = imageLoad(fate, pixel).x == kIsland;
   float depth_m = texelFetch(sensor_depth_m, pixel, 0).x;
   // The other four neighbours look at this one.
   const ivec2 kNext[4] = ivec2[4](ivec2(1, 0), ivec2(-1, 1), ivec2(0, 1), ivec2(1, 1));
@@ -24,8 +23,7 @@ void main() {
     if (next.x < 0 || any(greaterThanEqual(next, size))) continue;
     uint next_number = number_of_pixel(next, size);
     if (pieces[next_number].parent == kNoPiece) continue;
-    if ((imageLoad(fate, next).x == kObstacle) != is_obstacle) continue;
-    precise float step_m = abs(texelFetch(sensor_depth_m, next, 0).x - depth_m);
-    if (step_m <= island_jump_m) unite(number, next_number);
+    if ((imageLoad(fate, next).x == kIsland) != is_island) continue;
+    if (is_joined(texelFetch(sensor_depth_m, next, 0).x, depth_m)) unite(number, next_number);
   }
 }

@@ -1,16 +1,23 @@
 // Pieces of pixels that are joined by depth, as trees of pixels: each pixel names one before it in
-// its piece, the first pixel, its root, names itself. Obstacle pixels near the robot make pieces,
-// and so do those that its growth dropped, apart from them.
+// its piece, the first pixel, its root, names itself. Obstacle pixels where islands may lie make
+// pieces, and so do those that padding or dilation dropped, apart from them.
 const uint kNoPiece = 0xFFFFFFFFu;
+
+uniform float island_jump_m;
+
+// As in self_filter/joined.hpp; both have a reading.
+bool is_joined(float a_m, float b_m) {
+  float z_m = min(a_m, b_m);
+  precise float step_m = abs(a_m - b_m);
+  precise float most_m = island_jump_m * max(1.0, z_m * z_m);
+  return step_m <= most_m;
+}
 
 struct Piece {
   uint parent;  // kNoPiece for all other pixels
-  // Of a root: what its piece consists of.
-  uint pixels;
-  uint in_front;  // of the robot
-  uint joined;    // to what: bits below
+  uint joined;  // of a root: what its piece is joined to, bits below
 };
-const uint kToFar = 1u;  // to an obstacle far from the robot
+const uint kToFar = 1u;  // to an obstacle elsewhere
 const uint kToOwn = 2u;  // to the robot's own readings (self_filter/seam.hpp)
 
 layout(std430) coherent buffer Pieces { Piece pieces[]; };

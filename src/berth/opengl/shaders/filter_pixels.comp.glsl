@@ -1,7 +1,7 @@
-// The rules of the self filter that look at single pixels, and the robot's outline and boxes.
+// The rules of the self filter that look at single pixels, and the robot's outline.
 #include "filter_fates.glsl"
 #include "filter_tile.glsl"
-#include "filter_point.glsl"
+#include "filter_disc.glsl"
 #include "pixels.glsl"
 #include "tolerance.glsl"
 
@@ -14,6 +14,7 @@ layout(r32ui) uniform writeonly uimage2D fate;
 uniform float edge_jump_m;
 uniform float deeper;  // an outline's neighbour is deeper by more than this factor
 uniform double padding_m;
+uniform double island_radius_m;
 uniform float padding_depth_m;
 uniform int link_paddings;
 layout(std430) readonly buffer LinkPadding { double link_padding_m[]; };  // links 1 to link_paddings
@@ -21,13 +22,12 @@ layout(std430) writeonly buffer FilterTiles { FilterTile tiles[]; };
 layout(std430) writeonly buffer Discs { Disc discs[]; };  // kTilePixels places for each tile
 layout(std430) buffer FilterFrame {
   uint reach_px;
-  uint robot_tiles;
-  uint robot_tile[];
+  uint island_reach_px;
 };
 
 shared uint tile_discs;
 shared uint tile_reach;
-shared uint robot_pixels;
+shared uint tile_island_reach;
 
 bool is_flat(float a, float b, float jump_m) { return a > 0.0 && b > 0.0 && abs(a - b) <= jump_m; }
 
@@ -70,20 +70,13 @@ bool is_outline(ivec2 pixel, float robot_m) {
 void add_disc(ivec2 pixel, uint link, float robot_m, uint tile) {
   double own_padding_m = int(link) <= link_paddings ? link_padding_m[link - 1u] : padding_m;
   ivec2 size = textureSize(link_id, 0);
-  double longest_px = double(max(size.x, size.y));
-  precise dvec2 radius_px = min(dvec2(longest_px), own_padding_m * camera.zw / double(robot_m));
   precise float most_m = robot_m + padding_depth_m;
-  Disc disc = Disc(-1.0LF, 1.0LF, least_reading_m(robot_m), most_m, pack(pixel), 0u);
-  if (radius_px.x > 0.0LF) {
-    // Keeps a pixel that is as far away as the radius itself.
-    const double kRoundingMargin = 1.0LF + 1e-9LF;
-    precise double ratio = radius_px.x / radius_px.y;
-    disc.radius2_px2 = radius_px.x * radius_px.x * kRoundingMargin;
-    disc.squash = ratio * ratio;
-    // A pixel more than needed, against rounding.
-    atomicMax(tile_reach, uint(max(radius_px.x, radius_px.y)) + 2u);
-  }
-  discs[tile * kTilePixels + atomicAdd(tile_discs, 1u)] = disc;
+  Disc disc = Disc(-1.0LF, 1.0LF, least_reading_m(robot_m), most_m, pack(pixel), robot_m);
+  dvec2 radius_px = disc_radius_px(own_padding_m, robot_m, size);
+  if (radius_px.x > 0.0LF) atomicMax(tile_reach, reach_of(radius_px));
+  dvec2 island_radius_px = disc_radius_px(island_radius_m, robot_m, size);
+  if (island_radius_px.x > 0.0LF) atomicMax(tile_island_reach, reach_of(island_radius_px));
+  discs[tile * kTilePixels + atomicAdd(tile_discs, 1u)] = with_radius(disc, radius_px);
 }
 
 void main() {
@@ -92,23 +85,18 @@ void main() {
   if (gl_LocalInvocationIndex == 0) {
     tile_discs = 0u;
     tile_reach = 0u;
-    robot_pixels = 0u;
-    empty_box();
+    tile_island_reach = 0u;
   }
   barrier();
   if (all(lessThan(pixel, textureSize(link_id, 0)))) {
     uint link = texelFetch(link_id, pixel, 0).x;
     float robot_m = texelFetch(robot_depth_m, pixel, 0).x;
     imageStore(fate, pixel, uvec4(fate_of(pixel, link, robot_m)));
-    if (is_evaluated(link)) {
-      atomicAdd(robot_pixels, 1u);
-      extend_box(point_m(pixel, robot_m));
-      if (is_outline(pixel, robot_m)) add_disc(pixel, link, robot_m, tile);
-    }
+    if (is_evaluated(link) && is_outline(pixel, robot_m)) add_disc(pixel, link, robot_m, tile);
   }
   barrier();
   if (gl_LocalInvocationIndex != 0) return;
-  tiles[tile] = FilterTile(vec4(box_min(), 0.0), vec4(box_max(), 0.0), tile_discs, float(tile_reach));
+  tiles[tile] = FilterTile(tile_discs, float(tile_reach), float(tile_island_reach));
   atomicMax(reach_px, tile_reach);
-  if (robot_pixels > 0u) robot_tile[atomicAdd(robot_tiles, 1u)] = tile;
+  atomicMax(island_reach_px, tile_island_reach);
 }

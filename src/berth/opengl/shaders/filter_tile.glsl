@@ -3,11 +3,10 @@ const int kTilePx = 16;
 const uint kTilePixels = 256u;
 
 struct FilterTile {
-  // Around the points of its pixels that show an evaluated link; inside out where there is none.
-  vec4 robot_min_m;
-  vec4 robot_max_m;
   uint discs;
-  float reach_px;  // of its discs as padding
+  // Of its discs as padding, and as the place of islands.
+  float reach_px;
+  float island_reach_px;
 };
 
 // What an outline pixel's growth reaches, as in self_filter/discs.hpp.
@@ -17,7 +16,7 @@ struct Disc {
   float least_m;
   float most_m;
   uint place;  // packed pixel (pixels.glsl)
-  uint spare;
+  float depth_m;
 };
 
 int tile_columns(ivec2 size) { return (size.x + kTilePx - 1) / kTilePx; }

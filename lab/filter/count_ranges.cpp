@@ -1,0 +1,100 @@
+#include "lab/filter/count_ranges.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include "berth/distance/evaluate.hpp"
+#include "berth/self_filter/self_filter.hpp"
+#include "berth/sensor/sensor_rules.hpp"
+#include "lab/trust/trial.hpp"
+
+namespace berth::lab {
+namespace {
+
+LinkDistances distances_of(const JudgedView& view, const DepthImage& obstacle_depth_m) {
+  SearchableDepth searchable;
+  searchable.build(obstacle_depth_m);
+  EvaluateWorkspace workspace;
+  LinkDistances distances;
+  evaluate(Method::exact,
+           {view.camera,
+            view.robot,
+            view.link_count,
+            searchable,
+            {.range_m = kTrialRange_m, .mean_direction = false}},
+           workspace, distances);
+  return distances;
+}
+
+RecordingCount count_view(const JudgedView& view, const FilterChoice& choice) {
+  SelfFilterWorkspace workspace;
+  SensorWorkspace sensor;
+  ObstacleImage obstacles;
+  self_filter(view.camera, view.depth_m, view.robot, choice.filter, workspace, obstacles);
+  apply_sensor_rules(view.depth_m, view.robot, {}, choice.sensor, sensor, obstacles);
+  const LinkDistances distances = distances_of(view, obstacles.depth_m);
+  const auto doubtful =
+      with_doubtful(view.camera, view.robot, view.depth_m, obstacles, distances);
+  RecordingCount count;
+  for (std::size_t i = 0; i < view.expected.size(); ++i) {
+    const ExpectedRange& range = view.expected[i];
+    (range.is_checked ? count.checked : count.estimated).add(distances.links[i].distance_m, range);
+    count.doubtful.add(doubtful[i].distance_m, range);
+  }
+  return count;
+}
+
+std::string cells_of(const RangeCount& count) {
+  return fmt::format("| {} | {} | {} | {} ", count.in_range, count.a_bit_far, count.too_far,
+                     count.too_near);
+}
+
+}  // namespace
+
+void RangeCount::add(double distance_m, const ExpectedRange& range) {
+  if (distance_m < range.min_m) {
+    ++too_near;
+  } else if (distance_m <= range.max_m) {
+    ++in_range;
+  } else if (distance_m <= range.max_m + kFarMargin_m) {
+    ++a_bit_far;
+  } else {
+    ++too_far;  // or nothing in range at all
+  }
+}
+
+RangeCount& RangeCount::operator+=(const RangeCount& other) {
+  in_range += other.in_range;
+  too_far += other.too_far;
+  a_bit_far += other.a_bit_far;
+  too_near += other.too_near;
+  return *this;
+}
+
+RecordingCount count_ranges(const JudgedRecording& recording, const FilterChoice& choice) {
+  const auto views = static_cast<int>(recording.views.size());
+  std::vector<RecordingCount> counts(recording.views.size());
+  tbb::parallel_for(0, views, [&](int i) {
+    // Else a waiting thread would begin another view on top of this one.
+    tbb::this_task_arena::isolate([&] { counts[i] = count_view(recording.views[i], choice); });
+  });
+  RecordingCount sum;
+  for (const RecordingCount& count : counts) {
+    sum.checked += count.checked;
+    sum.estimated += count.estimated;
+    sum.doubtful += count.doubtful;
+  }
+  return sum;
+}
+
+const char* const kCountHeading =
+    "| checked in range | a bit far | too far | too near | estimates in range | a bit far | too "
+    "far | too near | too far, doubtful counted ";
+
+std::string cells_of(const RecordingCount& count) {
+  return cells_of(count.checked) + cells_of(count.estimated) +
+         fmt::format("| {} ", count.doubtful.too_far);
+}
+
+}  // namespace berth::lab

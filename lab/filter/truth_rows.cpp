@@ -1,0 +1,180 @@
+#include "lab/filter/truth_rows.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "lab/trust/real_image.hpp"
+#include "lab/trust/sample.hpp"
+
+namespace berth::lab {
+namespace {
+
+constexpr const char* kDefaultSettings = "defaults: ";
+constexpr const char* kSettingsTable = "Settings of the self filter: ";
+
+/// Each kind of sensor that measure_trust tries the self filter's settings on, its settings the
+/// default ones.
+std::vector<Condition> sensors() {
+  std::vector<Condition> found;
+  for (const Condition& condition : all_conditions()) {
+    if (condition.table.starts_with(kSettingsTable) && condition.name.starts_with(kDefaultSettings))
+      found.push_back(condition);
+  }
+  return found;
+}
+
+std::vector<Condition> with_choices(const Condition& sensor,
+                                    const std::vector<FilterChoice>& choices) {
+  std::vector<Condition> conditions;
+  for (const FilterChoice& choice : choices) {
+    conditions.push_back(sensor);
+    conditions.back().self_filter = choice.filter;
+    conditions.push_back(conditions.back());
+    conditions.back().counts_doubtful = true;
+  }
+  return conditions;
+}
+
+/// The scenes that measure_trust draws.
+std::vector<Trial> run_trials(const std::vector<TrialRobot>& robots,
+                              const std::vector<Condition>& conditions, int scenes) {
+  constexpr std::pair<int, int> kSizes_px[] = {{224, 172}, {320, 240}, {640, 480}};
+  std::vector<Trial> trials(scenes);
+  tbb::parallel_for(0, scenes, [&](int i) {
+    // Else a waiting thread would begin another scene on top of this one.
+    tbb::this_task_arena::isolate([&] {
+      const auto [width_px, height_px] = kSizes_px[i % 3];
+      trials[i] = run_trial(robots[i / 3 % robots.size()],
+                            {.width_px = width_px, .height_px = height_px},
+                            static_cast<std::uint32_t>(i), conditions);
+    });
+  });
+  return trials;
+}
+
+/// Lengths above 0.
+struct Excess {
+  std::vector<double> length_m;
+  std::size_t links = 0;
+
+  void add(double m) {
+    ++links;
+    if (m > 0) length_m.push_back(m);
+  }
+  double at_mm(double share) {
+    if (length_m.empty()) return 0;
+    const auto rank = static_cast<std::size_t>(share * static_cast<double>(length_m.size() - 1));
+    std::nth_element(length_m.begin(), length_m.begin() + static_cast<std::ptrdiff_t>(rank),
+                     length_m.end());
+    return 1e3 * length_m[rank];
+  }
+  double share_percent() const {
+    return 100 * static_cast<double>(length_m.size()) /
+           static_cast<double>(std::max<std::size_t>(1, links));
+  }
+};
+
+constexpr double kFar_m = 0.1;       ///< farther than what tolerance and padding take
+constexpr double kFalseZero_m = 0.02;  ///< a distance of 0 where nothing is nearer than this
+
+std::string row(const std::string& cells, const std::vector<Trial>& trials, std::size_t condition) {
+  Excess over, under, far, over_doubtful;
+  int zeros = 0, lost = 0;
+  const auto covered = [&](std::size_t i) {
+    return filtered(samples_of(trials, i), [](const Sample& s) { return s.is_covered(); });
+  };
+  for (const Sample& sample : covered(condition)) {
+    lost += sample.is_lost();
+    if (!sample.is_ok()) continue;
+    const double over_m = sample.over_seen_m();
+    over.add(over_m);
+    under.add(-over_m);
+    if (sample.truth->seen_C.distance_m > kFar_m) far.add(over_m);
+    zeros += sample.estimate->distance_m <= 0 && sample.truth->seen_C.distance_m > kFalseZero_m;
+  }
+  for (const Sample& sample : covered(condition + 1)) {
+    if (sample.is_ok()) over_doubtful.add(sample.over_seen_m());
+  }
+  return fmt::format("{}| {:.1f} | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {:.1f} | {:.0f} | {} | {} |\n",
+                     cells, over.share_percent(), over.at_mm(0.99), over.at_mm(1), far.at_mm(1),
+                     over_doubtful.at_mm(0.99), over_doubtful.at_mm(1), under.share_percent(),
+                     under.at_mm(0.5), zeros, lost);
+}
+
+/// Of links that are farther than with the ideal filter.
+struct RealRow {
+  Excess farther, farther_doubtful;
+  int zeros = 0, lost = 0;
+
+  void add(const LinkDistance& ideal, const Estimate& estimate, const Estimate& doubtful) {
+    constexpr double kRounding_m = 1e-5;
+    if (ideal.status != LinkStatus::ok) return;
+    lost += estimate.status != LinkStatus::ok;
+    if (estimate.status == LinkStatus::ok)
+      farther.add(std::max(0.0, estimate.distance_m - ideal.distance_m - kRounding_m));
+    if (doubtful.status == LinkStatus::ok)
+      farther_doubtful.add(std::max(0.0, doubtful.distance_m - ideal.distance_m - kRounding_m));
+    zeros += estimate.distance_m <= 0 && ideal.distance_m > kFalseZero_m;
+  }
+};
+
+}  // namespace
+
+void print_drawn_truth(const FilterGrid& grid, const std::vector<TrialRobot>& robots, int scenes) {
+  const std::vector<FilterChoice> choices = grid.choices();
+  for (const Condition& sensor : sensors()) {
+    const std::vector<Condition> conditions = with_choices(sensor, choices);
+    const std::vector<Trial> trials = run_trials(robots, conditions, scenes);
+    fmt::print("\n## {} drawn scenes; {}\n{}| too large % | 99 % | greatest | beyond 10 cm | with doubtful: "
+               "99 % | greatest | too small % | median | false 0 | lost |\n",
+               scenes, sensor.table.substr(std::string(kSettingsTable).size()), grid.heading());
+    for (std::size_t i = 0; i < choices.size(); ++i)
+      fmt::print("{}", row(choices[i].cells, trials, 2 * i));
+    std::fflush(stdout);
+  }
+}
+
+void print_real_images(const FilterGrid& grid, const std::vector<TrialRobot>& robots,
+                       const std::filesystem::path& folder, int scenes) {
+  const std::vector<RealImage> images = load_real_images(folder);
+  const std::vector<FilterChoice> choices = grid.choices();
+  std::vector<std::optional<RealScene>> drawn(scenes);
+  tbb::parallel_for(0, scenes, [&](int i) {
+    tbb::this_task_arena::isolate([&] {
+      drawn[i] = draw_into(images[i % images.size()], robots[i / images.size() % robots.size()],
+                           static_cast<std::uint32_t>(i));
+    });
+  });
+  fmt::print("\n## Robots in real images, {} tries\n{}| links | farther % | median | 99 % | greatest | with "
+             "doubtful: 99 % | greatest | false 0 | lost |\n",
+             scenes, grid.heading());
+  std::vector<RealRow> rows(choices.size());
+  tbb::parallel_for(std::size_t{0}, choices.size(), [&](std::size_t c) {
+    tbb::this_task_arena::isolate([&] {
+      const RealImageRules rules{"", choices[c].filter, choices[c].sensor};
+      RealImageRules doubtful_rules = rules;
+      doubtful_rules.counts_doubtful = true;
+      for (const auto& scene : drawn) {
+        if (!scene) continue;
+        const auto estimates = estimate(*scene, rules);
+        const auto doubtful = estimate(*scene, doubtful_rules);
+        for (std::size_t link = 0; link < estimates.size(); ++link)
+          rows[c].add(scene->ideal.links[link], estimates[link], doubtful[link]);
+      }
+    });
+  });
+  for (std::size_t c = 0; c < choices.size(); ++c) {
+    RealRow& r = rows[c];
+    fmt::print("{}| {} | {:.1f} | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {} | {} |\n", choices[c].cells,
+               r.farther.links, r.farther.share_percent(), r.farther.at_mm(0.5),
+               r.farther.at_mm(0.99), r.farther.at_mm(1), r.farther_doubtful.at_mm(0.99),
+               r.farther_doubtful.at_mm(1), r.zeros, r.lost);
+  }
+}
+
+}  // namespace berth::lab

@@ -1,0 +1,138 @@
+#include "lab/trust/whole_robot_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+
+namespace berth::lab {
+namespace {
+
+/// A link at least this far from everything is not in contact.
+constexpr double kFree_m = 0.05;
+
+/// One link's distance and the true one. What says that nothing is in range says the range.
+struct Compared {
+  double said_m;
+  double true_m;
+  bool is_lost() const { return std::isinf(said_m) && true_m <= kTrialRange_m; }
+  double over_m() const {
+    return std::min(said_m, kTrialRange_m) - std::min(true_m, kTrialRange_m);
+  }
+};
+
+double at(const std::vector<double>& sorted_m, double share) {
+  if (sorted_m.empty()) return 0;
+  const double rank = std::ceil(share * static_cast<double>(sorted_m.size()));
+  return sorted_m[static_cast<std::size_t>(std::max(1.0, rank)) - 1];
+}
+
+double percent(std::size_t part, std::size_t whole) {
+  return whole == 0 ? 0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
+std::string row(const std::string& name, const std::vector<Compared>& links) {
+  std::vector<double> over_m, under_m;
+  std::size_t zeros = 0, lost = 0;
+  for (const Compared& link : links) {
+    if (link.over_m() > kTrialTolerance_m) over_m.push_back(link.over_m());
+    if (link.over_m() < -kTrialTolerance_m) under_m.push_back(-link.over_m());
+    zeros += link.said_m < kTrialTolerance_m && link.true_m > kFree_m;
+    lost += link.is_lost();
+  }
+  std::sort(over_m.begin(), over_m.end());
+  std::sort(under_m.begin(), under_m.end());
+  return fmt::format(
+      "| {} | {} | {:.1f} % | {:.1f} | {:.1f} | {:.1f} | {:.1f} % | {:.1f} | {:.1f} "
+      "% | {} |\n",
+      name, links.size(), percent(over_m.size(), links.size()), 1e3 * at(over_m, 0.5),
+      1e3 * at(over_m, 0.99), 1e3 * at(over_m, 1), percent(under_m.size(), links.size()),
+      1e3 * at(under_m, 0.5), percent(zeros, links.size()), lost);
+}
+
+/// said_m(trial, link) is empty where nothing is claimed.
+std::vector<Compared> compare(
+    const std::vector<WholeRobotTrial>& trials,
+    const std::function<std::optional<double>(const WholeRobotTrial&, std::size_t)>& said_m) {
+  std::vector<Compared> links;
+  for (const WholeRobotTrial& trial : trials) {
+    for (std::size_t i = 0; i < trial.true_m.size(); ++i) {
+      if (const auto m = said_m(trial, i)) links.push_back({*m, trial.true_m[i]});
+    }
+  }
+  return links;
+}
+
+std::optional<double> exact_m(const Estimate& estimate) {
+  if (estimate.status == LinkStatus::not_visible) return std::nullopt;
+  return estimate.status == LinkStatus::ok ? estimate.distance_m
+                                           : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+std::string whole_robot_table(const std::vector<WholeRobotTrial>& trials,
+                              const std::vector<WholeRobotCondition>& conditions) {
+  std::string text;
+  for (std::size_t c = 0; c < conditions.size(); ++c) {
+    text += fmt::format(
+        "\n### {}\n| | links | too large | median | 99 % | greatest | too small | median | 0 "
+        "though "
+        "> 5 cm | lost |\n| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
+        conditions[c].name);
+    text += row("`exact`, 1 camera", compare(trials, [&](const WholeRobotTrial& t, std::size_t i) {
+                  return exact_m(t.under[c].exact[i]);
+                }));
+    for (std::size_t k = 0; k < kMostTrialCameras; ++k) {
+      text += row(fmt::format("`mesh`, seen or hidden, {} camera{}", k + 1, k > 0 ? "s" : ""),
+                  compare(trials, [&](const WholeRobotTrial& t, std::size_t i) {
+                    return t.under[c].mesh[k][i].nearest_m;
+                  }));
+    }
+    for (std::size_t k = 0; k < kMostTrialCameras; ++k) {
+      text += row(fmt::format("`mesh`, readings alone, {} camera{}", k + 1, k > 0 ? "s" : ""),
+                  compare(trials, [&](const WholeRobotTrial& t, std::size_t i) {
+                    return t.under[c].mesh[k][i].reading_m;
+                  }));
+    }
+  }
+  return text;
+}
+
+std::string worst_whole_robot_table(const std::vector<WholeRobotTrial>& trials,
+                                    std::size_t condition, int count) {
+  struct Worst {
+    const WholeRobotTrial* trial;
+    std::size_t link;
+    Compared compared;
+  };
+  std::string text =
+      "| cameras | robot | seed | link | berth | true | too large |\n"
+      "| ---: | --- | ---: | --- | ---: | ---: | ---: |\n";
+  for (std::size_t k = 0; k < kMostTrialCameras; ++k) {
+    std::vector<Worst> worst;
+    for (const WholeRobotTrial& trial : trials) {
+      for (std::size_t i = 0; i < trial.true_m.size(); ++i) {
+        worst.push_back(
+            {&trial, i, {trial.under[condition].mesh[k][i].nearest_m, trial.true_m[i]}});
+      }
+    }
+    std::sort(worst.begin(), worst.end(), [](const Worst& a, const Worst& b) {
+      return a.compared.over_m() > b.compared.over_m();
+    });
+    for (std::size_t i = 0; i < worst.size() && i < static_cast<std::size_t>(count); ++i) {
+      const auto& [trial, link, compared] = worst[i];
+      if (compared.over_m() <= kTrialTolerance_m) break;
+      text += fmt::format("| {} | {} | {} | {} | {:.1f} | {:.1f} | {:.1f} |\n", k + 1,
+                          trial->robot->name, trial->seed,
+                          trial->robot->model.evaluated_link_names()[link], 1e3 * compared.said_m,
+                          1e3 * compared.true_m, 1e3 * compared.over_m());
+    }
+  }
+  return text;
+}
+
+}  // namespace berth::lab

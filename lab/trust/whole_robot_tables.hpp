@@ -1,0 +1,24 @@
+// What the whole-robot trials say, as Markdown. Lengths are in mm.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lab/trust/whole_robot_trial.hpp"
+
+namespace berth::lab {
+
+/// A row for each condition and number of cameras: how much too large and too small the distances
+/// are by more than kTrialTolerance_m, and how often they are 0 though the link is truly free.
+std::string whole_robot_table(const std::vector<WholeRobotTrial>& trials,
+                              const std::vector<WholeRobotCondition>& conditions);
+
+/// Under one condition, for each number of cameras the `count` links whose `nearest` is most too
+/// large.
+std::string worst_whole_robot_table(const std::vector<WholeRobotTrial>& trials,
+                                    std::size_t condition, int count);
+
+/// Nearer to the truth is right; `mesh` is asked for a tenth of it.
+inline constexpr double kTrialTolerance_m = 0.001;
+
+}  // namespace berth::lab

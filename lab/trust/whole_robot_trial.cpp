@@ -1,0 +1,199 @@
+#include "lab/trust/whole_robot_trial.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "berth/distance/mesh/mesh_distances.hpp"
+#include "berth/self_filter/self_filter.hpp"
+#include "lab/trust/scene_images.hpp"
+#include "tests/support/drawn_obstacles.hpp"
+#include "tests/support/drawn_views.hpp"
+#include "tests/support/sensor_model.hpp"
+
+namespace berth::lab {
+namespace {
+
+/// Like a Kinect.
+constexpr ImageErrors kSensor{.step_m_at_1m = 0.003,
+                              .noise_m_at_1m = 0.0015,
+                              .dropout_share = 0.02,
+                              .mixed_share = 0.1,
+                              .outline_px = 2};
+
+SelfFilterSettings narrow_filter() {
+  SelfFilterSettings settings;
+  settings.tolerance_m = 0.02;
+  settings.padding_m = 0.02;
+  return settings;
+}
+
+std::vector<double> true_distances_m(const TrialRobot& robot, const testing::DrawnScene& scene) {
+  std::vector<testing::MeshTree> obstacles;
+  for (const auto& obstacle : scene.obstacles) {
+    obstacles.push_back(testing::build_mesh_tree(obstacle.mesh_O));
+  }
+  std::vector<double> true_m;
+  for (const std::size_t link : robot.model.evaluated_links) {
+    double least_m = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < obstacles.size(); ++i) {
+      least_m =
+          std::min(least_m, testing::closest_points(robot.link_trees[link], scene.pose.X_BL[link],
+                                                    obstacles[i], scene.obstacles[i].X_BO, least_m)
+                                .distance_m);
+    }
+    true_m.push_back(least_m);
+  }
+  return true_m;
+}
+
+/// Where the obstacles were; the first two are floor and wall.
+std::vector<testing::DrawnObstacle> moved_back(std::vector<testing::DrawnObstacle> obstacles,
+                                               double age_s, std::uint32_t seed) {
+  testing::Random random(seed);
+  for (std::size_t i = 2; i < obstacles.size(); ++i) {
+    const Eigen::Vector3d direction = testing::draw_rotation(random) * Eigen::Vector3d::UnitX();
+    obstacles[i].X_BO.translation() -= random(0, kTrialObstacleSpeed_m_s) * age_s * direction;
+  }
+  return obstacles;
+}
+
+/// A camera's image with what belongs to it, as the pipeline gets it.
+struct SensedView {
+  Camera camera;
+  Pose X_BC;
+  DepthImage sensed_m;
+  RobotImage robot;
+  ObstacleImage obstacles;
+  double age_s = 0;
+};
+
+/// One drawn scene under one condition.
+class Measured {
+ public:
+  Measured(const TrialRobot& robot, const testing::DrawnViews& drawn,
+           const WholeRobotCondition& condition, std::uint32_t seed)
+      : robot_(robot), drawn_(drawn), condition_(condition), seed_(seed) {
+    for (std::size_t k = 0; k < drawn.views.size(); ++k) views_.push_back(sense(k));
+  }
+
+  WholeRobotTrial::UnderCondition estimates() const {
+    WholeRobotTrial::UnderCondition under;
+    std::vector<ViewSpace> spaces(views_.size());
+    std::vector<PosedView> posed;
+    for (std::size_t k = 0; k < views_.size(); ++k) {
+      const SensedView& view = views_[k];
+      build_view_space(view.camera, view.sensed_m, view.obstacles, {}, spaces[k]);
+      posed.push_back({&spaces[k], view.X_BC, condition_.knows_age ? view.age_s : 0});
+      under.mesh.push_back(ask(posed));
+    }
+    const SensedView& first = views_.front();
+    under.exact =
+        to_estimates(exact_distances(robot_, first.camera, first.robot, first.obstacles.depth_m));
+    return under;
+  }
+
+ private:
+  /// What the camera saw `age_s` before the truth.
+  testing::DrawnView look_back(std::size_t k, double age_s, JointState& joints) const {
+    const testing::DrawnView& now = drawn_.views[k];
+    joints = testing::delayed(robot_.model, drawn_.scene.joints, age_s, kTrialJointSpeed_per_s,
+                              seed_ + static_cast<std::uint32_t>(k));
+    RobotPose pose;
+    forward_kinematics(robot_.model, joints.position, pose);
+    return testing::cast_view(robot_.model, pose,
+                              moved_back(drawn_.scene.obstacles, age_s, seed_ + 7), now.camera,
+                              now.X_BC);
+  }
+
+  SensedView sense(std::size_t k) const {
+    const std::uint32_t seed = 16 * seed_ + static_cast<std::uint32_t>(k);
+    testing::Random random(seed);
+    SensedView sensed;
+    testing::DrawnView view = drawn_.views[k];
+    testing::DrawnScene scene{
+        .camera = view.camera, .X_BC = view.X_BC, .joints = drawn_.scene.joints};
+    if (k > 0 && condition_.most_age_s > 0) {
+      sensed.age_s = random(0, condition_.most_age_s);
+      view = look_back(k, sensed.age_s, scene.joints);
+    }
+    scene.depth_m = view.depth_m;
+    SceneImages images(robot_.model, robot_.meshes, scene, seed);
+    sensed.camera = view.camera;
+    sensed.X_BC = images.believed_X_BC(condition_.pose);
+    sensed.sensed_m = images.sensed(condition_.image);
+    sensed.robot = images.believed(condition_.pose);
+    if (condition_.filter == MeasuredFilter::ideal) {
+      sensed.obstacles = view.obstacles;
+    } else {
+      SelfFilterWorkspace workspace;
+      self_filter(sensed.camera, sensed.sensed_m, sensed.robot, condition_.self_filter, workspace,
+                  sensed.obstacles);
+    }
+    return sensed;
+  }
+
+  std::vector<WholeRobotEstimate> ask(const std::vector<PosedView>& posed) const {
+    HiddenSpace space;
+    space.assign(posed);
+    MeshWorkspace workspace;
+    std::vector<WholeLinkDistance> answers;
+    mesh_distances(*build_robot_patches(robot_.model), drawn_.scene.pose, space,
+                   {.range_m = kTrialRange_m, .tolerance_m = 0.0001}, workspace, answers);
+    const auto length_m = [](const SpacePair& pair) {
+      return pair.is_known() ? pair.distance_m : std::numeric_limits<double>::infinity();
+    };
+    std::vector<WholeRobotEstimate> estimates;
+    for (const WholeLinkDistance& answer : answers) {
+      estimates.push_back({length_m(answer.nearest), length_m(answer.reading)});
+    }
+    return estimates;
+  }
+
+  const TrialRobot& robot_;
+  const testing::DrawnViews& drawn_;
+  const WholeRobotCondition& condition_;
+  const std::uint32_t seed_;
+  std::vector<SensedView> views_;
+};
+
+}  // namespace
+
+std::vector<WholeRobotCondition> whole_robot_conditions() {
+  const PoseErrors off{.offset_m = 0.01, .angle_rad = 0.0052};
+  std::vector<WholeRobotCondition> conditions;
+  const auto add = [&](const char* name, MeasuredFilter filter) -> WholeRobotCondition& {
+    conditions.push_back({.name = name, .filter = filter});
+    return conditions.back();
+  };
+  add("clean images, ideal filter", MeasuredFilter::ideal);
+  add("clean images, default filter", MeasuredFilter::berth);
+  add("sensor, default filter", MeasuredFilter::berth).image = kSensor;
+  WholeRobotCondition& narrow =
+      add("each camera 1 cm and 0.3° off, filter 2 cm, 2 cm", MeasuredFilter::berth);
+  narrow.pose = off;
+  narrow.self_filter = narrow_filter();
+  WholeRobotCondition& all =
+      add("sensor, 1 cm and 0.3° off, default filter", MeasuredFilter::berth);
+  all.image = kSensor;
+  all.pose = off;
+  add("0 to 50 ms out of step, ideal filter", MeasuredFilter::ideal).most_age_s = 0.05;
+  WholeRobotCondition& untold = add("… and age not told", MeasuredFilter::ideal);
+  untold.most_age_s = 0.05;
+  untold.knows_age = false;
+  return conditions;
+}
+
+WholeRobotTrial run_whole_robot_trial(const TrialRobot& robot,
+                                      const testing::DrawnSceneSettings& settings,
+                                      std::uint32_t seed,
+                                      const std::vector<WholeRobotCondition>& conditions) {
+  const testing::DrawnViews drawn =
+      testing::draw_views(robot.model, robot.link_trees, settings, seed, kMostTrialCameras);
+  WholeRobotTrial trial{&robot, seed, true_distances_m(robot, drawn.scene), {}};
+  for (const WholeRobotCondition& condition : conditions) {
+    trial.under.push_back(Measured(robot, drawn, condition, seed).estimates());
+  }
+  return trial;
+}
+
+}  // namespace berth::lab

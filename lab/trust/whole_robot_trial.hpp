@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lab/trust/trial.hpp"
+
+namespace berth::lab {
+
+/// Cameras that are drawn; the estimates take the first one, the first two, and so on.
+inline constexpr int kMostTrialCameras = 4;
+
+/// What is wrong with the images of several cameras, and what is done with them.
+struct WholeRobotCondition {
+  std::string name;
+  /// The ideal one goes with clean images alone.
+  MeasuredFilter filter = MeasuredFilter::ideal;
+  SelfFilterSettings self_filter = {};
+  ImageErrors image = {};
+  /// Of each camera by itself.
+  PoseErrors pose = {};
+  /// Each image but the first one is up to this old. Robot and obstacles have moved since.
+  double most_age_s = 0;
+  /// Whether the method is told how old.
+  bool knows_age = true;
+};
+std::vector<WholeRobotCondition> whole_robot_conditions();
+
+/// What the method `mesh` says of a link; infinite where it says that nothing is in range.
+struct WholeRobotEstimate {
+  double nearest_m;
+  double reading_m;
+};
+
+/// One scene. Inner indices are links, [i] that with the id i + 1.
+struct WholeRobotTrial {
+  const TrialRobot* robot = nullptr;
+  std::uint32_t seed = 0;
+  /// From the whole link to all sides of all obstacles.
+  std::vector<double> true_m;
+  struct UnderCondition {
+    /// [k] with k + 1 cameras.
+    std::vector<std::vector<WholeRobotEstimate>> mesh;
+    /// `exact` with the first camera.
+    std::vector<Estimate> exact;
+  };
+  std::vector<UnderCondition> under;
+};
+
+/// How fast obstacles move where images are out of step; floor and wall stand still. Joints move at
+/// up to kTrialJointSpeed_per_s.
+inline constexpr double kTrialObstacleSpeed_m_s = 1.6;
+
+/// Draws the scene and measures it under every condition. Depends on its arguments alone.
+WholeRobotTrial run_whole_robot_trial(const TrialRobot& robot,
+                                      const testing::DrawnSceneSettings& settings,
+                                      std::uint32_t seed,
+                                      const std::vector<WholeRobotCondition>& conditions);
+
+}  // namespace berth::lab

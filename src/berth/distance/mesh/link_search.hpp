@@ -1,0 +1,92 @@
+// What the search for one link's distance knows while it runs.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+#include "berth/distance/mesh/convex_pair.hpp"
+#include "berth/distance/mesh/hidden_space.hpp"
+#include "berth/distance/mesh/item_heap.hpp"
+#include "berth/distance/mesh/robot_patches.hpp"
+
+namespace berth::mesh {
+
+/// A patch by its level and its place there.
+inline std::uint32_t patch_of(int level, int index) {
+  return static_cast<std::uint32_t>(level) << 28 | static_cast<std::uint32_t>(index);
+}
+inline int level_of(std::uint32_t patch) { return static_cast<int>(patch >> 28); }
+inline int index_of(std::uint32_t patch) { return static_cast<int>(patch & 0xFFFFFFFu); }
+
+/// A square of a view's image; `level` is that of DepthCells, kPixelLevel for one pixel. `half`
+/// says which of a cell's two depth ranges is meant.
+struct ImageCell {
+  static constexpr int kPixelLevel = 15;
+
+  int view = 0;
+  int level = 0;
+  int half = 0;
+  int u = 0;
+  int v = 0;
+
+  std::uint64_t key() const {
+    return static_cast<std::uint64_t>(view) << 56 | static_cast<std::uint64_t>(level) << 52 |
+           static_cast<std::uint64_t>(half) << 51 | static_cast<std::uint64_t>(u) << 24 |
+           static_cast<std::uint64_t>(v);
+  }
+  static ImageCell of_key(std::uint64_t key) {
+    return {static_cast<int>(key >> 56), static_cast<int>(key >> 52 & 15),
+            static_cast<int>(key >> 51 & 1), static_cast<int>(key >> 24 & 0xFFFFFF),
+            static_cast<int>(key & 0xFFFFFF)};
+  }
+};
+
+/// A cube all of whose points are obstacles.
+inline constexpr std::uint64_t kFullCube = std::uint64_t{1} << 63;
+
+struct LinkSearch {
+  const LinkPatches* link = nullptr;
+  Pose X_BL = Pose::Identity();
+  float range_m = 0;
+  float tolerance_m = 0;
+
+  /// The length of the best pair so far; the range while there is none.
+  float best_m = 0;
+  int best_triangle = -1;
+  /// The best pair's pixel as an ImageCell, or its point in hidden space.
+  std::uint64_t best_pixel = 0;
+  Eigen::Vector3f best_point_B_m;
+  bool best_is_hidden = false;
+
+  ItemHeap items;
+  /// The least bound of what was too small to be searched on.
+  float given_up_m = std::numeric_limits<float>::infinity();
+
+  bool is_known() const { return best_triangle >= 0; }
+  /// Nothing is looked for from here on. Without a pair, a tolerance could miss those in range.
+  float limit_m() const { return is_known() ? best_m - tolerance_m : range_m; }
+  bool is_done() const { return items.least_bound_m() >= limit_m(); }
+  float lower_bound_m() const {
+    const float bound_m = std::min({limit_m(), items.least_bound_m(), given_up_m});
+    return bound_m > 0 ? bound_m : 0;
+  }
+};
+
+/// The closest points of a triangle, moved by X_FL, and the body with these corners.
+ConvexPair triangle_pair(const LinkSearch& search, const Pose& X_FL, int triangle,
+                         std::span<const Eigen::Vector3d> body_corners_m);
+
+/// Searches on among the pixels of all views: for their slabs, or with `to_shadow` for all that
+/// lies behind their readings. Ends when the search is done, or after about `steps` patches.
+void search_views(const HiddenSpace& space, bool to_shadow, int steps, LinkSearch& search);
+
+/// The same among the cubes of hidden space.
+void search_cubes(const HiddenSpace& space, int steps, LinkSearch& search);
+
+/// Both start with the whole link and all of space.
+void start_in_views(const HiddenSpace& space, LinkSearch& search);
+void start_in_cubes(LinkSearch& search);
+
+}  // namespace berth::mesh

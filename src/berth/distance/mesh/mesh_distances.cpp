@@ -1,0 +1,266 @@
+#include "berth/distance/mesh/mesh_distances.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace berth {
+namespace mesh {
+
+ConvexPair triangle_pair(const LinkSearch& search, const Pose& X_FL, int triangle,
+                         std::span<const Eigen::Vector3d> body_corners_m) {
+  Eigen::Vector3d corners_m[3];
+  const auto& from_m = search.link->corners_m;
+  for (int i = 0; i < 3; ++i) {
+    corners_m[i] = X_FL * Eigen::Vector3d(from_m[3 * i][triangle], from_m[3 * i + 1][triangle],
+                                          from_m[3 * i + 2][triangle]);
+  }
+  return closest_points(corners_m, body_corners_m);
+}
+
+}  // namespace mesh
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using LinkState = MeshWorkspace::LinkState;
+using mesh::LinkSearch;
+
+constexpr int kEndless = 1 << 30;
+/// Below it the roundings of bounds would keep a search from ending.
+constexpr double kLeastTolerance_m = 2e-5;
+
+struct Asked {
+  const HiddenSpace& space;
+  const MeshQuestion& question;
+  /// With one view nothing is seen free by another one: hidden is all that lies behind a reading.
+  bool is_shadow() const { return space.views().size() < 2; }
+};
+
+void start(const LinkPatches& patches, const Pose& X_BL, const MeshQuestion& question,
+           LinkSearch& search) {
+  search.link = &patches;
+  search.X_BL = X_BL;
+  search.range_m = static_cast<float>(question.range_m);
+  search.tolerance_m = static_cast<float>(std::max(question.tolerance_m, kLeastTolerance_m));
+  search.best_m = search.range_m;
+  search.best_triangle = -1;
+  search.best_is_hidden = false;
+}
+
+/// A reading is an obstacle for `nearest` as well.
+void take_reading(const LinkSearch& reading, LinkSearch& nearest) {
+  if (!reading.is_known() || !(reading.best_m < nearest.best_m)) return;
+  nearest.best_m = reading.best_m;
+  nearest.best_triangle = reading.best_triangle;
+  nearest.best_pixel = reading.best_pixel;
+  nearest.best_is_hidden = false;
+}
+
+/// The slab of the last answer's pixel as it is in the new image, against the whole link.
+void guess(const HiddenSpace& space, const SpacePair& last, LinkSearch& search) {
+  if (search.link->empty() || last.view < 0 ||
+      last.view >= static_cast<int>(space.views().size()) || last.kind != ObstacleKind::reading) {
+    return;
+  }
+  const ViewSpace& view = *space.views()[last.view].space;
+  const Pixel pixel = last.obstacle_pixel;
+  if (pixel.u < 0 || pixel.v < 0 || pixel.u >= view.camera.width_px ||
+      pixel.v >= view.camera.height_px) {
+    return;
+  }
+  if (std::isnan(view.obstacle_depth_m(pixel.u, pixel.v))) return;
+  const int top_level = static_cast<int>(search.link->levels.size()) - 1;
+  search.items.clear();
+  search.items.push(
+      {0, mesh::patch_of(top_level, 0),
+       mesh::ImageCell{last.view, mesh::ImageCell::kPixelLevel, 0, pixel.u, pixel.v}.key()});
+  mesh::search_views(space, false, kEndless, search);
+}
+
+void start_nearest(const Asked& asked, LinkState& link) {
+  take_reading(link.reading, link.nearest);
+  if (asked.is_shadow()) {
+    mesh::start_in_views(asked.space, link.nearest);
+  } else {
+    mesh::start_in_cubes(link.nearest);
+  }
+}
+
+void search_nearest(const Asked& asked, int steps, LinkState& link) {
+  if (asked.is_shadow()) {
+    mesh::search_views(asked.space, true, steps, link.nearest);
+  } else {
+    mesh::search_cubes(asked.space, steps, link.nearest);
+  }
+}
+
+void search_to_the_end(const Asked& asked, LinkState& link) {
+  mesh::search_views(asked.space, false, kEndless, link.reading);
+  if (!asked.question.hidden || link.reading.link->empty()) return;
+  start_nearest(asked, link);
+  search_nearest(asked, kEndless, link);
+}
+
+double gap_m(const LinkSearch& search) {
+  return search.is_done() ? 0 : search.best_m - search.lower_bound_m();
+}
+
+/// Goes on where the least is known, until everything is or time is over.
+void search_until(const Asked& asked, Clock::time_point deadline, std::vector<LinkState>& links) {
+  constexpr int kSteps = 8;
+  if (asked.question.hidden) {
+    for (LinkState& link : links) start_nearest(asked, link);
+  }
+  do {
+    LinkState* widest = nullptr;
+    bool is_reading = true;
+    double widest_m = 0;
+    for (LinkState& link : links) {
+      if (link.reading.link->empty()) continue;
+      if (gap_m(link.reading) > widest_m) {
+        widest_m = gap_m(link.reading);
+        widest = &link;
+        is_reading = true;
+      }
+      if (asked.question.hidden && gap_m(link.nearest) > widest_m) {
+        widest_m = gap_m(link.nearest);
+        widest = &link;
+        is_reading = false;
+      }
+    }
+    if (widest == nullptr) return;
+    if (is_reading) {
+      mesh::search_views(asked.space, false, kSteps, widest->reading);
+      take_reading(widest->reading, widest->nearest);
+    } else {
+      search_nearest(asked, kSteps, *widest);
+    }
+  } while (Clock::now() < deadline);
+}
+
+void set_points(const Eigen::Vector3d& robot_B_m, const Eigen::Vector3d& obstacle_B_m,
+                SpacePair& pair) {
+  pair.robot_point_B_m = robot_B_m.cast<float>();
+  pair.obstacle_point_B_m = obstacle_B_m.cast<float>();
+  pair.distance_m = static_cast<float>(
+      (pair.obstacle_point_B_m.cast<double>() - pair.robot_point_B_m.cast<double>()).norm());
+}
+
+/// The best pair was a triangle and all that a pixel measured, or also what that hides.
+void set_pixel_pair(const HiddenSpace& space, const LinkSearch& search, SpacePair& pair) {
+  const mesh::ImageCell cell = mesh::ImageCell::of_key(search.best_pixel);
+  const CarvingView& view = space.views()[cell.view];
+  const Camera& camera = view.space->camera;
+  const double near_m = view.space->obstacle_depth_m(cell.u, cell.v);
+  const double slab_end_m = near_m + view.space->settings.slab_m;
+  const Pose X_CL = view.X_CB * search.X_BL;
+  // Far enough to hold all within the range: the pair found was nearer.
+  const double far_m =
+      search.best_is_hidden ? slab_end_m + X_CL.translation().norm() + 100 : slab_end_m;
+  Eigen::Vector3d corners_m[8];
+  for (int i = 0; i < 8; ++i) {
+    const double z = i & 4 ? far_m : near_m;
+    corners_m[i] = {z * (cell.u + (i & 1 ? 0.5 : -0.5) - camera.cx_px) / camera.fx_px,
+                    z * (cell.v + (i & 2 ? 0.5 : -0.5) - camera.cy_px) / camera.fy_px, z};
+  }
+  const mesh::ConvexPair found = mesh::triangle_pair(search, X_CL, search.best_triangle, corners_m);
+  set_points(view.X_BC * found.a_m, view.X_BC * found.b_m, pair);
+  const bool is_hidden = search.best_is_hidden && found.b_m.z() > slab_end_m;
+  pair.kind = is_hidden ? ObstacleKind::hidden : ObstacleKind::reading;
+  pair.view = cell.view;
+  pair.obstacle_pixel = {cell.u, cell.v};
+}
+
+/// The best pair was a triangle and a point of hidden space.
+void set_hidden_pair(const HiddenSpace& space, const LinkSearch& search, SpacePair& pair) {
+  const Eigen::Vector3d point_B_m = search.best_point_B_m.cast<double>();
+  const auto hiding = space.hiding_pixel(point_B_m);
+  if (!hiding) return;
+  const mesh::ConvexPair found =
+      mesh::triangle_pair(search, search.X_BL, search.best_triangle, {&point_B_m, 1});
+  set_points(found.a_m, point_B_m, pair);
+  pair.kind = ObstacleKind::hidden;
+  pair.view = hiding->view;
+  pair.obstacle_pixel = hiding->pixel;
+}
+
+SpacePair answer_of(const HiddenSpace& space, bool is_shadow, const LinkSearch& search) {
+  SpacePair pair;
+  pair.lower_bound_m = search.lower_bound_m();
+  if (!search.is_known()) return pair;
+  if (search.best_is_hidden && !is_shadow) {
+    set_hidden_pair(space, search, pair);
+  } else {
+    set_pixel_pair(space, search, pair);
+  }
+  return pair;
+}
+
+/// Two answers that do not contradict each other.
+void reconcile(WholeLinkDistance& link) {
+  SpacePair& nearest = link.nearest;
+  SpacePair& reading = link.reading;
+  if (reading.is_known() && !(nearest.distance_m <= reading.distance_m)) {
+    const float lower_bound_m = nearest.lower_bound_m;
+    nearest = reading;
+    nearest.lower_bound_m = lower_bound_m;
+  }
+  reading.lower_bound_m = std::max(reading.lower_bound_m, nearest.lower_bound_m);
+  for (SpacePair* pair : {&nearest, &reading}) {
+    if (pair->is_known()) pair->lower_bound_m = std::min(pair->lower_bound_m, pair->distance_m);
+  }
+}
+
+WholeLinkDistance answer_of(const Asked& asked, LinkId id, const LinkState& link) {
+  WholeLinkDistance out;
+  out.id = id;
+  if (link.reading.link->empty()) {
+    out.nearest.lower_bound_m = out.reading.lower_bound_m = link.reading.range_m;
+    return out;
+  }
+  out.reading = answer_of(asked.space, false, link.reading);
+  out.nearest = out.reading;
+  if (asked.question.hidden) {
+    out.nearest = answer_of(asked.space, asked.is_shadow(), link.nearest);
+    if (!asked.is_shadow()) {
+      out.nearest.lower_bound_m = std::min(out.nearest.lower_bound_m, out.reading.lower_bound_m);
+    }
+  }
+  reconcile(out);
+  return out;
+}
+
+}  // namespace
+
+void mesh_distances(const RobotPatches& robot, const RobotPose& pose, const HiddenSpace& space,
+                    const MeshQuestion& question, MeshWorkspace& workspace,
+                    std::vector<WholeLinkDistance>& out) {
+  const Clock::time_point begin = Clock::now();
+  validate(question);
+  const Asked asked{space, question};
+  workspace.links.resize(robot.links.size());
+  for (std::size_t i = 0; i < robot.links.size(); ++i) {
+    LinkState& link = workspace.links[i];
+    const Pose& X_BL = pose.X_BL[robot.links[i].link];
+    start(robot.links[i], X_BL, question, link.reading);
+    start(robot.links[i], X_BL, question, link.nearest);
+    if (i < out.size()) guess(space, out[i].reading, link.reading);
+    mesh::start_in_views(space, link.reading);
+  }
+  if (question.deadline_us) {
+    const std::chrono::duration<double, std::micro> wait(std::min(*question.deadline_us, 1e12));
+    search_until(asked, begin + std::chrono::duration_cast<Clock::duration>(wait), workspace.links);
+  } else {
+    tbb::parallel_for(std::size_t{0}, workspace.links.size(),
+                      [&](std::size_t i) { search_to_the_end(asked, workspace.links[i]); });
+  }
+  out.resize(robot.links.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i] = answer_of(asked, static_cast<LinkId>(i + 1), workspace.links[i]);
+  }
+}
+
+}  // namespace berth

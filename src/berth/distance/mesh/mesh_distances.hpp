@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "berth/distance/mesh/hidden_space.hpp"
+#include "berth/distance/mesh/link_search.hpp"
+#include "berth/distance/mesh/robot_patches.hpp"
+#include "berth/distance/mesh/settings.hpp"
+#include "berth/robot/kinematics.hpp"
+#include "berth/types/whole_link_distance.hpp"
+
+namespace berth {
+
+/// The memory of mesh_distances(), made once and used for every question; one for each thread that
+/// asks. It carries nothing from one answer to the next.
+struct MeshWorkspace {
+  struct LinkState {
+    mesh::LinkSearch reading;
+    mesh::LinkSearch nearest;
+  };
+  std::vector<LinkState> links;
+};
+
+/// Per link the least distance from all sides of its mesh to what the cameras of `space` saw or
+/// could not see (`nearest`), and to what they saw alone (`reading`). out[i] is the link with the
+/// id i + 1. Always lower_bound_m <= true distance <= distance_m; without a deadline both are no
+/// farther apart than the tolerance (20 um at least), unless only cubes of 0.1 mm that may or may
+/// not be hidden lie between. A link without triangles has no distance, and one beyond 50 m from B
+/// no lower bound.
+///
+/// If `out` holds an answer on entry, its pairs are the first guess, which changes no distance by
+/// more than the tolerance. Links are searched side by side on the threads that TBB has. Allocates
+/// nothing once workspace and `out` have grown. Throws std::invalid_argument for bad settings.
+void mesh_distances(const RobotPatches& robot, const RobotPose& pose, const HiddenSpace& space,
+                    const MeshQuestion& question, MeshWorkspace& workspace,
+                    std::vector<WholeLinkDistance>& out);
+
+}  // namespace berth

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "berth/distance/mesh/depth_cells.hpp"
+#include "berth/distance/mesh/depth_windows.hpp"
+#include "berth/distance/mesh/free_depth.hpp"
+#include "berth/distance/mesh/settings.hpp"
+#include "berth/types/camera.hpp"
+#include "berth/types/obstacle_image.hpp"
+
+namespace berth {
+
+/// What one depth image says of the space before its camera: surfaces, what they hide, and what is
+/// free. Made once a frame, at the camera's clock; then constant.
+struct ViewSpace {
+  Camera camera;
+  SpaceSettings settings;
+  /// F: the depth of what may be an obstacle; NaN elsewhere. A copy, so that a frame may be moved.
+  DepthImage obstacle_depth_m;
+  /// E: a point that projects into this pixel is seen free while it is nearer to the camera than
+  /// this; 0 where the pixel frees nothing (whole-robot definition 2).
+  DepthImage free_depth_m;
+
+  /// S, and what each pixel by itself frees (definition 1): what E is made of once more, when
+  /// newer frames have made this one old.
+  DepthImage sensor_depth_m;
+  DepthImage own_free_depth_m;
+  /// The depth ranges of F.
+  DepthCells cells;
+  DepthWindows obstacle_windows;
+  DepthWindows free_windows;
+
+  bool is_empty() const { return obstacle_depth_m.pixels().empty(); }
+};
+
+/// Writes `out`, whose memory it reuses. `sensor_depth_m` is the raw image S, `obstacles` what the
+/// self filter made of it; both have the camera's size. Throws std::invalid_argument for bad
+/// settings.
+void build_view_space(const Camera& camera, DepthView sensor_depth_m,
+                      const ObstacleImage& obstacles, const SpaceSettings& settings,
+                      ViewSpace& out);
+
+}  // namespace berth

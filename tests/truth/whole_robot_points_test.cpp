@@ -1,0 +1,118 @@
+// The definition of the whole robot's distances, on images whose answers are known.
+#include "tests/support/whole_robot_points.hpp"
+
+#include <gtest/gtest.h>
+
+#include "flat_view.hpp"
+
+namespace berth::testing {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double free_at(const PointView& view, int u, int v, const SpaceSettings& settings = {}) {
+  return free_depth_m(view, settings)(u, v);
+}
+
+TEST(WholeRobotPoints, AWallIsASlabAndHidesWhatIsBehindIt) {
+  const PointSpace space({wall_at(1)}, {.slab_m = 0.03});
+  EXPECT_FALSE(space.is_obstacle({0, 0, 0.999}));
+  EXPECT_TRUE(space.is_reading({0, 0, 1}));
+  EXPECT_TRUE(space.is_reading({0.1, 0.1, 1.029}));
+  EXPECT_FALSE(space.is_hidden({0, 0, 1.029}));
+  EXPECT_FALSE(space.is_reading({0, 0, 1.031}));
+  EXPECT_TRUE(space.is_hidden({0, 0, 1.031}));
+  EXPECT_TRUE(space.is_hidden({0, 0, 9}));
+  EXPECT_FALSE(space.is_obstacle({0, 0, -1}));
+  EXPECT_FALSE(space.is_obstacle({0.52, 0, 1})) << "outside of the image";
+  EXPECT_TRUE(space.is_obstacle({0.51, 0, 1})) << "in its last pixel";
+}
+
+TEST(WholeRobotPoints, AnotherCameraFreesWhatIsHiddenAndNoReading) {
+  PointView left = wall_at(3, from_the_left(1));
+  const PointSpace space({wall_at(1), left}, {});
+  EXPECT_TRUE(space.is_reading({0, 0, 1.01}));
+  EXPECT_FALSE(space.is_hidden({0, 0, 1.2})) << "seen free from the left";
+  EXPECT_TRUE(space.is_hidden({0, 0, 1.6})) << "not in the left image";
+  left.age_s = 0.3;
+  EXPECT_TRUE(PointSpace({wall_at(1), left}, {}).is_hidden({0, 0, 1.2})) << "too old";
+}
+
+TEST(WholeRobotPoints, NoCameraFreesWhatItHidesItself) {
+  const PointSpace space({wall_at(1), wall_at(1)}, {});
+  EXPECT_TRUE(space.is_hidden({0, 0, 1.2}));
+}
+
+TEST(WholeRobotPoints, EachFateFreesWhatItShould) {
+  const SpaceSettings settings{.carve_margin_m = 0.02, .behind_robot_m = 0.3};
+  for (const PixelFate fate :
+       {PixelFate::robot, PixelFate::environment, PixelFate::padding, PixelFate::dilation}) {
+    PointView view = wall_at(1);
+    for (int v = 4; v < 9; ++v) {
+      for (int u = 4; u < 9; ++u) drop(view, u, v, fate);
+    }
+    EXPECT_NEAR(free_at(view, 6, 6, settings), 1.3, 1e-6);
+    EXPECT_NEAR(free_at(view, 4, 6, settings), 0.98, 1e-6) << "the least of 3 x 3";
+  }
+  for (const PixelFate fate :
+       {PixelFate::edge, PixelFate::island, PixelFate::speckle, PixelFate::outside_region}) {
+    PointView view = wall_at(1);
+    view.sensor_depth_m(6, 6) = 0.5F;
+    drop(view, 6, 6, fate);
+    EXPECT_NEAR(free_at(view, 7, 7, settings), 0.48, 1e-6);
+    EXPECT_NEAR(free_at(view, 8, 8, settings), 0.98, 1e-6);
+  }
+}
+
+TEST(WholeRobotPoints, ALearnedBackgroundFreesNoMoreThanTheSensorSaw) {
+  PointView view = wall_at(1);
+  view.fate(6, 6) = PixelFate::background;
+  view.sensor_depth_m(6, 6) = 0.5F;
+  EXPECT_NEAR(free_at(view, 6, 6), 0.8, 1e-6) << "robot before the background";
+  view.sensor_depth_m(6, 6) = 0.9F;
+  EXPECT_NEAR(free_at(view, 6, 6), 0.98, 1e-6);
+  view.sensor_depth_m(6, 6) = kNoDepth;
+  EXPECT_EQ(free_at(view, 6, 6), 0);
+  EXPECT_EQ(free_at(view, 5, 5), 0) << "and nothing mends it";
+}
+
+TEST(WholeRobotPoints, ALittleHoleTakesItsNeighboursAndALargeOneFreesNothing) {
+  PointView view = wall_at(1);
+  const auto make_hole = [&](int u, int v) {
+    view.sensor_depth_m(u, v) = kNoDepth;
+    drop(view, u, v, PixelFate::no_reading);
+  };
+  view.sensor_depth_m(7, 7) = view.obstacle_depth_m(7, 7) = 0.7F;
+  make_hole(6, 6);
+  EXPECT_NEAR(free_at(view, 5, 5), 0.68, 1e-6) << "from (7, 7) by the hole";
+  for (const int u : {5, 7}) make_hole(u, 6);
+  for (const int u : {6, 7}) make_hole(u, 5);
+  EXPECT_EQ(free_at(view, 6, 6), 0) << "four neighbours have readings";
+  EXPECT_NEAR(free_at(view, 6, 6, {.no_reading = NoReading::free}), 0.68, 1e-6);
+}
+
+TEST(WholeRobotPoints, ThePolicyForMissingReadingsFreesToTheEndOfTheWorld) {
+  const PointView view = flat_view([](int, int) { return NAN; });
+  EXPECT_EQ(free_at(view, 9, 9), 0);
+  EXPECT_EQ(free_at(view, 9, 9, {.no_reading = NoReading::free}), kInfinity);
+  EXPECT_EQ(free_at(view, 0, 9, {.no_reading = NoReading::free}), 0) << "the outermost ring";
+  EXPECT_EQ(free_at(view, 40, 30, {.no_reading = NoReading::free}), 0);
+}
+
+TEST(WholeRobotPoints, AgeMovesReadingsNearerAndSideways) {
+  PointView view = wall_at(2);
+  view.sensor_depth_m(20, 15) = view.obstacle_depth_m(20, 15) = 1;
+  view.age_s = 0.1;
+  const SpaceSettings settings{.carve_margin_m = 0.02, .obstacle_speed_m_s = 1};
+  // 40 px * 0.1 m / 1 m: 4 px, and one of the 3 x 3.
+  EXPECT_NEAR(free_at(view, 25, 15, settings), 0.88, 1e-6);
+  EXPECT_NEAR(free_at(view, 26, 15, settings), 1.88, 1e-6);
+  view.age_s = 0.21;
+  EXPECT_EQ(free_at(view, 26, 15, settings), 0);
+  view.age_s = 0;
+  EXPECT_NEAR(free_at(view, 21, 15, settings), 0.98, 1e-6);
+  EXPECT_NEAR(free_at(view, 22, 15, settings), 1.98, 1e-6);
+}
+
+}  // namespace
+}  // namespace berth::testing
