@@ -24,7 +24,8 @@ std::string between(const std::string& text, const std::string& begin, const std
   const std::size_t first = text.find(begin);
   if (first == std::string::npos) return "";
   const std::size_t last = text.find(end, first + begin.size());
-  return last == std::string::npos ? "" : text.substr(first + begin.size(), last - first - begin.size());
+  return last == std::string::npos ? ""
+                                   : text.substr(first + begin.size(), last - first - begin.size());
 }
 
 std::string example(const std::string& name) {
@@ -43,7 +44,8 @@ TEST(SceneReference, HasTheTablesOfAllSettings) {
     const std::string begin = "<!-- settings: " + std::string(group) + " -->\n";
     const std::string expected = settings_table(group);
     EXPECT_EQ(between(text, begin, "<!-- end -->"), expected)
-        << "docs/scene.md should have:\n" << begin << expected << "<!-- end -->\n";
+        << "docs/scene.md should have:\n"
+        << begin << expected << "<!-- end -->\n";
   }
 }
 

@@ -40,7 +40,8 @@ struct EvaluateWorkspace {
   DirectionWorkspace directions;
 };
 
-/// Per link the closest pair by one method, and where asked for the mean direction.
+/// For each link the closest pair by one method and, if the settings ask for it, the mean
+/// direction.
 ///
 /// Throws std::invalid_argument for bad settings, and for a method that runs on OpenGL.
 void evaluate(Method method, const Question& question, EvaluateWorkspace& workspace,

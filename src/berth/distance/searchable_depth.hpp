@@ -6,9 +6,9 @@
 
 namespace berth {
 
-/// An image of what may be an obstacle and the tree over it, so that no image is ever asked with
-/// the tree of another one. It looks at the image, which has to stay where and as it is. It moves,
-/// but does not copy: the copy of who owns both would look at the other's image.
+/// An image of what may be an obstacle, together with its tree, so that no image is ever used with
+/// the tree of another one. It refers to the image, which must neither change nor move. It can be
+/// moved but not copied: a copy would still refer to the first one's image.
 class SearchableDepth {
  public:
   SearchableDepth() = default;

@@ -22,8 +22,8 @@ struct Answer {
   LinkDistances distances;
   /// Method `mesh`: camera k's part in it, in the order of the question's frames.
   std::vector<CameraState> cameras;
-  /// What the cameras cannot know: visibility[i] belongs to the link with the id i + 1. Empty unless
-  /// EvaluationSettings::visibility is set.
+  /// What the cameras see of each link and around it: visibility[i] belongs to the link with the id
+  /// i + 1. Empty unless EvaluationSettings::visibility is set.
   std::vector<LinkVisibility> visibility;
 };
 

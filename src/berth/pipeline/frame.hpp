@@ -33,8 +33,8 @@ struct Frame : Exposure {
 
 inline constexpr double kLeastReadings = 0.01;
 
-/// Empties the images of a frame whose time is not ok: nothing of the image before may stay under a
-/// new stamp.
+/// Empties the images of a frame whose time is not ok, so that no older image stays under the new
+/// stamp.
 void clear_images(const Camera& camera, Frame& frame);
 
 }  // namespace berth

@@ -28,12 +28,12 @@ class Observer {
   /// and stamps have to go forward from call to call (FrameClock).
   void observe(DepthView depth_m, double stamp_s, const JointBuffer& joints, Frame& frame);
 
-  /// Takes what the image shows where the robot is not as background of the frames to come
-  /// (Background). `frame` is what observe made of `depth_m`; one whose joints are not known (its
-  /// time is not ok) is passed over. For images of the place as it is meant to be: somebody who
-  /// stands still becomes background too, and then is an obstacle for as long as the robot hides
-  /// where he stood. Throws std::invalid_argument where SensorSettings::background_frames is 0, and
-  /// for a wrong size.
+  /// Learns what the image shows beside the robot as background of later frames (Background).
+  /// `frame` is what observe made of `depth_m`; one whose joints are not known (its time is not ok)
+  /// is passed over. Use images of the place as it is meant to be: somebody who stands still in
+  /// them becomes background too, and later counts as an obstacle wherever the robot hides the
+  /// place. Throws std::invalid_argument where SensorSettings::background_frames is 0, and for a
+  /// wrong size.
   void learn_background(DepthView depth_m, const Frame& frame);
 
  private:

@@ -8,19 +8,18 @@
 
 namespace berth {
 
-/// How old is too old. An answer that is not in time has no distance (LinkStatus::untimely),
-/// because a controller that forgets to look at an age must not take yesterday's free space for
-/// today's. Who can use an older one sets the limit to infinity and looks at the ages in
-/// Answer::time.
+/// How old is too old. An answer that is not in time has no distance (LinkStatus::untimely): a
+/// controller that forgets to look at ages must not take an old free space for a new one. To judge
+/// an age yourself, set its limit to infinity and read Answer::time.
 struct TimeSettings {
   JointTimeLimits joints;
-  /// From the exposure to the question: at 30 Hz the transfer, the next frame, and one that is
-  /// lost.
+  /// From the exposure to the question. The default suits 30 Hz: time for the transfer, for the
+  /// next frame, and for one that is lost.
   double max_frame_age_s = 0.15;
   /// From the joints' stamp to the question. Joints ahead of it, where the robot is about to go,
   /// have a negative age and are within any limit.
   double max_joints_age_s = 0.02;
-  /// From one frame's stamp to the next; beyond it, one of the two may be wrong.
+  /// From one frame's stamp to the next. If they are farther apart, one of the two may be wrong.
   double max_frame_gap_s = 1;
   /// How far a frame's stamp may lie after the question, where the camera's clock goes ahead.
   double max_clock_offset_s = 0.005;

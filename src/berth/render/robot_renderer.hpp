@@ -26,11 +26,11 @@ class RobotRenderer {
 
   /// Writes R and I (Hirt 2.2.1) to `image`, whose memory it reuses: at each pixel's centre the
   /// nearest triangle; of two links at the same depth the smaller id. `pose` holds all of the
-  /// model's links; X_BC is the pose of the camera's optical frame in the root link's frame. A link
-  /// is seen from z > 0 on. An outline is right within 0.01 px. `image.extent` must be true of the
-  /// image that is given: pixels outside of it are left as they are. The image does not depend on
-  /// the number of threads (TBB's) nor on the instruction set. Throws std::invalid_argument where
-  /// X_BC is not finite, and leaves `image` then.
+  /// model's links; X_BC is the pose of the camera's optical frame in the root link's frame. What
+  /// has z > 0 is drawn. Outlines are right within 0.01 px. On entry `image.extent` has to hold all
+  /// robot pixels of `image`, since nothing is cleared outside of it. The image depends neither on
+  /// the number of threads (TBB's) nor on the instruction set. Throws std::invalid_argument if X_BC
+  /// is not finite, and then leaves `image` as it was.
   void render(const RobotPose& pose, const Pose& X_BC, RobotImage& image);
 
  private:

@@ -20,11 +20,11 @@ class JointBuffer {
   JointBuffer(const RobotModel& model, std::size_t capacity);
 
   /// Adds a sample; positions in rad or m, one for each name, in any order. Names that are no
-  /// joints of the robot are passed over. A sample without one of the robot's joints, or with a
-  /// position that is not finite, is not kept: missing_joint, and missing_joint() names it. So is
-  /// one whose stamp is not above the newest: stamp_went_back. A clock that was set needs clear(),
-  /// since only the caller knows it from a sample that came late. Throws std::invalid_argument
-  /// where names and positions are not equally many.
+  /// joints of the robot are passed over. Two kinds of samples are not kept: one that lacks a joint
+  /// of the robot or has a position that is not finite (missing_joint; missing_joint() names the
+  /// joint), and one whose stamp is not above the newest (stamp_went_back). If the clock was set
+  /// back, call clear(): only the caller can tell that from a late sample. Throws
+  /// std::invalid_argument where names and positions are not equally many.
   TimeStatus push(double stamp_s, std::span<const std::string> names,
                   std::span<const double> positions);
 

@@ -17,8 +17,8 @@
 namespace berth {
 
 enum class GeometryKind {
-  visual,     ///< what the camera sees; where a link has none, nothing
-  collision,  ///< the collision shapes; where a link has none, its visual ones, since the camera
+  visual,     ///< the visual shapes, which the camera sees; a link without them has none
+  collision,  ///< the collision shapes; a link without them has its visual ones, since the camera
               ///< sees those
 };
 
@@ -61,7 +61,7 @@ struct Link {
 struct MovableJoint {
   std::string name;
   JointType type = JointType::revolute;
-  /// The URDF's limits, rad or m: known here, enforced by nobody. A continuous joint has none.
+  /// The URDF's limits, rad or m; nothing enforces them. A continuous joint has none.
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
 };
@@ -81,8 +81,8 @@ struct RobotModel {
   int link_count() const { return static_cast<int>(evaluated_links.size()); }
   std::vector<std::string> evaluated_link_names() const;
   std::optional<std::size_t> find_link(std::string_view link_name) const;
-  /// Whether a joint, or a mimic joint, lies between the root and links[index]. A link that none
-  /// moves stands where it stands, on a table as a rule.
+  /// Whether a joint that moves lies between the root and links[index]. A link without one never
+  /// moves; it is the base on its table, as a rule.
   bool is_moved(std::size_t index) const;
 };
 

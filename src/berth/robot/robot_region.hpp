@@ -4,9 +4,10 @@
 
 namespace berth {
 
-/// The robot whose silhouette is the robot-shaped region of surveillance (Hirt 3.1.1): each
-/// evaluated link `scale` times as large in every dimension, about the centre of its own surface
-/// (surface_centre_m), so that it holds the link wherever that is convex. Scenery is ignored in it.
+/// An enlarged robot, whose outline in the image is the robot-shaped region of surveillance
+/// (Hirt 3.1.1). Each evaluated link is `scale` times as large in every direction, about the centre
+/// of its own surface (surface_centre_m); it covers the link itself if that is convex. Scenery is
+/// left out.
 RobotModel robot_region(const RobotModel& model, double scale);
 
 }  // namespace berth

@@ -52,7 +52,7 @@ struct FrameResult {
   /// The OpenGL renderer, where a part was computed on it.
   std::string gl_renderer;
   double range_m = 0;
-  /// Whether the search was allowed to end early, and so each link's lower bound is told as well.
+  /// Whether to tell each link's lower bound: the search was allowed to end early.
   bool has_bounds = false;
   /// One for each of distances->links, in the same order, here and below.
   std::vector<std::string> link_names;

@@ -33,14 +33,14 @@ struct OpenScene {
   std::size_t frame_count = 0;  ///< of all cameras
 };
 
-/// All depth images together may keep so many bytes of memory; what is beyond is decoded twice.
+/// Checked images are kept in memory up to so many bytes in all; the rest is decoded a second time.
 inline constexpr std::size_t kMostKeptBytes = std::size_t{512} << 20;
 
-/// Opens all that the scene names, each depth image included, so that nothing that can be known to
-/// be bad is found only after results were given. A frame whose stamp the joints do not reach is no
-/// error but has that status, unless all of a camera's frames are so. `before_image` is called
-/// before each image is read, and ends it all by an exception. Throws std::runtime_error with file,
-/// place, value and what was expected.
+/// Opens all that the scene names, each depth image too, so that a bad file is found before the
+/// first result. A frame whose stamp lies outside of the joints' times is no error: it has that
+/// status. It is one if that holds for all frames of a camera. `before_image` is called before each
+/// image is read; to stop, it throws. Throws std::runtime_error with file, place, value and what
+/// was expected.
 OpenScene open_scene(const SceneFile& scene, const std::function<void()>& before_image = [] {});
 
 /// The same for read_scene(file).

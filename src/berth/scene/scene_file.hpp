@@ -35,8 +35,8 @@ struct SceneFile {
   RobotSettings robot;
   std::vector<SceneCamera> cameras;
   std::filesystem::path joints;
-  /// What the file does not give is as it stands there by default, but for the limits between joint
-  /// samples and images: kOnlyBetweenSamples.
+  /// Defaults where the file says nothing; the limits between joint samples and images are then
+  /// kOnlyBetweenSamples.
   EvaluationSettings evaluation;
 };
 

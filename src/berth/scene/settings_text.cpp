@@ -29,10 +29,10 @@ std::string names_text() {
 
 /// Such as "above 0", "1 to 64", "0, or 1 and more".
 std::string domain_text(const Domain& domain) {
-  const std::string range =
-      std::isfinite(domain.most) ? fmt::format("{} to {}", domain.least, domain.most)
-      : domain.is_open           ? fmt::format("above {}", domain.least)
-                                 : fmt::format("{} and more", domain.least);
+  const std::string range = std::isfinite(domain.most)
+                                ? fmt::format("{} to {}", domain.least, domain.most)
+                            : domain.is_open ? fmt::format("above {}", domain.least)
+                                             : fmt::format("{} and more", domain.least);
   return domain.has_off ? "0, or " + range : range;
 }
 
@@ -106,8 +106,10 @@ std::string settings_table(std::string_view group) {
     const EvaluationSettings settings;
     write({"method", {}, "how the distances are found"}, settings.method);
     visit_settings(settings.distance, write);
-    write({"visibility", {}, "whether to tell how much of each link and of the space around its "
-                             "answer the cameras see"},
+    write({"visibility",
+           {},
+           "whether to tell how much of each link and of the space around its "
+           "answer the cameras see"},
           settings.visibility);
   } else if (group == "time") {
     // What read_scene() begins with.

@@ -15,10 +15,10 @@ struct ReadingHistory {
 };
 
 /// Moves each `obstacle` to the mean of its pixel's last average_frames readings, itself among
-/// them, where that is nearer than itself: it is `averaged` then. The mean goes back as far as the
-/// pixel showed an obstacle within noise of the reading, so that a jump begins anew. Never moves
-/// anything away, and nothing by more than the noise. Takes the image into the history before that,
-/// and forgets it all where the size changes.
+/// them, if that is nearer; its fate is `averaged` then. The mean goes back only as far as the
+/// pixel showed an obstacle within noise of the newest reading: after a jump it begins anew. Never
+/// moves anything away, and nothing by more than the noise. The image is taken into the history
+/// first; an image of another size empties the history.
 void average_readings(const SensorSettings& settings, ReadingHistory& history, ObstacleImage& out);
 
 }  // namespace berth

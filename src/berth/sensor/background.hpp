@@ -13,9 +13,9 @@ namespace berth {
 /// What a camera that does not move sees where the robot is not: per pixel the obstacle's depth,
 /// learned from images in which the robot was elsewhere.
 ///
-/// It only ever adds: a reading that is kept stays as it is, whatever the background says. A piece
-/// that the sensor makes up beside the arm and a new thing that somebody holds there give the same
-/// image, so nothing here tells them apart, and both are kept.
+/// It only ever adds: a reading that is kept stays as it is, whatever the background says. What the
+/// sensor makes up beside the arm and a new thing that somebody holds there give the same image, so
+/// both are kept.
 class Background {
  public:
   /// Takes in one image. A reading counts where the self filter kept it (`fates`) and the evaluated
@@ -31,8 +31,8 @@ class Background {
   }
 
   /// Puts the background where F has no depth: behind the robot, in its padding, at dropped pixels
-  /// and where there is no reading. Such a pixel's fate is `background`. A reading from behind it
-  /// shows that what was there is gone: then it is not put there. Nor is it onto scenery.
+  /// and where there is no reading. Such a pixel's fate is `background`. It is not put where a
+  /// reading lies farther away than it, since what was there is gone then, and not onto scenery.
   void complete(DepthView sensor_depth_m, const SensorSettings& settings, ObstacleImage& out) const;
 
  private:

@@ -7,9 +7,8 @@
 
 namespace berth {
 
-/// Where HolePolicy::obstacle puts an obstacle of which nothing is known: nearer than any depth
-/// camera measures, so that its shadow falls on all that the pixel shows, and yet more than 0 in a
-/// PNG of millimetres.
+/// The depth that HolePolicy::obstacle gives a pixel: nearer than any depth camera measures, so
+/// that everything behind it counts as hidden, and still more than 0 in a PNG of millimetres.
 inline constexpr float kHoleDepth_m = 0.01F;
 
 struct HoleWorkspace {
@@ -17,10 +16,10 @@ struct HoleWorkspace {
   DepthImage nearest_m;
 };
 
-/// Gives the holes a depth by the policy, and the fate `hole`: `no_reading` pixels that the model,
-/// robot or scenery, does not cover. For nearest_neighbour that is the depth of the nearest pixel
-/// of F that has one (Euclidean in the image; of several equally near the least depth), never the
-/// robot's own reading; where F is empty holes stay. Only adds obstacles.
+/// Gives each hole a depth by the policy, and the fate `hole`. A hole is a `no_reading` pixel that
+/// neither robot nor scenery covers in the model. nearest_neighbour takes the depth of the nearest
+/// pixel of F that has one (Euclidean in the image; of several equally near the least depth), never
+/// one of the robot; where F is empty, holes stay. Only adds obstacles.
 void fill_holes(HolePolicy policy, const RobotImage& robot, HoleWorkspace& workspace,
                 ObstacleImage& out);
 

@@ -31,16 +31,17 @@ constexpr std::string_view name_of(LinkStatus status) {
   return kLinkStatusNames[static_cast<std::size_t>(status)];
 }
 
-/// The closest pair of one link (Hirt 2.10 to 2.14). Unless status is ok, every length but the lower
-/// bound is NaN and every pixel (-1, -1): never 0, never a large number, never the answer before.
+/// The closest pair of one link (Hirt 2.10 to 2.14). If status is not ok, every length but the
+/// lower bound is NaN and every pixel (-1, -1): never 0, never a large number, never the answer
+/// before.
 struct LinkDistance {
   LinkId id = kNoLink;
   LinkStatus status = LinkStatus::not_visible;
   float distance_m = std::numeric_limits<float>::quiet_NaN();
-  /// No pair is closer than this: distance_m itself unless the search was allowed to end early
-  /// (DistanceSettings::tolerance_m, deadline_us); the range where there is none within it; 0 by a
-  /// method that certifies nothing (lattice, and brute_force in a region that may miss pairs). NaN
-  /// only where the link is not visible or the answer untimely.
+  /// No pair is closer than this. It is distance_m itself, unless the search was allowed to end
+  /// early (DistanceSettings::tolerance_m, deadline_us). It is the range where nothing is within
+  /// it, and 0 by a method that certifies nothing (lattice, and brute_force in a region that may
+  /// miss pairs). NaN only where the link is not visible or the answer untimely.
   float lower_bound_m = std::numeric_limits<float>::quiet_NaN();
   Pixel robot_pixel;
   Pixel obstacle_pixel;

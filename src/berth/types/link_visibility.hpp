@@ -19,8 +19,8 @@ enum class Sight : std::uint8_t {
 };
 inline constexpr int kSightCount = 5;
 
-/// The shares of a surface or of a space by Sight. They add up to 1; all are NaN where there is
-/// nothing that could be shared.
+/// The shares of a surface or of a space by Sight. They add up to 1. All are NaN where there is no
+/// surface or no space.
 struct SightShares {
   float seen = std::numeric_limits<float>::quiet_NaN();
   float hidden_by_obstacles = std::numeric_limits<float>::quiet_NaN();
@@ -31,27 +31,27 @@ struct SightShares {
   bool is_known() const { return !std::isnan(seen); }
 };
 
-/// How much of one link the camera sees, and of the space where something nearer than the link's
-/// distance would stand.
+/// How much of one link the camera sees, and how much of the space around it. Anything nearer to
+/// the link than its distance would have to stand in that space.
 struct LinkVisibility {
   LinkId id = kNoLink;
-  /// Of the link's surface, by area, the far side and what lies inside of other links included.
-  /// Known unless the link's triangles have no area.
+  /// Shares of the link's whole surface, by area: also of its far side, and of what lies inside of
+  /// other links. NaN if the link's triangles have no area.
   SightShares surface;
-  /// Of the ball in which nothing stands if the answer is true, by volume. For a link that is ok:
-  /// around its robot point with its distance for a radius; for one that is none_in_range
-  /// (cut_short): with the range (the lower bound) for a radius, the mean over balls around the
-  /// points of its surface that the robot image shows. Not known where there is no such ball: the
-  /// link is not visible, or the radius is 0.
+  /// Shares of a ball, by volume. If the answer is right, nothing stands in this ball: its centre
+  /// is the link's closest point, its radius the link's distance. A link that is none_in_range
+  /// (cut_short) has no closest point: its shares are the mean over balls around those points of
+  /// its surface that the robot image shows, with the range (the lower bound) for a radius. NaN
+  /// where there is no ball: the link is not visible, or the radius is 0.
   SightShares space;
-  /// The share of that space where something may stand that the image does not tell of: space's
-  /// hidden_by_robot + no_reading + outside_image. What an obstacle hides is not part of it, since
-  /// it counts as obstacle already (the gray area, Hirt 2.14).
+  /// The share of that ball that the camera cannot tell anything about: space's hidden_by_robot +
+  /// no_reading + outside_image. What an obstacle hides is not part of it, since it counts as
+  /// obstacle already (the gray area, Hirt 2.14).
   float space_unknown = std::numeric_limits<float>::quiet_NaN();
-  /// The least distance, as in LinkDistance, to what was dropped for its size and place alone
-  /// (PixelFate::island, speckle), and the pixel of that, where it is within the range and nearer
-  /// than the link's distance: who cannot rule out a small thing there has to take this one. NaN and
-  /// (-1, -1) where there is none.
+  /// The least distance, as in LinkDistance, to readings that were dropped only because they are
+  /// few and near the robot (PixelFate::island) or few (speckle), and the pixel of the nearest. Set
+  /// if that is within the range and nearer than the link's distance; then take it instead wherever
+  /// a small thing may come near the robot. Else NaN and (-1, -1).
   float doubtful_distance_m = std::numeric_limits<float>::quiet_NaN();
   Pixel doubtful_pixel;
 };

@@ -11,22 +11,22 @@ namespace berth {
 /// What became of one pixel of the sensor's depth image: in the self filter, then in the sensor
 /// rules. The order is that of the rules.
 enum class PixelFate : std::uint8_t {
-  obstacle,     ///< kept: it may be an obstacle
-  no_reading,   ///< the sensor gave nothing here
-  robot,        ///< on the robot, or behind it
-  environment,  ///< on an environment link of the URDF, or behind it
-  padding,      ///< within the link's metric padding beside the robot, and not in front of it
-  dilation,     ///< within the silhouette grown by a number of pixels, and not in front of it
-  edge,         ///< a mixed pixel at a depth edge
-  island,       ///< a small piece that hangs on the robot's own readings and never leaves its
-                ///< neighbourhood
+  obstacle,        ///< kept: it may be an obstacle
+  no_reading,      ///< the sensor gave nothing here
+  robot,           ///< on the robot, or behind it
+  environment,     ///< on an environment link of the URDF, or behind it
+  padding,         ///< within the link's metric padding beside the robot, and not in front of it
+  dilation,        ///< within the silhouette grown by a number of pixels, and not in front of it
+  edge,            ///< a mixed pixel at a depth edge
+  island,          ///< in a small patch of readings that grows out of the robot's outline and stays
+                   ///< near the robot: the camera smeared it there
   outside_region,  ///< not seen through the enlarged robot, where
                    ///< SelfFilterSettings::robot_region_scale is set
-  speckle,      ///< a blob of fewer pixels than count as an obstacle
-  averaged,     ///< kept, at the mean of the last readings, which is nearer than the last one
-  background,   ///< kept, at the depth that was there when the robot was elsewhere: hidden or
-                ///< dropped now
-  hole,         ///< kept: no reading, and what the policy for holes puts there
+  speckle,         ///< a blob of fewer pixels than count as an obstacle
+  averaged,        ///< kept, at the mean of the pixel's last readings: it is nearer than the newest
+  background,      ///< kept, at the depth that the pixel had when the robot was elsewhere; its own
+                   ///< reading shows the robot, or was dropped
+  hole,            ///< kept: it has no reading, and HolePolicy says that something is there
 };
 inline constexpr int kPixelFateCount = 13;
 /// The self filter gives those up to `outside_region`.
@@ -47,8 +47,8 @@ inline bool is_kept(PixelFate fate) {
          fate == PixelFate::background || fate == PixelFate::hole;
 }
 
-/// The filtered depth image F (Hirt 2.2.1): the sensor's depth with the robot removed, NaN where
-/// there is nothing (where the fate is not kept); and for each pixel why.
+/// The filtered depth image F (Hirt 2.2.1): the sensor's depth without the robot, NaN at every
+/// pixel that was not kept; and what became of each pixel.
 struct ObstacleImage {
   DepthImage depth_m;
   Image<PixelFate> fate;

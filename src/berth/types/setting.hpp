@@ -1,6 +1,6 @@
-// A setting is written once: in its struct, and in the struct's visit_settings(), which tells name,
-// domain and one sentence of each. Validation, scene files, the command line and its help, and the
-// table in the documents are made from that. The unit is the name's ending (_m, _px, _s, _us).
+// A setting is written once: in its struct, and in visit_settings() beside it, which tells its
+// name, domain and one sentence. Validation, scene files, the command line and its help, and the
+// tables in the documents are made from that. The name ends in the unit (_m, _px, _s, _us).
 #pragma once
 
 #include <limits>
@@ -46,8 +46,8 @@ concept SettingsOf = std::is_same_v<std::remove_const_t<Settings>, Struct>;
 [[noreturn]] void throw_bad_setting(std::string_view group, std::string_view name, double value,
                                     std::string_view expected);
 
-/// Visits one setting: numbers are held against their domain, the rest is of a type that holds
-/// nothing wrong.
+/// For visit_settings(): checks that a number lies in its domain. Settings of other types cannot
+/// hold a wrong value.
 struct SettingCheck {
   std::string_view group;
 

@@ -8,8 +8,8 @@
 
 namespace berth {
 
-/// What was dropped for its size and place alone, as `island` or as `speckle`. Mostly it is the
-/// camera's own making; a small thing at the robot's outline gives the same image.
+/// The readings that were dropped only because they are few: as `island` near the robot, as
+/// `speckle` anywhere. Mostly the camera made them up, but a small real thing gives the same image.
 struct DoubtfulImage {
   /// The sensor's depth at such pixels; NaN elsewhere.
   DepthImage depth_m;

@@ -25,10 +25,10 @@ struct VisibilityWorkspace {
   std::vector<Eigen::Vector3d> drawn_C_m;
 };
 
-/// What the camera cannot know of each link and of the space around its answer. `points` belong to
-/// `model`; `distances` are the answer for `robot.image` and frame.obstacles within range_m. The
-/// shares are those of kSamplePoints points. Writes all but the doubtful distance of out[i] for the
-/// link with the id i + 1 and allocates nothing once workspace and `out` have grown to the robot.
+/// How much the camera sees of each link and of the space around its answer. `points` belong to
+/// `model`; `distances` are the answer for `robot.image` and frame.obstacles within range_m. Each
+/// share is counted on kSamplePoints points. Writes out[i], the link with the id i + 1, but not its
+/// doubtful distance. Allocates nothing once workspace and `out` have grown to the robot.
 void find_visibility(const RobotModel& model, const SamplePoints& points, const SeenFrame& frame,
                      const AskedRobot& robot, const LinkDistances& distances, double range_m,
                      VisibilityWorkspace& workspace, std::vector<LinkVisibility>& out);

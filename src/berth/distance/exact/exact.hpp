@@ -32,16 +32,16 @@ struct ExactWorkspace {
   std::vector<LinkSearch> links;
 };
 
-/// The answer of brute_force, by branch and bound over an obstacle tree and the robot's tiles, the
-/// links side by side on the threads that TBB has; of several pairs equally close it may name
-/// another one.
+/// The answer of brute_force, found by branch and bound over the obstacles' tree and the robot's
+/// tiles. Of several pairs equally close it may name another one. Links are searched side by side
+/// on the threads that TBB has.
 ///
 /// Fills everything but the mean direction (see mean_direction.hpp). With settings.tolerance_m or
-/// deadline_us every link has lower_bound_m <= true distance <= distance_m.
+/// deadline_us, lower_bound_m <= true distance <= distance_m holds for every link.
 ///
-/// If `out` holds an answer on entry, its pairs, looked up in the new images, are the first guess:
-/// that saves time where little has moved and changes no distance. Allocates nothing once the
-/// workspace and `out` have grown to the scene. Throws std::invalid_argument for bad settings.
+/// If `out` holds an answer on entry, its pixels are tried first in the new images. That saves time
+/// where little has moved, and changes no distance. Allocates nothing once the workspace and `out`
+/// have grown to the scene. Throws std::invalid_argument for bad settings.
 void exact(const Question& question, ExactWorkspace& workspace, LinkDistances& out);
 
 }  // namespace berth

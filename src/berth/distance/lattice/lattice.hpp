@@ -14,12 +14,13 @@ struct LatticeWorkspace {
   LinkLattice lattice;
 };
 
-/// The thesis's evaluator on the CPU (Hirt 2.2.4, 3.1.2), **approximate**: per link a lattice of
-/// its pixels against a lattice of obstacle pixels, made finer around the closest point until the
-/// final radius, where all its pixels are tried against all obstacle pixels of their region.
+/// The thesis's evaluator on the CPU (Hirt 2.2.4, 3.1.2), **approximate**. Some pixels of each link
+/// (a lattice) are tried against some obstacle pixels. Around the closest one the lattice is made
+/// finer, again and again, until the final radius: there all pixels of the link are tried against
+/// all obstacle pixels of their region.
 ///
-/// A distance is that of a real pair, so never below brute_force's; it can be too large, and a link
-/// can be none_in_range although a pair is in range, where the lattices passed over it. So
+/// A distance is that of a real pair, so never below brute_force's. It can be too large, and a link
+/// can be none_in_range although a pair is in range, since the lattices may pass over it. So
 /// lower_bound_m is 0 for every visible link: nothing is certified. Otherwise as brute_force;
 /// out.pairs counts the pairs computed. Allocates nothing once the workspace and `out` have grown
 /// to the scene. Throws std::invalid_argument for bad settings.
