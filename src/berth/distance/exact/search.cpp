@@ -116,7 +116,7 @@ SearchResult search_nodes(const SearchInput& input, int last_node, const SearchL
   const int count = order_nodes(search, last_node);
   int k = 0;
   for (; k < count && !search.stopped; ++k) {
-    search.is_aligned = aligned.along_surface.is_made = aligned.along_pair.is_made = false;
+    search.is_aligned = aligned.boxes.is_made = false;
     aligned.tiles_made = 0;
     search.align_at = work_of(search) + limits.most_work_unaligned;
     search_square(search, input.robot.nodes[input.order[k].node], root_of(input.obstacles));
