@@ -19,11 +19,11 @@ inline void search_tile(Search& search, const RobotTiles::Node& robot, const Pix
   if (is_out_of_time(search)) return;
   Bounds bounds = bound_robot_tiles(search, robot, box);
   if (bounds.may_improve == 0) return;
-  TileCopy obstacle_copy;
+  DepthSquareCopy<kTilePx> obstacle_copy;
   const LeafTile obstacle = obstacle_tile(search, box, obstacle_copy);
   search.is_aligned |= search.best.ru >= 0 && work_of(search) >= search.align_at;
   if (search.is_aligned) sharpen(search, robot, obstacle, bounds);
-  TileCopy robot_copy;
+  DepthSquareCopy<kTilePx> robot_copy;
   const Candidates near = nearest_first(bounds);
   for (int k = 0; k < near.count; ++k) {
     const int i = near.index[k];

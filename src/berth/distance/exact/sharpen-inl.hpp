@@ -13,18 +13,19 @@ namespace berth {
 namespace HWY_NAMESPACE {
 
 inline LeafTile robot_tile(const Search& search, const RobotTiles::Node& node, int i,
-                           TileCopy& copy) {
+                           DepthSquareCopy<kTilePx>& copy) {
   const RobotTiles::Tile& tile = search.input.robot.tiles[node.tile[i]];
   const PixelBox box{node.u_lo[i], node.u_hi[i],       node.v_lo[i],
                      node.v_hi[i], node.depth_lo_m[i], node.depth_hi_m[i]};
   return {box, static_cast<float>(tile.u), static_cast<float>(tile.v),
-          tile_depths(search.input.robot_depth_m, tile.u, tile.v, copy), tile.bits};
+          depth_square<kTilePx>(search.input.robot_depth_m, tile.u, tile.v, copy), tile.bits};
 }
 
-inline LeafTile obstacle_tile(const Search& search, const PixelBox& box, TileCopy& copy) {
+inline LeafTile obstacle_tile(const Search& search, const PixelBox& box,
+                              DepthSquareCopy<kTilePx>& copy) {
   return {box, box.u_lo, box.v_lo,
-          tile_depths(search.input.obstacle_depth_m, static_cast<int>(box.u_lo),
-                      static_cast<int>(box.v_lo), copy),
+          depth_square<kTilePx>(search.input.obstacle_depth_m, static_cast<int>(box.u_lo),
+                                static_cast<int>(box.v_lo), copy),
           ~std::uint64_t{0}};
 }
 
@@ -49,7 +50,7 @@ inline Normal direction_of(const Metric& metric, const ClosestPair& pair) {
 inline void make_boxes(const Search& search, const RobotTiles::Node& node, AlignedBoxes& out) {
   out.is_made = true;
   out.axes = axes_of(search.input.metric, direction_of(search.input.metric, search.best));
-  TileCopy copy;
+  DepthSquareCopy<kTilePx> copy;
   for (int i = 0; i < RobotTiles::kNodeTiles; ++i) {
     AlignedBox box{{HUGE_VALF, HUGE_VALF, HUGE_VALF}, {HUGE_VALF, HUGE_VALF, HUGE_VALF}};
     if (i < node.tile_count) {
