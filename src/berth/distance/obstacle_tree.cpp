@@ -20,7 +20,6 @@ namespace berth {
 namespace HWY_NAMESPACE {
 
 constexpr int kChildren = ObstacleTree::kChildren;
-constexpr int kNodePx = 4 * kTilePx;
 
 /// The depth range of each column of 8 pixels, in a node's 4 rows of tiles.
 struct ColumnRanges {
@@ -62,10 +61,10 @@ HWY_INLINE void reduce_tiles(const float* columns_m, float* tiles_m) {
   halve<lesser>(kChildren, quarter_m, tiles_m);
 }
 
-/// One node of 32 x 32 pixels, all of which can be read.
-void fill_tiles(const float* depth_m, std::ptrdiff_t stride, ObstacleTree::Node& node) {
+/// One node of 32 x 32 pixels.
+void fill_tiles(const DepthSquare& square, ObstacleTree::Node& node) {
   ColumnRanges columns;
-  take_columns(depth_m, stride, columns);
+  take_columns(square.depth_m, square.stride, columns);
   reduce_tiles<true>(columns.lo_m, node.depth_lo_m);
   reduce_tiles<false>(columns.hi_m, node.depth_hi_m);
 }
@@ -80,8 +79,6 @@ namespace berth {
 HWY_EXPORT(fill_tiles);
 
 namespace {
-
-constexpr int kNodePx = 4 * kTilePx;
 
 int divide_up(int a, int b) { return (a + b - 1) / b; }
 
@@ -102,29 +99,12 @@ void size_levels(DepthView depth_m, ObstacleTree& tree) {
   } while (level->nodes.size() > 1);
 }
 
-/// Fills a node that the image's border cuts, from a copy with NaN beyond the border.
-void fill_border_node(DepthView depth_m, int u_begin, int v_begin, ObstacleTree::Node& node) {
-  float padded_m[kNodePx * kNodePx];
-  std::fill_n(padded_m, kNodePx * kNodePx, kNoDepth);
-  const int width = std::min(kNodePx, depth_m.width - u_begin);
-  const int height = std::min(kNodePx, depth_m.height - v_begin);
-  for (int v = 0; v < height; ++v) {
-    std::copy_n(depth_m.row(v_begin + v) + u_begin, width, padded_m + v * kNodePx);
-  }
-  HWY_DYNAMIC_DISPATCH(fill_tiles)(padded_m, kNodePx, node);
-}
-
 void fill_row(DepthView depth_m, int row, ObstacleTree::Level& level) {
-  const auto fill_inner_node = HWY_DYNAMIC_DISPATCH(fill_tiles);
-  ObstacleTree::Node* node = level.nodes.data() + static_cast<std::ptrdiff_t>(row) * level.columns;
-  const int v = row * kNodePx;
-  for (int u = 0; u < level.columns * kNodePx; u += kNodePx) {
-    if (u + kNodePx <= depth_m.width && v + kNodePx <= depth_m.height) {
-      fill_inner_node(depth_m.row(v) + u, depth_m.stride, *node);
-    } else {
-      fill_border_node(depth_m, u, v, *node);
-    }
-    ++node;
+  const auto fill = HWY_DYNAMIC_DISPATCH(fill_tiles);
+  DepthSquareCopy<kNodePx> copy;
+  for (int column = 0; column < level.columns; ++column) {
+    fill(depth_square<kNodePx>(depth_m, column * kNodePx, row * kNodePx, copy),
+         level.nodes[static_cast<std::size_t>(row) * level.columns + column]);
   }
 }
 

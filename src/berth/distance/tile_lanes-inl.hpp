@@ -15,7 +15,7 @@ namespace berth {
 namespace HWY_NAMESPACE {
 
 /// The numbers i, i + 1, ... of a tile by rows.
-HWY_INLINE Lanes load_tile(const TileDepths& tile, int i) {
+HWY_INLINE Lanes load_tile(const DepthSquare& tile, int i) {
   const float* x = tile.depth_m + i / kTilePx * tile.stride + i % kTilePx;
 #if HWY_TARGET == HWY_SCALAR
   return load(x);

@@ -59,10 +59,10 @@ TEST_P(MeanDirectionAccuracy, HoldsForRandomScenes) {
   EXPECT_GT(links, 50);
 }
 
-TEST_P(MeanDirectionAccuracy, HoldsWhereMostBlocksAreFar) {
+TEST_P(MeanDirectionAccuracy, IsMuchBetterWhereMostTilesAreFar) {
   int links = 0;
   for (std::uint32_t seed = 0; seed < 6; ++seed) {
-    links += expect_plain_means(random_images(seed, 640, 480, 3), 2.0);
+    links += expect_plain_means(random_images(seed, 640, 480, 3), 2.0, 5e-4);
   }
   EXPECT_GT(links, 9);
 }

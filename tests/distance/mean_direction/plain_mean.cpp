@@ -36,15 +36,14 @@ PlainMean plain_mean(const ImagePair& images, Pixel r, double range_m) {
   return mean;
 }
 
-int expect_plain_means(const ImagePair& images, double range_m) {
+int expect_plain_means(const ImagePair& images, double range_m, double max_error) {
   int links = 0;
   for (const LinkDistance& link : with_mean(images, range_m).links) {
     if (link.status != LinkStatus::ok) continue;
     const PlainMean mean = plain_mean(images, link.robot_pixel, range_m);
     EXPECT_EQ(link.mean_count, mean.count);
     if (mean.count == 0) continue;
-    EXPECT_LT((link.mean_direction_C.cast<double>() - mean.direction_C).norm(),
-              kMeanDirectionError);
+    EXPECT_LT((link.mean_direction_C.cast<double>() - mean.direction_C).norm(), max_error);
     ++links;
   }
   return links;

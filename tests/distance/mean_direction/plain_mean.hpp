@@ -15,8 +15,9 @@ struct PlainMean {
 /// Section 6 of the definition, pixel by pixel in double: the slow twin of fill_mean_directions().
 PlainMean plain_mean(const ImagePair& images, Pixel robot_pixel, double range_m);
 
-/// Fails the test unless every link has the plain count, and a mean direction within
-/// kMeanDirectionError. Returns how many links have one.
-int expect_plain_means(const ImagePair& images, double range_m);
+/// Fails the test unless every link has the plain count, and a mean direction within max_error.
+/// Returns how many links have one.
+int expect_plain_means(const ImagePair& images, double range_m,
+                       double max_error = kMeanDirectionError);
 
 }  // namespace berth::testing

@@ -13,7 +13,7 @@ struct LeafTile {
   PixelBox box;
   float u;
   float v;
-  TileDepths depths;
+  DepthSquare depths;
   std::uint64_t bits;
 };
 

@@ -87,7 +87,7 @@ struct TileIds {
   }
 };
 
-HWY_INLINE void find_depth_range(LinkTile& tile, const TileDepths& depths) {
+HWY_INLINE void find_depth_range(LinkTile& tile, const DepthSquare& depths) {
   Lanes lo(HUGE_VALF);
   Lanes hi(-HUGE_VALF);
   for (int i = 0; i < kTilePixels; i += kLanes) {
@@ -100,7 +100,8 @@ HWY_INLINE void find_depth_range(LinkTile& tile, const TileDepths& depths) {
 }
 
 /// Splits one tile by links. Returns how many there are.
-HWY_INLINE int split_tile(const LinkId* corner, const TileDepths& depths, int tile, LinkTile* out) {
+HWY_INLINE int split_tile(const LinkId* corner, const DepthSquare& depths, int tile,
+                          LinkTile* out) {
   const TileIds ids(corner, depths.stride);
   int count = 0;
   std::uint64_t rest = ~(ids.pixels_of(kNoLink) | ids.pixels_of(kEnvironmentLink));

@@ -19,11 +19,11 @@ inline void search_tile(Search& search, const RobotTiles::Node& robot, const Pix
   if (is_out_of_time(search)) return;
   Bounds bounds = bound_robot_tiles(search, robot, box);
   if (bounds.may_improve == 0) return;
-  TileCopy obstacle_copy;
+  DepthSquareCopy<kTilePx> obstacle_copy;
   const LeafTile obstacle = obstacle_tile(search, box, obstacle_copy);
   search.is_aligned |= search.best.ru >= 0 && work_of(search) >= search.align_at;
   if (search.is_aligned) sharpen(search, robot, obstacle, bounds);
-  TileCopy robot_copy;
+  DepthSquareCopy<kTilePx> robot_copy;
   const Candidates near = nearest_first(bounds);
   for (int k = 0; k < near.count; ++k) {
     const int i = near.index[k];
@@ -116,7 +116,7 @@ SearchResult search_nodes(const SearchInput& input, int last_node, const SearchL
   const int count = order_nodes(search, last_node);
   int k = 0;
   for (; k < count && !search.stopped; ++k) {
-    search.is_aligned = aligned.along_surface.is_made = aligned.along_pair.is_made = false;
+    search.is_aligned = aligned.boxes.is_made = false;
     aligned.tiles_made = 0;
     search.align_at = work_of(search) + limits.most_work_unaligned;
     search_square(search, input.robot.nodes[input.order[k].node], root_of(input.obstacles));

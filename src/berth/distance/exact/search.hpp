@@ -27,7 +27,7 @@ struct SearchLimits {
   /// At this time; but never before a first pair, or the first look for one.
   std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
   /// A robot node whose search takes more work than this, counted about in pairs, is looked at
-  /// along its surface.
+  /// along its closest pair and its surface.
   std::int64_t most_work_unaligned = 12000;
 };
 

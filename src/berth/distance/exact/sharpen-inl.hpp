@@ -13,18 +13,19 @@ namespace berth {
 namespace HWY_NAMESPACE {
 
 inline LeafTile robot_tile(const Search& search, const RobotTiles::Node& node, int i,
-                           TileCopy& copy) {
+                           DepthSquareCopy<kTilePx>& copy) {
   const RobotTiles::Tile& tile = search.input.robot.tiles[node.tile[i]];
   const PixelBox box{node.u_lo[i], node.u_hi[i],       node.v_lo[i],
                      node.v_hi[i], node.depth_lo_m[i], node.depth_hi_m[i]};
   return {box, static_cast<float>(tile.u), static_cast<float>(tile.v),
-          tile_depths(search.input.robot_depth_m, tile.u, tile.v, copy), tile.bits};
+          depth_square<kTilePx>(search.input.robot_depth_m, tile.u, tile.v, copy), tile.bits};
 }
 
-inline LeafTile obstacle_tile(const Search& search, const PixelBox& box, TileCopy& copy) {
+inline LeafTile obstacle_tile(const Search& search, const PixelBox& box,
+                              DepthSquareCopy<kTilePx>& copy) {
   return {box, box.u_lo, box.v_lo,
-          tile_depths(search.input.obstacle_depth_m, static_cast<int>(box.u_lo),
-                      static_cast<int>(box.v_lo), copy),
+          depth_square<kTilePx>(search.input.obstacle_depth_m, static_cast<int>(box.u_lo),
+                                static_cast<int>(box.v_lo), copy),
           ~std::uint64_t{0}};
 }
 
@@ -39,19 +40,6 @@ inline const AlignedTile& aligned_tile(Search& search, int i, const LeafTile& ti
   return out;
 }
 
-/// The normal of a node's surface: the mean of a few of its tiles'.
-inline Normal normal_of(const Search& search, const RobotTiles::Node& node) {
-  constexpr int kSamples = 4;
-  TileCopy copy;
-  Normal sum;
-  for (int k = 0; k < kSamples; ++k) {
-    const int i = k * (node.tile_count - 1) / (kSamples - 1);
-    const LeafTile tile = robot_tile(search, node, i, copy);
-    add_normal(axes_along(search.input.metric, fit_plane(tile), tile.u, tile.v), sum);
-  }
-  return sum;
-}
-
 /// The direction of the closest pair so far.
 inline Normal direction_of(const Metric& metric, const ClosestPair& pair) {
   const auto vector = berth::pair_vector(metric, pair.ru, pair.rv, pair.robot_depth_m, pair.ou,
@@ -59,11 +47,10 @@ inline Normal direction_of(const Metric& metric, const ClosestPair& pair) {
   return {vector.x_m, vector.y_m, vector.z_m};
 }
 
-inline void make_boxes(const Search& search, const RobotTiles::Node& node, const Normal& normal,
-                       AlignedBoxes& out) {
+inline void make_boxes(const Search& search, const RobotTiles::Node& node, AlignedBoxes& out) {
   out.is_made = true;
-  out.axes = axes_of(search.input.metric, normal);
-  TileCopy copy;
+  out.axes = axes_of(search.input.metric, direction_of(search.input.metric, search.best));
+  DepthSquareCopy<kTilePx> copy;
   for (int i = 0; i < RobotTiles::kNodeTiles; ++i) {
     AlignedBox box{{HUGE_VALF, HUGE_VALF, HUGE_VALF}, {HUGE_VALF, HUGE_VALF, HUGE_VALF}};
     if (i < node.tile_count) {
@@ -77,35 +64,22 @@ inline void make_boxes(const Search& search, const RobotTiles::Node& node, const
   }
 }
 
-/// Sharpens the bounds of a robot node's tiles and an obstacle tile by boxes along the same axes.
-inline void sharpen_along(const Search& search, const RobotTiles::Node& robot,
-                          const AlignedBoxes& aligned, const LeafTile& obstacle, Bounds& bounds) {
-  const AlignedView view(search.input.metric, aligned.axes, obstacle,
+/// Sharpens the bounds of a robot node's tiles and an obstacle tile by boxes along the closest pair
+/// so far.
+inline void sharpen(Search& search, const RobotTiles::Node& robot, const LeafTile& obstacle,
+                    Bounds& bounds) {
+  AlignedBoxes& boxes = search.aligned.boxes;
+  if (!boxes.is_made) make_boxes(search, robot, boxes);
+  const AlignedView view(search.input.metric, boxes.axes, obstacle,
                          {robot.box.depth_lo_m, robot.box.depth_hi_m});
   const AlignedBox box = view.box_of(~std::uint64_t{0});
   bounds.may_improve = 0;
   for (int i = 0; i < kChildren; i += kLanes) {
     const Lanes bound_m2 =
-        aligned_bound_m2(box, {aligned.lo_m[0] + i, aligned.lo_m[1] + i, aligned.lo_m[2] + i},
-                         {aligned.hi_m[0] + i, aligned.hi_m[1] + i, aligned.hi_m[2] + i});
+        aligned_bound_m2(box, {boxes.lo_m[0] + i, boxes.lo_m[1] + i, boxes.lo_m[2] + i},
+                         {boxes.hi_m[0] + i, boxes.hi_m[1] + i, boxes.hi_m[2] + i});
     put(search, greatest(load(bounds.squared_m2 + i), bound_m2), i, bounds);
   }
-}
-
-/// Along the robot's surface first, which is right where surfaces tie; then along the closest pair,
-/// which is right where much of the robot lies before one plane.
-inline void sharpen(Search& search, const RobotTiles::Node& robot, const LeafTile& obstacle,
-                    Bounds& bounds) {
-  AlignedNode& aligned = search.aligned;
-  if (!aligned.along_surface.is_made) {
-    make_boxes(search, robot, normal_of(search, robot), aligned.along_surface);
-  }
-  sharpen_along(search, robot, aligned.along_surface, obstacle, bounds);
-  if (bounds.may_improve == 0) return;
-  if (!aligned.along_pair.is_made) {
-    make_boxes(search, robot, direction_of(search.input.metric, search.best), aligned.along_pair);
-  }
-  sharpen_along(search, robot, aligned.along_pair, obstacle, bounds);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -22,7 +22,7 @@ struct AlignedTile {
   AlignedBox quarters[4];
 };
 
-/// The boxes around a node's tiles along some axes; made when they are first needed.
+/// The boxes around a node's tiles along its closest pair; made when they are first needed.
 struct AlignedBoxes {
   bool is_made = false;
   Axes axes;
@@ -30,11 +30,10 @@ struct AlignedBoxes {
   alignas(64) float hi_m[3][RobotTiles::kNodeTiles];
 };
 
-/// A robot node seen along the link's closest pair so far, along its own surface, and its tiles
-/// along theirs: for searches that turn out to be long.
+/// A robot node seen along the link's closest pair so far, and its tiles along their own surfaces:
+/// for searches that turn out to be long.
 struct AlignedNode {
-  AlignedBoxes along_surface;
-  AlignedBoxes along_pair;
+  AlignedBoxes boxes;
   AlignedTile tiles[RobotTiles::kNodeTiles];
   /// Bit i is set where tiles[i] has been made.
   std::uint32_t tiles_made = 0;

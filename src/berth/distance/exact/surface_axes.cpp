@@ -3,6 +3,7 @@
 #include <cmath>
 
 namespace berth {
+
 Axes axes_of(const Metric& metric, const Normal& towards) {
   const Eigen::Vector3f direction(towards.x, towards.y, towards.z);
   const float length = direction.norm();
@@ -50,14 +51,6 @@ Axes axes_along(const Metric& metric, const InversePlane& plane, float u, float 
   const float c =
       plane.c + plane.a * (metric.cx_px - 0.5f - u) + plane.b * (metric.cy_px - 0.5f - v);
   return axes_of(metric, {plane.a / metric.inv_fx, plane.b / metric.inv_fy, c});
-}
-
-void add_normal(const Axes& axes, Normal& sum) {
-  const float x = axes.x[0];
-  const float y = axes.y[0];
-  const float z = axes.z[0];
-  const float side = x * sum.x + y * sum.y + z * sum.z < 0 ? -1.0f : 1.0f;
-  sum = {sum.x + side * x, sum.y + side * y, sum.z + side * z};
 }
 
 }  // namespace berth

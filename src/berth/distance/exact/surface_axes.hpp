@@ -86,7 +86,4 @@ struct Normal {
 /// Axes with this normal; the camera's own where it has no direction.
 Axes axes_of(const Metric& metric, const Normal& normal);
 
-/// Adds the axes' normal to the sum, on the side that the sum is on: a surface has two.
-void add_normal(const Axes& axes, Normal& sum);
-
 }  // namespace berth

@@ -1,11 +1,10 @@
 // The inner loop of fill_mean_directions.
 #pragma once
 
-#include <vector>
+#include <cstdint>
 
-#include "berth/distance/mean_direction/direction_blocks.hpp"
+#include "berth/distance/mean_direction/tile_means.hpp"
 #include "berth/distance/metric.hpp"
-#include "berth/types/image.hpp"
 
 namespace berth {
 
@@ -21,16 +20,13 @@ struct DirectionSum {
   double x = 0;
   double y = 0;
   double z = 0;
-  double count = 0;
-  /// A bound of the length of what the sum is wrong by.
-  double error = 0;
-  bool is_done = false;
+  std::int64_t count = 0;
 };
 
-/// Fills new sums with all obstacle pixels, without those at distance 0. The directions to the
-/// pixels of a block far away are taken from its mean and covariance, as long as the mean of all
-/// directions is wrong by max_error at most.
-void sum_directions(const Metric& metric, DepthView obstacle_depth_m, const DirectionBlocks& blocks,
-                    float max_error, DirectionSum* sums, int sum_count);
+/// Adds the directions to all obstacle pixels but those at distance 0. A tile stands for its pixels
+/// where a ball around them has a radius of at most kFarTile times the distance of their mean: then
+/// the mean of their directions is that of their mean but for kMeanDirectionError.
+void add_directions(const Metric& metric, const SearchableDepth& obstacles, const TileMeans& means,
+                    DirectionSum& sum);
 
 }  // namespace berth

@@ -1,5 +1,7 @@
 #include "berth/distance/mean_direction/mean_direction.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -18,8 +20,9 @@ DirectionSum start_at(const Question& question, Pixel pixel) {
 
 void fill(const DirectionSum& sum, LinkDistance& link) {
   if (sum.count == 0) return;
-  link.mean_count = static_cast<std::int64_t>(sum.count);
-  link.mean_direction_C = (Eigen::Vector3d(sum.x, sum.y, sum.z) / sum.count).cast<float>();
+  link.mean_count = sum.count;
+  link.mean_direction_C =
+      (Eigen::Vector3d(sum.x, sum.y, sum.z) / static_cast<double>(sum.count)).cast<float>();
 }
 
 }  // namespace
@@ -28,24 +31,23 @@ void fill_mean_directions(const Question& question, DirectionWorkspace& workspac
                           LinkDistances& distances) {
   validate(question.settings);
   workspace.sums.clear();
+  PixelRect rect;
+  float max_depth_m = 0;
   for (LinkDistance& link : distances.links) {
     link.mean_direction_C.setConstant(std::numeric_limits<float>::quiet_NaN());
     link.mean_count = 0;
     if (link.status != LinkStatus::ok) continue;
     workspace.sums.push_back(start_at(question, link.robot_pixel));
+    rect = united(rect, workspace.sums.back().rect);
+    max_depth_m = std::max(max_depth_m, workspace.sums.back().max_depth_m);
   }
   if (workspace.sums.empty()) return;
 
-  PixelRect rect;
-  float max_depth_m = 0;
-  for (const DirectionSum& sum : workspace.sums) {
-    rect = united(rect, sum.rect);
-    max_depth_m = std::max(max_depth_m, sum.max_depth_m);
-  }
-  build_direction_blocks(question.camera, question.obstacles, rect, max_depth_m, workspace.blocks);
-  sum_directions(metric_of(question.camera), question.obstacles.depth_m(), workspace.blocks,
-                 kMeanDirectionError, workspace.sums.data(),
-                 static_cast<int>(workspace.sums.size()));
+  build_tile_means(question.camera, question.obstacles, rect, max_depth_m, workspace.means);
+  const Metric metric = metric_of(question.camera);
+  tbb::parallel_for(std::size_t{0}, workspace.sums.size(), [&](std::size_t i) {
+    add_directions(metric, question.obstacles, workspace.means, workspace.sums[i]);
+  });
   auto sum = workspace.sums.begin();
   for (LinkDistance& link : distances.links) {
     if (link.status == LinkStatus::ok) fill(*sum++, link);

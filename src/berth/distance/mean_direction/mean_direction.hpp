@@ -2,21 +2,22 @@
 
 #include <vector>
 
-#include "berth/distance/mean_direction/direction_blocks.hpp"
 #include "berth/distance/mean_direction/direction_sum.hpp"
+#include "berth/distance/mean_direction/tile_means.hpp"
 #include "berth/distance/question.hpp"
 #include "berth/types/link_distance.hpp"
 
 namespace berth {
 
-/// The length of the difference between a mean direction and its definition, at most: pixels that
-/// lie close together and far from the robot are taken as one.
-inline constexpr float kMeanDirectionError = 1e-4f;
+/// The length of the difference between a mean direction and its definition, at most (a degree
+/// where all directions agree; a hundredth of that is usual): pixels that lie close together and
+/// far from the robot are taken as one.
+inline constexpr float kMeanDirectionError = 0.017f;
 
 /// The memory of fill_mean_directions(), made once and used for every question; one for each
 /// thread. It carries nothing from one answer to the next.
 struct DirectionWorkspace {
-  DirectionBlocks blocks;
+  TileMeans means;
   std::vector<DirectionSum> sums;
 };
 
