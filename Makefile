@@ -1,5 +1,5 @@
 # Thin fronts of CMake. Each target does all set-up that it needs, on a bare Debian 12 too.
-.PHONY: demo test build bench study bench-gpu sanitize sanitize-thinned fuzz trust trust-distances trust-real-images trust-long-runs setup format clean
+.PHONY: demo test build bench study bench-gpu sanitize sanitize-thinned fuzz trust trust-distances trust-real-images trust-long-runs trust-whole-robot setup format clean
 
 demo: setup
 	cmake --preset release
@@ -58,7 +58,7 @@ fuzz:
 	scripts/fuzz.sh "$(FUZZ_SECONDS)"
 
 # What `make test` shows thinned, in full. TRUST_OPTIONS: of measure_trust, such as --scenes 20.
-trust: trust-distances trust-real-images trust-long-runs
+trust: trust-distances trust-real-images trust-long-runs trust-whole-robot
 trust-distances: build
 	build/release/tools/measure_trust/measure_trust $(if $(BERTH_DATA),--robots $(BERTH_DATA)/robots) $(TRUST_OPTIONS)
 trust-real-images: build
@@ -69,6 +69,9 @@ else
 endif
 trust-long-runs: build
 	BERTH_LONG_RUN=full build/release/tests/pipeline/long_run_test
+trust-whole-robot: build
+	BERTH_MESH_TWIN=full build/release/tests/truth/mesh_distances_test
+	build/release/tools/measure_trust/measure_trust --whole-robot $(if $(BERTH_DATA),--robots $(BERTH_DATA)/robots) $(TRUST_OPTIONS)
 
 setup:
 	scripts/setup.sh
