@@ -49,6 +49,12 @@ struct WholeRobotTrial {
   std::vector<UnderCondition> under;
 };
 
+/// With three cameras, clean images and an ideal filter, `nearest` is above the true distance of the
+/// whole link by no more than this. Nothing proves it: what no camera sees of an obstacle, behind
+/// the robot or outside of all images, is no obstacle. Measured: at most 33 mm of 899 links in 100
+/// rooms by another program, with the same definition.
+inline constexpr double kMaxWholeRobotOverestimate_m = 0.05;
+
 /// How fast obstacles move where images are out of step; floor and wall stand still. Joints move at
 /// up to kTrialJointSpeed_per_s.
 inline constexpr double kTrialObstacleSpeed_m_s = 1.6;
