@@ -1,5 +1,5 @@
 # Thin fronts of CMake. Each target does all set-up that it needs, on a bare Debian 12 too.
-.PHONY: demo test build bench lab study bench-gpu sanitize sanitize-thinned fuzz trust berth_trust trust-distances trust-real-images trust-long-runs setup docs lint format clean
+.PHONY: demo test build bench lab study bench-gpu sanitize sanitize-thinned fuzz trust berth_trust trust-distances trust-real-images trust-long-runs trust-whole-robot setup docs lint format clean
 
 # A fresh build folder is configured for berth alone, which needs the fewest packages. One that has more keeps it.
 product = test -e build/release/build.ninja || cmake --preset product
@@ -67,7 +67,7 @@ fuzz:
 	scripts/fuzz.sh "$(FUZZ_SECONDS)"
 
 # What `make test` shows thinned, in full. TRUST_OPTIONS: of berth_trust, such as --scenes 20.
-trust: trust-distances trust-real-images trust-long-runs
+trust: trust-distances trust-real-images trust-long-runs trust-whole-robot
 berth_trust: lab
 	cmake --build --preset release --target berth_trust
 trust-distances: berth_trust
@@ -82,6 +82,11 @@ trust-long-runs: setup
 	cmake --preset release
 	cmake --build --preset release --target long_run_test
 	BERTH_LONG_RUN=full build/release/tests/pipeline/long_run_test
+trust-whole-robot: setup
+	cmake --preset release
+	cmake --build --preset release --target berth_trust mesh_distances_test
+	BERTH_MESH_TWIN=full build/release/tests/truth/mesh_distances_test
+	build/release/lab/berth_trust --whole-robot $(if $(BERTH_DATA),--robots $(BERTH_DATA)/robots) $(TRUST_OPTIONS)
 
 # All that the tests need.
 setup:

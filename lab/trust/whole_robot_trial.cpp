@@ -110,8 +110,10 @@ class Measured {
     testing::Random random(seed);
     SensedView sensed;
     testing::DrawnView view = drawn_.views[k];
-    testing::DrawnScene scene{
-        .camera = view.camera, .X_BC = view.X_BC, .joints = drawn_.scene.joints};
+    testing::DrawnScene scene;
+    scene.camera = view.camera;
+    scene.X_BC = view.X_BC;
+    scene.joints = drawn_.scene.joints;
     if (k > 0 && condition_.most_age_s > 0) {
       sensed.age_s = random(0, condition_.most_age_s);
       view = look_back(k, sensed.age_s, scene.joints);

@@ -49,6 +49,12 @@ struct WholeRobotTrial {
   std::vector<UnderCondition> under;
 };
 
+/// With three cameras, clean images and an ideal filter, `nearest` is above the true distance of the
+/// whole link by no more than this where the obstacle is in an image. Nothing proves it. What is
+/// outside of all images is no obstacle: in 36 scenes with eleven robots that made links of one
+/// scene (seed 9) 977 mm too large. With four cameras 43 mm was the most of 546 links.
+inline constexpr double kMaxWholeRobotOverestimate_m = 0.05;
+
 /// How fast obstacles move where images are out of step; floor and wall stand still. Joints move at
 /// up to kTrialJointSpeed_per_s.
 inline constexpr double kTrialObstacleSpeed_m_s = 1.6;
