@@ -1,1 +1,130 @@
+#include "berth/distance/mesh/hidden_space.hpp"
+
 #include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <thread>
+
+#include "testing/thinned.hpp"
+#include "tests/distance_mesh/plain_distance.hpp"
+
+namespace berth::testing {
+namespace {
+
+using mesh::Cube;
+using mesh::CubeBlock;
+
+/// The cube of this level that holds a point.
+Cube cube_at(const Eigen::Vector3d& p_B, int level) {
+  Cube cube{level, 0, 0, 0};
+  const Eigen::Vector3d place = (p_B.array() - Cube::kCorner_m) / cube.edge_m();
+  return {level, static_cast<int>(place.x()), static_cast<int>(place.y()),
+          static_cast<int>(place.z())};
+}
+
+Eigen::Vector3d draw_point(Random& random, double reach_m) {
+  return {random(-reach_m, reach_m), random(-reach_m, reach_m), random(-reach_m, reach_m)};
+}
+
+/// A point that is hidden lies in no cube that holds nothing, one that is not in none that is full.
+TEST(HiddenSpace, CubesHoldWhatTheirPointsAre) {
+  Random random(7);
+  int hidden = 0, full = 0, empty = 0;
+  for (std::uint32_t seed = 0; seed < thinned(12u); ++seed) {
+    MeshWorldSettings settings;
+    settings.views = 2 + static_cast<int>(seed % 3);
+    MeshWorld world = draw_mesh_world(settings, 500 + seed);
+    if (seed % 3 == 2) world.views[1].age_s = 0.02;
+    const PreparedWorld prepared(world);
+    const PlainSpace space(world);
+    for (int i = 0; i < 4000; ++i) {
+      const Eigen::Vector3d p_B = draw_point(random, 1.8);
+      const bool is_hidden = space.is_hidden(p_B);
+      hidden += is_hidden;
+      ASSERT_EQ(prepared.space().hiding_pixel(p_B).has_value(), is_hidden);
+      const int level = random.whole(1, Cube::kTopLevel);
+      const Cube cube = cube_at(p_B, level);
+      const Cube child = cube_at(p_B, level - 1);
+      const int place = child.x % 4 + child.y % 4 * 4 + child.z % 4 * 16;
+      const CubeBlock block = prepared.space().block(cube);
+      const bool is_possible = block.possible >> place & 1;
+      const bool is_full = block.full >> place & 1;
+      ASSERT_TRUE(is_possible || !is_hidden) << "level " << level;
+      ASSERT_TRUE(!is_full || is_hidden) << "level " << level;
+      full += is_full;
+      empty += !is_possible;
+    }
+  }
+  EXPECT_GT(hidden, 1000);
+  EXPECT_GT(full, 300);
+  EXPECT_GT(empty, 1000);
+}
+
+TEST(HiddenSpace, BlocksAreKeptUntilTheNextViews) {
+  MeshWorldSettings settings;
+  const MeshWorld world = draw_mesh_world(settings, 1);
+  const PreparedWorld prepared(world);
+  EXPECT_EQ(prepared.space().kept_blocks(), 0u);
+  const Cube cube = cube_at({0.1, 0.2, 0.3}, 4);
+  const CubeBlock first = prepared.space().block(cube);
+  EXPECT_EQ(prepared.space().kept_blocks(), 1u);
+  const CubeBlock again = prepared.space().block(cube);
+  EXPECT_EQ(prepared.space().kept_blocks(), 1u);
+  EXPECT_EQ(first.possible, again.possible);
+  EXPECT_EQ(first.full, again.full);
+}
+
+/// More blocks than are kept are found anew each time, to the same answer.
+TEST(HiddenSpace, ItsMemoryIsBounded) {
+  MeshWorldSettings settings;
+  settings.width_px = 8;
+  settings.height_px = 6;
+  const MeshWorld world = draw_mesh_world(settings, 2);
+  const PreparedWorld prepared(world);
+  const PreparedWorld other(world);
+  for (int i = 0; i < 60000; ++i) {
+    const Cube cube{1, 120000 + i % 250, 120000 + i / 250, 132750};
+    prepared.space().block(cube);
+  }
+  EXPECT_LE(prepared.space().kept_blocks(), 1u << 15);
+  for (int i = 59900; i < 60000; ++i) {
+    const Cube cube{1, 120000 + i % 250, 120000 + i / 250, 132750};
+    EXPECT_EQ(prepared.space().block(cube).possible, other.space().block(cube).possible);
+  }
+}
+
+TEST(HiddenSpace, ManyThreadsMayAsk) {
+  MeshWorldSettings settings;
+  settings.views = 3;
+  const MeshWorld world = draw_mesh_world(settings, 3);
+  const PreparedWorld prepared(world);
+  const PreparedWorld alone(world);
+  const auto ask = [&](std::uint32_t seed, int* wrong) {
+    Random random(seed);
+    for (int i = 0; i < 3000; ++i) {
+      const Cube cube = cube_at(draw_point(random, 0.5), 5);
+      const CubeBlock block = prepared.space().block(cube);
+      const CubeBlock right = alone.space().block(cube);
+      *wrong += block.possible != right.possible || block.full != right.full;
+    }
+  };
+  int wrong[4] = {};
+  std::vector<std::thread> threads;
+  for (std::uint32_t i = 0; i < 4; ++i) threads.emplace_back(ask, i, &wrong[i]);
+  for (auto& thread : threads) thread.join();
+  for (const int count : wrong) EXPECT_EQ(count, 0);
+}
+
+TEST(HiddenSpace, BadViewsAreRefused) {
+  ViewSpace space;
+  HiddenSpace hidden;
+  const std::vector<PosedView> many(HiddenSpace::kMostViews + 1, PosedView{&space});
+  EXPECT_THROW(hidden.assign(many), std::invalid_argument);
+  const PosedView from_the_future[] = {{&space, Pose::Identity(), -1}};
+  EXPECT_THROW(hidden.assign(from_the_future), std::invalid_argument);
+  const PosedView nowhere[] = {{&space, unset_pose(), 0}};
+  EXPECT_THROW(hidden.assign(nowhere), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace berth::testing

@@ -1,1 +1,43 @@
+// A program of its own, because allocation_count replaces the global operator new.
 #include <gtest/gtest.h>
+
+#include "testing/allocation_count.hpp"
+#include "tests/distance_mesh/mesh_world.hpp"
+
+namespace berth::testing {
+namespace {
+
+TEST(MeshSteadyState, NothingIsAllocatedOnceTheSceneWasSeen) {
+  MeshWorldSettings settings;
+  settings.views = 3;
+  MeshWorld world = draw_mesh_world(settings, 9);
+  world.views[0].age_s = 0.01;
+  const auto robot = build_robot_patches(world.model);
+  std::vector<ViewSpace> spaces(3);
+  std::vector<PosedView> posed(3);
+  HiddenSpace space;
+  MeshWorkspace workspace;
+  std::vector<WholeLinkDistance> out;
+  const auto frame_and_questions = [&] {
+    for (int k = 0; k < 3; ++k) {
+      const MeshWorldView& view = world.views[k];
+      build_view_space(view.camera, view.sensor_depth_m, view.obstacles, world.settings, spaces[k]);
+      posed[k] = {&spaces[k], view.X_BC, view.age_s};
+    }
+    space.assign(posed);
+    for (const bool hidden : {true, false}) {
+      mesh_distances(*robot, world.pose, space, {1.0, 1e-3, std::nullopt, hidden}, workspace, out);
+    }
+    space.assign(std::span(posed).first(1));
+    mesh_distances(*robot, world.pose, space, {}, workspace, out);
+  };
+  frame_and_questions();
+  frame_and_questions();
+  const std::size_t before = allocation_count();
+  frame_and_questions();
+  EXPECT_EQ(allocation_count(), before);
+  EXPECT_GT(before, 0u);
+}
+
+}  // namespace
+}  // namespace berth::testing

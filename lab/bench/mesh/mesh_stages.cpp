@@ -62,7 +62,7 @@ class Table {
 
   void print() {
     for (Row& r : rows_) std::sort(r.us.begin(), r.us.end());
-    const double unit_us = rows_[0].us[rows_[0].us.size() / 2];
+    const double unit_us = rows_[0].us[(rows_[0].us.size() - 1) / 2];
     fmt::print("{:34} {:>10} {:>10} {:>10} {:>8} {:>8}\n", "", "median", "95 %", "slowest",
                "x exact", "slowest");
     for (const Row& r : rows_) {

@@ -39,7 +39,20 @@ void search_full(CubeSearch& search, int leaf, const Cube& cube) {
               });
 }
 
-/// A cube some of whose points may be hidden, against a leaf: its centre is tried; returns a bound
+/// A point, and how far one of the link's is from it.
+void try_point(CubeSearch& search, const Eigen::Vector3f& point_B_m, int triangle,
+               float distance_m) {
+  LinkSearch& link = search.link;
+  if (!(distance_m + search.frame.error_m < link.best_m)) return;
+  if (!search.space.hiding_pixel(point_B_m.cast<double>())) return;
+  link.best_m = distance_m + search.frame.error_m;
+  link.best_triangle = std::min(triangle, link.link->triangle_count - 1);
+  link.best_point_B_m = point_B_m;
+  link.best_is_hidden = true;
+}
+
+/// A cube some of whose points may be hidden, against a leaf: its centre and its point nearest to
+/// the leaf are tried; returns a bound
 /// by the plane through the triangles' point nearest to it.
 float search_mixed(CubeSearch& search, int leaf, const Cube& cube) {
   const Boxes box = box_of(cube);
@@ -64,13 +77,11 @@ float search_mixed(CubeSearch& search, int leaf, const Cube& cube) {
     nearest_m = {x[lane], y[lane], z[lane]};
     triangle = first + lane;
   }
-  const Eigen::Vector3d centre_m = cube.corner_m().array() + half_m;
-  if (least_m + search.frame.error_m < link.best_m && search.space.hiding_pixel(centre_m)) {
-    link.best_m = least_m + search.frame.error_m;
-    link.best_triangle = std::min(triangle, link.link->triangle_count - 1);
-    link.best_point_B_m = centre_m.cast<float>();
-    link.best_is_hidden = true;
-  }
+  const Eigen::Vector3f centre_m = (cube.corner_m().array() + half_m).cast<float>();
+  const auto half = static_cast<float>(half_m);
+  const Eigen::Vector3f towards_m = nearest_m.cwiseMax(-half).cwiseMin(half);
+  try_point(search, centre_m + towards_m, triangle, (nearest_m - towards_m).norm());
+  try_point(search, centre_m, triangle, least_m);
   float bound_m = least_m - 1.7321f * static_cast<float>(half_m);
   const float scale = 1 / std::max(least_m, 1e-12f);
   const Vectors n{Lanes(nearest_m.x() * scale), Lanes(nearest_m.y() * scale),
@@ -83,18 +94,139 @@ float search_mixed(CubeSearch& search, int leaf, const Cube& cube) {
   return bound_m - search.frame.error_m;
 }
 
-void split_cube(CubeSearch& search, const Item& item, const Cube& cube, Fresh& fresh) {
-  const CubeBlock block = search.space.block(cube);
-  if (block.possible == 0) return;
-  const int level = level_of(item.patch);
-  const int index = index_of(item.patch);
-  const Patches patch =
-      broadcast_patch(search.link.link->levels[level], index, search.frame.motion);
+/// The patches that can be nearest to some point of a cube, and how near at least.
+struct Candidates {
+  static constexpr int kMost = 512;
+  int count = 0;
+  std::uint32_t patch[kMost + 16];
+  alignas(64) float lower_m[kMost + 16];
+  alignas(64) float upper_m[kMost + 16];
+  /// Their cylinders in the link's frame: centre, axis, half height, radius.
+  alignas(64) float values[8][kMost + 16];
+
+  void add(const LinkPatches& link, std::uint32_t p) {
+    const PatchLevel& level = link.levels[level_of(p)];
+    const int index = index_of(p);
+    for (int k = 0; k < 3; ++k) {
+      values[k][count] = level.centre_m[k][index];
+      values[3 + k][count] = level.axis[k][index];
+    }
+    values[6][count] = level.half_height_m[index];
+    values[7][count] = level.radius_m[index];
+    patch[count++] = p;
+  }
+};
+
+HWY_INLINE Patches load_candidates(const Candidates& c, int first, const Motion& X) {
+  const auto at = [&](int k) { return load(c.values[k] + first); };
+  return {moved(X, {at(0), at(1), at(2)}), turned(X, {at(3), at(4), at(5)}), at(6), at(7)};
+}
+
+/// Sets lower_m, no point of the cube is nearer to the patch, and upper_m, one of the patch's is no
+/// farther from the cube's centre.
+HWY_INLINE void bound_candidates(const CubeSearch& search, const Boxes& box, Candidates& c) {
+  for (int i = 0; i < c.count; i += kLanes) {
+    const Patches patches = load_candidates(c, i, search.frame.motion);
+    store(patch_bound(patches, box) - Lanes(search.frame.error_m), c.lower_m + i);
+    const Direction to = direction(patches.centre, box.centre);
+    const Lanes radius =
+        root(patches.half_height * patches.half_height + patches.radius * patches.radius);
+    store(to.length + radius + Lanes(search.frame.error_m), c.upper_m + i);
+  }
+}
+
+/// The distance of a leaf's triangles from the cube's centre.
+float centre_distance_m(const CubeSearch& search, const Boxes& box, int leaf) {
+  Lanes least_length(HUGE_VALF);
+  for (int first = 16 * leaf; first < 16 * (leaf + 1); first += kLanes) {
+    const Triangles t = load_triangles(*search.link.link, first, search.frame.motion);
+    const Vectors v = nearest_in(t, box.centre) - box.centre;
+    least_length = least(least_length, dot(v, v));
+  }
+  return std::sqrt(least_lane(least_length)) + search.frame.error_m;
+}
+
+/// Leaves the patches of `now` that can be nearest to some point of the cube, cut into ones smaller
+/// than it, or with `to_leaves` into leaves.
+void refine_candidates(const CubeSearch& search, const Cube& cube, bool to_leaves, Candidates*& now,
+                       Candidates*& spare) {
+  const Boxes box = box_of(cube);
+  const LinkPatches& link = *search.link.link;
+  const auto edge_m = static_cast<float>(cube.edge_m());
+  const float half_diagonal_m = 0.866026f * edge_m;
+  float centre_m = HUGE_VALF;
+  while (true) {
+    Candidates& c = *now;
+    Candidates& next = *spare;
+    bound_candidates(search, box, c);
+    int nearest = 0;
+    for (int i = 0; i < c.count; ++i) {
+      centre_m = std::min(centre_m, c.upper_m[i]);
+      if (c.lower_m[i] < c.lower_m[nearest]) nearest = i;
+    }
+    if (c.count > 1 && level_of(c.patch[nearest]) == 0) {
+      centre_m = std::min(centre_m, centre_distance_m(search, box, index_of(c.patch[nearest])));
+    }
+    const float most_m = std::min(centre_m + half_diagonal_m, search.link.limit_m());
+    bool is_split = false;
+    next.count = 0;
+    for (int i = 0; i < c.count; ++i) {
+      if (c.lower_m[i] > most_m) continue;
+      const int level = level_of(c.patch[i]);
+      const int index = index_of(c.patch[i]);
+      const float size_m = 2 * std::max(c.values[6][i], c.values[7][i]);
+      const bool has_room = next.count + 16 + (c.count - i) <= Candidates::kMost;
+      if (level == 0 || !has_room || !(to_leaves || size_m >= edge_m)) {
+        next.add(link, c.patch[i]);
+        continue;
+      }
+      is_split = true;
+      const int end = std::min(16 * (index + 1), link.levels[level - 1].count);
+      for (int child = 16 * index; child < end; ++child) next.add(link, patch_of(level - 1, child));
+    }
+    std::swap(now, spare);
+    if (!is_split) return;
+  }
+}
+
+void search_full_cube(CubeSearch& search, const Cube& cube, Candidates& c) {
+  bound_candidates(search, box_of(cube), c);
+  for (int i = 0; i < c.count; ++i) {
+    if (level_of(c.patch[i]) != 0) {
+      // No room for all leaves at once.
+      search.link.given_up_m = std::min(search.link.given_up_m, std::max(c.lower_m[i], 0.0f));
+    } else if (c.lower_m[i] < search.link.limit_m()) {
+      search_full(search, index_of(c.patch[i]), cube);
+    }
+  }
+}
+
+/// No point of the cube, some of which may be hidden, is nearer; by planes through its nearest
+/// points of the leaves among the candidates.
+float sharpen(CubeSearch& search, const Cube& cube, Candidates& c) {
+  bound_candidates(search, box_of(cube), c);
+  float least_m = HUGE_VALF;
+  for (int i = 0; i < c.count; ++i) {
+    float bound_m = c.lower_m[i];
+    if (bound_m < search.link.limit_m() && level_of(c.patch[i]) == 0) {
+      bound_m = std::max(bound_m, search_mixed(search, index_of(c.patch[i]), cube));
+    }
+    least_m = std::min(least_m, bound_m);
+  }
+  return least_m;
+}
+
+/// The bounds of a cube's children.
+struct ChildBounds {
+  alignas(64) float m[64];
+};
+
+HWY_INLINE void bound_child_cubes(const CubeSearch& search, const Cube& cube, const Candidates& c,
+                                  std::uint64_t possible, ChildBounds& out) {
   const auto edge_m = static_cast<float>(cube.edge_m() / 4);
   const Eigen::Vector3f corner = cube.corner_m().cast<float>();
   for (int i = 0; i < 64; i += kLanes) {
-    const auto possible = static_cast<std::uint32_t>(block.possible >> i) & ((1u << kLanes) - 1);
-    if (possible == 0) continue;
+    if ((possible >> i & ((1u << kLanes) - 1)) == 0) continue;
     const Lanes place = count_up(static_cast<float>(i));
     const Lanes layer = hn::Floor((place * Lanes(1.0f / 16)).v);
     const Lanes in_layer = place - layer * Lanes(16.0f);
@@ -105,41 +237,75 @@ void split_cube(CubeSearch& search, const Item& item, const Cube& cube, Fresh& f
                        mul_add(edge, row + middle, Lanes(corner.y())),
                        mul_add(edge, layer + middle, Lanes(corner.z()))},
                       Lanes(0.5f * edge_m)};
-    const Lanes bound = patch_bound(patch, boxes) - Lanes(search.frame.error_m);
-    add_below(bound, search.link.limit_m(), possible, [&](int lane, float bound_m) HWY_ATTR {
-      if (!(bound_m < search.link.limit_m())) return;
-      const Cube child = cube.child(i + lane);
-      const bool is_full = block.full >> (i + lane) & 1;
-      if (is_full && level == 0) {
-        search_full(search, index, child);
-        return;
-      }
-      if (!is_full && level == 0) bound_m = std::max(bound_m, search_mixed(search, index, child));
-      if (!is_full && child.level == 0) {
-        search.link.given_up_m = std::min(search.link.given_up_m, std::max(bound_m, 0.0f));
-      } else if (bound_m < search.link.limit_m()) {
-        fresh.add(bound_m, item.patch, child.key() | (is_full ? kFullCube : 0));
-      }
-    });
+    Lanes bound(HUGE_VALF);
+    for (int k = 0; k < c.count; ++k) {
+      const PatchLevel& level = search.link.link->levels[level_of(c.patch[k])];
+      const Patches patch = broadcast_patch(level, index_of(c.patch[k]), search.frame.motion);
+      bound = least(bound, patch_bound(patch, boxes));
+    }
+    store(bound - Lanes(search.frame.error_m), out.m + i);
   }
+}
+
+void split_cube(CubeSearch& search, const Cube& cube, const Candidates& c, Fresh& fresh) {
+  const CubeBlock block = search.space.block(cube);
+  if (block.possible == 0) return;
+  LinkSearch& link = search.link;
+  ChildBounds bounds;
+  bound_child_cubes(search, cube, c, block.possible, bounds);
+  std::uint32_t list = 0;
+  bool has_list = false;
+  for (std::uint64_t left = block.possible; left != 0; left &= left - 1) {
+    const int i = __builtin_ctzll(left);
+    const float bound_m = bounds.m[i];
+    if (!(bound_m < link.limit_m())) continue;
+    const Cube child = cube.child(i);
+    const bool is_full = block.full >> i & 1;
+    if (!is_full && child.level == 0) {
+      link.given_up_m = std::min(link.given_up_m, std::max(bound_m, 0.0f));
+      continue;
+    }
+    if (!has_list) {
+      list = keep_list(c.patch, c.count, link);
+      has_list = true;
+    }
+    fresh.add(bound_m, list, child.key() | (is_full ? kFullCube : 0));
+  }
+}
+
+/// Marks an item whose bound is as sharp as planes make it.
+constexpr std::uint32_t kSharp = 1u << 31;
+
+/// Whether triangles bound the cube's distance better than patches do.
+bool is_small(const CubeSearch& search, const Cube& cube, const Candidates& c) {
+  return level_of(c.patch[0]) == 0 &&
+         cube.edge_m() < search.link.link->levels[0].radius_m[index_of(c.patch[0])];
 }
 
 void expand(CubeSearch& search, const Item& item, Fresh& fresh) {
   const Cube cube = Cube::of_key(item.space);
   const bool is_full = (item.space & kFullCube) != 0;
-  const int level = level_of(item.patch);
-  const PatchLevel& patches = search.link.link->levels[level];
-  const int index = index_of(item.patch);
-  const float patch_m = std::max(patches.half_height_m[index], patches.radius_m[index]);
-  if (level > 0 && (is_full || 2 * patch_m >= static_cast<float>(cube.edge_m()))) {
-    bound_children(
-        search.link, search.frame, item.patch, box_of(cube),
-        [&](float bound_m, std::uint32_t patch) { fresh.add(bound_m, patch, item.space); });
-  } else if (is_full) {
-    search_full(search, index, cube);
-  } else {
-    split_cube(search, item, cube, fresh);
+  Candidates buffers[2];
+  Candidates* now = &buffers[0];
+  Candidates* spare = &buffers[1];
+  const std::uint32_t* list = search.link.patch_lists.data() + (item.patch & ~kSharp);
+  for (std::uint32_t i = 0; i < *list; ++i) now->add(*search.link.link, list[1 + i]);
+  refine_candidates(search, cube, is_full, now, spare);
+  if (is_full) {
+    search_full_cube(search, cube, *now);
+    return;
   }
+  if (now->count == 0) return;
+  if ((item.patch & kSharp) == 0 && is_small(search, cube, *now)) {
+    const float bound_m = std::max(item.bound_m, sharpen(search, cube, *now));
+    if (!(bound_m < search.link.limit_m())) return;
+    if (bound_m > search.link.items.least_bound_m()) {
+      const std::uint32_t place = keep_list(now->patch, now->count, search.link);
+      fresh.add(bound_m, place | kSharp, item.space);
+      return;
+    }
+  }
+  split_cube(search, cube, *now, fresh);
 }
 
 void search_in_cubes(const HiddenSpace& space, int steps, LinkSearch& link) {
@@ -165,8 +331,16 @@ void search_cubes(const HiddenSpace& space, int steps, LinkSearch& search) {
   HWY_DYNAMIC_DISPATCH(search_in_cubes)(space, steps, search);
 }
 
+std::uint32_t keep_list(const std::uint32_t* patches, int count, LinkSearch& search) {
+  const auto place = static_cast<std::uint32_t>(search.patch_lists.size());
+  search.patch_lists.push_back(static_cast<std::uint32_t>(count));
+  search.patch_lists.insert(search.patch_lists.end(), patches, patches + count);
+  return place;
+}
+
 void start_in_cubes(LinkSearch& search) {
   search.items.clear();
+  search.patch_lists.clear();
   search.given_up_m = std::numeric_limits<float>::infinity();
   if (search.link->empty()) return;
   const int top_level = static_cast<int>(search.link->levels.size()) - 1;
@@ -185,6 +359,8 @@ void start_in_cubes(LinkSearch& search) {
     begin[i] = std::clamp(begin[i], 0, kSide);
     end[i] = std::clamp(end[i], 0, kSide);
   }
+  const std::uint32_t top_patch = patch_of(top_level, 0);
+  const std::uint32_t list = keep_list(&top_patch, 1, search);
   for (int z = begin[2]; z < end[2]; ++z) {
     for (int y = begin[1]; y < end[1]; ++y) {
       for (int x = begin[0]; x < end[0]; ++x) {
@@ -194,8 +370,7 @@ void start_in_cubes(LinkSearch& search) {
         const Eigen::Vector3d nearest_m = centre_B_m.cwiseMax(low_m).cwiseMin(high_m);
         const double bound_m =
             (nearest_m - centre_B_m).norm() - top.half_height_m[0] - top.radius_m[0] - 1e-5;
-        search.items.push(
-            {static_cast<float>(std::max(bound_m, 0.0)), patch_of(top_level, 0), cube.key()});
+        search.items.push({static_cast<float>(std::max(bound_m, 0.0)), list, cube.key()});
       }
     }
   }

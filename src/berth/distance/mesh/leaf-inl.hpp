@@ -38,15 +38,36 @@ void search_pair(LinkSearch& search, const Pose& X_FL, int triangle, float error
   found(Eigen::Vector3f(pair.b_m.cast<float>()));
 }
 
+/// The direction from a body to the triangle that came nearest to it.
+struct Heading {
+  float x = 0, y = 0, z = 0;
+};
+
+HWY_INLINE Vectors broadcast(const Heading& n) { return {Lanes(n.x), Lanes(n.y), Lanes(n.z)}; }
+
+/// The least n . v of all points of a leaf's triangles.
+HWY_INLINE float least_along(const LinkSearch& search, const Frame& frame, int leaf,
+                             const Heading& n) {
+  Lanes along(HUGE_VALF);
+  for (int first = 16 * leaf; first < 16 * (leaf + 1); first += kLanes) {
+    const Triangles t = load_triangles(*search.link, first, frame.motion);
+    along = least(along, least_along(t, broadcast(n)));
+  }
+  return least_lane(along);
+}
+
 /// Searches the triangles of leaf `index` against a body, the same in all lanes, by going to and
 /// fro between nearest points; each pair on the way gives a plane that bounds the distance from
 /// below. Pairs for which that does not end the search are left to closest_points(). Calls
 /// found(triangle, distance, point of the body) for each pair that is better than the best.
 template <class Bodies, class Found>
-HWY_INLINE void search_leaf(LinkSearch& search, const Frame& frame, int index, const Bodies& body,
-                            const Eigen::Vector3d (&body_corners_m)[8], Found found) {
+HWY_INLINE Heading search_leaf(LinkSearch& search, const Frame& frame, int index,
+                               const Bodies& body, const Eigen::Vector3d (&body_corners_m)[8],
+                               Found found) {
   constexpr int kRounds = 4;
   const Lanes third(1.0f / 3);
+  Heading heading;
+  float heading_m = HUGE_VALF;
   for (int first = 16 * index; first < 16 * (index + 1); first += kLanes) {
     const Triangles t = load_triangles(*search.link, first, frame.motion);
     Vectors p{third * (t.a.x + t.b.x + t.c.x), third * (t.a.y + t.b.y + t.c.y),
@@ -60,6 +81,15 @@ HWY_INLINE void search_leaf(LinkSearch& search, const Frame& frame, int index, c
       const Direction to = direction(p, q);
       lower = greatest(lower, least_along(t, to.n) - reach_of(body, to.n) - Lanes(frame.error_m));
       const float least_m = least_lane(to.length);
+      if (least_m < heading_m) {
+        heading_m = least_m;
+        const int lane = __builtin_ctz(bits_of(to.length <= Lanes(least_m)));
+        alignas(64) float n[3][kLanes];
+        store(to.n.x, n[0]);
+        store(to.n.y, n[1]);
+        store(to.n.z, n[2]);
+        heading = {n[0][lane], n[1][lane], n[2][lane]};
+      }
       if (least_m + frame.error_m < search.best_m) {
         const std::uint32_t bits = bits_of(to.length <= Lanes(least_m));
         alignas(64) float x[kLanes], y[kLanes], z[kLanes];
@@ -79,6 +109,7 @@ HWY_INLINE void search_leaf(LinkSearch& search, const Frame& frame, int index, c
                   found);
     }
   }
+  return heading;
 }
 
 /// Makes `children` of an item, all with bounds below the limit, wait their turn; the best of them

@@ -61,6 +61,9 @@ struct LinkSearch {
   bool best_is_hidden = false;
 
   ItemHeap items;
+  /// What items of a search in cubes call their patch: where in here the number of patches stands
+  /// that can be nearest to a point of the cube, and then these.
+  std::vector<std::uint32_t> patch_lists;
   /// The least bound of what was too small to be searched on.
   float given_up_m = std::numeric_limits<float>::infinity();
 
@@ -84,6 +87,9 @@ void search_views(const HiddenSpace& space, bool to_shadow, int steps, LinkSearc
 
 /// The same among the cubes of hidden space.
 void search_cubes(const HiddenSpace& space, int steps, LinkSearch& search);
+
+/// Appends a list and returns its place.
+std::uint32_t keep_list(const std::uint32_t* patches, int count, LinkSearch& search);
 
 /// Both start with the whole link and all of space.
 void start_in_views(const HiddenSpace& space, LinkSearch& search);

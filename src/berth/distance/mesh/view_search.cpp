@@ -97,26 +97,55 @@ HWY_INLINE Chunks broadcast(const Chunk& c) {
   return {Lanes(c.a0), Lanes(c.a1), Lanes(c.b0), Lanes(c.b1), Lanes(c.d), Lanes(c.e)};
 }
 
-/// The leaf's triangles against one pixel.
-void search_pixel(ViewSearch& search, int leaf, const ImageCell& pixel) {
+/// The leaf's triangles against one pixel; returns from where they came nearest.
+Heading search_pixel(ViewSearch& search, int leaf, const ImageCell& pixel) {
   const LinkView& view = search.views[pixel.view];
   const Chunk c = chunk_of(search, pixel);
-  if (!(c.d <= c.e)) return;
+  if (!(c.d <= c.e)) return {};
   Eigen::Vector3d corners_m[8];
   for (int i = 0; i < 8; ++i) {
     const double z = i & 4 ? c.e : c.d;
     corners_m[i] = {z * (i & 1 ? c.a1 : c.a0), z * (i & 2 ? c.b1 : c.b0), z};
   }
-  search_leaf(search.link, view.frame, leaf, broadcast(c), corners_m, [&](const Eigen::Vector3f&) {
-    search.link.best_pixel = pixel.key();
-    search.link.best_is_hidden = search.to_shadow;
-  });
+  return search_leaf(search.link, view.frame, leaf, broadcast(c), corners_m,
+                     [&](const Eigen::Vector3f&) {
+                       search.link.best_pixel = pixel.key();
+                       search.link.best_is_hidden = search.to_shadow;
+                     });
 }
 
-/// 64 bounds of a patch and the pixels of a cell, +inf where there is nothing.
+/// 64 bounds of a patch and the pixels of a cell, +inf where there is nothing, and the pixels'
+/// chunks.
 struct PixelBounds {
   alignas(64) float m[64];
+  alignas(64) float depth_m[64];
+  alignas(64) float end_m[64];
 };
+
+/// The pixels i, i + 1, ... of a cell.
+HWY_INLINE Chunks pixel_chunks(const LinkView& view, const ImageCell& cell, int i, Lanes depth,
+                               Lanes end) {
+  const Lanes place = count_up(static_cast<float>(i));
+  const Lanes row = hn::Floor((place * Lanes(0.125f)).v);
+  const Lanes u = place - row * Lanes(8.0f) + Lanes(static_cast<float>(8 * cell.u));
+  const Lanes v = row + Lanes(static_cast<float>(8 * cell.v));
+  const Lanes du(view.per_column), u0(view.first_column), dv(view.per_row), v0(view.first_row);
+  return {u * du + u0, (u + Lanes(1.0f)) * du + u0, v * dv + v0, (v + Lanes(1.0f)) * dv + v0, depth,
+          end};
+}
+
+/// What lies before a plane along n is bounded by it: where a pixel was nearest to a leaf, its
+/// neighbours are about as near.
+HWY_INLINE void bound_by_plane(const ViewSearch& search, int leaf, const ImageCell& cell,
+                               const Heading& n, PixelBounds& bounds) {
+  const LinkView& view = search.views[cell.view];
+  const Lanes along(least_along(search.link, view.frame, leaf, n) - view.frame.error_m);
+  for (int i = 0; i < 64; i += kLanes) {
+    const Chunks chunks =
+        pixel_chunks(view, cell, i, load(bounds.depth_m + i), load(bounds.end_m + i));
+    store(greatest(load(bounds.m + i), along - reach_of(chunks, broadcast(n))), bounds.m + i);
+  }
+}
 
 HWY_INLINE void bound_pixels(const ViewSearch& search, const Patches& patch, const ImageCell& cell,
                              const Chunk& parent, PixelBounds& out) {
@@ -142,18 +171,13 @@ HWY_INLINE void bound_pixels(const ViewSearch& search, const Patches& patch, con
     const Lanes d = load(depth_m + i);
     const Mask valid =
         both(both(d >= Lanes(parent.d), d <= Lanes(parent_hi_m)), d <= Lanes(view.far_m));
-    const Lanes place = count_up(static_cast<float>(i));
-    const Lanes row = hn::Floor((place * Lanes(0.125f)).v);
-    const Lanes u = place - row * Lanes(8.0f) + Lanes(static_cast<float>(u_begin));
-    const Lanes v = row + Lanes(static_cast<float>(v_begin));
     const Lanes depth = select(valid, d, Lanes(1.0f));
     const Lanes end = search.to_shadow
                           ? Lanes(view.far_m)
                           : least(depth + Lanes(slab_m), greatest(depth, Lanes(view.far_m)));
-    const Lanes du(view.per_column), u0(view.first_column), dv(view.per_row), v0(view.first_row);
-    const Chunks chunks{u * du + u0, (u + Lanes(1.0f)) * du + u0,
-                        v * dv + v0, (v + Lanes(1.0f)) * dv + v0,
-                        depth,       end};
+    store(depth, out.depth_m + i);
+    store(end, out.end_m + i);
+    const Chunks chunks = pixel_chunks(view, cell, i, depth, end);
     const Lanes bound = patch_bound(patch, chunks) - Lanes(view.frame.error_m);
     store(select(valid, bound, Lanes(HUGE_VALF)), out.m + i);
   }
@@ -187,7 +211,7 @@ void split_pixels(ViewSearch& search, const Item& item, const ImageCell& cell, c
     int nearest = 0;
     while (bounds.m[nearest] != least_m) ++nearest;
     bounds.m[nearest] = HUGE_VALF;
-    search_pixel(search, index, pixel_at(nearest));
+    bound_by_plane(search, index, cell, search_pixel(search, index, pixel_at(nearest)), bounds);
   }
 }
 
