@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "testing/random.hpp"
+#include "tests/support/random.hpp"
 
 namespace berth::testing {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "testing/thinned.hpp"
+#include "tests/support/thinned.hpp"
 #include "tests/distance_mesh/plain_distance.hpp"
 
 namespace berth::testing {

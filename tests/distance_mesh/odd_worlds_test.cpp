@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "berth/robot/primitives.hpp"
-#include "testing/thinned.hpp"
+#include "tests/support/thinned.hpp"
 #include "tests/distance_mesh/plain_distance.hpp"
 
 namespace berth::testing {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "testing/only_target.hpp"
-#include "testing/thinned.hpp"
+#include "tests/support/only_target.hpp"
+#include "tests/support/thinned.hpp"
 #include "tests/distance_mesh/mesh_world.hpp"
 
 namespace berth::testing {

@@ -1,7 +1,7 @@
 // A program of its own, because allocation_count replaces the global operator new.
 #include <gtest/gtest.h>
 
-#include "testing/allocation_count.hpp"
+#include "tests/support/allocation_count.hpp"
 #include "tests/distance_mesh/mesh_world.hpp"
 
 namespace berth::testing {

@@ -3,8 +3,8 @@
 
 #include <limits>
 
-#include "trial_robots.hpp"
-#include "whole_robot_tables.hpp"
+#include "lab/trust/trial_robots.hpp"
+#include "lab/trust/whole_robot_tables.hpp"
 
 namespace berth::lab {
 namespace {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "berth/distance/mesh/mean_directions.hpp"
 #include "berth/distance/mesh/view_space.hpp"
 #include "berth/distance/searchable_depth.hpp"
 #include "berth/pipeline/exposure.hpp"
@@ -23,6 +24,8 @@ struct Frame : Exposure {
 
   /// What the image says of the space before the camera.
   ViewSpace space;
+  /// For mean directions, where the settings ask for them.
+  ReadingTiles reading_tiles;
   /// The same of what is doubtful; only where there is any.
   ViewSpace doubtful_space;
   bool has_doubtful_space = false;

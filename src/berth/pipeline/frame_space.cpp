@@ -8,6 +8,9 @@ void find_frame_space(DepthView sensor_depth_m, ObstacleImage& as_obstacle, Fram
   const Camera& camera = frame.view->camera();
   const SpaceSettings& settings = frame.view->settings().space;
   build_view_space(camera, sensor_depth_m, frame.obstacles, settings, frame.space);
+  if (frame.view->robot()->settings().distance.mean_direction) {
+    build_reading_tiles(camera, frame.obstacles.depth_m, frame.reading_tiles);
+  }
   const std::int64_t pixels = std::int64_t{camera.width_px} * camera.height_px;
   const std::int64_t without = frame.obstacles.count_of(PixelFate::no_reading) +
                                frame.obstacles.count_of(PixelFate::hole);

@@ -38,6 +38,7 @@ void MeshAsker::ask(const FrameSet& frames, const RobotPose& pose,
 void MeshAsker::ask(const FrameSet& frames, const RobotPose& pose, Answer& out) {
   ask(frames, pose, found_);
   tell_distances(frames, out.distances);
+  if (robot_->settings().distance.mean_direction) tell_mean_directions(frames, out.distances);
   tell_visibility(frames, pose, out);
 }
 
@@ -62,6 +63,27 @@ void MeshAsker::tell_distances(const FrameSet& frames, LinkDistances& out) const
     const Pose X_CB = frames.frames()[pair.view]->X_BC.inverse();
     link.robot_point_C_m = (X_CB * pair.robot_point_B_m.cast<double>()).cast<float>();
     link.obstacle_point_C_m = (X_CB * pair.obstacle_point_B_m.cast<double>()).cast<float>();
+  }
+}
+
+void MeshAsker::tell_mean_directions(const FrameSet& frames, LinkDistances& out) {
+  direction_views_.clear();
+  for (const int k : frames.used()) {
+    const Frame& frame = *frames.frames()[k];
+    direction_views_.push_back(
+        {frame.view->camera(), frame.obstacles.depth_m, frame.reading_tiles, frame.X_BC});
+  }
+  for (LinkDistance& link : out.links) {
+    if (!link.has_distance()) continue;
+    const MeanDirection mean =
+        mean_direction(direction_views_, link.robot_point_B_m.cast<double>(),
+                       robot_->settings().distance.range_m);
+    link.mean_count = mean.count;
+    if (mean.count == 0) continue;
+    link.mean_direction_B = mean.direction_B;
+    const Frame& frame = *frames.frames()[link.view];
+    link.mean_direction_C =
+        (frame.X_BC.linear().transpose() * mean.direction_B.cast<double>()).cast<float>();
   }
 }
 

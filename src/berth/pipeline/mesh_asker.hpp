@@ -26,6 +26,7 @@ class MeshAsker {
 
  private:
   void tell_distances(const FrameSet& frames, LinkDistances& out) const;
+  void tell_mean_directions(const FrameSet& frames, LinkDistances& out);
   void tell_visibility(const FrameSet& frames, const RobotPose& pose, Answer& out);
   void tell_doubtful(const FrameSet& frames, const RobotPose& pose, Answer& out);
 
@@ -35,6 +36,7 @@ class MeshAsker {
   MeshWorkspace doubtful_workspace_;
   std::vector<WholeLinkDistance> doubtful_;
   std::vector<WholeRobotView> views_;
+  std::vector<DirectionView> direction_views_;
 };
 
 }  // namespace berth
