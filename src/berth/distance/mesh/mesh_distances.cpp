@@ -98,8 +98,9 @@ void search_nearest(const Asked& asked, int steps, LinkState& link) {
 }
 
 void search_to_the_end(const Asked& asked, LinkState& link) {
+  if (link.reading.link->empty()) return;
   mesh::search_views(asked.space, false, kEndless, link.reading);
-  if (!asked.question.hidden || link.reading.link->empty()) return;
+  if (!asked.question.hidden) return;
   start_nearest(asked, link);
   search_nearest(asked, kEndless, link);
 }
@@ -112,7 +113,9 @@ double gap_m(const LinkSearch& search) {
 void search_until(const Asked& asked, Clock::time_point deadline, std::vector<LinkState>& links) {
   constexpr int kSteps = 8;
   if (asked.question.hidden) {
-    for (LinkState& link : links) start_nearest(asked, link);
+    for (LinkState& link : links) {
+      if (!link.reading.link->empty()) start_nearest(asked, link);
+    }
   }
   do {
     LinkState* widest = nullptr;
