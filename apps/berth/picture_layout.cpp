@@ -28,7 +28,9 @@ double fixed_height_em(const PictureInput& input, int columns) {
   const auto fate_count = input.obstacles ? std::ssize(shown_fates(*input.obstacles)) : 0;
   const auto fate_rows = static_cast<double>((fate_count + columns - 1) / columns);
   const double fates = input.obstacles ? kHeadingEm + kFateRowEm * fate_rows : 0;
-  const double links = input.distances ? kCardEm + kHeadingEm + kKeyEm : 0;
+  const double links = input.distances ? kCardEm + kHeadingEm + kKeyEm +
+                                             (has_hidden(input) ? kHiddenKeyEm : 0)
+                                       : 0;
   return links + fates + kScaleEm;
 }
 
@@ -53,6 +55,13 @@ TablePlan plan_table(const PictureInput& input, double height_em) {
 }
 
 }  // namespace
+
+bool has_hidden(const PictureInput& input) {
+  if (!input.distances) return false;
+  return std::ranges::any_of(input.distances->links, [](const LinkDistance& link) {
+    return link.status == LinkStatus::ok && link.obstacle_kind == ObstacleKind::hidden;
+  });
+}
 
 std::vector<PixelFate> shown_fates(const ObstacleImage& obstacles) {
   std::vector<PixelFate> fates;

@@ -42,6 +42,10 @@ struct PictureLayout {
 inline constexpr double kHeadingEm = 1.8;
 inline constexpr double kCardEm = 6.0;
 inline constexpr double kKeyEm = 1.7;
+inline constexpr double kHiddenKeyEm = 1.2;
+
+/// Whether some pair leads to what no camera sees.
+bool has_hidden(const PictureInput& input);
 inline constexpr double kFateRowEm = 1.3;
 inline constexpr double kScaleEm = 4.0;
 

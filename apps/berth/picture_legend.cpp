@@ -114,12 +114,6 @@ void draw_link_row(Legend& legend, const LinkDistance& link, double x, double y,
     draw_bar(legend, link, {bar_left, middle - 0.18 * em, right - 4.7 * em - bar_left, 0.36 * em});
 }
 
-bool has_hidden(const PictureInput& input) {
-  return std::ranges::any_of(input.distances->links, [](const LinkDistance& link) {
-    return link.status == LinkStatus::ok && link.obstacle_kind == ObstacleKind::hidden;
-  });
-}
-
 void draw_key(Legend& legend) {
   const double em = legend.em, middle = legend.y + 0.95 * em;
   const PointPx robot{legend.left() + 0.65 * em, middle}, obstacle{robot.x + 7.2 * em, middle};
@@ -129,12 +123,12 @@ void draw_key(Legend& legend) {
   legend.canvas.text({obstacle.x + 0.75 * em, middle}, "nearest obstacle", {0.8 * em}, kFaintInk);
   legend.y += kKeyEm * em;
   if (!has_hidden(legend.input)) return;
-  const double y = legend.y - 0.15 * em;
+  const double y = legend.y + 0.4 * em;
   draw_pair_line(legend.canvas, {legend.left(), y}, {legend.left() + 3 * em, y}, true, kFaintInk,
                  0.16 * em, 1);
   legend.canvas.text({legend.left() + 3.6 * em, y}, "to what no camera sees", {0.8 * em},
                      kFaintInk);
-  legend.y += 1.2 * em;
+  legend.y += kHiddenKeyEm * em;
 }
 
 void draw_table(Legend& legend) {

@@ -55,7 +55,7 @@ int main(int argc, char** argv) {
   try {
     if (has_recordings) print_recordings(grid, data / "recordings", draws);
     if (drawn_scenes == 0 && real_tries == 0) return 0;
-    const auto robots = berth::load_trial_robots(data / "robots");
+    const auto robots = berth::lab::load_trial_robots(data / "robots");
     if (drawn_scenes > 0) berth::lab::print_drawn_truth(grid, robots, drawn_scenes);
     if (real_tries > 0) berth::lab::print_real_images(grid, robots, data / "depth", real_tries);
     return 0;

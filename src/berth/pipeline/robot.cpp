@@ -1,14 +1,57 @@
 #include "berth/pipeline/robot.hpp"
 
-namespace berth {
+#include <fmt/format.h>
 
-Robot::Robot(RobotModel model, EvaluationSettings settings)
-    : model_(std::move(model)), settings_(std::move(settings)), meshes_(build_link_meshes(model_)) {
+#include <algorithm>
+#include <stdexcept>
+
+namespace berth {
+namespace {
+
+RobotModel with_all(RobotModel model, const std::vector<Attachment>& attached) {
+  for (const Attachment& attachment : attached) model = with_attachment(model, attachment);
+  return model;
+}
+
+auto find_attached(std::vector<Attachment>& attached, const std::string& name) {
+  return std::find_if(attached.begin(), attached.end(),
+                      [&](const Attachment& attachment) { return attachment.name == name; });
+}
+
+}  // namespace
+
+Robot::Robot(RobotModel model, EvaluationSettings settings, std::vector<Attachment> attached)
+    : bare_(std::move(model)),
+      attached_(std::move(attached)),
+      model_(with_all(bare_, attached_)),
+      settings_(std::move(settings)),
+      meshes_(build_link_meshes(model_)) {
   validate(settings_.distance);
   validate(settings_.time);
   const bool has_mesh = settings_.method == Method::mesh;
   if (has_mesh) patches_ = build_robot_patches(model_);
   if (settings_.visibility || has_mesh) sample_points_ = berth::sample_points(model_);
+}
+
+std::shared_ptr<const Robot> attach(const Robot& robot, const Attachment& attachment) {
+  std::vector<Attachment> attached = robot.attached_;
+  if (find_attached(attached, attachment.name) != attached.end()) {
+    throw std::invalid_argument(fmt::format(
+        "attached \"{}\": it is attached already; expected another name", attachment.name));
+  }
+  attached.push_back(attachment);
+  return std::make_shared<const Robot>(robot.bare_, robot.settings_, std::move(attached));
+}
+
+std::shared_ptr<const Robot> detach(const Robot& robot, const std::string& name) {
+  std::vector<Attachment> attached = robot.attached_;
+  const auto found = find_attached(attached, name);
+  if (found == attached.end()) {
+    throw std::invalid_argument(
+        fmt::format("attached \"{}\": nothing of this name is; expected one that is", name));
+  }
+  attached.erase(found);
+  return std::make_shared<const Robot>(robot.bare_, robot.settings_, std::move(attached));
 }
 
 }  // namespace berth

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "berth/distance/evaluate.hpp"
 #include "berth/distance/mesh/robot_patches.hpp"
 #include "berth/pipeline/timeliness.hpp"
 #include "berth/render/robot_renderer.hpp"
+#include "berth/robot/attachment.hpp"
 #include "berth/robot/robot_model.hpp"
 #include "berth/visibility/sample_points.hpp"
 
@@ -25,9 +28,12 @@ struct EvaluationSettings {
 class Robot {
  public:
   /// Throws std::invalid_argument that names the setting, its value and what was expected.
-  explicit Robot(RobotModel model, EvaluationSettings settings = {});
+  explicit Robot(RobotModel model, EvaluationSettings settings = {},
+                 std::vector<Attachment> attached = {});
 
+  /// With all that is attached to it.
   const RobotModel& model() const { return model_; }
+  const std::vector<Attachment>& attached() const { return attached_; }
   const EvaluationSettings& settings() const { return settings_; }
   const std::shared_ptr<const LinkMeshes>& meshes() const { return meshes_; }
   /// Of method `mesh`; null with the others.
@@ -36,11 +42,25 @@ class Robot {
   const SamplePoints& sample_points() const { return sample_points_; }
 
  private:
+  /// Without what is attached.
+  RobotModel bare_;
+  std::vector<Attachment> attached_;
   RobotModel model_;
   EvaluationSettings settings_;
   std::shared_ptr<const LinkMeshes> meshes_;
   std::shared_ptr<const RobotPatches> patches_;
   SamplePoints sample_points_;
+
+  friend std::shared_ptr<const Robot> attach(const Robot& robot, const Attachment& attachment);
+  friend std::shared_ptr<const Robot> detach(const Robot& robot, const std::string& name);
 };
+
+/// The robot as it is once it has taken something up. Constant robots are not changed: make views
+/// (with_robot), observers and askers of the new one, and ask no frames of the former.
+/// Throws as with_attachment does, and for a name that is attached already.
+std::shared_ptr<const Robot> attach(const Robot& robot, const Attachment& attachment);
+
+/// And once it has put it down. Throws std::invalid_argument where nothing of this name is attached.
+std::shared_ptr<const Robot> detach(const Robot& robot, const std::string& name);
 
 }  // namespace berth

@@ -106,4 +106,8 @@ View::View(std::shared_ptr<const Robot> robot, CameraMount mount, ViewSettings s
   if (region_scale > 0) region_meshes_ = build_link_meshes(robot_region(model, region_scale));
 }
 
+std::shared_ptr<const View> with_robot(const View& view, std::shared_ptr<const Robot> robot) {
+  return std::make_shared<const View>(std::move(robot), view.mount(), view.settings());
+}
+
 }  // namespace berth

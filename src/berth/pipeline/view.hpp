@@ -56,4 +56,7 @@ class View {
   std::shared_ptr<const LinkMeshes> region_meshes_;
 };
 
+/// The same camera on a robot that has taken something up or put it down.
+std::shared_ptr<const View> with_robot(const View& view, std::shared_ptr<const Robot> robot);
+
 }  // namespace berth

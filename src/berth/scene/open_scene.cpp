@@ -1,23 +1,59 @@
 #include "berth/scene/open_scene.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "berth/files/camera_info.hpp"
 #include "berth/files/joints_csv.hpp"
 #include "berth/files/png.hpp"
 #include "berth/robot/joint_trajectory.hpp"
+#include "berth/robot/mesh_file/mesh_file.hpp"
+#include "berth/robot/primitives.hpp"
 #include "berth/robot/robot_model.hpp"
 
 namespace berth {
 namespace {
 
-JointTrajectory read_trajectory(const RobotModel& model, const std::filesystem::path& file) {
-  const JointTable table = read_joints_csv(file);
+JointTrajectory read_trajectory(const RobotModel& model, const SceneFile& scene) {
+  const JointTable table = read_joints_csv(scene.joints);
+  std::vector<double> offsets(table.names.size(), 0.0);
+  for (const auto& [joint, offset] : scene.joint_offsets) {
+    const auto at = std::find(table.names.begin(), table.names.end(), joint);
+    if (at == table.names.end()) {
+      throw std::runtime_error(fmt::format("{}: joint_offsets.{}: {} has no such joint; expected one of {}",
+                                           scene.file.string(), joint, scene.joints.string(),
+                                           fmt::join(table.names, ", ")));
+    }
+    offsets[at - table.names.begin()] = offset;
+  }
   std::vector<JointTrajectory::Sample> samples;
-  for (const auto& row : table.rows) samples.push_back({row.time_s, row.positions});
-  return JointTrajectory(model, file.string(), table.names, samples);
+  for (const auto& row : table.rows) {
+    samples.push_back({row.time_s, row.positions});
+    for (std::size_t i = 0; i < offsets.size(); ++i) samples.back().positions[i] += offsets[i];
+  }
+  return JointTrajectory(model, scene.joints.string(), table.names, samples);
+}
+
+TriangleMesh mesh_of(const SceneAttachment& attachment) {
+  if (attachment.box_m) return make_box(*attachment.box_m);
+  if (attachment.cylinder_m) {
+    return make_cylinder(attachment.cylinder_m->x(), attachment.cylinder_m->y());
+  }
+  if (attachment.sphere_radius_m) return make_sphere(*attachment.sphere_radius_m);
+  return read_mesh_file(attachment.mesh);
+}
+
+std::vector<Attachment> attached_to(const SceneFile& scene) {
+  std::vector<Attachment> attached;
+  for (const SceneAttachment& from : scene.attached) {
+    const bool is_link = !from.name.empty();
+    attached.push_back({is_link ? from.name : fmt::format("{} at {}", from.link, from.place),
+                        from.link, mesh_of(from), from.X_LA, is_link});
+  }
+  return attached;
 }
 
 /// The joints at each exposure. Throws where none of the stamps can be meant for these joints.
@@ -31,8 +67,10 @@ void find_joints(const JointTrajectory& joints, OpenCamera& camera) {
       camera.at_exposure[frame] = joints.sample(frame);
     } else {
       camera.exposure_time[frame] = joints.at(
-          source.stamps_s[frame], camera.view->robot()->settings().time.joints, camera.at_exposure[frame]);
+          source.stamps_s[frame] + source.clock_offset_s, camera.view->robot()->settings().time.joints, camera.at_exposure[frame]);
     }
+    // The frame keeps its own stamp, the joints those of their clock.
+    camera.at_exposure[frame].stamp_s -= source.clock_offset_s;
     any_ok |= camera.exposure_time[frame].status == TimeStatus::ok;
   }
   if (any_ok) return;
@@ -69,9 +107,9 @@ OpenScene open_scene(const SceneFile& source, const std::function<void()>& befor
   OpenScene scene;
   scene.file = source.file;
   RobotModel model = load_robot(source.robot);
-  const JointTrajectory joints = read_trajectory(model, source.joints);
+  const JointTrajectory joints = read_trajectory(model, source);
   scene.robot = with_file_named(source, [&] {
-    return std::make_shared<const Robot>(std::move(model), source.evaluation);
+    return std::make_shared<const Robot>(std::move(model), source.evaluation, attached_to(source));
   });
   std::size_t kept_bytes = 0;
   for (const SceneCamera& from : source.cameras) {

@@ -41,21 +41,6 @@ Eigen::Quaterniond read_rpy(const YamlValue& value) {
          Eigen::AngleAxisd(rpy_rad[0], Eigen::Vector3d::UnitX());
 }
 
-Pose read_pose(const YamlMap& pose) {
-  const std::vector<double> xyz_m = pose.at("xyz").numbers(3);
-  for (std::size_t i = 0; i < xyz_m.size(); ++i) {
-    if (std::abs(xyz_m[i]) > kFarthest_m) pose.at("xyz").list()[i].fail("metres, 100 km at most");
-  }
-  const auto quaternion = pose.find("quaternion_xyzw");
-  const auto rpy = pose.find("rpy");
-  if (quaternion.has_value() == rpy.has_value()) {
-    throw_bad_file(pose.place(), quaternion ? "has both rotations" : "has no rotation",
-                   "either quaternion_xyzw or rpy");
-  }
-  return Eigen::Translation3d(xyz_m[0], xyz_m[1], xyz_m[2]) *
-         (quaternion ? read_quaternion(*quaternion) : read_rpy(*rpy));
-}
-
 std::vector<std::filesystem::path> read_depth_files(const YamlValue& value) {
   std::vector<std::filesystem::path> files;
   if (value.is_list()) {
@@ -87,9 +72,25 @@ std::vector<double> read_stamps(const YamlValue& value, std::size_t image_count)
 
 }  // namespace
 
+Pose read_pose(const YamlMap& pose) {
+  const std::vector<double> xyz_m = pose.at("xyz").numbers(3);
+  for (std::size_t i = 0; i < xyz_m.size(); ++i) {
+    if (std::abs(xyz_m[i]) > kFarthest_m) pose.at("xyz").list()[i].fail("metres, 100 km at most");
+  }
+  const auto quaternion = pose.find("quaternion_xyzw");
+  const auto rpy = pose.find("rpy");
+  if (quaternion.has_value() == rpy.has_value()) {
+    throw_bad_file(pose.place(), quaternion ? "has both rotations" : "has no rotation",
+                   "either quaternion_xyzw or rpy");
+  }
+  return Eigen::Translation3d(xyz_m[0], xyz_m[1], xyz_m[2]) *
+         (quaternion ? read_quaternion(*quaternion) : read_rpy(*rpy));
+}
+
 SceneCamera read_scene_camera(const YamlValue& value, const ViewSettings& settings) {
   const YamlMap map(value,
-                    {"name", "info", "pose", "depth", "depth_scale", "stamps", "near_m", "far_m", "self_filter",
+                    {"name", "info", "pose", "depth", "depth_scale", "stamps", "near_m", "far_m", "clock_offset_s",
+                     "self_filter",
                      "sensor", "space"});
   const YamlMap pose(map.at("pose"), {"parent", "xyz", "quaternion_xyzw", "rpy"});
   SceneCamera camera;
@@ -101,6 +102,7 @@ SceneCamera read_scene_camera(const YamlValue& value, const ViewSettings& settin
   if (const auto stamps = map.find("stamps")) {
     camera.stamps_s = read_stamps(*stamps, camera.depth.size());
   }
+  map.read("clock_offset_s", &YamlValue::number, camera.clock_offset_s);
   if (const auto scale = map.find("depth_scale")) {
     camera.depth_scale_m = scale->positive();
     if (!is_depth_scale(camera.depth_scale_m)) scale->fail(kDepthScaleExpected);

@@ -9,6 +9,9 @@ namespace berth {
 /// `settings` are those of the scene. Throws as read_scene does.
 SceneCamera read_scene_camera(const YamlValue& value, const ViewSettings& settings);
 
+/// The pose of a map with xyz and one of the two rotations.
+Pose read_pose(const YamlMap& pose);
+
 /// The maps self_filter, sensor and space of a scene or a camera, over `settings`.
 void read_view_settings(const YamlMap& map, ViewSettings& settings);
 

@@ -43,6 +43,53 @@ std::vector<SceneCamera> read_cameras(const YamlValue& value, const ViewSettings
   return cameras;
 }
 
+SceneAttachment read_attachment(const YamlValue& value) {
+  const YamlMap map(value, {"link", "name", "mesh", "box", "cylinder", "sphere", "pose"});
+  SceneAttachment attachment;
+  attachment.link = map.at("link").text();
+  map.read("name", &YamlValue::text, attachment.name);
+  int shapes = 0;
+  if (const auto mesh = map.find("mesh")) {
+    attachment.mesh = mesh->path();
+    ++shapes;
+  }
+  const auto lengths = [&](std::string_view key, std::size_t count) {
+    const auto found = map.find(key);
+    if (!found) return std::vector<double>();
+    ++shapes;
+    const std::vector<double> lengths_m = found->numbers(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (lengths_m[i] <= 0) found->list()[i].fail("a length above 0, in metres");
+    }
+    return lengths_m;
+  };
+  if (const auto box = lengths("box", 3); !box.empty()) {
+    attachment.box_m = Eigen::Vector3d(box[0], box[1], box[2]);
+  }
+  if (const auto cylinder = lengths("cylinder", 2); !cylinder.empty()) {
+    attachment.cylinder_m = Eigen::Vector2d(cylinder[0], cylinder[1]);
+  }
+  if (const auto sphere = map.find("sphere")) {
+    attachment.sphere_radius_m = sphere->positive();
+    ++shapes;
+  }
+  if (shapes != 1) {
+    throw_bad_file(map.place(), shapes == 0 ? "has no shape" : "has several shapes",
+                   "one of mesh, box, cylinder and sphere");
+  }
+  if (const auto pose = map.find("pose")) {
+    attachment.X_LA = read_pose(YamlMap(*pose, {"xyz", "quaternion_xyzw", "rpy"}));
+  }
+  attachment.place = fmt::format("{}:{}", map.place().file.string(), map.place().line);
+  return attachment;
+}
+
+std::vector<SceneAttachment> read_attached(const YamlValue& value) {
+  std::vector<SceneAttachment> attached;
+  for (const YamlValue& item : value.list()) attached.push_back(read_attachment(item));
+  return attached;
+}
+
 void read_evaluation(const YamlValue& value, EvaluationSettings& evaluation) {
   const YamlMap map = read_settings(value, evaluation.distance, {"method", "visibility"});
   if (const auto method = map.find("method")) evaluation.method = read_enum<Method>(*method);
@@ -66,7 +113,7 @@ void read_view_settings(const YamlMap& map, ViewSettings& settings) {
 
 SceneFile read_scene(const std::filesystem::path& file) {
   const YamlMap map(load_yaml(file),
-                    {"robot", "cameras", "joints", "self_filter", "sensor", "space",
+                    {"robot", "cameras", "attached", "joints", "joint_offsets", "self_filter", "sensor", "space",
                      "evaluation", "time"});
   SceneFile scene;
   scene.file = file;
@@ -74,7 +121,13 @@ SceneFile read_scene(const std::filesystem::path& file) {
   ViewSettings settings;
   read_view_settings(map, settings);
   scene.cameras = read_cameras(map.at("cameras"), settings);
+  if (const auto attached = map.find("attached")) scene.attached = read_attached(*attached);
   scene.joints = map.at("joints").path();
+  if (const auto offsets = map.find("joint_offsets")) {
+    for (const auto& [joint, offset] : offsets->entries()) {
+      scene.joint_offsets[joint] = offset.number();
+    }
+  }
   scene.evaluation.time.joints = kOnlyBetweenSamples;
   if (const auto evaluation = map.find("evaluation")) {
     read_evaluation(*evaluation, scene.evaluation);

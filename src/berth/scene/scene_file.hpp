@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <limits>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,8 @@ struct SceneCamera {
   double depth_scale_m = 0.001;
   /// One for each image, increasing. Empty: image k belongs to row k of the joints.
   std::vector<double> stamps_s;
+  /// The joints' clock at an exposure is its stamp plus this.
+  double clock_offset_s = 0;
   double near_m = 0;
   double far_m = std::numeric_limits<double>::infinity();
   /// Those of the scene, with the camera's own over them.
@@ -30,11 +34,29 @@ struct SceneCamera {
 };
 
 /// All that SCENE.yaml says.
+/// Something that moves with a link, as the file describes it: one of the four shapes.
+struct SceneAttachment {
+  std::string link;
+  /// Empty: a part of the link.
+  std::string name;
+  std::filesystem::path mesh;
+  std::optional<Eigen::Vector3d> box_m;
+  /// Radius and length.
+  std::optional<Eigen::Vector2d> cylinder_m;
+  std::optional<double> sphere_radius_m;
+  Pose X_LA = Pose::Identity();
+  /// Such as "scene.yaml:12", for messages about what the file names.
+  std::string place;
+};
+
 struct SceneFile {
   std::filesystem::path file;
   RobotSettings robot;
   std::vector<SceneCamera> cameras;
+  std::vector<SceneAttachment> attached;
   std::filesystem::path joints;
+  /// Added to the positions in `joints`, rad or m, by the name of the joint.
+  std::map<std::string, double> joint_offsets;
   /// Defaults where the file says nothing; the limits between joint samples and images are then
   /// kOnlyBetweenSamples.
   EvaluationSettings evaluation;

@@ -1,0 +1,53 @@
+#include "berth/robot/attachment.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <stdexcept>
+
+namespace berth {
+namespace {
+
+[[noreturn]] void fail(const Attachment& attachment, const std::string& what) {
+  throw std::invalid_argument(fmt::format("attached \"{}\": {}", attachment.name, what));
+}
+
+std::size_t find_evaluated(const RobotModel& model, const Attachment& attachment) {
+  const auto index = model.find_link(attachment.link);
+  if (index && model.links[*index].role == LinkRole::evaluated) return *index;
+  // Also a link without geometry, such as a tool's frame, may hold something.
+  if (index && attachment.is_link && model.links[*index].role == LinkRole::ignored) return *index;
+  fail(attachment, fmt::format("link \"{}\" is no evaluated link of robot \"{}\"; expected one of {}",
+                               attachment.link, model.name,
+                               fmt::join(model.evaluated_link_names(), ", ")));
+}
+
+}  // namespace
+
+RobotModel with_attachment(const RobotModel& model, const Attachment& attachment) {
+  const std::size_t parent = find_evaluated(model, attachment);
+  if (attachment.mesh_A.empty()) fail(attachment, "the mesh has no triangles; expected some");
+  if (!attachment.X_LA.matrix().allFinite()) {
+    fail(attachment, "the pose X_LA is not set; expected finite numbers");
+  }
+  RobotModel result = model;
+  if (!attachment.is_link) {
+    result.links[parent].mesh_L.append(attachment.mesh_A, Eigen::Affine3d(attachment.X_LA));
+    return result;
+  }
+  if (model.find_link(attachment.name)) {
+    fail(attachment, "a link has this name; expected another one");
+  }
+  Link link;
+  link.name = attachment.name;
+  link.parent = parent;
+  link.joint.X_PJ = attachment.X_LA;
+  link.role = LinkRole::evaluated;
+  link.mesh_L = attachment.mesh_A;
+  result.evaluated_links.push_back(result.links.size());
+  link.id = static_cast<LinkId>(result.evaluated_links.size());
+  result.links.push_back(std::move(link));
+  return result;
+}
+
+}  // namespace berth

@@ -1,0 +1,29 @@
+// Things that move with a link: a tool, a workpiece.
+#pragma once
+
+#include <string>
+
+#include "berth/robot/robot_model.hpp"
+
+namespace berth {
+
+/// A mesh that is fixed to a link. It is filtered out of the images with it.
+struct Attachment {
+  /// By which it is detached; unique among attachments.
+  std::string name;
+  std::string link;
+  /// In its own frame A.
+  TriangleMesh mesh_A;
+  /// The pose of A in the link's frame L.
+  Pose X_LA = Pose::Identity();
+  /// Whether it is evaluated as a link of its own, of this name, or as a part of the link.
+  bool is_link = false;
+};
+
+/// The robot with the thing on it. A link of its own gets the next id, after all others. Throws
+/// std::invalid_argument that names the attachment and what was expected: a link that there is not,
+/// or that is ignored or scenery, a mesh without triangles, a pose that is not finite, a name that a
+/// link has already.
+RobotModel with_attachment(const RobotModel& model, const Attachment& attachment);
+
+}  // namespace berth
