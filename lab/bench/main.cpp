@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
   add_options(program, settings, where);
   if (const auto status = berth::app::parse_command_line(program, argc, argv)) return *status;
   return berth::app::carry_out("berth_bench", 0, [&] {
-    settings.bundled_scene = berth::app::bundled_scene_file();
+    settings.bundled_scene = berth::app::bundled_one_camera_file();
     if (where.backend == berth::Backend::opengl) settings.gl_device = where.gl_device;
     berth::lab::run_benchmarks(settings);
   });

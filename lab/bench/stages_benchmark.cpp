@@ -19,7 +19,7 @@ constexpr std::size_t kFrame = 19;
 /// The frame, and all that its stages made of it.
 struct Example {
   std::shared_ptr<const Recording> recording =
-      open_recording(std::filesystem::path(BERTH_BUNDLED_SCENE) / "scene.yaml", "bundled");
+      open_recording(std::filesystem::path(BERTH_BUNDLED_SCENE) / "one_camera.yaml", "bundled");
   const std::shared_ptr<const View>& view = recording->camera().view;
   const JointState& joints = recording->camera().at_exposure[kFrame];
   const JointState& other_joints = recording->camera().at_exposure[kFrame + 1];

@@ -5,17 +5,17 @@
 #include <exception>
 #include <filesystem>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "lab/bundled_scene/output_files.hpp"
 #include "lab/bundled_scene/scene.hpp"
+#include "lab/bundled_scene/scene_camera.hpp"
 #include "lab/bundled_scene/sensor.hpp"
 #include "lab/bundled_scene/truth.hpp"
 
 namespace berth::lab {
 namespace {
-
-constexpr std::uint32_t kSeed = 20150731;
 
 void write_robot(const std::filesystem::path& folder, const Scene& scene) {
   make_folder(folder / "meshes");
@@ -26,21 +26,28 @@ void write_robot(const std::filesystem::path& folder, const Scene& scene) {
   }
 }
 
-void write_frames(const std::filesystem::path& folder, const Scene& scene) {
-  make_folder(folder / "depth");
-  const Camera camera = scene_camera();
-  const Pose X_TC = scene_camera_place().X_TC();
-  const std::vector<double> stamps_s = frame_stamps_s();
-  const TruthModels models = make_truth_models(scene);
-  std::vector<TruthRow> truth;
-  std::mt19937 random(kSeed);
-  for (int k = 0; k < std::ssize(stamps_s); ++k) {
-    const PosedScene posed = pose_scene(scene, stamps_s[k]);
+void write_depth(const std::filesystem::path& folder, const Scene& scene,
+                 const SceneCamera& camera) {
+  make_folder(folder / camera.depth_folder);
+  std::mt19937 random(camera.seed);
+  for (int k = 0; k < std::ssize(camera.stamps_s); ++k) {
+    const PosedScene posed = pose_scene(scene, camera.stamps_s[k]);
     std::vector<PosedMesh> everything = posed.robot;
     everything.insert(everything.end(), posed.obstacles.begin(), posed.obstacles.end());
-    const CleanView view = look(RayCaster(everything, X_TC), camera);
-    write_png(folder / "depth" / fmt::format("{:06}.png", k), sense(view, random));
-    const Image<SensorHit> robot_alone = RayCaster(posed.robot, X_TC).cast(camera);
+    const CleanView view = look(RayCaster(everything, camera.place.X_TC()), camera.camera);
+    write_png(folder / camera.depth_folder / fmt::format("{:06}.png", k), sense(view, random));
+  }
+}
+
+// Of the frames of this camera.
+void write_truth(const std::filesystem::path& folder, const Scene& scene,
+                 const SceneCamera& camera) {
+  const TruthModels models = make_truth_models(scene);
+  std::vector<TruthRow> truth;
+  for (int k = 0; k < std::ssize(camera.stamps_s); ++k) {
+    const PosedScene posed = pose_scene(scene, camera.stamps_s[k]);
+    const Image<SensorHit> robot_alone =
+        RayCaster(posed.robot, camera.place.X_TC()).cast(camera.camera);
     for (const TruthRow& row : measure_truth(k, posed, models, robot_alone)) truth.push_back(row);
   }
   write_text(folder / "truth.csv", truth_csv(truth));
@@ -48,11 +55,17 @@ void write_frames(const std::filesystem::path& folder, const Scene& scene) {
 
 void make_bundled_scene(const std::filesystem::path& folder) {
   const Scene scene = make_scene();
+  const std::vector<SceneCamera> cameras = scene_cameras();
   write_robot(folder / "arm", scene);
-  write_text(folder / "camera_info.yaml", camera_info_yaml(scene_camera()));
-  write_text(folder / "scene.yaml", scene_yaml(scene_camera_place(), frame_stamps_s()));
   write_text(folder / "joints.csv", joints_csv(scene.rows));
-  write_frames(folder, scene);
+  write_text(folder / "scene.yaml", scene_yaml(cameras, "range_m: 1.0"));
+  write_text(folder / "one_camera.yaml",
+             scene_yaml(std::span(cameras).first(1), "method: exact, range_m: 1.0"));
+  for (const SceneCamera& camera : cameras) {
+    write_text(folder / camera.info_file, camera_info_yaml(camera));
+    write_depth(folder, scene, camera);
+  }
+  write_truth(folder, scene, cameras.front());
 }
 
 }  // namespace
@@ -60,7 +73,8 @@ void make_bundled_scene(const std::filesystem::path& folder) {
 
 int main(int argc, char** argv) {
   CLI::App app(
-      "Writes berth's bundled scene: a robot arm, a person, depth images and true distances");
+      "Writes berth's bundled scene: a robot arm, a person, the depth images of three cameras and "
+      "true distances");
   std::filesystem::path folder;
   app.add_option("OUT_DIR", folder, "Folder for the files; made if it is not there")->required();
   try {

@@ -9,9 +9,6 @@ namespace {
 
 constexpr int kRowCount = 371;
 constexpr int kRowsPerSecond = 100;
-constexpr int kFrameCount = 36;
-constexpr int kFramesPerSecond = 10;
-constexpr double kFrameOffset_s = 0.013;
 
 /// mean + amplitude sin(2 pi time / period + phase)
 struct Swing {
@@ -59,10 +56,10 @@ JointAngles interpolate(const std::vector<JointRow>& rows, double time_s) {
   return angle_rad;
 }
 
-std::vector<double> frame_stamps_s() {
-  std::vector<double> stamps_s(kFrameCount);
-  for (int k = 0; k < kFrameCount; ++k)
-    stamps_s[k] = round_to(kFrameOffset_s + static_cast<double>(k) / kFramesPerSecond, 1e-3);
+std::vector<double> exposures_s(double first_s, int per_second, int count) {
+  std::vector<double> stamps_s(count);
+  for (int k = 0; k < count; ++k)
+    stamps_s[k] = round_to(first_s + static_cast<double>(k) / per_second, 1e-3);
   return stamps_s;
 }
 

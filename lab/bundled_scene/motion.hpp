@@ -19,8 +19,8 @@ std::vector<JointRow> make_joint_rows();
 /// The arm at a time between two rows, linear between them.
 JointAngles interpolate(const std::vector<JointRow>& rows, double time_s);
 
-/// 36 exposures at 10 Hz, 3 ms away from the rows.
-std::vector<double> frame_stamps_s();
+/// The times at which a camera exposes, the first at first_s; in whole milliseconds.
+std::vector<double> exposures_s(double first_s, int per_second, int count);
 
 /// The person's intention at a time; all smooth.
 struct PersonMotion {

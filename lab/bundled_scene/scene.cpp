@@ -1,7 +1,5 @@
 #include "lab/bundled_scene/scene.hpp"
 
-#include <cmath>
-
 #include "lab/bundled_scene/person.hpp"
 #include "lab/bundled_scene/room.hpp"
 
@@ -35,23 +33,6 @@ PosedScene pose_scene(const Scene& scene, double time_s) {
   for (std::size_t i = 0; i < X_TP.size(); ++i)
     posed.obstacles.push_back({&scene.person[i], X_TP[i]});
   return posed;
-}
-
-Camera scene_camera() { return {640, 480, 525.0, 525.0, 319.5, 239.5}; }
-
-Pose CameraPlace::X_TC() const {
-  return Eigen::Translation3d(xyz_T_m) * Pose(rotation_TC.normalized());
-}
-
-CameraPlace scene_camera_place() {
-  const Eigen::Vector3d eye(0.12, -2.25, 0.80), target(0.56, 0.10, 0.17);
-  const Eigen::Vector3d z = (target - eye).normalized();
-  const Eigen::Vector3d x = z.cross(Eigen::Vector3d::UnitZ()).normalized();
-  Eigen::Matrix3d axes;
-  axes << x, z.cross(x), z;
-  Eigen::Quaterniond q(axes);
-  for (double& c : q.coeffs()) c = std::round(c * 1e6) / 1e6;
-  return {eye, q};
 }
 
 }  // namespace berth::lab

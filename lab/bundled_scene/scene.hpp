@@ -1,9 +1,8 @@
-// The whole scene: meshes, motion and camera.
+// The whole scene: meshes and motion.
 #pragma once
 
 #include <vector>
 
-#include "berth/types/camera.hpp"
 #include "lab/bundled_scene/arm_meshes.hpp"
 #include "lab/bundled_scene/motion.hpp"
 #include "lab/bundled_scene/ray_caster.hpp"
@@ -25,16 +24,5 @@ struct PosedScene {
   std::vector<PosedMesh> obstacles;
 };
 PosedScene pose_scene(const Scene& scene, double time_s);
-
-/// 640 x 480 with a Kinect's angle of view.
-Camera scene_camera();
-
-/// Of the camera's optical frame C in the table's frame T; rounded as the file's text is.
-struct CameraPlace {
-  Eigen::Vector3d xyz_T_m;
-  Eigen::Quaterniond rotation_TC;
-  Pose X_TC() const;
-};
-CameraPlace scene_camera_place();
 
 }  // namespace berth::lab

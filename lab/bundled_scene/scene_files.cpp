@@ -6,11 +6,32 @@
 #include "lab/bundled_scene/output_files.hpp"
 
 namespace berth::lab {
+namespace {
 
-std::string camera_info_yaml(const Camera& c) {
+std::string camera_entry(const SceneCamera& camera) {
+  const Eigen::Vector3d& p = camera.place.xyz_T_m;
+  const Eigen::Quaterniond& q = camera.place.rotation_TC;
+  return fmt::format(R"(  - name: {}
+    info: {}
+    pose:
+      parent: {}
+      xyz: [{:.3f}, {:.3f}, {:.3f}]
+      quaternion_xyzw: [{:.6f}, {:.6f}, {:.6f}, {:.6f}]
+    depth: {}/*.png
+    depth_scale: 0.001
+    stamps: [{:.3f}]
+)",
+                     camera.name, camera.info_file, kTableLink, p.x(), p.y(), p.z(), q.x(), q.y(),
+                     q.z(), q.w(), camera.depth_folder, fmt::join(camera.stamps_s, ", "));
+}
+
+}  // namespace
+
+std::string camera_info_yaml(const SceneCamera& of) {
+  const Camera& c = of.camera;
   return fmt::format(R"(image_width: {0}
 image_height: {1}
-camera_name: camera
+camera_name: {6}
 camera_matrix:
   rows: 3
   cols: 3
@@ -29,33 +50,21 @@ projection_matrix:
   cols: 4
   data: [{2:.1f}, 0.0, {3:.1f}, 0.0, 0.0, {4:.1f}, {5:.1f}, 0.0, 0.0, 0.0, 1.0, 0.0]
 )",
-                     c.width_px, c.height_px, c.fx_px, c.cx_px, c.fy_px, c.cy_px);
+                     c.width_px, c.height_px, c.fx_px, c.cx_px, c.fy_px, c.cy_px, of.name);
 }
 
-std::string scene_yaml(const CameraPlace& place, const std::vector<double>& stamps_s) {
-  const Eigen::Vector3d& p = place.xyz_T_m;
-  const Eigen::Quaterniond& q = place.rotation_TC;
-  return fmt::format(R"(# Made by lab/bundled_scene; README.md says what it shows.
+std::string scene_yaml(std::span<const SceneCamera> cameras, const std::string& evaluation) {
+  std::string text = fmt::format(R"(# Made by lab/bundled_scene; README.md says what it shows.
 robot:
   urdf: arm/arm.urdf
   package_paths: {{berth_arm: arm}}
   geometry: visual
   environment_links: [{}]
 cameras:
-  - name: camera
-    info: camera_info.yaml
-    pose:
-      parent: {}
-      xyz: [{:.3f}, {:.3f}, {:.3f}]
-      quaternion_xyzw: [{:.6f}, {:.6f}, {:.6f}, {:.6f}]
-    depth: depth/*.png
-    depth_scale: 0.001
-    stamps: [{:.3f}]
-joints: joints.csv
-evaluation: {{method: exact, range_m: 1.0}}
 )",
-                     kTableLink, kTableLink, p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w(),
-                     fmt::join(stamps_s, ", "));
+                                 kTableLink);
+  for (const SceneCamera& camera : cameras) text += camera_entry(camera);
+  return text + fmt::format("joints: joints.csv\nevaluation: {{{}}}\n", evaluation);
 }
 
 std::string joints_csv(const std::vector<JointRow>& rows) {

@@ -41,7 +41,7 @@ void run(StudySettings settings, const BackendChoice& where) {
   if (settings.threads == 0) {
     settings.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   }
-  settings.bundled_scene = berth::app::bundled_scene_file();
+  settings.bundled_scene = berth::app::bundled_one_camera_file();
   if (where.backend == berth::Backend::opengl) settings.gl_device = where.gl_device;
   try {
     berth::lab::run_study(settings);

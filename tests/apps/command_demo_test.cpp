@@ -18,7 +18,10 @@ TEST(Demo, RunsTheBundledSceneAndDrawsIt) {
   EXPECT_NE(outcome.out.find(" ok "), std::string::npos);
   EXPECT_EQ(folder.names(), std::vector<std::string>{"berth_demo"});
   EXPECT_NE(outcome.out.find((folder / "berth_demo").string()), std::string::npos);
-  EXPECT_TRUE(read_file_bytes(folder / "berth_demo/frame_000000.png").starts_with("\x89PNG\r\n"));
+  for (const char* camera : {"camera", "left", "right"}) {
+    const auto picture = folder / "berth_demo" / camera / "frame_000000.png";
+    EXPECT_TRUE(read_file_bytes(picture).starts_with("\x89PNG\r\n")) << camera;
+  }
 }
 
 }  // namespace

@@ -42,9 +42,8 @@ class GlSceneTest : public testing::GlTest, public ::testing::WithParamInterface
     GlTest::SetUp();
     if (IsSkipped()) return;
     const bool is_bundled = GetParam() == "bundled";
-    file_ = (is_bundled ? std::filesystem::path(BERTH_SOURCE_DIR) / "data/bundled"
-                        : data_folder() / "recordings" / GetParam()) /
-            "scene.yaml";
+    file_ = is_bundled ? std::filesystem::path(BERTH_SOURCE_DIR) / "data/bundled/one_camera.yaml"
+                       : data_folder() / "recordings" / GetParam() / "scene.yaml";
     if (!std::filesystem::exists(file_))
       GTEST_SKIP() << "needs the recordings; BERTH_DATA names their folder";
     scene_ = open_scene(file_);

@@ -48,7 +48,7 @@ std::map<std::pair<int, std::string>, Truth> read_truth(const std::string& file)
 TEST(BundledScene, NoDistanceIsAboveTheTrueOneByMoreThanTheNamedBound) {
   const std::string folder = BERTH_SOURCE_DIR "/data/bundled";
   const auto truth = read_truth(folder + "/truth.csv");
-  const OpenScene scene = open_scene(folder + "/scene.yaml");
+  const OpenScene scene = open_scene(folder + "/one_camera.yaml");
   const OpenCamera& camera = scene.cameras.front();
   const std::vector<std::string> names = camera.view->robot()->model().evaluated_link_names();
   Observer observer(camera.view);
@@ -79,7 +79,7 @@ TEST(BundledScene, NoDistanceIsAboveTheTrueOneByMoreThanTheNamedBound) {
 }
 
 TEST(BundledScene, BruteForceGivesTheSameDistances) {
-  const OpenScene scene = open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml");
+  const OpenScene scene = open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml");
   const OpenCamera& camera = scene.cameras.front();
   Observer observer(camera.view);
   Asker asker(camera.view->robot());

@@ -18,7 +18,7 @@ constexpr float kDistanceError_m = 0.005F;
 class GlPipeline : public testing::GlTest {
  protected:
   GlPipeline()
-      : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml")),
+      : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml")),
         camera_(scene_.cameras.front()) {}
 
   std::shared_ptr<const View> view_with(Method method, const SensorSettings& sensor = {}) const {

@@ -12,7 +12,7 @@ namespace {
 class RobotRegion : public testing::Test {
  protected:
   RobotRegion()
-      : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml")),
+      : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml")),
         camera_(scene_.cameras.front()) {}
 
   /// The bundled scene with a region.

@@ -14,7 +14,7 @@ namespace {
 
 /// From the depth image to the answer, and the answer at other joint angles.
 TEST(SteadyState, TheWholeWayAllocatesNothingOnceItHasSeenTheImages) {
-  const OpenScene scene = open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml");
+  const OpenScene scene = open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml");
   const OpenCamera& camera = scene.cameras.front();
   DepthImage images[] = {camera.read_depth(3), camera.read_depth(17), camera.read_depth(30)};
   const std::size_t numbers[] = {3, 17, 30};
@@ -47,7 +47,7 @@ TEST(SteadyState, TheWholeWayAllocatesNothingOnceItHasSeenTheImages) {
 
 /// Joints pushed and looked up, frames that are refused, answers that are withheld.
 TEST(SteadyState, TheRunningRobotsWayAllocatesNothingOnceItsBufferIsFull) {
-  const OpenScene scene = open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml");
+  const OpenScene scene = open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml");
   const OpenCamera& camera = scene.cameras.front();
   const DepthImage depth_m = camera.read_depth(3);
   std::vector<std::string> names;

@@ -26,7 +26,7 @@ std::vector<std::string> joint_names(const RobotModel& model) {
 class RunningRobot : public testing::Test {
  protected:
   RunningRobot()
-      : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml")),
+      : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml")),
         camera_(scene_.cameras.front()),
         depth_m_(camera_.read_depth(3)),
         view_(testing::view_with(*camera_.view, EvaluationSettings{}, {})),

@@ -20,7 +20,7 @@ std::vector<float> distances_of(const Answer& answer) {
 class TwoClocks : public testing::Test {
  protected:
   TwoClocks()
-      : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml")),
+      : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml")),
         camera_(scene_.cameras.front()) {}
 
   Frame observe(std::size_t i) {

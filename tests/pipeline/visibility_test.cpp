@@ -28,7 +28,7 @@ std::vector<float> shares_of(const Answer& answer) {
 class VisibilityOfAnswers : public testing::Test {
  protected:
   VisibilityOfAnswers()
-      : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml")),
+      : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml")),
         camera_(scene_.cameras.front()) {
     Observer(camera_.view).observe(camera_.read_depth(3), camera_.at_exposure[3], frame_);
   }
@@ -62,7 +62,7 @@ TEST_F(VisibilityOfAnswers, LinksAreInTheOrderOfTheirIdsAndSeenInPart) {
 TEST_F(VisibilityOfAnswers, OffLeavesThemOutAndChangesNoDistance) {
   EvaluationArguments arguments;
   arguments.visibility = false;
-  const OpenScene off = open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml", arguments);
+  const OpenScene off = open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml", arguments);
   Asker asker(camera_.view->robot());
   Asker asker_off(off.robot);
   const Answer& answer = asker.ask(frame_);

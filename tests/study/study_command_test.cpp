@@ -79,7 +79,7 @@ TEST_F(Study, RefusesWhatItCannotUse) {
     int exit_status;
     std::string told;
   };
-  const std::string bundled = BERTH_SOURCE_DIR "/data/bundled/scene.yaml";
+  const std::string bundled = BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml";
   folder_.write("file", "");
   const std::vector<Wrong> table = {
       {{"--scene", "missing.yaml"}, 1, "missing.yaml"},
