@@ -101,7 +101,7 @@ TEST_F(Evaluate, AgreesWithRunToTheImagesRounding) {
 
 TEST_F(Evaluate, NamesLinksByIdAndHasNoPointsInTheBase) {
   const Json frame = evaluate(0, {});
-  EXPECT_EQ(frame["schema"], "berth/result/1");
+  EXPECT_EQ(frame["schema"], "berth/result/2");
   EXPECT_EQ(frame["method"], "exact");
   EXPECT_EQ(frame["range_m"], 1);
   EXPECT_FALSE(frame.contains("timing"));

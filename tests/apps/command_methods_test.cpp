@@ -114,7 +114,7 @@ TEST(Methods, AFinalRadiusAboveTheInitialOneIsRefused) {
       {"--method", "lattice", "--initial-grid-radius-px", "10", "--final-grid-radius-px", "11"}));
   EXPECT_EQ(outcome.exit_status, 1);
   EXPECT_EQ(outcome.out, "");
-  EXPECT_NE(outcome.err.find("final_grid_radius_px is 11, expected a whole number from 1 to 10"),
+  EXPECT_NE(outcome.err.find("evaluation.final_grid_radius_px: 11; expected a whole number from 1 to 10"),
             std::string::npos)
       << outcome.err;
 }

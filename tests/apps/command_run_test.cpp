@@ -34,7 +34,7 @@ TEST(Run, JsonHasTheKeysOfTheSchemaAndNoOthers) {
     EXPECT_EQ(frame["time"]["status"], "ok");
     EXPECT_EQ(frame["time"]["skew_s"], 0);
     EXPECT_TRUE(frame["time"]["frame_age_s"].is_null());
-    EXPECT_EQ(frame["schema"], "berth/result/1");
+    EXPECT_EQ(frame["schema"], "berth/result/2");
     EXPECT_EQ(frame["frame"], i);
     EXPECT_EQ(frame["stamp_s"], i);
     EXPECT_EQ(frame["camera"], "front");

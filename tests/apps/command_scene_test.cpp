@@ -216,7 +216,7 @@ TEST(SceneKey, EvaluationMethodAndRangeAreUsed) {
 TEST(SceneKey, MeanDirectionCanBeTurnedOff) {
   CommandScene scene;
   EXPECT_GT(link_of(scene.run().at(0), "upper")["mean_count"], 0);
-  scene.lines.evaluation = "{range_m: 2, mean_direction: false}";
+  scene.lines.evaluation = "{method: exact, range_m: 2, mean_direction: false}";
   const Json link = link_of(scene.run().at(0), "upper");
   EXPECT_EQ(link["status"], "ok");
   EXPECT_EQ(link["mean_count"], 0);
@@ -225,7 +225,7 @@ TEST(SceneKey, MeanDirectionCanBeTurnedOff) {
 
 TEST(SceneKey, VisibilityCanBeTurnedOff) {
   CommandScene scene;
-  scene.lines.evaluation = "{range_m: 2, visibility: false}";
+  scene.lines.evaluation = "{method: exact, range_m: 2, visibility: false}";
   EXPECT_FALSE(link_of(scene.run().at(0), "upper").contains("visibility"));
   const Json on = scene.json({"run", "scene.yaml", "--visibility", "on"}).at(0);
   EXPECT_TRUE(link_of(on, "upper").contains("visibility"));
@@ -249,13 +249,13 @@ TEST(SceneKey, SelfFilterAndEvaluationHaveDefaults) {
   const std::string text = scene.lines.text();
   scene.write("short.yaml", text.substr(0, text.find("self_filter:")));
   const Json frame = scene.json({"run", "short.yaml"}).at(0);
-  EXPECT_EQ(frame["method"], "exact");
+  EXPECT_EQ(frame["method"], "mesh");
   EXPECT_EQ(frame["range_m"], 1);
   scene.lines.self_filter =
       "{tolerance_m: 0.05, padding_m: 0.02, padding_depth_m: 0.3, dilation_px: 0, edge_jump_m: "
       "0.03, "
       "island_radius_m: 0.07, island_jump_m: 0.03, robot_region_scale: 0}";
-  scene.lines.evaluation = "{method: exact, range_m: 1, mean_direction: true, visibility: true}";
+  scene.lines.evaluation = "{method: mesh, range_m: 1, mean_direction: true, visibility: true, min_seen_share: 0.02}";
   EXPECT_EQ(scene.run().at(0), frame);
 }
 

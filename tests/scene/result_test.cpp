@@ -42,7 +42,7 @@ class ResultText : public testing::Test {
     distances.links = {ok_link(), link_without_distance(2, LinkStatus::none_in_range, 12),
                        link_without_distance(3, LinkStatus::not_visible, 0)};
     distances.pairs = 123456;
-    result.camera = "camera";
+    result.cameras = {{.name = "camera", .frame = 0, .state = {CameraStatus::ok, 0.25, 0}}};
     result.method = "exact";
     result.range_m = 1.0;
     result.stamp_s = 0.25;
@@ -59,7 +59,8 @@ TEST_F(ResultText, JsonIsOneLineInTheOrderOfTheSchema) {
   result.link_names.resize(2);
   EXPECT_EQ(
       result_json(result),
-      R"({"schema":"berth/result/1","frame":0,"stamp_s":0.25,"camera":"camera","method":"exact","range_m":1.0,)"
+      R"({"schema":"berth/result/2","frame":0,"stamp_s":0.25,"camera":"camera","method":"exact","range_m":1.0,)"
+      R"("cameras":[{"camera":"camera","frame":0,"stamp_s":0.25,"age_s":0.0,"status":"ok"}],)"
       R"("links":[{"id":1,"link":"link_1","status":"ok","distance_m":0.1234,"robot_pixel":[312,200],)"
       R"("obstacle_pixel":[340,211],"robot_point_m":[0.1,-0.2,1.3],"obstacle_point_m":[0.25,0.0,1.5],)"
       R"("mean_direction":[0.0,0.0,0.9],"mean_count":5121,"robot_pixels":4012},)"
@@ -70,7 +71,7 @@ TEST_F(ResultText, JsonIsOneLineInTheOrderOfTheSchema) {
 
 TEST_F(ResultText, ALinkThatIsNotOkHasNullsEvenWhereOldValuesWereLeftBehind) {
   distances.links[0].status = LinkStatus::not_visible;
-  result.X_BC = Pose::Identity();
+  result.cameras[0].X_BC = Pose::Identity();
   const Json link = Json::parse(result_json(result))["links"][0];
   EXPECT_EQ(link["status"], "not_visible");
   for (const char* key :
@@ -88,7 +89,7 @@ TEST_F(ResultText, WithoutCountThereIsNoMeanDirection) {
 
 TEST_F(ResultText, PointsInTheBaseAreThoseOfTheCameraMoved) {
   EXPECT_FALSE(Json::parse(result_json(result))["links"][0].contains("robot_point_base_m"));
-  result.X_BC = Pose(Eigen::Translation3d(1, 2, 3) *
+  result.cameras[0].X_BC = Pose(Eigen::Translation3d(1, 2, 3) *
                      Eigen::AngleAxisd(EIGEN_PI / 2, Eigen::Vector3d::UnitZ()));
   const Json link = Json::parse(result_json(result))["links"][0];
   const std::vector<double> robot_B = link["robot_point_base_m"];
@@ -104,8 +105,8 @@ TEST_F(ResultText, PointsInTheBaseAreThoseOfTheCameraMoved) {
 TEST_F(ResultText, TimingAndFilterCountsAreToldWhereTheyAreGiven) {
   EXPECT_FALSE(Json::parse(result_json(result)).contains("timing"));
   EXPECT_FALSE(Json::parse(result_json(result)).contains("self_filter"));
-  result.timing = EvaluateTiming{50, 1.5, 2, 3, 4.25};
-  result.self_filter = {10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22};
+  result.timing = AnswerTiming{50, 1.5, 2, 3, 4.25};
+  result.cameras[0].self_filter = {10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22};
   const std::string text = result_json(result);
   EXPECT_TRUE(text.ends_with(
       R"("timing":{"repeat":50,"evaluate_us":{"min":1.5,"p50":2.0,"p99":3.0,"max":4.25}},)"

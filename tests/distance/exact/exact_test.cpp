@@ -142,10 +142,10 @@ TEST(Exact, BadSettingsAreRefusedByName) {
     return error_message<std::invalid_argument>([&] { ask(images, workspace, out, settings); });
   };
   EXPECT_EQ(message_of({1.0, false, -0.5}),
-            "tolerance_m is -0.500000, expected a finite number of at least 0");
+            "evaluation.tolerance_m: -0.5; expected a finite number of at least 0");
   EXPECT_NE(message_of({1.0, false, HUGE_VAL}), "");
   EXPECT_EQ(message_of({1.0, false, 0, -3.0}),
-            "deadline_us is -3.000000, expected a number of at least 0");
+            "evaluation.deadline_us: -3; expected a number of at least 0");
   EXPECT_NE(message_of({1.0, false, 0, std::nan("")}), "");
   EXPECT_EQ(message_of({1.0, false, 0, HUGE_VAL}), "");
 }
