@@ -58,7 +58,7 @@ sensor:
   average_frames: 14
   background_frames: 15
   background_clearance_m: 0.16
-  holes: nearest_neighbour
+  holes: obstacle
 evaluation: {method: lattice, range_m: 0.5, mean_direction: off, visibility: false}
 time: {max_skew_s: 0.01, max_extrapolation_s: 0.02}
 )");
@@ -107,7 +107,7 @@ time: {max_skew_s: 0.01, max_extrapolation_s: 0.02}
   EXPECT_EQ(sensor.average_frames, 14);
   EXPECT_EQ(sensor.background_frames, 15);
   EXPECT_EQ(sensor.background_clearance_m, 0.16);
-  EXPECT_EQ(sensor.holes, HolePolicy::nearest_neighbour);
+  EXPECT_EQ(sensor.holes, HolePolicy::obstacle);
   EXPECT_EQ(scene.evaluation.method, Method::lattice);
   EXPECT_EQ(scene.evaluation.distance.range_m, 0.5);
   EXPECT_EQ(scene.evaluation.distance.mean_direction, false);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "berth/sensor/nearest_pixel.hpp"
 #include "berth/sensor/settings.hpp"
 #include "berth/types/obstacle_image.hpp"
 #include "berth/types/robot_image.hpp"
@@ -12,16 +11,8 @@ namespace berth {
 /// PNG of millimetres.
 inline constexpr float kHoleDepth_m = 0.01F;
 
-struct HoleWorkspace {
-  NearestPixelWorkspace nearest;
-  DepthImage nearest_m;
-};
-
 /// Gives the holes a depth by the policy, and the fate `hole`: `no_reading` pixels that the model,
-/// robot or scenery, does not cover. For nearest_neighbour that is the depth of the nearest pixel
-/// of F that has one (Euclidean in the image; of several equally near the least depth), never the
-/// robot's own reading; where F is empty holes stay. Only adds obstacles.
-void fill_holes(HolePolicy policy, const RobotImage& robot, HoleWorkspace& workspace,
-                ObstacleImage& out);
+/// robot or scenery, does not cover. Only adds obstacles.
+void fill_holes(HolePolicy policy, const RobotImage& robot, ObstacleImage& out);
 
 }  // namespace berth

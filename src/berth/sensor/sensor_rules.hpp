@@ -12,7 +12,6 @@ namespace berth {
 struct SensorWorkspace {
   SpeckleWorkspace speckle;
   ReadingHistory history;
-  HoleWorkspace holes;
 };
 
 /// The rules for what sensors do wrong, in this order, on the self filter's result: speckle is
