@@ -31,7 +31,9 @@ std::string FilterGrid::heading() const {
   std::string heading;
   name(tolerance_m, "tolerance_m", heading);
   name(padding_m, "padding_m", heading);
+  name(environment_padding_m, "environment_padding_m", heading);
   name(padding_depth_m, "padding_depth_m", heading);
+  name(dilation_px, "dilation_px", heading);
   name(edge_jump_m, "edge_jump_m", heading);
   name(island_radius_m, "island_radius_m", heading);
   name(island_jump_m, "island_jump_m", heading);
@@ -43,7 +45,11 @@ std::vector<FilterChoice> FilterGrid::choices() const {
   std::vector<FilterChoice> all(1);
   cross(tolerance_m, [](FilterChoice& c) -> auto& { return c.filter.tolerance_m; }, all);
   cross(padding_m, [](FilterChoice& c) -> auto& { return c.filter.padding_m; }, all);
+  cross(
+      environment_padding_m,
+      [](FilterChoice& c) -> auto& { return c.filter.environment_padding_m; }, all);
   cross(padding_depth_m, [](FilterChoice& c) -> auto& { return c.filter.padding_depth_m; }, all);
+  cross(dilation_px, [](FilterChoice& c) -> auto& { return c.filter.dilation_px; }, all);
   cross(edge_jump_m, [](FilterChoice& c) -> auto& { return c.filter.edge_jump_m; }, all);
   cross(island_radius_m, [](FilterChoice& c) -> auto& { return c.filter.island_radius_m; }, all);
   cross(island_jump_m, [](FilterChoice& c) -> auto& { return c.filter.island_jump_m; }, all);

@@ -21,7 +21,9 @@ struct FilterChoice {
 struct FilterGrid {
   std::vector<double> tolerance_m;
   std::vector<double> padding_m;
+  std::vector<double> environment_padding_m;
   std::vector<double> padding_depth_m;
+  std::vector<int> dilation_px;
   std::vector<double> edge_jump_m;
   std::vector<double> island_radius_m;
   std::vector<double> island_jump_m;

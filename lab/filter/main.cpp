@@ -46,7 +46,9 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 1000000));
   app.add_option("--tolerance_m", grid.tolerance_m, "Values, with a comma between")->delimiter(',');
   app.add_option("--padding_m", grid.padding_m)->delimiter(',');
+  app.add_option("--environment_padding_m", grid.environment_padding_m)->delimiter(',');
   app.add_option("--padding_depth_m", grid.padding_depth_m)->delimiter(',');
+  app.add_option("--dilation_px", grid.dilation_px)->delimiter(',');
   app.add_option("--edge_jump_m", grid.edge_jump_m)->delimiter(',');
   app.add_option("--island_radius_m", grid.island_radius_m)->delimiter(',');
   app.add_option("--island_jump_m", grid.island_jump_m)->delimiter(',');

@@ -61,11 +61,10 @@ std::vector<RealImageRules> all_real_image_rules() {
   narrow.tolerance_m = 0.02;
   narrow.padding_m = 0.01;
   narrow.edge_jump_m = narrow.island_radius_m = 0;
-  SensorSettings small_blobs, large_blobs, background, holes;
+  SensorSettings small_blobs, large_blobs, background;
   small_blobs.speckle_px = 20;
   large_blobs.speckle_px = 60;
   background.background_frames = 1;
-  holes.holes = HolePolicy::nearest_neighbour;
   return {
       {"default self filter"},
       {"default, doubtful distances counted", {}, {}, true},
@@ -76,8 +75,7 @@ std::vector<RealImageRules> all_real_image_rules() {
       {"no padding, `speckle_px: 20`", no_padding, small_blobs},
       {"no padding, `speckle_px: 60`", no_padding, large_blobs},
       {"no padding, `speckle_px: 60`, doubtful distances counted", no_padding, large_blobs, true},
-      {"default, `background_frames: 1`", {}, background},
-      {"default, `holes: nearest_neighbour`", {}, holes}};
+      {"default, `background_frames: 1`", {}, background}};
 }
 
 std::vector<Estimate> estimate(const RealScene& scene, const RealImageRules& rules) {

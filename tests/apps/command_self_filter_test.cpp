@@ -66,6 +66,17 @@ TEST(SelfFilterKey, LinkPaddingIsThatOfOneLink) {
   EXPECT_LE(both, lower + upper);
 }
 
+TEST(SelfFilterKey, EnvironmentPaddingIsThatOfScenery) {
+  CommandScene scene;
+  const int table = count_with(scene, with_off("environment_padding_m: 0.1"), "padding");
+  EXPECT_GT(table, 10);
+  const std::string rest = "edge_jump_m: 0, island_radius_m: 0, padding_depth_m: 2, ";
+  const int all = count_with(scene, rest + "padding_m: 0.1", "padding");
+  const int arm = count_with(scene, rest + "padding_m: 0.1, environment_padding_m: 0", "padding");
+  EXPECT_GT(all, std::max(arm, table));
+  EXPECT_LE(all, arm + table);
+}
+
 TEST(SelfFilterKey, DilationGrowsTheSilhouetteByPixels) {
   CommandScene scene;
   EXPECT_EQ(count_with(scene, kOff, "dilation"), 0);

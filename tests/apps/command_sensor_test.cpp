@@ -115,7 +115,6 @@ TEST(SensorKey, HolesAreFilledByTheirPolicy) {
   EXPECT_EQ(count_with(scene, "holes: free", "no_reading"), 6);
   EXPECT_EQ(count_with(scene, "holes: free", "hole"), 0);
   EXPECT_EQ(count_with(scene, "holes: obstacle", "hole"), 6);
-  EXPECT_EQ(count_with(scene, "holes: nearest_neighbour", "hole"), 6);
 }
 
 TEST(SensorKey, AnAverageOverTooManyFramesIsRefused) {

@@ -155,7 +155,7 @@ TEST(SceneErrors, RefusesABadValueAndSaysWhere) {
        {"scene.yaml:9: sensor.hole: unknown key; expected holes (the nearest)"}},
       {&S::end,
        "joints: j\nsensor: {holes: full}",
-       {"scene.yaml:9: sensor.holes: full; expected one of free, obstacle, nearest_neighbour"}},
+       {"scene.yaml:9: sensor.holes: full; expected one of free, obstacle"}},
       {&S::end, "joints: j\nsensor: 3", {"scene.yaml:9: sensor: 3; expected a map"}},
       {&S::end, "joints: j\n? [a, b]\n: c", {"scene.yaml:9: a list of 2; expected a text"}},
       {&S::end, "joints: j\n---\njoints: k", {"scene.yaml: several YAML documents; expected one"}},

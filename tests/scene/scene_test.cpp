@@ -44,6 +44,7 @@ self_filter:
   tolerance_per_m2: 0.03
   padding_m: 0.04
   link_padding_m: {link_3: 0.05, link_4: 0}
+  environment_padding_m: 0.035
   padding_depth_m: 0.4
   dilation_px: 6
   edge_jump_m: 0.07
@@ -57,7 +58,7 @@ sensor:
   average_frames: 14
   background_frames: 15
   background_clearance_m: 0.16
-  holes: nearest_neighbour
+  holes: obstacle
 evaluation: {method: lattice, range_m: 0.5, mean_direction: off, visibility: false}
 time: {max_skew_s: 0.01, max_extrapolation_s: 0.02}
 )");
@@ -92,6 +93,7 @@ time: {max_skew_s: 0.01, max_extrapolation_s: 0.02}
   EXPECT_EQ(filter.padding_m, 0.04);
   EXPECT_EQ(scene.cameras[0].settings.link_padding_m,
             (std::map<std::string, double>{{"link_3", 0.05}, {"link_4", 0}}));
+  EXPECT_EQ(filter.environment_padding_m, 0.035);
   EXPECT_EQ(filter.dilation_px, 6);
   EXPECT_EQ(filter.padding_depth_m, 0.4);
   EXPECT_EQ(filter.edge_jump_m, 0.07);
@@ -105,7 +107,7 @@ time: {max_skew_s: 0.01, max_extrapolation_s: 0.02}
   EXPECT_EQ(sensor.average_frames, 14);
   EXPECT_EQ(sensor.background_frames, 15);
   EXPECT_EQ(sensor.background_clearance_m, 0.16);
-  EXPECT_EQ(sensor.holes, HolePolicy::nearest_neighbour);
+  EXPECT_EQ(sensor.holes, HolePolicy::obstacle);
   EXPECT_EQ(scene.evaluation.method, Method::lattice);
   EXPECT_EQ(scene.evaluation.distance.range_m, 0.5);
   EXPECT_EQ(scene.evaluation.distance.mean_direction, false);

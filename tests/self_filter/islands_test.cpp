@@ -155,7 +155,9 @@ TEST(Islands, SceneryHasNoIslands) {
   scene.add_link(kEnvironmentLink, kLink, 1.0F);
   scene.see(kLink, 1.0F);
   scene.see(kWeb, 1.0F);
-  EXPECT_EQ(filter(scene, island_rule()).count_of(PixelFate::island), 0);
+  SelfFilterSettings settings = island_rule();
+  settings.environment_padding_m = 0;
+  EXPECT_EQ(filter(scene, settings).count_of(PixelFate::island), 0);
 }
 
 }  // namespace

@@ -56,11 +56,13 @@ class PlainFilter {
     return is_mixed(u, v, 1, 0) || is_mixed(u, v, 0, 1) ? PixelFate::edge : PixelFate::obstacle;
   }
 
-  bool belongs(int u, int v, float z) const {
+  bool belongs(int u, int v, float z) const { return sensor_(u, v) >= least_m(z); }
+
+  float least_m(float z) const {
     const auto a = static_cast<float>(settings_.tolerance_m);
     const auto b = static_cast<float>(settings_.tolerance_per_m);
     const auto c = static_cast<float>(settings_.tolerance_per_m2);
-    return sensor_(u, v) >= z - (a + (b * z + c * z * z));
+    return z - (a + (b * z + c * z * z));
   }
 
   /// What the robot's outline of this depth takes beside it.
@@ -83,6 +85,7 @@ class PlainFilter {
   }
 
   bool is_outline(int u, int v) const {
+    if (robot_.link_id(u, v) == kEnvironmentLink) return is_outline_of_scenery(u, v);
     if (!is_link(u, v)) return false;
     const auto pixel_rad = static_cast<float>(1 / std::max(camera_.fx_px, camera_.fy_px));
     const auto ends_at = [&](int nu, int nv) {
@@ -90,6 +93,16 @@ class PlainFilter {
       return !is_link(nu, nv) || robot_.depth_m(nu, nv) > robot_.depth_m(u, v) * (1 + pixel_rad);
     };
     return ends_at(u - 1, v) || ends_at(u + 1, v) || ends_at(u, v - 1) || ends_at(u, v + 1);
+  }
+
+  /// Where a reading on the scenery, seen one pixel beside it, would be left over.
+  bool is_outline_of_scenery(int u, int v) const {
+    const int neighbours[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+    return std::any_of(std::begin(neighbours), std::end(neighbours), [&](const int* n) {
+      if (!is_inside(u + n[0], v + n[1])) return false;
+      if (robot_.link_id(u + n[0], v + n[1]) == kNoLink) return true;
+      return robot_.depth_m(u, v) < least_m(robot_.depth_m(u + n[0], v + n[1]));
+    });
   }
 
   /// Whole pixels to the side and along, by the ellipse's rows.
@@ -139,7 +152,7 @@ class PlainFilter {
 
   bool is_near(int u, int v) const {
     return std::any_of(outline_.begin(), outline_.end(), [&](const Pixel& p) {
-      return is_beside(u, v, p, settings_.island_radius_m);
+      return is_link(p.u, p.v) && is_beside(u, v, p, settings_.island_radius_m);
     });
   }
 

@@ -114,6 +114,7 @@ RandomScene random_scene(std::uint32_t seed) {
   see_robot(random, scene.robot, scene.sensor_depth_m);
   add_patches(random, scene.robot, scene.sensor_depth_m);
   if (random.chance(0.7)) scene.robot.extent = tight_extent(scene.robot);
+  if (random.chance(0.5)) scene.settings.environment_padding_m = random_setting(random, 0.01, 0.2);
   return scene;
 }
 

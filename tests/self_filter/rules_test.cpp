@@ -81,15 +81,74 @@ TEST(SelfFilter, ToleranceGrowsWithDepthAsAskedFor) {
   EXPECT_EQ(at_two_metres(1.79F, settings), PixelFate::obstacle);
 }
 
-TEST(SelfFilter, SceneryIsFilteredAndNotGrown) {
-  SelfFilterSettings settings;
-  EXPECT_EQ(fate_of_reading(1.0F, kEnvironmentLink, settings), PixelFate::environment);
-  EXPECT_EQ(fate_of_reading(0.9F, kEnvironmentLink, settings), PixelFate::obstacle);
+TEST(SelfFilter, SceneryIsFilteredAndGrownLikeALink) {
+  EXPECT_EQ(fate_of_reading(1.0F, kEnvironmentLink, {}), PixelFate::environment);
+  EXPECT_EQ(fate_of_reading(0.9F, kEnvironmentLink, {}), PixelFate::obstacle);
   FlatScene scene;
-  scene.add_link(kEnvironmentLink, kLink, 1.0F);
+  scene.add_link(kEnvironmentLink, kLink, 2.0F);  // a pixel is 20 mm wide there
+  SelfFilterSettings settings = no_rules();
+  settings.padding_m = 0.101;
+  const ObstacleImage padded = filter(scene, settings);
+  EXPECT_EQ(padded.fate(15, 30), PixelFate::padding);
+  EXPECT_EQ(padded.fate(14, 30), PixelFate::obstacle);
+  settings.padding_m = 0;
   settings.dilation_px = 5;
-  EXPECT_EQ(filter(scene, settings).count_of(PixelFate::environment), 400);
-  EXPECT_EQ(filter(scene, settings).count_of(PixelFate::obstacle), kSide_px * kSide_px - 400);
+  EXPECT_EQ(filter(scene, settings).fate(15, 30), PixelFate::dilation);
+  EXPECT_EQ(filter(scene, settings).fate(14, 30), PixelFate::obstacle);
+}
+
+TEST(SelfFilter, SceneryHasAPaddingOfItsOwn) {
+  FlatScene scene;
+  scene.add_link(kEnvironmentLink, {5, 20, 20, 40}, 2.0F);
+  scene.add_link(1, {40, 20, 55, 40}, 2.0F);
+  SelfFilterSettings settings = no_rules();
+  settings.padding_m = 0.041;
+  settings.link_padding_m = {0.061};
+  settings.environment_padding_m = 0.021;
+  const ObstacleImage out = filter(scene, settings);
+  EXPECT_EQ(out.fate(20, 30), PixelFate::padding);
+  EXPECT_EQ(out.fate(21, 30), PixelFate::obstacle);
+  EXPECT_EQ(out.fate(37, 30), PixelFate::padding);
+  EXPECT_EQ(out.fate(36, 30), PixelFate::obstacle);
+  settings.environment_padding_m = 0;
+  EXPECT_EQ(filter(scene, settings).fate(20, 30), PixelFate::obstacle);
+}
+
+/// A board that leans away from the camera, by 3 cm a pixel; before it a thing of one depth, whose
+/// lowest pixels are the board's own.
+FlatScene thing_on_board(LinkId board) {
+  FlatScene scene;
+  for (int v = 10; v < 50; ++v) {
+    const float board_m = 2.2F - 0.03F * static_cast<float>(v);
+    scene.add_link(board, {10, v, 50, v + 1}, board_m);
+    scene.see({10, v, 50, v + 1}, board_m);
+  }
+  scene.see({28, 28, 33, 34}, 1.21F);
+  return scene;
+}
+
+TEST(SelfFilter, WhatStandsOnSceneryIsNotPadded) {
+  SelfFilterSettings settings = no_rules();
+  settings.tolerance_m = 0.05;
+  settings.padding_m = 0.05;
+  const ObstacleImage on_table = filter(thing_on_board(kEnvironmentLink), settings);
+  EXPECT_EQ(on_table.fate(30, 32), PixelFate::environment);
+  EXPECT_EQ(on_table.fate(30, 31), PixelFate::obstacle);
+  // A link's surface that turns away like that grows all over.
+  EXPECT_EQ(filter(thing_on_board(1), settings).fate(30, 31), PixelFate::padding);
+}
+
+TEST(SelfFilter, SceneryEndsAtADeeperPart) {
+  FlatScene scene;
+  scene.add_link(kEnvironmentLink, {10, 10, 30, 50}, 1.0F);
+  scene.add_link(kEnvironmentLink, {30, 10, 50, 50}, 1.2F);
+  scene.see({10, 10, 50, 50}, 1.0F);  // the sensor sees the near part wider
+  SelfFilterSettings settings = no_rules();
+  settings.tolerance_m = 0.04;
+  settings.padding_m = 0.035;
+  const ObstacleImage out = filter(scene, settings);
+  EXPECT_EQ(out.fate(32, 30), PixelFate::padding);
+  EXPECT_EQ(out.fate(33, 30), PixelFate::obstacle);
 }
 
 TEST(SelfFilter, PaddingIsADiscOfThatLengthAtTheLinksDepth) {

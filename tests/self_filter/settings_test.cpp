@@ -33,6 +33,7 @@ TEST(SelfFilterSettings, EachKeyOutsideItsDomainIsNamed) {
        [](Settings& s) {
          s.link_padding_m = {0.1, -0.5};
        }},
+      {"environment_padding_m: -0.1", [](Settings& s) { s.environment_padding_m = -0.1; }},
       {"dilation_px: -1", [](Settings& s) { s.dilation_px = -1; }},
       {"edge_jump_m: -1", [](Settings& s) { s.edge_jump_m = -1; }},
       {"island_radius_m: -1", [](Settings& s) { s.island_radius_m = -1; }},

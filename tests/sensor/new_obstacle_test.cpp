@@ -168,7 +168,7 @@ TEST(SensorRules, DoNotDependOnTheNumberOfThreads) {
   settings.speckle_px = 6;
   settings.average_frames = 3;
   settings.background_frames = 1;
-  settings.holes = HolePolicy::nearest_neighbour;
+  settings.holes = HolePolicy::obstacle;
   const auto run = [&](int threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     const RandomScene scene = random_scene(11);

@@ -40,7 +40,6 @@ SensorSettings strongest_rules() {
   settings.speckle_px = kMostSpeckle_px;
   settings.average_frames = kFrames;
   settings.background_frames = 1;
-  settings.holes = HolePolicy::nearest_neighbour;
   return settings;
 }
 

@@ -15,7 +15,7 @@ TEST(SteadyState, TheSensorRulesAllocateNothingOnceTheyHaveSeenTheImages) {
   settings.speckle_px = 8;
   settings.average_frames = 3;
   settings.background_frames = 2;
-  settings.holes = HolePolicy::nearest_neighbour;
+  settings.holes = HolePolicy::obstacle;
   for (std::uint32_t seed = 0; seed < 20; ++seed) {
     const RandomScene scene = random_scene(seed);
     SelfFilterWorkspace workspace;

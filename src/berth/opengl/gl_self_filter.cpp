@@ -24,7 +24,7 @@ float deeper(const Camera& camera) {
 }
 
 bool may_pad(const SelfFilterSettings& settings) {
-  return settings.padding_m > 0 ||
+  return settings.padding_m > 0 || settings.padding_of(kEnvironmentLink) > 0 ||
          std::any_of(settings.link_padding_m.begin(), settings.link_padding_m.end(),
                      [](double padding_m) { return padding_m > 0; });
 }
@@ -102,6 +102,7 @@ void GlSelfFilter::set_paddings(const SelfFilterSettings& settings) {
   bool same = link_paddings_.name() != 0 && count == link_padding_m_.size();
   for (std::size_t i = 0; same && i < count; ++i) same = is_same(i);
   pixels_program_.set("padding_m", settings.padding_m);
+  pixels_program_.set("environment_padding_m", settings.padding_of(kEnvironmentLink));
   pixels_program_.set("padding_depth_m", static_cast<float>(settings.padding_depth_m));
   if (same) return;
   link_padding_m_.resize(count);

@@ -55,8 +55,9 @@ GrownRobot::Radius GrownRobot::radius_of(LinkId id, float depth_m) const {
     const double radius_px = settings_->dilation_px;
     return {radius_px, radius_px};
   }
-  const double padding_m =
-      grown_ == PixelFate::island ? settings_->island_radius_m : settings_->padding_of(id);
+  const bool is_island = grown_ == PixelFate::island;
+  if (is_island && id == kEnvironmentLink) return {0, 0};
+  const double padding_m = is_island ? settings_->island_radius_m : settings_->padding_of(id);
   const double longest_px = std::max(camera_->width_px, camera_->height_px);
   return {std::min(longest_px, padding_m * camera_->fx_px / depth_m),
           std::min(longest_px, padding_m * camera_->fy_px / depth_m)};
@@ -90,7 +91,7 @@ void GrownRobot::find_outline(int tile_row) {
     DiscTile tile;
     tile.least_m = std::numeric_limits<float>::infinity();
     tile.first = static_cast<std::uint32_t>(row.discs.size());
-    const TileBits outline = outline_of(*robot_, pixels, pixel_rad);
+    const TileBits outline = outline_of(*robot_, pixels, pixel_rad, tolerance_);
     for (int v = pixels.v_begin; v < pixels.v_end; ++v) {
       for (std::uint32_t bits = outline[v - pixels.v_begin]; bits != 0; bits &= bits - 1)
         append_disc(pixels.u_begin + std::countr_zero(bits), v, row, tile);

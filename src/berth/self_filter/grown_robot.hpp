@@ -12,7 +12,7 @@ namespace berth {
 
 /// The robot's silhouettes, grown: where a link ends against the background, or against a part of
 /// the robot that lies deeper, a disc around each outline pixel takes what lies not in front of it.
-/// Only evaluated links grow; scenery does not.
+/// Scenery grows too, but not for islands (outline.hpp).
 class GrownRobot {
  public:
   /// `grown` is PixelFate::padding (a disc has the link's padding for a radius, as large in the

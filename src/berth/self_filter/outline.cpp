@@ -30,13 +30,18 @@ struct OutlineRow {
 /// `left` and `right` are the steps to the neighbours, 0 at the image's border.
 template <class D>
 HWY_INLINE std::uint32_t outline_bits(D d, const OutlineRow& row, int u, int left, int right,
-                                      float deeper) {
-  const auto z = load_link_depth(d, row.depth_m[1] + u, row.link_id[1] + u);
+                                      float deeper, const Tolerance& tolerance) {
+  const auto z = hn::LoadU(d, row.depth_m[1] + u);
   const auto is_robot = hn::Eq(z, z);
   if (hn::AllFalse(d, is_robot)) return 0;
   const auto most = hn::Mul(z, hn::Set(d, deeper));
+  const auto own_scenery = is_scenery(d, row.link_id[1] + u);
   const auto goes_on = [&](int i, int step) HWY_ATTR {
-    return hn::Le(load_link_depth(d, row.depth_m[i] + u + step, row.link_id[i] + u + step), most);
+    const auto next_m = hn::LoadU(d, row.depth_m[i] + u + step);
+    const auto next_scenery = is_scenery(d, row.link_id[i] + u + step);
+    const auto link_goes_on = hn::AndNot(next_scenery, hn::Le(next_m, most));
+    const auto scenery_goes_on = belongs_to(d, z, next_m, tolerance);
+    return hn::Or(hn::And(own_scenery, scenery_goes_on), hn::AndNot(own_scenery, link_goes_on));
   };
   const auto goes_on_all_around =
       hn::And(hn::And(goes_on(1, left), goes_on(1, right)), hn::And(goes_on(0, 0), goes_on(2, 0)));
@@ -54,7 +59,8 @@ bool shows_robot(const RobotImage& robot, const PixelRect& tile) {
   return found;
 }
 
-TileBits outline_of_tile(const RobotImage& robot, const PixelRect& tile, float pixel_rad) {
+TileBits outline_of_tile(const RobotImage& robot, const PixelRect& tile, float pixel_rad,
+                         const Tolerance& tolerance) {
   TileBits bits{};
   if (!shows_robot(robot, tile)) return bits;
   const int last = robot.depth_m.width() - 1;
@@ -63,11 +69,14 @@ TileBits outline_of_tile(const RobotImage& robot, const PixelRect& tile, float p
     const OutlineRow row(robot, v);
     std::uint32_t& row_bits = bits[v - tile.v_begin];
     for_pixels(std::max(1, tile.u_begin), std::min(last, tile.u_end), [&](auto d, int u) HWY_ATTR {
-      row_bits |= outline_bits(d, row, u, -1, 1, deeper) << (u - tile.u_begin);
+      row_bits |= outline_bits(d, row, u, -1, 1, deeper, tolerance) << (u - tile.u_begin);
     });
-    if (tile.u_begin == 0) row_bits |= outline_bits(OneFloatTag(), row, 0, 0, last > 0, deeper);
-    if (tile.u_end == last + 1 && last > 0)
-      row_bits |= outline_bits(OneFloatTag(), row, last, -1, 0, deeper) << (last - tile.u_begin);
+    if (tile.u_begin == 0)
+      row_bits |= outline_bits(OneFloatTag(), row, 0, 0, last > 0, deeper, tolerance);
+    if (tile.u_end == last + 1 && last > 0) {
+      row_bits |= outline_bits(OneFloatTag(), row, last, -1, 0, deeper, tolerance)
+                  << (last - tile.u_begin);
+    }
   }
   return bits;
 }
@@ -81,8 +90,9 @@ namespace berth {
 
 HWY_EXPORT(outline_of_tile);
 
-TileBits outline_of(const RobotImage& robot, const PixelRect& tile, float pixel_rad) {
-  return HWY_DYNAMIC_DISPATCH(outline_of_tile)(robot, tile, pixel_rad);
+TileBits outline_of(const RobotImage& robot, const PixelRect& tile, float pixel_rad,
+                    const Tolerance& tolerance) {
+  return HWY_DYNAMIC_DISPATCH(outline_of_tile)(robot, tile, pixel_rad, tolerance);
 }
 
 }  // namespace berth

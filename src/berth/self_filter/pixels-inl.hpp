@@ -9,6 +9,7 @@
 
 #include <cstdint>
 
+#include "berth/self_filter/tolerance.hpp"
 #include "berth/types/obstacle_image.hpp"
 #include "berth/types/robot_image.hpp"
 #include "berth/vector/lanes-inl.hpp"
@@ -68,10 +69,12 @@ HWY_INLINE hn::Mask<D> is_scenery(D d, const LinkId* link_id) {
   return hn::RebindMask(d, hn::Eq(id, hn::Set(di, std::int32_t{kEnvironmentLink})));
 }
 
-/// The depth of evaluated links, NaN elsewhere.
+/// Whether readings belong to a surface of depth z, or lie behind it; false where one is NaN.
 template <class D>
-HWY_INLINE hn::Vec<D> load_link_depth(D d, const float* robot_depth_m, const LinkId* link_id) {
-  return hn::IfThenElse(is_scenery(d, link_id), hn::Set(d, kNoDepth), hn::LoadU(d, robot_depth_m));
+HWY_INLINE hn::Mask<D> belongs_to(D d, hn::Vec<D> reading, hn::Vec<D> z, const Tolerance& t) {
+  const auto noise =
+      hn::Add(hn::Mul(hn::Set(d, t.per_m), z), hn::Mul(hn::Mul(hn::Set(d, t.per_m2), z), z));
+  return hn::Ge(reading, hn::Sub(z, hn::Add(hn::Set(d, t.constant_m), noise)));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -11,13 +11,6 @@ HWY_BEFORE_NAMESPACE();
 namespace berth {
 namespace HWY_NAMESPACE {
 
-template <class D>
-HWY_INLINE hn::Mask<D> belongs_to(D d, hn::Vec<D> reading, hn::Vec<D> z, const Tolerance& t) {
-  const auto noise =
-      hn::Add(hn::Mul(hn::Set(d, t.per_m), z), hn::Mul(hn::Mul(hn::Set(d, t.per_m2), z), z));
-  return hn::Ge(reading, hn::Sub(z, hn::Add(hn::Set(d, t.constant_m), noise)));
-}
-
 void copy_readings(const FilterRow& row, int u_begin, int u_end) {
   for_pixels(u_begin, u_end, [&](auto d, int u) HWY_ATTR {
     const auto reading = hn::LoadU(d, row.reading_m + u);

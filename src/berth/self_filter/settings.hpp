@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "berth/types/robot_image.hpp"
@@ -21,6 +22,9 @@ struct SelfFilterSettings {
   /// Padding of single links: link_padding_m[i] is that of the link with the id i + 1; where the
   /// list ends or holds NaN, padding_m.
   std::vector<double> link_padding_m;
+  /// Padding of all scenery (environment links); none: padding_m. Scenery pads around its outline
+  /// only, and has no islands: a thing that stands on a table stays.
+  std::optional<double> environment_padding_m;
   /// The silhouette also grows by this number of pixels.
   int dilation_px = 0;
   /// Padding and dilation take what lies behind the robot's outline by no more than this: a camera
@@ -60,6 +64,9 @@ void visit_settings(Settings& s, Visitor&& visit) {
   visit({"padding_m", kNotNegative,
          "a reading beside the robot within this length is taken for the robot too"},
         s.padding_m);
+  visit({"environment_padding_m", kNotNegative,
+         "the same beside scenery (environment_links); none: as padding_m"},
+        s.environment_padding_m);
   visit({"padding_depth_m", kNotNegative,
          "padding and dilation take nothing farther behind the robot than this, but mixed pixels"},
         s.padding_depth_m);

@@ -11,8 +11,8 @@ struct Tolerance {
   float per_m;
   float per_m2;
 
-  /// The least reading that belongs to a surface of this depth; rows.cpp has it in vectors, with
-  /// the same operations.
+  /// The least reading that belongs to a surface of this depth; pixels-inl.hpp has it in vectors,
+  /// with the same operations.
   float least_reading_m(float z_m) const {
     return z_m - (constant_m + (per_m * z_m + per_m2 * z_m * z_m));
   }

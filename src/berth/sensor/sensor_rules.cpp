@@ -26,7 +26,7 @@ void apply_sensor_rules(DepthView sensor_depth_m, const RobotImage& robot,
   if (settings.drops_speckle()) drop_speckle(settings, workspace.speckle, out);
   if (settings.averages()) average_readings(settings, workspace.history, out);
   if (settings.has_background()) background.complete(sensor_depth_m, settings, out);
-  fill_holes(settings.holes, robot, workspace.holes, out);
+  fill_holes(settings.holes, robot, out);
   count_again(out);
 }
 

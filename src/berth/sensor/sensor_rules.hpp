@@ -12,7 +12,6 @@ namespace berth {
 struct SensorWorkspace {
   SpeckleWorkspace speckle;
   ReadingHistory history;
-  HoleWorkspace holes;
 };
 
 /// Applies the rules for what sensors do wrong to the self filter's result `out`, in this order:

@@ -2,7 +2,7 @@
 
 namespace berth {
 std::string_view name_of(HolePolicy policy) {
-  constexpr std::array<std::string_view, 3> kNames = {"free", "obstacle", "nearest_neighbour"};
+  constexpr std::array<std::string_view, 2> kNames = {"free", "obstacle"};
   return kNames.at(static_cast<std::size_t>(policy));
 }
 

@@ -10,12 +10,10 @@ namespace berth {
 /// What a pixel without a reading means, where the model does not say that it shows the robot or
 /// scenery. Each enumerator is its own name.
 enum class HolePolicy {
-  free,               ///< nothing is there
-  obstacle,           ///< something may be right before the camera: its shadow is an obstacle
-  nearest_neighbour,  ///< the obstacle seen at the nearest pixel goes on
+  free,      ///< nothing is there
+  obstacle,  ///< something may be right before the camera: its shadow is an obstacle
 };
-inline constexpr std::array kHolePolicies = {HolePolicy::free, HolePolicy::obstacle,
-                                             HolePolicy::nearest_neighbour};
+inline constexpr std::array kHolePolicies = {HolePolicy::free, HolePolicy::obstacle};
 
 std::string_view name_of(HolePolicy policy);
 constexpr const auto& all_of(HolePolicy) { return kHolePolicies; }

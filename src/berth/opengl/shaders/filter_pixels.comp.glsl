@@ -14,6 +14,7 @@ layout(r32ui) uniform writeonly uimage2D fate;
 uniform float edge_jump_m;
 uniform float deeper;  // an outline's neighbour is deeper by more than this factor
 uniform double padding_m;
+uniform double environment_padding_m;
 uniform double island_radius_m;
 uniform float padding_depth_m;
 uniform int link_paddings;
@@ -54,27 +55,37 @@ uint fate_of(ivec2 pixel, uint link, float robot_m) {
   return mixed ? kEdge : kObstacle;
 }
 
-// Whether the robot does not go on at a neighbour, which is the pixel itself at the image's border.
-bool ends_at(ivec2 neighbour, float robot_m) {
+// Whether link or scenery does not go on at a neighbour, which is the pixel itself at the image's
+// border; as in self_filter/outline.hpp.
+bool ends_at(ivec2 neighbour, uint link, float robot_m) {
   ivec2 inside = clamp(neighbour, ivec2(0), textureSize(link_id, 0) - 1);
+  uint next = texelFetch(link_id, inside, 0).x;
+  float next_m = texelFetch(robot_depth_m, inside, 0).x;
+  if (link == kEnvironmentLink) return next == kNoLink || robot_m < least_reading_m(next_m);
   precise float most_m = robot_m * deeper;
-  return !is_evaluated(texelFetch(link_id, inside, 0).x) ||
-         texelFetch(robot_depth_m, inside, 0).x > most_m;
+  return !is_evaluated(next) || next_m > most_m;
 }
 
-bool is_outline(ivec2 pixel, float robot_m) {
-  return ends_at(pixel - ivec2(1, 0), robot_m) || ends_at(pixel + ivec2(1, 0), robot_m) ||
-         ends_at(pixel - ivec2(0, 1), robot_m) || ends_at(pixel + ivec2(0, 1), robot_m);
+bool is_outline(ivec2 pixel, uint link, float robot_m) {
+  return ends_at(pixel - ivec2(1, 0), link, robot_m) ||
+         ends_at(pixel + ivec2(1, 0), link, robot_m) ||
+         ends_at(pixel - ivec2(0, 1), link, robot_m) ||
+         ends_at(pixel + ivec2(0, 1), link, robot_m);
+}
+
+double padding_of(uint link) {
+  if (link == kEnvironmentLink) return environment_padding_m;
+  return int(link) <= link_paddings ? link_padding_m[link - 1u] : padding_m;
 }
 
 void add_disc(ivec2 pixel, uint link, float robot_m, uint tile) {
-  double own_padding_m = int(link) <= link_paddings ? link_padding_m[link - 1u] : padding_m;
   ivec2 size = textureSize(link_id, 0);
   precise float most_m = robot_m + padding_depth_m;
-  Disc disc = Disc(-1.0LF, 1.0LF, least_reading_m(robot_m), most_m, pack(pixel), robot_m);
-  dvec2 radius_px = disc_radius_px(own_padding_m, robot_m, size);
+  Disc disc = Disc(-1.0LF, 1.0LF, least_reading_m(robot_m), most_m, pack(pixel),
+                   link == kEnvironmentLink ? -1.0 : robot_m);
+  dvec2 radius_px = disc_radius_px(padding_of(link), robot_m, size);
   if (radius_px.x > 0.0LF) atomicMax(tile_reach, reach_of(radius_px));
-  dvec2 island_radius_px = disc_radius_px(island_radius_m, robot_m, size);
+  dvec2 island_radius_px = disc_radius_px(island_radius_m, disc.depth_m, size);
   if (island_radius_px.x > 0.0LF) atomicMax(tile_island_reach, reach_of(island_radius_px));
   discs[tile * kTilePixels + atomicAdd(tile_discs, 1u)] = with_radius(disc, radius_px);
 }
@@ -92,7 +103,7 @@ void main() {
     uint link = texelFetch(link_id, pixel, 0).x;
     float robot_m = texelFetch(robot_depth_m, pixel, 0).x;
     imageStore(fate, pixel, uvec4(fate_of(pixel, link, robot_m)));
-    if (is_evaluated(link) && is_outline(pixel, robot_m)) add_disc(pixel, link, robot_m, tile);
+    if (link != kNoLink && is_outline(pixel, link, robot_m)) add_disc(pixel, link, robot_m, tile);
   }
   barrier();
   if (gl_LocalInvocationIndex != 0) return;

@@ -16,7 +16,7 @@ struct Disc {
   float least_m;
   float most_m;
   uint place;  // packed pixel (pixels.glsl)
-  float depth_m;
+  float depth_m;  // negative for scenery, which has no islands
 };
 
 int tile_columns(ivec2 size) { return (size.x + kTilePx - 1) / kTilePx; }
