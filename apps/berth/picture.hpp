@@ -23,11 +23,12 @@ struct PictureInput {
   /// link_names[i] is the name of the link with the id i + 1, UTF-8; at least one for each link in
   /// distances.
   std::vector<std::string> link_names;
-  /// Whether a joint moves it, in the same order; empty: all are moved. The others do not lead.
-  std::vector<bool> link_is_moved;
   /// Distances were looked for up to here.
   double range_m = 0;
-  std::string title;
+  std::string title = {};
+  /// Whether a joint moves the link of this place in link_names; empty: all are moved. The others do
+  /// not lead.
+  std::vector<bool> link_is_moved = {};
 };
 
 /// Writes a PNG: the depth image with the robot, the filtered pixels and each link's closest pair

@@ -53,9 +53,10 @@ void draw(const fs::path& folder, const OpenScene& scene, SceneRun& run,
   write_picture(folder_of(scene, run.camera(), folder) /
                     fmt::format("frame_{:06}.png", run.frame_number()),
                 {run.sensor_depth_m(), &frame.robot, &frame.obstacles, &distances,
-                 result.link_names, result.link_is_moved, result.range_m,
+                 result.link_names, result.range_m,
                  fmt::format("{}{}, frame {}, {:.3f} s", scene.robot->model().name, which,
-                             run.frame_number(), frame.stamp_s)});
+                             run.frame_number(), frame.stamp_s),
+                 result.link_is_moved});
 }
 
 }  // namespace

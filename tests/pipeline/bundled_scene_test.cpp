@@ -89,8 +89,9 @@ TEST(BundledScene, BruteForceGivesTheSameDistances) {
                    frame);
   const Answer exact = asker.ask(frame);
   LinkDistances brute;
-  brute_force(camera.view->camera(), frame.robot, frame.obstacles.depth_m,
-              camera.view->robot()->model().link_count(), {}, brute);
+  brute_force({camera.view->camera(), frame.robot, camera.view->robot()->model().link_count(),
+               frame.searchable, {}},
+              brute);
   ASSERT_EQ(brute.links.size(), exact.distances.links.size());
   for (std::size_t i = 0; i < brute.links.size(); ++i) {
     EXPECT_EQ(brute.links[i].status, exact.distances.links[i].status);

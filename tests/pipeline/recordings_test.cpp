@@ -59,7 +59,7 @@ double filtered_share(const Image<LinkId>& mask, const ObstacleImage& obstacles)
   return static_cast<double>(filtered) / static_cast<double>(with_reading);
 }
 
-class Recording : public testing::TestWithParam<std::string> {
+class Recording : public ::testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
     folder_ = data_folder() / "recordings" / GetParam();
@@ -116,6 +116,33 @@ TEST_P(Recording, NoLinkIsTooFarAndMostAreInTheirRange) {
   EXPECT_EQ(free_links_at_contact, 0);
 }
 
+TEST_P(Recording, NoLinkIsTooFarFromReadingsAsAWhole) {
+  SceneFile file = read_scene(folder_ / "scene.yaml");
+  file.evaluation.method = Method::mesh;
+  const OpenScene scene = open_scene(file);
+  const OpenCamera& camera = scene.cameras.front();
+  const Ranges ranges = read_ranges(folder_ / "expected.tsv");
+  const std::vector<std::string> names = scene.robot->model().evaluated_link_names();
+  Observer observer(camera.view);
+  Asker asker(scene.robot);
+  Frame frame;
+  int rows = 0;
+  int inside = 0;
+  for (std::size_t i = 0; i < camera.source.depth.size(); ++i) {
+    observer.observe(camera.read_depth(i), camera.at_exposure[i], frame);
+    for (const LinkDistance& link : asker.ask(frame).distances.links) {
+      const Range& range = ranges.at({static_cast<int>(i), names[link.id - 1]});
+      const float distance_m = link.reading.distance_m;
+      EXPECT_LE(distance_m, range.max_m + 0.01) << "frame " << i << ", " << names[link.id - 1];
+      EXPECT_LE(link.distance_m, distance_m);
+      ++rows;
+      inside += distance_m >= range.min_m && distance_m <= range.max_m;
+    }
+  }
+  fmt::print("{}: {} of {} rows in range\n", GetParam(), inside, rows);
+  EXPECT_GE(inside, 0.8 * rows);
+}
+
 /// The camera again, its view with these rules.
 std::shared_ptr<const View> with_rules(const OpenCamera& camera, const SensorSettings& rules) {
   ViewSettings settings = camera.view->settings();
@@ -150,7 +177,7 @@ TEST_P(Recording, SpeckleAndBackgroundMakeNoDistanceLarger) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Real, Recording, testing::Values("xarm7_realsense", "lbr_med7_zed2i"),
+INSTANTIATE_TEST_SUITE_P(Real, Recording, ::testing::Values("xarm7_realsense", "lbr_med7_zed2i"),
                          [](const auto& test) { return test.param; });
 
 }  // namespace

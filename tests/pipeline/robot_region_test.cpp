@@ -9,7 +9,7 @@
 namespace berth {
 namespace {
 
-class RobotRegion : public testing::Test {
+class RobotRegion : public ::testing::Test {
  protected:
   RobotRegion()
       : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml")),

@@ -23,7 +23,7 @@ std::vector<std::string> joint_names(const RobotModel& model) {
 }
 
 /// A camera of 30 Hz and joints of 100 Hz that begin at 10 s.
-class RunningRobot : public testing::Test {
+class RunningRobot : public ::testing::Test {
  protected:
   RunningRobot()
       : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml")),

@@ -17,7 +17,7 @@ std::vector<float> distances_of(const Answer& answer) {
   return distances;
 }
 
-class TwoClocks : public testing::Test {
+class TwoClocks : public ::testing::Test {
  protected:
   TwoClocks()
       : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml")),

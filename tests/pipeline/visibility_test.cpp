@@ -25,7 +25,7 @@ std::vector<float> shares_of(const Answer& answer) {
   return shares;
 }
 
-class VisibilityOfAnswers : public testing::Test {
+class VisibilityOfAnswers : public ::testing::Test {
  protected:
   VisibilityOfAnswers()
       : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml")),

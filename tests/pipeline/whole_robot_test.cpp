@@ -15,7 +15,7 @@
 namespace berth {
 namespace {
 
-class WholeRobot : public testing::Test {
+class WholeRobot : public ::testing::Test {
  protected:
   WholeRobot()
       : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml")),
