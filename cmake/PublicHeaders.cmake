@@ -3,6 +3,7 @@
 set(BERTH_PUBLIC_HEADERS
   berth/berth.hpp
   berth/types/camera.hpp
+  berth/types/camera_status.hpp
   berth/types/image.hpp
   berth/types/joint_state.hpp
   berth/types/link_distance.hpp
@@ -10,7 +11,9 @@ set(BERTH_PUBLIC_HEADERS
   berth/types/obstacle_image.hpp
   berth/types/robot_image.hpp
   berth/types/setting.hpp
+  berth/types/space_pair.hpp
   berth/types/time_status.hpp
+  berth/types/whole_link_distance.hpp
   berth/files/camera_info.hpp
   berth/files/joints_csv.hpp
   berth/files/png.hpp
@@ -26,13 +29,16 @@ set(BERTH_PUBLIC_HEADERS
   berth/sensor/settings.hpp
   berth/distance/evaluate.hpp
   berth/distance/settings.hpp
+  berth/distance/mesh/settings.hpp
   berth/visibility/doubtful.hpp
   berth/visibility/visibility.hpp
   berth/pipeline/answer.hpp
   berth/pipeline/asker.hpp
   berth/pipeline/frame.hpp
+  berth/pipeline/frame_set.hpp
   berth/pipeline/observer.hpp
   berth/pipeline/robot.hpp
+  berth/pipeline/trajectory.hpp
   berth/pipeline/view.hpp
   berth/opengl/gl_asker.hpp
   berth/opengl/gl_context.hpp

@@ -26,6 +26,7 @@ struct OpenCamera {
   DepthImage read_depth(std::size_t frame) const;
 };
 
+/// A scene whose files were all read and checked.
 struct OpenScene {
   std::filesystem::path file;
   std::shared_ptr<const Robot> robot;
