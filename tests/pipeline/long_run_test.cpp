@@ -21,6 +21,7 @@
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/thinned.hpp"
+#include "tests/support/view_with.hpp"
 
 namespace berth {
 namespace {
@@ -50,7 +51,7 @@ std::shared_ptr<const View> make_view() {
   CameraMount mount{{64, 48, 50, 50, 31.5, 23.5}, "l0"};
   mount.X_PC.linear() << 0, 0, -1, 1, 0, 0, 0, -1, 0;
   mount.X_PC.translation() << 2, 0, 0.5;
-  return std::make_shared<const View>(std::make_shared<const Robot>(make_robot(), EvaluationSettings{.method = Method::exact}), mount);
+  return std::make_shared<const View>(std::make_shared<const Robot>(make_robot(), testing::exact_evaluation()), mount);
 }
 
 JointState joints_of(int pose) {

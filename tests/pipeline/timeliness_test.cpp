@@ -29,7 +29,7 @@ class RunningRobot : public ::testing::Test {
       : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml")),
         camera_(scene_.cameras.front()),
         depth_m_(camera_.read_depth(3)),
-        view_(testing::view_with(*camera_.view, EvaluationSettings{.method = Method::exact}, {})),
+        view_(testing::view_with(*camera_.view, testing::exact_evaluation(), {})),
         names_(joint_names(view_->robot()->model())) {
     push_until(10.5);
   }

@@ -25,7 +25,7 @@ std::shared_ptr<const Robot> make_robot() {
 std::string refusal(const Camera& camera, const Eigen::Matrix3d& rotation) {
   CameraMount mount{camera, "base", Pose::Identity()};
   mount.X_PC.linear() = rotation;
-  return testing::error_message<std::invalid_argument>([&] { View(make_robot(), mount); });
+  return error_message<std::invalid_argument>([&] { View(make_robot(), mount); });
 }
 
 constexpr Camera kCamera{64, 48, 50, 50, 31.5, 23.5};
@@ -49,7 +49,7 @@ TEST(View, ARotationThatIsNoneIsRefused) {
 }
 
 TEST(View, APoseThatNobodySetIsRefused) {
-  EXPECT_EQ(testing::error_message<std::invalid_argument>([] {
+  EXPECT_EQ(error_message<std::invalid_argument>([] {
               View(make_robot(), CameraMount{kCamera, "base"});
             }),
             "camera: the pose X_PC is not set; expected finite numbers");

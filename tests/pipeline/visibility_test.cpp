@@ -60,9 +60,9 @@ TEST_F(VisibilityOfAnswers, LinksAreInTheOrderOfTheirIdsAndSeenInPart) {
 }
 
 TEST_F(VisibilityOfAnswers, OffLeavesThemOutAndChangesNoDistance) {
-  EvaluationArguments arguments;
-  arguments.visibility = false;
-  const OpenScene off = open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml", arguments);
+  SceneFile file = read_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml");
+  file.evaluation.visibility = false;
+  const OpenScene off = open_scene(file);
   Asker asker(camera_.view->robot());
   Asker asker_off(off.robot);
   const Answer& answer = asker.ask(frame_);

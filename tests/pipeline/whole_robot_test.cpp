@@ -195,7 +195,7 @@ TEST_F(WholeRobot, WhatIsAttachedIsPartOfItsLinkOrALinkOfItsOwn) {
   EXPECT_THROW(attach(*with_tool, tool), std::invalid_argument);
   EXPECT_THROW(detach(*view_->robot(), "tool"), std::invalid_argument);
   tool.link = "nowhere";
-  EXPECT_NE(testing::error_message<std::invalid_argument>([&] { attach(*view_->robot(), tool); })
+  EXPECT_NE(error_message<std::invalid_argument>([&] { attach(*view_->robot(), tool); })
                 .find("link \"nowhere\" is no evaluated link"),
             std::string::npos);
 }
@@ -205,7 +205,7 @@ TEST_F(WholeRobot, MethodsThatCompareImagesTakeOneFrame) {
   observe(3, frame);
   const FrameSet set = set_of({&frame});
   Asker asker(camera_.view->robot());
-  EXPECT_EQ(testing::error_message<std::invalid_argument>([&] { asker.ask(set); }),
+  EXPECT_EQ(error_message<std::invalid_argument>([&] { asker.ask(set); }),
             "method exact looks at one frame; expected mesh for several");
   EXPECT_THROW(TrajectoryAsker(camera_.view->robot()), std::invalid_argument);
 }

@@ -18,4 +18,11 @@ inline std::shared_ptr<const View> view_with(const View& view, const EvaluationS
       std::make_shared<const Robot>(view.robot()->model(), evaluation), view.mount(), settings);
 }
 
+/// How questions are answered that compare images.
+inline EvaluationSettings exact_evaluation() {
+  EvaluationSettings settings;
+  settings.method = Method::exact;
+  return settings;
+}
+
 }  // namespace berth::testing
