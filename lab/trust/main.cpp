@@ -71,15 +71,17 @@ void measure_whole_robot(const std::vector<TrialRobot>& robots, int scenes) {
   tbb::parallel_for(0, scenes, [&](int i) {
     tbb::this_task_arena::isolate([&] {
       trials[i] = run_whole_robot_trial(robot_of(robots, i), settings_of(i),
-                                             static_cast<std::uint32_t>(i), conditions);
+                                        static_cast<std::uint32_t>(i), conditions);
     });
     if (++done % 10 == 0) fmt::print(stderr, "{} of {} scenes\n", done.load(), scenes);
   });
   fmt::print("{} scenes, {} robots\n{}", scenes, robots.size(),
              whole_robot_table(trials, conditions));
   for (std::size_t c = 0; c < conditions.size(); ++c) {
+    fmt::print("\n### {}: by where the obstacle's nearest point is\n{}", conditions[c].name,
+               whole_robot_sight_table(trials, c));
     fmt::print("\n### {}: the worst\n{}", conditions[c].name,
-               worst_whole_robot_table(trials, c, 4));
+               worst_whole_robot_table(trials, c, 3));
   }
 }
 

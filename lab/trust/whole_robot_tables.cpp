@@ -3,16 +3,32 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace berth::lab {
 namespace {
 
 /// A link at least this far from everything is not in contact.
 constexpr double kFree_m = 0.05;
+
+constexpr const char* kHeading =
+    "| | links | too large | median | 99 % | greatest | too small | median | 0 though > 5 cm | "
+    "lost "
+    "|\n| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n";
+
+constexpr std::array<std::pair<testing::Sight, const char*>, 3> kSights = {
+    {{testing::Sight::covered, "in an image"},
+     {testing::Sight::behind_robot, "behind the robot"},
+     {testing::Sight::outside, "outside of all images"}}};
+
+std::string cameras(std::size_t count) {
+  return fmt::format("{} camera{}", count, count > 1 ? "s" : "");
+}
 
 /// One link's distance and the true one. What says that nothing is in range says the range.
 struct Compared {
@@ -59,8 +75,8 @@ std::vector<Compared> compare(
     const std::function<std::optional<double>(const WholeRobotTrial&, std::size_t)>& said_m) {
   std::vector<Compared> links;
   for (const WholeRobotTrial& trial : trials) {
-    for (std::size_t i = 0; i < trial.true_m.size(); ++i) {
-      if (const auto m = said_m(trial, i)) links.push_back({*m, trial.true_m[i]});
+    for (std::size_t i = 0; i < trial.truth.size(); ++i) {
+      if (const auto m = said_m(trial, i)) links.push_back({*m, trial.truth[i].distance_m});
     }
   }
   return links;
@@ -78,26 +94,42 @@ std::string whole_robot_table(const std::vector<WholeRobotTrial>& trials,
                               const std::vector<WholeRobotCondition>& conditions) {
   std::string text;
   for (std::size_t c = 0; c < conditions.size(); ++c) {
-    text += fmt::format(
-        "\n### {}\n| | links | too large | median | 99 % | greatest | too small | median | 0 "
-        "though "
-        "> 5 cm | lost |\n| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
-        conditions[c].name);
+    text += fmt::format("\n### {}\n{}", conditions[c].name, kHeading);
     text += row("`exact`, 1 camera", compare(trials, [&](const WholeRobotTrial& t, std::size_t i) {
                   return exact_m(t.under[c].exact[i]);
                 }));
     for (std::size_t k = 0; k < kMostTrialCameras; ++k) {
-      text += row(fmt::format("`mesh`, seen or hidden, {} camera{}", k + 1, k > 0 ? "s" : ""),
+      text += row("`mesh`, seen or hidden, " + cameras(k + 1),
                   compare(trials, [&](const WholeRobotTrial& t, std::size_t i) {
                     return t.under[c].mesh[k][i].nearest_m;
                   }));
     }
     for (std::size_t k = 0; k < kMostTrialCameras; ++k) {
-      text += row(fmt::format("`mesh`, readings alone, {} camera{}", k + 1, k > 0 ? "s" : ""),
+      text += row("`mesh`, readings alone, " + cameras(k + 1),
                   compare(trials, [&](const WholeRobotTrial& t, std::size_t i) {
                     return t.under[c].mesh[k][i].reading_m;
                   }));
     }
+  }
+  return text;
+}
+
+std::string whole_robot_sight_table(const std::vector<WholeRobotTrial>& trials,
+                                    std::size_t condition) {
+  std::string text = kHeading;
+  const auto add = [&](const std::string& name, testing::Sight sight, std::size_t k,
+                       const std::function<double(const WholeRobotTrial&, std::size_t)>& said_m) {
+    text += row(name, compare(trials, [&](const WholeRobotTrial& t, std::size_t i) {
+                  return t.truth[i].sight[k] == sight ? std::optional(said_m(t, i)) : std::nullopt;
+                }));
+  };
+  for (std::size_t k = 0; k < kMostTrialCameras; ++k) {
+    for (const auto& [sight, name] : kSights) {
+      add(fmt::format("{}, seen or hidden: {}", cameras(k + 1), name), sight, k,
+          [&](const auto& t, std::size_t i) { return t.under[condition].mesh[k][i].nearest_m; });
+    }
+    add(cameras(k + 1) + ", readings alone: in an image", testing::Sight::covered, k,
+        [&](const auto& t, std::size_t i) { return t.under[condition].mesh[k][i].reading_m; });
   }
   return text;
 }
@@ -110,14 +142,15 @@ std::string worst_whole_robot_table(const std::vector<WholeRobotTrial>& trials,
     Compared compared;
   };
   std::string text =
-      "| cameras | robot | seed | link | berth | true | too large |\n"
-      "| ---: | --- | ---: | --- | ---: | ---: | ---: |\n";
-  for (std::size_t k = 0; k < kMostTrialCameras; ++k) {
+      "| cameras | obstacle | robot | seed | link | berth | true | too large |\n"
+      "| ---: | --- | --- | ---: | --- | ---: | ---: | ---: |\n";
+  const auto add = [&](std::size_t k, testing::Sight sight, const char* name) {
     std::vector<Worst> worst;
     for (const WholeRobotTrial& trial : trials) {
-      for (std::size_t i = 0; i < trial.true_m.size(); ++i) {
+      for (std::size_t i = 0; i < trial.truth.size(); ++i) {
+        if (trial.truth[i].sight[k] != sight) continue;
         worst.push_back(
-            {&trial, i, {trial.under[condition].mesh[k][i].nearest_m, trial.true_m[i]}});
+            {&trial, i, {trial.under[condition].mesh[k][i].nearest_m, trial.truth[i].distance_m}});
       }
     }
     std::sort(worst.begin(), worst.end(), [](const Worst& a, const Worst& b) {
@@ -126,11 +159,14 @@ std::string worst_whole_robot_table(const std::vector<WholeRobotTrial>& trials,
     for (std::size_t i = 0; i < worst.size() && i < static_cast<std::size_t>(count); ++i) {
       const auto& [trial, link, compared] = worst[i];
       if (compared.over_m() <= kTrialTolerance_m) break;
-      text += fmt::format("| {} | {} | {} | {} | {:.1f} | {:.1f} | {:.1f} |\n", k + 1,
+      text += fmt::format("| {} | {} | {} | {} | {} | {:.1f} | {:.1f} | {:.1f} |\n", k + 1, name,
                           trial->robot->name, trial->seed,
                           trial->robot->model.evaluated_link_names()[link], 1e3 * compared.said_m,
                           1e3 * compared.true_m, 1e3 * compared.over_m());
     }
+  };
+  for (std::size_t k = 0; k < kMostTrialCameras; ++k) {
+    for (const auto& [sight, name] : kSights) add(k, sight, name);
   }
   return text;
 }

@@ -13,8 +13,13 @@ namespace berth::lab {
 std::string whole_robot_table(const std::vector<WholeRobotTrial>& trials,
                               const std::vector<WholeRobotCondition>& conditions);
 
-/// Under one condition, for each number of cameras the `count` links whose `nearest` is most too
-/// large.
+/// The same under one condition, by how the cameras see the obstacle's point that is truly nearest
+/// (WholeRobotTruth::sight). What is outside of all images no camera can tell.
+std::string whole_robot_sight_table(const std::vector<WholeRobotTrial>& trials,
+                                    std::size_t condition);
+
+/// Under one condition, for each number of cameras and each sight the `count` links whose `nearest`
+/// is most too large.
 std::string worst_whole_robot_table(const std::vector<WholeRobotTrial>& trials,
                                     std::size_t condition, int count);
 

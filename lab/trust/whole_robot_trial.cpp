@@ -1,6 +1,7 @@
 #include "lab/trust/whole_robot_trial.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "berth/distance/mesh/mesh_distances.hpp"
@@ -27,23 +28,38 @@ SelfFilterSettings narrow_filter() {
   return settings;
 }
 
-std::vector<double> true_distances_m(const TrialRobot& robot, const testing::DrawnScene& scene) {
+/// [k] for the first k + 1 cameras; the sight that tells most counts.
+std::array<testing::Sight, kMostTrialCameras> sights_of(
+    const Eigen::Vector3d& p_B, const std::vector<testing::DrawnView>& views) {
+  std::array<testing::Sight, kMostTrialCameras> sights;
+  testing::Sight best = testing::Sight::outside;
+  for (std::size_t k = 0; k < sights.size(); ++k) {
+    const testing::DrawnView& view = views[k];
+    const Eigen::Vector3d p_C = view.X_BC.inverse() * p_B;
+    best = std::min(best, testing::sight_of(p_C, view.camera, view.obstacles.depth_m));
+    sights[k] = best;
+  }
+  return sights;
+}
+
+std::vector<WholeRobotTruth> truth_of(const TrialRobot& robot, const testing::DrawnViews& drawn) {
+  const testing::DrawnScene& scene = drawn.scene;
   std::vector<testing::MeshTree> obstacles;
   for (const auto& obstacle : scene.obstacles) {
     obstacles.push_back(testing::build_mesh_tree(obstacle.mesh_O));
   }
-  std::vector<double> true_m;
+  std::vector<WholeRobotTruth> truth;
   for (const std::size_t link : robot.model.evaluated_links) {
-    double least_m = std::numeric_limits<double>::infinity();
+    testing::SurfacePair nearest;
     for (std::size_t i = 0; i < obstacles.size(); ++i) {
-      least_m =
-          std::min(least_m, testing::closest_points(robot.link_trees[link], scene.pose.X_BL[link],
-                                                    obstacles[i], scene.obstacles[i].X_BO, least_m)
-                                .distance_m);
+      const testing::SurfacePair pair =
+          testing::closest_points(robot.link_trees[link], scene.pose.X_BL[link], obstacles[i],
+                                  scene.obstacles[i].X_BO, nearest.distance_m);
+      if (pair.distance_m < nearest.distance_m) nearest = pair;
     }
-    true_m.push_back(least_m);
+    truth.push_back({nearest.distance_m, sights_of(nearest.b_m, drawn.views)});
   }
-  return true_m;
+  return truth;
 }
 
 /// Where the obstacles were; the first two are floor and wall.
@@ -191,7 +207,7 @@ WholeRobotTrial run_whole_robot_trial(const TrialRobot& robot,
                                       const std::vector<WholeRobotCondition>& conditions) {
   const testing::DrawnViews drawn =
       testing::draw_views(robot.model, robot.link_trees, settings, seed, kMostTrialCameras);
-  WholeRobotTrial trial{&robot, seed, true_distances_m(robot, drawn.scene), {}};
+  WholeRobotTrial trial{&robot, seed, truth_of(robot, drawn), {}};
   for (const WholeRobotCondition& condition : conditions) {
     trial.under.push_back(Measured(robot, drawn, condition, seed).estimates());
   }
