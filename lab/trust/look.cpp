@@ -62,7 +62,7 @@ void draw(const TrialRobot& robot, const testing::DrawnScene& scene, std::uint32
            evaluating, distances);
   app::write_picture(picture,
                 {scene.depth_m, &image, &obstacles, &distances, robot.model.evaluated_link_names(),
-                 {}, kTrialRange_m, fmt::format("{}, seed {}", robot.name, seed)});
+                      kTrialRange_m, fmt::format("{}, seed {}", robot.name, seed)});
 }
 
 }  // namespace

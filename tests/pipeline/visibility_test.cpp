@@ -95,7 +95,7 @@ TEST_F(VisibilityOfAnswers, WithWhatIsDoubtfulDistancesAreThoseWithoutTheIslandR
   Observer observer(camera_.view);
   Observer observer_of_all(no_islands);
   Asker asker(camera_.view->robot());
-  Asker asker_of_all(no_islands);
+  Asker asker_of_all(no_islands->robot());
   Frame all;
   observer.observe(with_web_m, camera_.at_exposure[3], frame_);
   observer_of_all.observe(with_web_m, camera_.at_exposure[3], all);

@@ -25,9 +25,10 @@ class WholeRobot : public ::testing::Test {
   void observe(std::size_t i, Frame& frame) const {
     Observer(view_).observe(camera_.read_depth(i), camera_.at_exposure[i], frame);
   }
-  FrameSet set_of(const std::vector<const Frame*>& frames, std::optional<double> now_s = {}) const {
-    FrameSet set;
-    set.assign(frames, {}, now_s);
+  static std::unique_ptr<FrameSet> set_of(const std::vector<const Frame*>& frames,
+                                          std::optional<double> now_s = {}) {
+    auto set = std::make_unique<FrameSet>();
+    set->assign(frames, {}, now_s);
     return set;
   }
   static std::vector<float> distances_of(const Answer& answer) {
@@ -70,11 +71,11 @@ TEST_F(WholeRobot, AskingAFrameASetAndTheJointsOfTheExposureIsTheSame) {
   observe(17, frame);
   Asker asker(view_->robot());
   const auto alone = distances_of(asker.ask(frame));
-  const FrameSet set = set_of({&frame});
-  EXPECT_EQ(distances_of(asker.ask(set)), alone);
-  EXPECT_EQ(distances_of(asker.ask(set, camera_.at_exposure[17])), alone);
+  const auto set = set_of({&frame});
+  EXPECT_EQ(distances_of(asker.ask(*set)), alone);
+  EXPECT_EQ(distances_of(asker.ask(*set, camera_.at_exposure[17])), alone);
   EXPECT_EQ(distances_of(asker.ask(frame, camera_.at_exposure[17])), alone);
-  EXPECT_NE(distances_of(asker.ask(set, camera_.at_exposure[3])), alone);
+  EXPECT_NE(distances_of(asker.ask(*set, camera_.at_exposure[3])), alone);
 }
 
 TEST_F(WholeRobot, ACameraThatIsMissingLateUntimelyOrBlindIsNamed) {
@@ -85,17 +86,17 @@ TEST_F(WholeRobot, ACameraThatIsMissingLateUntimelyOrBlindIsNamed) {
   skewed.status = TimeStatus::skewed;
   Observer(view_).observe(camera_.read_depth(17), camera_.at_exposure[17], untimely, skewed);
   Observer(view_).observe(DepthImage(640, 480, kNoDepth), camera_.at_exposure[17], blind);
-  const FrameSet set = set_of({&fresh, nullptr, &old, &untimely, &blind});
+  const auto set = set_of({&fresh, nullptr, &old, &untimely, &blind});
   const std::vector<CameraStatus> expected = {CameraStatus::ok, CameraStatus::no_frame,
                                               CameraStatus::too_old, CameraStatus::untimely,
                                               CameraStatus::blind};
   for (std::size_t k = 0; k < expected.size(); ++k) {
-    EXPECT_EQ(set.cameras()[k].status, expected[k]) << name_of(set.cameras()[k].status);
+    EXPECT_EQ(set->cameras()[k].status, expected[k]) << name_of(set->cameras()[k].status);
   }
-  EXPECT_EQ(set.cameras()[3].time, TimeStatus::skewed);
-  EXPECT_NEAR(set.cameras()[2].age_s, 1.4, 1e-9);
+  EXPECT_EQ(set->cameras()[3].time, TimeStatus::skewed);
+  EXPECT_NEAR(set->cameras()[2].age_s, 1.4, 1e-9);
   Asker asker(view_->robot());
-  const auto with_all = distances_of(asker.ask(set));
+  const auto with_all = distances_of(asker.ask(*set));
   EXPECT_EQ(with_all, distances_of(asker.ask(fresh))) << "those that are left out change nothing";
 }
 
@@ -103,10 +104,13 @@ TEST_F(WholeRobot, WithoutAnyFrameInTimeTheAnswerIsWithheld) {
   Frame frame;
   observe(17, frame);
   Asker asker(view_->robot());
-  for (const auto& [set, status] :
-       {std::pair{set_of({}), TimeStatus::no_frame}, {set_of({nullptr}), TimeStatus::no_frame},
-        {set_of({&frame}, frame.stamp_s + 1), TimeStatus::stale_frame}}) {
-    const Answer& answer = asker.ask(set);
+  const std::unique_ptr<FrameSet> sets[] = {set_of({}), set_of({nullptr}),
+                                            set_of({&frame}, frame.stamp_s + 1)};
+  const TimeStatus statuses[] = {TimeStatus::no_frame, TimeStatus::no_frame,
+                                 TimeStatus::stale_frame};
+  for (int i = 0; i < 3; ++i) {
+    const TimeStatus status = statuses[i];
+    const Answer& answer = asker.ask(*sets[i]);
     EXPECT_EQ(answer.time.status, status) << name_of(answer.time.status);
     for (const LinkDistance& link : answer.distances.links) {
       EXPECT_EQ(link.status, LinkStatus::untimely);
@@ -146,17 +150,17 @@ TEST_F(WholeRobot, ALinkThatNoCameraSeesKeepsItsDistanceBesideTheStatus) {
 TEST_F(WholeRobot, ATrajectoryIsItsPosesAndSaysWhichComesNearerFirst) {
   Frame frame;
   observe(3, frame);
-  const FrameSet set = set_of({&frame});
+  const auto set = set_of({&frame});
   std::vector<JointState> path(camera_.at_exposure.begin(), camera_.at_exposure.begin() + 12);
   TrajectoryAsker looking_ahead(view_->robot());
-  const TrajectoryAnswer& found = looking_ahead.ask(set, path, 0);
+  const TrajectoryAnswer& found = looking_ahead.ask(*set, path, 0);
   ASSERT_EQ(found.poses.size(), path.size());
   EXPECT_FALSE(found.first_nearer.has_value());
   Asker asker(view_->robot());
   float least_m = 1;
   std::size_t nearest_pose = 0;
   for (std::size_t i = 0; i < path.size(); ++i) {
-    const Answer& answer = asker.ask(set, path[i]);
+    const Answer& answer = asker.ask(*set, path[i]);
     for (std::size_t k = 0; k < answer.distances.links.size(); ++k) {
       const SpacePair& pair = found.poses[i][k].nearest;
       EXPECT_NEAR(pair.distance_m, answer.distances.links[k].distance_m, 0.0011);
@@ -165,8 +169,8 @@ TEST_F(WholeRobot, ATrajectoryIsItsPosesAndSaysWhichComesNearerFirst) {
       nearest_pose = i;
     }
   }
-  EXPECT_EQ(looking_ahead.ask(set, path, least_m + 1e-6).first_nearer, nearest_pose);
-  EXPECT_THROW(looking_ahead.ask(set, path, std::nan("")), std::invalid_argument);
+  EXPECT_EQ(looking_ahead.ask(*set, path, least_m + 1e-6).first_nearer, nearest_pose);
+  EXPECT_THROW(looking_ahead.ask(*set, path, std::nan("")), std::invalid_argument);
 }
 
 TEST_F(WholeRobot, WhatIsAttachedIsPartOfItsLinkOrALinkOfItsOwn) {
@@ -203,9 +207,9 @@ TEST_F(WholeRobot, WhatIsAttachedIsPartOfItsLinkOrALinkOfItsOwn) {
 TEST_F(WholeRobot, MethodsThatCompareImagesTakeOneFrame) {
   Frame frame;
   observe(3, frame);
-  const FrameSet set = set_of({&frame});
+  const auto set = set_of({&frame});
   Asker asker(camera_.view->robot());
-  EXPECT_EQ(error_message<std::invalid_argument>([&] { asker.ask(set); }),
+  EXPECT_EQ(error_message<std::invalid_argument>([&] { asker.ask(*set); }),
             "method exact looks at one frame; expected mesh for several");
   EXPECT_THROW(TrajectoryAsker(camera_.view->robot()), std::invalid_argument);
 }

@@ -42,7 +42,10 @@ class ResultText : public testing::Test {
     distances.links = {ok_link(), link_without_distance(2, LinkStatus::none_in_range, 12),
                        link_without_distance(3, LinkStatus::not_visible, 0)};
     distances.pairs = 123456;
-    result.cameras = {{.name = "camera", .frame = 0, .state = {CameraStatus::ok, 0.25, 0}}};
+    result.cameras.resize(1);
+    result.cameras[0].name = "camera";
+    result.cameras[0].frame = 0;
+    result.cameras[0].state = {CameraStatus::ok, 0.25, 0, TimeStatus::ok};
     result.method = "exact";
     result.range_m = 1.0;
     result.stamp_s = 0.25;
