@@ -203,7 +203,7 @@ TEST_P(Answer, ARangeThatIsNoLengthIsRefusedByName) {
       FAIL() << range_m;
     } catch (const std::invalid_argument& error) {
       EXPECT_NE(std::string(error.what()).find("range_m"), std::string::npos);
-      EXPECT_NE(std::string(error.what()).find(std::to_string(range_m)), std::string::npos);
+      EXPECT_NE(std::string(error.what()).find(fmt::format("range_m: {};", range_m)), std::string::npos);
     }
   }
 }

@@ -254,12 +254,10 @@ RobotModel load_robot(const RobotSettings& settings) {
   assign_roles(settings, model);
   require_plausible_size(settings.urdf, model);
   if (model.evaluated_links.empty()) {
-    const bool visual = settings.geometry == GeometryKind::visual;
-    fail(settings, fmt::format("no link with {} geometry is left to evaluate; expected one at "
-                               "least{}",
-                               visual ? "visual" : "any",
-                               visual ? ", or geometry: collision to take the collision shapes"
-                                      : ""));
+    fail(settings, settings.geometry == GeometryKind::visual
+                       ? "no link with geometry is left to evaluate; expected one at least with "
+                         "visual shapes, or geometry: collision to take the collision shapes"
+                       : "no link with geometry is left to evaluate; expected one at least");
   }
   return model;
 }
