@@ -52,9 +52,9 @@ void try_point(CubeSearch& search, const Eigen::Vector3f& point_B_m, int triangl
 }
 
 /// A cube some of whose points may be hidden, against a leaf: its centre and its point nearest to
-/// the leaf are tried; returns a bound
-/// by the plane through the triangles' point nearest to it.
-float search_mixed(CubeSearch& search, int leaf, const Cube& cube) {
+/// the leaf are tried, unless another leaf was nearer (nearest_leaf_m); returns a bound by the
+/// plane through the triangles' point nearest to it.
+float search_mixed(CubeSearch& search, int leaf, const Cube& cube, float& nearest_leaf_m) {
   const Boxes box = box_of(cube);
   const double half_m = cube.edge_m() / 2;
   LinkSearch& link = search.link;
@@ -79,9 +79,12 @@ float search_mixed(CubeSearch& search, int leaf, const Cube& cube) {
   }
   const Eigen::Vector3f centre_m = (cube.corner_m().array() + half_m).cast<float>();
   const auto half = static_cast<float>(half_m);
-  const Eigen::Vector3f towards_m = nearest_m.cwiseMax(-half).cwiseMin(half);
-  try_point(search, centre_m + towards_m, triangle, (nearest_m - towards_m).norm());
-  try_point(search, centre_m, triangle, least_m);
+  if (least_m < nearest_leaf_m) {
+    nearest_leaf_m = least_m;
+    const Eigen::Vector3f towards_m = nearest_m.cwiseMax(-half).cwiseMin(half);
+    try_point(search, centre_m + towards_m, triangle, (nearest_m - towards_m).norm());
+    try_point(search, centre_m, triangle, least_m);
+  }
   float bound_m = least_m - 1.7321f * static_cast<float>(half_m);
   const float scale = 1 / std::max(least_m, 1e-12f);
   const Vectors n{Lanes(nearest_m.x() * scale), Lanes(nearest_m.y() * scale),
@@ -206,10 +209,11 @@ void search_full_cube(CubeSearch& search, const Cube& cube, Candidates& c) {
 float sharpen(CubeSearch& search, const Cube& cube, Candidates& c) {
   bound_candidates(search, box_of(cube), c);
   float least_m = HUGE_VALF;
+  float nearest_leaf_m = HUGE_VALF;
   for (int i = 0; i < c.count; ++i) {
     float bound_m = c.lower_m[i];
     if (bound_m < search.link.limit_m() && level_of(c.patch[i]) == 0) {
-      bound_m = std::max(bound_m, search_mixed(search, index_of(c.patch[i]), cube));
+      bound_m = std::max(bound_m, search_mixed(search, index_of(c.patch[i]), cube, nearest_leaf_m));
     }
     least_m = std::min(least_m, bound_m);
   }
