@@ -255,7 +255,7 @@ INSTANTIATE_TEST_SUITE_P(
                  {"scene.yaml", "link_padding_m", "\"uper\"", "expected one of", "upper"}},
         BadInput{"MethodUnknown",
                  set(&SceneLines::evaluation, "{method: guess}"),
-                 {"scene.yaml:10: evaluation.method: guess; expected one of exact, brute_force"}},
+                 {"scene.yaml:10: evaluation.method: guess; expected one of mesh, exact, brute_force"}},
         BadInput{"TimeLimitNegative",
                  set(&SceneLines::more, "time: {max_skew_s: -1}"),
                  {"scene.yaml:11: time.max_skew_s: -1; expected a number, 0 or more"}},

@@ -28,7 +28,7 @@ TEST(Run, JsonHasTheKeysOfTheSchemaAndNoOthers) {
     const Json& frame = frames[i];
     EXPECT_EQ(keys_of(frame),
               (std::set<std::string>{"schema", "frame", "stamp_s", "camera", "method", "range_m",
-                                     "links", "pairs", "self_filter", "time"}));
+                                     "cameras", "links", "pairs", "self_filter", "time"}));
     EXPECT_EQ(keys_of(frame["time"]),
               (std::set<std::string>{"status", "frame_age_s", "joints_age_s", "skew_s"}));
     EXPECT_EQ(frame["time"]["status"], "ok");

@@ -1,4 +1,6 @@
 // What an answer says, whatever the method.
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 

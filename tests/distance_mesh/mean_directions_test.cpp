@@ -45,13 +45,13 @@ TEST(MeshMeanDirection, IsThatOfAllReadingsWithinTheRange) {
           if (std::isnan(z)) continue;
           const Eigen::Vector3d q_C((u - 44) * z / 80, (v - 36) * z / 82, z);
           const Eigen::Vector3d way = X_BC[k] * q_C - p_B_m;
-          if (way.norm() > 3) continue;
+          if (way.norm() > 30) continue;
           sum += way.normalized();
           ++count;
         }
       }
     }
-    const MeanDirection found = mean_direction(views, p_B_m, 3);
+    const MeanDirection found = mean_direction(views, p_B_m, 30);
     EXPECT_EQ(found.count, count) << "nothing is cut by the range";
     EXPECT_LT((found.direction_B.cast<double>() - sum / count).norm(), 0.04);
   }

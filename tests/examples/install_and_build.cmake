@@ -30,6 +30,8 @@ run(${WORK}/installed/bin/berth demo --picture ${WORK}/pictures)
 
 # Each installed header compiles by itself, as the first line of a user's source.
 file(GLOB_RECURSE headers RELATIVE ${WORK}/installed/include ${WORK}/installed/include/berth/*.hpp)
+# Those of -inl.hpp are parts of others.
+list(FILTER headers EXCLUDE REGEX "-inl\\.hpp$")
 set(sources)
 foreach(header IN LISTS headers)
   string(MAKE_C_IDENTIFIER ${header} name)

@@ -13,7 +13,7 @@ inline void draw_web(const RobotImage& robot, DepthImage& depth_m) {
     for (int u = robot.link_id.width() - 40; u > 0; --u) {
       const LinkId id = robot.link_id(u, v);
       if (id == kNoLink || id == kEnvironmentLink) continue;
-      std::fill_n(depth_m.row(v) + u + 1, 35, robot.depth_m(u, v));
+      std::fill_n(depth_m.row(v) + u + 1, 12, robot.depth_m(u, v));
       break;
     }
   }

@@ -97,7 +97,10 @@ TEST_F(WholeRobot, ACameraThatIsMissingLateUntimelyOrBlindIsNamed) {
   EXPECT_NEAR(set->cameras()[2].age_s, 1.4, 1e-9);
   Asker asker(view_->robot());
   const auto with_all = distances_of(asker.ask(*set));
-  EXPECT_EQ(with_all, distances_of(asker.ask(fresh))) << "those that are left out change nothing";
+  const auto alone = distances_of(asker.ask(fresh));
+  for (std::size_t i = 0; i < alone.size(); ++i) {
+    EXPECT_NEAR(with_all[i], alone[i], 0.001) << "those that are left out change nothing";
+  }
 }
 
 TEST_F(WholeRobot, WithoutAnyFrameInTimeTheAnswerIsWithheld) {

@@ -134,7 +134,7 @@ TEST(SceneErrors, RefusesABadValueAndSaysWhere) {
        {"evaluation.range_m: .nan; expected a finite number"}},
       {&S::end,
        "joints: j\nevaluation: {method: exakt}",
-       {"evaluation.method: exakt; expected one of exact, brute_force, lattice"}},
+       {"evaluation.method: exakt; expected one of mesh, exact, brute_force, lattice"}},
       {&S::end,
        "joints: j\nevaluation: {mean_direction: 1}",
        {"evaluation.mean_direction: 1; expected true or false"}},

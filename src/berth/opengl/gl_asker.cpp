@@ -20,7 +20,7 @@ const Answer& GlAsker::ask(const GlFrame& frame, std::optional<double> now_s) {
   evaluate(frame, frame.robot);
   if (!asked_robot_->settings().visibility) return answer_;
   read_back(frame, seen_);
-  tell_visibility(seen_, {seen_.pose, seen_.X_BC, seen_.robot}, tell_, answer_);
+  tell_visibility(*asked_robot_, seen_, {seen_.pose, seen_.X_BC, seen_.robot}, tell_, answer_);
   return answer_;
 }
 
@@ -34,7 +34,7 @@ const Answer& GlAsker::ask(const GlFrame& frame, const JointState& joints,
   if (!asked_robot_->settings().visibility) return answer_;
   read_back(frame, seen_);
   read_back(robot_, asked_);
-  tell_visibility(seen_, {pose_, frame.X_BC, asked_}, tell_, answer_);
+  tell_visibility(*asked_robot_, seen_, {pose_, frame.X_BC, asked_}, tell_, answer_);
   return answer_;
 }
 
@@ -46,7 +46,7 @@ const Answer& GlAsker::ask(const Frame& frame, std::optional<double> now_s) {
                       {frame.view->camera(), frame.robot, asked_robot_->model().link_count(),
                        frame.searchable, settings.distance},
                       answer_.distances);
-  tell_visibility(frame, {frame.pose, frame.X_BC, frame.robot}, tell_, answer_);
+  tell_visibility(*asked_robot_, frame, {frame.pose, frame.X_BC, frame.robot}, tell_, answer_);
   return answer_;
 }
 

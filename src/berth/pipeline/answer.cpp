@@ -29,14 +29,17 @@ bool begin_answer(const Robot& robot, double frame_stamp_s, double joints_stamp_
   return false;
 }
 
-void tell_visibility(const Frame& frame, const AskedRobot& robot, TellWorkspace& workspace,
-                     Answer& out) {
+void tell_visibility(const Robot& asked, const Frame& frame, const AskedRobot& robot,
+                     TellWorkspace& workspace, Answer& out) {
+  if (!asked.settings().visibility) {
+    out.visibility.clear();
+    return;
+  }
   const View& view = *frame.view;
-  if (!view.robot()->settings().visibility) return;
   const SeenFrame seen{view.camera(), frame.robot, frame.obstacles,
                        tolerance_of(view.settings().self_filter)};
-  const double range_m = view.robot()->settings().distance.range_m;
-  find_visibility(view.robot()->model(), view.robot()->sample_points(), seen, robot, out.distances, range_m,
+  const double range_m = asked.settings().distance.range_m;
+  find_visibility(asked.model(), asked.sample_points(), seen, robot, out.distances, range_m,
                   workspace.visibility, out.visibility);
   find_doubtful_distances(view.camera(), robot.image, frame.doubtful, out.distances, range_m,
                           workspace.doubtful, out.visibility);

@@ -40,7 +40,7 @@ struct TellWorkspace {
 
 /// The last step of each question: fills the visibility where the settings ask for it.
 /// `robot` is the one that `out.distances` are about.
-void tell_visibility(const Frame& frame, const AskedRobot& robot,
+void tell_visibility(const Robot& asked, const Frame& frame, const AskedRobot& robot,
                      TellWorkspace& workspace, Answer& out);
 
 }  // namespace berth

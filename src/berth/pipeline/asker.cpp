@@ -44,7 +44,7 @@ const Answer& Asker::evaluate_robot(const Frame& frame, const AskedRobot& robot)
            {frame.view->camera(), robot.image, robot_->model().link_count(), frame.searchable,
             robot_->settings().distance},
            workspace_, answer_.distances);
-  tell_visibility(frame, robot, tell_, answer_);
+  tell_visibility(*robot_, frame, robot, tell_, answer_);
   return answer_;
 }
 

@@ -136,7 +136,8 @@ void add_space_pair(const LinkDistance& link, const FrameResult& result, Json& j
 
 Json link_json(const LinkDistance& link, const std::string& name, const FrameResult& result) {
   const bool ok = link.status == LinkStatus::ok;
-  const bool has_distance = ok || link.has_distance();
+  // Method mesh tells what is near a link that it does not see.
+  const bool has_distance = ok || (!result.asks_images && link.has_distance());
   Json json;
   json["id"] = link.id;
   json["link"] = name;

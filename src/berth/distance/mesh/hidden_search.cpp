@@ -251,6 +251,20 @@ HWY_INLINE void bound_child_cubes(const CubeSearch& search, const Cube& cube, co
   }
 }
 
+/// A cube of the least size, of which nobody can say whether it is hidden: no nearer point was
+/// missed than the bound that planes through the triangles give.
+void give_up(CubeSearch& search, const Cube& cube, const Candidates& parent) {
+  Candidates buffers[2];
+  buffers[0] = parent;
+  Candidates* now = &buffers[0];
+  Candidates* spare = &buffers[1];
+  refine_candidates(search, cube, true, now, spare);
+  if (now->count == 0) return;
+  LinkSearch& link = search.link;
+  const float bound_m = sharpen(search, cube, *now);
+  if (bound_m < link.limit_m()) link.given_up_m = std::min(link.given_up_m, std::max(bound_m, 0.0f));
+}
+
 void split_cube(CubeSearch& search, const Cube& cube, const Candidates& c, Fresh& fresh) {
   const CubeBlock block = search.space.block(cube);
   if (block.possible == 0) return;
@@ -266,7 +280,8 @@ void split_cube(CubeSearch& search, const Cube& cube, const Candidates& c, Fresh
     const Cube child = cube.child(i);
     const bool is_full = block.full >> i & 1;
     if (!is_full && child.level == 0) {
-      link.given_up_m = std::min(link.given_up_m, std::max(bound_m, 0.0f));
+      // A bound by patches of a centimetre is not the last word.
+      if (bound_m < link.given_up_m) give_up(search, child, c);
       continue;
     }
     if (!has_list) {
