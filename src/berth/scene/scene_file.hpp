@@ -49,6 +49,7 @@ struct SceneAttachment {
   std::string place;
 };
 
+/// A scene as its file describes it.
 struct SceneFile {
   std::filesystem::path file;
   RobotSettings robot;
