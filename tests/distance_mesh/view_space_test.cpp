@@ -45,8 +45,10 @@ void expect_same(const DepthCells& a, const DepthCells& b) {
     ASSERT_EQ(a.levels[i].nodes.size(), b.levels[i].nodes.size());
     for (std::size_t k = 0; k < a.levels[i].nodes.size(); ++k) {
       for (int c = 0; c < 2 * DepthCells::kChildren; ++c) {
-        ASSERT_EQ(a.levels[i].nodes[k].lo_m[0][c], b.levels[i].nodes[k].lo_m[0][c]) << k << " " << c;
-        ASSERT_EQ(a.levels[i].nodes[k].hi_m[0][c], b.levels[i].nodes[k].hi_m[0][c]) << k << " " << c;
+        const int half = c / DepthCells::kChildren, child = c % DepthCells::kChildren;
+        const DepthCells::Node &x = a.levels[i].nodes[k], &y = b.levels[i].nodes[k];
+        ASSERT_EQ(x.lo_m[half][child], y.lo_m[half][child]) << k << " " << c;
+        ASSERT_EQ(x.hi_m[half][child], y.hi_m[half][child]) << k << " " << c;
       }
     }
   }

@@ -103,8 +103,11 @@ void fill_row_of_cells(const DepthView& rows, DepthCells::Node* nodes, int first
 /// A cell that consists of a node's children.
 void fill_from_node(const DepthCells::Node& below, DepthCells::Node& node, int child) {
   constexpr int kCount = 2 * DepthCells::kChildren;
-  const float* lo_m = below.lo_m[0];
-  const float* hi_m = below.hi_m[0];
+  alignas(64) float lo_m[kCount], hi_m[kCount];
+  for (int half = 0; half < 2; ++half) {
+    std::copy_n(below.lo_m[half], DepthCells::kChildren, lo_m + half * DepthCells::kChildren);
+    std::copy_n(below.hi_m[half], DepthCells::kChildren, hi_m + half * DepthCells::kChildren);
+  }
   Lanes lo(Range{}.lo_m), hi(Range{}.hi_m);
   for (int i = 0; i < kCount; i += kLanes) {
     lo = least(lo, load(lo_m + i));
@@ -130,8 +133,8 @@ int divide_up(int a, int b) { return (a + b - 1) / b; }
 void clear(DepthCells::Level& level) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   for (DepthCells::Node& node : level.nodes) {
-    std::fill_n(node.lo_m[0], 2 * DepthCells::kChildren, kInfinity);
-    std::fill_n(node.hi_m[0], 2 * DepthCells::kChildren, -kInfinity);
+    for (auto& half : node.lo_m) std::fill_n(half, DepthCells::kChildren, kInfinity);
+    for (auto& half : node.hi_m) std::fill_n(half, DepthCells::kChildren, -kInfinity);
   }
 }
 
