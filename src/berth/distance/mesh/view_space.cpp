@@ -7,7 +7,9 @@ namespace berth {
 namespace {
 
 void copy(DepthView from, DepthImage& to) {
-  to.resize(from.width, from.height, kNoDepth);
+  if (to.width() != from.width || to.height() != from.height) {
+    to.resize(from.width, from.height, kNoDepth);
+  }
   for (int v = 0; v < from.height; ++v) std::copy_n(from.row(v), from.width, to.row(v));
 }
 
