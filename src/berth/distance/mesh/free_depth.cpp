@@ -34,12 +34,12 @@ using WholeTag = hn::Rebind<std::int32_t, FloatTag>;
 HWY_INLINE LaneMask is_nan(Lanes x) { return hn::Not(hn::Eq(x.v, x.v)); }
 
 /// What kLanes pixels say.
-struct Pixels {
+struct FreeDepthPixels {
   Lanes sensed_m;
   Lanes obstacle_m;
   hn::Vec<WholeTag> fate;
 
-  HWY_INLINE Pixels(const FreeDepthRow& row, int u)
+  HWY_INLINE FreeDepthPixels(const FreeDepthRow& row, int u)
       : sensed_m(load(row.sensed_m + u)),
         obstacle_m(load(row.obstacle_m + u)),
         fate(hn::PromoteTo(WholeTag(), hn::LoadU(FateTag(), row.fate + u))) {}
@@ -51,9 +51,7 @@ struct Pixels {
     const auto after = hn::Set(d, static_cast<int>(last) + 1);
     return hn::RebindMask(FloatTag(), hn::And(hn::Gt(fate, before), hn::Gt(after, fate)));
   }
-  HWY_INLINE LaneMask is_robot() const {
-    return is_within(PixelFate::robot, PixelFate::dilation);
-  }
+  HWY_INLINE LaneMask is_robot() const { return is_within(PixelFate::robot, PixelFate::dilation); }
   HWY_INLINE LaneMask is_dropped() const {
     static_assert(static_cast<int>(PixelFate::dilation) + 1 == static_cast<int>(PixelFate::edge));
     return is_within(PixelFate::edge, PixelFate::speckle);
@@ -69,7 +67,7 @@ bool fill_own(const FreeDepthRow& row, int width, float margin_m, float behind_m
   for_row(
       0, width,
       [&](int u) {
-        const Pixels pixels(row, u);
+        const FreeDepthPixels pixels(row, u);
         const Lanes robot_m = pixels.sensed_m + Lanes(behind_m);
         const Lanes before_m = pixels.obstacle_m - Lanes(margin_m);
         const Lanes background_m =
@@ -87,12 +85,12 @@ bool fill_own(const FreeDepthRow& row, int width, float margin_m, float behind_m
   return greatest_lane(holes) > 0;
 }
 
-/// Pixels without a reading, from the eight around them, which lie in the image.
+/// FreeDepthPixels without a reading, from the eight around them, which lie in the image.
 HWY_INLINE void fill_holes_at(const FreeDepthRow* rows, int first, int last, int u,
                               float* const* own_m) {
   constexpr float kLeastNeighbours = 5;
   const FloatTag d;
-  const LaneMask is_hole = Pixels(rows[1], u).is_hole();
+  const LaneMask is_hole = FreeDepthPixels(rows[1], u).is_hole();
   if (hn::AllFalse(d, is_hole)) return;
   Lanes readings(0.0f);
   for (int y = first; y <= last; ++y) {
@@ -106,7 +104,7 @@ HWY_INLINE void fill_holes_at(const FreeDepthRow* rows, int first, int last, int
   Lanes least_m(kMostDepth_m);
   for (int y = first; y <= last; ++y) {
     for (int x = u - 1; x <= u + 1; ++x) {
-      const Pixels pixels(rows[y], x);
+      const FreeDepthPixels pixels(rows[y], x);
       // NaN is nothing to take the least of: without an obstacle those say nothing whose own free
       // depth is the obstacle's.
       const LaneMask says = hn::Or(hn::Not(is_nan(pixels.obstacle_m)),
@@ -276,8 +274,8 @@ void find_own_free_depth(DepthView sensor_depth_m, const ObstacleImage& obstacle
       continue;
     }
     const ThreeRows around(sensor_depth_m, obstacles, out, v);
-    const bool has_holes = HWY_DYNAMIC_DISPATCH(fill_own)(
-        around.rows[1], width, margin_m, behind_m, is_free ? kEndless : 0, out.row(v));
+    const bool has_holes = HWY_DYNAMIC_DISPATCH(fill_own)(around.rows[1], width, margin_m, behind_m,
+                                                          is_free ? kEndless : 0, out.row(v));
     if (above_has_holes) fill_holes_of(v - 1);
     above_has_holes = has_holes && !is_free;
   }
