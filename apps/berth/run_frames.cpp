@@ -7,6 +7,7 @@
 
 #include "apps/berth/picture.hpp"
 #include "apps/support/progress_bar.hpp"
+#include "berth/distance/mesh/hidden_space.hpp"
 
 namespace berth::app {
 namespace {
@@ -23,23 +24,16 @@ void make_folder(const fs::path& folder) {
   }
 }
 
-/// The pixel that shows p_B; (-1, -1) outside the image.
-Pixel pixel_of(const Camera& camera, const Pose& X_CB, const Eigen::Vector3f& p_B_m) {
-  const Eigen::Vector3d p_C_m = X_CB * p_B_m.cast<double>();
-  if (!(p_C_m.z() > 0)) return {};
-  const double u = camera.fx_px * p_C_m.x() / p_C_m.z() + camera.cx_px + 0.5;
-  const double v = camera.fy_px * p_C_m.y() / p_C_m.z() + camera.cy_px + 0.5;
-  const bool is_inside = u >= 0 && v >= 0 && u < camera.width_px && v < camera.height_px;
-  return is_inside ? Pixel{static_cast<int>(u), static_cast<int>(v)} : Pixel{};
-}
-
 /// The pixels of each pair in this camera's image, whichever camera saw the obstacle.
 void project_pairs(const Camera& camera, const Pose& X_BC, LinkDistances& distances) {
   const Pose X_CB = X_BC.inverse();
   for (LinkDistance& link : distances.links) {
     if (!link.has_distance()) continue;
-    link.robot_pixel = pixel_of(camera, X_CB, link.robot_point_B_m);
-    link.obstacle_pixel = pixel_of(camera, X_CB, link.obstacle_point_B_m);
+    const auto pixel_at = [&](const Eigen::Vector3f& p_B_m) {
+      return pixel_of(camera, X_CB * p_B_m.cast<double>()).value_or(Pixel{});
+    };
+    link.robot_pixel = pixel_at(link.robot_point_B_m);
+    link.obstacle_pixel = pixel_at(link.obstacle_point_B_m);
   }
 }
 
