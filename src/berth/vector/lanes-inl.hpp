@@ -43,10 +43,26 @@ struct Lanes {
 
 HWY_INLINE Lanes operator+(Lanes a, Lanes b) { return hn::Add(a.v, b.v); }
 HWY_INLINE Lanes operator-(Lanes a, Lanes b) { return hn::Sub(a.v, b.v); }
+HWY_INLINE Lanes operator-(Lanes a) { return hn::Neg(a.v); }
 HWY_INLINE Lanes operator*(Lanes a, Lanes b) { return hn::Mul(a.v, b.v); }
+HWY_INLINE Lanes operator/(Lanes a, Lanes b) { return hn::Div(a.v, b.v); }
+/// A comparison with NaN does not hold.
+HWY_INLINE LaneMask operator<(Lanes a, Lanes b) { return hn::Lt(a.v, b.v); }
+HWY_INLINE LaneMask operator<=(Lanes a, Lanes b) { return hn::Le(a.v, b.v); }
+HWY_INLINE LaneMask operator>(Lanes a, Lanes b) { return hn::Gt(a.v, b.v); }
+HWY_INLINE LaneMask operator>=(Lanes a, Lanes b) { return hn::Ge(a.v, b.v); }
+HWY_INLINE LaneMask both(LaneMask a, LaneMask b) { return hn::And(a, b); }
+HWY_INLINE Lanes select(LaneMask mask, Lanes yes, Lanes no) {
+  return hn::IfThenElse(mask, yes.v, no.v);
+}
+/// a b + c, rounded once or twice, as the instruction set has it: not the same bits.
+HWY_INLINE Lanes mul_add(Lanes a, Lanes b, Lanes c) { return hn::MulAdd(a.v, b.v, c.v); }
+HWY_INLINE Lanes abs(Lanes a) { return hn::Abs(a.v); }
+HWY_INLINE Lanes root(Lanes a) { return hn::Sqrt(a.v); }
 /// For NaN different on different instruction sets, as `greatest`.
 HWY_INLINE Lanes least(Lanes a, Lanes b) { return hn::Min(a.v, b.v); }
 HWY_INLINE Lanes greatest(Lanes a, Lanes b) { return hn::Max(a.v, b.v); }
+HWY_INLINE Lanes clamp(Lanes x, Lanes lo, Lanes hi) { return least(greatest(x, lo), hi); }
 /// max(0, x), and NaN for NaN.
 HWY_INLINE Lanes positive_part(Lanes x) {
   return hn::IfThenZeroElse(hn::Lt(x.v, hn::Zero(FloatTag())), x.v);

@@ -50,12 +50,4 @@ inline int top_cube_at(double coordinate_m) {
   return static_cast<int>(std::floor((coordinate_m - Cube::kCorner_m) / edge_m));
 }
 
-/// What a cube's 64 children hold, one bit each.
-struct CubeBlock {
-  /// Some point of it may be hidden.
-  std::uint64_t possible = 0;
-  /// All points of it are obstacles.
-  std::uint64_t full = 0;
-};
-
 }  // namespace berth::mesh

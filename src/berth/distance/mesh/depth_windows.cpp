@@ -14,63 +14,44 @@ HWY_BEFORE_NAMESPACE();
 namespace berth {
 namespace HWY_NAMESPACE {
 
-/// Least and greatest of each 4 x 4 pixels of a few rows; a NaN counts as +inf.
-void fill_row_of_blocks(const DepthView& rows, float* least_of, float* greatest_of) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  constexpr int kPx = DepthWindows::kFirstStepPx;
-  constexpr int kStrip = kPx * kLanes;
-  alignas(64) float lo[kStrip], hi[kStrip], padded[kStrip];
-  for (int u = 0; u < rows.width; u += kStrip) {
-    std::fill_n(lo, kStrip, kInfinity);
-    std::fill_n(hi, kStrip, -kInfinity);
-    for (int v = 0; v < rows.height; ++v) {
-      const float* row = padded_row(rows.row(v) + u, rows.width - u, kStrip, padded);
-      for (int i = 0; i < kStrip; i += kLanes) {
-        const auto read = load(row + i).v;
-        const Lanes x = hn::IfThenElse(hn::Eq(read, read), read, Lanes(kInfinity).v);
-        store(least(load(lo + i), x), lo + i);
-        store(greatest(load(hi + i), x), hi + i);
-      }
+HWY_INLINE Lanes without_nan(Lanes x) {
+  return hn::IfThenElse(hn::Eq(x.v, x.v), x.v, Lanes(std::numeric_limits<float>::infinity()).v);
+}
+
+/// The least of each 2 x 2 pixels of two rows.
+void fill_row_of_pairs(const float* above, const float* below, int width, float* out) {
+  constexpr int kStrip = 2 * kLanes;
+  alignas(64) float padded[2][kStrip];
+  alignas(64) float strip[kStrip];
+  for (int u = 0; u < width; u += kStrip) {
+    const float* a = padded_row(above + u, width - u, kStrip, padded[0]);
+    const float* b = padded_row(below + u, width - u, kStrip, padded[1]);
+    for (int i = 0; i < kStrip; i += kLanes) {
+      store(least(without_nan(load(a + i)), without_nan(load(b + i))), strip + i);
     }
-    for (int count = kStrip; count > kLanes; count /= 2) {
-      halve_to_least(lo, count);
-      halve_to_greatest(hi, count);
-    }
-    const int blocks = std::min(kLanes, (rows.width - u + kPx - 1) / kPx);
-    std::copy_n(lo, blocks, least_of + u / kPx);
-    std::copy_n(hi, blocks, greatest_of + u / kPx);
+    halve_to_least(strip, kStrip);
+    std::copy_n(strip, std::min(kLanes, (width - u + 1) / 2), out + u / 2);
   }
 }
 
-/// Windows of one row from two rows of blocks.
-void fill_row_of_least(const float* above, const float* below, int columns, float* out) {
-  const auto one = [&](int i, int right) {
-    return std::min({above[i], above[right], below[i], below[right]});
-  };
+/// Of each number and the one `ahead` of it, of both rows; the last one stands for those beyond.
+void fill_row_of_least(const float* above, const float* below, int columns, int ahead, float* out) {
+  const int whole = std::max(0, columns - ahead);
   for_row(
-      0, columns - 1,
+      0, whole,
       [&](int i) {
-        store(least(least(load(above + i), load(above + i + 1)),
-                    least(load(below + i), load(below + i + 1))),
+        store(least(least(load(above + i), load(above + i + ahead)),
+                    least(load(below + i), load(below + i + ahead))),
               out + i);
       },
-      [&](int i) { out[i] = one(i, i + 1); });
-  out[columns - 1] = one(columns - 1, columns - 1);
-}
-
-void fill_row_of_greatest(const float* above, const float* below, int columns, float* out) {
-  const auto one = [&](int i, int right) {
-    return std::max({above[i], above[right], below[i], below[right]});
-  };
-  for_row(
-      0, columns - 1,
       [&](int i) {
-        store(greatest(greatest(load(above + i), load(above + i + 1)),
-                       greatest(load(below + i), load(below + i + 1))),
-              out + i);
-      },
-      [&](int i) { out[i] = one(i, i + 1); });
-  out[columns - 1] = one(columns - 1, columns - 1);
+        out[i] = std::min({above[i], above[i + ahead], below[i], below[i + ahead]});
+      });
+  float least_above = std::numeric_limits<float>::infinity();
+  for (int i = columns - 1; i >= whole; --i) {
+    least_above = std::min({least_above, above[i], below[i]});
+    out[i] = least_above;
+  }
 }
 
 }  // namespace HWY_NAMESPACE
@@ -80,75 +61,61 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace berth {
 
-HWY_EXPORT(fill_row_of_blocks);
+HWY_EXPORT(fill_row_of_pairs);
 HWY_EXPORT(fill_row_of_least);
-HWY_EXPORT(fill_row_of_greatest);
 
 namespace {
 
 int divide_up(int a, int b) { return (a + b - 1) / b; }
 
-/// Least and greatest of each 4 x 4 pixels.
-void fill_blocks(DepthView image, int columns, int rows, DepthWindows& windows) {
-  constexpr int kPx = DepthWindows::kFirstStepPx;
-  const std::size_t count = static_cast<std::size_t>(columns) * rows;
-  windows.least_of_blocks.resize(count);
-  windows.greatest_of_blocks.resize(count);
-  for (int j = 0; j < rows; ++j) {
-    const DepthView part{image.row(j * kPx), image.width, std::min(kPx, image.height - j * kPx),
-                         image.stride};
-    HWY_DYNAMIC_DISPATCH(fill_row_of_blocks)
-    (part, windows.least_of_blocks.data() + j * columns,
-     windows.greatest_of_blocks.data() + j * columns);
-  }
-}
-
-/// Each window from the 2 x 2 blocks of its own step that begin with it.
-void fill_windows(const DepthWindows& windows, DepthWindows::Level& level) {
+/// Windows that begin at each `every`-th one of `from`, of which there are `columns` x `rows`, and
+/// hold it and those `ahead` of it.
+void fill_level(const std::vector<float>& from, int columns, int rows, int ahead, int every,
+                std::vector<float>& row, DepthWindows::Level& level) {
+  level.columns = divide_up(columns, every);
+  level.rows = divide_up(rows, every);
+  level.least.resize(static_cast<std::size_t>(level.columns) * level.rows);
+  row.resize(columns);
   for (int j = 0; j < level.rows; ++j) {
-    const int first = j * level.columns;
-    const int below = std::min(j + 1, level.rows - 1) * level.columns;
-    const float* least = windows.least_of_blocks.data();
-    const float* greatest = windows.greatest_of_blocks.data();
+    const float* above = from.data() + static_cast<std::size_t>(every) * j * columns;
+    const float* below =
+        from.data() + static_cast<std::size_t>(std::min(every * j + ahead, rows - 1)) * columns;
+    float* out = level.least.data() + static_cast<std::size_t>(j) * level.columns;
     HWY_DYNAMIC_DISPATCH(fill_row_of_least)
-    (least + first, least + below, level.columns, level.least.data() + first);
-    HWY_DYNAMIC_DISPATCH(fill_row_of_greatest)
-    (greatest + first, greatest + below, level.columns, level.greatest.data() + first);
-  }
-}
-
-/// A block of twice the size is the window that begins with it.
-void double_blocks(const DepthWindows::Level& level, int columns, int rows, DepthWindows& windows) {
-  for (int j = 0; j < rows; ++j) {
-    for (int i = 0; i < columns; ++i) {
-      windows.least_of_blocks[j * columns + i] = level.least[2 * j * level.columns + 2 * i];
-      windows.greatest_of_blocks[j * columns + i] = level.greatest[2 * j * level.columns + 2 * i];
-    }
+    (above, below, columns, ahead, every == 1 ? out : row.data());
+    if (every == 1) continue;
+    for (int i = 0; i < level.columns; ++i) out[i] = row[every * i];
   }
 }
 
 }  // namespace
 
 void build_depth_windows(DepthView image, DepthWindows& windows) {
+  constexpr int kPair = DepthWindows::kFirstStepPx;
+  const int columns = divide_up(image.width, kPair);
+  const int rows = divide_up(image.height, kPair);
+  windows.pairs.resize(static_cast<std::size_t>(columns) * rows);
+  for (int j = 0; j < rows; ++j) {
+    HWY_DYNAMIC_DISPATCH(fill_row_of_pairs)
+    (image.row(kPair * j), image.row(std::min(kPair * j + 1, image.height - 1)), image.width,
+     windows.pairs.data() + static_cast<std::size_t>(j) * columns);
+  }
   windows.level_count = 0;
-  int step_px = DepthWindows::kFirstStepPx;
-  for (bool is_last = false; !is_last; step_px *= 2) {
-    if (static_cast<int>(windows.levels.size()) == windows.level_count) {
-      windows.levels.emplace_back();
-    }
-    DepthWindows::Level& level = windows.levels[windows.level_count++];
-    level.step_px = step_px;
-    level.columns = divide_up(image.width, step_px);
-    level.rows = divide_up(image.height, step_px);
-    if (windows.level_count == 1) {
-      fill_blocks(image, level.columns, level.rows, windows);
+  int side_px = DepthWindows::kFirstSidePx;
+  for (bool is_last = false; !is_last; side_px *= 2) {
+    const int n = windows.level_count++;
+    if (static_cast<int>(windows.levels.size()) == n) windows.levels.emplace_back();
+    DepthWindows::Level& level = windows.levels[n];
+    level.side_px = side_px;
+    level.step_px = std::max(kPair, side_px / 4);
+    if (n == 0) {
+      fill_level(windows.pairs, columns, rows, 1, 1, windows.row, level);
     } else {
-      double_blocks(windows.levels[windows.level_count - 2], level.columns, level.rows, windows);
+      const DepthWindows::Level& below = windows.levels[n - 1];
+      fill_level(below.least, below.columns, below.rows, below.side_px / below.step_px,
+                 level.step_px / below.step_px, windows.row, level);
     }
-    level.least.resize(static_cast<std::size_t>(level.columns) * level.rows);
-    level.greatest.resize(static_cast<std::size_t>(level.columns) * level.rows);
-    fill_windows(windows, level);
-    is_last = level.columns == 1 && level.rows == 1;
+    is_last = side_px >= std::max(image.width, image.height);
   }
 }
 

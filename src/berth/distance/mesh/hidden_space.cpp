@@ -93,22 +93,19 @@ std::optional<HidingPixel> HiddenSpace::hiding_pixel(const Eigen::Vector3d& p_B)
   return std::nullopt;
 }
 
-mesh::CubeBlock HiddenSpace::block(const mesh::Cube& cube) const {
+std::uint64_t HiddenSpace::block(const mesh::Cube& cube) const {
   constexpr int kMostProbes = 32;
   const std::uint64_t key = cube.key();
   std::uint32_t place = hash(key);
   Slot* slot = nullptr;
   for (int probe = 0; probe < kMostProbes; ++probe, place = (place + 1) % kSlots) {
     const std::uint64_t found = slots_[place].key.load(std::memory_order_acquire);
-    if (found == key) {
-      return {slots_[place].possible.load(std::memory_order_relaxed),
-              slots_[place].full.load(std::memory_order_relaxed)};
-    }
+    if (found == key) return slots_[place].possible.load(std::memory_order_relaxed);
     if (found != 0) continue;
     slot = &slots_[place];
     break;
   }
-  const mesh::CubeBlock block = mesh::find_block(views_, cube);
+  const std::uint64_t block = mesh::find_block(views_, cube);
   std::uint64_t expected = 0;
   if (slot == nullptr || used_count_.load(std::memory_order_relaxed) >= kMostBlocks ||
       !slot->key.compare_exchange_strong(expected, kBusy)) {
@@ -120,8 +117,7 @@ mesh::CubeBlock HiddenSpace::block(const mesh::Cube& cube) const {
     return block;
   }
   used_[number] = place;
-  slot->possible.store(block.possible, std::memory_order_relaxed);
-  slot->full.store(block.full, std::memory_order_relaxed);
+  slot->possible.store(block, std::memory_order_relaxed);
   slot->key.store(key, std::memory_order_release);
   return block;
 }

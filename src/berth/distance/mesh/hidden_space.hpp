@@ -65,8 +65,9 @@ class HiddenSpace {
   /// free by no other one (definition 5).
   std::optional<HidingPixel> hiding_pixel(const Eigen::Vector3d& p_B) const;
 
-  /// What the 64 cubes hold that `cube`, of a level above 0, consists of.
-  mesh::CubeBlock block(const mesh::Cube& cube) const;
+  /// Which of the 64 cubes that `cube`, of a level above 0, consists of may hold a hidden point:
+  /// one bit each.
+  std::uint64_t block(const mesh::Cube& cube) const;
 
   /// How many of them are kept.
   std::size_t kept_blocks() const;
@@ -75,7 +76,6 @@ class HiddenSpace {
   struct Slot {
     std::atomic<std::uint64_t> key{0};
     std::atomic<std::uint64_t> possible{0};
-    std::atomic<std::uint64_t> full{0};
   };
   /// E of a view that has aged.
   struct AgedView {

@@ -22,8 +22,11 @@ struct Frame {
 
 /// For points up to `reach_m` from the origins of both frames: a point is moved with four
 /// roundings, a bound adds three products of two.
+inline float rounding_m(float reach_m) {
+  return 16 * std::numeric_limits<float>::epsilon() * reach_m;
+}
 HWY_INLINE Frame make_frame(const Pose& X_FL, float reach_m) {
-  return {X_FL, motion_of(X_FL), 16 * std::numeric_limits<float>::epsilon() * reach_m};
+  return {X_FL, motion_of(X_FL), rounding_m(reach_m)};
 }
 
 /// One triangle against a body in doubles.

@@ -43,8 +43,24 @@ struct ImageCell {
   }
 };
 
-/// A cube all of whose points are obstacles.
-inline constexpr std::uint64_t kFullCube = std::uint64_t{1} << 63;
+/// How far the corners of cubes are from a link, as far as a search has asked; a corner may drive
+/// another one out.
+class CornerStore {
+ public:
+  struct Corner {
+    std::uint64_t key = 0;
+    float squared_m2 = 0;
+    /// The leaf that is nearest to it.
+    int leaf = 0;
+  };
+
+  void clear() { corners_.assign(kCount, {}); }
+  Corner& at(std::uint64_t key) { return corners_[(key * 0x9E3779B97F4A7C15u) >> 53]; }
+
+ private:
+  static constexpr std::size_t kCount = std::size_t{1} << 11;
+  std::vector<Corner> corners_;
+};
 
 struct LinkSearch {
   const LinkPatches* link = nullptr;
@@ -61,9 +77,7 @@ struct LinkSearch {
   bool best_is_hidden = false;
 
   ItemHeap items;
-  /// What items of a search in cubes call their patch: where in here the number of patches stands
-  /// that can be nearest to a point of the cube, and then these.
-  std::vector<std::uint32_t> patch_lists;
+  CornerStore corners;
   /// The least bound of what was too small to be searched on.
   float given_up_m = std::numeric_limits<float>::infinity();
 
@@ -87,9 +101,6 @@ void search_views(const HiddenSpace& space, bool to_shadow, int steps, LinkSearc
 
 /// The same among the cubes of hidden space.
 void search_cubes(const HiddenSpace& space, int steps, LinkSearch& search);
-
-/// Appends a list and returns its place.
-std::uint32_t keep_list(const std::uint32_t* patches, int count, LinkSearch& search);
 
 /// Both start with the whole link and all of space.
 void start_in_views(const HiddenSpace& space, LinkSearch& search);

@@ -7,13 +7,14 @@
 #define BERTH_MESH_PATCHES_INL_HPP
 #endif
 
-#include "berth/distance/mesh/lanes-inl.hpp"
 #include "berth/distance/mesh/robot_patches.hpp"
 #include "berth/types/camera.hpp"
+#include "berth/vector/lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace berth::mesh {
 namespace HWY_NAMESPACE {
+using namespace berth::HWY_NAMESPACE;
 
 struct Vectors {
   Lanes x, y, z;
@@ -28,7 +29,7 @@ HWY_INLINE Vectors mul_add(Lanes s, const Vectors& a, const Vectors& b) {
 HWY_INLINE Lanes dot(const Vectors& a, const Vectors& b) {
   return mul_add(a.x, b.x, mul_add(a.y, b.y, a.z * b.z));
 }
-HWY_INLINE Vectors select(Mask mask, const Vectors& a, const Vectors& b) {
+HWY_INLINE Vectors select(LaneMask mask, const Vectors& a, const Vectors& b) {
   return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
 }
 
@@ -167,13 +168,10 @@ HWY_INLINE Triangles load_triangles(const LinkPatches& link, int first, const Mo
           moved(X, {at(6), at(7), at(8)})};
 }
 
-HWY_INLINE Lanes ratio(Lanes a, Lanes b) {
-  return clamp(a / select(abs(b) > Lanes(0.0f), b, Lanes(1.0f)), Lanes(0.0f), Lanes(1.0f));
-}
-
-/// The nearest point of each triangle to p, by the region of the plane that p lies over.
+/// The nearest point of each triangle to p, a + s ab + u ac, by the region of the plane that p lies
+/// over; all regions share one division.
 HWY_INLINE Vectors nearest_in(const Triangles& t, const Vectors& p) {
-  const Lanes zero(0.0f);
+  const Lanes zero(0.0f), one(1.0f);
   const Vectors ab = t.b - t.a;
   const Vectors ac = t.c - t.a;
   const Vectors ap = p - t.a;
@@ -185,27 +183,33 @@ HWY_INLINE Vectors nearest_in(const Triangles& t, const Vectors& p) {
   const Lanes over_a = ab_b * ac_c - ab_c * ac_b;
   const Lanes over_b = ab_c * ac_a - ab_a * ac_c;
   const Lanes over_c = ab_a * ac_b - ab_b * ac_a;
-  const Lanes sum = over_a + over_b + over_c;
-  Lanes s = ratio(over_b, sum);
-  Lanes u = least(ratio(over_c, sum), Lanes(1.0f) - s);
+  Lanes s = over_b;
+  Lanes u = over_c;
+  Lanes of = over_a + over_b + over_c;
   // Edge b c, then a c, then a b.
   const Lanes from_b = ac_b - ab_b;
   const Lanes from_c = ab_c - ac_c;
-  const Mask on_bc = both(over_a <= zero, both(from_b >= zero, from_c >= zero));
-  const Lanes along_bc = ratio(from_b, from_b + from_c);
-  u = select(on_bc, along_bc, u);
-  s = select(on_bc, Lanes(1.0f) - along_bc, s);
-  const Mask on_ac = both(over_b <= zero, both(ac_a >= zero, ac_c <= zero));
-  u = select(on_ac, ratio(ac_a, ac_a - ac_c), u);
+  const LaneMask on_bc = both(over_a <= zero, both(from_b >= zero, from_c >= zero));
+  s = select(on_bc, from_c, s);
+  u = select(on_bc, from_b, u);
+  of = select(on_bc, from_b + from_c, of);
+  const LaneMask on_ac = both(over_b <= zero, both(ac_a >= zero, ac_c <= zero));
   s = select(on_ac, zero, s);
-  const Mask on_ab = both(over_c <= zero, both(ab_a >= zero, ab_b <= zero));
-  s = select(on_ab, ratio(ab_a, ab_a - ab_b), s);
+  u = select(on_ac, ac_a, u);
+  of = select(on_ac, ac_a - ac_c, of);
+  const LaneMask on_ab = both(over_c <= zero, both(ab_a >= zero, ab_b <= zero));
+  s = select(on_ab, ab_a, s);
   u = select(on_ab, zero, u);
-  const Mask at_a = both(ab_a <= zero, ac_a <= zero);
-  const Mask at_b = both(ab_b >= zero, ac_b <= ab_b);
-  const Mask at_c = both(ac_c >= zero, ab_c <= ac_c);
-  s = select(at_b, Lanes(1.0f), select(hn::Or(at_a, at_c), zero, s));
-  u = select(at_c, Lanes(1.0f), select(hn::Or(at_a, at_b), zero, u));
+  of = select(on_ab, ab_a - ab_b, of);
+  const LaneMask at_a = both(ab_a <= zero, ac_a <= zero);
+  const LaneMask at_b = both(ab_b >= zero, ac_b <= ab_b);
+  const LaneMask at_c = both(ac_c >= zero, ab_c <= ac_c);
+  const Lanes scale = one / select(abs(of) > zero, of, one);
+  s = clamp(s * scale, zero, one);
+  u = clamp(u * scale, zero, one - s);
+  // Where corners coincide, p may be at several.
+  s = select(at_b, one, select(hn::Or(at_a, at_c), zero, s));
+  u = select(hn::Or(at_a, at_b), zero, select(at_c, one, u));
   return mul_add(s, ab, mul_add(u, ac, t.a));
 }
 

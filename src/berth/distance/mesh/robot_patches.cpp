@@ -33,11 +33,15 @@ void sort_by_place(Triangle* begin, Triangle* end) {
   sort_by_place(middle, end);
 }
 
-struct Cylinder {
+struct Hull {
   Eigen::Vector3f centre_m;
   Eigen::Vector3f axis;
+  Eigen::Vector3f x;
+  Eigen::Vector3f y;
   float half_height_m;
   float radius_m;
+  float half_x_m;
+  float half_y_m;
 };
 
 /// The direction that most of the surface faces, whatever its winding.
@@ -52,12 +56,37 @@ Eigen::Vector3d facing(const Triangle* begin, const Triangle* end) {
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
 }
 
-Cylinder bounding_cylinder(const Triangle* begin, const Triangle* end) {
-  Cylinder cylinder;
-  cylinder.axis = facing(begin, end).normalized().cast<float>();
-  const Eigen::Vector3d m = cylinder.axis.cast<double>();
+/// The direction across m in which the corners lie farthest apart.
+Eigen::Vector3d longest_across(const Eigen::Vector3d& m, const Triangle* begin,
+                               const Triangle* end) {
   const Eigen::Vector3d x = m.unitOrthogonal();
   const Eigen::Vector3d y = m.cross(x);
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+  double count = 0;
+  for (const Triangle* t = begin; t != end; ++t) {
+    for (const auto& corner : t->corners_m) {
+      const Eigen::Vector3d p = (corner - begin->corners_m[0]).cast<double>();
+      const Eigen::Vector2d q(x.dot(p), y.dot(p));
+      sum += q;
+      spread += q * q.transpose();
+      ++count;
+    }
+  }
+  spread -= sum * sum.transpose() / count;
+  const Eigen::Vector2d longest =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(spread).eigenvectors().col(1);
+  return longest.x() * x + longest.y() * y;
+}
+
+Hull bounding_hull(const Triangle* begin, const Triangle* end) {
+  Hull hull;
+  hull.axis = facing(begin, end).normalized().cast<float>();
+  const Eigen::Vector3d m = hull.axis.cast<double>();
+  hull.x = longest_across(m, begin, end).normalized().cast<float>();
+  const Eigen::Vector3d x = hull.x.cast<double>();
+  hull.y = m.cross(x).normalized().cast<float>();
+  const Eigen::Vector3d y = hull.y.cast<double>();
   Eigen::AlignedBox3d box;
   for (const Triangle* t = begin; t != end; ++t) {
     for (const auto& corner : t->corners_m) {
@@ -66,39 +95,45 @@ Cylinder bounding_cylinder(const Triangle* begin, const Triangle* end) {
     }
   }
   const Eigen::Vector3d centre = box.center();
-  cylinder.centre_m = (centre.x() * x + centre.y() * y + centre.z() * m).cast<float>();
-  double half_height_m = 0;
+  hull.centre_m = (centre.x() * x + centre.y() * y + centre.z() * m).cast<float>();
+  Eigen::Vector3d half_m = Eigen::Vector3d::Zero();
   double radius_m = 0;
   for (const Triangle* t = begin; t != end; ++t) {
     for (const auto& corner : t->corners_m) {
-      const Eigen::Vector3d v = (corner - cylinder.centre_m).cast<double>();
-      half_height_m = std::max(half_height_m, std::abs(m.dot(v)));
+      const Eigen::Vector3d v = (corner - hull.centre_m).cast<double>();
+      half_m = half_m.cwiseMax(Eigen::Vector3d(x.dot(v), y.dot(v), m.dot(v)).cwiseAbs());
       radius_m = std::max(radius_m, (v - m.dot(v) * m).norm());
     }
   }
   // Above what the casts to float round away.
-  constexpr double kAbove = 1 + 1e-6;
-  cylinder.half_height_m = static_cast<float>(half_height_m * kAbove + 1e-7);
-  cylinder.radius_m = static_cast<float>(radius_m * kAbove + 1e-7);
-  return cylinder;
+  const auto above = [](double half) { return static_cast<float>(half * (1 + 1e-6) + 1e-7); };
+  hull.half_height_m = above(half_m.z());
+  hull.radius_m = above(radius_m);
+  hull.half_x_m = above(half_m.x());
+  hull.half_y_m = above(half_m.y());
+  return hull;
 }
 
-void push(const Cylinder& cylinder, PatchLevel& level) {
+void push(const Hull& hull, PatchLevel& level) {
   for (int k = 0; k < 3; ++k) {
-    level.centre_m[k].push_back(cylinder.centre_m[k]);
-    level.axis[k].push_back(cylinder.axis[k]);
+    level.centre_m[k].push_back(hull.centre_m[k]);
+    level.axis[k].push_back(hull.axis[k]);
+    level.x[k].push_back(hull.x[k]);
+    level.y[k].push_back(hull.y[k]);
   }
-  level.half_height_m.push_back(cylinder.half_height_m);
-  level.radius_m.push_back(cylinder.radius_m);
+  level.half_height_m.push_back(hull.half_height_m);
+  level.radius_m.push_back(hull.radius_m);
+  level.half_x_m.push_back(hull.half_x_m);
+  level.half_y_m.push_back(hull.half_y_m);
 }
 
 /// The patches of `size` triangles each.
 PatchLevel make_level(const std::vector<Triangle>& triangles, std::size_t size) {
   PatchLevel level;
-  Cylinder last{};
+  Hull last{};
   for (std::size_t i = 0; i < triangles.size(); i += size, ++level.count) {
-    last = bounding_cylinder(triangles.data() + i,
-                             triangles.data() + std::min(i + size, triangles.size()));
+    last = bounding_hull(triangles.data() + i,
+                         triangles.data() + std::min(i + size, triangles.size()));
     push(last, level);
   }
   while (level.radius_m.size() % kChildren != 0) push(last, level);

@@ -8,15 +8,21 @@
 
 namespace berth {
 
-/// Patches of one size of one link. Each holds its triangles in a cylinder: centre c, axis m of
-/// length 1, half height h, radius r. In the link's own frame L, metres; padded with copies of the
-/// last one to a multiple of 16.
+/// Patches of one size of one link. Each holds its triangles in a cylinder, centre c, axis m of
+/// length 1, half height h, radius r, and in a box about c of the same height, whose other sides
+/// lie along x and m x x. In the link's own frame L, metres; padded with copies of the last one to
+/// a multiple of 16.
 struct PatchLevel {
   int count = 0;
   std::array<std::vector<float>, 3> centre_m;
   std::array<std::vector<float>, 3> axis;
   std::vector<float> half_height_m;
   std::vector<float> radius_m;
+  /// x, y = m x x, and half of the box's sides along them.
+  std::array<std::vector<float>, 3> x;
+  std::array<std::vector<float>, 3> y;
+  std::vector<float> half_x_m;
+  std::vector<float> half_y_m;
 };
 
 /// One link's surface: patches of 16 triangles that lie side by side, 16 of these in each patch of

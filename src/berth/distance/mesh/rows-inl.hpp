@@ -26,8 +26,8 @@ HWY_INLINE void for_row(int begin, int end, Many many, One one) {
   if ((end - begin) % kLanes != 0) many(end - kLanes);
 }
 
-/// `wanted` numbers: those of the row, or where it has only `count` of them, a copy in `padded` that
-/// repeats the last one, which changes no least and no greatest.
+/// `wanted` numbers: those of the row, or where it has only `count` of them, a copy in `padded`
+/// that repeats the last one, which changes no least and no greatest.
 HWY_INLINE const float* padded_row(const float* row, int count, int wanted, float* padded) {
   if (count >= wanted) return row;
   std::copy_n(row, count, padded);

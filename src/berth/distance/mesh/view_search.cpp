@@ -169,7 +169,7 @@ HWY_INLINE void bound_pixels(const ViewSearch& search, const Patches& patch, con
                 .hi_m[cell.half][cell.v % 4 * 4 + cell.u % 4];
   for (int i = 0; i < 64; i += kLanes) {
     const Lanes d = load(depth_m + i);
-    const Mask valid =
+    const LaneMask valid =
         both(both(d >= Lanes(parent.d), d <= Lanes(parent_hi_m)), d <= Lanes(view.far_m));
     const Lanes depth = select(valid, d, Lanes(1.0f));
     const Lanes end = search.to_shadow
@@ -235,7 +235,7 @@ void split_cell(ViewSearch& search, const Item& item, const ImageCell& cell, con
     for (int i = 0; i < DepthCells::kChildren; i += kLanes) {
       const Lanes lo = load(node.lo_m[half] + i);
       const Lanes hi = load(node.hi_m[half] + i);
-      Mask valid = both(both(lo >= Lanes(chunk.d), lo <= Lanes(view.far_m)), lo <= hi);
+      LaneMask valid = both(both(lo >= Lanes(chunk.d), lo <= Lanes(view.far_m)), lo <= hi);
       if (!search.to_shadow) valid = both(valid, hi <= Lanes(parent_hi_m));
       if (bits_of(valid) == 0) continue;
       const Lanes place = count_up(static_cast<float>(i));
