@@ -5,7 +5,7 @@
 namespace berth::mesh {
 namespace {
 
-bool is_later(const Item& a, const Item& b) { return a.bound_m > b.bound_m; }
+constexpr auto is_later = [](const Item& a, const Item& b) { return a.bound_m > b.bound_m; };
 
 }  // namespace
 
