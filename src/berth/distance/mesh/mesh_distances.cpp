@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "berth/distance/mesh/link_search.hpp"
+
 namespace berth {
 namespace mesh {
 
@@ -25,8 +27,12 @@ ConvexPair triangle_pair(const LinkSearch& search, const Pose& X_FL, int triangl
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using LinkState = MeshWorkspace::LinkState;
 using mesh::LinkSearch;
+
+struct LinkState {
+  LinkSearch reading;
+  LinkSearch nearest;
+};
 
 constexpr int kEndless = 1 << 30;
 /// Below it the roundings of bounds would keep a search from ending.
@@ -238,15 +244,25 @@ WholeLinkDistance answer_of(const Asked& asked, LinkId id, const LinkState& link
 
 }  // namespace
 
+struct MeshWorkspace::State {
+  std::vector<LinkState> links;
+};
+
+MeshWorkspace::MeshWorkspace() : state_(std::make_unique<State>()) {}
+MeshWorkspace::~MeshWorkspace() = default;
+MeshWorkspace::MeshWorkspace(MeshWorkspace&&) noexcept = default;
+MeshWorkspace& MeshWorkspace::operator=(MeshWorkspace&&) noexcept = default;
+
 void mesh_distances(const RobotPatches& robot, const RobotPose& pose, const HiddenSpace& space,
                     const MeshQuestion& question, MeshWorkspace& workspace,
                     std::vector<WholeLinkDistance>& out) {
   const Clock::time_point begin = Clock::now();
   validate(question);
   const Asked asked{space, question};
-  workspace.links.resize(robot.links.size());
+  std::vector<LinkState>& links = workspace.state_->links;
+  links.resize(robot.links.size());
   for (std::size_t i = 0; i < robot.links.size(); ++i) {
-    LinkState& link = workspace.links[i];
+    LinkState& link = links[i];
     const Pose& X_BL = pose.X_BL[robot.links[i].link];
     start(robot.links[i], X_BL, question, link.reading);
     start(robot.links[i], X_BL, question, link.nearest);
@@ -255,14 +271,14 @@ void mesh_distances(const RobotPatches& robot, const RobotPose& pose, const Hidd
   }
   if (question.deadline_us) {
     const std::chrono::duration<double, std::micro> wait(std::min(*question.deadline_us, 1e12));
-    search_until(asked, begin + std::chrono::duration_cast<Clock::duration>(wait), workspace.links);
+    search_until(asked, begin + std::chrono::duration_cast<Clock::duration>(wait), links);
   } else {
-    tbb::parallel_for(std::size_t{0}, workspace.links.size(),
-                      [&](std::size_t i) { search_to_the_end(asked, workspace.links[i]); });
+    tbb::parallel_for(std::size_t{0}, links.size(),
+                      [&](std::size_t i) { search_to_the_end(asked, links[i]); });
   }
   out.resize(robot.links.size());
   for (std::size_t i = 0; i < out.size(); ++i) {
-    out[i] = answer_of(asked, static_cast<LinkId>(i + 1), workspace.links[i]);
+    out[i] = answer_of(asked, static_cast<LinkId>(i + 1), links[i]);
   }
 }
 

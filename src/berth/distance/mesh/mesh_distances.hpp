@@ -1,9 +1,9 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "berth/distance/mesh/hidden_space.hpp"
-#include "berth/distance/mesh/link_search.hpp"
 #include "berth/distance/mesh/robot_patches.hpp"
 #include "berth/distance/mesh/settings.hpp"
 #include "berth/robot/kinematics.hpp"
@@ -13,12 +13,18 @@ namespace berth {
 
 /// The memory of mesh_distances(), made once and used for every question; one for each thread that
 /// asks. It carries nothing from one answer to the next.
-struct MeshWorkspace {
-  struct LinkState {
-    mesh::LinkSearch reading;
-    mesh::LinkSearch nearest;
-  };
-  std::vector<LinkState> links;
+class MeshWorkspace {
+ public:
+  MeshWorkspace();
+  ~MeshWorkspace();
+  MeshWorkspace(MeshWorkspace&&) noexcept;
+  MeshWorkspace& operator=(MeshWorkspace&&) noexcept;
+
+ private:
+  friend void mesh_distances(const RobotPatches&, const RobotPose&, const HiddenSpace&,
+                             const MeshQuestion&, MeshWorkspace&, std::vector<WholeLinkDistance>&);
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
 /// Per link the least distance from all sides of its mesh to what the cameras of `space` saw or
