@@ -20,10 +20,11 @@ void withhold(const Robot& robot, Answer& out) {
 }  // namespace
 
 bool begin_answer(const Robot& robot, double frame_stamp_s, double joints_stamp_s,
-                  const Timeliness& time, Answer& out) {
+                  const Timeliness& time, std::span<const CameraState> cameras, Answer& out) {
   out.frame_stamp_s = frame_stamp_s;
   out.joints_stamp_s = joints_stamp_s;
   out.time = time;
+  out.cameras.assign(cameras.begin(), cameras.end());
   if (time.status == TimeStatus::ok) return true;
   withhold(robot, out);
   return false;
