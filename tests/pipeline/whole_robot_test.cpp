@@ -147,6 +147,22 @@ TEST_F(WholeRobot, AWithheldAnswerHasTheCamerasOfItsOwnQuestion) {
   ASSERT_EQ(asker.ask(left, no_joints, left.stamp_s).cameras.size(), 1U);
 }
 
+TEST_F(WholeRobot, AFrameThatNobodyObservedIsNoFrame) {
+  for (const auto& robot : {view_->robot(), camera_.view->robot()}) {
+    Asker asker(robot);
+    EXPECT_EQ(asker.ask(Frame()).time.status, TimeStatus::no_frame);
+    const Answer& answer = asker.ask(Frame(), camera_.at_exposure[17], 1.7);
+    EXPECT_EQ(answer.time.status, TimeStatus::no_frame);
+    EXPECT_TRUE(std::isnan(answer.time.frame_age_s));
+    for (const LinkDistance& link : answer.distances.links) {
+      EXPECT_EQ(link.status, LinkStatus::untimely);
+    }
+    for (const CameraState& camera : answer.cameras) {
+      EXPECT_EQ(camera.status, CameraStatus::no_frame);
+    }
+  }
+}
+
 TEST_F(WholeRobot, NothingSeenIsNotFree) {
   Frame frame;
   Observer(view_).observe(DepthImage(640, 480, kNoDepth), camera_.at_exposure[17], frame);

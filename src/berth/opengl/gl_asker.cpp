@@ -27,7 +27,8 @@ const Answer& GlAsker::ask(const GlFrame& frame, std::optional<double> now_s) {
 const Answer& GlAsker::ask(const GlFrame& frame, const JointState& joints,
                            std::optional<double> now_s) {
   const Timeliness time = timeliness_of(frame, joints.stamp_s, now_s, asked_robot_->settings().time);
-  if (!begin_answer(*asked_robot_, frame.stamp_s, joints.stamp_s, time, {}, answer_)) return answer_;
+  if (!begin_answer(*asked_robot_, frame.stamp_s, joints.stamp_s, time, {}, answer_))
+    return answer_;
   forward_kinematics(asked_robot_->model(), joints.position, pose_);
   render(pose_, frame);
   evaluate(frame, robot_);

@@ -56,8 +56,7 @@ bool Asker::begin(const Frame& frame, double joints_stamp_s, std::optional<doubl
 }
 
 bool Asker::begin(const FrameSet& frames, double joints_stamp_s, const Timeliness& time) {
-  return begin_answer(*robot_, stamp_s_of(frames), joints_stamp_s, time, frames.cameras(),
-                      answer_);
+  return begin_answer(*robot_, stamp_s_of(frames), joints_stamp_s, time, frames.cameras(), answer_);
 }
 
 const Answer& Asker::evaluate_robot(const Frame& frame, const AskedRobot& robot) {
@@ -101,8 +100,7 @@ const Answer& Asker::evaluate_mesh(const FrameSet& frames, const RobotPose& pose
 }
 
 const FrameSet& Asker::set_of(const Frame& frame) {
-  const auto asked = alone_.frames();
-  if (alone_number_ == frame.number && asked.front() == &frame) return alone_;
+  if (alone_.newest() == &frame && alone_number_ == frame.number) return alone_;
   const Frame* one = &frame;
   // Its age is judged at each question.
   alone_.assign({&one, 1}, robot_->settings().time);

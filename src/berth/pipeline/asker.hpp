@@ -69,6 +69,7 @@ class Asker {
   /// With method `mesh`.
   std::optional<MeshAsker> mesh_;
   FrameSet alone_;
+  /// Which exposure `alone_` is of: a frame that is observed anew keeps its address.
   std::uint64_t alone_number_ = 0;
   Answer answer_;
 };
