@@ -29,8 +29,8 @@ struct Answer {
 };
 
 /// The first step of each question: writes the stamps and what became of the cameras (none, but
-/// with method `mesh`). Whether the answer is in time; if not it is withheld, with every link
-/// untimely.
+/// with method `mesh`), and sets visibility to nothing known. Whether the answer is in time; if not
+/// it is withheld, with every link untimely.
 bool begin_answer(const Robot& robot, double frame_stamp_s, double joints_stamp_s,
                   const Timeliness& time, std::span<const CameraState> cameras, Answer& out);
 
