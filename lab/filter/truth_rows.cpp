@@ -17,7 +17,7 @@ namespace {
 constexpr const char* kDefaultSettings = "defaults: ";
 constexpr const char* kSettingsTable = "Settings of the self filter: ";
 
-/// Each kind of sensor that measure_trust tries the self filter's settings on, its settings the
+/// Each kind of sensor that berth_trust tries the self filter's settings on, its settings the
 /// default ones.
 std::vector<Condition> sensors() {
   std::vector<Condition> found;
@@ -40,7 +40,7 @@ std::vector<Condition> with_choices(const Condition& sensor,
   return conditions;
 }
 
-/// The scenes that measure_trust draws.
+/// The scenes that berth_trust draws.
 std::vector<Trial> run_trials(const std::vector<TrialRobot>& robots,
                               const std::vector<Condition>& conditions, int scenes) {
   constexpr std::pair<int, int> kSizes_px[] = {{224, 172}, {320, 240}, {640, 480}};

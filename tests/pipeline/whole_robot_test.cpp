@@ -122,6 +122,47 @@ TEST_F(WholeRobot, WithoutAnyFrameInTimeTheAnswerIsWithheld) {
   }
 }
 
+TEST_F(WholeRobot, AWithheldAnswerHasTheCamerasOfItsOwnQuestion) {
+  Frame left, right, untimely;
+  observe(17, left);
+  observe(17, right);
+  FrameTime skewed;
+  skewed.status = TimeStatus::skewed;
+  Observer(view_).observe(camera_.read_depth(17), camera_.at_exposure[17], untimely, skewed);
+  const auto both = set_of({&left, &right});
+  Asker asker(view_->robot());
+  EXPECT_EQ(asker.ask(*both).cameras.size(), 2U);
+  ASSERT_EQ(asker.ask(untimely).cameras.size(), 1U);
+  EXPECT_EQ(asker.ask(untimely).cameras[0].status, CameraStatus::untimely);
+  EXPECT_EQ(asker.ask(untimely).cameras[0].time, TimeStatus::skewed);
+
+  const double late_s = left.stamp_s + 1;
+  EXPECT_EQ(asker.ask(*both).cameras.size(), 2U);
+  ASSERT_EQ(asker.ask(left, camera_.at_exposure[17], late_s).cameras.size(), 1U);
+  EXPECT_EQ(asker.ask(left, late_s).cameras[0].status, CameraStatus::too_old);
+  EXPECT_NEAR(asker.ask(left, late_s).cameras[0].age_s, 1, 1e-9);
+
+  const JointBuffer no_joints(view_->robot()->model(), 2);
+  EXPECT_EQ(asker.ask(*both, no_joints, left.stamp_s).cameras.size(), 2U);
+  ASSERT_EQ(asker.ask(left, no_joints, left.stamp_s).cameras.size(), 1U);
+}
+
+TEST_F(WholeRobot, AFrameThatNobodyObservedIsNoFrame) {
+  for (const auto& robot : {view_->robot(), camera_.view->robot()}) {
+    Asker asker(robot);
+    EXPECT_EQ(asker.ask(Frame()).time.status, TimeStatus::no_frame);
+    const Answer& answer = asker.ask(Frame(), camera_.at_exposure[17], 1.7);
+    EXPECT_EQ(answer.time.status, TimeStatus::no_frame);
+    EXPECT_TRUE(std::isnan(answer.time.frame_age_s));
+    for (const LinkDistance& link : answer.distances.links) {
+      EXPECT_EQ(link.status, LinkStatus::untimely);
+    }
+    for (const CameraState& camera : answer.cameras) {
+      EXPECT_EQ(camera.status, CameraStatus::no_frame);
+    }
+  }
+}
+
 TEST_F(WholeRobot, NothingSeenIsNotFree) {
   Frame frame;
   Observer(view_).observe(DepthImage(640, 480, kNoDepth), camera_.at_exposure[17], frame);

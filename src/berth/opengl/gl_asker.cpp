@@ -16,7 +16,7 @@ GlAsker::GlAsker(std::shared_ptr<const Robot> robot) : asked_robot_(std::move(ro
 
 const Answer& GlAsker::ask(const GlFrame& frame, std::optional<double> now_s) {
   const Timeliness time = timeliness_of(frame, now_s, asked_robot_->settings().time);
-  if (!begin_answer(*asked_robot_, frame.stamp_s, frame.stamp_s, time, answer_)) return answer_;
+  if (!begin_answer(*asked_robot_, frame.stamp_s, frame.stamp_s, time, {}, answer_)) return answer_;
   evaluate(frame, frame.robot);
   if (!asked_robot_->settings().visibility) return answer_;
   read_back(frame, seen_);
@@ -27,7 +27,8 @@ const Answer& GlAsker::ask(const GlFrame& frame, std::optional<double> now_s) {
 const Answer& GlAsker::ask(const GlFrame& frame, const JointState& joints,
                            std::optional<double> now_s) {
   const Timeliness time = timeliness_of(frame, joints.stamp_s, now_s, asked_robot_->settings().time);
-  if (!begin_answer(*asked_robot_, frame.stamp_s, joints.stamp_s, time, answer_)) return answer_;
+  if (!begin_answer(*asked_robot_, frame.stamp_s, joints.stamp_s, time, {}, answer_))
+    return answer_;
   forward_kinematics(asked_robot_->model(), joints.position, pose_);
   render(pose_, frame);
   evaluate(frame, robot_);
@@ -40,7 +41,7 @@ const Answer& GlAsker::ask(const GlFrame& frame, const JointState& joints,
 
 const Answer& GlAsker::ask(const Frame& frame, std::optional<double> now_s) {
   const Timeliness time = timeliness_of(frame, now_s, asked_robot_->settings().time);
-  if (!begin_answer(*asked_robot_, frame.stamp_s, frame.stamp_s, time, answer_)) return answer_;
+  if (!begin_answer(*asked_robot_, frame.stamp_s, frame.stamp_s, time, {}, answer_)) return answer_;
   const EvaluationSettings& settings = asked_robot_->settings();
   evaluator_.evaluate(settings.method,
                       {frame.view->camera(), frame.robot, asked_robot_->model().link_count(),

@@ -12,18 +12,24 @@ void withhold(const Robot& robot, Answer& out) {
     link.id = ++id;
     link.status = LinkStatus::untimely;
   }
-  if (!robot.settings().visibility) return;
-  out.visibility.clear();
-  for (const LinkDistance& link : out.distances.links) out.visibility.emplace_back().id = link.id;
+}
+
+/// Nothing is known of any link; empty where nobody asks for it.
+void reset_visibility(const Robot& robot, Answer& out) {
+  out.visibility.assign(robot.settings().visibility ? robot.model().link_count() : 0, {});
+  LinkId id = kNoLink;
+  for (LinkVisibility& link : out.visibility) link.id = ++id;
 }
 
 }  // namespace
 
 bool begin_answer(const Robot& robot, double frame_stamp_s, double joints_stamp_s,
-                  const Timeliness& time, Answer& out) {
+                  const Timeliness& time, std::span<const CameraState> cameras, Answer& out) {
   out.frame_stamp_s = frame_stamp_s;
   out.joints_stamp_s = joints_stamp_s;
   out.time = time;
+  out.cameras.assign(cameras.begin(), cameras.end());
+  reset_visibility(robot, out);
   if (time.status == TimeStatus::ok) return true;
   withhold(robot, out);
   return false;
@@ -31,10 +37,7 @@ bool begin_answer(const Robot& robot, double frame_stamp_s, double joints_stamp_
 
 void tell_visibility(const Robot& asked, const Frame& frame, const AskedRobot& robot,
                      TellWorkspace& workspace, Answer& out) {
-  if (!asked.settings().visibility) {
-    out.visibility.clear();
-    return;
-  }
+  if (!asked.settings().visibility) return;
   const View& view = *frame.view;
   const SeenFrame seen{view.camera(), frame.robot, frame.obstacles,
                        tolerance_of(view.settings().self_filter)};

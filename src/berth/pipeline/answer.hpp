@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "berth/pipeline/frame.hpp"
@@ -27,10 +28,11 @@ struct Answer {
   std::vector<LinkVisibility> visibility;
 };
 
-/// The first step of each question: writes the stamps. Whether the answer is in time; if not it is
-/// withheld, with every link untimely.
+/// The first step of each question: writes the stamps and what became of the cameras (none, but
+/// with method `mesh`), and sets visibility to nothing known. Whether the answer is in time; if not
+/// it is withheld, with every link untimely.
 bool begin_answer(const Robot& robot, double frame_stamp_s, double joints_stamp_s,
-                  const Timeliness& time, Answer& out);
+                  const Timeliness& time, std::span<const CameraState> cameras, Answer& out);
 
 /// The memory of tell_visibility(), one for each thread.
 struct TellWorkspace {

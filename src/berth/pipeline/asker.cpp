@@ -4,6 +4,14 @@
 #include <string>
 
 namespace berth {
+namespace {
+
+/// NaN where no frame is used.
+double stamp_s_of(const FrameSet& frames) {
+  return frames.newest() ? frames.newest()->stamp_s : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
 
 Asker::Asker(std::shared_ptr<const Robot> robot) : robot_(std::move(robot)) {
   const Method method = robot_->settings().method;
@@ -15,7 +23,7 @@ Asker::Asker(std::shared_ptr<const Robot> robot) : robot_(std::move(robot)) {
 
 const Answer& Asker::ask(const Frame& frame, std::optional<double> now_s) {
   const Timeliness time = timeliness_of(frame, now_s, robot_->settings().time);
-  if (!begin_answer(*robot_, frame.stamp_s, frame.stamp_s, time, answer_)) return answer_;
+  if (!begin(frame, frame.stamp_s, now_s, time)) return answer_;
   if (mesh_) return evaluate_mesh(set_of(frame), frame.pose);
   return evaluate_robot(frame, {frame.pose, frame.X_BC, frame.robot});
 }
@@ -23,7 +31,7 @@ const Answer& Asker::ask(const Frame& frame, std::optional<double> now_s) {
 const Answer& Asker::ask(const Frame& frame, const JointState& joints,
                          std::optional<double> now_s) {
   const Timeliness time = timeliness_of(frame, joints.stamp_s, now_s, robot_->settings().time);
-  if (!begin_answer(*robot_, frame.stamp_s, joints.stamp_s, time, answer_)) return answer_;
+  if (!begin(frame, joints.stamp_s, now_s, time)) return answer_;
   forward_kinematics(robot_->model(), joints.position, pose_);
   if (mesh_) return evaluate_mesh(set_of(frame), pose_);
   renderer_of(frame.view).render(pose_, frame.X_BC, image_);
@@ -35,8 +43,20 @@ const Answer& Asker::ask(const Frame& frame, const JointBuffer& joints, double n
   if (status == TimeStatus::ok) return ask(frame, newest_, now_s);
   Timeliness time = timeliness_of(frame, newest_.stamp_s, now_s, robot_->settings().time);
   time.status = status;
-  begin_answer(*robot_, frame.stamp_s, newest_.stamp_s, time, answer_);
+  begin(frame, newest_.stamp_s, now_s, time);
   return answer_;
+}
+
+bool Asker::begin(const Frame& frame, double joints_stamp_s, std::optional<double> now_s,
+                  const Timeliness& time) {
+  const CameraState camera =
+      camera_state(&frame, now_s.value_or(frame.stamp_s), robot_->settings().time);
+  return begin_answer(*robot_, frame.stamp_s, joints_stamp_s, time,
+                      {&camera, mesh_ ? std::size_t{1} : 0}, answer_);
+}
+
+bool Asker::begin(const FrameSet& frames, double joints_stamp_s, const Timeliness& time) {
+  return begin_answer(*robot_, stamp_s_of(frames), joints_stamp_s, time, frames.cameras(), answer_);
 }
 
 const Answer& Asker::evaluate_robot(const Frame& frame, const AskedRobot& robot) {
@@ -51,21 +71,15 @@ const Answer& Asker::evaluate_robot(const Frame& frame, const AskedRobot& robot)
 const Answer& Asker::ask(const FrameSet& frames, std::optional<double> now_s) {
   require_mesh();
   const Timeliness time = timeliness_of(frames, now_s, robot_->settings().time);
-  const Frame* newest = frames.newest();
-  const double stamp_s = newest ? newest->stamp_s : std::numeric_limits<double>::quiet_NaN();
-  answer_.cameras = frames.cameras();
-  if (!begin_answer(*robot_, stamp_s, stamp_s, time, answer_)) return answer_;
-  return evaluate_mesh(frames, newest->pose);
+  if (!begin(frames, stamp_s_of(frames), time)) return answer_;
+  return evaluate_mesh(frames, frames.newest()->pose);
 }
 
 const Answer& Asker::ask(const FrameSet& frames, const JointState& joints,
                          std::optional<double> now_s) {
   require_mesh();
   const Timeliness time = timeliness_of(frames, joints.stamp_s, now_s, robot_->settings().time);
-  const Frame* newest = frames.newest();
-  const double stamp_s = newest ? newest->stamp_s : std::numeric_limits<double>::quiet_NaN();
-  answer_.cameras = frames.cameras();
-  if (!begin_answer(*robot_, stamp_s, joints.stamp_s, time, answer_)) return answer_;
+  if (!begin(frames, joints.stamp_s, time)) return answer_;
   forward_kinematics(robot_->model(), joints.position, pose_);
   return evaluate_mesh(frames, pose_);
 }
@@ -76,22 +90,17 @@ const Answer& Asker::ask(const FrameSet& frames, const JointBuffer& joints, doub
   require_mesh();
   Timeliness time = timeliness_of(frames, newest_.stamp_s, now_s, robot_->settings().time);
   time.status = status;
-  answer_.cameras = frames.cameras();
-  const Frame* newest = frames.newest();
-  begin_answer(*robot_, newest ? newest->stamp_s : std::numeric_limits<double>::quiet_NaN(),
-               newest_.stamp_s, time, answer_);
+  begin(frames, newest_.stamp_s, time);
   return answer_;
 }
 
 const Answer& Asker::evaluate_mesh(const FrameSet& frames, const RobotPose& pose) {
-  answer_.cameras = frames.cameras();
   mesh_->ask(frames, pose, answer_);
   return answer_;
 }
 
 const FrameSet& Asker::set_of(const Frame& frame) {
-  const auto asked = alone_.frames();
-  if (alone_number_ == frame.number && asked.front() == &frame) return alone_;
+  if (alone_.newest() == &frame && alone_number_ == frame.number) return alone_;
   const Frame* one = &frame;
   // Its age is judged at each question.
   alone_.assign({&one, 1}, robot_->settings().time);

@@ -46,6 +46,10 @@ class Asker {
   const RobotImage& robot_image() const { return image_; }
 
  private:
+  /// The first step of each question: whether the answer is in time, else it is withheld.
+  bool begin(const Frame& frame, double joints_stamp_s, std::optional<double> now_s,
+             const Timeliness& time);
+  bool begin(const FrameSet& frames, double joints_stamp_s, const Timeliness& time);
   const Answer& evaluate_robot(const Frame& frame, const AskedRobot& robot);
   const Answer& evaluate_mesh(const FrameSet& frames, const RobotPose& pose);
   /// The set of this frame alone.
@@ -65,6 +69,7 @@ class Asker {
   /// With method `mesh`.
   std::optional<MeshAsker> mesh_;
   FrameSet alone_;
+  /// Which exposure `alone_` is of: a frame that is observed anew keeps its address.
   std::uint64_t alone_number_ = 0;
   Answer answer_;
 };

@@ -8,7 +8,13 @@
 namespace berth {
 namespace {
 
-CameraState state_of(const Frame* frame, double now_s, const TimeSettings& settings) {
+bool is_used(CameraStatus status) {
+  return status == CameraStatus::ok || status == CameraStatus::blind;
+}
+
+}  // namespace
+
+CameraState camera_state(const Frame* frame, double now_s, const TimeSettings& settings) {
   CameraState state;
   if (!frame || !frame->view) return state;
   state.stamp_s = frame->stamp_s;
@@ -27,12 +33,6 @@ CameraState state_of(const Frame* frame, double now_s, const TimeSettings& setti
   return state;
 }
 
-bool is_used(CameraStatus status) {
-  return status == CameraStatus::ok || status == CameraStatus::blind;
-}
-
-}  // namespace
-
 void FrameSet::assign(std::span<const Frame* const> frames, const TimeSettings& settings,
                       std::optional<double> now_s) {
   frames_.assign(frames.begin(), frames.end());
@@ -46,7 +46,7 @@ void FrameSet::assign(std::span<const Frame* const> frames, const TimeSettings& 
     if (frame && frame->view) newest_s = std::max(newest_s, frame->stamp_s);
   }
   for (std::size_t k = 0; k < frames_.size(); ++k) {
-    cameras_.push_back(state_of(frames_[k], now_s.value_or(newest_s), settings));
+    cameras_.push_back(camera_state(frames_[k], now_s.value_or(newest_s), settings));
     if (!is_used(cameras_[k].status)) continue;
     used_.push_back(static_cast<int>(k));
     if (!newest_ || frames_[k]->stamp_s > newest_->stamp_s) newest_ = frames_[k];

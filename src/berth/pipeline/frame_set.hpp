@@ -11,6 +11,9 @@
 
 namespace berth {
 
+/// What becomes of one camera at `now_s`. `frame` is its newest one, or null where it has none yet.
+CameraState camera_state(const Frame* frame, double now_s, const TimeSettings& settings);
+
 /// The newest frame of each camera, as questions with method `mesh` see them: which of them are
 /// used, and the space that they leave. Assigned at the cameras' clock; then any number of askers
 /// may ask it, and what one of them finds out about hidden space is kept for all.

@@ -17,7 +17,7 @@ class MeshAsker {
  public:
   explicit MeshAsker(std::shared_ptr<const Robot> robot);
 
-  /// Writes distances, cameras and visibility of `out` for the robot in this pose. At least one
+  /// Writes distances and visibility of `out` for the robot in this pose. At least one
   /// frame is used.
   void ask(const FrameSet& frames, const RobotPose& pose, Answer& out);
 

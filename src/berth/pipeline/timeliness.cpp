@@ -19,6 +19,10 @@ TimeStatus FrameClock::next(double stamp_s, const TimeSettings& settings) {
 Timeliness timeliness_of(const Exposure& frame, std::optional<double> now_s,
                          const TimeSettings& settings) {
   Timeliness time;
+  if (!frame.view) {
+    time.status = TimeStatus::no_frame;
+    return time;
+  }
   time.status = frame.time.status;
   time.skew_s = frame.time.skew_s;
   if (!now_s) return time;

@@ -57,7 +57,7 @@ class FrameClock {
 };
 
 /// How an answer stands at `now_s` for the joints of the exposure, whose age is the frame's.
-/// Without now_s no age is known and none is judged.
+/// Without now_s no age is known and none is judged. A frame that nobody has observed is no_frame.
 Timeliness timeliness_of(const Exposure& frame, std::optional<double> now_s,
                          const TimeSettings& settings);
 

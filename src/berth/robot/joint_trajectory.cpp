@@ -32,9 +32,10 @@ std::vector<std::size_t> columns_of(const RobotModel& model, const std::string& 
   for (const std::string& name : known) {
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) {
-      throw std::runtime_error(fmt::format(
-          "{}: joint \"{}\" of robot \"{}\" is missing; expected a column for each of {}", source,
-          name, model.name, fmt::join(known, ", ")));
+      throw std::runtime_error(
+          fmt::format("{}: joint \"{}\" of robot \"{}\" is missing; expected a column, or a fixed "
+                      "position, for each of {}",
+                      source, name, model.name, fmt::join(known, ", ")));
     }
     columns.push_back(found - names.begin());
   }

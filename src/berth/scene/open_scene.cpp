@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "berth/files/camera_info.hpp"
+#include "berth/files/edit_distance.hpp"
 #include "berth/files/joints_csv.hpp"
 #include "berth/files/png.hpp"
 #include "berth/robot/joint_trajectory.hpp"
@@ -17,23 +18,58 @@
 namespace berth {
 namespace {
 
-JointTrajectory read_trajectory(const RobotModel& model, const SceneFile& scene) {
-  const JointTable table = read_joints_csv(scene.joints);
-  std::vector<double> offsets(table.names.size(), 0.0);
+[[noreturn]] void throw_bad_joint(const SceneFile& scene, std::string_view key,
+                                  const std::string& joint, std::string_view what) {
+  throw std::runtime_error(fmt::format("{}: {}.{}: {}", scene.file.string(), key, joint, what));
+}
+
+void add_offsets(const SceneFile& scene, JointTable& table) {
   for (const auto& [joint, offset] : scene.joint_offsets) {
     const auto at = std::find(table.names.begin(), table.names.end(), joint);
     if (at == table.names.end()) {
-      throw std::runtime_error(fmt::format("{}: joint_offsets.{}: {} has no such joint; expected one of {}",
-                                           scene.file.string(), joint, scene.joints.string(),
-                                           fmt::join(table.names, ", ")));
+      throw_bad_joint(scene, "joint_offsets", joint,
+                      fmt::format("{} has no such joint; expected one of {}", scene.joints.string(),
+                                  fmt::join(table.names, ", ")));
     }
-    offsets[at - table.names.begin()] = offset;
+    const auto column = at - table.names.begin();
+    for (JointTable::Row& row : table.rows) row.positions[column] += offset;
   }
+}
+
+/// Throws unless it is a joint of the robot that moves and follows no other one.
+void require_joint(const RobotModel& model, const SceneFile& scene, const std::string& joint) {
+  std::vector<std::string_view> known;
+  for (const MovableJoint& movable : model.joints) known.push_back(movable.name);
+  if (std::find(known.begin(), known.end(), joint) != known.end()) return;
+  const std::string expected = known.empty()
+                                   ? "none"
+                                   : fmt::format("{} (the nearest), or another of {}",
+                                                 nearest(joint, known), fmt::join(known, ", "));
+  throw_bad_joint(scene, "fixed_joints", joint,
+                  fmt::format("no joint of robot \"{}\" that moves by itself; expected {}",
+                              model.name, expected));
+}
+
+/// A column of one value for each.
+void add_fixed_joints(const RobotModel& model, const SceneFile& scene, JointTable& table) {
+  for (const auto& [joint, position] : scene.fixed_joints) {
+    require_joint(model, scene, joint);
+    if (std::find(table.names.begin(), table.names.end(), joint) != table.names.end()) {
+      throw_bad_joint(scene, "fixed_joints", joint,
+                      fmt::format("{} has a column of this joint too; expected one of both",
+                                  scene.joints.string()));
+    }
+    table.names.push_back(joint);
+    for (JointTable::Row& row : table.rows) row.positions.push_back(position);
+  }
+}
+
+JointTrajectory read_trajectory(const RobotModel& model, const SceneFile& scene) {
+  JointTable table = read_joints_csv(scene.joints);
+  add_offsets(scene, table);
+  add_fixed_joints(model, scene, table);
   std::vector<JointTrajectory::Sample> samples;
-  for (const auto& row : table.rows) {
-    samples.push_back({row.time_s, row.positions});
-    for (std::size_t i = 0; i < offsets.size(); ++i) samples.back().positions[i] += offsets[i];
-  }
+  for (const JointTable::Row& row : table.rows) samples.push_back({row.time_s, row.positions});
   return JointTrajectory(model, scene.joints.string(), table.names, samples);
 }
 

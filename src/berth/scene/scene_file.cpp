@@ -90,6 +90,15 @@ std::vector<SceneAttachment> read_attached(const YamlValue& value) {
   return attached;
 }
 
+/// Numbers by the name of a joint.
+std::map<std::string, double> read_joint_values(const YamlMap& map, std::string_view key) {
+  std::map<std::string, double> values;
+  if (const auto joints = map.find(key)) {
+    for (const auto& [joint, value] : joints->entries()) values[joint] = value.number();
+  }
+  return values;
+}
+
 void read_evaluation(const YamlValue& value, EvaluationSettings& evaluation) {
   const YamlMap map = read_settings(value, evaluation.distance, {"method", "visibility"});
   if (const auto method = map.find("method")) evaluation.method = read_enum<Method>(*method);
@@ -113,8 +122,8 @@ void read_view_settings(const YamlMap& map, ViewSettings& settings) {
 
 SceneFile read_scene(const std::filesystem::path& file) {
   const YamlMap map(load_yaml(file),
-                    {"robot", "cameras", "attached", "joints", "joint_offsets", "self_filter", "sensor", "space",
-                     "evaluation", "time"});
+                    {"robot", "cameras", "attached", "joints", "joint_offsets", "fixed_joints",
+                     "self_filter", "sensor", "space", "evaluation", "time"});
   SceneFile scene;
   scene.file = file;
   scene.robot = read_robot(map.at("robot"));
@@ -123,11 +132,8 @@ SceneFile read_scene(const std::filesystem::path& file) {
   scene.cameras = read_cameras(map.at("cameras"), settings);
   if (const auto attached = map.find("attached")) scene.attached = read_attached(*attached);
   scene.joints = map.at("joints").path();
-  if (const auto offsets = map.find("joint_offsets")) {
-    for (const auto& [joint, offset] : offsets->entries()) {
-      scene.joint_offsets[joint] = offset.number();
-    }
-  }
+  scene.joint_offsets = read_joint_values(map, "joint_offsets");
+  scene.fixed_joints = read_joint_values(map, "fixed_joints");
   scene.evaluation.time.joints = kOnlyBetweenSamples;
   if (const auto evaluation = map.find("evaluation")) {
     read_evaluation(*evaluation, scene.evaluation);

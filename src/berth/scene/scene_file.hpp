@@ -33,7 +33,6 @@ struct SceneCamera {
   ViewSettings settings;
 };
 
-/// All that SCENE.yaml says.
 /// Something that moves with a link, as the file describes it: one of the four shapes.
 struct SceneAttachment {
   std::string link;
@@ -58,6 +57,8 @@ struct SceneFile {
   std::filesystem::path joints;
   /// Added to the positions in `joints`, rad or m, by the name of the joint.
   std::map<std::string, double> joint_offsets;
+  /// The positions of joints that never move and have no column in `joints`, rad or m, by name.
+  std::map<std::string, double> fixed_joints;
   /// Defaults where the file says nothing; the limits between joint samples and images are then
   /// kOnlyBetweenSamples.
   EvaluationSettings evaluation;

@@ -1,0 +1,70 @@
+// The joints of a scene: columns of its CSV file, offsets, and positions that are fixed.
+#include "berth/scene/open_scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/error_message.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace berth {
+namespace {
+
+constexpr const char* kSevenColumns =
+    "time,arm_joint_1,arm_joint_2,arm_joint_3,arm_joint_4,arm_joint_5,arm_joint_6,arm_joint_7\n"
+    "0,0.1,0.2,0.3,0.4,0.5,0.6,0.7\n";
+constexpr const char* kFiveColumns =
+    "time,arm_joint_2,arm_joint_1,arm_joint_3,arm_joint_4,arm_joint_6\n"
+    "0,0.2,0.1,0.3,0.4,0.6\n";
+
+/// The bundled arm with these joints and more lines of the scene file; one image.
+OpenScene open_with(const std::string& joints_csv, const std::string& lines) {
+  const TemporaryFolder folder;
+  const std::string bundled = BERTH_SOURCE_DIR "/data/bundled/";
+  folder.write("joints.csv", joints_csv);
+  return open_scene(folder.write(
+      "scene.yaml",
+      "robot: {urdf: " + bundled + "arm/arm.urdf, package_paths: {berth_arm: " + bundled +
+          "arm}}\ncameras:\n  - name: camera\n    info: " + bundled +
+          "camera_info.yaml\n    pose: {parent: table, xyz: [0, 0, 0], rpy: [0, 0, 0]}\n    "
+          "depth: [" +
+          bundled + "depth/000000.png]\njoints: joints.csv\n" + lines + "\n"));
+}
+
+std::vector<double> position_of(const OpenScene& scene) {
+  return scene.cameras.front().at_exposure.front().position;
+}
+
+TEST(SceneJoints, FixedOnesAreAsIfTheyHadAColumn) {
+  const OpenScene scene =
+      open_with(kFiveColumns, "fixed_joints: {arm_joint_7: 0.7, arm_joint_5: 0.5}");
+  EXPECT_EQ(position_of(scene), position_of(open_with(kSevenColumns, "")));
+}
+
+TEST(SceneJoints, OffsetsAreAddedToColumns) {
+  const auto plain = position_of(open_with(kSevenColumns, ""));
+  auto moved = position_of(open_with(kSevenColumns, "joint_offsets: {arm_joint_2: 0.25}"));
+  EXPECT_EQ(moved[1], plain[1] + 0.25);
+  moved[1] = plain[1];
+  EXPECT_EQ(moved, plain);
+}
+
+TEST(SceneJoints, AJointThatIsMissingTwiceOrUnknownIsNamed) {
+  const auto message = [](const char* joints_csv, const std::string& lines) {
+    return error_message([&] { open_with(joints_csv, lines); });
+  };
+  expect_parts(message(kFiveColumns, "fixed_joints: {arm_joint_5: 0.5}"),
+               {"joints.csv: joint \"arm_joint_7\"", "is missing", "a fixed position"});
+  expect_parts(message(kSevenColumns, "fixed_joints: {arm_joint_7: 0.7}"),
+               {"scene.yaml: fixed_joints.arm_joint_7: ",
+                "joints.csv has a column of this joint too; expected one of both"});
+  expect_parts(message(kSevenColumns, "fixed_joints: {arm_jont_6: 0}"),
+               {"scene.yaml: fixed_joints.arm_jont_6: no joint of robot",
+                "expected arm_joint_6 (the nearest), or another of arm_joint_1, arm_joint_2"});
+  expect_parts(message(kSevenColumns, "fixed_joints: {arm_joint_7: .nan}"),
+               {"scene.yaml:8: fixed_joints.arm_joint_7: .nan; expected a finite number"});
+  expect_parts(message(kFiveColumns, "joint_offsets: {arm_joint_7: 0.7}"),
+               {"scene.yaml: joint_offsets.arm_joint_7: ", "joints.csv has no such joint"});
+}
+
+}  // namespace
+}  // namespace berth
