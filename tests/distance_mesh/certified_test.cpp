@@ -212,7 +212,7 @@ TEST(MeshCertified, AtEveryDeadline) {
 }
 
 TEST(MeshCertified, AtEveryRange) {
-  for (std::uint32_t seed = 0; seed < 3u; ++seed) {
+  for (std::uint32_t seed = 0; seed < thinned(3u); ++seed) {
     MeshWorldSettings settings;
     settings.views = 1;
     const MeshWorld world = draw_mesh_world(settings, 400 + seed);
