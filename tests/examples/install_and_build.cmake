@@ -19,11 +19,15 @@ run(${CMAKE_COMMAND} --build ${WORK}/examples)
 # package://berth_arm/ is a folder of that name above the URDF.
 file(COPY ${SOURCE}/data/bundled/arm/ DESTINATION ${WORK}/berth_arm)
 foreach(example one_frame two_clocks)
-  run(${WORK}/examples/${example} ${WORK}/berth_arm/arm.urdf)
-  # Slowed by a sanitizer, an answer may come too late to have a distance.
-  if(NOT SANITIZE AND NOT output MATCHES "[0-9]\\.[0-9][0-9][0-9] m")
-    message(FATAL_ERROR "${example} printed no distance")
-  endif()
+  # On a busy machine, or slowed by a sanitizer, answers may come too late to have a distance.
+  foreach(attempt RANGE 1 5)
+    run(${WORK}/examples/${example} ${WORK}/berth_arm/arm.urdf)
+    if(SANITIZE OR output MATCHES "[0-9]\\.[0-9][0-9][0-9] m")
+      break()
+    elseif(attempt EQUAL 5)
+      message(FATAL_ERROR "${example} printed no distance")
+    endif()
+  endforeach()
 endforeach()
 # The installed program finds the installed scene.
 run(${WORK}/installed/bin/berth demo --picture ${WORK}/pictures)
