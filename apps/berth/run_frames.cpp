@@ -7,7 +7,7 @@
 
 #include "apps/berth/picture.hpp"
 #include "apps/support/progress_bar.hpp"
-#include "berth/distance/mesh/hidden_space.hpp"
+#include "berth/types/camera.hpp"
 
 namespace berth::app {
 namespace {

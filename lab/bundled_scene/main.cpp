@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "lab/bundled_scene/bundled_camera.hpp"
 #include "lab/bundled_scene/output_files.hpp"
 #include "lab/bundled_scene/scene.hpp"
-#include "lab/bundled_scene/scene_camera.hpp"
 #include "lab/bundled_scene/sensor.hpp"
 #include "lab/bundled_scene/truth.hpp"
 
@@ -27,7 +27,7 @@ void write_robot(const std::filesystem::path& folder, const Scene& scene) {
 }
 
 void write_depth(const std::filesystem::path& folder, const Scene& scene,
-                 const SceneCamera& camera) {
+                 const BundledCamera& camera) {
   make_folder(folder / camera.depth_folder);
   std::mt19937 random(camera.seed);
   for (int k = 0; k < std::ssize(camera.stamps_s); ++k) {
@@ -41,7 +41,7 @@ void write_depth(const std::filesystem::path& folder, const Scene& scene,
 
 // Of the frames of this camera.
 void write_truth(const std::filesystem::path& folder, const Scene& scene,
-                 const SceneCamera& camera) {
+                 const BundledCamera& camera) {
   const TruthModels models = make_truth_models(scene);
   std::vector<TruthRow> truth;
   for (int k = 0; k < std::ssize(camera.stamps_s); ++k) {
@@ -55,13 +55,13 @@ void write_truth(const std::filesystem::path& folder, const Scene& scene,
 
 void make_bundled_scene(const std::filesystem::path& folder) {
   const Scene scene = make_scene();
-  const std::vector<SceneCamera> cameras = scene_cameras();
+  const std::vector<BundledCamera> cameras = bundled_cameras();
   write_robot(folder / "arm", scene);
   write_text(folder / "joints.csv", joints_csv(scene.rows));
   write_text(folder / "scene.yaml", scene_yaml(cameras, "range_m: 1.0"));
   write_text(folder / "one_camera.yaml",
              scene_yaml(std::span(cameras).first(1), "method: exact, range_m: 1.0"));
-  for (const SceneCamera& camera : cameras) {
+  for (const BundledCamera& camera : cameras) {
     write_text(folder / camera.info_file, camera_info_yaml(camera));
     write_depth(folder, scene, camera);
   }

@@ -9,9 +9,9 @@
 
 #include "berth/types/camera.hpp"
 #include "berth/types/image.hpp"
+#include "lab/bundled_scene/bundled_camera.hpp"
 #include "lab/bundled_scene/mesh.hpp"
 #include "lab/bundled_scene/motion.hpp"
-#include "lab/bundled_scene/scene_camera.hpp"
 #include "lab/bundled_scene/truth.hpp"
 
 namespace berth::lab {
@@ -28,9 +28,9 @@ void write_png(const std::filesystem::path& file, const Image<std::uint16_t>& im
 void write_stl(const std::filesystem::path& file, const DrawnMesh& mesh, const std::string& title);
 
 /// ROS camera_info.
-std::string camera_info_yaml(const SceneCamera& camera);
+std::string camera_info_yaml(const BundledCamera& camera);
 /// `evaluation` is the text of the key's value.
-std::string scene_yaml(std::span<const SceneCamera> cameras, const std::string& evaluation);
+std::string scene_yaml(std::span<const BundledCamera> cameras, const std::string& evaluation);
 std::string joints_csv(const std::vector<JointRow>& rows);
 std::string truth_csv(const std::vector<TruthRow>& rows);
 

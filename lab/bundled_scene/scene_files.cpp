@@ -8,7 +8,7 @@
 namespace berth::lab {
 namespace {
 
-std::string camera_entry(const SceneCamera& camera) {
+std::string camera_entry(const BundledCamera& camera) {
   const Eigen::Vector3d& p = camera.place.xyz_T_m;
   const Eigen::Quaterniond& q = camera.place.rotation_TC;
   return fmt::format(R"(  - name: {}
@@ -27,7 +27,7 @@ std::string camera_entry(const SceneCamera& camera) {
 
 }  // namespace
 
-std::string camera_info_yaml(const SceneCamera& of) {
+std::string camera_info_yaml(const BundledCamera& of) {
   const Camera& c = of.camera;
   return fmt::format(R"(image_width: {0}
 image_height: {1}
@@ -53,7 +53,7 @@ projection_matrix:
                      c.width_px, c.height_px, c.fx_px, c.cx_px, c.fy_px, c.cy_px, of.name);
 }
 
-std::string scene_yaml(std::span<const SceneCamera> cameras, const std::string& evaluation) {
+std::string scene_yaml(std::span<const BundledCamera> cameras, const std::string& evaluation) {
   std::string text = fmt::format(R"(# Made by lab/bundled_scene; README.md says what it shows.
 robot:
   urdf: arm/arm.urdf
@@ -63,7 +63,7 @@ robot:
 cameras:
 )",
                                  kTableLink);
-  for (const SceneCamera& camera : cameras) text += camera_entry(camera);
+  for (const BundledCamera& camera : cameras) text += camera_entry(camera);
   return text + fmt::format("joints: joints.csv\nevaluation: {{{}}}\n", evaluation);
 }
 

@@ -14,7 +14,7 @@ struct Sample {
   const Estimate* estimate;
   int link;
 
-  bool is_covered() const { return truth->sight == testing::Sight::covered; }
+  bool is_covered() const { return truth->sight == testing::ObstacleSight::covered; }
   bool is_ok() const { return estimate->status == LinkStatus::ok; }
   /// Above 0: too large.
   double over_seen_m() const { return estimate->distance_m - truth->seen_C.distance_m; }

@@ -73,13 +73,13 @@ constexpr const char* kConditionHeading =
     "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | "
     "---: |\n";
 
-const char* name_of(testing::Sight sight) {
+const char* name_of(testing::ObstacleSight sight) {
   switch (sight) {
-    case testing::Sight::covered:
+    case testing::ObstacleSight::covered:
       return "seen, or behind an obstacle's reading";
-    case testing::Sight::behind_robot:
+    case testing::ObstacleSight::behind_robot:
       return "behind the robot";
-    case testing::Sight::outside:
+    case testing::ObstacleSight::outside:
       break;
   }
   return "outside of the image";
@@ -118,8 +118,8 @@ std::string sight_table(const std::vector<Trial>& trials, std::size_t condition)
     return s.estimate->status != LinkStatus::not_visible &&
            std::isfinite(s.truth->seen_C.distance_m);
   });
-  for (const auto sight :
-       {testing::Sight::covered, testing::Sight::behind_robot, testing::Sight::outside}) {
+  for (const auto sight : {testing::ObstacleSight::covered, testing::ObstacleSight::behind_robot,
+                           testing::ObstacleSight::outside}) {
     const auto some = filtered(visible, [&](const Sample& s) { return s.truth->sight == sight; });
     const auto ok = filtered(some, [](const Sample& s) { return s.is_ok(); });
     text += fmt::format("| {} | {} | {} | {} |\n", name_of(sight), some.size(),

@@ -29,10 +29,10 @@ SelfFilterSettings narrow_filter() {
 }
 
 /// [k] for the first k + 1 cameras; the sight that tells most counts.
-std::array<testing::Sight, kMostTrialCameras> sights_of(
+std::array<testing::ObstacleSight, kMostTrialCameras> sights_of(
     const Eigen::Vector3d& p_B, const std::vector<testing::DrawnView>& views) {
-  std::array<testing::Sight, kMostTrialCameras> sights;
-  testing::Sight best = testing::Sight::outside;
+  std::array<testing::ObstacleSight, kMostTrialCameras> sights;
+  testing::ObstacleSight best = testing::ObstacleSight::outside;
   for (std::size_t k = 0; k < sights.size(); ++k) {
     const testing::DrawnView& view = views[k];
     const Eigen::Vector3d p_C = view.X_BC.inverse() * p_B;

@@ -40,7 +40,7 @@ struct WholeRobotTruth {
   double distance_m = 0;
   /// [k] says how the obstacle's nearest point shows in the clean images of the first k + 1
   /// cameras: covered in at least one, else behind the robot in at least one, else outside of all.
-  std::array<testing::Sight, kMostTrialCameras> sight;
+  std::array<testing::ObstacleSight, kMostTrialCameras> sight;
 };
 
 /// One scene. Inner indices are links, [i] that with the id i + 1.

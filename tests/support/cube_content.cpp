@@ -21,7 +21,7 @@ constexpr double kLeastDepth_m = 1e-6;
 /// Doubles round; whoever is on the border of two pixels is in both.
 constexpr double kRounding_px = 1e-7;
 
-Place find_place(const Camera& camera, const Pose& X_CB, const Cube& cube) {
+Place find_place(const Camera& camera, const Pose& X_CB, const CentredCube& cube) {
   Place place;
   double u_min = std::numeric_limits<double>::infinity();
   double u_max = -u_min, v_min = u_min, v_max = -u_min;
@@ -59,7 +59,7 @@ CubeContent::CubeContent(const PointSpace& space) : space_(space) {
   for (const PointView& view : space.views()) X_CB_.push_back(view.X_BC.inverse());
 }
 
-CubeContent::Seen CubeContent::look(std::size_t k, const Cube& cube) const {
+CubeContent::Seen CubeContent::look(std::size_t k, const CentredCube& cube) const {
   const PointView& view = space_.views()[k];
   const double slab_m = space_.settings().slab_m;
   const Place place = find_place(view.camera, X_CB_[k], cube);
@@ -80,7 +80,7 @@ CubeContent::Seen CubeContent::look(std::size_t k, const Cube& cube) const {
   return seen;
 }
 
-Content CubeContent::operator()(const Cube& cube, Wanted wanted) const {
+Content CubeContent::operator()(const CentredCube& cube, Wanted wanted) const {
   std::vector<Seen> seen;
   for (std::size_t k = 0; k < X_CB_.size(); ++k) seen.push_back(look(k, cube));
   bool may = false;

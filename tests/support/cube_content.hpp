@@ -8,7 +8,7 @@
 namespace berth::testing {
 
 /// Along the axes of the frame B.
-struct Cube {
+struct CentredCube {
   Eigen::Vector3d centre_B;
   double half_m;
 };
@@ -27,7 +27,7 @@ class CubeContent {
  public:
   /// `space` is kept, not copied.
   explicit CubeContent(const PointSpace& space);
-  Content operator()(const Cube& cube, Wanted wanted) const;
+  Content operator()(const CentredCube& cube, Wanted wanted) const;
 
  private:
   /// What the pixels of one view say of a cube.
@@ -40,7 +40,7 @@ class CubeContent {
     bool all_covered = false;
     bool all_free = false;
   };
-  Seen look(std::size_t k, const Cube& cube) const;
+  Seen look(std::size_t k, const CentredCube& cube) const;
 
   const PointSpace& space_;
   std::vector<Pose> X_CB_;

@@ -25,12 +25,13 @@ SurfacePair closest_obstacle(const MeshTree& tree, const Pose& X_WM,
 
 }  // namespace
 
-Sight sight_of(const Eigen::Vector3d& p_C, const Camera& camera, DepthView obstacle_depth_m) {
+ObstacleSight sight_of(const Eigen::Vector3d& p_C, const Camera& camera,
+                       DepthView obstacle_depth_m) {
   const double u = camera.fx_px * p_C.x() / p_C.z() + camera.cx_px;
   const double v = camera.fy_px * p_C.y() / p_C.z() + camera.cy_px;
   const bool is_inside = p_C.z() > 0 && u >= -0.5 && v >= -0.5 && u <= camera.width_px - 0.5 &&
                          v <= camera.height_px - 0.5;
-  if (!is_inside) return Sight::outside;
+  if (!is_inside) return ObstacleSight::outside;
   // At an outline the pixel's own centre may miss the obstacle.
   const int u0 = static_cast<int>(std::lround(u));
   const int v0 = static_cast<int>(std::lround(v));
@@ -38,10 +39,10 @@ Sight sight_of(const Eigen::Vector3d& p_C, const Camera& camera, DepthView obsta
       clip({u0 - 1, v0 - 1, u0 + 2, v0 + 2}, camera.width_px, camera.height_px);
   for (int y = around.v_begin; y < around.v_end; ++y) {
     for (int x = around.u_begin; x < around.u_end; ++x) {
-      if (obstacle_depth_m(x, y) <= p_C.z() + kRounding_m) return Sight::covered;
+      if (obstacle_depth_m(x, y) <= p_C.z() + kRounding_m) return ObstacleSight::covered;
     }
   }
-  return Sight::behind_robot;
+  return ObstacleSight::behind_robot;
 }
 
 std::vector<TrueDistance> true_distances(const RobotModel& model,

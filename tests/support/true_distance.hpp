@@ -9,14 +9,15 @@
 namespace berth::testing {
 
 /// How the camera sees an obstacle's point.
-enum class Sight : std::uint8_t {
+enum class ObstacleSight : std::uint8_t {
   covered,       ///< on or behind an obstacle's reading: seen, or in its gray area
   behind_robot,  ///< the robot hides it
   outside,       ///< not in the image
 };
 
 /// The sight of p_C in an obstacle image from which an ideal filter removed the robot.
-Sight sight_of(const Eigen::Vector3d& p_C, const Camera& camera, DepthView obstacle_depth_m);
+ObstacleSight sight_of(const Eigen::Vector3d& p_C, const Camera& camera,
+                       DepthView obstacle_depth_m);
 
 /// Mesh to mesh, to all sides of all obstacles, by FCL.
 struct TrueDistance {
@@ -25,7 +26,7 @@ struct TrueDistance {
   /// Of the whole link.
   double whole_m = 0;
   /// Of the obstacle's point of seen_C.
-  Sight sight = Sight::outside;
+  ObstacleSight sight = ObstacleSight::outside;
 };
 
 /// [i] is that of the link with the id i + 1.
@@ -36,7 +37,7 @@ std::vector<TrueDistance> true_distances(const RobotModel& model,
 /// In a clean image without the robot, no distance is larger than the true one of what the camera
 /// sees of the link by more than (1 / cos(angle) - 1) times the true one, plus so many times the
 /// size of a pixel at the farther of the two points. `angle` lies between the optical axis and the
-/// ray to the obstacle's nearest point, which has to be covered (Sight).
+/// ray to the obstacle's nearest point, which has to be covered (ObstacleSight).
 ///
 /// Why: an obstacle before the robot is taken where its ray meets the robot's depth (Hirt 2.14).
 /// The way from a robot point to there is never longer than the way to the nearest point of the

@@ -125,7 +125,7 @@ Image<double> free_depth_m(const PointView& view, const SpaceSettings& settings)
   return free_m;
 }
 
-Pixel pixel_of(const Camera& camera, const Eigen::Vector3d& p_C) {
+Pixel plain_pixel_of(const Camera& camera, const Eigen::Vector3d& p_C) {
   if (!(p_C.z() > 0)) return {};
   const double u = std::round(camera.fx_px * p_C.x() / p_C.z() + camera.cx_px);
   const double v = std::round(camera.fy_px * p_C.y() / p_C.z() + camera.cy_px);
@@ -140,7 +140,7 @@ PointSpace::PointSpace(std::vector<PointView> views, const SpaceSettings& settin
 
 bool PointSpace::is_reading(std::size_t k, const Eigen::Vector3d& p_B) const {
   const Eigen::Vector3d p_C = views_[k].X_BC.inverse() * p_B;
-  const Pixel pixel = pixel_of(views_[k].camera, p_C);
+  const Pixel pixel = plain_pixel_of(views_[k].camera, p_C);
   if (pixel == Pixel{}) return false;
   const double near_m = views_[k].obstacle_depth_m(pixel.u, pixel.v);
   return near_m <= p_C.z() && p_C.z() <= near_m + settings_.slab_m;
@@ -148,14 +148,14 @@ bool PointSpace::is_reading(std::size_t k, const Eigen::Vector3d& p_B) const {
 
 bool PointSpace::is_behind(std::size_t k, const Eigen::Vector3d& p_B) const {
   const Eigen::Vector3d p_C = views_[k].X_BC.inverse() * p_B;
-  const Pixel pixel = pixel_of(views_[k].camera, p_C);
+  const Pixel pixel = plain_pixel_of(views_[k].camera, p_C);
   if (pixel == Pixel{}) return false;
   return p_C.z() > views_[k].obstacle_depth_m(pixel.u, pixel.v) + settings_.slab_m;
 }
 
 bool PointSpace::is_free(std::size_t k, const Eigen::Vector3d& p_B) const {
   const Eigen::Vector3d p_C = views_[k].X_BC.inverse() * p_B;
-  const Pixel pixel = pixel_of(views_[k].camera, p_C);
+  const Pixel pixel = plain_pixel_of(views_[k].camera, p_C);
   return pixel != Pixel{} && p_C.z() < free_depth_m_[k](pixel.u, pixel.v);
 }
 

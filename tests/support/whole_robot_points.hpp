@@ -57,6 +57,6 @@ class PointSpace {
 };
 
 /// The pixel that p_C projects into; (-1, -1) outside of the image and behind the camera.
-Pixel pixel_of(const Camera& camera, const Eigen::Vector3d& p_C);
+Pixel plain_pixel_of(const Camera& camera, const Eigen::Vector3d& p_C);
 
 }  // namespace berth::testing

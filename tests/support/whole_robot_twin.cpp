@@ -14,7 +14,7 @@ namespace {
 constexpr double kRounding_m = 1e-6;
 
 /// The root box of the search: everything within the range of the link.
-Cube around(const TriangleMesh& mesh_L, const Pose& X_BL, double range_m) {
+CentredCube around(const TriangleMesh& mesh_L, const Pose& X_BL, double range_m) {
   Eigen::AlignedBox3d box;
   for (const auto& p : mesh_L.vertices_m) box.extend(X_BL * p.cast<double>());
   return {box.center(), box.sizes().maxCoeff() / 2 + range_m};
@@ -41,7 +41,7 @@ class LinkSurface {
 /// A cube that may hold what is wanted, and how near that can be.
 struct Candidate {
   double lower_m;
-  Cube cube;
+  CentredCube cube;
   /// The nearest point of the mesh to its centre.
   Eigen::Vector3d robot_point_B;
   /// Its content is known to be all.
@@ -56,7 +56,7 @@ class Search {
          const TwinSettings& settings)
       : surface_(surface), space_(space), content_(space), wanted_(wanted), settings_(settings) {}
 
-  TwinInterval run(const Cube& root) {
+  TwinInterval run(const CentredCube& root) {
     double least_given_up_m = settings_.range_m;
     double lower_m = settings_.range_m;
     add(root, 0, false);
@@ -85,7 +85,7 @@ class Search {
   }
 
  private:
-  void add(const Cube& cube, double at_least_m, bool is_full) {
+  void add(const CentredCube& cube, double at_least_m, bool is_full) {
     const double radius_m = std::numbers::sqrt3 * cube.half_m;
     const double most_m = std::min(settings_.range_m, found_.upper_m);
     const NearestPoint nearest = surface_(cube.centre_B, most_m + radius_m + kRounding_m);
@@ -135,7 +135,7 @@ TwinDistance twin_distance(const TriangleMesh& mesh_L, const Pose& X_BL, const P
                            const TwinSettings& settings) {
   const NearestOnMesh nearest_L(mesh_L);
   const LinkSurface surface(nearest_L, X_BL);
-  const Cube root = around(mesh_L, X_BL, settings.range_m);
+  const CentredCube root = around(mesh_L, X_BL, settings.range_m);
   return {Search(surface, space, Wanted::obstacle, settings).run(root),
           Search(surface, space, Wanted::reading, settings).run(root)};
 }

@@ -93,13 +93,13 @@ TEST(TrueDistances, TellWhoCouldSeeTheObstaclesPoint) {
   const auto at = [&](double u, double v, double z_m) {
     return Eigen::Vector3d((u - 79.5) / 150 * z_m, (v - 59.5) / 150 * z_m, z_m);
   };
-  EXPECT_EQ(sight_of(at(100, 60, 1.5), camera, depth_m), Sight::covered);
-  EXPECT_EQ(sight_of(at(100, 60, 2.5), camera, depth_m), Sight::covered);
-  EXPECT_EQ(sight_of(at(101.2, 60, 1.6), camera, depth_m), Sight::covered);
-  EXPECT_EQ(sight_of(at(100, 60, 1.4), camera, depth_m), Sight::behind_robot);
-  EXPECT_EQ(sight_of(at(50, 60, 1.5), camera, depth_m), Sight::behind_robot);
-  EXPECT_EQ(sight_of(at(170, 60, 1.5), camera, depth_m), Sight::outside);
-  EXPECT_EQ(sight_of(at(100, 60, -1.5), camera, depth_m), Sight::outside);
+  EXPECT_EQ(sight_of(at(100, 60, 1.5), camera, depth_m), ObstacleSight::covered);
+  EXPECT_EQ(sight_of(at(100, 60, 2.5), camera, depth_m), ObstacleSight::covered);
+  EXPECT_EQ(sight_of(at(101.2, 60, 1.6), camera, depth_m), ObstacleSight::covered);
+  EXPECT_EQ(sight_of(at(100, 60, 1.4), camera, depth_m), ObstacleSight::behind_robot);
+  EXPECT_EQ(sight_of(at(50, 60, 1.5), camera, depth_m), ObstacleSight::behind_robot);
+  EXPECT_EQ(sight_of(at(170, 60, 1.5), camera, depth_m), ObstacleSight::outside);
+  EXPECT_EQ(sight_of(at(100, 60, -1.5), camera, depth_m), ObstacleSight::outside);
 }
 
 TEST(TrueDistances, AreInfiniteForALinkThatIsNotSeen) {

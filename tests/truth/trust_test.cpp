@@ -32,7 +32,7 @@ void expect_within_bound(const std::vector<Trial>& trials) {
     for (std::size_t i = 0; i < trial.truth.size(); ++i) {
       const testing::TrueDistance& truth = trial.truth[i];
       const Estimate& estimate = trial.estimates[0][i];
-      if (truth.sight != testing::Sight::covered) continue;
+      if (truth.sight != testing::ObstacleSight::covered) continue;
       const double most_m =
           truth.seen_C.distance_m + testing::max_overestimate_m(trial.camera, truth);
       if (most_m > kTrialRange_m) continue;
@@ -82,7 +82,7 @@ void expect_rims_kept(const std::vector<TrialRobot>& robots, const std::vector<R
                   {defaults, no_islands});
     int checked = 0;
     for (std::size_t i = 0; i < trial.truth.size(); ++i) {
-      if (trial.truth[i].sight != testing::Sight::covered) continue;
+      if (trial.truth[i].sight != testing::ObstacleSight::covered) continue;
       EXPECT_LE(trial.estimates[0][i].distance_m, trial.estimates[1][i].distance_m + 0.001)
           << scene.robot << ", seed " << scene.seed << ", link " << i + 1;
       ++checked;
@@ -174,7 +174,7 @@ Trial made_up_trial(const TrialRobot& robot, double true_m, Estimate estimate) {
   testing::TrueDistance truth;
   truth.seen_C = {true_m, {0, 0, 1}, {true_m, 0, 1}};
   truth.whole_m = true_m;
-  truth.sight = testing::Sight::covered;
+  truth.sight = testing::ObstacleSight::covered;
   return {&robot, 7, {640, 480, 500, 500, 319.5, 239.5}, {truth}, {{estimate}}};
 }
 

@@ -23,7 +23,7 @@ int expect_within_bound(const TrialRobot& robot, int scenes) {
     const WholeRobotTrial trial =
         run_whole_robot_trial(robot, kImage, static_cast<std::uint32_t>(seed), clean);
     for (std::size_t i = 0; i < trial.truth.size(); ++i) {
-      if (trial.truth[i].sight[kThreeCameras] != testing::Sight::covered) continue;
+      if (trial.truth[i].sight[kThreeCameras] != testing::ObstacleSight::covered) continue;
       const double most_m = trial.truth[i].distance_m + kMaxWholeRobotOverestimate_m;
       if (most_m > kTrialRange_m) continue;
       EXPECT_LE(trial.under[0].mesh[kThreeCameras][i].nearest_m, most_m)
@@ -52,8 +52,8 @@ TEST(WholeRobotTrust, WithThreeCamerasNoDistanceOfARealRobotIsAboveTheTrueOneByM
 /// One link, and what is said of it with one to four cameras.
 WholeRobotTrial made_up_trial(const TrialRobot& robot, double true_m, double nearest_m) {
   const std::vector<WholeRobotEstimate> said = {{nearest_m, nearest_m}};
-  constexpr auto kCovered = testing::Sight::covered;
-  constexpr auto kOutside = testing::Sight::outside;
+  constexpr auto kCovered = testing::ObstacleSight::covered;
+  constexpr auto kOutside = testing::ObstacleSight::outside;
   return {&robot,
           7,
           {{true_m, {kOutside, kOutside, kCovered, kCovered}}},

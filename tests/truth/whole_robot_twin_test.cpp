@@ -26,7 +26,7 @@ class WholeRobotTwin : public ::testing::Test {
   const std::vector<MeshTree> trees_ = build_link_trees(model_);
 };
 
-Eigen::Vector3d draw_point(Random& random, const Cube& cube) {
+Eigen::Vector3d draw_point(Random& random, const CentredCube& cube) {
   Eigen::Vector3d p_B = cube.centre_B;
   for (double& x : p_B) x += cube.half_m * random(-1, 1);
   return p_B;
@@ -50,8 +50,8 @@ TEST_F(WholeRobotTwin, ACubeThatIsNoneOrAllHoldsNoOtherPoint) {
     const CubeContent content(space);
     Random random(seed);
     for (int i = 0; i < 4000; ++i) {
-      const Cube room{{0, 0, 0}, 1.5};
-      const Cube cube{draw_point(random, room), 0.3 * std::pow(10, random(-4, 0))};
+      const CentredCube room{{0, 0, 0}, 1.5};
+      const CentredCube cube{draw_point(random, room), 0.3 * std::pow(10, random(-4, 0))};
       for (const Wanted wanted : {Wanted::reading, Wanted::obstacle}) {
         const Content is = content(cube, wanted);
         if (is == Content::some) continue;

@@ -27,7 +27,7 @@ struct Projection {
   }
 };
 
-Projection project(const Camera& camera, const Eigen::Vector3d& p_C_m) {
+Projection plain_projection(const Camera& camera, const Eigen::Vector3d& p_C_m) {
   if (p_C_m.z() <= 0) return {0, 0, false};
   const double u = camera.cx_px + camera.fx_px * p_C_m.x() / p_C_m.z();
   const double v = camera.cy_px + camera.fy_px * p_C_m.y() / p_C_m.z();
@@ -41,7 +41,7 @@ bool was_dropped(PixelFate fate) {
 }  // namespace
 
 Sight plain_sight_of_space(const PlainView& view, const Eigen::Vector3d& p_C_m) {
-  const Projection at = project(view.camera, p_C_m);
+  const Projection at = plain_projection(view.camera, p_C_m);
   if (!at.is_inside) return Sight::outside_image;
   const Pixel pixel = at.nearest();
   const PixelFate fate = view.fate(pixel.u, pixel.v);
@@ -56,7 +56,7 @@ Sight plain_sight_of_space(const PlainView& view, const Eigen::Vector3d& p_C_m) 
 
 Sight plain_sight_of_surface(const PlainView& view, const Eigen::Vector3d& p_C_m) {
   constexpr double kSameSurface_m = 1e-4;
-  const Projection at = project(view.camera, p_C_m);
+  const Projection at = plain_projection(view.camera, p_C_m);
   if (!at.is_inside) return Sight::outside_image;
   if (view.asked.hit(at.u, at.v).depth_m < p_C_m.z() - kSameSurface_m)
     return Sight::hidden_by_robot;

@@ -27,8 +27,8 @@ PixelRect project_box(const Eigen::AlignedBox3f& box_L, const Pose& X_CL, const 
       ++too_near;
       continue;
     }
-    bounds_px.extend(Eigen::Vector2d(camera.fx_px * p_C.x() / p_C.z() + camera.cx_px,
-                                     camera.fy_px * p_C.y() / p_C.z() + camera.cy_px));
+    const ImagePoint at = project(camera, p_C);
+    bounds_px.extend(Eigen::Vector2d(at.u, at.v));
   }
   if (behind == 8) return {};
   if (too_near > 0) return {0, 0, camera.width_px, camera.height_px};

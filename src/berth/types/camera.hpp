@@ -3,6 +3,9 @@
 
 #include <Eigen/Geometry>
 #include <limits>
+#include <optional>
+
+#include "berth/types/image.hpp"
 
 namespace berth {
 
@@ -21,6 +24,39 @@ struct Camera {
   double corner_cx_px() const { return cx_px + 0.5; }
   double corner_cy_px() const { return cy_px + 0.5; }
 };
+
+/// A point of the image in pixels, also between their centres.
+struct ImagePoint {
+  double u;
+  double v;
+};
+
+/// Where a point before the camera (z > 0) projects to, in or beside the image.
+inline ImagePoint project(const Camera& camera, const Eigen::Vector3d& p_C_m) {
+  return {camera.fx_px * p_C_m.x() / p_C_m.z() + camera.cx_px,
+          camera.fy_px * p_C_m.y() / p_C_m.z() + camera.cy_px};
+}
+
+/// The same; none beside the image's pixels and behind the camera.
+inline std::optional<ImagePoint> project_into_image(const Camera& camera,
+                                                    const Eigen::Vector3d& p_C_m) {
+  if (!(p_C_m.z() > 0)) return std::nullopt;
+  const ImagePoint at = project(camera, p_C_m);
+  const bool is_inside =
+      at.u >= -0.5 && at.u < camera.width_px - 0.5 && at.v >= -0.5 && at.v < camera.height_px - 0.5;
+  return is_inside ? std::optional(at) : std::nullopt;
+}
+
+/// The pixel that a point of the image lies in.
+inline Pixel pixel_of(const ImagePoint& at) {
+  return {static_cast<int>(at.u + 0.5), static_cast<int>(at.v + 0.5)};
+}
+
+/// The pixel that a point projects into; none outside of the image and behind the camera.
+inline std::optional<Pixel> pixel_of(const Camera& camera, const Eigen::Vector3d& p_C_m) {
+  const std::optional<ImagePoint> at = project_into_image(camera, p_C_m);
+  return at ? std::optional(pixel_of(*at)) : std::nullopt;
+}
 
 /// X_BC: the pose of frame C in frame B.
 using Pose = Eigen::Isometry3d;

@@ -7,22 +7,6 @@
 namespace berth {
 namespace {
 
-/// In pixels; integers are pixel centres.
-struct ImagePoint {
-  double u;
-  double v;
-};
-
-/// None beside the image's pixels and behind the camera.
-std::optional<ImagePoint> project(const Camera& camera, const Eigen::Vector3d& p_C_m) {
-  if (!(p_C_m.z() > 0)) return std::nullopt;
-  const double u = camera.fx_px * p_C_m.x() / p_C_m.z() + camera.cx_px;
-  const double v = camera.fy_px * p_C_m.y() / p_C_m.z() + camera.cy_px;
-  const bool is_inside =
-      u >= -0.5 && u < camera.width_px - 0.5 && v >= -0.5 && v < camera.height_px - 0.5;
-  return is_inside ? std::optional<ImagePoint>({u, v}) : std::nullopt;
-}
-
 /// What the pixel's fate says of its line of sight up to a point, if an obstacle nearer than
 /// obstacle_up_to_m would stand before the point, and its robot or scenery does or does not.
 Sight sight_up_to(const SeenFrame& frame, Pixel pixel, float obstacle_up_to_m,
@@ -69,9 +53,9 @@ struct TangentPlane {
 }  // namespace
 
 Sight sight_of_space(const SeenFrame& frame, const Eigen::Vector3d& p_C_m) {
-  const std::optional<ImagePoint> at = project(frame.camera, p_C_m);
+  const std::optional<ImagePoint> at = project_into_image(frame.camera, p_C_m);
   if (!at) return Sight::outside_image;
-  const Pixel pixel{static_cast<int>(at->u + 0.5), static_cast<int>(at->v + 0.5)};
+  const Pixel pixel = pixel_of(*at);
   const auto depth_m = static_cast<float>(p_C_m.z());
   const float removed_from_m =
       frame.tolerance.least_reading_m(frame.robot.depth_m(pixel.u, pixel.v));
@@ -80,7 +64,7 @@ Sight sight_of_space(const SeenFrame& frame, const Eigen::Vector3d& p_C_m) {
 
 SurfaceSight sight_of_surface(const SeenFrame& frame, const RobotImage& robot,
                               const LinkPoint& point) {
-  const std::optional<ImagePoint> at = project(frame.camera, point.p_C_m);
+  const std::optional<ImagePoint> at = project_into_image(frame.camera, point.p_C_m);
   if (!at) return {Sight::outside_image, false};
   const TangentPlane plane(point);
   // Rounded down: both are above -1.

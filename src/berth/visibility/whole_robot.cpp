@@ -9,15 +9,6 @@
 namespace berth {
 namespace {
 
-/// None outside the image and behind the camera.
-std::optional<Pixel> pixel_at(const Camera& camera, const Eigen::Vector3d& p_C_m) {
-  if (!(p_C_m.z() > 0)) return std::nullopt;
-  const double u = camera.fx_px * p_C_m.x() / p_C_m.z() + camera.cx_px + 0.5;
-  const double v = camera.fy_px * p_C_m.y() / p_C_m.z() + camera.cy_px + 0.5;
-  if (!(u >= 0 && u < camera.width_px && v >= 0 && v < camera.height_px)) return std::nullopt;
-  return Pixel{static_cast<int>(u), static_cast<int>(v)};
-}
-
 /// The sight of the view that knows most: Sight is in that order.
 template <class SightIn>
 Sight best_sight(std::span<const WholeRobotView> views, const Eigen::Vector3d& p_B_m,
@@ -60,7 +51,7 @@ SightCount count_in_ball(std::span<const WholeRobotView> views, const LinkDistan
 }  // namespace
 
 Sight sight_of_robot_point(const WholeRobotView& view, const Eigen::Vector3d& p_C_m) {
-  const std::optional<Pixel> pixel = pixel_at(view.frame.camera, p_C_m);
+  const std::optional<Pixel> pixel = pixel_of(view.frame.camera, p_C_m);
   if (!pixel) return Sight::outside_image;
   const float reading_m = view.sensor_depth_m(pixel->u, pixel->v);
   if (std::isnan(reading_m)) return Sight::no_reading;

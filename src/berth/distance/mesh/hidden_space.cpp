@@ -25,14 +25,6 @@ void require(bool holds, const char* what) {
 
 }  // namespace
 
-std::optional<Pixel> pixel_of(const Camera& camera, const Eigen::Vector3d& p_C) {
-  if (!(p_C.z() > 0)) return std::nullopt;
-  const double u = std::round(camera.fx_px * p_C.x() / p_C.z() + camera.cx_px);
-  const double v = std::round(camera.fy_px * p_C.y() / p_C.z() + camera.cy_px);
-  if (!(u >= 0 && v >= 0 && u < camera.width_px && v < camera.height_px)) return std::nullopt;
-  return Pixel{static_cast<int>(u), static_cast<int>(v)};
-}
-
 bool is_seen_free(const CarvingView& view, const Eigen::Vector3d& p_B) {
   if (view.free_depth_m == nullptr) return false;
   const Eigen::Vector3d p_C = view.X_CB * p_B;

@@ -32,9 +32,6 @@ struct CarvingView {
   const DepthWindows* free_windows = nullptr;
 };
 
-/// The pixel that p_C projects into; none outside the image and behind the camera.
-std::optional<Pixel> pixel_of(const Camera& camera, const Eigen::Vector3d& p_C);
-
 /// Whether 0 < z < E (whole-robot definition 3).
 bool is_seen_free(const CarvingView& view, const Eigen::Vector3d& p_B);
 

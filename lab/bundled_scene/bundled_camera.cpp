@@ -1,4 +1,4 @@
-#include "lab/bundled_scene/scene_camera.hpp"
+#include "lab/bundled_scene/bundled_camera.hpp"
 
 #include <cmath>
 
@@ -28,7 +28,7 @@ Pose CameraPlace::X_TC() const {
   return Eigen::Translation3d(xyz_T_m) * Pose(rotation_TC.normalized());
 }
 
-std::vector<SceneCamera> scene_cameras() {
+std::vector<BundledCamera> bundled_cameras() {
   return {{"camera", make_camera(640, 480, 525), look_at({0.12, -2.25, 0.80}, {0.56, 0.10, 0.17}),
            exposures_s(0.013, 10, 36), 20150731, "camera_info.yaml", "depth"},
           {"left", make_camera(424, 240, 250), look_at({-0.90, 0.45, 1.60}, {0.55, -0.05, 0.28}),

@@ -17,7 +17,7 @@ struct CameraPlace {
   Pose X_TC() const;
 };
 
-struct SceneCamera {
+struct BundledCamera {
   std::string name;
   Camera camera;
   CameraPlace place;
@@ -29,6 +29,6 @@ struct SceneCamera {
 
 /// The first is the one of one_camera.yaml and truth.csv. They are not in step: no two expose at
 /// the same time, and none does at a row of the joints.
-std::vector<SceneCamera> scene_cameras();
+std::vector<BundledCamera> bundled_cameras();
 
 }  // namespace berth::lab
