@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "berth/vector/divide_up.hpp"
+
 // Compiles the rest of this file once for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "berth/distance/mesh/depth_windows.cpp"
@@ -85,8 +87,6 @@ HWY_EXPORT(fill_row_of_least);
 HWY_EXPORT(fill_row_of_greatest);
 
 namespace {
-
-int divide_up(int a, int b) { return (a + b - 1) / b; }
 
 /// Least and greatest of each 4 x 4 pixels.
 void fill_blocks(DepthView image, int columns, int rows, DepthWindows& windows) {
