@@ -97,10 +97,11 @@ docs:
 	scripts/setup.sh packages.txt packages-docs.txt
 	scripts/docs.sh
 
-# clang-tidy over all that build/dev configures. LINT: a part of the paths, such as src/berth/robot.
-lint: setup
-	scripts/setup.sh packages-lint.txt
-	cmake --preset dev
+# clang-tidy over src and apps. LINT: a part of the paths, such as src/berth/robot.
+lint:
+	scripts/setup.sh packages.txt packages-lint.txt
+	cmake --preset lint
+	cmake --build --preset lint --target berth_shader_texts
 	scripts/lint.sh $(LINT)
 
 format:

@@ -11,6 +11,24 @@ function(berth_compile_options target)
   endif()
 endfunction()
 
+# berth_join_sources(<target>): with BERTH_JOIN_SOURCES its sources are compiled as one, which reads their headers once. Those
+# that compile themselves once for each instruction set stay alone, unless there is one instruction set.
+function(berth_join_sources target)
+  if(NOT BERTH_JOIN_SOURCES)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+  # Of what a source keeps to itself, as if its neighbours and a header's readers saw it.
+  target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    file(STRINGS ${source} repeated REGEX "hwy/foreach_target.h" LIMIT_COUNT 1)
+    if(repeated AND NOT BERTH_SCALAR)
+      set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    endif()
+  endforeach()
+endfunction()
+
 function(berth_library folder)
   cmake_parse_arguments(ARG "" "COMPONENT" "SOURCES;DEPENDS;USES" ${ARGN})
   add_library(berth_${folder} ${ARG_SOURCES})
@@ -21,6 +39,7 @@ function(berth_library folder)
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(berth_${folder} PUBLIC ${ARG_DEPENDS} PRIVATE ${ARG_USES})
   berth_compile_options(berth_${folder})
+  berth_join_sources(berth_${folder})
   if(BUILD_SHARED_LIBS)
     # By the linker, so that objects are the same for both kinds of library. Installed, the libraries lie in one folder.
     set(map ${PROJECT_SOURCE_DIR}/cmake/exported_symbols.map)

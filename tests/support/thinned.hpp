@@ -2,11 +2,11 @@
 
 namespace berth {
 
-/// How many of `count` random cases a test runs: all, or a tenth under a sanitizer, which makes
-/// them ten times as slow.
+/// How many of `count` random cases a test runs: all, or a tenth under a sanitizer or with vector
+/// code for one lane (BERTH_SCALAR), which make them up to ten times as slow.
 template <class Count>
 constexpr Count thinned(Count count) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || defined(BERTH_THINNED)
   return (count + 9) / 10;
 #else
   return count;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "berth/distance/depth_tile.hpp"
+#include "berth/vector/divide_up.hpp"
 
 // Compiles the rest of this file once for each instruction set.
 #undef HWY_TARGET_INCLUDE
@@ -79,8 +80,6 @@ namespace berth {
 HWY_EXPORT(fill_tiles);
 
 namespace {
-
-int divide_up(int a, int b) { return (a + b - 1) / b; }
 
 void size_levels(DepthView depth_m, ObstacleTree& tree) {
   tree.width = depth_m.width;

@@ -53,6 +53,8 @@ class GlBuffer {
   void* mapped_ = nullptr;
 };
 
+inline GlBuffer device_buffer(std::size_t bytes) { return {bytes, GlMemory::device}; }
+
 /// Replaces a buffer that is too small, or none yet, by one of this size.
 void take_at_least(std::size_t bytes, GlBuffer& buffer, GlMemory memory = GlMemory::device);
 

@@ -8,7 +8,7 @@
 namespace berth {
 namespace {
 
-constexpr int kTilePx = 8;
+constexpr int kExactTilePx = 8;
 /// Tiles of a node, along one side.
 constexpr int kNodeSide = 4;
 /// Nodes of one workgroup of obstacle_nodes.comp.glsl.
@@ -22,7 +22,8 @@ constexpr std::size_t kRobotTileBytes = 32;
 constexpr std::size_t kPairBytes = 20;
 
 Eigen::Vector2i tiles_of(const Camera& camera) {
-  return {(camera.width_px + kTilePx - 1) / kTilePx, (camera.height_px + kTilePx - 1) / kTilePx};
+  return {(camera.width_px + kExactTilePx - 1) / kExactTilePx,
+          (camera.height_px + kExactTilePx - 1) / kExactTilePx};
 }
 
 int nodes_of(const Eigen::Vector2i& tiles) {
@@ -31,10 +32,8 @@ int nodes_of(const Eigen::Vector2i& tiles) {
 
 /// A tile has no more links than pixels.
 std::size_t most_robot_tiles(const Eigen::Vector2i& tiles, int link_count) {
-  return static_cast<std::size_t>(tiles.prod()) * std::min(link_count, kTilePx * kTilePx);
+  return static_cast<std::size_t>(tiles.prod()) * std::min(link_count, kExactTilePx * kExactTilePx);
 }
-
-GlBuffer device(std::size_t bytes) { return {bytes, GlMemory::device}; }
 
 }  // namespace
 
@@ -66,14 +65,14 @@ void GlExact::prepare(const Camera& camera, int link_count) {
 
 void GlExact::take_memory() {
   const std::size_t robot_tiles = most_robot_tiles(tiles_, link_count_);
-  obstacle_tiles_ = device(tiles_.prod() * kObstacleTileBytes);
-  obstacle_nodes_ = device(nodes_of(tiles_) * kObstacleTileBytes);
-  robot_tiles_ = device(robot_tiles * kRobotTileBytes);
-  robot_tile_count_ = device(sizeof(std::uint32_t));
-  link_pixels_ = device(link_count_ * sizeof(std::uint32_t));
-  link_best_ = device(link_count_ * sizeof(std::uint32_t));
-  tile_best_ = device(robot_tiles * kPairBytes);
-  tile_pairs_ = device(robot_tiles * sizeof(std::uint32_t));
+  obstacle_tiles_ = device_buffer(tiles_.prod() * kObstacleTileBytes);
+  obstacle_nodes_ = device_buffer(nodes_of(tiles_) * kObstacleTileBytes);
+  robot_tiles_ = device_buffer(robot_tiles * kRobotTileBytes);
+  robot_tile_count_ = device_buffer(sizeof(std::uint32_t));
+  link_pixels_ = device_buffer(link_count_ * sizeof(std::uint32_t));
+  link_best_ = device_buffer(link_count_ * sizeof(std::uint32_t));
+  tile_best_ = device_buffer(robot_tiles * kPairBytes);
+  tile_pairs_ = device_buffer(robot_tiles * sizeof(std::uint32_t));
 
   obstacle_tiles_program_.bind("ObstacleTiles", obstacle_tiles_);
   robot_tiles_program_.bind("LinkPixels", link_pixels_);

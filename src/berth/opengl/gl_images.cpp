@@ -19,14 +19,16 @@ constexpr GLenum type_of_copy() {
   return sizeof(T) == 1 ? GL_UNSIGNED_BYTE : GL_UNSIGNED_SHORT;
 }
 
-GLenum format_of(GlPixel pixel) { return pixel == GlPixel::depth_m ? GL_RED : GL_RED_INTEGER; }
+GLenum copied_format_of(GlPixel pixel) {
+  return pixel == GlPixel::depth_m ? GL_RED : GL_RED_INTEGER;
+}
 
 template <class T>
 void get_pixels(const GlTexture& texture, Image<T>& out) {
   out.resize(texture.width(), texture.height(), T{});
   glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glGetTextureImage(texture.name(), 0, format_of(texture.pixel()), type_of_copy<T>(),
+  glGetTextureImage(texture.name(), 0, copied_format_of(texture.pixel()), type_of_copy<T>(),
                     static_cast<GLsizei>(out.pixels().size() * sizeof(T)), out.pixels().data());
 }
 
@@ -49,7 +51,7 @@ void GlUpload::send_rows(const ImageView<T>& image, const GlTexture& texture, Co
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, staging_.name());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glTextureSubImage2D(texture.name(), 0, 0, 0, image.width, image.height,
-                      format_of(texture.pixel()), type_of(texture.pixel()), nullptr);
+                      copied_format_of(texture.pixel()), type_of(texture.pixel()), nullptr);
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
   sent_.set();
 }

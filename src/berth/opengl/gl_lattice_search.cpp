@@ -9,7 +9,7 @@ namespace berth {
 namespace {
 
 /// Bytes of the struct of closest_pair.glsl.
-constexpr std::size_t kPairBytes = 20;
+constexpr std::size_t kLatticePairBytes = 20;
 
 /// Each goes on to further links where there are more.
 constexpr int kMostLinkGroups = 256;
@@ -40,8 +40,8 @@ void GlLatticeSearch::begin(const Camera& camera, int link_count, const GlTextur
   const std::size_t links = link_count;
   const std::size_t most_pairs = links * slices_of(camera.width_px, camera.height_px, {1, 1});
   take_at_least(links * 2 * sizeof(std::uint32_t), link_pairs_);
-  take_at_least(most_pairs * kPairBytes, former_closest_);
-  take_at_least(most_pairs * kPairBytes, slice_closest_);
+  take_at_least(most_pairs * kLatticePairBytes, former_closest_);
+  take_at_least(most_pairs * kLatticePairBytes, slice_closest_);
   link_pairs_.fill(0);
 }
 

@@ -7,14 +7,12 @@
 namespace berth {
 namespace {
 
-constexpr int kTilePx = 16;
+constexpr int kFilterTilePx = 16;
 
 /// Bytes of the structs of filter_tile.glsl and filter_pieces.glsl.
 constexpr std::size_t kTileBytes = 12;
 constexpr std::size_t kDiscBytes = 32;
 constexpr std::size_t kPieceBytes = 8;
-
-GlBuffer device(std::size_t bytes) { return {bytes, GlMemory::device}; }
 
 Eigen::Vector2d focal_px(const Camera& camera) { return {camera.fx_px, camera.fy_px}; }
 
@@ -39,7 +37,7 @@ GlSelfFilter::GlSelfFilter()
       weigh_program_("filter_weigh.comp.glsl"),
       hang_program_("filter_hang.comp.glsl"),
       finish_program_("filter_finish.comp.glsl"),
-      counts_(device(kPixelFateCount * sizeof(std::uint32_t))),
+      counts_(device_buffer(kPixelFateCount * sizeof(std::uint32_t))),
       counts_back_(kPixelFateCount * sizeof(std::uint32_t), GlMemory::read_back) {
   finish_program_.bind("FateCounts", counts_);
 }
@@ -73,16 +71,16 @@ void GlSelfFilter::prepare(const Camera& camera) {
   const Eigen::Vector2i size(camera.width_px, camera.height_px);
   if (size == size_) return;
   size_ = size;
-  tiles_ = (size.array() + (kTilePx - 1)) / kTilePx;
+  tiles_ = (size.array() + (kFilterTilePx - 1)) / kFilterTilePx;
   take_memory();
 }
 
 void GlSelfFilter::take_memory() {
   const auto tiles = static_cast<std::size_t>(tiles_.prod());
-  filter_tiles_ = device(tiles * kTileBytes);
-  discs_ = device(tiles * kTilePx * kTilePx * kDiscBytes);
-  frame_ = device(2 * sizeof(std::uint32_t));
-  pieces_ = device(static_cast<std::size_t>(size_.prod()) * kPieceBytes);
+  filter_tiles_ = device_buffer(tiles * kTileBytes);
+  discs_ = device_buffer(tiles * kFilterTilePx * kFilterTilePx * kDiscBytes);
+  frame_ = device_buffer(2 * sizeof(std::uint32_t));
+  pieces_ = device_buffer(static_cast<std::size_t>(size_.prod()) * kPieceBytes);
   for (GlProgram* program : {&pixels_program_, &grow_program_}) {
     program->bind("FilterTiles", filter_tiles_);
     program->bind("FilterFrame", frame_);
@@ -112,7 +110,7 @@ void GlSelfFilter::set_paddings(const SelfFilterSettings& settings) {
   const std::size_t bytes = count * sizeof(double);
   GlBuffer staging(bytes, GlMemory::upload);
   std::copy(link_padding_m_.begin(), link_padding_m_.end(), staging.mapped<double>().begin());
-  link_paddings_ = device(bytes);
+  link_paddings_ = device_buffer(bytes);
   staging.copy_to(link_paddings_, bytes);
   pixels_program_.bind("LinkPadding", link_paddings_);
   pixels_program_.set("link_paddings", static_cast<int>(count));

@@ -7,10 +7,10 @@
 namespace berth {
 namespace {
 
-using Corners = std::array<Eigen::Vector3d, 3>;
+using ExactCorners = std::array<Eigen::Vector3d, 3>;
 
 /// True where all of the triangle lies on one side of one border of the rectangle, or behind.
-bool is_outside(const Corners& corners, const PixelRect& rect) {
+bool is_outside(const ExactCorners& corners, const PixelRect& rect) {
   const auto all = [&](const Eigen::Vector3d& side) {
     return std::all_of(corners.begin(), corners.end(),
                        [&](const Eigen::Vector3d& p) { return side.dot(p) < 0; });
@@ -22,7 +22,7 @@ bool is_outside(const Corners& corners, const PixelRect& rect) {
 }
 
 /// The part of `rect` that holds the triangle; all of it where a corner has no image.
-PixelRect bounds_in(const Corners& corners, const PixelRect& rect) {
+PixelRect bounds_in(const ExactCorners& corners, const PixelRect& rect) {
   constexpr double kLeastDepth_m = 1e-6;
   Eigen::AlignedBox2d bounds_px;
   for (const Eigen::Vector3d& p : corners) {
@@ -48,7 +48,8 @@ void put_edge(const Eigen::Vector3d& edge, const Eigen::Vector3d& first,
 
 }  // namespace
 
-bool plan_exactly(const Corners& corners, const PixelRect& rect, int lane, TrianglePlanes& out) {
+bool plan_exactly(const ExactCorners& corners, const PixelRect& rect, int lane,
+                  TrianglePlanes& out) {
   if (is_outside(corners, rect)) return false;
   const PixelRect bounds = bounds_in(corners, rect);
   const double determinant = corners[0].dot(corners[1].cross(corners[2]));

@@ -13,13 +13,13 @@
 #include <vector>
 
 #include "berth/files/read_file.hpp"
-#include "berth/robot/urdf_numbers.hpp"
 #include "berth/files/xml.hpp"
+#include "berth/robot/urdf_numbers.hpp"
 
 namespace berth {
 namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& path, const std::string& what) {
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& what) {
   throw std::runtime_error(fmt::format("{}: {}", path.string(), what));
 }
 
@@ -44,9 +44,9 @@ class LogListener : public console_bridge::OutputHandler {
 std::string read_text(const std::filesystem::path& path) {
   std::string text = read_file_bytes(path);
   if (text.find_first_not_of(" \t\r\n") == std::string::npos)
-    fail(path, "the URDF is empty; expected <robot>");
+    refuse(path, "the URDF is empty; expected <robot>");
   if (text.find('\0') != std::string::npos)
-    fail(path, "the URDF holds a zero byte; expected UTF-8, not UTF-16");
+    refuse(path, "the URDF holds a zero byte; expected UTF-8, not UTF-16");
   return text;
 }
 
@@ -58,11 +58,11 @@ urdf::ModelInterfaceSharedPtr parse(const std::filesystem::path& path, const std
   try {
     model = urdf::parseURDF(text);
   } catch (const std::exception& error) {
-    fail(path, fmt::format("not a valid URDF: {}; expected {}", error.what(), kExpected));
+    refuse(path, fmt::format("not a valid URDF: {}; expected {}", error.what(), kExpected));
   }
   if (!model || !log.errors().empty()) {
-    fail(path, fmt::format("not a valid URDF: {}; expected {}", fmt::join(log.errors(), "; "),
-                           kExpected));
+    refuse(path, fmt::format("not a valid URDF: {}; expected {}", fmt::join(log.errors(), "; "),
+                             kExpected));
   }
   return model;
 }
@@ -72,10 +72,11 @@ void require_one_parent_each(const std::filesystem::path& path, const urdf::Mode
   for (const auto& [name, joint] : model.joints_) {
     const auto [entry, is_new] = parent_joint.emplace(joint->child_link_name, name);
     if (!is_new) {
-      fail(path,
-           fmt::format(
-               "link \"{}\" is the child of two joints, \"{}\" and \"{}\": a loop; expected a tree",
-               joint->child_link_name, entry->second, name));
+      refuse(
+          path,
+          fmt::format(
+              "link \"{}\" is the child of two joints, \"{}\" and \"{}\": a loop; expected a tree",
+              joint->child_link_name, entry->second, name));
     }
   }
 }
@@ -92,9 +93,9 @@ void require_all_reached(const std::filesystem::path& path, const urdf::ModelInt
   }
   for (const auto& [name, link] : model.links_) {
     if (reached.count(name) == 0) {
-      fail(path, fmt::format("link \"{}\" is not connected to the root \"{}\" (its joints form a "
-                             "loop); expected a tree",
-                             name, model.getRoot()->name));
+      refuse(path, fmt::format("link \"{}\" is not connected to the root \"{}\" (its joints form a "
+                               "loop); expected a tree",
+                               name, model.getRoot()->name));
     }
   }
 }
@@ -107,18 +108,18 @@ void require_mimic_ends(const std::filesystem::path& path, const urdf::ModelInte
       const std::string& master = current->mimic->joint_name;
       const auto found = model.joints_.find(master);
       if (found == model.joints_.end()) {
-        fail(path, fmt::format("joint \"{}\" mimics \"{}\"; expected the name of a joint",
-                               current->name, master));
+        refuse(path, fmt::format("joint \"{}\" mimics \"{}\"; expected the name of a joint",
+                                 current->name, master));
       }
       if (found->second->type == urdf::Joint::FIXED) {
-        fail(path,
-             fmt::format("joint \"{}\" mimics \"{}\", which is fixed; expected a joint that moves",
+        refuse(path, fmt::format(
+                         "joint \"{}\" mimics \"{}\", which is fixed; expected a joint that moves",
                          current->name, master));
       }
       if (!seen.insert(master).second) {
-        fail(path, fmt::format("joint \"{}\" mimics \"{}\", which follows it: a loop; expected a "
-                               "chain that ends",
-                               current->name, master));
+        refuse(path, fmt::format("joint \"{}\" mimics \"{}\", which follows it: a loop; expected a "
+                                 "chain that ends",
+                                 current->name, master));
       }
       current = found->second;
     }
@@ -131,7 +132,7 @@ void require_usable_xml(const std::filesystem::path& path, const std::string& te
   parse_xml(path, text, "not a valid URDF", document);
   const pugi::xml_node robot = document.document_element();
   if (std::string_view(robot.name()) != "robot")
-    fail(path, fmt::format("not a valid URDF: the root is <{}>; expected <robot>", robot.name()));
+    refuse(path, fmt::format("not a valid URDF: the root is <{}>; expected <robot>", robot.name()));
   require_urdf_numbers(path, text, robot);
   for (const pugi::xml_node& link : robot.children("link")) {
     for (const pugi::xml_node& part : link.children()) {

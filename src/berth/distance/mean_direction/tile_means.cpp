@@ -20,9 +20,8 @@ HWY_BEFORE_NAMESPACE();
 namespace berth {
 namespace HWY_NAMESPACE {
 
-constexpr int kTiles = TileMeans::kTiles;
 /// The columns of 8 pixels in a node.
-constexpr int kColumns = kTiles * kTilePx;
+constexpr int kColumns = TileMeans::kTiles * kTilePx;
 
 /// Sums over the readings of each column, then of each tile; u and v from the tile's corner.
 struct TileSums {
@@ -61,7 +60,7 @@ HWY_INLINE void sum_columns(const DepthSquare& node, TileSums& out) {
 
 /// Adds up each 8 neighbours.
 HWY_INLINE void add_up_columns(float* sums) {
-  for (int count = kColumns / 2; count >= kTiles; count /= 2) {
+  for (int count = kColumns / 2; count >= TileMeans::kTiles; count /= 2) {
     for (int i = 0; i < count; i += kLanes) {
       store(load_even(sums + 2 * i) + load_odd(sums + 2 * i), sums + i);
     }
@@ -76,7 +75,7 @@ void fill_node(const Metric& metric, const DepthSquare& square, const ObstacleTr
   for (float* s : {sums.count, sums.u, sums.v, sums.z_m, sums.uz_m, sums.vz_m}) add_up_columns(s);
   const BasicMetric<Lanes> m = broadcast(metric);
   const Lanes tile_px(kTilePx), half_px(kTilePx / 2.0f), half(0.5f), one(1);
-  for (int i = 0; i < kTiles; i += kLanes) {
+  for (int i = 0; i < TileMeans::kTiles; i += kLanes) {
     const Lanes count = load(sums.count + i);
     const Lanes share = hn::Div(one.v, greatest(one, count).v);
     const Lanes z_m = load(sums.z_m + i) * share;

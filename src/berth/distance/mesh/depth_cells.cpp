@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "berth/vector/divide_up.hpp"
+
 // Compiles the rest of this file once for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "berth/distance/mesh/depth_cells.cpp"
@@ -127,8 +129,6 @@ HWY_EXPORT(fill_row_of_cells);
 HWY_EXPORT(fill_from_node);
 
 namespace {
-
-int divide_up(int a, int b) { return (a + b - 1) / b; }
 
 void clear(DepthCells::Level& level) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();

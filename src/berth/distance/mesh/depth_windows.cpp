@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "berth/vector/divide_up.hpp"
+
 // Compiles the rest of this file once for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "berth/distance/mesh/depth_windows.cpp"
@@ -65,8 +67,6 @@ HWY_EXPORT(fill_row_of_pairs);
 HWY_EXPORT(fill_row_of_least);
 
 namespace {
-
-int divide_up(int a, int b) { return (a + b - 1) / b; }
 
 /// Windows that begin at each `every`-th one of `from`, of which there are `columns` x `rows`, and
 /// hold it and those `ahead` of it.

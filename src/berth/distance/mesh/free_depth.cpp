@@ -158,7 +158,7 @@ HWY_EXPORT(fill_least);
 
 namespace {
 
-constexpr float kEndless = std::numeric_limits<float>::max();
+constexpr float kEndless_m = std::numeric_limits<float>::max();
 
 bool is_empty(float sensed_m, float obstacle_m) {
   return std::isnan(sensed_m) && std::isnan(obstacle_m);
@@ -192,7 +192,7 @@ float own_of_hole(DepthView sensor_depth_m, const ObstacleImage& obstacles, int 
                   float margin_m, float behind_m) {
   constexpr int kLeastNeighbours = 5;
   int readings = 0;
-  float least_m = kEndless;
+  float least_m = kEndless_m;
   const PixelRect around =
       clip({u - 1, v - 1, u + 2, v + 2}, sensor_depth_m.width, sensor_depth_m.height);
   for (int y = around.v_begin; y < around.v_end; ++y) {
@@ -217,7 +217,7 @@ float own_of_pixel(DepthView sensor_depth_m, const ObstacleImage& obstacles,
   if (!is_empty(sensed_m, obstacle_m)) {
     own_m = own_of_reading(sensed_m, obstacle_m, obstacles.fate(u, v), margin_m, behind_m);
   } else if (settings.no_reading == NoReading::free) {
-    own_m = kEndless;
+    own_m = kEndless_m;
   } else {
     own_m = own_of_hole(sensor_depth_m, obstacles, u, v, margin_m, behind_m);
   }
@@ -275,7 +275,7 @@ void find_own_free_depth(DepthView sensor_depth_m, const ObstacleImage& obstacle
     }
     const ThreeRows around(sensor_depth_m, obstacles, out, v);
     const bool has_holes = HWY_DYNAMIC_DISPATCH(fill_own)(around.rows[1], width, margin_m, behind_m,
-                                                          is_free ? kEndless : 0, out.row(v));
+                                                          is_free ? kEndless_m : 0, out.row(v));
     if (above_has_holes) fill_holes_of(v - 1);
     above_has_holes = has_holes && !is_free;
   }
@@ -339,7 +339,8 @@ void age_own_free_depth(const Camera& camera, const DepthImage& sensor_depth_m,
   if (width == 0 || height == 0) return;
   const auto level_count = static_cast<std::size_t>(std::log2(std::min(width, height))) + 1;
   workspace.levels.resize(std::max(workspace.levels.size(), level_count));
-  for (std::size_t k = 0; k < level_count; ++k) workspace.levels[k].resize(width, height, kEndless);
+  for (std::size_t k = 0; k < level_count; ++k)
+    workspace.levels[k].resize(width, height, kEndless_m);
   DepthImage& pixels = workspace.levels[0];
   const double spread = std::max(camera.fx_px, camera.fy_px) * moved_m;
   for (int v = 0; v < height; ++v) {

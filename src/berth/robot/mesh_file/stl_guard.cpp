@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kHeader = 84;
 // Assimp knows no others.
-constexpr std::string_view kBlanks = " \t\r\n";
+constexpr std::string_view kStlBlanks = " \t\r\n";
 
 /// A text word by word, with the line of the last one.
 class Words {
@@ -23,8 +23,8 @@ class Words {
 
   /// Empty at the end.
   std::string_view next() {
-    skip(std::min(rest_.find_first_not_of(kBlanks), rest_.size()));
-    return skip(std::min(rest_.find_first_of(kBlanks), rest_.size()));
+    skip(std::min(rest_.find_first_not_of(kStlBlanks), rest_.size()));
+    return skip(std::min(rest_.find_first_of(kStlBlanks), rest_.size()));
   }
   void skip_line() { skip(std::min(rest_.find('\n'), rest_.size())); }
   std::ptrdiff_t line() const { return line_; }
