@@ -23,7 +23,7 @@ bench:
 	cmake --preset bench
 	cmake --build --preset bench
 	build/bench/lab/berth_bench --out build/bench_results $(if $(BERTH_DATA),$(recordings)) $(BENCH_OPTIONS)
-	lab/bench/plot.py build/bench_results/bench.csv build/bench_results/results.svg
+	test ! -e build/bench_results/bench.csv || lab/bench/plot.py build/bench_results/bench.csv build/bench_results/results.svg
 
 # Adds the laboratory to what build/release has.
 lab:

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "lab/bench/compare.hpp"
 #include "lab/bench/drawn_scenes.hpp"
 #include "lab/bench/extent.hpp"
@@ -10,6 +12,7 @@
 #include "lab/bench/recorded_scenes.hpp"
 #include "lab/bench/report.hpp"
 #include "lab/bench/stages.hpp"
+#include "lab/bench/whole_robot.hpp"
 
 namespace berth::lab {
 namespace {
@@ -23,14 +26,18 @@ void measure_recording(const std::shared_ptr<const Recording>& recording, const 
   }
 }
 
-}  // namespace
-
-void run_benchmarks(const BenchSettings& settings) {
-  const BenchExtent extent = settings.quick ? kQuick : BenchExtent{settings.random_scenes};
-  if (settings.gl_device) {
-    run_gl_benchmarks(settings, extent);
-    return;
+/// In files of its own, so that it can be measured anew without the rest.
+void run_whole_robot(const BenchSettings& settings, const BenchExtent& extent) {
+  Report report(settings.out_folder, "", {"whole_robot.md", "whole_robot.csv"});
+  for (const Table& table :
+       measure_whole_robot(settings.bundled_scene, extent.whole_robot_scenes)) {
+    report.add(table);
   }
+  report.add(compare_whole_robot(settings.bundled_scene,
+                                 std::min(extent.cameras_peer_scenes, extent.whole_robot_scenes)));
+}
+
+void run_image_methods(const BenchSettings& settings, const BenchExtent& extent) {
   Report report(settings.out_folder);
   const auto bundled = open_recording(settings.bundled_scene, "Bundled scene");
   std::vector<std::shared_ptr<const Recording>> recordings;
@@ -45,6 +52,19 @@ void run_benchmarks(const BenchSettings& settings) {
   report.add(measure_growth_of_image(extent.growth_scenes, extent.limits));
   report.add(measure_growth_of_links(extent.growth_scenes, extent.limits));
   report.add(measure_growth_of_meshes(settings.bundled_scene, 10 * extent.stage_rounds));
+}
+
+}  // namespace
+
+void run_benchmarks(const BenchSettings& settings) {
+  const BenchExtent extent =
+      settings.quick ? kQuick : BenchExtent{settings.random_scenes, settings.whole_robot_scenes};
+  if (settings.gl_device) {
+    run_gl_benchmarks(settings, extent);
+    return;
+  }
+  if (!settings.whole_robot_alone) run_image_methods(settings, extent);
+  run_whole_robot(settings, extent);
 }
 
 }  // namespace berth::lab

@@ -12,7 +12,12 @@ struct BenchSettings {
   bool quick = false;
   /// Of a run that is not thinned.
   int random_scenes = 200;
-  /// Folder for bench.csv and results.md; none: the tables are only printed.
+  /// Scenes for the whole robot in a run that is not thinned.
+  int whole_robot_scenes = 100;
+  /// Only the tables of the whole robot.
+  bool whole_robot_alone = false;
+  /// Folder for results.md and bench.csv, and whole_robot.md and whole_robot.csv; none: the tables
+  /// are only printed.
   std::filesystem::path out_folder;
   /// The scene that comes with berth.
   std::filesystem::path bundled_scene;

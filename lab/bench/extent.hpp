@@ -8,6 +8,9 @@ namespace berth::lab {
 /// How much is measured.
 struct BenchExtent {
   int random_scenes = 0;
+  int whole_robot_scenes = 0;
+  /// Of them, for the peers that take seconds.
+  int cameras_peer_scenes = 10;
   int hard_scenes = kHardScenes;
   int bowl_scenes = kBowlScenes;
   int recorded_frames = 12;
@@ -17,6 +20,6 @@ struct BenchExtent {
 };
 
 /// In less than half a minute.
-inline constexpr BenchExtent kQuick{2, 1, 1, 1, 2, 1, {3, 5, 50}};
+inline constexpr BenchExtent kQuick{2, 1, 1, 1, 1, 1, 2, 1, {3, 5, 50}};
 
 }  // namespace berth::lab

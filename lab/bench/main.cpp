@@ -19,8 +19,17 @@ void add_options(CLI::App& program, BenchSettings& settings, BackendChoice& wher
       ->check(CLI::Range(1, 100000))
       ->type_name("N");
   program
-      .add_option("--out", settings.out_folder,
-                  "Folder for results.md and bench.csv; made if it is not there")
+      .add_option("--whole-robot-scenes", settings.whole_robot_scenes,
+                  "The same for the method mesh with several cameras (default: 100)")
+      ->check(CLI::Range(1, 100000))
+      ->type_name("N");
+  program.add_flag("--whole-robot", settings.whole_robot_alone,
+                   "Only the method mesh with several cameras");
+  program
+      .add_option(
+          "--out", settings.out_folder,
+          "Folder for results.md and bench.csv, whole_robot.md and whole_robot.csv; made if "
+          "it is not there")
       ->type_name("DIR");
   program
       .add_option("--scene", settings.scenes,

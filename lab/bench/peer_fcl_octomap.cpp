@@ -1,6 +1,5 @@
 // FCL's distance between the links' meshes and an OctoMap octree that is filled for each frame:
 // what MoveIt does.
-#include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/octree/octree.h>
 #include <fcl/narrowphase/distance.h>
 #include <fmt/format.h>
@@ -10,24 +9,10 @@
 
 #include "lab/bench/peer.hpp"
 #include "lab/bench/points.hpp"
+#include "tests/support/mesh_distance.hpp"
 
 namespace berth::lab {
 namespace {
-
-using LinkTree = fcl::BVHModel<fcl::OBBRSSd>;
-
-std::shared_ptr<LinkTree> build_link_tree(const TriangleMesh& mesh_L) {
-  if (mesh_L.empty()) return nullptr;
-  std::vector<fcl::Vector3d> vertices;
-  for (const auto& vertex : mesh_L.vertices_m) vertices.push_back(vertex.cast<double>());
-  std::vector<fcl::Triangle> triangles;
-  for (const auto& [a, b, c] : mesh_L.triangles) triangles.emplace_back(a, b, c);
-  auto tree = std::make_shared<LinkTree>();
-  tree->beginModel(static_cast<int>(triangles.size()), static_cast<int>(vertices.size()));
-  tree->addSubModel(vertices, triangles);
-  tree->endModel();
-  return tree;
-}
 
 class FclOctomapPeer : public Peer {
  public:
@@ -42,7 +27,8 @@ class FclOctomapPeer : public Peer {
     if (scene.shapes_L == shapes_L_) return;
     shapes_L_ = scene.shapes_L;
     links_.clear();
-    for (const TriangleMesh& mesh_L : *shapes_L_) links_.push_back(build_link_tree(mesh_L));
+    for (const TriangleMesh& mesh_L : *shapes_L_)
+      links_.push_back(testing::build_mesh_tree(mesh_L));
   }
 
   void prepare(const BenchScene& scene) override {
@@ -88,7 +74,7 @@ class FclOctomapPeer : public Peer {
 
   double resolution_m_;
   std::shared_ptr<const LinkShapes> shapes_L_;
-  std::vector<std::shared_ptr<LinkTree>> links_;
+  std::vector<testing::MeshTree> links_;
   std::vector<Point> points_C_m_;
   std::vector<octomap::OcTreeKey> cells_;
   std::shared_ptr<fcl::OcTreed> octree_;

@@ -26,8 +26,9 @@ void write_to(std::ofstream& stream, const std::string& text, const std::filesys
 
 }  // namespace
 
-Report::Report(const std::filesystem::path& folder, const std::string& gl_renderer)
-    : folder_(folder) {
+Report::Report(const std::filesystem::path& folder, const std::string& gl_renderer,
+               const ReportFiles& files)
+    : folder_(folder), files_(files) {
   std::vector<std::string> machine = describe_machine();
   if (!gl_renderer.empty()) machine.push_back("OpenGL: " + gl_renderer);
   for (const std::string& line : machine) fmt::print("{}\n", line);
@@ -36,8 +37,8 @@ Report::Report(const std::filesystem::path& folder, const std::string& gl_render
   if (folder_.empty()) return;
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
-  markdown_ = open_file(folder_ / "results.md");
-  csv_ = open_file(folder_ / "bench.csv");
+  markdown_ = open_file(folder_ / files_.markdown);
+  csv_ = open_file(folder_ / files_.csv);
   for (const std::string& line : machine) markdown_ << "- " << line << '\n';
   csv_ << "table,row,column,value\n";
 }
@@ -46,8 +47,8 @@ void Report::add(const Table& table) {
   fmt::print("{}\n", text_of(table));
   std::fflush(stdout);
   if (folder_.empty()) return;
-  write_to(markdown_, '\n' + markdown_of(table), folder_ / "results.md");
-  write_to(csv_, csv_of(table), folder_ / "bench.csv");
+  write_to(markdown_, '\n' + markdown_of(table), folder_ / files_.markdown);
+  write_to(csv_, csv_of(table), folder_ / files_.csv);
 }
 
 }  // namespace berth::lab
