@@ -55,9 +55,9 @@ TEST(HiddenSpace, CubesHoldWhatTheirPointsAre) {
       empty += !is_possible;
     }
   }
-  EXPECT_GT(hidden, 1000);
-  EXPECT_GT(full, 300);
-  EXPECT_GT(empty, 1000);
+  EXPECT_GT(hidden, thinned(1000));
+  EXPECT_GT(full, thinned(300));
+  EXPECT_GT(empty, thinned(1000));
 }
 
 TEST(HiddenSpace, BlocksAreKeptUntilTheNextViews) {
