@@ -7,7 +7,7 @@
 namespace berth {
 namespace {
 
-constexpr int kLanes = 8;
+constexpr int kTilesAtOnce = 8;
 constexpr float kNearest = 0.25F;
 
 /// What a tile's readings add up to.
@@ -73,7 +73,7 @@ void add_tile(const Camera& camera, const PixelRect& rect, const TileSum& sum, R
 
 /// Sums by lane, so that a compiler may take them side by side.
 struct LaneSums {
-  std::array<float, kLanes> x{}, y{}, z{}, count{};
+  std::array<float, kTilesAtOnce> x{}, y{}, z{}, count{};
 };
 
 struct Sum {
@@ -82,8 +82,8 @@ struct Sum {
 };
 
 void add_far_tiles(const ReadingTiles& tiles, std::size_t first, const Eigen::Vector3f& p,
-                   float range2_m2, LaneSums& sums, std::array<bool, kLanes>& is_near) {
-  for (int i = 0; i < kLanes; ++i) {
+                   float range2_m2, LaneSums& sums, std::array<bool, kTilesAtOnce>& is_near) {
+  for (int i = 0; i < kTilesAtOnce; ++i) {
     const std::size_t k = first + i;
     const float x = tiles.x_m[k] - p.x(), y = tiles.y_m[k] - p.y(), z = tiles.z_m[k] - p.z();
     const float square = x * x + y * y + z * z;
@@ -120,16 +120,16 @@ void add_pixels(const DirectionView& view, Pixel corner, const Eigen::Vector3f& 
 Sum sum_of_view(const DirectionView& view, const Eigen::Vector3f& p, float range2_m2) {
   LaneSums lanes;
   Sum sum;
-  std::array<bool, kLanes> is_near{};
-  for (std::size_t first = 0; first < view.tiles.count.size(); first += kLanes) {
+  std::array<bool, kTilesAtOnce> is_near{};
+  for (std::size_t first = 0; first < view.tiles.count.size(); first += kTilesAtOnce) {
     add_far_tiles(view.tiles, first, p, range2_m2, lanes, is_near);
-    for (int i = 0; i < kLanes; ++i) {
+    for (int i = 0; i < kTilesAtOnce; ++i) {
       if (is_near[i] && view.tiles.count[first + i] > 0) {
         add_pixels(view, view.tiles.corner[first + i], p, range2_m2, sum);
       }
     }
   }
-  for (int i = 0; i < kLanes; ++i) {
+  for (int i = 0; i < kTilesAtOnce; ++i) {
     sum.direction += Eigen::Vector3d(lanes.x[i], lanes.y[i], lanes.z[i]);
     sum.count += lanes.count[i];
   }
@@ -150,7 +150,7 @@ void build_reading_tiles(const Camera& camera, DepthView obstacle_depth_m, Readi
       if (sum.count > 0) add_tile(camera, rect, sum, out);
     }
   }
-  while (out.count.size() % kLanes != 0) {
+  while (out.count.size() % kTilesAtOnce != 0) {
     for (auto* numbers : {&out.count, &out.x_m, &out.y_m, &out.z_m, &out.radius_m}) {
       numbers->push_back(0);
     }
