@@ -34,7 +34,7 @@ void points(const LinkPatches& link, float error_m, int hint, float slack_m, int
 
 void children(const std::array<float, 8>& squared_m2, float edge_m, std::array<float, 64>& out_m) {
   alignas(64) float bounds_m[64];
-  bound_children(corners_from(squared_m2), edge_m, ~std::uint64_t{0}, bounds_m);
+  bound_child_cubes(corners_from(squared_m2), edge_m, ~std::uint64_t{0}, bounds_m);
   std::copy_n(bounds_m, 64, out_m.begin());
 }
 

@@ -55,6 +55,10 @@ HWY_INLINE LaneMask both(LaneMask a, LaneMask b) { return hn::And(a, b); }
 HWY_INLINE Lanes select(LaneMask mask, Lanes yes, Lanes no) {
   return hn::IfThenElse(mask, yes.v, no.v);
 }
+/// +inf for NaN.
+HWY_INLINE Lanes nan_to_infinity(Lanes x) {
+  return select(hn::Eq(x.v, x.v), x, Lanes(std::numeric_limits<float>::infinity()));
+}
 /// a b + c, rounded once or twice, as the instruction set has it: not the same bits.
 HWY_INLINE Lanes mul_add(Lanes a, Lanes b, Lanes c) { return hn::MulAdd(a.v, b.v, c.v); }
 HWY_INLINE Lanes abs(Lanes a) { return hn::Abs(a.v); }

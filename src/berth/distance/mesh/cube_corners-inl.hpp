@@ -26,11 +26,13 @@ struct CubeCorners {
   float squared_m2[8];
 };
 
-/// How much f may be off by what its sums round.
+/// Of the greatest summand of f, what its sums may round away.
+constexpr float kRoundedShare = 16 * std::numeric_limits<float>::epsilon();
+
+/// How much f may be off by that.
 HWY_INLINE float rounding_m2(const CubeCorners& corners, float edge_m) {
   const float* d = corners.squared_m2;
-  return 16 * std::numeric_limits<float>::epsilon() *
-         (*std::max_element(d, d + 8) + edge_m * edge_m);
+  return kRoundedShare * (*std::max_element(d, d + 8) + edge_m * edge_m);
 }
 
 /// f at the corners of a cube within the cube, from `t` on and with edges of `part`; at least 0.
@@ -85,8 +87,7 @@ HWY_INLINE Lanes least_distance(const Lanes (&f)[8], float edge2_m2) {
     least_f = least(least_f, f[i]);
     greatest_f = greatest(greatest_f, f[i]);
   }
-  const Lanes rounding =
-      Lanes(16 * std::numeric_limits<float>::epsilon()) * (abs(greatest_f) + Lanes(edge2_m2));
+  const Lanes rounding = Lanes(kRoundedShare) * (abs(greatest_f) + Lanes(edge2_m2));
   const Lanes bound2 =
       least_f - sag(f, 0, edge2_m2) - sag(f, 1, edge2_m2) - sag(f, 2, edge2_m2) - rounding;
   return root(greatest(bound2, Lanes(0.0f)));
@@ -101,8 +102,8 @@ HWY_INLINE float least_distance_m(const CubeCorners& corners, float edge_m) {
 }
 
 /// The same of the cube's 64 children, of which those that are not `wanted` may be left out.
-HWY_INLINE void bound_children(const CubeCorners& corners, float edge_m, std::uint64_t wanted,
-                               float (&out_m)[64]) {
+HWY_INLINE void bound_child_cubes(const CubeCorners& corners, float edge_m, std::uint64_t wanted,
+                                  float (&out_m)[64]) {
   const float edge2_m2 = edge_m * edge_m;
   const float* d = corners.squared_m2;
   // The coefficients of 1, x, y, z, xy, xz, yz and xyz.
@@ -113,7 +114,7 @@ HWY_INLINE void bound_children(const CubeCorners& corners, float edge_m, std::ui
   const Lanes rounding(rounding_m2(corners, edge_m));
   for (int i = 0; i < 64; i += kLanes) {
     if (!has_wanted(wanted, i)) continue;
-    const ChildPlaces at = child_places(i);
+    const CubePoints at = child_places(i);
     Lanes f[8] = {one, one, one, one, one, one, one, one};
     for (int k = 0; k < 8; ++k) {
       const Lanes x = (at.x + Lanes(k & 1 ? 1.0f : 0.0f)) * quarter;

@@ -16,10 +16,6 @@ HWY_BEFORE_NAMESPACE();
 namespace berth {
 namespace HWY_NAMESPACE {
 
-HWY_INLINE Lanes without_nan(Lanes x) {
-  return hn::IfThenElse(hn::Eq(x.v, x.v), x.v, Lanes(std::numeric_limits<float>::infinity()).v);
-}
-
 /// The least of each 2 x 2 pixels of two rows.
 void fill_row_of_pairs(const float* above, const float* below, int width, float* out) {
   constexpr int kStrip = 2 * kLanes;
@@ -29,7 +25,7 @@ void fill_row_of_pairs(const float* above, const float* below, int width, float*
     const float* a = padded_row(above + u, width - u, kStrip, padded[0]);
     const float* b = padded_row(below + u, width - u, kStrip, padded[1]);
     for (int i = 0; i < kStrip; i += kLanes) {
-      store(least(without_nan(load(a + i)), without_nan(load(b + i))), strip + i);
+      store(least(nan_to_infinity(load(a + i)), nan_to_infinity(load(b + i))), strip + i);
     }
     halve_to_least(strip, kStrip);
     std::copy_n(strip, std::min(kLanes, (width - u + 1) / 2), out + u / 2);

@@ -48,7 +48,7 @@ HWY_INLINE Lanes least_of(const DepthImage& image, const DepthWindows& windows,
       for (int du = 0; du <= cubes.span; ++du) {
         const Ints column = hn::Min(hn::Add(cubes.u0, hn::Set(ints, du)), cubes.u1);
         const Lanes x = hn::GatherIndex(FloatTag(), image.pixels().data(), hn::Add(row, column));
-        all = least(all, select(hn::Eq(x.v, x.v), x, Lanes(HUGE_VALF)));
+        all = least(all, nan_to_infinity(x));
       }
     }
     return all;
@@ -91,12 +91,7 @@ HWY_INLINE Interval pixels_of(Lanes slope, Lanes reach, double focal_px, double 
   return {hn::Floor((lo - Lanes(kPixelError)).v), hn::Floor((hi + Lanes(kPixelError)).v)};
 }
 
-/// The centres of some cubes in B.
-struct Centres {
-  Lanes x, y, z;
-};
-
-HWY_INLINE Projection project(const CarvingView& view, const Centres& p_B, float reach_m,
+HWY_INLINE Projection project(const CarvingView& view, const CubePoints& p_B, float reach_m,
                               float half_m) {
   const Eigen::Matrix3f R = view.X_CB.linear().cast<float>();
   const Eigen::Vector3f t = view.X_CB.translation().cast<float>();
@@ -173,7 +168,7 @@ HWY_INLINE std::uint64_t frees_all(const CarvingView& view, const Projection& cu
 }
 
 /// Which of kLanes cubes may hold something hidden.
-HWY_INLINE std::uint64_t possible_of(std::span<const CarvingView> views, const Centres& centres,
+HWY_INLINE std::uint64_t possible_of(std::span<const CarvingView> views, const CubePoints& centres,
                                      float reach_m, float half_m) {
   Projection cubes[HiddenSpace::kMostViews];
   std::uint64_t hides[HiddenSpace::kMostViews];
@@ -206,16 +201,10 @@ HWY_INLINE std::uint64_t possible_of(std::span<const CarvingView> views, const C
 
 std::uint64_t find(std::span<const CarvingView> views, const Cube& cube) {
   const auto edge_m = static_cast<float>(cube.edge_m() / 4);
-  const Eigen::Vector3f corner = cube.corner_m().cast<float>();
-  const float reach_m = corner.norm() + 4 * edge_m;
+  const float reach_m = cube.corner_m().cast<float>().norm() + 4 * edge_m;
   std::uint64_t possible = 0;
   for (int i = 0; i < 64; i += kLanes) {
-    const ChildPlaces at = child_places(i);
-    const Lanes edge(edge_m), middle(0.5f);
-    const Centres centres{mul_add(edge, at.x + middle, Lanes(corner.x())),
-                          mul_add(edge, at.y + middle, Lanes(corner.y())),
-                          mul_add(edge, at.z + middle, Lanes(corner.z()))};
-    possible |= possible_of(views, centres, reach_m, 0.5f * edge_m) << i;
+    possible |= possible_of(views, child_centres(cube, i), reach_m, 0.5f * edge_m) << i;
   }
   return possible;
 }

@@ -138,16 +138,11 @@ HWY_INLINE void bound_by_patches(const CubeSearch& search, const Cube& cube, std
   std::size_t level = 0;
   while (link.levels[level].count > kMostPatches) ++level;
   const Motion motion = motion_of(search.link.X_BL);
-  const auto edge_m = static_cast<float>(cube.edge_m() / 4);
-  const Eigen::Vector3f corner = cube.corner_m().cast<float>();
+  const auto half_m = static_cast<float>(cube.edge_m() / 8);
   for (int i = 0; i < 64; i += kLanes) {
     if (!has_wanted(wanted, i)) continue;
-    const ChildPlaces at = child_places(i);
-    const Lanes edge(edge_m), middle(0.5f);
-    const Boxes boxes{{mul_add(edge, at.x + middle, Lanes(corner.x())),
-                       mul_add(edge, at.y + middle, Lanes(corner.y())),
-                       mul_add(edge, at.z + middle, Lanes(corner.z()))},
-                      Lanes(0.5f * edge_m)};
+    const CubePoints centre = child_centres(cube, i);
+    const Boxes boxes{{centre.x, centre.y, centre.z}, Lanes(half_m)};
     Lanes bound(HUGE_VALF);
     for (int k = 0; k < link.levels[level].count; ++k) {
       bound = least(bound, patch_bound(broadcast_patch(link.levels[level], k, motion), boxes));
@@ -184,7 +179,7 @@ void expand(CubeSearch& search, const Item& item, Fresh& fresh) {
       link.given_up_m = std::min(link.given_up_m, bound_m);
       return;
     }
-    bound_children(corners, edge_m, possible, child_bounds_m);
+    bound_child_cubes(corners, edge_m, possible, child_bounds_m);
   } else {
     bound_by_patches(search, cube, possible, child_bounds_m);
   }

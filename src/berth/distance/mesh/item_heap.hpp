@@ -9,6 +9,7 @@ namespace berth::mesh {
 /// A patch of a link and a piece of space, and a distance that no two of their points go below.
 struct Item {
   float bound_m;
+  /// Among cubes the whole link is meant, and this is a leaf that may be near.
   std::uint32_t patch;
   std::uint64_t space;
 };

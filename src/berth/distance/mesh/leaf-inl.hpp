@@ -14,7 +14,7 @@ namespace berth::mesh {
 namespace HWY_NAMESPACE {
 
 /// Where something is searched for: X_FL, and what the roundings of a distance there may add up to.
-struct Frame {
+struct SearchFrame {
   Pose X_FL;
   Motion motion;
   float error_m;
@@ -25,7 +25,7 @@ struct Frame {
 inline float rounding_m(float reach_m) {
   return 16 * std::numeric_limits<float>::epsilon() * reach_m;
 }
-HWY_INLINE Frame make_frame(const Pose& X_FL, float reach_m) {
+HWY_INLINE SearchFrame make_frame(const Pose& X_FL, float reach_m) {
   return {X_FL, motion_of(X_FL), rounding_m(reach_m)};
 }
 
@@ -49,7 +49,7 @@ struct Heading {
 HWY_INLINE Vectors broadcast(const Heading& n) { return {Lanes(n.x), Lanes(n.y), Lanes(n.z)}; }
 
 /// The least n . v of all points of a leaf's triangles.
-HWY_INLINE float least_along(const LinkSearch& search, const Frame& frame, int leaf,
+HWY_INLINE float least_along(const LinkSearch& search, const SearchFrame& frame, int leaf,
                              const Heading& n) {
   Lanes along(HUGE_VALF);
   for (int first = 16 * leaf; first < 16 * (leaf + 1); first += kLanes) {
@@ -64,7 +64,7 @@ HWY_INLINE float least_along(const LinkSearch& search, const Frame& frame, int l
 /// below. Pairs for which that does not end the search are left to closest_points(). Calls
 /// found(triangle, distance, point of the body) for each pair that is better than the best.
 template <class Bodies, class Found>
-HWY_INLINE Heading search_leaf(LinkSearch& search, const Frame& frame, int index,
+HWY_INLINE Heading search_leaf(LinkSearch& search, const SearchFrame& frame, int index,
                                const Bodies& body, const Eigen::Vector3d (&body_corners_m)[8],
                                Found found) {
   constexpr int kRounds = 4;
@@ -140,8 +140,8 @@ HWY_INLINE void add_below(Lanes bound, float limit_m, std::uint32_t valid, Add a
 
 /// Calls add(bound, patch) for the children of a patch that may be near enough to a body.
 template <class Bodies, class Add>
-HWY_INLINE void bound_children(const LinkSearch& search, const Frame& frame, std::uint32_t patch,
-                               const Bodies& body, Add add) {
+HWY_INLINE void bound_children(const LinkSearch& search, const SearchFrame& frame,
+                               std::uint32_t patch, const Bodies& body, Add add) {
   const int below = level_of(patch) - 1;
   const PatchLevel& level = search.link->levels[below];
   const int begin = 16 * index_of(patch);

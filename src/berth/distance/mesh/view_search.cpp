@@ -18,7 +18,7 @@ namespace HWY_NAMESPACE {
 /// A view as one link's search sees it.
 struct LinkView {
   const ViewSpace* space;
-  Frame frame;
+  SearchFrame frame;
   /// Pixel border u, at u - 1/2, has the slope x / z = u per_column + first_column.
   float per_column, first_column, per_row, first_row;
   /// Behind it is nothing within the range.
