@@ -1,6 +1,4 @@
-# berth_library(<folder> SOURCES ... DEPENDS ... USES ... [COMPONENT opengl]): one target for each folder of src/berth.
-# DEPENDS are libraries that its headers need, USES are those that only its sources need. COMPONENT: users get it only where
-# they ask find_package for it.
+# berth_compile_options(<target>): what all of berth is compiled with. Comes after the target's sources.
 function(berth_compile_options target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor
@@ -9,6 +7,7 @@ function(berth_compile_options target)
     target_compile_options(${target} PRIVATE -fsanitize=${BERTH_SANITIZE} -fno-omit-frame-pointer)
     target_link_options(${target} PUBLIC -fsanitize=${BERTH_SANITIZE})
   endif()
+  berth_join_sources(${target})
 endfunction()
 
 # berth_join_sources(<target>): with BERTH_JOIN_SOURCES its sources are compiled as one, which reads their headers once. Those
@@ -29,6 +28,9 @@ function(berth_join_sources target)
   endforeach()
 endfunction()
 
+# berth_library(<folder> SOURCES ... DEPENDS ... USES ... [COMPONENT opengl]): one target for each folder of src/berth.
+# DEPENDS are libraries that its headers need, USES are those that only its sources need. COMPONENT: users get it only where
+# they ask find_package for it.
 function(berth_library folder)
   cmake_parse_arguments(ARG "" "COMPONENT" "SOURCES;DEPENDS;USES" ${ARGN})
   add_library(berth_${folder} ${ARG_SOURCES})
@@ -39,7 +41,6 @@ function(berth_library folder)
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(berth_${folder} PUBLIC ${ARG_DEPENDS} PRIVATE ${ARG_USES})
   berth_compile_options(berth_${folder})
-  berth_join_sources(berth_${folder})
   if(BUILD_SHARED_LIBS)
     # By the linker, so that objects are the same for both kinds of library. Installed, the libraries lie in one folder.
     set(map ${PROJECT_SOURCE_DIR}/cmake/exported_symbols.map)

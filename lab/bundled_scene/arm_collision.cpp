@@ -7,8 +7,8 @@
 namespace berth::lab {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-const Pose kAlongY = rotation(kPi / 2, Eigen::Vector3d::UnitX());
+using std::numbers::pi;
+const Pose kAlongY = rotation(pi / 2, Eigen::Vector3d::UnitX());
 
 // E is the frame of make_elbow.
 std::vector<CollisionShape> elbow(const Pose& X_LE, double height_m) {
@@ -20,7 +20,7 @@ std::vector<CollisionShape> elbow(const Pose& X_LE, double height_m) {
 }  // namespace
 
 std::vector<CollisionShape> arm_collision(int link) {
-  const Pose turned = rotation(kPi, Eigen::Vector3d::UnitZ());
+  const Pose turned = rotation(pi, Eigen::Vector3d::UnitZ());
   switch (link) {
     case 0:
       return {{translation(0, 0, 0.055), 0.107, 0.11}};

@@ -8,7 +8,7 @@
 namespace berth::lab {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 const Eigen::Vector3d kX = Eigen::Vector3d::UnitX();
 const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();
@@ -33,10 +33,10 @@ DrawnMesh make_elbow_link(double height_m, double z_end_radius_m, double y_end_r
   DrawnMesh link = make_elbow(height_m, z_end_radius_m, y_end_radius_m);
   append(link, make_collar(z_end_radius_m), translation(0, 0, 0.001));
   append(link, make_collar(y_end_radius_m),
-         translation(0, -0.001, height_m) * rotation(kPi / 2, kX));
+         translation(0, -0.001, height_m) * rotation(pi / 2, kX));
   const double arc = std::max(z_end_radius_m, y_end_radius_m);
   append(link, make_cover(0.8 * y_end_radius_m, 6),
-         translation(0, -2 * arc - 0.002, height_m) * rotation(kPi / 2, kX));
+         translation(0, -2 * arc - 0.002, height_m) * rotation(pi / 2, kX));
   return link;
 }
 
@@ -45,8 +45,8 @@ DrawnMesh make_wrist() {
   const Profile barrel{{0, 0.001},      {0.049, 0.001},  {0.050, 0.002}, {0.050, 0.030},
                        {0.0475, 0.032}, {0.0475, 0.035}, {0.050, 0.037}, {0.049, 0.046},
                        {0.046, 0.055},  {0.040, 0.062},  {0.030, 0.066}, {0, 0.067}};
-  append(wrist, make_lathe(barrel, kSegments), rotation(-kPi / 2, kX));
-  append(wrist, make_cover(0.028, 5), translation(0, 0.064, 0) * rotation(-kPi / 2, kX));
+  append(wrist, make_lathe(barrel, kSegments), rotation(-pi / 2, kX));
+  append(wrist, make_cover(0.028, 5), translation(0, 0.064, 0) * rotation(-pi / 2, kX));
   append(wrist, make_lathe({{0.036, 0}, {0.036, 0.045}, {0.038, 0.049}, {0.038, 0.053}, {0, 0.053}},
                            kSegments));
   return wrist;
@@ -88,7 +88,7 @@ DrawnMesh make_flange_and_gripper() {
 
 std::array<DrawnMesh, kArmLinks> make_arm_meshes() {
   std::array<DrawnMesh, kArmLinks> mesh;
-  const Pose turned = rotation(kPi, kZ);
+  const Pose turned = rotation(pi, kZ);
   mesh[0] = make_base();
   mesh[1] = make_elbow_link(0.200, 0.060, 0.060);
   append(mesh[2], make_elbow_link(0.200, 0.058, 0.060), upside_down(0.200));

@@ -7,7 +7,7 @@
 namespace berth::lab {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 // A path in the yz plane; the heading is measured from +z towards +y.
 struct PathPoint {
@@ -29,10 +29,10 @@ void add_arc(Path& path, double arc_radius_m, double end_heading_rad, int steps)
 
 // 60 degrees out and 150 back end on the axis again, for any radius of the arcs.
 Path elbow_path(double height_m, double arc_radius_m) {
-  const double arcs_height = arc_radius_m * (1 + 2 * std::sin(kPi / 3));
+  const double arcs_height = arc_radius_m * (1 + 2 * std::sin(pi / 3));
   Path path{{0, 0, 0}, {0, 0.5 * (height_m - arcs_height), 0}, {0, height_m - arcs_height, 0}};
-  add_arc(path, arc_radius_m, -kPi / 3, 12);
-  add_arc(path, arc_radius_m, kPi / 2, 30);
+  add_arc(path, arc_radius_m, -pi / 3, 12);
+  add_arc(path, arc_radius_m, pi / 2, 30);
   return path;
 }
 
@@ -41,7 +41,7 @@ Ring make_ring(const PathPoint& at, double radius_m) {
   const Eigen::Vector3d side(0, std::cos(at.heading_rad), -std::sin(at.heading_rad));
   Ring ring(kSegments);
   for (int i = 0; i < kSegments; ++i) {
-    const double angle = 2 * kPi * i / kSegments;
+    const double angle = 2 * pi * i / kSegments;
     ring[i] =
         centre + radius_m * (std::cos(angle) * Eigen::Vector3d::UnitX() + std::sin(angle) * side);
   }
@@ -69,7 +69,7 @@ DrawnMesh make_elbow(double height_m, double z_end_radius_m, double y_end_radius
 }
 
 Pose upside_down(double height_m) {
-  return translation(0, 0, height_m) * rotation(kPi, Eigen::Vector3d::UnitX());
+  return translation(0, 0, height_m) * rotation(pi, Eigen::Vector3d::UnitX());
 }
 
 DrawnMesh make_collar(double tube_radius_m) {
@@ -96,7 +96,7 @@ DrawnMesh make_screws(int count, double circle_radius_m, double z_m) {
   const DrawnMesh head = make_screw_head();
   for (int i = 0; i < count; ++i)
     append(screws, head,
-           rotation(2 * kPi * i / count, Eigen::Vector3d::UnitZ()) *
+           rotation(2 * pi * i / count, Eigen::Vector3d::UnitZ()) *
                translation(circle_radius_m, 0, z_m));
   return screws;
 }

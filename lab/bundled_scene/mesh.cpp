@@ -7,12 +7,12 @@
 namespace berth::lab {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 Ring make_circle(double radius_m, double z_m, int segments, double flatten) {
   Ring ring(segments);
   for (int i = 0; i < segments; ++i) {
-    const double angle = 2 * kPi * i / segments;
+    const double angle = 2 * pi * i / segments;
     ring[i] = {radius_m * std::cos(angle), flatten * radius_m * std::sin(angle), z_m};
   }
   return ring;
@@ -28,7 +28,7 @@ void add_dome(Profile& profile, double radius_m, double z_m, double begin, doubl
   constexpr int kSteps = 8;
   for (int i = 0; i <= kSteps; ++i) {
     const double angle = begin + (end - begin) * i / kSteps;
-    const bool pole = std::abs(std::abs(angle) - kPi / 2) < 1e-9;
+    const bool pole = std::abs(std::abs(angle) - pi / 2) < 1e-9;
     profile.push_back({pole ? 0 : radius_m * std::cos(angle), z_m + radius_m * std::sin(angle)});
   }
 }
@@ -88,16 +88,16 @@ Profile smooth_profile(const Profile& points, int steps) {
 
 DrawnMesh make_capsule(double length_m, double r0_m, double r1_m, int segments) {
   Profile profile;
-  add_dome(profile, r0_m, 0, -kPi / 2, 0);
-  add_dome(profile, r1_m, length_m, 0, kPi / 2);
+  add_dome(profile, r0_m, 0, -pi / 2, 0);
+  add_dome(profile, r1_m, length_m, 0, pi / 2);
   return make_lathe(profile, segments);
 }
 
 DrawnMesh make_ellipsoid(const Eigen::Vector3d& half_axes_m, int segments) {
   Profile profile;
-  add_dome(profile, 1, 0, -kPi / 2, 0);
+  add_dome(profile, 1, 0, -pi / 2, 0);
   profile.pop_back();
-  add_dome(profile, 1, 0, 0, kPi / 2);
+  add_dome(profile, 1, 0, 0, pi / 2);
   DrawnMesh mesh = make_lathe(profile, segments);
   for (Eigen::Vector3f& p : mesh.vertex_m) p = p.cwiseProduct(half_axes_m.cast<float>()).eval();
   return mesh;

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 // The body's frame H: on the floor below the hips' middle, x to the front, y to the left, z up.
 constexpr double kHipsZ_m = 0.90, kAnkleZ_m = 0.08, kHipY_m = 0.095, kShoulderY_m = 0.195;
@@ -67,10 +67,10 @@ void place_leg(std::vector<Pose>& X_TP, const Pose& X_TH, double left, double st
 
 std::vector<Pose> person_kinematics(const PersonMotion& motion) {
   // It faces the arm, against T's x.
-  const Pose X_TH = translation(motion.x_T_m, 0.02, kFloorZ_m) * rotation(kPi, Vector3d::UnitZ());
+  const Pose X_TH = translation(motion.x_T_m, 0.02, kFloorZ_m) * rotation(pi, Vector3d::UnitZ());
   const Pose X_TK =
       X_TH * translation(0, 0, kHipsZ_m) * rotation(motion.lean_rad, Vector3d::UnitY());
-  const double phase = 2 * kPi * motion.walked_m / 1.1;
+  const double phase = 2 * pi * motion.walked_m / 1.1;
   std::vector<Pose> X_TP{X_TK, X_TK * translation(0.025, 0, 0.745) *
                                    rotation(0.2 - motion.lean_rad, Vector3d::UnitY())};
   for (const double left : {1.0, -1.0}) {
@@ -80,7 +80,7 @@ std::vector<Pose> person_kinematics(const PersonMotion& motion) {
     const double reach = left > 0 ? motion.reach : 0;
     place_arm(X_TP, X_TH, shoulder, hanging + reach * (kReachedWrist_T_m - hanging), left);
   }
-  for (const double left : {1.0, -1.0}) place_leg(X_TP, X_TH, left, phase + (left > 0 ? 0 : kPi));
+  for (const double left : {1.0, -1.0}) place_leg(X_TP, X_TH, left, phase + (left > 0 ? 0 : pi));
   return X_TP;
 }
 

@@ -8,13 +8,6 @@
 namespace berth::lab {
 namespace {
 
-/// Like a Kinect.
-constexpr ImageErrors kSensor{.step_m_at_1m = 0.003,
-                              .noise_m_at_1m = 0.0015,
-                              .dropout_share = 0.02,
-                              .mixed_share = 0.1,
-                              .outline_px = 2};
-
 struct NamedErrors {
   const char* name;
   ImageErrors image = {};
@@ -39,9 +32,9 @@ const std::array kSingleErrors = {
 
 const std::array kSensors = {
     NamedErrors{"clean image"},
-    NamedErrors{"sensor", kSensor},
-    NamedErrors{"sensor, 1 cm and 0.2° off, 10 ms", kSensor, {0.01, 0.0035, 0.01}},
-    NamedErrors{"sensor, 3 cm and 0.5° off, 50 ms", kSensor, {0.03, 0.0087, 0.05}},
+    NamedErrors{"sensor", kKinectErrors},
+    NamedErrors{"sensor, 1 cm and 0.2° off, 10 ms", kKinectErrors, {0.01, 0.0035, 0.01}},
+    NamedErrors{"sensor, 3 cm and 0.5° off, 50 ms", kKinectErrors, {0.03, 0.0087, 0.05}},
 };
 
 struct NamedSettings {

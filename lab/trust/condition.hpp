@@ -18,6 +18,13 @@ struct ImageErrors {
   bool operator==(const ImageErrors&) const = default;
 };
 
+/// Like a Kinect's.
+inline constexpr ImageErrors kKinectErrors{.step_m_at_1m = 0.003,
+                                           .noise_m_at_1m = 0.0015,
+                                           .dropout_share = 0.02,
+                                           .mixed_share = 0.1,
+                                           .outline_px = 2};
+
 /// What is wrong with where berth believes that the robot is.
 struct PoseErrors {
   double offset_m = 0;

@@ -14,13 +14,6 @@
 namespace berth::lab {
 namespace {
 
-/// Like a Kinect.
-constexpr ImageErrors kSensor{.step_m_at_1m = 0.003,
-                              .noise_m_at_1m = 0.0015,
-                              .dropout_share = 0.02,
-                              .mixed_share = 0.1,
-                              .outline_px = 2};
-
 SelfFilterSettings narrow_filter() {
   SelfFilterSettings settings;
   settings.tolerance_m = 0.02;
@@ -185,14 +178,14 @@ std::vector<WholeRobotCondition> whole_robot_conditions() {
   };
   add("clean images, ideal filter", MeasuredFilter::ideal);
   add("clean images, default filter", MeasuredFilter::berth);
-  add("sensor, default filter", MeasuredFilter::berth).image = kSensor;
+  add("sensor, default filter", MeasuredFilter::berth).image = kKinectErrors;
   WholeRobotCondition& narrow =
       add("each camera 1 cm and 0.3° off, filter 2 cm, 2 cm", MeasuredFilter::berth);
   narrow.pose = off;
   narrow.self_filter = narrow_filter();
   WholeRobotCondition& all =
       add("sensor, 1 cm and 0.3° off, default filter", MeasuredFilter::berth);
-  all.image = kSensor;
+  all.image = kKinectErrors;
   all.pose = off;
   add("0 to 50 ms out of step, ideal filter", MeasuredFilter::ideal).most_age_s = 0.05;
   WholeRobotCondition& untold = add("… and age not told", MeasuredFilter::ideal);

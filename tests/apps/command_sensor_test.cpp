@@ -18,7 +18,7 @@ std::vector<Json> run_with(CommandScene& scene, const std::string& settings) {
 }
 
 /// Pixels of this fate in one frame.
-int count_with(CommandScene& scene, const std::string& settings, const char* fate,
+int count_by_sensor(CommandScene& scene, const std::string& settings, const char* fate,
                std::size_t frame = 0) {
   return run_with(scene, settings).at(frame)["self_filter"][fate];
 }
@@ -27,17 +27,17 @@ TEST(SensorKey, SpeckleIsDroppedUpToItsSize) {
   CommandScene scene;
   scene.surroundings.rectangles.push_back({{4, 4, 6, 7}, 1.5});
   scene.write_images();
-  EXPECT_EQ(count_with(scene, "", "speckle"), 0);
-  EXPECT_EQ(count_with(scene, "speckle_px: 6", "speckle"), 0);
-  EXPECT_EQ(count_with(scene, "speckle_px: 7", "speckle"), 6);
+  EXPECT_EQ(count_by_sensor(scene, "", "speckle"), 0);
+  EXPECT_EQ(count_by_sensor(scene, "speckle_px: 6", "speckle"), 0);
+  EXPECT_EQ(count_by_sensor(scene, "speckle_px: 7", "speckle"), 6);
 }
 
 TEST(SensorKey, SpeckleJumpJoinsPixels) {
   CommandScene scene;
   scene.surroundings.rectangles.push_back({{4, 4, 6, 7}, 2.9});
   scene.write_images();
-  EXPECT_EQ(count_with(scene, "speckle_px: 7, speckle_jump_m: 0.01", "speckle"), 6);
-  EXPECT_EQ(count_with(scene, "speckle_px: 7, speckle_jump_m: 0.02", "speckle"), 0);
+  EXPECT_EQ(count_by_sensor(scene, "speckle_px: 7, speckle_jump_m: 0.01", "speckle"), 6);
+  EXPECT_EQ(count_by_sensor(scene, "speckle_px: 7, speckle_jump_m: 0.02", "speckle"), 0);
 }
 
 /// The second image's wall is 6 cm behind the first one's.
@@ -52,34 +52,34 @@ class Average : public ::testing::Test {
 };
 
 TEST_F(Average, FramesMoveReadingsTowardsTheCamera) {
-  EXPECT_EQ(count_with(scene, "average_frames: 0", "averaged", 1), 0);
-  EXPECT_EQ(count_with(scene, "average_frames: 1", "averaged", 1), 0);
-  EXPECT_GT(count_with(scene, "average_frames: 2", "averaged", 1), 1000);
-  EXPECT_EQ(count_with(scene, "average_frames: 2", "averaged", 0), 0);
+  EXPECT_EQ(count_by_sensor(scene, "average_frames: 0", "averaged", 1), 0);
+  EXPECT_EQ(count_by_sensor(scene, "average_frames: 1", "averaged", 1), 0);
+  EXPECT_GT(count_by_sensor(scene, "average_frames: 2", "averaged", 1), 1000);
+  EXPECT_EQ(count_by_sensor(scene, "average_frames: 2", "averaged", 0), 0);
 }
 
 TEST_F(Average, NoiseIsWhatTheMeanGoesOver) {
-  EXPECT_EQ(count_with(scene, "average_frames: 2, noise_m: 0.006", "averaged", 1), 0);
-  EXPECT_GT(count_with(scene, "average_frames: 2, noise_m: 0.007", "averaged", 1), 1000);
+  EXPECT_EQ(count_by_sensor(scene, "average_frames: 2, noise_m: 0.006", "averaged", 1), 0);
+  EXPECT_GT(count_by_sensor(scene, "average_frames: 2, noise_m: 0.007", "averaged", 1), 1000);
 }
 
 TEST(SensorKey, BackgroundIsLearnedFromAllImagesOfTheScene) {
   CommandScene scene;
-  EXPECT_EQ(count_with(scene, "background_frames: 0", "background"), 0);
-  const int often = count_with(scene, "background_frames: 1", "background");
-  const int seldom = count_with(scene, "background_frames: 2", "background");
+  EXPECT_EQ(count_by_sensor(scene, "background_frames: 0", "background"), 0);
+  const int often = count_by_sensor(scene, "background_frames: 1", "background");
+  const int seldom = count_by_sensor(scene, "background_frames: 2", "background");
   EXPECT_GT(often, 20);
   EXPECT_GT(seldom, 0);
   EXPECT_LT(seldom, often);
-  EXPECT_EQ(count_with(scene, "background_frames: 4", "background"), 0);
+  EXPECT_EQ(count_by_sensor(scene, "background_frames: 4", "background"), 0);
 }
 
 TEST(SensorKey, BackgroundIsNotLearnedWithinTheClearance) {
   CommandScene scene;
   const int near =
-      count_with(scene, "background_frames: 1, background_clearance_m: 0", "background");
+      count_by_sensor(scene, "background_frames: 1, background_clearance_m: 0", "background");
   const int far =
-      count_with(scene, "background_frames: 1, background_clearance_m: 0.5", "background");
+      count_by_sensor(scene, "background_frames: 1, background_clearance_m: 0.5", "background");
   EXPECT_GT(near, far);
 }
 
@@ -112,9 +112,9 @@ TEST(SensorKey, HolesAreFilledByTheirPolicy) {
   CommandScene scene;
   scene.surroundings.rectangles.push_back({{4, 4, 6, 7}, kNoDepth});
   scene.write_images();
-  EXPECT_EQ(count_with(scene, "holes: free", "no_reading"), 6);
-  EXPECT_EQ(count_with(scene, "holes: free", "hole"), 0);
-  EXPECT_EQ(count_with(scene, "holes: obstacle", "hole"), 6);
+  EXPECT_EQ(count_by_sensor(scene, "holes: free", "no_reading"), 6);
+  EXPECT_EQ(count_by_sensor(scene, "holes: free", "hole"), 0);
+  EXPECT_EQ(count_by_sensor(scene, "holes: obstacle", "hole"), 6);
 }
 
 TEST(SensorKey, AnAverageOverTooManyFramesIsRefused) {

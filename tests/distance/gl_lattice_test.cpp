@@ -35,7 +35,7 @@ class OnlyGlHybrid : public GlLattices {};
 INSTANTIATE_TEST_SUITE_P(Methods, OnlyGlHybrid, ::testing::Values(Method::gl_hybrid),
                          method_test_name);
 
-const LatticeSettings kManyLattices[] = {
+const LatticeSettings kGlLattices[] = {
     {1, 1, 40, 2, 16}, {2, 3, 60, 1, 64}, {4, 4, 5, 3, 5}, {65536, 1, 7, 7, 16}, {1, 8, 30, 30, 1}};
 
 void expect_same_pixels(const LinkDistances& expected, const LinkDistances& actual) {
@@ -53,7 +53,7 @@ TEST_P(OnlyGlLattice, FindsThePixelsOfItsSlowTwinFromAsManyPairs) {
   for (const auto& [width, height, links] : {std::tuple{97, 131, 5}, {1, 1, 1}, {33, 17, 64}}) {
     for (std::uint32_t seed = 0; seed < 3; ++seed) {
       const ImagePair images = random_images(seed, width, height, links);
-      for (const LatticeSettings& lattice : kManyLattices) {
+      for (const LatticeSettings& lattice : kGlLattices) {
         SCOPED_TRACE(std::to_string(width) + " wide, seed " + std::to_string(seed) + ", tile " +
                      std::to_string(lattice.tile_px));
         const LinkDistances expected = plain_gl_lattice(images, {.lattice = lattice});
@@ -69,7 +69,7 @@ TEST_P(OnlyGlHybrid, FindsThePixelsOfLatticeInTheWholeImage) {
   for (std::uint32_t seed = 0; seed < 3; ++seed) {
     SCOPED_TRACE(seed);
     const ImagePair images = random_images(seed, 131, 97, 5);
-    for (const LatticeSettings& lattice : kManyLattices) {
+    for (const LatticeSettings& lattice : kGlLattices) {
       DistanceSettings settings;
       settings.mean_direction = false;
       settings.lattice = lattice;
@@ -88,7 +88,7 @@ TEST_P(GlLattices, AreNeverBelowBruteForceWhateverTheirSettings) {
     SCOPED_TRACE(seed);
     const ImagePair images = random_images(seed, 131, 97, 5);
     const LinkDistances truth = answer(Method::brute_force, images);
-    for (const LatticeSettings& lattice : kManyLattices) {
+    for (const LatticeSettings& lattice : kGlLattices) {
       expect_possible_answer(truth, found(images, lattice), images);
     }
   }

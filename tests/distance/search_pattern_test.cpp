@@ -11,14 +11,14 @@
 namespace berth {
 namespace {
 
-struct Case {
+struct VisitCase {
   Pixel robot;
   PixelStep step;
   PixelRect rect;
 };
 
-std::vector<Case> all_cases() {
-  std::vector<Case> cases;
+std::vector<VisitCase> all_cases() {
+  std::vector<VisitCase> cases;
   for (const PixelRect rect :
        {PixelRect{0, 0, 1, 1}, {0, 0, 23, 17}, {4, 2, 23, 9}, {5, 0, 6, 17}, {0, 3, 23, 4}}) {
     const Pixel last{rect.u_end - 1, rect.v_end - 1};
@@ -32,7 +32,7 @@ std::vector<Case> all_cases() {
   return cases;
 }
 
-std::vector<Pixel> visited(SearchPattern pattern, const Case& c) {
+std::vector<Pixel> visited(SearchPattern pattern, const VisitCase& c) {
   std::vector<Pixel> pixels;
   visit_runs(pattern, c.robot, c.step, c.rect, [&](const PixelRun& run) {
     for (int i = 0; i < run.count; ++i) pixels.push_back({run.u + i * run.du, run.v + i * run.dv});
@@ -45,7 +45,7 @@ INSTANTIATE_TEST_SUITE_P(SearchPatterns, Pattern, ::testing::ValuesIn(kSearchPat
                          [](const auto& tested) { return std::string(name_of(tested.param)); });
 
 TEST_P(Pattern, VisitsEachStepOfTheRegionOnceAndNothingElse) {
-  for (const Case& c : all_cases()) {
+  for (const VisitCase& c : all_cases()) {
     std::map<std::pair<int, int>, int> times;
     for (const Pixel p : visited(GetParam(), c)) ++times[{p.u, p.v}];
     std::size_t expected = 0;
@@ -86,7 +86,7 @@ TEST_P(Pattern, AlwaysVisitsWhatARegionThatShrinksKeepsToTheEnd) {
   }
 }
 
-const Case kPlainCase{{8, 5}, {2, 1}, {0, 0, 23, 17}};
+const VisitCase kPlainCase{{8, 5}, {2, 1}, {0, 0, 23, 17}};
 
 TEST(RowMajor, GoesFromTopToBottom) {
   int last = 0;

@@ -15,10 +15,6 @@ namespace {
 
 constexpr float kError_m = 1e-5f;
 
-Eigen::Vector3d draw_point(Random& random, double reach_m) {
-  return {random(-reach_m, reach_m), random(-reach_m, reach_m), random(-reach_m, reach_m)};
-}
-
 /// Loose triangles: small ones, large ones, needles, and some without any area.
 TriangleMesh draw_triangles(Random& random, int count) {
   TriangleMesh mesh;

@@ -21,10 +21,6 @@ Cube cube_at(const Eigen::Vector3d& p_B, int level) {
           static_cast<int>(place.z())};
 }
 
-Eigen::Vector3d draw_point(Random& random, double reach_m) {
-  return {random(-reach_m, reach_m), random(-reach_m, reach_m), random(-reach_m, reach_m)};
-}
-
 /// A point that is hidden lies in no cube that holds nothing.
 TEST(HiddenSpace, CubesHoldWhatTheirPointsAre) {
   Random random(7);

@@ -95,13 +95,13 @@ void plain_free_depth_of(const DepthImage& own_m, DepthImage& out) {
 
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kFar_m = std::numeric_limits<float>::infinity();
 /// Two ranges take twice the work of one: they are worth it where more than this lies between.
 constexpr float kLeastGap_m = 0.06f;
 
 struct Range {
-  float lo_m = kInfinity;
-  float hi_m = -kInfinity;
+  float lo_m = kFar_m;
+  float hi_m = -kFar_m;
   void add(float lo, float hi) {
     lo_m = std::min(lo_m, lo);
     hi_m = std::max(hi_m, hi);
@@ -202,7 +202,7 @@ void plain_depth_windows(DepthView image, DepthWindows& windows) {
     level.step_px = side_px == 4 ? 2 : side_px / 4;
     level.columns = divide_up(image.width, level.step_px);
     level.rows = divide_up(image.height, level.step_px);
-    level.least.assign(static_cast<std::size_t>(level.columns) * level.rows, kInfinity);
+    level.least.assign(static_cast<std::size_t>(level.columns) * level.rows, kFar_m);
     for (int j = 0; j < level.rows; ++j) {
       for (int i = 0; i < level.columns; ++i) {
         float& least = level.least[j * level.columns + i];

@@ -9,7 +9,7 @@
 namespace berth {
 namespace {
 
-const Camera kCamera{61, 47, 50, 52, 30.2, 22.7};
+const Camera kUprightCamera{61, 47, 50, 52, 30.2, 22.7};
 const Camera kOtherCamera{47, 61, 50, 52, 22.7, 30.2};
 
 /// A few links that are seldom seen all, and sometimes none.
@@ -43,7 +43,7 @@ TEST(RobotImageReuse, OneImageServesRobotsAndCamerasInTurn) {
   RobotImage image;
   for (int trial = 0; trial < 300; ++trial) {
     const Scene scene(random);
-    const Camera& camera = random() % 4 == 0 ? kOtherCamera : kCamera;
+    const Camera& camera = random() % 4 == 0 ? kOtherCamera : kUprightCamera;
     scene.render(camera, image);
     ASSERT_TRUE(same_bits(image, scene.fresh(camera))) << trial;
   }
@@ -54,10 +54,10 @@ TEST(RobotImageReuse, SomebodyElsesImageIsClearedInFull) {
   for (int trial = 0; trial < 20; ++trial) {
     const Scene scene(random);
     RobotImage image;
-    image.depth_m.resize(kCamera.width_px, kCamera.height_px, 0.25F);
-    image.link_id.resize(kCamera.width_px, kCamera.height_px, LinkId{7});
-    scene.render(kCamera, image);
-    EXPECT_TRUE(same_bits(image, scene.fresh(kCamera))) << trial;
+    image.depth_m.resize(kUprightCamera.width_px, kUprightCamera.height_px, 0.25F);
+    image.link_id.resize(kUprightCamera.width_px, kUprightCamera.height_px, LinkId{7});
+    scene.render(kUprightCamera, image);
+    EXPECT_TRUE(same_bits(image, scene.fresh(kUprightCamera))) << trial;
   }
 }
 
@@ -65,10 +65,10 @@ TEST(RobotImageExtent, HoldsAllRobotPixels) {
   std::mt19937 random(6);
   int robot_pixels = 0;
   for (int trial = 0; trial < 200; ++trial) {
-    const RobotImage image = Scene(random).fresh(kCamera);
+    const RobotImage image = Scene(random).fresh(kUprightCamera);
     const PixelRect& extent = image.extent;
-    for (int v = 0; v < kCamera.height_px; ++v) {
-      for (int u = 0; u < kCamera.width_px; ++u) {
+    for (int v = 0; v < kUprightCamera.height_px; ++v) {
+      for (int u = 0; u < kUprightCamera.width_px; ++u) {
         if (image.link_id(u, v) == kNoLink) continue;
         ++robot_pixels;
         ASSERT_TRUE(u >= extent.u_begin && u < extent.u_end && v >= extent.v_begin &&
@@ -84,7 +84,7 @@ TEST(RobotImageExtent, IsNotMuchLargerThanTheRobot) {
   // From 0.7 m to 0.9 m to the right and 0.1 m to both sides of the axis, at 1.9 m to 2.1 m.
   const RobotModel model = robot_of({make_box({0.2, 0.2, 0.2})});
   RobotImage image;
-  RobotRenderer(build_link_meshes(model), kCamera)
+  RobotRenderer(build_link_meshes(model), kUprightCamera)
       .render({{Pose(Eigen::Translation3d(0.8, 0, 2))}}, Pose::Identity(), image);
   EXPECT_GE(image.extent.u_begin, 30.2 + 50 * 0.7 / 2.1 - 3);
   EXPECT_LE(image.extent.u_end, 30.2 + 50 * 0.9 / 1.9 + 3);

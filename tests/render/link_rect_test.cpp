@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "tests/render/small_robot.hpp"
+
 namespace berth {
 namespace {
 
@@ -13,8 +15,6 @@ const Camera kCamera{64, 48, 60, 55, 31.4, 23.9};
 bool holds(const PixelRect& rect, int u, int v) {
   return u >= rect.u_begin && u < rect.u_end && v >= rect.v_begin && v < rect.v_end;
 }
-
-Pose at(double x_m, double y_m, double z_m) { return Pose(Eigen::Translation3d(x_m, y_m, z_m)); }
 
 Eigen::AlignedBox3f cube(float half_m) {
   return {Eigen::Vector3f::Constant(-half_m), Eigen::Vector3f::Constant(half_m)};

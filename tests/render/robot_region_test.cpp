@@ -9,20 +9,20 @@
 namespace berth {
 namespace {
 
-const Camera kCamera{160, 120, 130, 130, 78, 61};
+const Camera kRegionCamera{160, 120, 130, 130, 78, 61};
 
 RobotImage render(const RobotModel& model, const RobotPose& pose) {
   RobotImage image;
-  RobotRenderer(build_link_meshes(model), kCamera).render(pose, Pose::Identity(), image);
+  RobotRenderer(build_link_meshes(model), kRegionCamera).render(pose, Pose::Identity(), image);
   return image;
 }
 
 /// Three shapes of random_mesh and their poses; a cloud of triangles is not convex.
-struct Scene {
+struct ShapeScene {
   RobotModel model;
   RobotPose pose;
 
-  explicit Scene(std::uint32_t seed) {
+  explicit ShapeScene(std::uint32_t seed) {
     std::mt19937 random(seed);
     std::vector<TriangleMesh> meshes;
     std::vector<Pose> X_CL;
@@ -40,7 +40,7 @@ struct Scene {
 
 TEST(RobotRegion, OfScale1IsTheRobot) {
   for (std::uint32_t seed = 0; seed < 20; ++seed) {
-    const Scene scene(seed);
+    const ShapeScene scene(seed);
     const RobotImage region = render(robot_region(scene.model, 1), scene.pose);
     const RobotImage robot = render(scene.model, scene.pose);
     int differ = 0;
@@ -52,7 +52,7 @@ TEST(RobotRegion, OfScale1IsTheRobot) {
 
 TEST(RobotRegion, GrowsWithItsScaleAndHoldsConvexLinks) {
   for (std::uint32_t seed = 0; seed < 20; ++seed) {
-    const Scene scene(seed);
+    const ShapeScene scene(seed);
     RobotImage inner = render(scene.model, scene.pose);
     for (const double scale : {1.2, 2.0, 6.0}) {
       const RobotImage outer = render(robot_region(scene.model, scale), scene.pose);
@@ -67,7 +67,7 @@ TEST(RobotRegion, GrowsWithItsScaleAndHoldsConvexLinks) {
 }
 
 TEST(RobotRegion, LeavesSceneryOut) {
-  Scene scene(3);
+  ShapeScene scene(3);
   set_last_role(scene.model, LinkRole::environment);
   const RobotImage region = render(robot_region(scene.model, 2), scene.pose);
   for (const LinkId id : region.link_id.pixels()) EXPECT_TRUE(id <= 2);

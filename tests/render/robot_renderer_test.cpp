@@ -14,13 +14,11 @@
 namespace berth {
 namespace {
 
-const Camera kCamera{37, 29, 30, 30, 18, 14};
-
-Pose at(double x_m, double y_m, double z_m) { return Pose(Eigen::Translation3d(x_m, y_m, z_m)); }
+const Camera kTinyCamera{37, 29, 30, 30, 18, 14};
 
 /// Seen by a camera that stands in the robot's base frame.
 RobotImage render(const RobotModel& model, const std::vector<Pose>& X_CL,
-                  const Camera& camera = kCamera) {
+                  const Camera& camera = kTinyCamera) {
   RobotImage image;
   RobotRenderer(build_link_meshes(model), camera)
       .render(pose_seen_at(Pose::Identity(), X_CL), Pose::Identity(), image);
@@ -89,7 +87,7 @@ TEST(RobotRenderer, LinkBehindTheCameraIsNotSeen) {
 
 TEST(RobotRenderer, CameraMovesOppositeToTheRobot) {
   const RobotModel model = robot_of({make_box({0.3, 0.4, 0.5})});
-  RobotRenderer renderer(build_link_meshes(model), kCamera);
+  RobotRenderer renderer(build_link_meshes(model), kTinyCamera);
   std::mt19937 random(5);
   const Pose X_BC = random_pose(random, {Eigen::Vector3d(-3, -3, -3), Eigen::Vector3d(3, 3, 3)});
   RobotImage moved;
@@ -104,7 +102,7 @@ TEST(RobotRenderer, CameraMovesOppositeToTheRobot) {
 
 TEST(RobotRenderer, NothingOfTheImageBeforeRemains) {
   const RobotModel model = robot_of({make_box({0.5, 0.5, 0.5}), make_sphere(0.3)});
-  RobotRenderer renderer(build_link_meshes(model), kCamera);
+  RobotRenderer renderer(build_link_meshes(model), kTinyCamera);
   const RobotPose a = pose_seen_at(Pose::Identity(), {at(-0.4, 0, 2), at(0.6, 0.3, 1)});
   const RobotPose b = pose_seen_at(Pose::Identity(), {at(0.4, 0.2, 1), at(0, 0, -2)});
   RobotImage first;
@@ -133,7 +131,7 @@ TEST(RobotRenderer, ThreadsThatShareMeshesGetTheSameImages) {
     poses.push_back(pose_seen_at(Pose::Identity(), X_CL));
   }
   const auto render_all = [&](std::vector<RobotImage>& images) {
-    RobotRenderer renderer(meshes, kCamera);
+    RobotRenderer renderer(meshes, kTinyCamera);
     images.resize(poses.size());
     for (std::size_t i = 0; i < poses.size(); ++i)
       renderer.render(poses[i], Pose::Identity(), images[i]);
@@ -158,7 +156,7 @@ TEST(RobotRenderer, MeshesOutliveTheModelTheyWereBuiltFrom) {
     const RobotModel model = robot_of({make_box({20, 20, 1})});
     meshes = build_link_meshes(model);
   }
-  RobotRenderer renderer(std::move(meshes), kCamera);
+  RobotRenderer renderer(std::move(meshes), kTinyCamera);
   RobotRenderer moved = std::move(renderer);
   RobotImage image;
   moved.render(pose_seen_at(Pose::Identity(), {at(0, 0, 2.5)}), Pose::Identity(), image);
@@ -179,7 +177,7 @@ TEST(RobotRenderer, BadCameraThrows) {
 
 TEST(RobotRenderer, CameraPoseThatIsNotFiniteThrowsAndLeavesTheImage) {
   const RobotModel model = robot_of({make_box({1, 1, 1})});
-  RobotRenderer renderer(build_link_meshes(model), kCamera);
+  RobotRenderer renderer(build_link_meshes(model), kTinyCamera);
   const RobotPose pose = pose_seen_at(Pose::Identity(), {at(0, 0, 2)});
   RobotImage image;
   renderer.render(pose, Pose::Identity(), image);

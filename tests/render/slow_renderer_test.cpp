@@ -13,10 +13,10 @@
 namespace berth {
 namespace {
 
-const Camera kCamera{45, 35, 42, 38, 22.3, 16.8};
+const Camera kSmallCamera{45, 35, 42, 38, 22.3, 16.8};
 
 Comparison render_both(const RobotModel& model, const RobotPose& pose, const Pose& X_BC,
-                       const Camera& camera = kCamera) {
+                       const Camera& camera = kSmallCamera) {
   RobotImage image;
   RobotRenderer(build_link_meshes(model), camera).render(pose, X_BC, image);
   EXPECT_EQ(image.depth_m.width(), camera.width_px);
@@ -35,8 +35,6 @@ Comparison render_one(const TriangleMesh& mesh, const Pose& X_CL) {
   const Pose X_BC = random_pose(random, {Eigen::Vector3d(-1, -1, -1), Eigen::Vector3d(1, 1, 1)});
   return render_both(robot_of({mesh}), pose_seen_at(X_BC, {X_CL}), X_BC);
 }
-
-Pose at(double x_m, double y_m, double z_m) { return Pose(Eigen::Translation3d(x_m, y_m, z_m)); }
 
 TEST(RendererAndTwin, AgreeOnRandomRobots) {
   std::mt19937 random(42);

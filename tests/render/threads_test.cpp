@@ -10,7 +10,7 @@
 namespace berth {
 namespace {
 
-const Camera kCamera{203, 157, 180, 175, 99.4, 80.1};
+const Camera kThreadsCamera{203, 157, 180, 175, 99.4, 80.1};
 
 RobotImage render_with(int threads, const CrowdedRobot& robot, RobotRenderer& renderer) {
   RobotImage image;
@@ -21,7 +21,7 @@ RobotImage render_with(int threads, const CrowdedRobot& robot, RobotRenderer& re
 TEST(RenderThreads, AnyNumberGivesTheSameImage) {
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 5);
   const CrowdedRobot robot(1);
-  RobotRenderer renderer(build_link_meshes(robot.model), kCamera);
+  RobotRenderer renderer(build_link_meshes(robot.model), kThreadsCamera);
   const RobotImage alone = render_with(1, robot, renderer);
   for (int round = 0; round < 50; ++round) {
     EXPECT_TRUE(same_bits(render_with(1 + round % 5, robot, renderer), alone)) << round;
@@ -30,7 +30,7 @@ TEST(RenderThreads, AnyNumberGivesTheSameImage) {
 
 TEST(RenderThreads, AtEqualDepthTheSmallerIdIsSeen) {
   const CrowdedRobot robot(2);
-  RobotRenderer renderer(build_link_meshes(robot.model), kCamera);
+  RobotRenderer renderer(build_link_meshes(robot.model), kThreadsCamera);
   int fifth = 0;
   const RobotImage image = render_with(2, robot, renderer);
   for (const LinkId id : image.link_id.pixels()) {

@@ -21,10 +21,10 @@ RobotModel three_joints() {
   return model;
 }
 
-const std::vector<std::string> kNames{"wheel", "turn", "finger", "lift"};
+const std::vector<std::string> kColumnNames{"wheel", "turn", "finger", "lift"};
 
 JointTrajectory trajectory(const std::vector<JointTrajectory::Sample>& samples) {
-  return JointTrajectory(three_joints(), "joints.csv", kNames, samples);
+  return JointTrajectory(three_joints(), "joints.csv", kColumnNames, samples);
 }
 
 /// Where no limit forbids it.

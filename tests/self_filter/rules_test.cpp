@@ -9,12 +9,12 @@
 namespace berth {
 namespace {
 
-constexpr PixelRect kLink{20, 20, 40, 40};
+constexpr PixelRect kLinkRect{20, 20, 40, 40};
 
 PixelFate fate_of_reading(float reading_m, LinkId id, const SelfFilterSettings& settings) {
   FlatScene scene;
-  scene.add_link(id, kLink, 1.0F);
-  scene.see(kLink, reading_m);
+  scene.add_link(id, kLinkRect, 1.0F);
+  scene.see(kLinkRect, reading_m);
   return filter(scene, settings).fate(30, 30);
 }
 
@@ -30,9 +30,9 @@ TEST(SelfFilter, WithoutARobotEveryReadingIsAnObstacle) {
 
 TEST(SelfFilter, CountsAddUpToTheImageAndDepthIsThereExactlyAtObstacles) {
   FlatScene scene;
-  scene.add_link(1, kLink, 1.0F);
+  scene.add_link(1, kLinkRect, 1.0F);
   scene.add_link(kEnvironmentLink, {0, 50, 60, 60}, 1.2F);
-  scene.see(kLink, 1.01F);
+  scene.see(kLinkRect, 1.01F);
   scene.see({0, 50, 60, 60}, 1.2F);
   scene.see({0, 0, 3, 60}, kNoDepth);
   const ObstacleImage out = filter(scene, {});
@@ -67,8 +67,8 @@ TEST(SelfFilter, WhatIsClearlyInFrontOfTheModelStays) {
 TEST(SelfFilter, ToleranceGrowsWithDepthAsAskedFor) {
   const auto at_two_metres = [](float reading_m, const SelfFilterSettings& settings) {
     FlatScene scene;
-    scene.add_link(1, kLink, 2.0F);
-    scene.see(kLink, reading_m);
+    scene.add_link(1, kLinkRect, 2.0F);
+    scene.see(kLinkRect, reading_m);
     return filter(scene, settings).fate(30, 30);
   };
   SelfFilterSettings settings = no_rules();
@@ -85,7 +85,7 @@ TEST(SelfFilter, SceneryIsFilteredAndGrownLikeALink) {
   EXPECT_EQ(fate_of_reading(1.0F, kEnvironmentLink, {}), PixelFate::environment);
   EXPECT_EQ(fate_of_reading(0.9F, kEnvironmentLink, {}), PixelFate::obstacle);
   FlatScene scene;
-  scene.add_link(kEnvironmentLink, kLink, 2.0F);  // a pixel is 20 mm wide there
+  scene.add_link(kEnvironmentLink, kLinkRect, 2.0F);  // a pixel is 20 mm wide there
   SelfFilterSettings settings = no_rules();
   settings.padding_m = 0.101;
   const ObstacleImage padded = filter(scene, settings);
@@ -153,7 +153,7 @@ TEST(SelfFilter, SceneryEndsAtADeeperPart) {
 
 TEST(SelfFilter, PaddingIsADiscOfThatLengthAtTheLinksDepth) {
   FlatScene scene;
-  scene.add_link(1, kLink, 2.0F);  // a pixel is 20 mm wide there
+  scene.add_link(1, kLinkRect, 2.0F);  // a pixel is 20 mm wide there
   SelfFilterSettings settings = no_rules();
   settings.padding_m = 0.101;
   const ObstacleImage out = filter(scene, settings);
@@ -171,8 +171,8 @@ TEST(SelfFilter, PaddingIsADiscOfThatLengthAtTheLinksDepth) {
 /// A link before the wall; beside it a thing at this depth, and one mixed pixel at 2 m.
 FlatScene scene_beside_link(float thing_depth_m) {
   FlatScene scene;
-  scene.add_link(1, kLink, 1.0F);
-  scene.see(kLink, 1.0F);
+  scene.add_link(1, kLinkRect, 1.0F);
+  scene.see(kLinkRect, 1.0F);
   scene.see({40, 20, 44, 30}, thing_depth_m);
   scene.see({41, 35, 42, 36}, 2.0F);
   return scene;
@@ -221,7 +221,7 @@ TEST(SelfFilter, PaddingOfASingleLinkReplacesTheCommonOne) {
 
 TEST(SelfFilter, AnObstacleInFrontOfThePaddingStays) {
   FlatScene scene;
-  scene.add_link(1, kLink, 1.0F);
+  scene.add_link(1, kLinkRect, 1.0F);
   scene.see({40, 20, 42, 40}, 0.9F);
   SelfFilterSettings settings = no_rules();
   settings.padding_m = 0.05;
@@ -233,7 +233,7 @@ TEST(SelfFilter, AnObstacleInFrontOfThePaddingStays) {
 TEST(SelfFilter, ANearLinkGrowsOverADeeperOne) {
   FlatScene scene;
   scene.add_link(1, {10, 10, 50, 50}, 1.5F);
-  scene.add_link(2, kLink, 1.0F);
+  scene.add_link(2, kLinkRect, 1.0F);
   scene.see({10, 10, 50, 50}, 1.5F);
   scene.see({20, 20, 42, 40}, 1.0F);  // the sensor sees the near link two pixels wider
   SelfFilterSettings settings = no_rules();
@@ -246,7 +246,7 @@ TEST(SelfFilter, ANearLinkGrowsOverADeeperOne) {
 
 TEST(SelfFilter, DilationIsADiscInPixels) {
   FlatScene scene;
-  scene.add_link(1, kLink, 2.0F);
+  scene.add_link(1, kLinkRect, 2.0F);
   SelfFilterSettings settings = no_rules();
   settings.dilation_px = 5;
   const ObstacleImage out = filter(scene, settings);
@@ -307,7 +307,7 @@ TEST(SelfFilter, ASlopeIsNoMixedPixel) {
 
 TEST(SelfFilter, SettingsThatReachFartherNeverKeepMore) {
   FlatScene scene;
-  scene.add_link(1, kLink, 1.0F);
+  scene.add_link(1, kLinkRect, 1.0F);
   scene.see({18, 18, 43, 41}, 1.02F);
   std::int64_t last = kSide_px * kSide_px;
   for (const double scale : {0.0, 0.5, 1.0, 2.0, 4.0}) {
@@ -323,7 +323,7 @@ TEST(SelfFilter, SettingsThatReachFartherNeverKeepMore) {
 
 TEST(SelfFilter, MemoryOfFormerFramesDoesNotShow) {
   FlatScene first;
-  first.add_link(1, kLink, 1.0F);
+  first.add_link(1, kLinkRect, 1.0F);
   first.see({35, 18, 48, 41}, 1.0F);
   FlatScene second;
   second.add_link(2, {0, 0, 60, 10}, 0.5F);

@@ -16,7 +16,7 @@ namespace {
 
 /// The size of camera i's image, as a part of that of the first one.
 constexpr std::array kSizes = {1.0, 0.75, 0.5, 0.875};
-constexpr int kMostCameras = 300;
+constexpr int kMostCameraDraws = 300;
 
 PixelFate fate_of(LinkId id, float sensed_m, float robot_m) {
   if (std::isnan(sensed_m)) return PixelFate::no_reading;
@@ -59,7 +59,7 @@ DrawnView draw_view(Random& random, const RobotModel& model, const DrawnScene& s
   const RobotExtent robot = extent_of(model, scene.pose);
   const int width_px = static_cast<int>(size * scene.camera.width_px);
   const int height_px = static_cast<int>(size * scene.camera.height_px);
-  for (int i = 0; i < kMostCameras; ++i) {
+  for (int i = 0; i < kMostCameraDraws; ++i) {
     const Camera camera = draw_camera(random, width_px, height_px);
     const Pose X_BC = draw_camera_pose(random, robot);
     if (!is_clear(X_BC.translation(), scene.obstacles)) continue;
@@ -67,7 +67,7 @@ DrawnView draw_view(Random& random, const RobotModel& model, const DrawnScene& s
     if (sees_robot(view)) return view;
   }
   throw std::runtime_error(
-      fmt::format("robot \"{}\": none of {} cameras sees it", model.name, kMostCameras));
+      fmt::format("robot \"{}\": none of {} cameras sees it", model.name, kMostCameraDraws));
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -28,5 +30,10 @@ class Random {
  private:
   std::mt19937 engine_;
 };
+
+/// In the cube of which the origin is the middle.
+inline Eigen::Vector3d draw_point(Random& random, double reach_m) {
+  return {random(-reach_m, reach_m), random(-reach_m, reach_m), random(-reach_m, reach_m)};
+}
 
 }  // namespace berth::testing

@@ -8,7 +8,7 @@ namespace {
 using Polygon = std::vector<Eigen::Vector3d>;
 
 /// What of the polygon lies on the side of a plane through the origin that `normal` points to.
-Polygon clip(const Polygon& polygon, const Eigen::Vector3d& normal) {
+Polygon clip_by_plane(const Polygon& polygon, const Eigen::Vector3d& normal) {
   Polygon inside;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Eigen::Vector3d& p = polygon[i];
@@ -27,10 +27,10 @@ Polygon clip_to_pixel(Polygon polygon_C, const Camera& camera, int u, int v) {
   const double right = (u + 0.5 - camera.cx_px) / camera.fx_px;
   const double top = (v - 0.5 - camera.cy_px) / camera.fy_px;
   const double bottom = (v + 0.5 - camera.cy_px) / camera.fy_px;
-  polygon_C = clip(polygon_C, {1, 0, -left});
-  polygon_C = clip(polygon_C, {-1, 0, right});
-  polygon_C = clip(polygon_C, {0, 1, -top});
-  return clip(polygon_C, {0, -1, bottom});
+  polygon_C = clip_by_plane(polygon_C, {1, 0, -left});
+  polygon_C = clip_by_plane(polygon_C, {-1, 0, right});
+  polygon_C = clip_by_plane(polygon_C, {0, 1, -top});
+  return clip_by_plane(polygon_C, {0, -1, bottom});
 }
 
 void append_fan(const Polygon& polygon, TriangleMesh& mesh) {

@@ -10,7 +10,7 @@ namespace berth::testing {
 namespace {
 
 /// A point of a surface lies in front of it by rounding.
-constexpr double kRounding_m = 1e-3;
+constexpr double kDepthRounding_m = 1e-3;
 
 SurfacePair closest_obstacle(const MeshTree& tree, const Pose& X_WM,
                              const std::vector<MeshTree>& obstacles,
@@ -39,7 +39,7 @@ ObstacleSight sight_of(const Eigen::Vector3d& p_C, const Camera& camera,
       clip({u0 - 1, v0 - 1, u0 + 2, v0 + 2}, camera.width_px, camera.height_px);
   for (int y = around.v_begin; y < around.v_end; ++y) {
     for (int x = around.u_begin; x < around.u_end; ++x) {
-      if (obstacle_depth_m(x, y) <= p_C.z() + kRounding_m) return ObstacleSight::covered;
+      if (obstacle_depth_m(x, y) <= p_C.z() + kDepthRounding_m) return ObstacleSight::covered;
     }
   }
   return ObstacleSight::behind_robot;

@@ -9,7 +9,7 @@
 namespace berth::testing {
 namespace {
 
-constexpr DrawnSceneSettings kSmall{.width_px = 160, .height_px = 120};
+constexpr DrawnSceneSettings kSmallViews{.width_px = 160, .height_px = 120};
 
 class DrawnViewsTest : public ::testing::Test {
  protected:
@@ -20,16 +20,16 @@ class DrawnViewsTest : public ::testing::Test {
 };
 
 TEST_F(DrawnViewsTest, TheFirstOneIsTheDrawnScene) {
-  const DrawnScene scene = draw_scene(model_, trees_, kSmall, 4);
-  const DrawnViews drawn = draw_views(model_, trees_, kSmall, 4, 2);
+  const DrawnScene scene = draw_scene(model_, trees_, kSmallViews, 4);
+  const DrawnViews drawn = draw_views(model_, trees_, kSmallViews, 4, 2);
   EXPECT_TRUE(same_bits(drawn.views[0].depth_m, scene.depth_m));
   EXPECT_TRUE(same_bits(drawn.views[0].obstacles.depth_m, scene.obstacle_depth_m));
   EXPECT_TRUE(same_bits(drawn.views[0].robot.depth_m, scene.robot.depth_m));
 }
 
 TEST_F(DrawnViewsTest, MoreCamerasLeaveTheOthersAsTheyAre) {
-  const DrawnViews two = draw_views(model_, trees_, kSmall, 5, 2);
-  const DrawnViews four = draw_views(model_, trees_, kSmall, 5, 4);
+  const DrawnViews two = draw_views(model_, trees_, kSmallViews, 5, 2);
+  const DrawnViews four = draw_views(model_, trees_, kSmallViews, 5, 4);
   ASSERT_EQ(four.views.size(), 4U);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_TRUE(same_bits(two.views[i].depth_m, four.views[i].depth_m));
@@ -39,7 +39,7 @@ TEST_F(DrawnViewsTest, MoreCamerasLeaveTheOthersAsTheyAre) {
 
 TEST_F(DrawnViewsTest, EachSeesTheRobotAndTellsTheFateOfEachPixel) {
   for (std::uint32_t seed = 0; seed < 5; ++seed) {
-    for (const DrawnView& view : draw_views(model_, trees_, kSmall, seed, 4).views) {
+    for (const DrawnView& view : draw_views(model_, trees_, kSmallViews, seed, 4).views) {
       EXPECT_GT(view.obstacles.count_of(PixelFate::robot), 0);
       std::int64_t pixels = 0;
       for (const std::int64_t count : view.obstacles.count) pixels += count;

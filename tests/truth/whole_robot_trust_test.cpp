@@ -11,7 +11,7 @@
 namespace berth::lab {
 namespace {
 
-constexpr testing::DrawnSceneSettings kImage{.width_px = 224, .height_px = 172};
+constexpr testing::DrawnSceneSettings kViewImages{.width_px = 224, .height_px = 172};
 constexpr std::size_t kThreeCameras = 2;
 
 /// Seeds 0 to scenes - 1, on clean images. What no image shows is not judged: no camera can tell
@@ -21,7 +21,7 @@ int expect_within_bound(const TrialRobot& robot, int scenes) {
   int checked = 0;
   for (int seed = 0; seed < scenes; ++seed) {
     const WholeRobotTrial trial =
-        run_whole_robot_trial(robot, kImage, static_cast<std::uint32_t>(seed), clean);
+        run_whole_robot_trial(robot, kViewImages, static_cast<std::uint32_t>(seed), clean);
     for (std::size_t i = 0; i < trial.truth.size(); ++i) {
       if (trial.truth[i].sight[kThreeCameras] != testing::ObstacleSight::covered) continue;
       const double most_m = trial.truth[i].distance_m + kMaxWholeRobotOverestimate_m;

@@ -13,7 +13,7 @@ constexpr double kLargestError = 0.065;
 constexpr double kMeanSquareError = 0.025 * 0.025;
 constexpr int kPlainPoints = 4000;
 
-class BundledRobot : public testing::Test {
+class BundledRobot : public ::testing::Test {
  protected:
   BundledRobot()
       : model_(load_robot({.urdf = BERTH_BUNDLED_ARM "/arm.urdf",

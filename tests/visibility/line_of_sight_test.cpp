@@ -8,7 +8,7 @@ namespace berth {
 namespace {
 
 /// A plate 2 m before the camera, and one 1 m before it that covers the columns from 200 on.
-class LineOfSight : public testing::Test {
+class LineOfSight : public ::testing::Test {
  protected:
   LineOfSight()
       : world_({make_box({2, 1, 0.02}), make_box({1, 1, 0.02})},

@@ -42,10 +42,6 @@ struct SmallWorld {
   ObstacleImage obstacles;
 };
 
-inline Pose at(double x_m, double y_m, double z_m) {
-  return Pose(Eigen::Translation3d(x_m, y_m, z_m));
-}
-
 inline constexpr float kWall_m = 5;
 
 }  // namespace berth

@@ -10,7 +10,7 @@ namespace {
 constexpr float kError = 0.05F;
 
 /// A plate of 0.4 m, 2 m before the camera: the columns and rows from 130 to 190, 90 to 150.
-class Space : public testing::Test {
+class Space : public ::testing::Test {
  protected:
   SmallWorld world_{{make_box({0.4, 0.4, 0.02})}, {at(0, 0, 2)}};
 };

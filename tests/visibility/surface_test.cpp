@@ -8,7 +8,7 @@ namespace berth {
 namespace {
 
 /// Two standard errors of 400 points.
-constexpr float kError = 0.05F;
+constexpr float kSurfaceError = 0.05F;
 
 float sum(const SightShares& shares) {
   return shares.seen + shares.hidden_by_obstacles + shares.hidden_by_robot + shares.no_reading +
@@ -21,8 +21,8 @@ TEST(Surface, SphereIsSeenForJustUnderHalf) {
     const SightShares shares = world.surface_of_first();
     // The cap whose edge the camera's rays touch.
     const double cap = (1 - 0.15 / distance_m) / 2;
-    EXPECT_NEAR(shares.seen, cap, kError) << distance_m;
-    EXPECT_NEAR(shares.hidden_by_robot, 1 - cap, kError) << distance_m;
+    EXPECT_NEAR(shares.seen, cap, kSurfaceError) << distance_m;
+    EXPECT_NEAR(shares.hidden_by_robot, 1 - cap, kSurfaceError) << distance_m;
     EXPECT_EQ(shares.hidden_by_obstacles + shares.outside_image, 0);
   }
 }
@@ -83,7 +83,7 @@ TEST(Surface, WithoutReadingsNothingIsSeen) {
   world.put(kEverywhere, kNoDepth);
   const SightShares shares = world.surface_of_first();
   EXPECT_EQ(shares.seen, 0);
-  EXPECT_NEAR(shares.no_reading, seen, kError);
+  EXPECT_NEAR(shares.no_reading, seen, kSurfaceError);
 }
 
 TEST(Surface, LinkBetweenTwoColumnsOfPixelsIsNotSeen) {
@@ -104,7 +104,7 @@ TEST(Surface, WhereTheRobotMovesToIsSeenUnlessItStoodInFront) {
   SmallWorld world({make_sphere(0.15)}, {at(0, 0, 1.5)});
   const float seen = world.surface_of_first().seen;
   world.move_asked({at(0.5, 0, 1.5)});
-  EXPECT_NEAR(world.surface_of_first().seen, seen, kError);
+  EXPECT_NEAR(world.surface_of_first().seen, seen, kSurfaceError);
   world.move_asked({at(0, 0, 2.5)});
   EXPECT_EQ(world.surface_of_first().seen, 0);
   EXPECT_EQ(world.surface_of_first().hidden_by_robot, 1);

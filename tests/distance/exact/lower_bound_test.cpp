@@ -8,7 +8,7 @@
 namespace berth {
 namespace {
 
-class Sampler {
+class PixelSampler {
  public:
   float whole(int lo, int hi) {
     return static_cast<float>(std::uniform_int_distribution<int>(lo, hi)(engine_));
@@ -19,7 +19,7 @@ class Sampler {
   std::mt19937 engine_{7};
 };
 
-PixelBox random_box(Sampler& sample) {
+PixelBox random_box(PixelSampler& sample) {
   const float u = sample.whole(0, 60);
   const float v = sample.whole(0, 60);
   const float depth_m = std::exp(sample.real(-3, 4));
@@ -35,12 +35,12 @@ struct Sample {
 };
 
 /// Often one of the ends, where the bound is tight.
-float whole_in(Sampler& sample, float lo, float hi) {
+float whole_in(PixelSampler& sample, float lo, float hi) {
   const float end = sample.whole(0, 2);
   return end == 0 ? lo : end == 1 ? hi : sample.whole(static_cast<int>(lo), static_cast<int>(hi));
 }
 
-Sample random_pixel(Sampler& sample, const PixelBox& box) {
+Sample random_pixel(PixelSampler& sample, const PixelBox& box) {
   const float end = sample.whole(0, 2);
   const float depth_m = end == 0   ? box.depth_lo_m
                         : end == 1 ? box.depth_hi_m
@@ -50,7 +50,7 @@ Sample random_pixel(Sampler& sample, const PixelBox& box) {
 }
 
 TEST(LowerBound, IsNeverAboveTheComputedDistanceOfAnyPair) {
-  Sampler sample;
+  PixelSampler sample;
   int tight = 0;
   for (int i = 0; i < 20000; ++i) {
     const Metric metric{sample.real(-30, 90), sample.real(-30, 90), 1 / sample.real(20, 90),
