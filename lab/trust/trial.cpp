@@ -43,6 +43,7 @@ std::vector<Estimate> with_doubtful(const Camera& camera, const RobotImage& imag
   DoubtfulWorkspace workspace;
   std::vector<LinkVisibility> links(estimates.size());
   find_doubtful(sensed_m, obstacles, doubtful);
+  doubtful.searchable.build(doubtful.depth_m);
   find_doubtful_distances(camera, image, doubtful, distances, kTrialRange_m, workspace, links);
   for (std::size_t i = 0; i < links.size(); ++i) {
     if (std::isnan(links[i].doubtful_distance_m)) continue;

@@ -57,6 +57,7 @@ TEST(Doubtful, IslandsAndSpeckleHaveTheirReadingAndNothingElseHasOne) {
   DroppedScene scene = dropped_scene(3);
   DoubtfulImage doubtful;
   find_doubtful(scene.sensor_depth_m, scene.obstacles, doubtful);
+  doubtful.searchable.build(doubtful.depth_m);
   for (int v = 0; v < kHeight_px; ++v) {
     for (int u = 0; u < kWidth_px; ++u) {
       const PixelFate fate = scene.obstacles.fate(u, v);
@@ -75,10 +76,12 @@ TEST(Doubtful, NothingStaysFromTheImageBefore) {
   DroppedScene scene = dropped_scene(3);
   DoubtfulImage doubtful;
   find_doubtful(scene.sensor_depth_m, scene.obstacles, doubtful);
+  doubtful.searchable.build(doubtful.depth_m);
   ASSERT_FALSE(doubtful.extent.empty());
   scene.obstacles.count = {};
   scene.obstacles.fate.resize(kWidth_px, kHeight_px, PixelFate::obstacle);
   find_doubtful(scene.sensor_depth_m, scene.obstacles, doubtful);
+  doubtful.searchable.build(doubtful.depth_m);
   EXPECT_TRUE(doubtful.extent.empty());
   for (const float depth_m : doubtful.depth_m.pixels()) ASSERT_TRUE(std::isnan(depth_m));
 }
@@ -87,6 +90,7 @@ TEST(Doubtful, ANewSizeIsTaken) {
   DroppedScene scene = dropped_scene(3);
   DoubtfulImage doubtful;
   find_doubtful(scene.sensor_depth_m, scene.obstacles, doubtful);
+  doubtful.searchable.build(doubtful.depth_m);
   clear_doubtful(10, 20, doubtful);
   EXPECT_TRUE(doubtful.extent.empty());
   EXPECT_EQ(doubtful.depth_m.width(), 10);
@@ -102,6 +106,7 @@ TEST(Doubtful, TheNearerOfBothDistancesIsThatOfTheImageFromWhichNothingDoubtfulW
     const double range_m = seed % 2 == 0 ? 1.0 : 0.1;
     DepthImage all_m = scene.obstacles.depth_m;
     find_doubtful(scene.sensor_depth_m, scene.obstacles, doubtful);
+    doubtful.searchable.build(doubtful.depth_m);
     for (int i = 0; i < kWidth_px * kHeight_px; ++i) {
       const float depth_m = doubtful.depth_m.pixels()[i];
       if (!std::isnan(depth_m)) all_m.pixels()[i] = depth_m;

@@ -13,6 +13,7 @@ void clear_images(const Camera& camera, Frame& frame) {
   frame.obstacles.count[static_cast<std::size_t>(PixelFate::no_reading)] = width * height;
   frame.searchable.build(frame.obstacles.depth_m);
   clear_doubtful(width, height, frame.doubtful);
+  frame.space.obstacle_depth_m = {};
   frame.has_doubtful_space = false;
 }
 

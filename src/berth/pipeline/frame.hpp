@@ -15,7 +15,7 @@ struct Frame : Exposure {
   /// The robot at that time.
   RobotImage robot;
   ObstacleImage obstacles;
-  /// Of obstacles.depth_m.
+  /// Of obstacles.depth_m; its tree is there unless the method is `mesh`.
   SearchableDepth searchable;
   /// Empty unless EvaluationSettings::visibility is set.
   DoubtfulImage doubtful;
@@ -26,7 +26,7 @@ struct Frame : Exposure {
   ViewSpace space;
   /// For mean directions, where the settings ask for them.
   ReadingTiles reading_tiles;
-  /// The same of what is doubtful; only where there is any.
+  /// The readings that are doubtful; only where there are any.
   ViewSpace doubtful_space;
   bool has_doubtful_space = false;
   /// Whether a smaller share than kLeastReadings of the sensor's pixels has a reading: a camera

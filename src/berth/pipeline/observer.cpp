@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "berth/pipeline/frame_space.hpp"
+#include "berth/pipeline/prepare_frame.hpp"
 
 namespace berth {
 
@@ -19,15 +19,7 @@ void Observer::observe(DepthView depth_m, const JointState& at_exposure, Frame& 
   filter(depth_m, frame);
   apply_sensor_rules(depth_m, frame.robot, background_, view_->settings().sensor, sensor_,
                      frame.obstacles);
-  frame.searchable.build(frame.obstacles.depth_m);
-  if (view_->robot()->settings().visibility) {
-    find_doubtful(depth_m, frame.obstacles, frame.doubtful);
-  } else {
-    clear_doubtful(depth_m.width, depth_m.height, frame.doubtful);
-  }
-  if (view_->robot()->settings().method == Method::mesh) {
-    find_frame_space(depth_m, doubtful_, frame);
-  }
+  prepare_frame(depth_m, frame);
 }
 
 void Observer::filter(DepthView depth_m, Frame& frame) {

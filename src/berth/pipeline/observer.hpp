@@ -49,7 +49,6 @@ class Observer {
   Background background_;
   FrameClock clock_;
   /// What is doubtful, as if it were an obstacle.
-  ObstacleImage doubtful_;
   JointState at_exposure_;
 };
 

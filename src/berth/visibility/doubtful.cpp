@@ -47,7 +47,6 @@ void find_doubtful(DepthView sensor_depth_m, const ObstacleImage& obstacles, Dou
       add({u, v}, out.extent);
     }
   }
-  out.searchable.build(out.depth_m);
 }
 
 void find_doubtful_distances(const Camera& camera, const RobotImage& robot,

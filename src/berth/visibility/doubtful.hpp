@@ -13,9 +13,9 @@ namespace berth {
 struct DoubtfulImage {
   /// The sensor's depth at such pixels; NaN elsewhere.
   DepthImage depth_m;
-  /// Holds them all; empty where there are none, and then the tree is not built.
+  /// Holds them all; empty where there are none.
   PixelRect extent;
-  /// Of depth_m.
+  /// Of depth_m; its tree is built by who asks find_doubtful_distances().
   SearchableDepth searchable;
 };
 

@@ -37,17 +37,17 @@ struct Projection {
 };
 
 /// The least of each cube's pixels; a NaN counts as +inf.
-HWY_INLINE Lanes least_of(const DepthImage& image, const DepthWindows& windows,
+HWY_INLINE Lanes least_of(DepthView image, const DepthWindows& windows,
                           const Projection& cubes) {
   const IntTag ints;
   Lanes all(HUGE_VALF);
   if (cubes.span < kMostPixels) {
     for (int dv = 0; dv <= cubes.span; ++dv) {
       const Ints row = hn::Mul(hn::Min(hn::Add(cubes.v0, hn::Set(ints, dv)), cubes.v1),
-                               hn::Set(ints, image.width()));
+                               hn::Set(ints, static_cast<int>(image.stride)));
       for (int du = 0; du <= cubes.span; ++du) {
         const Ints column = hn::Min(hn::Add(cubes.u0, hn::Set(ints, du)), cubes.u1);
-        const Lanes x = hn::GatherIndex(FloatTag(), image.pixels().data(), hn::Add(row, column));
+        const Lanes x = hn::GatherIndex(FloatTag(), image.data, hn::Add(row, column));
         all = least(all, nan_to_infinity(x));
       }
     }

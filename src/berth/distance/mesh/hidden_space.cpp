@@ -49,7 +49,7 @@ void HiddenSpace::assign(std::span<const PosedView> views) {
   for (std::size_t k = 0; k < views.size(); ++k) {
     const ViewSpace& space = *views[k].space;
     CarvingView view{&space, views[k].X_BC, views[k].X_BC.inverse(), nullptr, nullptr};
-    if (space.is_empty() || views[k].age_s > space.settings.carve_max_age_s) {
+    if (!space.has_free_depth || views[k].age_s > space.settings.carve_max_age_s) {
       // Frees nothing.
     } else if (views[k].age_s == 0 || views.size() < 2) {
       view.free_depth_m = &space.free_depth_m;
