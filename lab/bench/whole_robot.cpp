@@ -19,6 +19,9 @@ namespace {
 constexpr clockid_t kProcessorTime = CLOCK_THREAD_CPUTIME_ID;
 constexpr MeshQuestion kReadings{.hidden = false};
 constexpr MeshQuestion kHasty{.deadline_us = 1000};
+/// A controller's questions between two images of a camera, one each millisecond. In this time all
+/// joints turn by up to WholeRobotScene::next_joints, 0.05 rad.
+constexpr int kQuestionsPerFrame = 33;
 /// Of each edge of the meshes, where they grow and where there are most triangles.
 constexpr int kGrowingParts[] = {1, 2, kUsualParts, 4};
 constexpr int kMostParts = 4;
@@ -60,22 +63,23 @@ std::vector<Table::Row> rows_of(const std::vector<const TimeRow*>& times) {
 class WholeRobotStages {
  public:
   explicit WholeRobotStages(const RobotModel& model)
-      : links_(model.link_count()), meshes_(build_link_meshes(model)), mesh_(model) {}
+      : model_(model), meshes_(build_link_meshes(model)), mesh_(model) {}
 
   void run(const WholeRobotScene& scene) {
     const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-    exact_row_.ms.push_back(exact_.ms(scene, links_));
+    exact_row_.ms.push_back(exact_.ms(scene, model_.link_count()));
     for (int k = 0; k < kSceneCameras; ++k) run_frame(scene, k);
     one_camera_.ms.push_back(cold_ms(scene, 1, {}));
     readings_.ms.push_back(cold_ms(scene, kSceneCameras, kReadings));
     first_.ms.push_back(cold_ms(scene, kSceneCameras, {}));
     for (const RobotPose& next : scene.next_poses) run_next(scene, next);
     run_hasty(scene);
+    run_moving(scene);
   }
 
   std::vector<Table::Row> rows() const {
-    return rows_of({&exact_row_, &one_camera_, &readings_, &first_, &next_, &hasty_, &render_,
-                    &filter_, &space_});
+    return rows_of({&exact_row_, &one_camera_, &readings_, &first_, &next_, &hasty_, &moving_,
+                    &render_, &filter_, &space_});
   }
 
  private:
@@ -109,13 +113,35 @@ class WholeRobotStages {
 
   void run_hasty(const WholeRobotScene& scene) {
     hasty_.ms.push_back(cold_ms(scene, kSceneCameras, kHasty));
-    for (const WholeLinkDistance& link : mesh_.distances()) {
-      const double upper_m = link.nearest.is_known() ? link.nearest.distance_m : kHasty.range_m;
-      hasty_.known_to_mm.push_back(1000 * (upper_m - link.nearest.lower_bound_m));
+    note_known(hasty_);
+  }
+
+  void run_moving(const WholeRobotScene& scene) {
+    spaces_.assign(scene, kSceneCameras);
+    mesh_.ask(spaces_, scene.pose, kHasty);
+    RobotPose pose;
+    for (int i = 1; i <= kQuestionsPerFrame; ++i) {
+      std::vector<double> joints = scene.joints.position;
+      for (std::size_t k = 0; k < joints.size(); ++k) {
+        joints[k] += (scene.next_joints[0].position[k] - joints[k]) * i / kQuestionsPerFrame;
+      }
+      forward_kinematics(model_, joints, pose);
+      const Stopwatch watch(kProcessorTime);
+      mesh_.ask_on(spaces_, pose, kHasty);
+      moving_.ms.push_back(watch.ms());
+      note_known(moving_);
     }
   }
 
-  int links_;
+  /// How far each link's bounds are apart.
+  void note_known(TimeRow& row) const {
+    for (const WholeLinkDistance& link : mesh_.distances()) {
+      const double upper_m = link.nearest.is_known() ? link.nearest.distance_m : kHasty.range_m;
+      row.known_to_mm.push_back(1000 * (upper_m - link.nearest.lower_bound_m));
+    }
+  }
+
+  const RobotModel& model_;
   std::shared_ptr<const LinkMeshes> meshes_;
   MeshMethod mesh_;
   ExactYardstick exact_;
@@ -129,6 +155,7 @@ class WholeRobotStages {
   TimeRow first_{"mesh, 3 cameras, both, first question"};
   TimeRow next_{"mesh, 3 cameras, both, next question"};
   TimeRow hasty_{"mesh, 3 cameras, both, deadline 1 ms"};
+  TimeRow moving_{"the same, one each ms until the next image"};
   TimeRow render_{"a camera's frame: render"};
   TimeRow filter_{"a camera's frame: self filter"};
   TimeRow space_{"a camera's frame: space for mesh"};

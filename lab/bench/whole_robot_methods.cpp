@@ -31,6 +31,11 @@ void SceneSpaces::assign(const WholeRobotScene& scene, int cameras) {
 void MeshMethod::ask(const SceneSpaces& spaces, const RobotPose& pose,
                      const MeshQuestion& question) {
   distances_.clear();
+  ask_on(spaces, pose, question);
+}
+
+void MeshMethod::ask_on(const SceneSpaces& spaces, const RobotPose& pose,
+                        const MeshQuestion& question) {
   mesh_distances(*robot_, pose, spaces.hidden(), question, workspace_, distances_);
 }
 

@@ -57,12 +57,15 @@ class SceneSpaces {
   HiddenSpace hidden_;
 };
 
-/// Cold questions of method `mesh`.
+/// Questions of method `mesh`.
 class MeshMethod {
  public:
   explicit MeshMethod(const RobotModel& model) : robot_(build_robot_patches(model)) {}
 
+  /// Without the last answer to begin with.
   void ask(const SceneSpaces& spaces, const RobotPose& pose, const MeshQuestion& question = {});
+  /// As a robot in motion does.
+  void ask_on(const SceneSpaces& spaces, const RobotPose& pose, const MeshQuestion& question);
   const std::vector<WholeLinkDistance>& distances() const { return distances_; }
 
  private:

@@ -193,6 +193,7 @@ class Asked {
   /// Cold: nothing is known of an answer before.
   std::vector<WholeLinkDistance> ask(const MeshQuestion& question) {
     std::vector<WholeLinkDistance> answers;
+    workspace_ = {};
     ask_again(question, answers);
     return answers;
   }

@@ -191,16 +191,24 @@ void expand(CubeSearch& search, const Item& item, Fresh& fresh) {
   }
 }
 
-void search_in_cubes(const HiddenSpace& space, int steps, LinkSearch& link) {
+CubeSearch make_search(const HiddenSpace& space, LinkSearch& link) {
   const PatchLevel& top = link.link->levels.back();
   const Eigen::Vector3d centre_L_m(top.centre_m[0][0], top.centre_m[1][0], top.centre_m[2][0]);
   const double reach_m = centre_L_m.norm() + link.X_BL.translation().norm() + top.half_height_m[0] +
                          top.radius_m[0] + link.range_m;
   const float error_m = rounding_m(static_cast<float>(reach_m));
-  CubeSearch search{link, space, link.X_BL.inverse(), NearestPointSearch(*link.link, error_m),
-                    error_m};
+  return {link, space, link.X_BL.inverse(), NearestPointSearch(*link.link, error_m), error_m};
+}
+
+void search_in_cubes(const HiddenSpace& space, int steps, LinkSearch& link) {
+  CubeSearch search = make_search(space, link);
   search_best_first(link, steps,
                     [&](const Item& item, Fresh& fresh) HWY_ATTR { expand(search, item, fresh); });
+}
+
+void try_point_of(const HiddenSpace& space, const Eigen::Vector3f& p_B_m, LinkSearch& link) {
+  CubeSearch search = make_search(space, link);
+  try_point(search, p_B_m.cast<double>(), 0);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -211,9 +219,14 @@ HWY_AFTER_NAMESPACE();
 namespace berth::mesh {
 
 HWY_EXPORT(search_in_cubes);
+HWY_EXPORT(try_point_of);
 
 void search_cubes(const HiddenSpace& space, int steps, LinkSearch& search) {
   HWY_DYNAMIC_DISPATCH(search_in_cubes)(space, steps, search);
+}
+
+void try_hidden_point(const HiddenSpace& space, const Eigen::Vector3f& p_B_m, LinkSearch& search) {
+  HWY_DYNAMIC_DISPATCH(try_point_of)(space, p_B_m, search);
 }
 
 void start_in_cubes(LinkSearch& search) {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "berth/distance/mesh/hidden_blocks.hpp"
+#include "berth/distance/mesh/serial_number.hpp"
 
 namespace berth {
 namespace {
@@ -44,6 +45,7 @@ void HiddenSpace::assign(std::span<const PosedView> views) {
   for (std::uint32_t i = 0; i < used; ++i) slots_[used_[i]].key.store(0);
   used_count_.store(0);
 
+  serial_number_ = mesh::next_serial_number();
   views_.clear();
   aged_.resize(std::max(aged_.size(), views.size()));
   for (std::size_t k = 0; k < views.size(); ++k) {

@@ -58,6 +58,9 @@ class HiddenSpace {
 
   std::span<const CarvingView> views() const { return views_; }
 
+  /// Another one after each assign(), and no other object's.
+  std::uint64_t serial_number() const { return serial_number_; }
+
   /// Who hides this point, if it is hidden: behind the slab of its pixel in some view, and seen
   /// free by no other one (definition 5).
   std::optional<HidingPixel> hiding_pixel(const Eigen::Vector3d& p_B) const;
@@ -81,6 +84,7 @@ class HiddenSpace {
     DepthWindows windows;
   };
 
+  std::uint64_t serial_number_ = 0;
   std::vector<CarvingView> views_;
   std::vector<AgedView> aged_;
   AgingWorkspace aging_;

@@ -67,6 +67,8 @@ struct LinkSearch {
   Pose X_BL = Pose::Identity();
   float range_m = 0;
   float tolerance_m = 0;
+  /// Nothing is nearer, as is known before the search.
+  float known_bound_m = 0;
 
   /// The length of the best pair so far; the range while there is none.
   float best_m = 0;
@@ -84,10 +86,10 @@ struct LinkSearch {
   bool is_known() const { return best_triangle >= 0; }
   /// Nothing is looked for from here on. Without a pair, a tolerance could miss those in range.
   float limit_m() const { return is_known() ? best_m - tolerance_m : range_m; }
-  bool is_done() const { return items.least_bound_m() >= limit_m(); }
+  bool is_done() const { return std::max(items.least_bound_m(), known_bound_m) >= limit_m(); }
   float lower_bound_m() const {
-    const float bound_m = std::min({limit_m(), items.least_bound_m(), given_up_m});
-    return bound_m > 0 ? bound_m : 0;
+    const float found_m = std::min({limit_m(), items.least_bound_m(), given_up_m});
+    return std::max({0.0f, known_bound_m, found_m});
   }
 };
 
@@ -101,6 +103,9 @@ void search_views(const HiddenSpace& space, bool to_shadow, int steps, LinkSearc
 
 /// The same among the cubes of hidden space.
 void search_cubes(const HiddenSpace& space, int steps, LinkSearch& search);
+
+/// Takes a point for the best obstacle if it is hidden and nearer than that.
+void try_hidden_point(const HiddenSpace& space, const Eigen::Vector3f& p_B_m, LinkSearch& search);
 
 /// Both start with the whole link and all of space.
 void start_in_views(const HiddenSpace& space, LinkSearch& search);

@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
-#include "berth/distance/mesh/link_search.hpp"
+#include "berth/distance/mesh/last_question.hpp"
 
 namespace berth {
 namespace mesh {
@@ -32,11 +33,13 @@ using mesh::LinkSearch;
 struct LinkState {
   LinkSearch reading;
   LinkSearch nearest;
+  /// The last answer's pair.
+  SpacePair last;
 };
 
 constexpr int kEndless = 1 << 30;
 /// Below it the roundings of bounds would keep a search from ending.
-constexpr double kLeastTolerance_m = 2e-5;
+constexpr float kFinestTolerance_m = 2e-5f;
 
 struct Asked {
   const HiddenSpace& space;
@@ -50,10 +53,11 @@ void start(const LinkPatches& patches, const Pose& X_BL, const MeshQuestion& que
   search.link = &patches;
   search.X_BL = X_BL;
   search.range_m = static_cast<float>(question.range_m);
-  search.tolerance_m = static_cast<float>(std::max(question.tolerance_m, kLeastTolerance_m));
+  search.tolerance_m = std::max(static_cast<float>(question.tolerance_m), kFinestTolerance_m);
   search.best_m = search.range_m;
   search.best_triangle = -1;
   search.best_is_hidden = false;
+  search.known_bound_m = 0;
 }
 
 /// A reading is an obstacle for `nearest` as well.
@@ -65,10 +69,11 @@ void take_reading(const LinkSearch& reading, LinkSearch& nearest) {
   nearest.best_is_hidden = false;
 }
 
-/// The slab of the last answer's pixel as it is in the new image, against the whole link.
-void guess(const HiddenSpace& space, const SpacePair& last, LinkSearch& search) {
+/// The last answer's pixel as it is in the new image, its slab or with `to_shadow` all behind its
+/// reading, against the whole link.
+void guess(const HiddenSpace& space, const SpacePair& last, bool to_shadow, LinkSearch& search) {
   if (search.link->empty() || last.view < 0 ||
-      last.view >= static_cast<int>(space.views().size()) || last.kind != ObstacleKind::reading) {
+      last.view >= static_cast<int>(space.views().size())) {
     return;
   }
   const ViewSpace& view = *space.views()[last.view].space;
@@ -83,14 +88,23 @@ void guess(const HiddenSpace& space, const SpacePair& last, LinkSearch& search) 
   search.items.push(
       {0, mesh::patch_of(top_level, 0),
        mesh::ImageCell{last.view, mesh::ImageCell::kPixelLevel, 0, pixel.u, pixel.v}.key()});
-  mesh::search_views(space, false, kEndless, search);
+  // To the end, whatever is known: asked again, an answer becomes no worse.
+  const float known_bound_m = std::exchange(search.known_bound_m, 0.0f);
+  const float tolerance_m = std::exchange(search.tolerance_m, kFinestTolerance_m);
+  mesh::search_views(space, to_shadow, kEndless, search);
+  search.known_bound_m = known_bound_m;
+  search.tolerance_m = tolerance_m;
 }
 
 void start_nearest(const Asked& asked, LinkState& link) {
   take_reading(link.reading, link.nearest);
   if (asked.is_shadow()) {
+    guess(asked.space, link.last, true, link.nearest);
     mesh::start_in_views(asked.space, link.nearest);
   } else {
+    if (link.last.kind == ObstacleKind::hidden) {
+      mesh::try_hidden_point(asked.space, link.last.obstacle_point_B_m, link.nearest);
+    }
     mesh::start_in_cubes(link.nearest);
   }
 }
@@ -246,12 +260,64 @@ WholeLinkDistance answer_of(const Asked& asked, LinkId id, const LinkState& link
 
 struct MeshWorkspace::State {
   std::vector<LinkState> links;
+  mesh::LastQuestion last;
 };
 
 MeshWorkspace::MeshWorkspace() : state_(std::make_unique<State>()) {}
 MeshWorkspace::~MeshWorkspace() = default;
 MeshWorkspace::MeshWorkspace(MeshWorkspace&&) noexcept = default;
 MeshWorkspace& MeshWorkspace::operator=(MeshWorkspace&&) noexcept = default;
+
+namespace {
+
+bool is_about(const mesh::LastQuestion& last, const RobotPatches& robot, const HiddenSpace& space) {
+  return last.robot == robot.serial_number && last.space == space.serial_number() &&
+         last.links.size() == robot.links.size();
+}
+
+/// What no link can have come nearer than since the last question.
+void recall(const mesh::LastLink& last, LinkState& link) {
+  const float moved_m = mesh::moved_at_most_m(*link.reading.link, last.X_BL, link.reading.X_BL);
+  const float range_m = link.reading.range_m;
+  link.reading.known_bound_m = std::clamp(last.reading_bound_m - moved_m, 0.0f, range_m);
+  link.nearest.known_bound_m = std::clamp(last.nearest_bound_m - moved_m, 0.0f, range_m);
+}
+
+void remember(const RobotPatches& robot, const HiddenSpace& space, bool hidden,
+              const std::vector<LinkState>& links, mesh::LastQuestion& last) {
+  last.robot = robot.serial_number;
+  last.space = space.serial_number();
+  last.links.resize(links.size());
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const LinkState& link = links[i];
+    if (link.reading.link->empty()) continue;
+    last.links[i] = {link.reading.X_BL, link.reading.lower_bound_m(),
+                     hidden ? link.nearest.lower_bound_m() : 0};
+  }
+}
+
+/// With the last answer's pairs for a first guess.
+void start_links(const RobotPatches& robot, const RobotPose& pose, const Asked& asked,
+                 const mesh::LastQuestion& last, const std::vector<WholeLinkDistance>& last_answer,
+                 std::vector<LinkState>& links) {
+  const bool is_same = is_about(last, robot, asked.space);
+  links.resize(robot.links.size());
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    LinkState& link = links[i];
+    const Pose& X_BL = pose.X_BL[robot.links[i].link];
+    start(robot.links[i], X_BL, asked.question, link.reading);
+    start(robot.links[i], X_BL, asked.question, link.nearest);
+    if (is_same) recall(last.links[i], link);
+    const WholeLinkDistance guessed = i < last_answer.size() ? last_answer[i] : WholeLinkDistance{};
+    link.last = guessed.nearest;
+    if (guessed.reading.kind == ObstacleKind::reading) {
+      guess(asked.space, guessed.reading, false, link.reading);
+    }
+    mesh::start_in_views(asked.space, link.reading);
+  }
+}
+
+}  // namespace
 
 void mesh_distances(const RobotPatches& robot, const RobotPose& pose, const HiddenSpace& space,
                     const MeshQuestion& question, MeshWorkspace& workspace,
@@ -260,15 +326,7 @@ void mesh_distances(const RobotPatches& robot, const RobotPose& pose, const Hidd
   validate(question);
   const Asked asked{space, question};
   std::vector<LinkState>& links = workspace.state_->links;
-  links.resize(robot.links.size());
-  for (std::size_t i = 0; i < robot.links.size(); ++i) {
-    LinkState& link = links[i];
-    const Pose& X_BL = pose.X_BL[robot.links[i].link];
-    start(robot.links[i], X_BL, question, link.reading);
-    start(robot.links[i], X_BL, question, link.nearest);
-    if (i < out.size()) guess(space, out[i].reading, link.reading);
-    mesh::start_in_views(space, link.reading);
-  }
+  start_links(robot, pose, asked, workspace.state_->last, out, links);
   if (question.deadline_us) {
     const std::chrono::duration<double, std::micro> wait(std::min(*question.deadline_us, 1e12));
     search_until(asked, begin + std::chrono::duration_cast<Clock::duration>(wait), links);
@@ -276,6 +334,7 @@ void mesh_distances(const RobotPatches& robot, const RobotPose& pose, const Hidd
     tbb::parallel_for(std::size_t{0}, links.size(),
                       [&](std::size_t i) { search_to_the_end(asked, links[i]); });
   }
+  remember(robot, space, question.hidden, links, workspace.state_->last);
   out.resize(robot.links.size());
   for (std::size_t i = 0; i < out.size(); ++i) {
     out[i] = answer_of(asked, static_cast<LinkId>(i + 1), links[i]);

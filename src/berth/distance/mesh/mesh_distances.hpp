@@ -12,7 +12,8 @@
 namespace berth {
 
 /// The memory of mesh_distances(), made once and used for every question; one for each thread that
-/// asks. It carries nothing from one answer to the next.
+/// asks. It remembers how far the last question had got: if the next one is about the same space
+/// and robot, what was known then still holds but for how far each link has moved.
 class MeshWorkspace {
  public:
   MeshWorkspace();
@@ -34,8 +35,9 @@ class MeshWorkspace {
 /// not be hidden lie between. A link without triangles has no distance, and one beyond 50 m from B
 /// no lower bound.
 ///
-/// If `out` holds an answer on entry, its pairs are the first guess, which changes no distance by
-/// more than the tolerance. Links are searched side by side on the threads that TBB has. Allocates
+/// If `out` holds an answer on entry, its pairs are the first guess. Neither that nor what the
+/// workspace remembers changes a distance by more than the tolerance; with a deadline, both bring
+/// the bounds nearer together. Links are searched side by side on the threads that TBB has. Allocates
 /// nothing once workspace and `out` have grown. Throws std::invalid_argument for bad settings.
 void mesh_distances(const RobotPatches& robot, const RobotPose& pose, const HiddenSpace& space,
                     const MeshQuestion& question, MeshWorkspace& workspace,

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "berth/distance/mesh/serial_number.hpp"
+
 namespace berth {
 namespace {
 
@@ -165,6 +167,7 @@ LinkPatches make_link(const TriangleMesh& mesh) {
 
 std::shared_ptr<const RobotPatches> build_robot_patches(const RobotModel& model) {
   auto robot = std::make_shared<RobotPatches>();
+  robot->serial_number = mesh::next_serial_number();
   for (const std::size_t index : model.evaluated_links) {
     robot->links.push_back(make_link(model.links[index].mesh_L));
     robot->links.back().link = index;

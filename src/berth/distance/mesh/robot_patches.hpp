@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -46,6 +47,8 @@ struct LinkPatches {
 struct RobotPatches {
   /// links[i] is the link with the id i + 1.
   std::vector<LinkPatches> links;
+  /// No other robot's.
+  std::uint64_t serial_number = 0;
 };
 
 std::shared_ptr<const RobotPatches> build_robot_patches(const RobotModel& model);
