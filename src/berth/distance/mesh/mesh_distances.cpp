@@ -125,41 +125,56 @@ void search_to_the_end(const Asked& asked, LinkState& link) {
   search_nearest(asked, kEndless, link);
 }
 
+/// How far its bounds are apart; 0 where that is near enough.
 double gap_m(const LinkSearch& search) {
   return search.is_done() ? 0 : search.best_m - search.lower_bound_m();
 }
 
-/// Goes on where the least is known, until everything is or time is over.
-void search_until(const Asked& asked, Clock::time_point deadline, std::vector<LinkState>& links) {
+/// One of a link's two searches.
+struct Turn {
+  LinkState* link = nullptr;
+  bool is_reading = true;
+
+  double gap_m() const {
+    if (link == nullptr) return 0;
+    return berth::gap_m(is_reading ? link->reading : link->nearest);
+  }
+};
+
+/// The search that knows least; none where all are done.
+Turn widest_of(const Asked& asked, std::vector<LinkState>& links) {
+  Turn widest;
+  for (LinkState& link : links) {
+    if (link.reading.link->empty()) continue;
+    for (const bool is_reading : {true, false}) {
+      const Turn turn{&link, is_reading};
+      if (!is_reading && !asked.question.hidden) continue;
+      if (turn.gap_m() > widest.gap_m()) widest = turn;
+    }
+  }
+  return widest;
+}
+
+/// Goes on where the least is known, until everything is or time is over. What is not finished the
+/// next question has to begin anew: if this one is asked `again`, each search that has its turn
+/// goes on to its end, so that all links are known after a few questions.
+void search_until(const Asked& asked, Clock::time_point deadline, bool again,
+                  std::vector<LinkState>& links) {
   constexpr int kSteps = 8;
   if (asked.question.hidden) {
     for (LinkState& link : links) {
       if (!link.reading.link->empty()) start_nearest(asked, link);
     }
   }
+  Turn turn;
   do {
-    LinkState* widest = nullptr;
-    bool is_reading = true;
-    double widest_m = 0;
-    for (LinkState& link : links) {
-      if (link.reading.link->empty()) continue;
-      if (gap_m(link.reading) > widest_m) {
-        widest_m = gap_m(link.reading);
-        widest = &link;
-        is_reading = true;
-      }
-      if (asked.question.hidden && gap_m(link.nearest) > widest_m) {
-        widest_m = gap_m(link.nearest);
-        widest = &link;
-        is_reading = false;
-      }
-    }
-    if (widest == nullptr) return;
-    if (is_reading) {
-      mesh::search_views(asked.space, false, kSteps, widest->reading);
-      take_reading(widest->reading, widest->nearest);
+    if (!again || turn.gap_m() == 0) turn = widest_of(asked, links);
+    if (turn.link == nullptr) return;
+    if (turn.is_reading) {
+      mesh::search_views(asked.space, false, kSteps, turn.link->reading);
+      take_reading(turn.link->reading, turn.link->nearest);
     } else {
-      search_nearest(asked, kSteps, *widest);
+      search_nearest(asked, kSteps, *turn.link);
     }
   } while (Clock::now() < deadline);
 }
@@ -296,8 +311,9 @@ void remember(const RobotPatches& robot, const HiddenSpace& space, bool hidden,
   }
 }
 
-/// With the last answer's pairs for a first guess.
-void start_links(const RobotPatches& robot, const RobotPose& pose, const Asked& asked,
+/// With the last answer's pairs for a first guess. Returns whether the last question was about the
+/// same space.
+bool start_links(const RobotPatches& robot, const RobotPose& pose, const Asked& asked,
                  const mesh::LastQuestion& last, const std::vector<WholeLinkDistance>& last_answer,
                  std::vector<LinkState>& links) {
   const bool is_same = is_about(last, robot, asked.space);
@@ -315,6 +331,7 @@ void start_links(const RobotPatches& robot, const RobotPose& pose, const Asked& 
     }
     mesh::start_in_views(asked.space, link.reading);
   }
+  return is_same;
 }
 
 }  // namespace
@@ -326,10 +343,10 @@ void mesh_distances(const RobotPatches& robot, const RobotPose& pose, const Hidd
   validate(question);
   const Asked asked{space, question};
   std::vector<LinkState>& links = workspace.state_->links;
-  start_links(robot, pose, asked, workspace.state_->last, out, links);
+  const bool again = start_links(robot, pose, asked, workspace.state_->last, out, links);
   if (question.deadline_us) {
     const std::chrono::duration<double, std::micro> wait(std::min(*question.deadline_us, 1e12));
-    search_until(asked, begin + std::chrono::duration_cast<Clock::duration>(wait), links);
+    search_until(asked, begin + std::chrono::duration_cast<Clock::duration>(wait), again, links);
   } else {
     tbb::parallel_for(std::size_t{0}, links.size(),
                       [&](std::size_t i) { search_to_the_end(asked, links[i]); });
