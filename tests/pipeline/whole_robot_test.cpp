@@ -69,14 +69,17 @@ TEST_F(WholeRobot, AnswersHaveBothDistancesInTheirOrderWithTheirPoints) {
 TEST_F(WholeRobot, AskingAFrameASetAndTheJointsOfTheExposureIsTheSame) {
   Frame frame;
   observe(17, frame);
-  // Each by somebody who knows of no other answer.
-  const auto asker = [&] { return Asker(view_->robot()); };
-  const auto alone = distances_of(asker().ask(frame));
+  Asker asker(view_->robot());
+  const auto anew = [&](const auto&... question) {
+    asker.forget();
+    return distances_of(asker.ask(question...));
+  };
+  const auto alone = anew(frame);
   const auto set = set_of({&frame});
-  EXPECT_EQ(distances_of(asker().ask(*set)), alone);
-  EXPECT_EQ(distances_of(asker().ask(*set, camera_.at_exposure[17])), alone);
-  EXPECT_EQ(distances_of(asker().ask(frame, camera_.at_exposure[17])), alone);
-  EXPECT_NE(distances_of(asker().ask(*set, camera_.at_exposure[3])), alone);
+  EXPECT_EQ(anew(*set), alone);
+  EXPECT_EQ(anew(*set, camera_.at_exposure[17]), alone);
+  EXPECT_EQ(anew(frame, camera_.at_exposure[17]), alone);
+  EXPECT_NE(anew(*set, camera_.at_exposure[3]), alone);
 }
 
 TEST_F(WholeRobot, ACameraThatIsMissingLateUntimelyOrBlindIsNamed) {

@@ -59,6 +59,10 @@ bool Asker::begin(const FrameSet& frames, double joints_stamp_s, const Timelines
   return begin_answer(*robot_, stamp_s_of(frames), joints_stamp_s, time, frames.cameras(), answer_);
 }
 
+void Asker::forget() {
+  if (mesh_) mesh_->forget();
+}
+
 const Answer& Asker::evaluate_robot(const Frame& frame, const AskedRobot& robot) {
   evaluate(robot_->settings().method,
            {frame.view->camera(), robot.image, robot_->model().link_count(), frame.searchable,

@@ -42,6 +42,10 @@ class Asker {
                     std::optional<double> now_s = {});
   const Answer& ask(const FrameSet& frames, const JointBuffer& joints, double now_s);
 
+  /// Method `mesh` begins each question with what it knows of the one before. After this it knows
+  /// nothing: for who times questions, or wants the same answer again to the last bit.
+  void forget();
+
   /// The robot of the last question at other joint angles, of a method that asks images.
   const RobotImage& robot_image() const { return image_; }
 

@@ -42,6 +42,13 @@ void MeshAsker::ask(const FrameSet& frames, const RobotPose& pose, Answer& out) 
   tell_visibility(frames, pose, out);
 }
 
+void MeshAsker::forget() {
+  workspace_.forget();
+  found_.clear();
+  doubtful_workspace_.forget();
+  doubtful_.clear();
+}
+
 void MeshAsker::tell_distances(const FrameSet& frames, LinkDistances& out) const {
   out.pairs = 0;
   out.links.resize(found_.size());

@@ -24,6 +24,8 @@ class MeshAsker {
   /// Distances alone, of one pose of many.
   void ask(const FrameSet& frames, const RobotPose& pose, std::vector<WholeLinkDistance>& out);
 
+  void forget();
+
  private:
   void tell_distances(const FrameSet& frames, LinkDistances& out) const;
   void tell_mean_directions(const FrameSet& frames, LinkDistances& out);

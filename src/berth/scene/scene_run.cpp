@@ -107,6 +107,7 @@ FrameResult SceneRun::ask(int repeat) {
   std::vector<double> times_us;
   const Answer* answer = nullptr;
   for (int i = 0; i < std::max(1, repeat); ++i) {
+    if (i > 0 && asker_) asker_->forget();
     const auto start = std::chrono::steady_clock::now();
     answer = asker_ ? &asker_->ask(frame_set_) : &pipelines_[step().camera]->ask();
     const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;

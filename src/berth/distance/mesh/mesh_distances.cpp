@@ -282,6 +282,7 @@ MeshWorkspace::MeshWorkspace() : state_(std::make_unique<State>()) {}
 MeshWorkspace::~MeshWorkspace() = default;
 MeshWorkspace::MeshWorkspace(MeshWorkspace&&) noexcept = default;
 MeshWorkspace& MeshWorkspace::operator=(MeshWorkspace&&) noexcept = default;
+void MeshWorkspace::forget() { state_->last.links.clear(); }
 
 namespace {
 

@@ -21,6 +21,9 @@ class MeshWorkspace {
   MeshWorkspace(MeshWorkspace&&) noexcept;
   MeshWorkspace& operator=(MeshWorkspace&&) noexcept;
 
+  /// The next question begins with nothing known.
+  void forget();
+
  private:
   friend void mesh_distances(const RobotPatches&, const RobotPose&, const HiddenSpace&,
                              const MeshQuestion&, MeshWorkspace&, std::vector<WholeLinkDistance>&);
