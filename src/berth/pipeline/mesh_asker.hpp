@@ -24,6 +24,7 @@ class MeshAsker {
   /// Distances alone, of one pose of many.
   void ask(const FrameSet& frames, const RobotPose& pose, std::vector<WholeLinkDistance>& out);
 
+  /// As Asker::forget().
   void forget();
 
  private:
