@@ -19,7 +19,7 @@ std::vector<Json> run_with(CommandScene& scene, const std::string& settings) {
 
 /// Pixels of this fate in one frame.
 int count_by_sensor(CommandScene& scene, const std::string& settings, const char* fate,
-               std::size_t frame = 0) {
+                    std::size_t frame = 0) {
   return run_with(scene, settings).at(frame)["self_filter"][fate];
 }
 

@@ -18,7 +18,9 @@ void set_last_role(RobotModel& model, LinkRole role);
 /// The robot's pose of links that stand at X_CL in the camera's frame.
 RobotPose pose_seen_at(const Pose& X_BC, const std::vector<Pose>& X_CL);
 
-inline Pose at(double x_m, double y_m, double z_m) { return Pose(Eigen::Translation3d(x_m, y_m, z_m)); }
+inline Pose at(double x_m, double y_m, double z_m) {
+  return Pose(Eigen::Translation3d(x_m, y_m, z_m));
+}
 
 Pose random_pose(std::mt19937& random, const Eigen::AlignedBox3d& positions);
 

@@ -29,7 +29,8 @@ void Observer::filter(DepthView depth_m, Frame& frame) {
     return;
   }
   region_renderer_->render(frame.pose, frame.X_BC, region_);
-  self_filter(view_->camera(), depth_m, frame.robot, region_, settings, workspace_, frame.obstacles);
+  self_filter(view_->camera(), depth_m, frame.robot, region_, settings, workspace_,
+              frame.obstacles);
 }
 
 void Observer::observe(DepthView depth_m, double stamp_s, const JointBuffer& joints, Frame& frame) {

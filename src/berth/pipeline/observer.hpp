@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "berth/pipeline/frame.hpp"
-#include "berth/pipeline/view.hpp"
 #include "berth/pipeline/timeliness.hpp"
+#include "berth/pipeline/view.hpp"
 #include "berth/robot/joint_buffer.hpp"
 #include "berth/self_filter/self_filter.hpp"
 #include "berth/sensor/sensor_rules.hpp"

@@ -37,8 +37,7 @@ struct Projection {
 };
 
 /// The least of each cube's pixels; a NaN counts as +inf.
-HWY_INLINE Lanes least_of(DepthView image, const DepthWindows& windows,
-                          const Projection& cubes) {
+HWY_INLINE Lanes least_of(DepthView image, const DepthWindows& windows, const Projection& cubes) {
   const IntTag ints;
   Lanes all(HUGE_VALF);
   if (cubes.span < kMostPixels) {

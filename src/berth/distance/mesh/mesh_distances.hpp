@@ -40,8 +40,9 @@ class MeshWorkspace {
 ///
 /// If `out` holds an answer on entry, its pairs are the first guess. Neither that nor what the
 /// workspace remembers changes a distance by more than the tolerance; with a deadline, both bring
-/// the bounds nearer together. Links are searched side by side on the threads that TBB has. Allocates
-/// nothing once workspace and `out` have grown. Throws std::invalid_argument for bad settings.
+/// the bounds nearer together. Links are searched side by side on the threads that TBB has.
+/// Allocates nothing once workspace and `out` have grown. Throws std::invalid_argument for bad
+/// settings.
 void mesh_distances(const RobotPatches& robot, const RobotPose& pose, const HiddenSpace& space,
                     const MeshQuestion& question, MeshWorkspace& workspace,
                     std::vector<WholeLinkDistance>& out);
