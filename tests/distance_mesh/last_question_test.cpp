@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/distance_mesh/agreement.hpp"
 #include "tests/distance_mesh/mesh_world.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/thinned.hpp"
@@ -43,26 +44,6 @@ struct Questioner {
 std::vector<WholeLinkDistance> ask_anew(const PreparedWorld& world, const RobotPose& pose,
                                         const MeshQuestion& question) {
   return Questioner{&world, {}, {}}.ask(pose, question);
-}
-
-/// Both have the truth between their bounds.
-void expect_agree(const SpacePair& a, const SpacePair& b) {
-  if (b.is_known()) {
-    EXPECT_LE(a.lower_bound_m, b.distance_m);
-  }
-  if (a.is_known()) {
-    EXPECT_LE(b.lower_bound_m, a.distance_m);
-  }
-}
-
-void expect_agree(const std::vector<WholeLinkDistance>& a,
-                  const std::vector<WholeLinkDistance>& b) {
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    SCOPED_TRACE(i);
-    expect_agree(a[i].reading, b[i].reading);
-    expect_agree(a[i].nearest, b[i].nearest);
-  }
 }
 
 TEST(LastQuestion, NoPointOfALinkMovesByMore) {

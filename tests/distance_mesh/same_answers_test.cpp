@@ -5,6 +5,7 @@
 
 #include "tests/support/only_target.hpp"
 #include "tests/support/thinned.hpp"
+#include "tests/distance_mesh/agreement.hpp"
 #include "tests/distance_mesh/mesh_world.hpp"
 
 namespace berth::testing {
@@ -23,9 +24,7 @@ MeshWorld world_of(std::uint32_t seed) {
 void expect_same(const SpacePair& a, const SpacePair& b) {
   ASSERT_EQ(a.is_known(), b.is_known());
   if (!a.is_known()) return;
-  // Both hold the truth between their bounds.
-  EXPECT_LE(a.lower_bound_m, b.distance_m);
-  EXPECT_LE(b.lower_bound_m, a.distance_m);
+  expect_agree(a, b);
   EXPECT_LE(a.distance_m - a.lower_bound_m, kTolerance_m + 1e-6);
 }
 

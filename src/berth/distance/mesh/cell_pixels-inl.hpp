@@ -8,7 +8,7 @@
 
 #include <cstring>
 
-#include "berth/distance/mesh/link_view-inl.hpp"
+#include "berth/distance/mesh/searched_view-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace berth::mesh {
@@ -16,7 +16,7 @@ namespace HWY_NAMESPACE {
 
 /// The leaf's triangles against one pixel; returns from where they came nearest.
 inline Heading search_pixel(ViewSearch& search, int leaf, const ImageCell& pixel) {
-  const LinkView& view = search.views[pixel.view];
+  const SearchedView& view = search.views[pixel.view];
   const Chunk c = chunk_of(search, pixel);
   if (!(c.d <= c.e)) return {};
   Eigen::Vector3d corners_m[8];
@@ -45,7 +45,7 @@ struct CellPixels {
 };
 
 /// The pixels i, i + 1, ... of a cell.
-HWY_INLINE Chunks pixel_chunks(const LinkView& view, const ImageCell& cell, int i, Lanes depth,
+HWY_INLINE Chunks pixel_chunks(const SearchedView& view, const ImageCell& cell, int i, Lanes depth,
                                Lanes end) {
   const Lanes place = count_up(static_cast<float>(i));
   const Lanes row = hn::Floor((place * Lanes(0.125f)).v);
@@ -58,7 +58,7 @@ HWY_INLINE Chunks pixel_chunks(const LinkView& view, const ImageCell& cell, int 
 
 inline void load_pixels(const ViewSearch& search, const ImageCell& cell, const Chunk& parent,
                         CellPixels& out) {
-  const LinkView& view = search.views[cell.view];
+  const SearchedView& view = search.views[cell.view];
   const DepthView image_m = view.space->obstacle_depth_m;
   const float slab_m = static_cast<float>(view.space->settings.slab_m);
   const int u_begin = 8 * cell.u;
@@ -91,7 +91,7 @@ inline void load_pixels(const ViewSearch& search, const ImageCell& cell, const C
 
 /// Where a pixel was nearest to a patch, its neighbours are about as near: what lies before a plane
 /// there is bounded by it.
-HWY_INLINE void bound_by_plane(const LinkView& view, const ImageCell& cell, const Plane& plane,
+HWY_INLINE void bound_by_plane(const SearchedView& view, const ImageCell& cell, const Plane& plane,
                                CellPixels& pixels) {
   for (int i = 0; i < 64; i += kLanes) {
     const Chunks chunks =
@@ -103,7 +103,7 @@ HWY_INLINE void bound_by_plane(const LinkView& view, const ImageCell& cell, cons
 /// By a plane for each pixel, where one for all does not tell enough.
 HWY_INLINE void bound_one_by_one(const ViewSearch& search, int leaf, const ImageCell& cell,
                                  CellPixels& pixels) {
-  const LinkView& view = search.views[cell.view];
+  const SearchedView& view = search.views[cell.view];
   const Patches patch = broadcast_patch(search.link.link->levels[0], leaf, view.frame.motion);
   for (int i = 0; i < 64; i += kLanes) {
     const Lanes bound = load(pixels.bound_m + i);
@@ -117,7 +117,7 @@ HWY_INLINE void bound_one_by_one(const ViewSearch& search, int leaf, const Image
 
 /// The pixels of a cell, the nearest first.
 inline void search_pixels(ViewSearch& search, int leaf, const ImageCell& cell, CellPixels& pixels) {
-  const LinkView& view = search.views[cell.view];
+  const SearchedView& view = search.views[cell.view];
   bound_one_by_one(search, leaf, cell, pixels);
   while (true) {
     const float least_m = pixels.least_bound_m();
@@ -139,7 +139,7 @@ template <class Add>
 HWY_INLINE void bound_children_by_pixels(const ViewSearch& search, const Item& item,
                                          const ImageCell& cell, const Chunk& chunk,
                                          const CellPixels& pixels, Add add) {
-  const LinkView& view = search.views[cell.view];
+  const SearchedView& view = search.views[cell.view];
   const int below = level_of(item.patch) - 1;
   const PatchLevel& level = search.link.link->levels[below];
   const int begin = 16 * index_of(item.patch);
@@ -174,7 +174,7 @@ HWY_INLINE void bound_children_by_pixels(const ViewSearch& search, const Item& i
 /// A cell of pixels and a patch: the pixels that count against its children, or against a leaf.
 inline void expand_pixels(ViewSearch& search, const Item& item, const ImageCell& cell,
                           const Chunk& chunk, Fresh& fresh) {
-  const LinkView& view = search.views[cell.view];
+  const SearchedView& view = search.views[cell.view];
   const Plane plane = plane_towards(search, view, item.patch, chunk);
   if (!(hn::GetLane(bound_of(plane, broadcast(chunk)).v) < search.link.limit_m())) return;
   CellPixels pixels;

@@ -327,9 +327,7 @@ bool start_links(const RobotPatches& robot, const RobotPose& pose, const Asked& 
     if (is_same) recall(last.links[i], link);
     const WholeLinkDistance guessed = i < last_answer.size() ? last_answer[i] : WholeLinkDistance{};
     link.last = guessed.nearest;
-    if (guessed.reading.kind == ObstacleKind::reading) {
-      guess(asked.space, guessed.reading, false, link.reading);
-    }
+    guess(asked.space, guessed.reading, false, link.reading);
     mesh::start_in_views(asked.space, link.reading);
   }
   return is_same;

@@ -17,7 +17,7 @@ namespace HWY_NAMESPACE {
 /// A cell of cells.
 void split_cell(ViewSearch& search, const Item& item, const ImageCell& cell, const Chunk& chunk,
                 Fresh& fresh) {
-  const LinkView& view = search.views[cell.view];
+  const SearchedView& view = search.views[cell.view];
   const int level = cell.level - 1;
   const DepthCells::Level& children = view.space->cells.levels[level];
   const DepthCells::Node& node = children.nodes[cell.v * children.node_columns + cell.u];
@@ -75,7 +75,7 @@ bool is_greater(const PatchLevel& patches, int index, bool to_shadow, const Chun
 
 void expand(ViewSearch& search, const Item& item, Fresh& fresh) {
   const ImageCell cell = ImageCell::of_key(item.space);
-  const LinkView& view = search.views[cell.view];
+  const SearchedView& view = search.views[cell.view];
   const Chunk chunk = chunk_of(search, cell);
   if (cell.level == 0) return expand_pixels(search, item, cell, chunk, fresh);
   const int level = level_of(item.patch);

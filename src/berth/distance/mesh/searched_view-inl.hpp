@@ -1,9 +1,9 @@
 // A view, its cells and planes before patches as the search for one link sees them.
-#if defined(BERTH_MESH_LINK_VIEW_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef BERTH_MESH_LINK_VIEW_INL_HPP
-#undef BERTH_MESH_LINK_VIEW_INL_HPP
+#if defined(BERTH_MESH_SEARCHED_VIEW_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef BERTH_MESH_SEARCHED_VIEW_INL_HPP
+#undef BERTH_MESH_SEARCHED_VIEW_INL_HPP
 #else
-#define BERTH_MESH_LINK_VIEW_INL_HPP
+#define BERTH_MESH_SEARCHED_VIEW_INL_HPP
 #endif
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace berth::mesh {
 namespace HWY_NAMESPACE {
 
 /// A view as one link's search sees it.
-struct LinkView {
+struct SearchedView {
   const ViewSpace* space;
   SearchFrame frame;
   /// Pixel border u, at u - 1/2, has the slope x / z = u per_column + first_column.
@@ -26,14 +26,14 @@ struct LinkView {
   float far_m;
 };
 
-inline LinkView make_view(const CarvingView& view, const LinkSearch& search) {
+inline SearchedView make_view(const CarvingView& view, const LinkSearch& search) {
   const Camera& camera = view.space->camera;
   const Pose X_CL = view.X_CB * search.X_BL;
   const PatchLevel& top = search.link->levels.back();
   const Eigen::Vector3d centre_L_m(top.centre_m[0][0], top.centre_m[1][0], top.centre_m[2][0]);
   const double radius_m = top.half_height_m[0] + top.radius_m[0];
   const double reach_m = centre_L_m.norm() + X_CL.translation().norm() + radius_m + search.range_m;
-  LinkView out;
+  SearchedView out;
   out.space = view.space;
   out.frame = make_frame(X_CL, static_cast<float>(reach_m));
   out.per_column = static_cast<float>(1 / camera.fx_px);
@@ -51,16 +51,16 @@ struct Chunk {
 struct ViewSearch {
   LinkSearch& link;
   bool to_shadow;
-  LinkView views[HiddenSpace::kMostViews];
+  SearchedView views[HiddenSpace::kMostViews];
 };
 
-HWY_INLINE float end_of(const ViewSearch& search, const LinkView& view, float hi_m) {
+HWY_INLINE float end_of(const ViewSearch& search, const SearchedView& view, float hi_m) {
   if (search.to_shadow) return view.far_m;
   return std::min(hi_m + static_cast<float>(view.space->settings.slab_m), view.far_m);
 }
 
 inline Chunk chunk_of(const ViewSearch& search, const ImageCell& cell) {
-  const LinkView& view = search.views[cell.view];
+  const SearchedView& view = search.views[cell.view];
   const DepthCells& cells = view.space->cells;
   float lo_m = HUGE_VALF;
   float hi_m = -HUGE_VALF;
@@ -106,8 +106,8 @@ struct Plane {
 
 /// The plane that lies before a patch as it is seen from a chunk. A leaf's triangles are farther
 /// behind than its cylinder.
-HWY_INLINE Plane plane_towards(const ViewSearch& search, const LinkView& view, std::uint32_t patch,
-                               const Chunk& chunk) {
+HWY_INLINE Plane plane_towards(const ViewSearch& search, const SearchedView& view,
+                               std::uint32_t patch, const Chunk& chunk) {
   const Patches hull = broadcast_patch(search.link.link->levels[level_of(patch)], index_of(patch),
                                        view.frame.motion);
   const Vectors n = direction(hull.centre, nearest_in<2>(broadcast(chunk), hull.centre)).n;
