@@ -12,6 +12,7 @@
 namespace {
 
 using namespace berth;
+using namespace berth::lab;
 
 /// The frame in which the person is nearest.
 constexpr std::size_t kFrame = 19;
