@@ -1,7 +1,9 @@
 // Inside self_filter/ only: which pixels the discs around the robot's outline cover, in vectors.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "berth/self_filter/tiles.hpp"
@@ -33,7 +35,8 @@ struct DiscTile {
   PixelRect bounds;
   /// No disc reaches farther, and no nearer reading belongs to one, nor one that is farther away
   /// and on a surface.
-  float reach_px = 0;
+  int reach_px = -1;
+  int reach2_px2 = -1;
   float least_m = 0;
   float most_m = 0;
   std::uint32_t first = 0;
@@ -47,21 +50,20 @@ struct NearDiscTile {
   const DiscTile* tile;
   /// The first of its discs.
   const Disc* discs;
-};
 
-/// What disc growth reads and writes.
-struct GrownImages {
-  DepthView sensor_depth_m;
-  Image<PixelFate>& fate;
-  DepthImage& obstacle_depth_m;
+  /// Those rows of the other tile that its discs may reach.
+  std::pair<int, int> rows(const PixelRect& other) const {
+    return {std::max(other.v_begin, tile->bounds.v_begin - tile->reach_px),
+            std::min(other.v_end, tile->bounds.v_end + tile->reach_px)};
+  }
 };
 
 /// Whether there are obstacles or edges within `pixels`.
 bool may_be_covered(const PixelRect& pixels, const Image<PixelFate>& fate);
 
-/// Gives those obstacles, and unless they become islands those edges, within `pixels` that belong to a disc the fate `grown`. Fastest
-/// if the nearest tiles come first.
-void cover_with_discs(const PixelRect& pixels, const std::vector<NearDiscTile>& tiles,
-                      PixelFate grown, const GrownImages& images);
+/// Which obstacles and edges of the tile with these pixels belong to a disc. Fastest if the nearest
+/// tiles come first.
+TileBits covered_by_discs(const PixelRect& pixels, const std::vector<NearDiscTile>& tiles,
+                          DepthView sensor_depth_m, const Image<PixelFate>& fate);
 
 }  // namespace berth

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
-
-#include "berth/self_filter/outline.hpp"
 
 namespace berth {
 namespace {
@@ -34,20 +33,36 @@ PixelRect shared(const PixelRect& a, const PixelRect& b) {
           std::min(a.u_end, b.u_end), std::min(a.v_end, b.v_end)};
 }
 
+/// Around the bits.
+PixelRect bounds_of(const TileBits& bits, const PixelRect& tile) {
+  PixelRect bounds;
+  unsigned columns = 0;
+  for (int v = tile.v_begin; v < tile.v_end; ++v) {
+    const unsigned row = bits[v - tile.v_begin];
+    if (row == 0) continue;
+    if (columns == 0) bounds.v_begin = v;
+    bounds.v_end = v + 1;
+    columns |= row;
+  }
+  bounds.u_begin = tile.u_begin + std::countr_zero(columns);
+  bounds.u_end = tile.u_begin + std::bit_width(columns);
+  return bounds;
+}
+
 }  // namespace
 
 void GrownRobot::begin(const Camera& camera, const RobotImage& robot,
-                       const SelfFilterSettings& settings, PixelFate grown) {
+                       const SelfFilterSettings& settings, const Outline& outline,
+                       PixelFate grown) {
   camera_ = &camera;
   robot_ = &robot;
   settings_ = &settings;
+  outline_ = &outline;
   grown_ = grown;
   tolerance_ = tolerance_of(settings);
   grid_ = tiles_of(camera);
-  robot_tiles_ = grid_.tiles_of(robot.extent);
   tiles_.resize(grid_.count());
   rows_.resize(grid_.rows());
-  for (Row& row : rows_) row.reach_px = 0;
 }
 
 GrownRobot::Radius GrownRobot::radius_of(LinkId id, float depth_m) const {
@@ -63,60 +78,81 @@ GrownRobot::Radius GrownRobot::radius_of(LinkId id, float depth_m) const {
           std::min(longest_px, padding_m * camera_->fy_px / depth_m)};
 }
 
-void GrownRobot::append_disc(int u, int v, Row& row, DiscTile& tile) const {
-  const float depth_m = robot_->depth_m(u, v);
-  const Radius radius = radius_of(robot_->link_id(u, v), depth_m);
-  if (radius.u_px <= 0) return;
-  const double ratio = radius.u_px / radius.v_px;
-  const float least_m = tolerance_.least_reading_m(depth_m);
-  const float most_m = depth_m + static_cast<float>(settings_->padding_depth_m);
-  row.discs.push_back({static_cast<float>(u), static_cast<float>(v), least_m, most_m,
-                       radius.u_px * radius.u_px * kRoundingMargin, ratio * ratio});
-  ++tile.count;
-  tile.bounds = united(tile.bounds, {u, v, u + 1, v + 1});
-  // A pixel more than needed, against rounding.
-  tile.reach_px =
-      std::max(tile.reach_px, static_cast<float>(std::max(radius.u_px, radius.v_px)) + 1);
-  tile.least_m = std::min(tile.least_m, least_m);
-  tile.most_m = std::max(tile.most_m, most_m);
+DiscTile GrownRobot::append_discs(const TileBits& outline, const PixelRect& pixels,
+                                  std::vector<Disc>& discs) const {
+  DiscTile tile;
+  tile.bounds = bounds_of(outline, pixels);
+  tile.first = static_cast<std::uint32_t>(discs.size());
+  const auto depth_behind_m = static_cast<float>(settings_->padding_depth_m);
+  float least_m = std::numeric_limits<float>::infinity();
+  float most_m = 0;
+  double longest_px = 0;
+  for_bits(outline, pixels, [&](int u, int v) {
+    const float depth_m = robot_->depth_m(u, v);
+    const Radius radius = radius_of(robot_->link_id(u, v), depth_m);
+    if (radius.u_px <= 0) return;
+    const double ratio = radius.u_px / radius.v_px;
+    const Disc disc{static_cast<float>(u),
+                    static_cast<float>(v),
+                    tolerance_.least_reading_m(depth_m),
+                    depth_m + depth_behind_m,
+                    radius.u_px * radius.u_px * kRoundingMargin,
+                    ratio * ratio};
+    discs.push_back(disc);
+    least_m = std::min(least_m, disc.least_m);
+    most_m = std::max(most_m, disc.most_m);
+    longest_px = std::max(longest_px, std::max(radius.u_px, radius.v_px));
+  });
+  tile.count = static_cast<std::uint32_t>(discs.size()) - tile.first;
+  tile.least_m = least_m;
+  tile.most_m = most_m;
+  tile.reach2_px2 = static_cast<int>(longest_px * longest_px * kRoundingMargin * kRoundingMargin);
+  tile.reach_px = static_cast<int>(std::sqrt(tile.reach2_px2));
+  return tile;
 }
 
-void GrownRobot::find_outline(int tile_row) {
-  if (tile_row < robot_tiles_.v_begin || tile_row >= robot_tiles_.v_end) return;
-  const auto pixel_rad = static_cast<float>(1 / std::max(camera_->fx_px, camera_->fy_px));
+void GrownRobot::make_discs(int tile_row) {
+  const PixelRect& tiles = outline_->tiles();
+  if (tile_row < tiles.v_begin || tile_row >= tiles.v_end) return;
   Row& row = rows_[tile_row];
   row.discs.clear();
-  for (int column = robot_tiles_.u_begin; column < robot_tiles_.u_end; ++column) {
-    const PixelRect pixels = grid_.pixels(column, tile_row);
-    DiscTile tile;
-    tile.least_m = std::numeric_limits<float>::infinity();
-    tile.first = static_cast<std::uint32_t>(row.discs.size());
-    const TileBits outline = outline_of(*robot_, pixels, pixel_rad, tolerance_);
-    for (int v = pixels.v_begin; v < pixels.v_end; ++v) {
-      for (std::uint32_t bits = outline[v - pixels.v_begin]; bits != 0; bits &= bits - 1)
-        append_disc(pixels.u_begin + std::countr_zero(bits), v, row, tile);
-    }
-    tiles_[grid_.index(column, tile_row)] = tile;
-    row.reach_px = std::max(row.reach_px, tile.reach_px);
+  for (int column = tiles.u_begin; column < tiles.u_end; ++column) {
+    DiscTile& tile = tiles_[grid_.index(column, tile_row)];
+    tile = append_discs(outline_->in_tile(column, tile_row), grid_.pixels(column, tile_row),
+                        row.discs);
   }
 }
 
-void GrownRobot::end_outline() {
-  reach_px_ = 0;
-  for (const Row& row : rows_) reach_px_ = std::max(reach_px_, static_cast<int>(row.reach_px));
-  const PixelRect extent = clip(robot_->extent, grid_.width_px, grid_.height_px);
-  grown_tiles_ = reach_px_ == 0 ? PixelRect{} : grid_.tiles_of(grown_by(extent, reach_px_));
+void GrownRobot::end_discs() {
+  reach_px_ = -1;
+  is_reached_.assign(grid_.count(), 0);
+  const PixelRect& tiles = outline_->tiles();
+  for (int row = tiles.v_begin; row < tiles.v_end; ++row) {
+    for (int column = tiles.u_begin; column < tiles.u_end; ++column) {
+      const DiscTile& tile = tiles_[grid_.index(column, row)];
+      if (tile.count > 0) reach_from(tile);
+    }
+  }
+}
+
+void GrownRobot::reach_from(const DiscTile& tile) {
+  reach_px_ = std::max(reach_px_, tile.reach_px);
+  const PixelRect reached = grid_.tiles_of(grown_by(tile.bounds, tile.reach_px));
+  for (int row = reached.v_begin; row < reached.v_end; ++row) {
+    const auto first = is_reached_.begin() + static_cast<std::ptrdiff_t>(grid_.index(0, row));
+    std::fill(first + reached.u_begin, first + reached.u_end, 1);
+  }
 }
 
 void GrownRobot::collect_near(const PixelRect& pixels, std::vector<NearDiscTile>& near) const {
   near.clear();
-  const PixelRect tiles = shared(robot_tiles_, grid_.tiles_of(grown_by(pixels, reach_px_)));
+  const PixelRect tiles = shared(outline_->tiles(), grid_.tiles_of(grown_by(pixels, reach_px_)));
   for (int r = tiles.v_begin; r < tiles.v_end; ++r) {
     for (int c = tiles.u_begin; c < tiles.u_end; ++c) {
       const DiscTile& tile = tiles_[grid_.index(c, r)];
       if (tile.count == 0) continue;
       const int distance2_px2 = gap2_px2(tile.bounds, pixels);
-      if (static_cast<float>(distance2_px2) > tile.reach_px * tile.reach_px) continue;
+      if (distance2_px2 > tile.reach2_px2) continue;
       near.push_back({distance2_px2, &tile, rows_[r].discs.data() + tile.first});
     }
   }
@@ -125,15 +161,22 @@ void GrownRobot::collect_near(const PixelRect& pixels, std::vector<NearDiscTile>
   });
 }
 
-void GrownRobot::grow(int tile_row, const GrownImages& images) {
-  if (tile_row < grown_tiles_.v_begin || tile_row >= grown_tiles_.v_end) return;
+TileBits GrownRobot::covered(int column, int tile_row, DepthView sensor_depth_m,
+                             const Image<PixelFate>& fate) {
+  const PixelRect pixels = grid_.pixels(column, tile_row);
+  if (is_reached_[grid_.index(column, tile_row)] == 0 || !may_be_covered(pixels, fate)) return {};
   std::vector<NearDiscTile>& near = rows_[tile_row].near;
-  for (int column = grown_tiles_.u_begin; column < grown_tiles_.u_end; ++column) {
-    const PixelRect pixels = grid_.pixels(column, tile_row);
-    if (!may_be_covered(pixels, images.fate)) continue;
-    collect_near(pixels, near);
-    if (near.empty()) continue;
-    cover_with_discs(pixels, near, grown_, images);
+  collect_near(pixels, near);
+  return near.empty() ? TileBits{} : covered_by_discs(pixels, near, sensor_depth_m, fate);
+}
+
+void GrownRobot::grow(int tile_row, DepthView sensor_depth_m, ObstacleImage& out) {
+  for (int column = 0; column < grid_.columns(); ++column) {
+    for_bits(covered(column, tile_row, sensor_depth_m, out.fate), grid_.pixels(column, tile_row),
+             [&](int u, int v) {
+               out.fate(u, v) = grown_;
+               out.depth_m(u, v) = kNoDepth;
+             });
   }
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "berth/self_filter/discs.hpp"
+#include "berth/self_filter/outline.hpp"
 #include "berth/self_filter/settings.hpp"
 #include "berth/self_filter/tolerance.hpp"
 #include "berth/types/camera.hpp"
@@ -16,27 +17,26 @@ namespace berth {
 class GrownRobot {
  public:
   /// `grown` is PixelFate::padding (a disc has the link's padding for a radius, as large in the
-  /// image as that is at the pixel's depth) or PixelFate::dilation (dilation_px pixels). `camera`,
-  /// `robot` and `settings` have to outlive the growth.
+  /// image as that is at the pixel's depth), PixelFate::island (island_radius_m in its place) or
+  /// PixelFate::dilation (dilation_px pixels). All have to outlive the growth.
   void begin(const Camera& camera, const RobotImage& robot, const SelfFilterSettings& settings,
-             PixelFate grown);
+             const Outline& outline, PixelFate grown);
 
-  /// Finds the outline in one row of tiles. Each row is found once, by any thread.
-  void find_outline(int tile_row);
+  /// Makes the discs of one row of tiles, whose outline was found. Each row is made once, by any
+  /// thread.
+  void make_discs(int tile_row);
 
-  /// After all rows are found.
-  void end_outline();
+  /// After all rows are made.
+  void end_discs();
 
-  /// No pixel outside of these grows.
-  PixelRect grown_pixels() const {
-    return clip({grown_tiles_.u_begin * kTileWidth_px, grown_tiles_.v_begin * kTileHeight_px,
-                 grown_tiles_.u_end * kTileWidth_px, grown_tiles_.v_end * kTileHeight_px},
-                grid_.width_px, grid_.height_px);
-  }
+  /// Gives obstacles and edges in one row of tiles that belong to the grown robot the fate `grown`,
+  /// and takes their depths. Each row is grown once, by any thread.
+  void grow(int tile_row, DepthView sensor_depth_m, ObstacleImage& out);
 
-  /// Gives obstacles and edges in one row of tiles that belong to the grown robot the fate `grown`.
-  /// Each row is grown once, by any thread.
-  void grow(int tile_row, const GrownImages& images);
+  /// Which obstacles and edges of a tile belong to the grown robot. Each row of tiles is asked by
+  /// one thread at a time.
+  TileBits covered(int column, int tile_row, DepthView sensor_depth_m,
+                   const Image<PixelFate>& fate);
 
  private:
   struct Radius {
@@ -45,26 +45,28 @@ class GrownRobot {
   };
   struct Row {
     std::vector<Disc> discs;
-    float reach_px = 0;
-    /// Scratch of grow: the tiles of discs that reach into a tile.
+    /// Scratch: the tiles of discs that reach into a tile.
     std::vector<NearDiscTile> near;
   };
 
   Radius radius_of(LinkId id, float depth_m) const;
-  void append_disc(int u, int v, Row& row, DiscTile& tile) const;
+  DiscTile append_discs(const TileBits& outline, const PixelRect& pixels,
+                        std::vector<Disc>& discs) const;
+  void reach_from(const DiscTile& tile);
   void collect_near(const PixelRect& pixels, std::vector<NearDiscTile>& near) const;
 
   const Camera* camera_ = nullptr;
   const RobotImage* robot_ = nullptr;
   const SelfFilterSettings* settings_ = nullptr;
+  const Outline* outline_ = nullptr;
   PixelFate grown_ = PixelFate::padding;
   Tolerance tolerance_{};
   TileGrid grid_;
-  /// The tiles where the robot may be, and those that it may grow into.
-  PixelRect robot_tiles_;
-  PixelRect grown_tiles_;
-  int reach_px_ = 0;
-  /// Of the whole grid; only those within robot_tiles_ are up to date.
+  /// The farthest of all tiles.
+  int reach_px_ = -1;
+  /// Of each tile, whether discs reach into it.
+  std::vector<std::uint8_t> is_reached_;
+  /// Of the whole grid; only those within outline_->tiles() are up to date.
   std::vector<DiscTile> tiles_;
   std::vector<Row> rows_;
 };

@@ -1,87 +1,100 @@
 #include "berth/self_filter/islands.hpp"
 
-#include <algorithm>
-#include <iterator>
-
 #include "berth/self_filter/joined.hpp"
+#include "berth/self_filter/seam.hpp"
 
 namespace berth {
 namespace {
 
-/// Pieces of pixels marked `island`, walked one by one.
+enum State : std::uint8_t { kUnknown, kInPiece, kStays };
+
+/// Pieces of obstacles, walked one by one.
 class Walk {
  public:
-  Walk(DepthView depth_m, const RobotImage& robot, const Tolerance& tolerance, float jump_m,
-       IslandWorkspace& workspace, ObstacleImage& out)
+  Walk(DepthView depth_m, float jump_m, IslandWorkspace& workspace, ObstacleImage& out)
       : depth_m_(depth_m),
         jump_m_(jump_m),
+        neighbourhood_(workspace.neighbourhood),
+        state_(workspace.state),
         walked_(workspace.walked),
-        piece_(workspace.piece),
-        seam_(depth_m, robot, tolerance, jump_m, out.fate, workspace.seam),
+        open_(workspace.open),
         out_(out) {}
+  ~Walk() {
+    for (const Pixel& p : walked_) state_(p.u, p.v) = kUnknown;
+    walked_.clear();
+  }
+  Walk(const Walk&) = delete;
+  Walk& operator=(const Walk&) = delete;
 
-  void through(const PixelRect& pixels) {
-    for (int v = pixels.v_begin; v < pixels.v_end; ++v) {
-      for (int u = pixels.u_begin; u < pixels.u_end; ++u) {
-        if (out_.fate(u, v) == PixelFate::island && walked_(u, v) == 0) from({u, v});
-      }
+  bool has_seen(Pixel p) const { return state_(p.u, p.v) != kUnknown; }
+
+  /// Walks the piece that begins at this obstacle, which was not seen, and drops it unless it
+  /// stays.
+  void from(Pixel start) {
+    const std::size_t first = walked_.size();
+    const bool stays = leaves(start);
+    open_.clear();
+    for (std::size_t i = first; i < walked_.size(); ++i) {
+      const Pixel& p = walked_[i];
+      if (stays)
+        state_(p.u, p.v) = kStays;
+      else
+        drop(p);
     }
   }
 
  private:
-  void from(Pixel start) {
-    piece_.assign(1, start);
-    walked_(start.u, start.v) = 1;
-    bool leaves = false;
-    for (std::size_t next = 0; next < piece_.size(); ++next) leaves |= visit_around(piece_[next]);
-    if (!leaves && hangs()) return;
-    for (const Pixel& p : piece_) {
-      out_.fate(p.u, p.v) = PixelFate::obstacle;
-      out_.depth_m(p.u, p.v) = depth_m_(p.u, p.v);
+  /// Deep before wide, which is out of the neighbourhood soonest.
+  bool leaves(Pixel start) {
+    add(start);
+    while (!open_.empty()) {
+      const Pixel p = open_.back();
+      open_.pop_back();
+      if (!neighbourhood_.holds(p, depth_m_, out_.fate) || touches_what_stays(p)) return true;
     }
-    out_.count[static_cast<std::size_t>(PixelFate::obstacle)] += std::ssize(piece_);
-    out_.count[static_cast<std::size_t>(PixelFate::island)] -= std::ssize(piece_);
+    return false;
   }
 
-  /// True where a joined neighbour is an obstacle elsewhere. Obstacles of pieces that were walked
-  /// before are joined to none of this one.
-  bool visit_around(Pixel p) {
-    bool leaves = false;
-    const float depth_m = depth_m_(p.u, p.v);
-    for (int v = std::max(0, p.v - 1); v <= std::min(depth_m_.height - 1, p.v + 1); ++v) {
-      for (int u = std::max(0, p.u - 1); u <= std::min(depth_m_.width - 1, p.u + 1); ++u) {
-        if (!is_joined(depth_m_(u, v), depth_m, jump_m_)) continue;
-        const PixelFate fate = out_.fate(u, v);
-        leaves |= fate == PixelFate::obstacle;
-        if (fate != PixelFate::island || walked_(u, v) != 0) continue;
-        walked_(u, v) = 1;
-        piece_.push_back({u, v});
-      }
-    }
-    return leaves;
+  void add(Pixel p) {
+    state_(p.u, p.v) = kInPiece;
+    walked_.push_back(p);
+    open_.push_back(p);
   }
 
-  bool hangs() {
-    return std::any_of(piece_.begin(), piece_.end(),
-                       [this](const Pixel& p) { return seam_.leads_to(p); });
+  /// Adds the neighbours that are joined; true where one is known to stay.
+  bool touches_what_stays(Pixel p) {
+    const auto is_obstacle = [this](Pixel q) { return out_.fate(q.u, q.v) == PixelFate::obstacle; };
+    return any_joined(depth_m_, p, jump_m_, is_obstacle, [this](Pixel q) {
+      if (state_(q.u, q.v) == kUnknown) add(q);
+      return state_(q.u, q.v) == kStays;
+    });
+  }
+
+  void drop(Pixel p) {
+    out_.fate(p.u, p.v) = PixelFate::island;
+    out_.depth_m(p.u, p.v) = kNoDepth;
+    --out_.count[static_cast<std::size_t>(PixelFate::obstacle)];
+    ++out_.count[static_cast<std::size_t>(PixelFate::island)];
   }
 
   DepthView depth_m_;
   float jump_m_;
-  Image<std::uint8_t>& walked_;
-  std::vector<Pixel>& piece_;
-  Seam seam_;
+  Neighbourhood& neighbourhood_;
+  Image<std::uint8_t>& state_;
+  std::vector<Pixel>& walked_;
+  std::vector<Pixel>& open_;
   ObstacleImage& out_;
 };
 
 }  // namespace
 
-void keep_islands(DepthView sensor_depth_m, const RobotImage& robot, const Tolerance& tolerance,
+void drop_islands(DepthView sensor_depth_m, const RobotImage& robot, const Tolerance& tolerance,
                   float jump_m, IslandWorkspace& workspace, ObstacleImage& out) {
-  const PixelRect pixels = workspace.neighbourhood.grown_pixels();
-  Walk(sensor_depth_m, robot, tolerance, jump_m, workspace, out).through(pixels);
-  for (int v = pixels.v_begin; v < pixels.v_end; ++v) {
-    std::fill(workspace.walked.row(v) + pixels.u_begin, workspace.walked.row(v) + pixels.u_end, 0);
+  workspace.seam.clear();
+  append_seam(sensor_depth_m, robot, tolerance, jump_m, out.fate, workspace.state, workspace.seam);
+  Walk walk(sensor_depth_m, jump_m, workspace, out);
+  for (const Pixel& p : workspace.seam) {
+    if (out.fate(p.u, p.v) == PixelFate::obstacle && !walk.has_seen(p)) walk.from(p);
   }
 }
 

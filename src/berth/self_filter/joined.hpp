@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "berth/types/image.hpp"
+
 namespace berth {
 
 /// Whether neighbouring readings are parts of one surface: they differ by at most
@@ -12,6 +14,21 @@ namespace berth {
 inline bool is_joined(float a_m, float b_m, float jump_m) {
   const float z_m = std::min(a_m, b_m);
   return std::abs(a_m - b_m) <= jump_m * std::max(1.0F, z_m * z_m);
+}
+
+/// Whether call(q) holds for a pixel q that is joined to p, one of its neighbours (8) or p itself;
+/// asks no more of them then. Looks only at those of which is_wanted(q) holds.
+template <class IsWanted, class Call>
+bool any_joined(DepthView depth_m, Pixel p, float jump_m, const IsWanted& is_wanted,
+                const Call& call) {
+  const float own_m = depth_m(p.u, p.v);
+  for (int v = std::max(0, p.v - 1); v <= std::min(depth_m.height - 1, p.v + 1); ++v) {
+    for (int u = std::max(0, p.u - 1); u <= std::min(depth_m.width - 1, p.u + 1); ++u) {
+      const Pixel q{u, v};
+      if (is_wanted(q) && is_joined(depth_m(u, v), own_m, jump_m) && call(q)) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace berth

@@ -29,19 +29,23 @@ struct OutlineRow {
 
 /// `left` and `right` are the steps to the neighbours, 0 at the image's border.
 template <class D>
-HWY_INLINE std::uint32_t outline_bits(D d, const OutlineRow& row, int u, int left, int right,
+HWY_INLINE std::uint64_t outline_bits(D d, const OutlineRow& row, int u, int left, int right,
                                       float deeper, const Tolerance& tolerance) {
   const auto z = hn::LoadU(d, row.depth_m[1] + u);
   const auto is_robot = hn::Eq(z, z);
   if (hn::AllFalse(d, is_robot)) return 0;
   const auto most = hn::Mul(z, hn::Set(d, deeper));
-  const auto own_scenery = is_scenery(d, row.link_id[1] + u);
+  const auto own_scenery = hn::And(is_robot, is_scenery(d, row.link_id[1] + u));
+  const bool has_scenery = !hn::AllFalse(d, own_scenery);
+  const bool has_links = !hn::AllFalse(d, hn::AndNot(own_scenery, is_robot));
   const auto goes_on = [&](int i, int step) HWY_ATTR {
     const auto next_m = hn::LoadU(d, row.depth_m[i] + u + step);
+    auto scenery_goes_on = own_scenery;
+    if (has_scenery) scenery_goes_on = hn::And(own_scenery, belongs_to(d, z, next_m, tolerance));
+    if (!has_links) return scenery_goes_on;
     const auto next_scenery = is_scenery(d, row.link_id[i] + u + step);
     const auto link_goes_on = hn::AndNot(next_scenery, hn::Le(next_m, most));
-    const auto scenery_goes_on = belongs_to(d, z, next_m, tolerance);
-    return hn::Or(hn::And(own_scenery, scenery_goes_on), hn::AndNot(own_scenery, link_goes_on));
+    return hn::Or(scenery_goes_on, hn::AndNot(own_scenery, link_goes_on));
   };
   const auto goes_on_all_around =
       hn::And(hn::And(goes_on(1, left), goes_on(1, right)), hn::And(goes_on(0, 0), goes_on(2, 0)));
@@ -50,7 +54,7 @@ HWY_INLINE std::uint32_t outline_bits(D d, const OutlineRow& row, int u, int lef
 
 bool shows_robot(const RobotImage& robot, const PixelRect& tile) {
   bool found = false;
-  for (int v = tile.v_begin; v < tile.v_end; ++v) {
+  for (int v = tile.v_begin; v < tile.v_end && !found; ++v) {
     for_pixels(tile.u_begin, tile.u_end, [&](auto d, int u) HWY_ATTR {
       const auto z = hn::LoadU(d, robot.depth_m.row(v) + u);
       found |= !hn::AllFalse(d, hn::Eq(z, z));
@@ -64,19 +68,24 @@ TileBits outline_of_tile(const RobotImage& robot, const PixelRect& tile, float p
   TileBits bits{};
   if (!shows_robot(robot, tile)) return bits;
   const int last = robot.depth_m.width() - 1;
+  // Whole vectors of pixels that have neighbours on both sides, some of them beside the tile.
+  const int begin = std::clamp(tile.u_begin, 1, std::max(1, last - kTileWidth_px));
+  const int end = std::min(last, begin + kTileWidth_px);
   const float deeper = 1 + pixel_rad;
   for (int v = tile.v_begin; v < tile.v_end; ++v) {
     const OutlineRow row(robot, v);
-    std::uint32_t& row_bits = bits[v - tile.v_begin];
-    for_pixels(std::max(1, tile.u_begin), std::min(last, tile.u_end), [&](auto d, int u) HWY_ATTR {
-      row_bits |= outline_bits(d, row, u, -1, 1, deeper, tolerance) << (u - tile.u_begin);
+    std::uint64_t row_bits = 0;
+    for_pixels(begin, end, [&](auto d, int u) HWY_ATTR {
+      row_bits |= outline_bits(d, row, u, -1, 1, deeper, tolerance) << (u - begin);
     });
+    row_bits = begin > tile.u_begin ? row_bits << 1 : row_bits >> (tile.u_begin - begin);
     if (tile.u_begin == 0)
       row_bits |= outline_bits(OneFloatTag(), row, 0, 0, last > 0, deeper, tolerance);
     if (tile.u_end == last + 1 && last > 0) {
       row_bits |= outline_bits(OneFloatTag(), row, last, -1, 0, deeper, tolerance)
                   << (last - tile.u_begin);
     }
+    bits[v - tile.v_begin] = static_cast<std::uint16_t>(row_bits);
   }
   return bits;
 }
@@ -90,9 +99,21 @@ namespace berth {
 
 HWY_EXPORT(outline_of_tile);
 
-TileBits outline_of(const RobotImage& robot, const PixelRect& tile, float pixel_rad,
-                    const Tolerance& tolerance) {
-  return HWY_DYNAMIC_DISPATCH(outline_of_tile)(robot, tile, pixel_rad, tolerance);
+void Outline::begin(const Camera& camera, const RobotImage& robot, const Tolerance& tolerance) {
+  robot_ = &robot;
+  tolerance_ = tolerance;
+  pixel_rad_ = static_cast<float>(1 / std::max(camera.fx_px, camera.fy_px));
+  grid_ = tiles_of(camera);
+  robot_tiles_ = grid_.tiles_of(robot.extent);
+  bits_.resize(grid_.count());
+}
+
+void Outline::find(int tile_row) {
+  if (tile_row < robot_tiles_.v_begin || tile_row >= robot_tiles_.v_end) return;
+  for (int column = robot_tiles_.u_begin; column < robot_tiles_.u_end; ++column) {
+    bits_[grid_.index(column, tile_row)] = HWY_DYNAMIC_DISPATCH(outline_of_tile)(
+        *robot_, grid_.pixels(column, tile_row), pixel_rad_, tolerance_);
+  }
 }
 
 }  // namespace berth

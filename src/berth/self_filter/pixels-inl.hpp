@@ -20,12 +20,15 @@ namespace HWY_NAMESPACE {
 
 static_assert(sizeof(PixelFate) == 1);
 
-/// Calls action(tag, u) for whole vectors, then pixel by pixel.
+/// Calls action(tag, u) for whole vectors of pixels, and pixel by pixel where there are fewer. The
+/// last vector goes over some pixels a second time, which action must not mind.
 template <class Action>
 HWY_INLINE void for_pixels(int u_begin, int u_end, const Action& action) {
   const int lanes = static_cast<int>(hn::Lanes(FloatTag()));
   int u = u_begin;
   for (; u + lanes <= u_end; u += lanes) action(FloatTag(), u);
+  if (u == u_end) return;
+  if (u > u_begin) return action(FloatTag(), u_end - lanes);
   for (; u < u_end; ++u) action(OneFloatTag(), u);
 }
 

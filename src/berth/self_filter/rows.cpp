@@ -37,30 +37,6 @@ void classify(const FilterRow& row, int u_begin, int u_end, const Tolerance& tol
   });
 }
 
-void mark_mixed(const FilterRow& row, std::ptrdiff_t step, int u_begin, int u_end,
-                float jump_at_1m_m) {
-  for_pixels(u_begin, u_end, [&](auto d, int u) HWY_ATTR {
-    const float* const here = row.reading_m + u;
-    const auto reading = hn::LoadU(d, here);
-    const auto before = hn::LoadU(d, here - step);
-    const auto after = hn::LoadU(d, here + step);
-    const auto jump =
-        hn::Mul(hn::Set(d, jump_at_1m_m), hn::Max(hn::Set(d, 1.0F), hn::Mul(reading, reading)));
-    const auto above_one = hn::Gt(hn::Sub(reading, hn::Min(before, after)), jump);
-    const auto below_other = hn::Gt(hn::Sub(hn::Max(before, after), reading), jump);
-    const auto between = hn::And(above_one, below_other);
-    if (hn::AllFalse(d, between)) return;
-    const auto flat_before = hn::Le(hn::Abs(hn::Sub(before, hn::LoadU(d, here - 2 * step))), jump);
-    const auto flat_after = hn::Le(hn::Abs(hn::Sub(after, hn::LoadU(d, here + 2 * step))), jump);
-    const auto was = load_fate(d, row.fate + u);
-    const auto changes = hn::And(hn::And(between, hn::And(flat_before, flat_after)),
-                                 has_fate(d, was, PixelFate::obstacle));
-    store_fate(d, choose(d, changes, code(d, PixelFate::edge), was), row.fate + u);
-    float* const depth_m = row.obstacle_depth_m + u;
-    hn::StoreU(hn::IfThenElse(changes, hn::Set(d, kNoDepth), hn::LoadU(d, depth_m)), d, depth_m);
-  });
-}
-
 void count_each(const PixelFate* fate, int width,
                 std::array<std::int64_t, kPixelFateCount>& count) {
   const hn::ScalableTag<std::uint8_t> d;
@@ -85,7 +61,6 @@ namespace berth {
 
 HWY_EXPORT(copy_readings);
 HWY_EXPORT(classify);
-HWY_EXPORT(mark_mixed);
 HWY_EXPORT(count_each);
 
 void copy_row(const FilterRow& row, int u_begin, int u_end) {
@@ -94,11 +69,6 @@ void copy_row(const FilterRow& row, int u_begin, int u_end) {
 
 void classify_row(const FilterRow& row, int u_begin, int u_end, const Tolerance& tolerance) {
   HWY_DYNAMIC_DISPATCH(classify)(row, u_begin, u_end, tolerance);
-}
-
-void mark_mixed_row(const FilterRow& row, std::ptrdiff_t step, int u_begin, int u_end,
-                    float jump_at_1m_m) {
-  HWY_DYNAMIC_DISPATCH(mark_mixed)(row, step, u_begin, u_end, jump_at_1m_m);
 }
 
 void count_fates(const PixelFate* fate, int width,

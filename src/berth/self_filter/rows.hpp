@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 
 #include "berth/self_filter/tolerance.hpp"
@@ -28,12 +27,6 @@ void copy_row(const FilterRow& row, int u_begin, int u_end);
 /// Writes fate and obstacle depth of the pixels u_begin <= u < u_end by the reading, the robot's
 /// surface and the environment's.
 void classify_row(const FilterRow& row, int u_begin, int u_end, const Tolerance& tolerance);
-
-/// Turns obstacles into edges, by the rule of mark_mixed_pixels in one direction. `step` counts
-/// elements to the neighbour: 1 across, the stride along. The pixels u_begin <= u < u_end have two
-/// neighbours on both sides.
-void mark_mixed_row(const FilterRow& row, std::ptrdiff_t step, int u_begin, int u_end,
-                    float jump_at_1m_m);
 
 /// Adds to the count of each fate.
 void count_fates(const PixelFate* fate, int width,

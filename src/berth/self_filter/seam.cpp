@@ -2,66 +2,55 @@
 
 #include <algorithm>
 
+#include "berth/self_filter/beside_robot.hpp"
 #include "berth/self_filter/joined.hpp"
 
 namespace berth {
 namespace {
 
-enum State : std::uint8_t { kUnknown, kWalked, kHangs };
+PixelRect with_border(const PixelRect& rect, const Image<PixelFate>& fate) {
+  const PixelRect inside = clip(rect, fate.width(), fate.height());
+  return clip({inside.u_begin - 1, inside.v_begin - 1, inside.u_end + 1, inside.v_end + 1},
+              fate.width(), fate.height());
+}
 
 bool is_grown(PixelFate fate) { return fate == PixelFate::padding || fate == PixelFate::dilation; }
 
 }  // namespace
 
-Seam::~Seam() {
-  for (const Pixel& p : known_) state_(p.u, p.v) = kUnknown;
-  known_.clear();
-}
+void append_seam(DepthView sensor_depth_m, const RobotImage& robot, const Tolerance& tolerance,
+                 float jump_m, const Image<PixelFate>& fate, Image<std::uint8_t>& is_found,
+                 std::vector<Pixel>& seam) {
+  const auto shows_robot = [&](Pixel q) { return fate(q.u, q.v) == PixelFate::robot; };
+  const auto is_on_model = [&](Pixel q) {
+    return sensor_depth_m(q.u, q.v) <= tolerance.greatest_reading_m(robot.depth_m(q.u, q.v));
+  };
+  const auto may_be_next = [&](Pixel q) {
+    const PixelFate f = fate(q.u, q.v);
+    return is_found(q.u, q.v) == 0 && (is_grown(f) || f == PixelFate::obstacle);
+  };
+  const auto append = [&](Pixel q) {
+    is_found(q.u, q.v) = 1;
+    seam.push_back(q);
+    return false;
+  };
 
-bool Seam::is_own(int u, int v) const {
-  return fate_(u, v) == PixelFate::robot &&
-         depth_m_(u, v) <= tolerance_.greatest_reading_m(robot_.depth_m(u, v));
-}
-
-/// Whether call(u, v) holds for a neighbour that is no step away; asks no more of them then.
-template <class Call>
-bool Seam::any_joined(Pixel p, const Call& call) const {
-  const float depth_m = depth_m_(p.u, p.v);
-  for (int v = std::max(0, p.v - 1); v <= std::min(depth_m_.height - 1, p.v + 1); ++v) {
-    for (int u = std::max(0, p.u - 1); u <= std::min(depth_m_.width - 1, p.u + 1); ++u) {
-      if (is_joined(depth_m_(u, v), depth_m, jump_m_) && call(u, v)) return true;
-    }
+  append_beside_robot(fate, with_border(robot.extent, fate), seam);
+  const auto hangs = [&](Pixel p) {
+    return any_joined(sensor_depth_m, p, jump_m, shows_robot, is_on_model);
+  };
+  seam.erase(std::remove_if(seam.begin(), seam.end(),
+                            [&](Pixel p) {
+                              if (is_found(p.u, p.v) != 0 || !hangs(p)) return true;
+                              is_found(p.u, p.v) = 1;
+                              return false;
+                            }),
+             seam.end());
+  for (std::size_t i = 0; i < seam.size(); ++i) {
+    const Pixel p = seam[i];
+    if (is_grown(fate(p.u, p.v))) any_joined(sensor_depth_m, p, jump_m, may_be_next, append);
   }
-  return false;
-}
-
-bool Seam::leads_to(Pixel p) {
-  return any_joined(p, [&](int u, int v) {
-    if (is_own(u, v) || state_(u, v) == kHangs) return true;
-    return is_grown(fate_(u, v)) && state_(u, v) == kUnknown && walk_from({u, v});
-  });
-}
-
-/// Ends at the first pixel that is known to hang: what was walked hangs on it. Else all that can be
-/// reached was walked, and need not be again.
-bool Seam::walk_from(Pixel start) {
-  const std::size_t first = known_.size();
-  known_.push_back(start);
-  state_(start.u, start.v) = kWalked;
-  bool hangs = false;
-  for (std::size_t next = first; next < known_.size() && !hangs; ++next) {
-    hangs = any_joined(known_[next], [&](int u, int v) {
-      if (is_own(u, v) || state_(u, v) == kHangs) return true;
-      if (is_grown(fate_(u, v)) && state_(u, v) == kUnknown) {
-        state_(u, v) = kWalked;
-        known_.push_back({u, v});
-      }
-      return false;
-    });
-  }
-  if (!hangs) return false;
-  for (std::size_t i = first; i < known_.size(); ++i) state_(known_[i].u, known_[i].v) = kHangs;
-  return true;
+  for (const Pixel& p : seam) is_found(p.u, p.v) = 0;
 }
 
 }  // namespace berth

@@ -29,29 +29,30 @@ class Filter {
       : grid_(tiles_of(camera)),
         sensor_depth_m_(sensor_depth_m),
         robot_(robot),
-        extent_(clip(robot.extent, camera.width_px, camera.height_px)),
+        extent_(grid_.pixels(grid_.tiles_of(robot.extent))),
         settings_(settings),
         tolerance_(tolerance_of(settings)),
         workspace_(workspace),
         out_(out) {
-    workspace.padding.begin(camera, robot, settings, PixelFate::padding);
-    if (dilates()) workspace.dilation.begin(camera, robot, settings, PixelFate::dilation);
+    workspace.outline.begin(camera, robot, tolerance_);
+    workspace.padding.begin(camera, robot, settings, workspace.outline, PixelFate::padding);
+    if (dilates()) {
+      workspace.dilation.begin(camera, robot, settings, workspace.outline, PixelFate::dilation);
+    }
     if (!has_islands()) return;
-    workspace.islands.neighbourhood.begin(camera, robot, settings, PixelFate::island);
-    set_size(camera, workspace.islands.walked);
-    set_size(camera, workspace.islands.seam.state);
+    workspace.islands.neighbourhood.begin(camera, robot, settings, workspace.outline);
+    set_size(camera, workspace.islands.state);
   }
 
   void run() {
     workspace_.counts.resize(grid_.rows());
     tbb::parallel_for(0, grid_.rows(), [this](int tile_row) { look_at_pixels(tile_row); });
-    workspace_.padding.end_outline();
-    if (dilates()) workspace_.dilation.end_outline();
-    if (has_islands()) workspace_.islands.neighbourhood.end_outline();
+    workspace_.padding.end_discs();
+    if (dilates()) workspace_.dilation.end_discs();
     tbb::parallel_for(0, grid_.rows(), [this](int tile_row) { look_around(tile_row); });
     add_counts();
     if (has_islands()) {
-      keep_islands(sensor_depth_m_, robot_, tolerance_, static_cast<float>(settings_.island_jump_m),
+      drop_islands(sensor_depth_m_, robot_, tolerance_, static_cast<float>(settings_.island_jump_m),
                    workspace_.islands, out_);
     }
   }
@@ -71,9 +72,9 @@ class Filter {
         mark_mixed_pixels(sensor_depth_m_, v, static_cast<float>(settings_.edge_jump_m), row);
       }
     }
-    workspace_.padding.find_outline(tile_row);
-    if (dilates()) workspace_.dilation.find_outline(tile_row);
-    if (has_islands()) workspace_.islands.neighbourhood.find_outline(tile_row);
+    workspace_.outline.find(tile_row);
+    workspace_.padding.make_discs(tile_row);
+    if (dilates()) workspace_.dilation.make_discs(tile_row);
   }
 
   void classify(int v, const FilterRow& row) {
@@ -87,10 +88,8 @@ class Filter {
   }
 
   void look_around(int tile_row) {
-    const GrownImages images{sensor_depth_m_, out_.fate, out_.depth_m};
-    workspace_.padding.grow(tile_row, images);
-    if (dilates()) workspace_.dilation.grow(tile_row, images);
-    if (has_islands()) workspace_.islands.neighbourhood.grow(tile_row, images);
+    workspace_.padding.grow(tile_row, sensor_depth_m_, out_);
+    if (dilates()) workspace_.dilation.grow(tile_row, sensor_depth_m_, out_);
     auto& count = workspace_.counts[tile_row];
     count.fill(0);
     for (int v = v_begin(tile_row); v < v_end(tile_row); ++v)
@@ -107,6 +106,7 @@ class Filter {
   TileGrid grid_;
   DepthView sensor_depth_m_;
   const RobotImage& robot_;
+  /// Of the tiles that may show the robot.
   PixelRect extent_;
   const SelfFilterSettings& settings_;
   Tolerance tolerance_;

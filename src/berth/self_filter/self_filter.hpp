@@ -14,6 +14,7 @@ namespace berth {
 
 /// Scratch of self_filter, one for each caller at a time.
 struct SelfFilterWorkspace {
+  Outline outline;
   GrownRobot padding;
   GrownRobot dilation;
   IslandWorkspace islands;

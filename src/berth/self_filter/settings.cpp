@@ -6,12 +6,6 @@
 #include <stdexcept>
 
 namespace berth {
-double SelfFilterSettings::padding_of(LinkId id) const {
-  if (id == kEnvironmentLink) return environment_padding_m.value_or(padding_m);
-  const std::size_t i = static_cast<std::size_t>(id) - 1;
-  return i < link_padding_m.size() && !std::isnan(link_padding_m[i]) ? link_padding_m[i]
-                                                                     : padding_m;
-}
 
 void validate(const SelfFilterSettings& settings) {
   const SettingCheck check{"self_filter"};

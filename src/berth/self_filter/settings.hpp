@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -47,7 +49,12 @@ struct SelfFilterSettings {
   /// of the exposure it stays where it was. 0 turns it off, else it is at least 1.
   double robot_region_scale = 0;
 
-  double padding_of(LinkId id) const;
+  double padding_of(LinkId id) const {
+    if (id == kEnvironmentLink) return environment_padding_m.value_or(padding_m);
+    const std::size_t i = static_cast<std::size_t>(id) - 1;
+    return i < link_padding_m.size() && !std::isnan(link_padding_m[i]) ? link_padding_m[i]
+                                                                       : padding_m;
+  }
 };
 
 /// The list of these settings but link_padding_m, which goes by link.
@@ -84,7 +91,8 @@ void visit_settings(Settings& s, Visitor&& visit) {
   visit({"island_jump_m", kNotNegative,
          "two neighbouring pixels are of one piece where their depths differ by no more than this"},
         s.island_jump_m);
-  visit({"robot_region_scale", {.least = 1, .has_off = true},
+  visit({"robot_region_scale",
+         {.least = 1, .has_off = true},
          "what is not seen through the robot enlarged so many times is ignored, however near "
          "(the thesis: 6); distances can be too large; 0 is off"},
         s.robot_region_scale);
