@@ -43,7 +43,6 @@ std::vector<std::filesystem::path> glob_files(const std::filesystem::path& folde
     return ::strverscmp(a.c_str(), b.c_str()) < 0;
   });
   std::vector<std::filesystem::path> files;
-  files.reserve(names.size());
   for (const std::string& name : names) {
     files.push_back(std::filesystem::path(name).lexically_normal());
   }

@@ -11,7 +11,6 @@ namespace {
 
 std::vector<std::string> names_of(const std::vector<MovableJoint>& joints) {
   std::vector<std::string> names;
-  names.reserve(joints.size());
   for (const MovableJoint& joint : joints) names.push_back(joint.name);
   return names;
 }

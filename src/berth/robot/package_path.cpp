@@ -24,7 +24,6 @@ fs::path find_package(const std::string& package, const std::string& name,
     if (folder == folder.parent_path()) break;
   }
   std::vector<std::string> known;
-  known.reserve(package_paths.size());
   for (const auto& [key, path] : package_paths) known.push_back(key);
   throw std::runtime_error(fmt::format(
       "mesh \"{}\": package \"{}\" is not known; expected one of package_paths [{}] or a folder of "

@@ -151,7 +151,7 @@ void require_usable_xml(const std::filesystem::path& path, const std::string& te
 urdf::ModelInterfaceSharedPtr parse_urdf(const std::filesystem::path& path) {
   const std::string text = read_text(path);
   require_usable_xml(path, text);
-  auto model = parse(path, text);
+  const auto model = parse(path, text);
   require_one_parent_each(path, *model);
   require_all_reached(path, *model);
   require_mimic_ends(path, *model);
