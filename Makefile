@@ -1,5 +1,5 @@
 # Thin fronts of CMake. Each target does all set-up that it needs, on a bare Debian 12 too.
-.PHONY: demo test build bench lab study bench-gpu sanitize sanitize-thinned fuzz trust berth_trust trust-distances trust-real-images trust-long-runs trust-whole-robot setup docs lint format clean
+.PHONY: demo opengl test build bench lab study bench-gpu sanitize sanitize-thinned fuzz trust berth_trust trust-distances trust-real-images trust-long-runs trust-whole-robot setup docs lint format clean
 
 # A fresh build folder is configured for berth alone, which needs the fewest packages. One that has more keeps it.
 product = test -e build/release/build.ninja || cmake --preset product
@@ -8,6 +8,13 @@ demo:
 	$(product)
 	cmake --build --preset release --target berth
 	build/release/berth demo --picture build/demo
+
+# Adds OpenGL to what build/release has.
+opengl:
+	scripts/setup.sh packages.txt packages-opengl.txt
+	$(product)
+	cmake -B build/release -DBERTH_OPENGL=ON
+	cmake --build --preset release --target berth
 
 # JOIN=ON compiles the sources of each folder and of each program as one: half the time from scratch, more after a change.
 JOIN ?= OFF
@@ -21,7 +28,7 @@ build: setup
 # BERTH_DATA: a folder with recordings to measure as well, here and below. BENCH_OPTIONS: of berth_bench, such as --quick.
 recordings = $(addprefix --scene ,$(wildcard $(BERTH_DATA)/recordings/*/scene.yaml))
 bench:
-	scripts/setup.sh packages.txt packages-lab.txt packages-bench.txt
+	scripts/setup.sh packages.txt packages-opengl.txt packages-lab.txt packages-bench.txt
 	cmake --preset bench
 	cmake --build --preset bench
 	build/bench/lab/berth_bench --out build/bench_results $(if $(BERTH_DATA),$(recordings)) $(BENCH_OPTIONS)
@@ -29,9 +36,9 @@ bench:
 
 # Adds the laboratory to what build/release has.
 lab:
-	scripts/setup.sh packages.txt packages-lab.txt
+	scripts/setup.sh packages.txt packages-opengl.txt packages-lab.txt
 	$(product)
-	cmake -B build/release -DBERTH_BUILD_LAB=ON
+	cmake -B build/release -DBERTH_OPENGL=ON -DBERTH_BUILD_LAB=ON
 
 # STUDY_OPTIONS: of berth_study, such as --quick. A study that was stopped goes on.
 study: lab
@@ -41,7 +48,7 @@ study: lab
 # Both on OpenGL. GL_DEVICE: as for `berth run --gl-device`; results.md is ready for lab/bench/RESULTS.md.
 gl_device = $(if $(GL_DEVICE),--gl-device "$(GL_DEVICE)")
 bench-gpu:
-	scripts/setup.sh packages.txt packages-lab.txt packages-bench.txt
+	scripts/setup.sh packages.txt packages-opengl.txt packages-lab.txt packages-bench.txt
 	cmake --preset bench
 	cmake --build --preset bench --target berth_bench berth_study
 	build/bench/lab/berth_bench --backend opengl $(gl_device) --out build/bench_gpu \
@@ -92,7 +99,7 @@ trust-whole-robot: setup
 
 # All that the tests need.
 setup:
-	scripts/setup.sh packages.txt packages-lab.txt packages-tests.txt
+	scripts/setup.sh packages.txt packages-opengl.txt packages-lab.txt packages-tests.txt
 
 # The API's pages: build/docs/html/index.html.
 docs:
@@ -101,7 +108,7 @@ docs:
 
 # clang-tidy over src and apps. LINT: a part of the paths, such as src/berth/robot.
 lint:
-	scripts/setup.sh packages.txt packages-lint.txt
+	scripts/setup.sh packages.txt packages-opengl.txt packages-lint.txt
 	cmake --preset lint
 	cmake --build --preset lint --target berth_shader_texts
 	scripts/lint.sh $(LINT)

@@ -18,7 +18,7 @@ namespace berth {
 /// Each reader throws std::runtime_error where the value is of another type or outside its domain.
 class YamlValue {
  public:
-  YamlValue(YAML::Node node, FilePlace place) : node_(std::move(node)), place_(std::move(place)) {}
+  YamlValue(const YAML::Node& node, FilePlace place) : node_(node), place_(std::move(place)) {}
 
   std::string text() const;  ///< not empty
   std::string one_of(const std::vector<std::string_view>& choices) const;

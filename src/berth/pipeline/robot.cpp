@@ -24,7 +24,7 @@ Robot::Robot(RobotModel model, EvaluationSettings settings, std::vector<Attachme
     : bare_(std::move(model)),
       attached_(std::move(attached)),
       model_(with_all(bare_, attached_)),
-      settings_(std::move(settings)),
+      settings_(settings),
       meshes_(build_link_meshes(model_)) {
   validate(settings_.distance);
   validate(settings_.time);

@@ -1,0 +1,56 @@
+#include "apps/berth/command_line.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "apps/berth/arguments.hpp"
+#include "apps/berth/commands.hpp"
+#include "apps/support/program.hpp"
+
+namespace berth::app {
+
+int run_command_line(int argc, const char* const* argv) {
+  CLI::App program(
+      "berth: how far each link of a robot is from the nearest thing that a depth camera sees.\n"
+      "Takes depth images, the robot's URDF and its joint angles; gives per link the least "
+      "distance, the two\n"
+      "closest points and the mean direction of what is near. What an obstacle hides counts as "
+      "obstacle.");
+  // None at all is found below: CLI11 would tell of that before it tells of an unknown word.
+  program.require_subcommand(0, 1);
+  program.set_version_flag("--version", BERTH_VERSION);
+  DemoArguments demo;
+  RunArguments run;
+  FilterArguments filter;
+  EvaluateArguments evaluate;
+  CLI::App* demo_command = program.add_subcommand(
+      "demo", "Run the bundled scene: a table of links and distances, and pictures");
+  CLI::App* run_command =
+      program.add_subcommand("run", "Run the frames of a scene through the whole pipeline");
+  CLI::App* filter_command = program.add_subcommand(
+      "filter", "Write the robot's depth, its link IDs and the obstacles as images");
+  CLI::App* evaluate_command =
+      program.add_subcommand("evaluate", "Distances from these three images alone");
+  add_demo_options(*demo_command, demo);
+  add_run_options(*run_command, run);
+  add_filter_options(*filter_command, filter);
+  add_evaluate_options(*evaluate_command, evaluate);
+  program.footer(
+      "Examples:\n  berth demo\n  berth run scene.yaml --picture pictures\nberth COMMAND --help "
+      "tells more.");
+
+  const auto require_command = [&] {
+    if (program.get_subcommands().empty()) throw CLI::RequiredError("A command");
+  };
+  if (const auto status = parse_command_line(program, argc, argv, require_command)) {
+    return *status;
+  }
+  const auto carry_out = [](int threads, const auto& command) {
+    return app::carry_out("berth", threads, command);
+  };
+  if (*demo_command) return carry_out(demo.threads, [&] { app::demo_command(demo); });
+  if (*run_command) return carry_out(run.threads, [&] { app::run_command(run); });
+  if (*filter_command) return carry_out(filter.threads, [&] { app::filter_command(filter); });
+  return carry_out(evaluate.threads, [&] { app::evaluate_command(evaluate); });
+}
+
+}  // namespace berth::app
