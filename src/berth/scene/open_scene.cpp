@@ -143,7 +143,7 @@ OpenScene open_scene(const SceneFile& source, const std::function<void()>& befor
   OpenScene scene;
   scene.file = source.file;
   RobotModel model = load_robot(source.robot);
-  const JointTrajectory joints = read_trajectory(model, source);
+  scene.joints = std::make_shared<const JointTrajectory>(read_trajectory(model, source));
   scene.robot = with_file_named(source, [&] {
     return std::make_shared<const Robot>(std::move(model), source.evaluation, attached_to(source));
   });
@@ -154,7 +154,7 @@ OpenScene open_scene(const SceneFile& source, const std::function<void()>& befor
     const CameraMount mount{read_camera_info(from.info), from.parent_link, from.X_PC};
     camera.view = with_file_named(
         source, [&] { return std::make_shared<const View>(scene.robot, mount, from.settings); });
-    find_joints(joints, camera);
+    find_joints(*scene.joints, camera);
     camera.kept_depth_m.resize(from.depth.size());
     for (std::size_t frame = 0; frame < from.depth.size(); ++frame) {
       before_image();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "berth/pipeline/view.hpp"
+#include "berth/robot/joint_trajectory.hpp"
 #include "berth/scene/scene_file.hpp"
 #include "berth/types/joint_state.hpp"
 
@@ -30,6 +31,7 @@ struct OpenCamera {
 struct OpenScene {
   std::filesystem::path file;
   std::shared_ptr<const Robot> robot;
+  std::shared_ptr<const JointTrajectory> joints;
   std::vector<OpenCamera> cameras;
   std::size_t frame_count = 0;  ///< of all cameras
 };

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "berth/calibration/fit.hpp"
+
+namespace berth {
+
+/// The pose of one camera, from wherever it is believed to be: a fit from there, and from the best
+/// places of a coarse search; the one that explains the images best. `drawer` has one camera and
+/// the steps of camera_steps().
+FitResult fit_camera(FrameDrawer& drawer, const FitPriors& priors);
+
+/// The sizes of image that a fit needs, for images of this width.
+std::vector<int> camera_steps(int width_px);
+
+}  // namespace berth
