@@ -7,7 +7,7 @@
 #include "berth/scene/open_scene.hpp"
 #include "tests/support/random.hpp"
 using namespace berth;
-static double shift(FrameDrawer& d, const Estimate& a, const Estimate& b) {
+static double shift(FrameDrawer& d, const CalibrationEstimate& a, const CalibrationEstimate& b) {
   // mean displacement of visible robot points between both
   double sum = 0, n = 0; std::mutex m;
   const Pose X_ba = b.cameras[0].X_PC.inverse() * a.cameras[0].X_PC;
@@ -40,8 +40,8 @@ int main(int argc, char** argv) {
   auto t0 = now();
   const FitResult ref = fit_camera(drawer, {});
   double s = std::chrono::duration<double>(now() - t0).count();
-  Estimate g = start_of(t);
-  auto sc = [&](const Estimate& e) { return score(drawer, e, {1, 0.03, 10}).value; };
+  CalibrationEstimate g = start_of(t);
+  auto sc = [&](const CalibrationEstimate& e) { return score(drawer, e, {1, 0.03, 10}).value; };
   fmt::print("{} given score {:.4f}, fit {:.4f}, moved {:.1f} mm, a {:.1f} mm b {:.3f} % d {:.2f} px, {:.2f} s\n", cam.name, sc(g), sc(ref.estimate),
     1e3 * shift(drawer, g, ref.estimate), 1e3 * ref.estimate.cameras[0].depth_offset_m, 100 * (ref.estimate.cameras[0].depth_scale - 1), ref.estimate.cameras[0].dilation_px, s);
   for (auto ch : {FrameChoice::even, FrameChoice::odd}) {

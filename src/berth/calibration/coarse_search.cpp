@@ -16,15 +16,15 @@ constexpr double kLastCut_m = 0.06;
 constexpr double kLeastShare = 0.7;
 
 struct Tried {
-  Estimate estimate;
+  CalibrationEstimate estimate;
   double score;
 };
 
 /// The robot's way before the camera: the camera turns about itself, and moves.
-Estimate moved(const Estimate& from, double turn_rad, double move_m, std::mt19937& random) {
+CalibrationEstimate moved(const CalibrationEstimate& from, double turn_rad, double move_m, std::mt19937& random) {
   std::uniform_real_distribution<double> part(-1, 1);
   const auto draw = [&] { return Eigen::Vector3d(part(random), part(random), part(random)); };
-  Estimate to = from;
+  CalibrationEstimate to = from;
   const Eigen::Vector3d turn = turn_rad * draw();
   move_robot(turn, move_m * draw(), Eigen::Vector3d::Zero(), to.cameras[0]);
   return to;
@@ -38,7 +38,7 @@ void keep_best(std::size_t count, std::vector<Tried>& tried) {
 
 }  // namespace
 
-std::vector<Estimate> search_coarsely(FrameDrawer& drawer, const Estimate& start,
+std::vector<CalibrationEstimate> search_coarsely(FrameDrawer& drawer, const CalibrationEstimate& start,
                                       const CoarseSearch& search) {
   std::mt19937 random(kSeed);
   std::vector<Tried> best{{start, 0}};
@@ -46,20 +46,20 @@ std::vector<Estimate> search_coarsely(FrameDrawer& drawer, const Estimate& start
   for (int round = 0; round < search.rounds; ++round) {
     const double shrink = std::pow(0.5, round);
     const double cut_m = std::max(kLastCut_m, kFirstCut_m * shrink);
-    const auto score_of = [&](const Estimate& estimate) {
+    const auto score_of = [&](const CalibrationEstimate& estimate) {
       return score(drawer, estimate, {search.step, cut_m, 0, least_pixels}).value;
     };
     std::vector<Tried> tried;
     for (const Tried& one : best) tried.push_back({one.estimate, score_of(one.estimate)});
     for (int i = 0; i < search.tries; ++i) {
-      const Estimate& from = best[i % best.size()].estimate;
-      const Estimate to = moved(from, shrink * search.reach_rad, shrink * search.reach_m, random);
+      const CalibrationEstimate& from = best[i % best.size()].estimate;
+      const CalibrationEstimate to = moved(from, shrink * search.reach_rad, shrink * search.reach_m, random);
       tried.push_back({to, score_of(to)});
     }
     keep_best(static_cast<std::size_t>(search.fitted) * (round + 1 < search.rounds ? 4 : 1), tried);
     best = std::move(tried);
   }
-  std::vector<Estimate> found;
+  std::vector<CalibrationEstimate> found;
   for (Tried& one : best) found.push_back(std::move(one.estimate));
   return found;
 }

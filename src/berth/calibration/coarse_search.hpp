@@ -20,7 +20,7 @@ struct CoarseSearch {
 
 /// Poses of one camera, drawn around `start` and, round after round, more closely around the best:
 /// the best of them first. Depends on its arguments alone.
-std::vector<Estimate> search_coarsely(FrameDrawer& drawer, const Estimate& start,
+std::vector<CalibrationEstimate> search_coarsely(FrameDrawer& drawer, const CalibrationEstimate& start,
                                       const CoarseSearch& search);
 
 }  // namespace berth

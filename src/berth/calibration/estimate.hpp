@@ -24,7 +24,7 @@ struct CameraEstimate {
   }
 };
 
-struct Estimate {
+struct CalibrationEstimate {
   /// One for each camera of the teach-in.
   std::vector<CameraEstimate> cameras;
   /// Added to each of RobotModel::joints, rad or m.

@@ -43,7 +43,7 @@ struct Equations {
 
 class Fit {
  public:
-  Fit(FrameDrawer& drawer, const Estimate& start, const FitPriors& priors, FrameChoice choice)
+  Fit(FrameDrawer& drawer, const CalibrationEstimate& start, const FitPriors& priors, FrameChoice choice)
       : drawer_(drawer), start_(start), priors_(priors), choice_(choice) {
     result_.estimate = start;
     cameras_ = static_cast<Eigen::Index>(start.cameras.size());
@@ -232,7 +232,7 @@ class Fit {
   }
 
   FrameDrawer& drawer_;
-  const Estimate& start_;
+  const CalibrationEstimate& start_;
   const FitPriors& priors_;
   const FrameChoice choice_;
   Eigen::Index cameras_ = 0;
@@ -252,13 +252,13 @@ void move_robot(const Eigen::Vector3d& rotation_C, const Eigen::Vector3d& move_C
   camera.X_PC = camera.X_PC * moved.inverse();
 }
 
-FitResult fit(FrameDrawer& drawer, const Estimate& start, const FitPriors& priors,
+FitResult fit(FrameDrawer& drawer, const CalibrationEstimate& start, const FitPriors& priors,
               const std::vector<FitRound>& rounds, FrameChoice choice) {
   return Fit(drawer, start, priors, choice).run(rounds);
 }
 
-Estimate start_of(const TeachIn& teach_in) {
-  Estimate start;
+CalibrationEstimate start_of(const TeachIn& teach_in) {
+  CalibrationEstimate start;
   for (const TeachInCamera* camera : teach_in.cameras) {
     start.cameras.push_back({.X_PC = camera->X_PC});
   }

@@ -32,7 +32,7 @@ struct FitRound {
 
 /// What a fit says of itself.
 struct FitResult {
-  Estimate estimate;
+  CalibrationEstimate estimate;
   /// The inverse of the unknowns' covariance: those of each camera (CameraUnknown), then of joints.
   Eigen::MatrixXd information;
   /// About which the rotation of each camera's unknowns turns, in C.
@@ -40,11 +40,11 @@ struct FitResult {
 };
 
 /// Gauss-Newton with Tukey's weights from `start`, round after round.
-FitResult fit(FrameDrawer& drawer, const Estimate& start, const FitPriors& priors,
+FitResult fit(FrameDrawer& drawer, const CalibrationEstimate& start, const FitPriors& priors,
               const std::vector<FitRound>& rounds, FrameChoice choice = FrameChoice::all);
 
 /// The estimate that believes what the teach-in started from.
-Estimate start_of(const TeachIn& teach_in);
+CalibrationEstimate start_of(const TeachIn& teach_in);
 
 /// Turns the robot before the camera by `rotation` (rad, about an axis through `pivot_C_m`), then
 /// moves it, by changing the camera's pose.

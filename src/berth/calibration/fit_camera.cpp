@@ -30,16 +30,16 @@ std::vector<int> camera_steps(int width_px) {
 FitResult fit_camera(FrameDrawer& drawer, const FitPriors& priors) {
   const TeachIn& teach_in = drawer.teach_in();
   const std::vector<int> steps = camera_steps(teach_in.cameras[0]->camera.width_px);
-  const Estimate start = start_of(teach_in);
-  std::vector<Estimate> places{start};
-  for (const Estimate& place : search_coarsely(drawer, start, {.step = steps[0]})) {
+  const CalibrationEstimate start = start_of(teach_in);
+  std::vector<CalibrationEstimate> places{start};
+  for (const CalibrationEstimate& place : search_coarsely(drawer, start, {.step = steps[0]})) {
     places.push_back(place);
   }
-  Estimate best = start;
+  CalibrationEstimate best = start;
   double best_score = -10;
   const Score at_start = score(drawer, start, {steps[1], 0.04, 16});
-  for (const Estimate& place : places) {
-    const Estimate fitted = fit(drawer, place, priors, near_rounds(steps[1])).estimate;
+  for (const CalibrationEstimate& place : places) {
+    const CalibrationEstimate fitted = fit(drawer, place, priors, near_rounds(steps[1])).estimate;
     const double fitted_score = score(drawer, fitted, {steps[1], 0.04, 16, 0.7 * at_start.pixels, 0.7 * at_start.places}).value;
     if (fitted_score > best_score) {
       best_score = fitted_score;

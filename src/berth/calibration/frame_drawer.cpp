@@ -31,7 +31,7 @@ FrameDrawer::FrameDrawer(const TeachIn& teach_in, const std::vector<int>& steps)
 
 FrameDrawer::~FrameDrawer() = default;
 
-void FrameDrawer::draw(int step, const Estimate& estimate, const PosedRobotRequest& request,
+void FrameDrawer::draw(int step, const CalibrationEstimate& estimate, const PosedRobotRequest& request,
                        FrameChoice choice, const std::function<void(const DrawnFrame&)>& take) {
   const std::vector<ImageLevel>& levels = levels_.at(step);
   std::vector<std::pair<std::size_t, std::size_t>> chosen;

@@ -43,7 +43,7 @@ class FrameDrawer {
 
   /// Calls `take` for each chosen frame, from several threads at a time; frames whose joints are
   /// not known at the estimate's clock are left out.
-  void draw(int step, const Estimate& estimate, const PosedRobotRequest& request,
+  void draw(int step, const CalibrationEstimate& estimate, const PosedRobotRequest& request,
             FrameChoice choice, const std::function<void(const DrawnFrame&)>& take);
 
  private:

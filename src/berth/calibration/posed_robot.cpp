@@ -65,7 +65,7 @@ Twist seen_from(const Pose& X_BC, const Twist& twist_B, const Twist& camera_B) {
 }  // namespace
 
 std::optional<PosedRobot> pose_robot(const TeachIn& teach_in, std::size_t camera_index,
-                                     const TeachInFrame& frame, const Estimate& estimate,
+                                     const TeachInFrame& frame, const CalibrationEstimate& estimate,
                                      const PosedRobotRequest& request) {
   const RobotModel& model = *teach_in.model;
   const TeachInCamera& camera = *teach_in.cameras[camera_index];

@@ -42,7 +42,7 @@ struct PosedRobotRequest {
 
 /// Nothing where the shifted time lies outside of the joints' samples.
 std::optional<PosedRobot> pose_robot(const TeachIn& teach_in, std::size_t camera,
-                                     const TeachInFrame& frame, const Estimate& estimate,
+                                     const TeachInFrame& frame, const CalibrationEstimate& estimate,
                                      const PosedRobotRequest& request);
 
 }  // namespace berth

@@ -68,7 +68,7 @@ void add_outline(const DrawnFrame& drawn, const CameraEstimate& estimate,
 
 }  // namespace
 
-Score score(FrameDrawer& drawer, const Estimate& estimate, const ScoreSettings& settings,
+Score score(FrameDrawer& drawer, const CalibrationEstimate& estimate, const ScoreSettings& settings,
              FrameChoice choice) {
   const TeachIn& teach_in = drawer.teach_in();
   std::vector<std::vector<Sum>> parts(teach_in.cameras.size());

@@ -28,7 +28,7 @@ struct Score {
 /// The mean over the robot's pixels with a reading: up to 1 where it fits, -1 where the camera sees
 /// through the model, -1/4 where something stands before it. With outlines, that and the mean of
 /// how well those agree are added. -2 where no frame shows the robot.
-Score score(FrameDrawer& drawer, const Estimate& estimate, const ScoreSettings& settings,
+Score score(FrameDrawer& drawer, const CalibrationEstimate& estimate, const ScoreSettings& settings,
              FrameChoice choice = FrameChoice::all);
 
 }  // namespace berth
