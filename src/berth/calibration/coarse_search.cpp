@@ -9,11 +9,8 @@ namespace berth {
 namespace {
 
 constexpr std::uint32_t kSeed = 1;
-/// Readings this near to the model fit, in the first round.
-constexpr double kFirstCut_m = 0.15;
 constexpr double kLastCut_m = 0.06;
-/// Of the robot's pixels at the start: a pose that shows less of the robot is worse for it.
-constexpr double kLeastShare = 0.7;
+constexpr int kSizeTries = 31;
 
 struct Tried {
   CalibrationEstimate estimate;
@@ -38,14 +35,33 @@ void keep_best(std::size_t count, std::vector<Tried>& tried) {
 
 }  // namespace
 
-std::vector<CalibrationEstimate> search_coarsely(FrameDrawer& drawer, const CalibrationEstimate& start,
-                                      const CoarseSearch& search) {
+Score typical_size(FrameDrawer& drawer, const CalibrationEstimate& start,
+                   const CoarseSearch& search) {
+  std::mt19937 random(kSeed);
+  std::vector<double> pixels;
+  std::vector<double> places;
+  for (int i = 0; i < kSizeTries; ++i) {
+    const CalibrationEstimate to = moved(start, search.reach_rad, search.reach_m, random);
+    const Score one = score(drawer, to, {search.step, 1, 1});
+    pixels.push_back(one.pixels);
+    places.push_back(one.places);
+  }
+  const auto median = [](std::vector<double>& values) {
+    std::nth_element(values.begin(), values.begin() + kSizeTries / 2, values.end());
+    return values[kSizeTries / 2];
+  };
+  return {0, median(pixels), median(places)};
+}
+
+std::vector<CalibrationEstimate> search_coarsely(FrameDrawer& drawer,
+                                                 const CalibrationEstimate& start,
+                                                 const CoarseSearch& search,
+                                                 double least_pixels) {
   std::mt19937 random(kSeed);
   std::vector<Tried> best{{start, 0}};
-  const double least_pixels = kLeastShare * score(drawer, start, {search.step, 1, 0}).pixels;
   for (int round = 0; round < search.rounds; ++round) {
     const double shrink = std::pow(0.5, round);
-    const double cut_m = std::max(kLastCut_m, kFirstCut_m * shrink);
+    const double cut_m = std::max(kLastCut_m, search.cut_m * shrink);
     const auto score_of = [&](const CalibrationEstimate& estimate) {
       return score(drawer, estimate, {search.step, cut_m, 0, least_pixels}).value;
     };
@@ -53,10 +69,12 @@ std::vector<CalibrationEstimate> search_coarsely(FrameDrawer& drawer, const Cali
     for (const Tried& one : best) tried.push_back({one.estimate, score_of(one.estimate)});
     for (int i = 0; i < search.tries; ++i) {
       const CalibrationEstimate& from = best[i % best.size()].estimate;
-      const CalibrationEstimate to = moved(from, shrink * search.reach_rad, shrink * search.reach_m, random);
+      const CalibrationEstimate to =
+          moved(from, shrink * search.reach_rad, shrink * search.reach_m, random);
       tried.push_back({to, score_of(to)});
     }
-    keep_best(static_cast<std::size_t>(search.fitted) * (round + 1 < search.rounds ? 4 : 1), tried);
+    const bool is_last = round + 1 == search.rounds;
+    keep_best(static_cast<std::size_t>(search.best) * (is_last ? 1 : 4), tried);
     best = std::move(tried);
   }
   std::vector<CalibrationEstimate> found;
