@@ -4,6 +4,7 @@
 #include <numbers>
 #include "berth/calibration/fit_camera.hpp"
 #include "berth/calibration/score.hpp"
+#include "berth/calibration/coarse_search.hpp"
 #include "berth/scene/open_scene.hpp"
 #include "tests/support/random.hpp"
 using namespace berth;
@@ -49,10 +50,16 @@ int main(int argc, char** argv) {
     fmt::print("  half moved {:.1f} mm a {:.1f} b {:.3f} d {:.2f}\n", 1e3 * shift(drawer, ref.estimate, h.estimate), 1e3*h.estimate.cameras[0].depth_offset_m, 100*(h.estimate.cameras[0].depth_scale-1), h.estimate.cameras[0].dilation_px);
   }
   int back = 0;
-  for (int i = 1; i <= starts; i++) {
+  for (int i = getenv("FROM") ? atoi(getenv("FROM")) : 1; i <= starts; i++) {
     testing::Random r(i);
     Eigen::Vector3d ax(r.gaussian(), r.gaussian(), r.gaussian()), tr(r.gaussian(), r.gaussian(), r.gaussian());
     cam.X_PC = given * Pose(Eigen::Translation3d(off * tr.normalized()) * Eigen::AngleAxisd(deg * std::numbers::pi / 180, ax.normalized()));
+    if (getenv("DBG")) { CoarseSearch w{.step = steps[0], .reach_m = .4, .reach_rad = .6, .tries = 2000, .best = 12};
+      auto st = start_of(t); auto size = typical_size(drawer, st, w);
+      auto tr = [&](const CalibrationEstimate& e, double cut) { auto q = score(drawer, e, {steps[0], cut, 0, .6 * size.pixels}); return fmt::format("{:.3f} ({})", q.value, q.pixels); };
+      fmt::print("size {} truth {} {} {} start {}\n", size.pixels, tr(ref.estimate, .15), tr(ref.estimate, .075), tr(ref.estimate, .06), tr(st, .15));
+      for (auto& e : search_coarsely(drawer, st, w, .6 * size.pixels)) fmt::print("   {} {} off {:.0f}\n", tr(e, .15), tr(e, .06), 1e3 * shift(drawer, ref.estimate, e));
+      continue; }
     t0 = now();
     const FitResult f = fit_camera(drawer, {});
     s = std::chrono::duration<double>(now() - t0).count();

@@ -11,20 +11,33 @@ namespace {
 constexpr std::uint32_t kSeed = 1;
 constexpr double kLastCut_m = 0.06;
 constexpr int kSizeTries = 31;
+constexpr int kLargeSize = 24;
+/// Of the reach, in the rounds after the first.
+constexpr double kLaterTurn = 0.5;
 
 struct Tried {
   CalibrationEstimate estimate;
   double score;
 };
 
-/// The robot's way before the camera: the camera turns about itself, and moves.
-CalibrationEstimate moved(const CalibrationEstimate& from, double turn_rad, double move_m, std::mt19937& random) {
+/// The camera turns about itself, and moves.
+CalibrationEstimate moved(const CalibrationEstimate& from, const Eigen::Vector3d& most_turn_rad,
+                          const Eigen::Vector3d& most_move_m, std::mt19937& random) {
   std::uniform_real_distribution<double> part(-1, 1);
   const auto draw = [&] { return Eigen::Vector3d(part(random), part(random), part(random)); };
   CalibrationEstimate to = from;
-  const Eigen::Vector3d turn = turn_rad * draw();
-  move_robot(turn, move_m * draw(), Eigen::Vector3d::Zero(), to.cameras[0]);
+  const Eigen::Vector3d turn_rad = most_turn_rad.cwiseProduct(draw());
+  const Eigen::Vector3d move_m = most_move_m.cwiseProduct(draw());
+  move_robot(turn_rad, move_m, Eigen::Vector3d::Zero(), to.cameras[0]);
   return to;
+}
+
+/// Of the first round: to move sideways is to turn, nearly, and four unknowns can be searched more
+/// closely than six.
+CalibrationEstimate turned(const CalibrationEstimate& from, const CoarseSearch& search,
+                           std::mt19937& random) {
+  const double turn = search.reach_rad;
+  return moved(from, {turn, turn, turn / 2}, {0, 0, search.reach_m}, random);
 }
 
 void keep_best(std::size_t count, std::vector<Tried>& tried) {
@@ -41,16 +54,16 @@ Score typical_size(FrameDrawer& drawer, const CalibrationEstimate& start,
   std::vector<double> pixels;
   std::vector<double> places;
   for (int i = 0; i < kSizeTries; ++i) {
-    const CalibrationEstimate to = moved(start, search.reach_rad, search.reach_m, random);
+    const CalibrationEstimate to = turned(start, search, random);
     const Score one = score(drawer, to, {search.step, 1, 1});
     pixels.push_back(one.pixels);
     places.push_back(one.places);
   }
-  const auto median = [](std::vector<double>& values) {
-    std::nth_element(values.begin(), values.begin() + kSizeTries / 2, values.end());
-    return values[kSizeTries / 2];
+  const auto large = [](std::vector<double>& values) {
+    std::nth_element(values.begin(), values.begin() + kLargeSize, values.end());
+    return values[kLargeSize];
   };
-  return {0, median(pixels), median(places)};
+  return {0, large(pixels), large(places)};
 }
 
 std::vector<CalibrationEstimate> search_coarsely(FrameDrawer& drawer,
@@ -70,7 +83,9 @@ std::vector<CalibrationEstimate> search_coarsely(FrameDrawer& drawer,
     for (int i = 0; i < search.tries; ++i) {
       const CalibrationEstimate& from = best[i % best.size()].estimate;
       const CalibrationEstimate to =
-          moved(from, shrink * search.reach_rad, shrink * search.reach_m, random);
+          round == 0 ? turned(from, search, random)
+                     : moved(from, Eigen::Vector3d::Constant(shrink * kLaterTurn * search.reach_rad),
+                             Eigen::Vector3d::Constant(shrink * search.reach_m), random);
       tried.push_back({to, score_of(to)});
     }
     const bool is_last = round + 1 == search.rounds;

@@ -14,7 +14,7 @@ struct CoarseSearch {
   double cut_m = 0.15;
   /// How far from the start the robot is looked for, before the camera.
   double reach_m = 0.25;
-  double reach_rad = 0.25;
+  double reach_rad = 0.35;
   int tries = 300;
   int rounds = 3;
   /// So many of the best are told.

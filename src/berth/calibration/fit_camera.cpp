@@ -24,7 +24,7 @@ std::vector<FitRound> last_rounds(int half_step) {
 /// places of real robots have 0.6 at most, right ones of real cameras 1.2 and more.
 constexpr double kGoodScore = 1.0;
 /// For starts that are farther off.
-constexpr CoarseSearch kWideSearch{.reach_m = 0.4, .reach_rad = 0.5, .tries = 2000, .best = 16};
+constexpr CoarseSearch kWideSearch{.reach_m = 0.3, .reach_rad = 0.45, .tries = 1500, .best = 16};
 /// Of what the robot shows in most poses.
 constexpr double kLeastShare = 0.6;
 
