@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
       d.camera->X_PC = testing::miscalibrated(d.X_PC_true, off, deg * std::numbers::pi / 180, seed + 100);
       auto steps = camera_steps(d.camera->camera.width_px);
       FrameDrawer drawer(d.teach_in, steps);
-      FitPriors priors; if (st.moves) priors.clock_s = 0.1; if (zero_deg > 0) priors.joint = 0.035;
+      FitPriors priors; if (st.moves) priors.clock_s = 0.1; if (zero_deg > 0) priors.joints.assign(robot.model.joints.size(), 0.035);
       auto t0 = std::chrono::steady_clock::now();
       double start = drawnlab::shift(drawer, start_of(d.teach_in), d.X_PC_true, steps[1]);
       const FitResult f = fit_camera(drawer, priors);

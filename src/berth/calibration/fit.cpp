@@ -47,7 +47,7 @@ class Fit {
       : drawer_(drawer), start_(start), priors_(priors), choice_(choice) {
     result_.estimate = start;
     cameras_ = static_cast<Eigen::Index>(start.cameras.size());
-    joints_ = priors.joint > 0 ? static_cast<Eigen::Index>(start.joint_shift.size()) : 0;
+    joints_ = static_cast<Eigen::Index>(priors.joints.size());
   }
 
   FitResult run(const std::vector<FitRound>& rounds) {
@@ -149,7 +149,7 @@ class Fit {
     }
     for (Eigen::Index j = 0; j < joints_; ++j) {
       add_prior(cameras_ * kCameraUnknowns + j,
-                result_.estimate.joint_shift[j] - start_.joint_shift[j], priors_.joint);
+                result_.estimate.joint_shift[j] - start_.joint_shift[j], priors_.joints[j]);
     }
   }
 

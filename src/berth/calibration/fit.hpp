@@ -16,8 +16,8 @@ struct FitPriors {
   double dilation_px = 3;
   /// 0: not asked for.
   double clock_s = 0;
-  /// rad or m; 0: not asked for.
-  double joint = 0;
+  /// rad or m, one for each of RobotModel::joints; 0: held where it is. Empty: all are held.
+  std::vector<double> joints;
 };
 
 /// One round of a fit: images of one size, residuals up to a cut.

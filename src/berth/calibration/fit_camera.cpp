@@ -16,9 +16,7 @@ std::vector<FitRound> near_rounds(int step) {
           {step, 6, 0.06, 0.05, 32, 0.06}};
 }
 
-std::vector<FitRound> last_rounds(int half_step) {
-  return {{half_step, 5, 0.04, 0.03, 16, 0.05}, {1, 4, 0.03, 0.02, 12, 0.05}};
-}
+const std::vector<FitRound> kLastRounds{{2, 5, 0.04, 0.03, 16, 0.05}, {1, 4, 0.03, 0.02, 12, 0.05}};
 
 /// A fit that agrees with the images less than this may be at a wrong place: 2 is perfect, wrong
 /// places of real robots have 0.6 at most, right ones of real cameras 1.2 and more.
@@ -74,7 +72,7 @@ class PlaceSearch {
 
 std::vector<int> camera_steps(int width_px) {
   const int search = std::max(1, width_px / kSearchWidth_px);
-  return {search, std::max(1, search / 2), std::max(1, search / 4), 1};
+  return {search, std::max(1, search / 2), 2, 1};
 }
 
 FitResult fit_camera(FrameDrawer& drawer, const FitPriors& priors) {
@@ -85,7 +83,12 @@ FitResult fit_camera(FrameDrawer& drawer, const FitPriors& priors) {
     Place wide = search.run(kWideSearch);
     if (wide.score > place.score) place = std::move(wide);
   }
-  return fit(drawer, place.estimate, priors, last_rounds(steps[2]));
+  return refine(drawer, place.estimate, priors);
+}
+
+FitResult refine(FrameDrawer& drawer, const CalibrationEstimate& start, const FitPriors& priors,
+                 FrameChoice choice) {
+  return fit(drawer, start, priors, kLastRounds, choice);
 }
 
 }  // namespace berth

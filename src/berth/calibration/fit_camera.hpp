@@ -9,6 +9,10 @@ namespace berth {
 /// the steps of camera_steps().
 FitResult fit_camera(FrameDrawer& drawer, const FitPriors& priors);
 
+/// The last rounds of a fit, from a place that is known well already.
+FitResult refine(FrameDrawer& drawer, const CalibrationEstimate& start, const FitPriors& priors,
+                 FrameChoice choice = FrameChoice::all);
+
 /// The sizes of image that a fit needs, for images of this width.
 std::vector<int> camera_steps(int width_px);
 

@@ -1,0 +1,28 @@
+// Inside calibration/ only.
+#pragma once
+
+#include "berth/calibration/fit.hpp"
+
+namespace berth {
+
+/// One standard deviation of what was found of a camera.
+struct CameraDeviation {
+  Eigen::Vector3d xyz_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d rotation_rad = Eigen::Vector3d::Zero();
+  double clock_s = 0;
+  double depth_offset_m = 0;
+  double depth_scale = 0;
+  /// Of the middle of what is seen of the robot.
+  double robot_m = 0;
+};
+
+/// From the fit's own equations, but no less than two fits to half of the frames each differ: the
+/// equations take errors for independent that are not.
+CameraDeviation deviation_of(const FitResult& fitted, const FitResult& even, const FitResult& odd,
+                             std::size_t camera);
+
+/// Joints whose zero the fit does not tell, in the order of RobotModel::joints: one after another,
+/// the least certain first, is held, until all others are certain.
+std::vector<bool> undetermined_joints(const FitResult& fitted);
+
+}  // namespace berth
