@@ -5,36 +5,12 @@
 #include <limits>
 #include <mutex>
 
+#include "berth/calibration/robot_pixels.hpp"
+
 namespace berth {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-/// Farther from the model a reading is not the robot's.
-constexpr float kRobotLike_m = 0.10F;
-
-template <class Take>
-void each_robot_pixel(const DrawnFrame& drawn, const Take& take) {
-  const PixelRect extent = clip(drawn.robot.extent, drawn.camera.width_px, drawn.camera.height_px);
-  for (int v = extent.v_begin; v < extent.v_end; ++v) {
-    for (int u = extent.u_begin; u < extent.u_end; ++u) {
-      const LinkId id = drawn.robot.link_id(u, v);
-      if (id != kNoLink && id != kEnvironmentLink) take(u, v, id);
-    }
-  }
-}
-
-Eigen::Vector3d point_at(const DrawnFrame& drawn, int u, int v) {
-  const double z_m = drawn.robot.depth_m(u, v);
-  return {(u - drawn.camera.cx_px) / drawn.camera.fx_px * z_m,
-          (v - drawn.camera.cy_px) / drawn.camera.fy_px * z_m, z_m};
-}
-
-double quantile(std::vector<float>& values, double share) {
-  if (values.empty()) return kNaN;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * (values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
@@ -57,8 +33,8 @@ std::vector<double> displacement_m(FrameDrawer& drawer, int step, const Calibrat
                 drawn.posed.X_BC;
     }
     Sum& sum = sums[drawn.camera_index][drawn.frame_index];
-    each_robot_pixel(drawn, [&](int u, int v, LinkId id) {
-      const Eigen::Vector3d p_C_m = point_at(drawn, u, v);
+    each_robot_pixel(drawn.camera, drawn.robot, [&](int u, int v, LinkId id) {
+      const Eigen::Vector3d p_C_m = point_at(drawn.camera, u, v, drawn.robot.depth_m(u, v));
       sum.length_m += (X_CC[teach_in.model->evaluated_links[id - 1]] * p_C_m - p_C_m).norm();
       sum.count += 1;
     });
@@ -70,7 +46,7 @@ std::vector<double> displacement_m(FrameDrawer& drawer, int step, const Calibrat
       all.length_m += sum.length_m;
       all.count += sum.count;
     }
-    means.push_back(all.count > 0 ? all.length_m / all.count : kNaN);
+    means.push_back(all.count > 0 ? all.length_m / all.count : kUnknown);
   }
   return means;
 }
@@ -81,7 +57,7 @@ std::vector<ResidualSpread> residuals(FrameDrawer& drawer, const CalibrationEsti
   drawer.draw(1, estimate, {}, FrameChoice::all, [&](const DrawnFrame& drawn) {
     std::vector<float> found;
     const CameraEstimate& camera = estimate.cameras[drawn.camera_index];
-    each_robot_pixel(drawn, [&](int u, int v, LinkId) {
+    each_robot_pixel(drawn.camera, drawn.robot, [&](int u, int v, LinkId) {
       const float off_m =
           std::abs(camera.corrected(drawn.depth_m(u, v)) - drawn.robot.depth_m(u, v));
       if (off_m < kRobotLike_m) found.push_back(off_m);

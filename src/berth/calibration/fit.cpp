@@ -7,6 +7,7 @@
 
 #include "berth/calibration/depth_rows.hpp"
 #include "berth/calibration/outline_rows.hpp"
+#include "berth/calibration/robot_pixels.hpp"
 
 namespace berth {
 namespace {
@@ -70,19 +71,11 @@ class Fit {
     std::vector<Eigen::Vector4d> sums(start_.cameras.size(), Eigen::Vector4d::Zero());
     std::mutex mutex;
     drawer_.draw(step, start_, {}, choice_, [&](const DrawnFrame& drawn) {
-      std::vector<FitRow> rows;
-      const PixelRect extent =
-          clip(drawn.robot.extent, drawn.camera.width_px, drawn.camera.height_px);
       Eigen::Vector4d sum = Eigen::Vector4d::Zero();
-      for (int v = extent.v_begin; v < extent.v_end; v += 2) {
-        for (int u = extent.u_begin; u < extent.u_end; u += 2) {
-          const LinkId id = drawn.robot.link_id(u, v);
-          if (id == kNoLink || id == kEnvironmentLink) continue;
-          const double z_m = drawn.robot.depth_m(u, v);
-          sum += Eigen::Vector4d((u - drawn.camera.cx_px) / drawn.camera.fx_px * z_m,
-                                 (v - drawn.camera.cy_px) / drawn.camera.fy_px * z_m, z_m, 1);
-        }
-      }
+      const auto add = [&](int u, int v, LinkId) {
+        sum += point_at(drawn.camera, u, v, drawn.robot.depth_m(u, v)).homogeneous();
+      };
+      each_robot_pixel(drawn.camera, drawn.robot, add, 2);
       const std::lock_guard lock(mutex);
       sums[drawn.camera_index] += sum;
     });

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "berth/calibration/outline_rows.hpp"
+#include "berth/calibration/robot_pixels.hpp"
 
 namespace berth {
 namespace {
@@ -37,20 +38,16 @@ double fit_of(double residual_m, double cut_m) {
 }
 
 void add_depth(const DrawnFrame& drawn, const CameraEstimate& estimate, double cut_m, Sum& sum) {
-  const PixelRect extent = clip(drawn.robot.extent, drawn.camera.width_px, drawn.camera.height_px);
   const int stride = drawn.step == 1 ? 2 : 1;
-  for (int v = extent.v_begin; v < extent.v_end; v += stride) {
-    for (int u = extent.u_begin; u < extent.u_end; u += stride) {
-      const LinkId id = drawn.robot.link_id(u, v);
-      if (id == kNoLink || id == kEnvironmentLink) continue;
-      const double behind_m = estimate.corrected(drawn.depth_m(u, v)) - drawn.robot.depth_m(u, v);
-      if (std::isnan(behind_m)) continue;
-      sum.pixels += 1;
-      sum.depth += behind_m > cut_m    ? kSeenThrough
-                   : behind_m < -cut_m ? kHidden
-                                       : fit_of(behind_m, cut_m);
-    }
-  }
+  const auto add = [&](int u, int v, LinkId) {
+    const double behind_m = estimate.corrected(drawn.depth_m(u, v)) - drawn.robot.depth_m(u, v);
+    if (std::isnan(behind_m)) return;
+    sum.pixels += 1;
+    sum.depth += behind_m > cut_m    ? kSeenThrough
+                 : behind_m < -cut_m ? kHidden
+                                     : fit_of(behind_m, cut_m);
+  };
+  each_robot_pixel(drawn.camera, drawn.robot, add, stride);
 }
 
 void add_outline(const DrawnFrame& drawn, const CameraEstimate& estimate,
