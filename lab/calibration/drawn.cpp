@@ -1,62 +1,104 @@
+#include "lab/calibration/drawn.hpp"
+
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
-#include <chrono>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numbers>
-#include "berth/calibration/fit_camera.hpp"
-#include "berth/calibration/score.hpp"
-#include "lab/trust/trial_robots.hpp"
-#include "tests/support/drawn_teach_in.hpp"
+
+#include "berth/calibration/calibrate.hpp"
+#include "lab/calibration/robot_points.hpp"
+#include "lab/measure/stopwatch.hpp"
 #include "tests/support/sensor_model.hpp"
-using namespace berth;
-namespace drawnlab {
-double shift(FrameDrawer& d, const CalibrationEstimate& a, const Pose& b, int step) {
-  double sum = 0, n = 0; std::mutex m;
-  const Pose X_ba = b.inverse() * a.cameras[0].X_PC;
-  d.draw(step, a, {}, FrameChoice::all, [&](const DrawnFrame& f) {
-    double s = 0, k = 0;
-    for (int v = 0; v < f.camera.height_px; v++) for (int u = 0; u < f.camera.width_px; u++) {
-      if (f.robot.link_id(u, v) == kNoLink) continue;
-      const double z = f.robot.depth_m(u, v);
-      const Eigen::Vector3d p((u - f.camera.cx_px) / f.camera.fx_px * z, (v - f.camera.cy_px) / f.camera.fy_px * z, z);
-      s += (X_ba * p - p).norm(); k++;
-    }
-    std::lock_guard l(m); sum += s; n += k;
-  });
-  return sum / n;
+
+namespace berth::lab {
+namespace {
+
+/// How far one result is from the truth.
+struct TeachInError {
+  double robot_m = 0;
+  double clock_s = 0;
+  double depth_share = 0;
+  /// Of joints that were determined; NaN where none was.
+  double joint = std::numeric_limits<double>::quiet_NaN();
+  double halves_m = 0;
+  bool is_refused = false;
+  double time_s = 0;
+};
+
+TeachInError error_of(const TrialRobot& robot, const DrawnTrials& trials, std::uint32_t seed) {
+  testing::DrawnTeachIn drawn =
+      testing::draw_teach_in(robot.model, robot.meshes, trials.drawn, seed);
+  drawn.camera->X_PC =
+      testing::miscalibrated(drawn.X_PC_true, trials.start.offset_m,
+                             trials.start.angle_deg * std::numbers::pi / 180, seed + 100);
+  const Stopwatch stopwatch;
+  const CalibrationResult found = calibrate(drawn.teach_in, {trials.joint_zeros});
+  TeachInError error;
+  error.time_s = stopwatch.ms() / 1000;
+  const CameraCalibration& camera = found.cameras[0];
+  error.is_refused = !camera.refused.empty();
+  error.halves_m = camera.halves_m;
+  error.clock_s = std::abs(camera.clock_offset_s - trials.drawn.errors.clock_offset_s);
+  // At 1.5 m, since offset and scale stand for each other.
+  const double corrected_m =
+      camera.depth.offset_m + camera.depth.scale * (1 + trials.drawn.errors.depth_share) * 1.5;
+  error.depth_share = std::abs(corrected_m / 1.5 - 1);
+  std::vector<double> joint_offsets(robot.model.joints.size(), 0.0);
+  for (std::size_t j = 0; j < joint_offsets.size(); ++j) {
+    const auto offset = found.joint_offsets.find(robot.model.joints[j].name);
+    if (offset == found.joint_offsets.end()) continue;
+    joint_offsets[j] = offset->second;
+    error.joint = std::fmax(error.joint, std::abs(offset->second - drawn.joint_shift[j]));
+  }
+  error.robot_m = robot_points_apart_m(drawn, camera.X_PC, joint_offsets);
+  return error;
 }
+
+double median_of(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
 }
-int main(int argc, char** argv) {
-  CLI::App app; std::string folder, only; int seeds = 5; double off = 0.05, deg = 5; testing::DrawnTeachInSettings st; double zero_deg = 0;
-  app.add_option("robots", folder); app.add_option("--seeds", seeds); app.add_option("--off", off); app.add_option("--deg", deg);
-  app.add_option("--only", only);
-  app.add_option("--bias", st.errors.depth_share); app.add_option("--clock", st.errors.clock_offset_s); app.add_option("--zero", zero_deg);
-  app.add_option("--poses", st.poses); app.add_flag("--moves", st.moves);
-  CLI11_PARSE(app, argc, argv);
-  st.errors.joint_zero = zero_deg * std::numbers::pi / 180;
-  std::vector<double> errs;
-  for (const lab::TrialRobot& robot : lab::load_trial_robots(folder)) {
-    if (!only.empty() && robot.name.find(only) == std::string::npos) continue;
-    for (int seed = 1; seed <= seeds; seed++) {
-      auto d = testing::draw_teach_in(robot.model, robot.meshes, st, seed);
-      d.camera->X_PC = testing::miscalibrated(d.X_PC_true, off, deg * std::numbers::pi / 180, seed + 100);
-      auto steps = camera_steps(d.camera->camera.width_px);
-      FrameDrawer drawer(d.teach_in, steps);
-      FitPriors priors; if (st.moves) priors.clock_s = 0.1; if (zero_deg > 0) priors.joints.assign(robot.model.joints.size(), 0.035);
-      auto t0 = std::chrono::steady_clock::now();
-      double start = drawnlab::shift(drawer, start_of(d.teach_in), d.X_PC_true, steps[1]);
-      const FitResult f = fit_camera(drawer, priors);
-      double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
-      const auto& c = f.estimate.cameras[0];
-      double e = drawnlab::shift(drawer, f.estimate, d.X_PC_true, steps[1]);
-      errs.push_back(e);
-      double zmax = 0; for (size_t j = 1; j + 1 < d.joint_shift.size(); j++) zmax = std::max(zmax, std::abs(d.joint_shift[j] - f.estimate.joint_shift[j]));
-      CalibrationEstimate truth = f.estimate; truth.cameras[0].X_PC = d.X_PC_true;
-      fmt::print("{:18} {} from {:.0f} mm: error {:.2f} mm; a {:.1f} mm b {:.3f} % d {:.2f} px clock {:.1f} ms zeros off {:.2f} deg score {:.3f} true {:.3f} {:.2f} s\n", robot.name, seed, 1e3 * start, 1e3 * e,
-        1e3 * c.depth_offset_m, 100 * (c.depth_scale - 1), c.dilation_px, 1e3 * c.clock_shift_s, zmax * 180 / std::numbers::pi,
-        score(drawer, f.estimate, {1, .03, 10}).value, score(drawer, truth, {1, .03, 10}).value, s);
-      fflush(stdout);
+
+}  // namespace
+
+const char* const kDrawnHeading =
+    "| what is wrong | teach-ins | refused | robot points, median mm | worst mm | clock, worst ms | "
+    "depth at 1.5 m, worst % | joints told | worst degrees | median s | worst s |\n"
+    "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n";
+
+void measure_drawn(const std::vector<TrialRobot>& robots, const DrawnTrials& trials) {
+  std::vector<double> robot_m, clock_s, depth_share, joint, time_s;
+  int refused = 0;
+  for (const TrialRobot& robot : robots) {
+    for (int seed = 1; seed <= trials.seeds; ++seed) {
+      const TeachInError error = error_of(robot, trials, static_cast<std::uint32_t>(seed));
+      if (trials.prints_each) {
+        fmt::print(stderr, "{} {}: {}robot {:.2f} mm (halves {:.2f}), clock {:.2f} ms, depth {:.3f} %, "
+                   "joints {:.3f} deg, {:.1f} s\n",
+                   robot.name, seed, error.is_refused ? "refused, " : "", 1000 * error.robot_m,
+                   1000 * error.halves_m, 1000 * error.clock_s, 100 * error.depth_share,
+                   error.joint * 180 / std::numbers::pi, error.time_s);
+      }
+      time_s.push_back(error.time_s);
+      refused += error.is_refused;
+      if (error.is_refused) continue;
+      robot_m.push_back(error.robot_m);
+      clock_s.push_back(error.clock_s);
+      depth_share.push_back(error.depth_share);
+      if (!std::isnan(error.joint)) joint.push_back(error.joint);
     }
   }
-  std::sort(errs.begin(), errs.end());
-  fmt::print("median {:.2f} mm, worst {:.2f} mm of {}\n", 1e3 * errs[errs.size() / 2], 1e3 * errs.back(), errs.size());
+  const auto worst = [](const std::vector<double>& values) {
+    return values.empty() ? std::numeric_limits<double>::quiet_NaN()
+                          : *std::max_element(values.begin(), values.end());
+  };
+  fmt::print("| {} | {:.2f} | {:.2f} | {:.2f} | {:.3f} | {} | {:.3f} | {:.1f} | {:.1f} |\n",
+             refused, 1000 * median_of(robot_m), 1000 * worst(robot_m), 1000 * worst(clock_s),
+             100 * worst(depth_share), joint.size(), worst(joint) * 180 / std::numbers::pi,
+             median_of(time_s), worst(time_s));
+  std::fflush(stdout);
 }
+
+}  // namespace berth::lab

@@ -154,6 +154,7 @@ DrawnTeachIn draw_teach_in(const RobotModel& model, std::shared_ptr<const LinkMe
                              sense(model, exposures[i], obstacles, camera, settings,
                                    seed + 10 * static_cast<std::uint32_t>(i)),
                              {stamps_s[i], believed(stamps_s[i])}});
+    drawn.joints_at_exposure.push_back(believed(stamps_s[i] + settings.errors.clock_offset_s));
   }
   std::vector<std::string> names;
   for (const MovableJoint& joint : model.joints) names.push_back(joint.name);

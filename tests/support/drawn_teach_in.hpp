@@ -42,6 +42,8 @@ struct DrawnTeachIn {
   Pose X_PC_true;
   /// What teach-in should add to each joint.
   std::vector<double> joint_shift;
+  /// What is believed of the joints at each frame's true time.
+  std::vector<std::vector<double>> joints_at_exposure;
 };
 
 /// In a room with some things in it that the robot never meets. Depends on its arguments alone.

@@ -90,6 +90,7 @@ class CameraReport {
  private:
   void judge() {
     if (out_.score_after < kLeastScore) {
+      out_.is_found = false;
       refuse(fmt::format("no pose was found that explains the images: the best agrees by {:.2f} of "
                          "2; expected {:.1f} at least",
                          out_.score_after, kLeastScore));

@@ -55,6 +55,8 @@ struct CameraCalibration {
   /// What the frames do not tell, by its key: "pose", "clock_offset_s", "depth.offset_m",
   /// "depth.scale". It is left as it was, but for the pose.
   std::vector<std::string> not_determined;
+  /// Whether any pose explains the images; if none does, nothing is to be used.
+  bool is_found = true;
   /// Why the pose that was found is not to be used, and the start's is told; empty: it is good.
   std::string refused;
 };

@@ -1,0 +1,39 @@
+// A scene as material for a teach-in.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "berth/calibration/calibrate.hpp"
+#include "berth/calibration/filter_settings.hpp"
+#include "berth/calibration/teach_in.hpp"
+#include "berth/scene/open_scene.hpp"
+
+namespace berth {
+
+/// Frames of each camera that show the robot in poses as different as possible.
+struct SceneTeachIn {
+  /// One for each camera of the scene; teach_in refers to them.
+  std::vector<std::unique_ptr<TeachInCamera>> cameras;
+  TeachIn teach_in;
+  /// What makes the result worse than it could be, in sentences.
+  std::vector<std::string> warnings;
+};
+
+/// More frames than this of a camera tell nothing new.
+inline constexpr std::size_t kMostTeachInFrames = 20;
+
+/// The scene has to outlive it. Throws std::runtime_error that names camera and place where the arm
+/// stands still in all frames of a camera, or none of them has joint angles.
+SceneTeachIn make_teach_in(const OpenScene& scene);
+
+/// What moved beside the robot between frames of a camera, in sentences; none where nothing did.
+std::vector<std::string> moved_environment(const SceneTeachIn& material,
+                                           const CalibrationResult& found);
+
+/// Throws std::runtime_error that names the file, the camera and what was expected where a camera's
+/// pose was not found at all.
+void require_poses(const OpenScene& scene, const CalibrationResult& found);
+
+}  // namespace berth
