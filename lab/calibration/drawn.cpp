@@ -34,7 +34,7 @@ TeachInError error_of(const TrialRobot& robot, const DrawnTrials& trials, std::u
       testing::miscalibrated(drawn.X_PC_true, trials.start.offset_m,
                              trials.start.angle_deg * std::numbers::pi / 180, seed + 100);
   const Stopwatch stopwatch;
-  const CalibrationResult found = calibrate(drawn.teach_in, {trials.joint_zeros});
+  const CalibrationResult found = calibrate(drawn.teach_in, {.joint_zeros = trials.joint_zeros});
   TeachInError error;
   error.time_s = stopwatch.ms() / 1000;
   const CameraCalibration& camera = found.cameras[0];

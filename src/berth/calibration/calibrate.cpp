@@ -152,12 +152,13 @@ CalibrationResult calibrate(const TeachIn& teach_in, const CalibrationSettings& 
     const TeachIn one = alone(teach_in, c);
     FrameDrawer drawer(one, camera_steps(teach_in.cameras[c]->camera.width_px));
     const FitPriors of_camera = priors_of(*teach_in.cameras[c]);
-    estimate.cameras[c] = fit_camera(drawer, of_camera).estimate.cameras[0];
+    estimate.cameras[c] = fit_camera(drawer, of_camera, settings.pause).estimate.cameras[0];
     priors.clock_s = std::max(priors.clock_s, of_camera.clock_s);
   }
   CalibrationResult result;
   if (settings.joint_zeros) find_joint_zeros(teach_in, priors, estimate, result);
   for (std::size_t c = 0; c < teach_in.cameras.size(); ++c) {
+    settings.pause();
     result.cameras.push_back(CameraReport(teach_in, c, estimate).run());
   }
   return result;

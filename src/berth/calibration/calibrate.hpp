@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -72,6 +73,8 @@ struct CalibrationResult {
 struct CalibrationSettings {
   /// Whether to look for the joints' zeros as well. Few frames are overfitted so.
   bool joint_zeros = false;
+  /// Called now and then from the calling thread; to stop, it throws.
+  std::function<void()> pause = [] {};
 };
 
 /// Fits all cameras of the teach-in, on all threads that TBB gives. Each camera needs one frame at

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "berth/calibration/found_estimate.hpp"
 #include "berth/calibration/frame_drawer.hpp"
 #include "berth/calibration/outline_rows.hpp"
 #include "berth/calibration/robot_pixels.hpp"
@@ -203,20 +204,6 @@ class Proposer {
   FilterProposal out_;
 };
 
-/// What was found, as an estimate about where the teach-in started.
-CalibrationEstimate estimate_of(const TeachIn& one, const CameraCalibration& found,
-                                const CalibrationResult& all) {
-  CalibrationEstimate estimate;
-  CameraEstimate& camera = estimate.cameras.emplace_back();
-  camera.X_PC = found.X_PC;
-  camera.clock_shift_s = found.clock_offset_s - one.cameras[0]->clock_offset_s;
-  for (const MovableJoint& joint : one.model->joints) {
-    const auto offset = all.joint_offsets.find(joint.name);
-    estimate.joint_shift.push_back(offset == all.joint_offsets.end() ? 0 : offset->second);
-  }
-  return estimate;
-}
-
 DepthImage corrected(const DepthImage& depth_m, const DepthError& error) {
   DepthImage out = depth_m;
   for (float& z_m : out.pixels()) z_m = static_cast<float>(error.offset_m + error.scale * z_m);
@@ -233,7 +220,7 @@ FilterProposal propose_filter(const TeachIn& teach_in, std::size_t camera_index,
   const CameraCalibration& camera = found.cameras[camera_index];
   std::vector<RobotImage> robots(one.cameras[0]->frames.size());
   FrameDrawer(one, {1}).draw(
-      1, estimate_of(one, camera, found), {}, FrameChoice::all,
+      1, found_estimate(one, camera, found), {}, FrameChoice::all,
       [&](const DrawnFrame& drawn) { robots[drawn.frame_index] = drawn.robot; });
   Proposer proposer(one.cameras[0]->camera, self_filter, sensor);
   for (std::size_t f = 0; f < robots.size(); ++f) {

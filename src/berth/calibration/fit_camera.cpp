@@ -34,8 +34,9 @@ struct Place {
 /// The pose that explains the images best, of fits from the start and from the best of a search.
 class PlaceSearch {
  public:
-  PlaceSearch(FrameDrawer& drawer, const FitPriors& priors, const std::vector<int>& steps)
-      : drawer_(drawer), near_(priors), steps_(steps), start_(start_of(drawer.teach_in())) {
+  PlaceSearch(FrameDrawer& drawer, const FitPriors& priors, const std::vector<int>& steps,
+              const std::function<void()>& pause)
+      : drawer_(drawer), near_(priors), steps_(steps), pause_(pause), start_(start_of(drawer.teach_in())) {
     // Sensor faults of a few millimetres must not explain decimetres.
     near_.depth_offset_m = 0;
     near_.depth_scale = 0;
@@ -50,6 +51,7 @@ class PlaceSearch {
         search_coarsely(drawer_, start_, search, kLeastShare * size.pixels);
     places.push_back(start_);
     for (const CalibrationEstimate& place : places) {
+      pause_();
       Place fitted{fit(drawer_, place, near_, near_rounds(steps_[1])).estimate};
       const double per_pixel = static_cast<double>(steps_[0]) / steps_[1];
       fitted.score = score(drawer_, fitted.estimate,
@@ -65,6 +67,7 @@ class PlaceSearch {
   FrameDrawer& drawer_;
   FitPriors near_;
   const std::vector<int>& steps_;
+  const std::function<void()>& pause_;
   const CalibrationEstimate start_;
 };
 
@@ -75,9 +78,10 @@ std::vector<int> camera_steps(int width_px) {
   return {search, std::max(1, search / 2), 2, 1};
 }
 
-FitResult fit_camera(FrameDrawer& drawer, const FitPriors& priors) {
+FitResult fit_camera(FrameDrawer& drawer, const FitPriors& priors,
+                     const std::function<void()>& pause) {
   const std::vector<int> steps = camera_steps(drawer.teach_in().cameras[0]->camera.width_px);
-  PlaceSearch search(drawer, priors, steps);
+  PlaceSearch search(drawer, priors, steps, pause);
   Place place = search.run({});
   if (place.score < kGoodScore) {
     Place wide = search.run(kWideSearch);
