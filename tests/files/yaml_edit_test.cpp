@@ -39,8 +39,13 @@ TEST(YamlEdit, ReplacesScalarsAndKeepsTheRest) {
       {"# \xC3\xA4\r\n\xC3\xA4: 1 # \xE2\x82\xAC\r\nb: 2\r\n",
        {{{"\xC3\xA4"}, "3"}, {{"b"}, "\xC3\xBC"}},
        "# \xC3\xA4\r\n\xC3\xA4: 3 # \xE2\x82\xAC\r\nb: \xC3\xBC\r\n"},
-      {"\xEF\xBB\xBF" "a: 1\n", {{{"a"}, "2"}, {{"b"}, "3"}}, "\xEF\xBB\xBF" "a: 2\nb: 3\n"},
-      {"%YAML 1.2\n---\na: !!str &x 1\nb: 2\n...\n", {{{"a"}, "3"}},
+      {"\xEF\xBB\xBF"
+       "a: 1\n",
+       {{{"a"}, "2"}, {{"b"}, "3"}},
+       "\xEF\xBB\xBF"
+       "a: 2\nb: 3\n"},
+      {"%YAML 1.2\n---\na: !!str &x 1\nb: 2\n...\n",
+       {{{"a"}, "3"}},
        "%YAML 1.2\n---\na: !!str &x 3\nb: 2\n...\n"},
       {"a: &x 1\nb: *x\n", {{{"a"}, "2"}, {{"b"}, "2"}}, "a: &x 2\nb: *x\n"},
   };
@@ -62,8 +67,7 @@ TEST(YamlEdit, AddsWhatIsMissing) {
        "m:\n  a: 1 # one\n       # and more\n  new: 1\n  # of n\nn: 2\n"},
       {"m:\n  a: 1\n  b:\n    - 2\n", one, "m:\n  a: 1\n  new: 1\n  b:\n    - 2\n"},
       {"m:\n  a: 1", two, "m:\n  a: 1\n  new: 1\n  o p: 2"},
-      {"m:\r\n  a: 1\r\n  b: [2]\r\n", two,
-       "m:\r\n  a: 1\r\n  new: 1\r\n  o p: 2\r\n  b: [2]\r\n"},
+      {"m:\r\n  a: 1\r\n  b: [2]\r\n", two, "m:\r\n  a: 1\r\n  new: 1\r\n  o p: 2\r\n  b: [2]\r\n"},
       {"m:\r\n  a: 1 # one\r\n      # more\r\n", one,
        "m:\r\n  a: 1 # one\r\n      # more\r\n  new: 1\r\n"},
       // Where no entry is a scalar: in front of all.
@@ -96,17 +100,23 @@ TEST(YamlEdit, RefusesWhatItCannotEdit) {
     std::vector<std::string> parts;
   };
   const std::vector<Case> table = {
-      {"a: &x 1\nb: *x\n", {{{"a"}, "2"}}, {"some.yaml:1: b: would become 2; expected 1; an alias"}},
+      {"a: &x 1\nb: *x\n",
+       {{{"a"}, "2"}},
+       {"some.yaml:1: b: would become 2; expected 1; an alias"}},
       {"a: &x 1\nb: *x\n", {{{"a"}, "2"}, {{"b"}, "3"}}, {"would become"}},
       {"c: 0\na: &x {k: 1}\nb: *x\n", {{{"a", "k"}, "2"}}, {"some.yaml:2: b.k: would become 2"}},
-      {"a: &x {k: 1}\nb: *x\n", {{{"a", "n"}, "2"}},
+      {"a: &x {k: 1}\nb: *x\n",
+       {{{"a", "n"}, "2"}},
        {"some.yaml:1: b.n: would become 2; expected no such key; an alias"}},
       {"l:\n  - &x [1, 2]\n  - *x\n", {{{"l", "1", "0"}, "3"}}, {"l[0][0]: would become 3"}},
-      {"\na: |\n  1\n", {{{"a"}, "2"}},
+      {"\na: |\n  1\n",
+       {{{"a"}, "2"}},
        {"some.yaml:2: a: is written in a way that cannot be edited; expected a value on one line"}},
       {"a: x\n  y\n", {{{"a"}, "2"}}, {"some.yaml:1: a: is written in a way"}},
       {"a: 1\nb: [2]\n", {{{"b"}, "2"}}, {"some.yaml:2: b: is written in a way"}},
-      {"a: [1]\n", {{{"a", "1"}, "2"}}, {"some.yaml:1: a[1]: cannot be added here; expected a map"}},
+      {"a: [1]\n",
+       {{{"a", "1"}, "2"}},
+       {"some.yaml:1: a[1]: cannot be added here; expected a map"}},
       {"a: [1]\n", {{{"a", "x"}, "2"}}, {"some.yaml:1: a.x: cannot be added here"}},
       {"b: 2\na: 1\n", {{{"a", "x"}, "2"}}, {"some.yaml:2: a.x: cannot be added here"}},
       {"? a\n: b\n", {{{"c"}, "d"}}, {"some.yaml"}},

@@ -84,8 +84,8 @@ std::string_view quoted_part(std::string_view text) {
   return {};
 }
 
-/// A scalar as it stands in the text, with its quotes; none where it is in block style, or goes over
-/// several lines without quotes.
+/// A scalar as it stands in the text, with its quotes; none where it is in block style, or goes
+/// over several lines without quotes.
 std::optional<std::string_view> written_scalar(std::string_view text, const YAML::Node& scalar) {
   const std::string_view rest = text.substr(begin_of(text, scalar));
   if (rest.starts_with('"') || rest.starts_with('\'')) {
@@ -192,7 +192,8 @@ void insert_value(const std::filesystem::path& file, const YamlPath& path, const
     entry = scalar_as_yaml(path[i]) + ": " + (i + 1 < path.size() ? "{" + entry + "}" : entry);
   }
   if (!map.IsMap() || !insert_entry(text, map, entry)) {
-    throw_bad_file(place_of(file, document, path), "cannot be added here", "a map of keys and values");
+    throw_bad_file(place_of(file, document, path), "cannot be added here",
+                   "a map of keys and values");
   }
 }
 

@@ -11,12 +11,17 @@ fs::path folder_of(const fs::path& file) {
   return fs::absolute(file).lexically_normal().parent_path();
 }
 
+fs::path real_path(const fs::path& path) {
+  fs::path result = fs::weakly_canonical(fs::absolute(path).lexically_normal());
+  return result.has_filename() ? result : result.parent_path();
+}
+
 }  // namespace
 
+bool is_same_path(const fs::path& a, const fs::path& b) { return real_path(a) == real_path(b); }
+
 PathMove::PathMove(const fs::path& from_file, const fs::path& to_file)
-    : from_(folder_of(from_file)),
-      to_(folder_of(to_file)),
-      stays_(fs::weakly_canonical(from_) == fs::weakly_canonical(to_)) {}
+    : from_(folder_of(from_file)), to_(folder_of(to_file)), stays_(is_same_path(from_, to_)) {}
 
 fs::path PathMove::path(const fs::path& path) const {
   if (stays_ || path.is_absolute()) return path;
@@ -24,8 +29,7 @@ fs::path PathMove::path(const fs::path& path) const {
   // path has to hold for both.
   const fs::path target = (from_ / path).lexically_normal();
   const fs::path relative = target.lexically_relative(to_);
-  const fs::path found = fs::weakly_canonical(to_) / relative;
-  return fs::weakly_canonical(found) == fs::weakly_canonical(target) ? relative : target;
+  return is_same_path(real_path(to_) / relative, target) ? relative : target;
 }
 
 std::string PathMove::pattern(const std::string& pattern) const {

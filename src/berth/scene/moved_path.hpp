@@ -6,6 +6,10 @@
 
 namespace berth {
 
+/// Whether both lead to one place, through symbolic links too; nothing has to be there. Both are
+/// without "..", or as if it were taken away by the text alone.
+bool is_same_path(const std::filesystem::path& a, const std::filesystem::path& b);
+
 /// From one file's folder to another's.
 class PathMove {
  public:

@@ -121,7 +121,7 @@ void change_camera(const SceneCameraChange& change, const YamlScalars& scene,
 
 void require_same_file(const SceneFile& scene, const std::string& where, const fs::path& found,
                        const fs::path& expected) {
-  if (fs::weakly_canonical(found) == fs::weakly_canonical(expected)) return;
+  if (is_same_path(found, expected)) return;
   throw_bad_file({scene.file, 0, where}, "would lead to " + found.string(), expected.string());
 }
 
@@ -175,6 +175,10 @@ void require_poses(const SceneFile& found, const SceneFile& scene, const SceneCh
 
 std::string rewritten_scene(const fs::path& scene_file, const SceneChange& change,
                             const fs::path& new_file) {
+  const fs::path new_folder = fs::absolute(new_file).parent_path();
+  if (!fs::is_directory(new_folder)) {
+    throw_bad_file({new_file}, "its folder is missing", "a file in a folder that is there");
+  }
   const std::string text = read_file_bytes(scene_file);
   const SceneFile scene = parse_scene(scene_file, text);
   const YamlScalars scalars = yaml_scalars(text);

@@ -30,13 +30,14 @@ struct SceneChange {
   std::map<std::string, double> joint_offsets;
 };
 
-/// The text of `scene_file` with the changes, to be written to `new_file`. The user's text is edited
-/// in place: comments, order, line ends, and a pose's kind of rotation stay. Paths lead from the new
-/// folder to the same files; one becomes absolute where symbolic links leave no relative path that
-/// holds. The text was read again as a scene: its poses are the given ones to 1e-9 (as coefficients
-/// of the matrix), its other new numbers exactly, all else is as before. Throws std::runtime_error
-/// with file, place and what was expected where that cannot be had, as with an alias that two
-/// cameras share, or where read_scene throws; std::invalid_argument where no camera has that name.
+/// The text of `scene_file` with the changes, to be written to `new_file`, whose folder is there.
+/// The user's text is edited in place: comments, order, line ends, and a pose's kind of rotation
+/// stay. Paths lead from the new folder to the same files; one becomes absolute where symbolic
+/// links leave no relative path that holds. The text was read again as a scene: its poses are the
+/// given ones to 1e-9 (as coefficients of the matrix), its other new numbers exactly, all else is
+/// as before. Throws std::runtime_error with file, place and what was expected where that cannot be
+/// had, as with an alias that two cameras share, or where read_scene throws; std::invalid_argument
+/// where no camera has that name.
 std::string rewritten_scene(const std::filesystem::path& scene_file, const SceneChange& change,
                             const std::filesystem::path& new_file);
 
