@@ -65,6 +65,7 @@ TEST(YamlEdit, AddsWhatIsMissing) {
       {"m:\n  a: 1 # one\nn: 2\n", one, "m:\n  a: 1 # one\n  new: 1\nn: 2\n"},
       {"m:\n  a: 1 # one\n       # and more\n  # of n\nn: 2\n", one,
        "m:\n  a: 1 # one\n       # and more\n  new: 1\n  # of n\nn: 2\n"},
+      {"m:\n  a: 1\n     \n  b: [2]\n", one, "m:\n  a: 1\n  new: 1\n     \n  b: [2]\n"},
       {"m:\n  a: 1\n  b:\n    - 2\n", one, "m:\n  a: 1\n  new: 1\n  b:\n    - 2\n"},
       {"m:\n  a: 1", two, "m:\n  a: 1\n  new: 1\n  o p: 2"},
       {"m:\r\n  a: 1\r\n  b: [2]\r\n", two, "m:\r\n  a: 1\r\n  new: 1\r\n  o p: 2\r\n  b: [2]\r\n"},
@@ -90,6 +91,21 @@ TEST(YamlEdit, AddsWhatIsMissing) {
       {"l:\n- - a: 1\n", {{{"l", "0", "0", "k"}, "5"}}, "l:\n- - a: 1\n    k: 5\n"},
   };
   for (const Case& good : table) EXPECT_EQ(edited(good.text, good.values), good.expected);
+}
+
+/// yaml-cpp reads it, but its marks are places in another text.
+TEST(YamlEdit, RefusesTextsOfWideCharacters) {
+  for (const char16_t* text : {u"m: {}\n", u"m: {k: 1}\n", u"m: {k: [1]}\n", u"m:\n  k: [1]\n"}) {
+    for (const std::size_t comment_size : {0, 100}) {
+      std::string bytes = "\xFF\xFE";
+      for (const char16_t c : u"#" + std::u16string(comment_size, u'\u6F22') + u"\n" + text) {
+        bytes += {static_cast<char>(c & 0xFF), static_cast<char>(c >> 8)};
+      }
+      ASSERT_FALSE(yaml_scalars(bytes).contains({"m", "n"}));
+      EXPECT_THROW(edited(bytes, {{{"m", "n"}, "2"}}), std::runtime_error);
+      EXPECT_THROW(edited(bytes, {{{"m", "k"}, "2"}}), std::runtime_error);
+    }
+  }
 }
 
 /// What cannot be edited is refused: the text is right, or there is none.

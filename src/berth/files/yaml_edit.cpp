@@ -90,10 +90,9 @@ std::optional<std::string_view> written_scalar(std::string_view text, const YAML
   const std::string_view rest = text.substr(begin_of(text, scalar));
   if (rest.starts_with('"') || rest.starts_with('\'')) {
     const std::string_view quoted = quoted_part(rest);
-    if (quoted.empty() || YAML::Load(std::string(quoted)).Scalar() != scalar.Scalar()) return {};
-    return quoted;
+    return quoted.empty() ? std::nullopt : std::optional(quoted);
   }
-  if (scalar.Scalar().empty() || !rest.starts_with(scalar.Scalar())) return {};
+  if (!rest.starts_with(scalar.Scalar())) return std::nullopt;
   return rest.substr(0, scalar.Scalar().size());
 }
 
@@ -143,7 +142,7 @@ std::size_t end_of_line(std::string_view text, std::size_t from, std::size_t col
     const std::size_t end = std::min(text.find('\n', from), text.size());
     const std::size_t next = text.find_first_not_of(' ', end + 1);
     if (next == std::string_view::npos || text[next] != '#' || next - (end + 1) <= column) {
-      return end > from && end < text.size() && text[end - 1] == '\r' ? end - 1 : end;
+      return end < text.size() && text[end - 1] == '\r' ? end - 1 : end;
     }
     from = next;
   }
@@ -171,12 +170,12 @@ bool insert_entry(std::string& text, const YAML::Node& map, const std::string& e
     text.insert(end_of_line(text, *behind, column), line);
   } else if (map.size() == 0) {
     const std::size_t begin = begin_of(text, map);
-    if (begin == text.size() || text[begin] != '{') return false;
+    if (text.substr(begin, 1) != "{") return false;
     text.insert(begin + 1, entry);
   } else {
-    const YAML::Mark first = map.begin()->first.Mark();
-    const std::string indentation(static_cast<std::size_t>(first.column), ' ');
-    text.insert(static_cast<std::size_t>(first.pos),
+    const YAML::Node first = map.begin()->first;
+    const std::string indentation(static_cast<std::size_t>(first.Mark().column), ' ');
+    text.insert(begin_of(text, first),
                 entry + (is_flow(map) ? ", " : std::string(line_break_of(text)) + indentation));
   }
   return true;
