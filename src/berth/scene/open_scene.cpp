@@ -136,7 +136,7 @@ std::size_t bytes_of(const DepthImage& image) {
 DepthImage OpenCamera::read_depth(std::size_t frame) const {
   if (!kept_depth_m[frame].pixels().empty()) return kept_depth_m[frame];
   return read_depth_png(source.depth[frame], view->camera(), source.depth_scale_m, source.near_m,
-                        source.far_m);
+                        source.far_m, source.depth_offset_m);
 }
 
 OpenScene open_scene(const SceneFile& source, const std::function<void()>& before_image) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "berth/scene/scene_camera.hpp"
+#include "berth/files/read_file.hpp"
 #include "berth/files/yaml_value.hpp"
 #include "berth/scene/settings_yaml.hpp"
 
@@ -121,7 +122,11 @@ void read_view_settings(const YamlMap& map, ViewSettings& settings) {
 }
 
 SceneFile read_scene(const std::filesystem::path& file) {
-  const YamlMap map(load_yaml(file),
+  return parse_scene(file, read_file_bytes(file));
+}
+
+SceneFile parse_scene(const std::filesystem::path& file, const std::string& text) {
+  const YamlMap map(parse_yaml(file, text),
                     {"robot", "cameras", "attached", "joints", "joint_offsets", "fixed_joints",
                      "self_filter", "sensor", "space", "evaluation", "time"});
   SceneFile scene;
