@@ -118,12 +118,13 @@ void read_view_settings(const YamlMap& map, ViewSettings& settings) {
   }
   if (const auto sensor = map.find("sensor")) read_settings(*sensor, settings.sensor);
   if (const auto space = map.find("space")) read_settings(*space, settings.space);
+  if (const auto watch = map.find("watch")) read_settings(*watch, settings.watch);
 }
 
 SceneFile read_scene(const std::filesystem::path& file) {
   const YamlMap map(load_yaml(file),
                     {"robot", "cameras", "attached", "joints", "joint_offsets", "fixed_joints",
-                     "self_filter", "sensor", "space", "evaluation", "time"});
+                     "self_filter", "sensor", "space", "watch", "evaluation", "time"});
   SceneFile scene;
   scene.file = file;
   scene.robot = read_robot(map.at("robot"));
