@@ -1,6 +1,7 @@
-#include "tests/calibration/drawn_person.hpp"
+#include "tests/support/drawn_person.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "berth/calibration/seen_through.hpp"
 #include "berth/robot/primitives.hpp"
@@ -85,7 +86,7 @@ DepthImage hide_robot(double share, const Camera& camera, const Pose& X_BC,
     const Vector3d place_B_m =
         X_BC.translation() + way * (robot_B_m - X_BC.translation()) + draw_point(random, 0.4 * way);
     DepthImage seen_m = with_person(draw_person(random, place_B_m), camera, X_BC, depth_m);
-    const double hidden = read_robot(seen_m, robot).hidden();
+    const double hidden = read_robot(seen_m, robot).hidden_share();
     if (!(hidden <= 0.9 && std::abs(hidden - share) < best_error)) continue;
     best_error = std::abs(hidden - share);
     best_m = std::move(seen_m);
