@@ -92,7 +92,7 @@ SceneCamera read_scene_camera(const YamlValue& value, const ViewSettings& settin
   const YamlMap map(value,
                     {"name", "info", "pose", "depth", "depth_scale", "depth_offset_m", "stamps", "near_m", "far_m", "clock_offset_s",
                      "self_filter",
-                     "sensor", "space"});
+                     "sensor", "space", "watch"});
   const YamlMap pose(map.at("pose"), {"parent", "xyz", "quaternion_xyzw", "rpy"});
   SceneCamera camera;
   camera.name = read_name(map.at("name"));

@@ -119,6 +119,7 @@ void read_view_settings(const YamlMap& map, ViewSettings& settings) {
   }
   if (const auto sensor = map.find("sensor")) read_settings(*sensor, settings.sensor);
   if (const auto space = map.find("space")) read_settings(*space, settings.space);
+  if (const auto watch = map.find("watch")) read_settings(*watch, settings.watch);
 }
 
 SceneFile read_scene(const std::filesystem::path& file) {
@@ -128,7 +129,7 @@ SceneFile read_scene(const std::filesystem::path& file) {
 SceneFile parse_scene(const std::filesystem::path& file, const std::string& text) {
   const YamlMap map(parse_yaml(file, text),
                     {"robot", "cameras", "attached", "joints", "joint_offsets", "fixed_joints",
-                     "self_filter", "sensor", "space", "evaluation", "time"});
+                     "self_filter", "sensor", "space", "watch", "evaluation", "time"});
   SceneFile scene;
   scene.file = file;
   scene.robot = read_robot(map.at("robot"));
