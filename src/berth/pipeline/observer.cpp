@@ -2,14 +2,30 @@
 
 #include <stdexcept>
 
+#include "berth/calibration/frame_displacement.hpp"
 #include "berth/pipeline/prepare_frame.hpp"
 
 namespace berth {
+namespace {
+
+/// Where nobody gave another way, and the view's settings ask for one.
+MeasureDisplacement displacement_of(const View& view, MeasureDisplacement given) {
+  if (given || !(view.settings().watch.max_displacement_m > 0)) return given;
+  const RobotModel& model = view.robot()->model();
+  const FrameDisplacement displacement(model, view.robot()->meshes(), view.camera(),
+                                       *model.find_link(view.mount().parent_link),
+                                       view.mount().X_PC);
+  return [displacement](DepthView depth_m, const JointState& joints, std::stop_token stop) {
+    return displacement.measure(depth_m, joints, std::move(stop));
+  };
+}
+
+}  // namespace
 
 Observer::Observer(std::shared_ptr<const View> view, MeasureDisplacement measure)
     : view_(std::move(view)),
       renderer_(view_->robot()->meshes(), view_->camera()),
-      watch_(view_->settings().watch, std::move(measure)) {
+      watch_(view_->settings().watch, displacement_of(*view_, std::move(measure))) {
   if (view_->region_meshes()) region_renderer_.emplace(view_->region_meshes(), view_->camera());
 }
 

@@ -142,6 +142,7 @@ DepthImage OpenCamera::read_depth(std::size_t frame) const {
 OpenScene open_scene(const SceneFile& source, const std::function<void()>& before_image) {
   OpenScene scene;
   scene.file = source.file;
+  scene.joint_offsets = source.joint_offsets;
   RobotModel model = load_robot(source.robot);
   scene.joints = std::make_shared<const JointTrajectory>(read_trajectory(model, source));
   scene.robot = with_file_named(source, [&] {

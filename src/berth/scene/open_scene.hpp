@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -31,7 +32,9 @@ struct OpenCamera {
 struct OpenScene {
   std::filesystem::path file;
   std::shared_ptr<const Robot> robot;
+  /// With the file's offsets in them.
   std::shared_ptr<const JointTrajectory> joints;
+  std::map<std::string, double> joint_offsets;
   std::vector<OpenCamera> cameras;
   std::size_t frame_count = 0;  ///< of all cameras
 };

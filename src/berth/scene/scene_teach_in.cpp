@@ -133,10 +133,4 @@ SceneTeachIn make_teach_in(const OpenScene& scene) {
   return material;
 }
 
-void require_poses(const OpenScene& scene, const CalibrationResult& found) {
-  for (const CameraCalibration& camera : found.cameras) {
-    if (!camera.is_found) fail(scene, camera.camera, camera.refused);
-  }
-}
-
 }  // namespace berth

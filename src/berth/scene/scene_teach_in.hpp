@@ -28,8 +28,4 @@ inline constexpr std::size_t kMostTeachInFrames = 20;
 /// stands still in all frames of a camera, or none of them has joint angles.
 SceneTeachIn make_teach_in(const OpenScene& scene);
 
-/// Throws std::runtime_error that names the file, the camera and what was expected where a camera's
-/// pose was not found at all.
-void require_poses(const OpenScene& scene, const CalibrationResult& found);
-
 }  // namespace berth
