@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
   berth::app::DemoArguments demo;
   berth::app::RunArguments run;
   berth::app::FilterArguments filter;
+  berth::app::CalibrateArguments calibrate;
   berth::app::EvaluateArguments evaluate;
   CLI::App* demo_command = program.add_subcommand(
       "demo", "Run the bundled scene: a table of links and distances, and pictures");
@@ -24,11 +25,14 @@ int main(int argc, char** argv) {
       program.add_subcommand("run", "Run the frames of a scene through the whole pipeline");
   CLI::App* filter_command = program.add_subcommand(
       "filter", "Write the robot's depth, its link IDs and the obstacles as images");
+  CLI::App* calibrate_command = program.add_subcommand(
+      "calibrate", "Find the cameras' poses and settings from images of the moving arm");
   CLI::App* evaluate_command =
       program.add_subcommand("evaluate", "Distances from these three images alone");
   berth::app::add_demo_options(*demo_command, demo);
   berth::app::add_run_options(*run_command, run);
   berth::app::add_filter_options(*filter_command, filter);
+  berth::app::add_calibrate_options(*calibrate_command, calibrate);
   berth::app::add_evaluate_options(*evaluate_command, evaluate);
   program.footer(
       "Examples:\n  berth demo\n  berth run scene.yaml --picture pictures\nberth COMMAND --help "
@@ -46,5 +50,8 @@ int main(int argc, char** argv) {
   if (*demo_command) return carry_out(demo.threads, [&] { berth::app::demo_command(demo); });
   if (*run_command) return carry_out(run.threads, [&] { berth::app::run_command(run); });
   if (*filter_command) return carry_out(filter.threads, [&] { berth::app::filter_command(filter); });
+  if (*calibrate_command) {
+    return carry_out(calibrate.threads, [&] { berth::app::calibrate_command(calibrate); });
+  }
   return carry_out(evaluate.threads, [&] { berth::app::evaluate_command(evaluate); });
 }
