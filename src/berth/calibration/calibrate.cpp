@@ -46,16 +46,20 @@ void find_joint_zeros(const TeachIn& teach_in, FitPriors priors, CalibrationEsti
   const std::size_t joints = teach_in.model->joints.size();
   priors.joints.assign(joints, kJointPrior);
   const FitResult all = refine(drawer, estimate, priors);
-  const std::vector<bool> held = undetermined_joints(all);
+  const std::vector<bool> determined = determined_joints(all);
+  estimate = all.estimate;
   for (std::size_t j = 0; j < joints; ++j) {
-    if (!held[j]) continue;
-    priors.joints[j] = 0;
-    result.joints_not_determined.push_back(teach_in.model->joints[j].name);
+    const std::string& name = teach_in.model->joints[j].name;
+    if (determined[j]) {
+      result.joint_offsets[name] = estimate.joint_shift[j];
+    } else {
+      estimate.joint_shift[j] = 0;
+      result.joints_not_determined.push_back(name);
+    }
   }
+  // What was found stands on all joints being free; the poses are those without the rest.
+  priors.joints.clear();
   estimate = refine(drawer, estimate, priors).estimate;
-  for (std::size_t j = 0; j < joints; ++j) {
-    if (!held[j]) result.joint_offsets[teach_in.model->joints[j].name] = estimate.joint_shift[j];
-  }
 }
 
 /// Tells of one camera what the estimate of all says.

@@ -7,8 +7,8 @@
 namespace berth {
 namespace {
 
-/// A joint's zero is told where its deviation is below this: 0.1 degrees.
-constexpr double kCertainJoint = 0.0017;
+/// A joint's zero is told where its deviation is below this: 0.17 degrees.
+constexpr double kCertainJoint = 0.003;
 
 Eigen::MatrixXd covariance_of(const FitResult& fitted) { return fitted.information.inverse(); }
 
@@ -73,21 +73,12 @@ CameraDeviation deviation_of(const FitResult& fitted, const FitResult& even, con
           std::sqrt(pose_excess * variance.segment<3>(kMove).sum())};
 }
 
-std::vector<bool> undetermined_joints(const FitResult& fitted) {
+std::vector<bool> determined_joints(const FitResult& fitted) {
   const auto joints = static_cast<Eigen::Index>(fitted.estimate.joint_shift.size());
-  Eigen::MatrixXd information = fitted.information;
-  const Eigen::Index first = information.rows() - joints;
-  std::vector<bool> held(static_cast<std::size_t>(joints), false);
-  for (;;) {
-    const Eigen::VectorXd variance = information.inverse().diagonal().tail(joints);
-    Eigen::Index worst = -1;
-    for (Eigen::Index j = 0; j < joints; ++j) {
-      if (!held[j] && (worst < 0 || variance[j] > variance[worst])) worst = j;
-    }
-    if (worst < 0 || std::sqrt(variance[worst]) < kCertainJoint) return held;
-    held[worst] = true;
-    information(first + worst, first + worst) += 1e12;
-  }
+  const Eigen::VectorXd variance = covariance_of(fitted).diagonal().tail(joints);
+  std::vector<bool> determined;
+  for (const double one : variance) determined.push_back(std::sqrt(one) < kCertainJoint);
+  return determined;
 }
 
 }  // namespace berth

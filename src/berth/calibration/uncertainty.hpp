@@ -21,8 +21,9 @@ struct CameraDeviation {
 CameraDeviation deviation_of(const FitResult& fitted, const FitResult& even, const FitResult& odd,
                              std::size_t camera);
 
-/// Joints whose zero the fit does not tell, in the order of RobotModel::joints: one after another,
-/// the least certain first, is held, until all others are certain.
-std::vector<bool> undetermined_joints(const FitResult& fitted);
+/// Whether a fit of all joints tells each joint's zero, in the order of RobotModel::joints. What
+/// others may take its place for (the first joint the camera's pose, the last one nothing that can
+/// be seen) is in its deviation.
+std::vector<bool> determined_joints(const FitResult& fitted);
 
 }  // namespace berth
