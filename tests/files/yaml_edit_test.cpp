@@ -97,8 +97,10 @@ TEST(YamlEdit, AddsWhatIsMissing) {
 TEST(YamlEdit, RefusesTextsOfWideCharacters) {
   for (const char16_t* text : {u"m: {}\n", u"m: {k: 1}\n", u"m: {k: [1]}\n", u"m:\n  k: [1]\n"}) {
     for (const std::size_t comment_size : {0, 100}) {
-      std::string bytes = "\xFF\xFE";
-      for (const char16_t c : u"#" + std::u16string(comment_size, u'\u6F22') + u"\n" + text) {
+      std::u16string wide = u"\uFEFF#";
+      wide.append(comment_size, u'\u6F22').append(u"\n").append(text);
+      std::string bytes;
+      for (const char16_t c : wide) {
         bytes += {static_cast<char>(c & 0xFF), static_cast<char>(c >> 8)};
       }
       ASSERT_FALSE(yaml_scalars(bytes).contains({"m", "n"}));

@@ -185,7 +185,6 @@ void insert_value(const std::filesystem::path& file, const YamlPath& path, const
                   std::string& text) {
   const YAML::Node document = YAML::Load(text);
   const auto [map, steps] = find_value(document, path);
-  if (steps == path.size()) return;
   std::string entry = scalar_as_yaml(value);
   for (std::size_t i = path.size(); i-- > steps;) {
     entry = scalar_as_yaml(path[i]) + ": " + (i + 1 < path.size() ? "{" + entry + "}" : entry);
@@ -234,7 +233,10 @@ std::string edited_yaml(const std::filesystem::path& file, const std::string& te
   }
   try {
     std::string result = with_replaced(file, text, values);
-    for (const auto& [path, value] : values) insert_value(file, path, value, result);
+    const YamlScalars old = yaml_scalars(text);
+    for (const auto& [path, value] : values) {
+      if (!old.contains(path)) insert_value(file, path, value, result);
+    }
     require_only_these_changed(file, text, result, values);
     return result;
   } catch (const YAML::Exception& error) {
