@@ -91,6 +91,23 @@ std::string depth_text(const CameraCalibration& camera, double depth_m, bool cor
                      corrects_depth ? "the new scene takes that out" : "left as it is");
 }
 
+std::vector<std::string> open_questions(const CameraCalibration& camera) {
+  std::vector<std::string> sentences;
+  if (!is_determined(camera, "pose")) {
+    sentences.push_back("Not determined: the pose, to within 1 cm.");
+  }
+  const bool has_offset = is_determined(camera, "depth.offset_m");
+  const bool has_scale = is_determined(camera, "depth.scale");
+  if (!has_offset && !has_scale) {
+    sentences.push_back(
+        "Not determined: how much of the depth's error is an offset and how much a scale.");
+  } else if (!has_offset || !has_scale) {
+    sentences.push_back(fmt::format("Not determined: the {} of the depth's error.",
+                                    has_offset ? "scale" : "offset"));
+  }
+  return sentences;
+}
+
 std::string value_text(const ProposedSetting& setting) {
   if (setting.key.ends_with("_px")) return fmt::format("{:g} px", setting.value);
   if (setting.key.ends_with("_m")) return fmt::format("{:g} m", setting.value);

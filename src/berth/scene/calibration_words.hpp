@@ -20,6 +20,9 @@ std::string clock_text(const CameraCalibration& camera, const TeachInCamera& sou
 /// How wrong the camera's depths are at `depth_m`, and whether the new scene corrects that.
 std::string depth_text(const CameraCalibration& camera, double depth_m, bool corrects_depth);
 
+/// What the images do not tell of the camera, as sentences. Of its clock, see clock_text().
+std::vector<std::string> open_questions(const CameraCalibration& camera);
+
 /// A setting's value with its unit, which its name ends in: "3 cm", "20 px".
 std::string value_text(const ProposedSetting& setting);
 
