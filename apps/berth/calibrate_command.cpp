@@ -63,7 +63,7 @@ void calibrate_command(const CalibrateArguments& arguments) {
                                  arguments.correct_depth, calibration.warnings};
   const std::string text = arguments.format == OutputFormat::json ? calibration_json(report) + "\n"
                                                                   : calibration_table(report);
-  if (!arguments.report_folder.empty()) write_calibration_page(arguments.report_folder, report);
+  if (!arguments.report_folder.empty()) write_calibration_page(arguments.report_folder, arguments.scene.string(), report);
   write_rewritten_scene(arguments.scene, calibration.change, arguments.out);
   std::fputs(text.c_str(), stdout);
 }

@@ -52,7 +52,7 @@ void move_paths(const YamlScalars& scene, const fs::path& from_file, const fs::p
 }
 
 /// With ten decimals at most.
-std::string rounded(double value) {
+std::string printed_number(double value) {
   std::string text = fmt::format("{:.10f}", value);
   text.erase(text.find_last_not_of('0') + 1);
   if (text.ends_with('.')) text.pop_back();
@@ -79,7 +79,7 @@ void change_pose(const Pose& X_PC, const YamlScalars& scene, const YamlPath& pos
                  YamlScalars& changed) {
   const auto set_list = [&](const std::string& key, const auto& values) {
     for (Eigen::Index i = 0; i < values.size(); ++i) {
-      changed[joined(pose, {key, std::to_string(i)})] = rounded(values[i]);
+      changed[joined(pose, {key, std::to_string(i)})] = printed_number(values[i]);
     }
   };
   set_list("xyz", X_PC.translation());
