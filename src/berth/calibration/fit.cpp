@@ -135,7 +135,8 @@ class Fit {
       // Wide: where a camera sees too little for a pose, the equations can still be solved.
       for (int i = 0; i < 3; ++i) add_prior(first + kRotation + i, 0, 1);
       for (int i = 0; i < 3; ++i) add_prior(first + kMove + i, 0, 1);
-      add_prior(first + kDepthOffset, now.depth_offset_m, priors_.depth_offset_m);
+      add_prior(first + kDepthOffset, now.depth_offset_m - priors_.expected_depth_offset_m,
+                priors_.depth_offset_m);
       add_prior(first + kDepthScale, now.depth_scale - 1, priors_.depth_scale);
       add_prior(first + kDilation, now.dilation_px, priors_.dilation_px);
       add_prior(first + kClock, now.clock_shift_s - start.clock_shift_s, priors_.clock_s);

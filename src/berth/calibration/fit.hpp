@@ -8,12 +8,13 @@
 
 namespace berth {
 
-/// How much is known of each unknown before any image is looked at: standard deviations about
-/// where the fit starts.
+/// How much is known of each unknown before any image is looked at: standard deviations, of clock
+/// and joints about where the fit starts, of the rest about what is expected.
 struct FitPriors {
   double depth_offset_m = 0.005;
   double depth_scale = 0.02;
   double dilation_px = 3;
+  double expected_depth_offset_m = 0;
   /// 0: not asked for.
   double clock_s = 0;
   /// rad or m, one for each of RobotModel::joints; 0: held where it is. Empty: all are held.

@@ -13,9 +13,9 @@ namespace berth {
 /// thread.
 class FrameDisplacement {
  public:
-  /// `model` has to outlive it.
+  /// `model` has to outlive it. Readings of the robot are known to lie `bias_m` behind its surface.
   FrameDisplacement(const RobotModel& model, std::shared_ptr<const LinkMeshes> meshes,
-                    const Camera& camera, std::size_t parent, const Pose& X_PC);
+                    const Camera& camera, std::size_t parent, const Pose& X_PC, double bias_m);
 
   /// The mean way of the robot's visible points, in m, from where the camera's pose has them to
   /// where they fit the image best. Nothing where the image shows too little of the
@@ -29,6 +29,7 @@ class FrameDisplacement {
   Camera camera_;
   std::size_t parent_;
   Pose X_PC_;
+  double bias_m_;
 };
 
 }  // namespace berth

@@ -41,7 +41,7 @@ PoseWatch::PoseWatch(const WatchSettings& settings, MeasureDisplacement measure)
 const CameraWatch& PoseWatch::look(DepthView depth_m, const RobotImage& robot,
                                    const JointState& at_exposure) {
   if (!state_.is_on) return state_;
-  const RobotReadings readings = read_robot(depth_m, robot);
+  const RobotReadings readings = read_robot(depth_m, robot, settings_.bias_m);
   const bool tells = tells_seen_through(readings);
   state_.seen_through =
       tells ? readings.seen_through() : std::numeric_limits<double>::quiet_NaN();

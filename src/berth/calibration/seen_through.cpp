@@ -21,11 +21,11 @@ int row_step(const PixelRect& rect) {
 
 /// Without branches, so that the compiler makes vector code of it.
 void read_row(const float* reading_m, const float* model_m, const LinkId* id, int begin, int end,
-              RobotReadings& found) {
+              float bias_m, RobotReadings& found) {
   int at_surface = 0, behind = 0, before = 0, hidden = 0, robot = 0;
   for (int u = begin; u < end; ++u) {
     const int is_robot = (id[u] != kNoLink) & (id[u] != kEnvironmentLink);
-    const float behind_m = reading_m[u] - model_m[u];
+    const float behind_m = reading_m[u] - model_m[u] - bias_m;
     robot += is_robot;
     behind += is_robot & static_cast<int>(behind_m > kSeenThrough_m);
     at_surface += is_robot & static_cast<int>(std::abs(behind_m) <= kSeenThrough_m);
@@ -47,14 +47,14 @@ double RobotReadings::hidden_share() const {
   return share(hidden, hidden + before + at_surface + behind);
 }
 
-RobotReadings read_robot(DepthView depth_m, const RobotImage& robot) {
+RobotReadings read_robot(DepthView depth_m, const RobotImage& robot, double bias_m) {
   RobotReadings found;
   const PixelRect rect = clip(robot.extent, depth_m.width, depth_m.height);
   if (rect.empty()) return found;
   const int step = row_step(rect);
   for (int v = rect.v_begin + step / 2; v < rect.v_end; v += step) {
     read_row(depth_m.row(v), robot.depth_m.row(v), robot.link_id.row(v), rect.u_begin, rect.u_end,
-             found);
+             static_cast<float>(bias_m), found);
   }
   return found;
 }

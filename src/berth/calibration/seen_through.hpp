@@ -35,8 +35,8 @@ struct RobotReadings {
 };
 
 /// Both images have one size. Looks at rows that lie evenly over the robot's extent in the image,
-/// at no more than kMostReadPixels pixels.
-RobotReadings read_robot(DepthView depth_m, const RobotImage& robot);
+/// at no more than kMostReadPixels pixels. Readings are known to lie `bias_m` behind the surface.
+RobotReadings read_robot(DepthView depth_m, const RobotImage& robot, double bias_m = 0);
 
 inline constexpr int kMostReadPixels = 20000;
 

@@ -14,6 +14,9 @@ struct WatchSettings {
   double max_seen_through = 0;
   /// D of a frame (MeasureDisplacement) above this does too; 0 is off.
   double max_displacement_m = 0;
+  /// How far readings of the robot lie behind its surface while all is well, in the median: an error
+  /// of the camera's depth, not of its place.
+  double bias_m = 0;
   /// So many of this many last frames have to agree, for a camera to count as moved by T, and to
   /// count as back in its place.
   int agreeing_frames = 10;
@@ -39,6 +42,9 @@ void visit_settings(Settings& s, Visitor&& visit) {
          "a camera counts as moved where the robot fits the image better when it is moved by more "
          "than this; 0 is off"},
         s.max_displacement_m);
+  visit({"bias_m", {.least = -0.1, .most = 0.1},
+         "how far readings of the robot lie behind its surface while the camera stands well"},
+        s.bias_m);
   visit({"agreeing_frames", {.least = 1, .most = kMostWatchedFrames},
          "so many of the last `frames` have to say moved, and to say that all is well again; more "
          "than half of them"},

@@ -14,7 +14,7 @@ MeasureDisplacement displacement_of(const View& view, MeasureDisplacement given)
   const RobotModel& model = view.robot()->model();
   const FrameDisplacement displacement(model, view.robot()->meshes(), view.camera(),
                                        *model.find_link(view.mount().parent_link),
-                                       view.mount().X_PC);
+                                       view.mount().X_PC, view.settings().watch.bias_m);
   return [displacement](DepthView depth_m, const JointState& joints, std::stop_token stop) {
     return displacement.measure(depth_m, joints, std::move(stop));
   };

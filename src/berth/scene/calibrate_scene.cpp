@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -33,10 +34,10 @@ bool is_told(const CameraCalibration& camera, std::string_view key) {
 /// T and D of the frames that were used, with the camera where it was found.
 WatchSettings normal_range(const TeachIn& teach_in, const TeachInCamera& source,
                            const CameraCalibration& found, const CalibrateSceneSettings& settings,
-                           const std::map<std::string, double>& joint_offsets) {
+                           const std::map<std::string, double>& joint_offsets, double bias_m) {
   RobotRenderer renderer(teach_in.meshes, source.camera);
   const FrameDisplacement displacement(*teach_in.model, teach_in.meshes, source.camera,
-                                       source.parent, found.X_PC);
+                                       source.parent, found.X_PC, bias_m);
   const double clock_shift_s = found.clock_offset_s - source.clock_offset_s;
   RobotImage robot;
   RobotPose pose;
@@ -62,13 +63,18 @@ WatchSettings normal_range(const TeachIn& teach_in, const TeachInCamera& source,
     }
     forward_kinematics(*teach_in.model, joints.position, pose);
     renderer.render(pose, pose.X_BL[source.parent] * found.X_PC, robot);
-    seen_through.push_back(read_robot(depth_m, robot).seen_through());
+    seen_through.push_back(read_robot(depth_m, robot, bias_m).seen_through());
     if (displacement_m.size() >= kMostDisplacements) continue;
     displacement_m.push_back(displacement.measure(depth_m, joints)
                                  .value_or(std::numeric_limits<double>::quiet_NaN()));
   }
-  return learned_limits(seen_through, displacement_m);
+  WatchSettings watch = learned_limits(seen_through, displacement_m);
+  watch.bias_m = bias_m;
+  return watch;
 }
+
+/// To a thousandth: more digits would say nothing.
+double rounded_up(double value) { return std::ceil(1000 * value) / 1000; }
 
 std::map<std::string, double> as_map(const std::vector<ProposedSetting>& proposed) {
   std::map<std::string, double> map;
@@ -91,22 +97,35 @@ SceneCameraChange change_of(const SceneCamera& source, const CameraCalibration& 
   }
   change.maps["self_filter"] = as_map(filter.self_filter);
   change.maps["sensor"] = as_map(filter.sensor);
-  change.maps["watch"] = {};
-  if (watch.max_seen_through > 0) change.maps["watch"]["max_seen_through"] = watch.max_seen_through;
+  std::map<std::string, double>& limits = change.maps["watch"];
+  if (watch.max_seen_through > 0) limits["max_seen_through"] = rounded_up(watch.max_seen_through);
   if (watch.max_displacement_m > 0) {
-    change.maps["watch"]["max_displacement_m"] = watch.max_displacement_m;
+    limits["max_displacement_m"] = rounded_up(watch.max_displacement_m);
   }
+  if (watch.is_on()) limits["bias_m"] = std::round(1000 * watch.bias_m) / 1000 + 0.0;
   std::erase_if(change.maps, [](const auto& map) { return map.second.empty(); });
   return change;
 }
 
+/// One sentence for each camera, about the greatest change.
+void warn_of_changes(const std::vector<EnvironmentChange>& changes, const std::string& camera,
+                     std::vector<std::string>& warnings) {
+  const EnvironmentChange* greatest = nullptr;
+  for (const EnvironmentChange& one : changes) {
+    if (one.camera == camera && (!greatest || one.share > greatest->share)) greatest = &one;
+  }
+  if (!greatest) return;
+  warnings.push_back(fmt::format(
+      "camera {}: something beside the robot moved, most of all between frames {} and {} ({:.0f} % "
+      "of what is seen there); expected fixed things alone",
+      camera, greatest->before, greatest->after, 100 * greatest->share));
+}
+
 std::vector<std::string> warnings_of(const SceneTeachIn& material, const CalibrationResult& found) {
   std::vector<std::string> warnings = material.warnings;
-  for (const EnvironmentChange& one : moved_environment(material.teach_in, found)) {
-    warnings.push_back(fmt::format(
-        "camera {}: something beside the robot moved between frames {} and {} ({:.0f} % of what is "
-        "seen); expected fixed things alone",
-        one.camera, one.before, one.after, 100 * one.share));
+  const std::vector<EnvironmentChange> changes = moved_environment(material.teach_in, found);
+  for (const CameraCalibration& camera : found.cameras) {
+    warn_of_changes(changes, camera.camera, warnings);
   }
   return warnings;
 }
@@ -128,7 +147,8 @@ SceneCalibration calibrate_scene(const OpenScene& scene, const SceneTeachIn& mat
     calibration.filters.push_back(
         propose_filter(teach_in, c, found, corrects, present.self_filter, present.sensor));
     calibration.watches.push_back(normal_range(teach_in, *teach_in.cameras[c], found.cameras[c],
-                                               settings, found.joint_offsets));
+                                               settings, found.joint_offsets,
+                                               calibration.filters[c].bias_m));
     calibration.change.cameras.push_back(change_of(scene.cameras[c].source, found.cameras[c],
                                                    calibration.filters[c], calibration.watches[c],
                                                    corrects));
