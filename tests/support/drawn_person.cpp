@@ -64,12 +64,15 @@ TriangleMesh draw_person(Random& random, const Vector3d& place_B_m) {
 }
 
 DepthImage with_person(const TriangleMesh& person_B, const Camera& camera, const Pose& X_BC,
-                       const DepthImage& depth_m) {
+                       const DepthImage& depth_m, const RobotImage& robot) {
   RobotRenderer renderer(build_link_meshes(model_of(person_B)), camera);
   RobotImage person;
   renderer.render(RobotPose{{Pose::Identity()}}, X_BC, person);
   DepthImage seen_m = depth_m;
   for (std::size_t i = 0; i < seen_m.pixels().size(); ++i) {
+    // A pixel of the robot without a reading gets none from what stands behind the robot.
+    const bool is_behind = person.depth_m.pixels()[i] > robot.depth_m.pixels()[i];
+    if (is_behind) continue;
     seen_m.pixels()[i] = std::fmin(seen_m.pixels()[i], person.depth_m.pixels()[i]);
   }
   return seen_m;
@@ -85,7 +88,7 @@ DepthImage hide_robot(double share, const Camera& camera, const Pose& X_BC,
     const double way = random(0.25, 0.9);
     const Vector3d place_B_m =
         X_BC.translation() + way * (robot_B_m - X_BC.translation()) + draw_point(random, 0.4 * way);
-    DepthImage seen_m = with_person(draw_person(random, place_B_m), camera, X_BC, depth_m);
+    DepthImage seen_m = with_person(draw_person(random, place_B_m), camera, X_BC, depth_m, robot);
     const double hidden = read_robot(seen_m, robot).hidden_share();
     if (!(hidden <= 0.9 && std::abs(hidden - share) < best_error)) continue;
     best_error = std::abs(hidden - share);

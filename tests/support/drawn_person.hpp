@@ -17,7 +17,7 @@ TriangleMesh draw_person(Random& random, const Eigen::Vector3d& place_B_m);
 
 /// The image with the person in it.
 DepthImage with_person(const TriangleMesh& person_B, const Camera& camera, const Pose& X_BC,
-                       const DepthImage& depth_m);
+                       const DepthImage& depth_m, const RobotImage& robot);
 
 /// A camera's image of a robot with somebody before it who hides about so large a share of it, 90 %
 /// at most, and with mixed pixels at their outline.

@@ -16,7 +16,7 @@ namespace berth {
 /// share of the robot is hidden: what is left of it is outline then. For D less may be hidden,
 /// since what hides the robot pulls at the fit.
 inline constexpr int kLeastJudgedPixels = 100;
-inline constexpr double kMostHiddenForSeenThrough = 0.9;
+inline constexpr double kMostHiddenForSeenThrough = 0.8;
 inline constexpr double kMostHiddenForDisplacement = 0.4;
 
 /// Tells whether one camera stands where it is said to, from the robot in its images. It has moved

@@ -37,7 +37,7 @@ struct CameraState {
   /// Why it is untimely.
   TimeStatus time = TimeStatus::ok;
   /// Of its frame.
-  CameraWatch watch;
+  CameraWatch watch = {};
 };
 
 }  // namespace berth
