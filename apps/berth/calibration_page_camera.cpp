@@ -80,9 +80,11 @@ class CameraSection {
     row("99 % within", length_cell(found_.before.p99_m), length_cell(found_.after.p99_m));
     row("agreement of depth and outline", fmt::format("{:.2f} of 2", found_.score_before),
         fmt::format("{:.2f} of 2", found_.score_after));
-    fmt::format_to(out_,
-                   "</table>\n<p class=\"faint\">Judge by the agreement: depth alone can fit well "
-                   "where the outline does not.</p>\n");
+    fmt::format_to(
+        out_,
+        "</table>\n<p class=\"faint\">After: with the error of the camera's depths, told "
+        "below, taken out. Judge by the agreement: depth alone can fit well where the "
+        "outline does not.</p>\n");
   }
 
   void add_histogram() {

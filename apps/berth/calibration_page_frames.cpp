@@ -42,7 +42,7 @@ std::string legend() {
       key(css(residual_color(0.02)), "farther"),
       key(striped(beyond_scale(-1)), "something more than 10 cm before the robot"),
       key(striped(beyond_scale(1)), "the camera sees through the model"),
-      key(css(kWebColor), "beside the model, like the robot, in no other image"),
+      key(css(kWebColor), "beside the model, like the robot, and not in most other images"),
       key(css(kOutlineColor) + "; outline: 1px solid var(--line)", "outline of the model"));
 }
 

@@ -14,13 +14,15 @@ constexpr float kLikeRobot_m = 0.05F;
 /// Two frames show the same thing up to this.
 constexpr float kSame_m = 0.03F;
 
-bool is_in_other_frames(const TeachInCamera& camera, std::size_t frame, Pixel p) {
+/// Things stand still: at least half of the other frames show them. The robot may have been here in
+/// some.
+bool is_scenery(const TeachInCamera& camera, std::size_t frame, Pixel p) {
   const float reading_m = camera.frames[frame].depth_m(p.u, p.v);
+  std::size_t same = 0;
   for (std::size_t k = 0; k < camera.frames.size(); ++k) {
-    if (k != frame && std::abs(camera.frames[k].depth_m(p.u, p.v) - reading_m) <= kSame_m)
-      return true;
+    same += k != frame && std::abs(camera.frames[k].depth_m(p.u, p.v) - reading_m) <= kSame_m;
   }
-  return false;
+  return same > 0 && 2 * same >= camera.frames.size() - 1;
 }
 
 bool is_inside(const Image<LinkId>& ids, Pixel p) {
@@ -54,7 +56,7 @@ Image<std::uint8_t> robot_webs(const TeachInCamera& camera, std::size_t frame,
       ring.push(q);
       const bool like_robot =
           std::abs(camera.frames[frame].depth_m(q.u, q.v) - z_m) <= kLikeRobot_m;
-      webs(q.u, q.v) = like_robot && !is_in_other_frames(camera, frame, q);
+      webs(q.u, q.v) = like_robot && !is_scenery(camera, frame, q);
     }
   }
   return webs;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "berth/scene/calibration_words.hpp"
@@ -115,8 +116,8 @@ class Advisor {
   /// What no frame shows yet, each as "with the arm ...".
   std::vector<std::string> gaps_of_view() const {
     std::vector<std::string> gaps;
-    add_side(coverage_.across, "left", "right", gaps);
-    add_side(coverage_.down, "upper", "lower", gaps);
+    add_side(coverage_.across, "to the left", "to the right", "width", gaps);
+    add_side(coverage_.down, "up", "down", "height", gaps);
     add_least_seen_link(gaps);
     const Spread& depth = coverage_.depth_m;
     if (depth.high - depth.low < kDeepEnough_m) {
@@ -128,15 +129,14 @@ class Advisor {
     return gaps;
   }
 
-  void add_side(const Spread& seen, const char* low_side, const char* high_side,
+  void add_side(const Spread& seen, const char* low_side, const char* high_side, const char* extent,
                 std::vector<std::string>& gaps) const {
     if (!(seen.high - seen.low < kWideEnough)) return;
-    const bool is_low = seen.low + seen.high < 1;
-    gaps.push_back(
-        fmt::format("with the arm in the {} part of the image: it covers {:.0f} % from "
-                    "edge to edge, nearer to the {} one",
-                    is_low ? high_side : low_side, 100 * (seen.high - seen.low),
-                    is_low ? low_side : high_side));
+    gaps.push_back(fmt::format(
+        "with the arm farther {} in the image: so far it was only seen between {:.0f} % and {:.0f} "
+        "% "
+        "of its {}",
+        seen.low + seen.high < 1 ? high_side : low_side, 100 * seen.low, 100 * seen.high, extent));
   }
 
   /// Only links that are seen at all and that a joint moves.
@@ -160,9 +160,9 @@ class Advisor {
     for (const FrameCoverage& frame : coverage_.frames) {
       if (!std::isnan(frame.median_residual_m)) medians_m.push_back(frame.median_residual_m);
     }
-    if (medians_m.empty()) return;
-    std::nth_element(medians_m.begin(), medians_m.begin() + medians_m.size() / 2, medians_m.end());
-    const double usual_m = medians_m[medians_m.size() / 2];
+    std::sort(medians_m.begin(), medians_m.end());
+    const double usual_m = medians_m.empty() ? std::numeric_limits<double>::quiet_NaN()
+                                             : medians_m[medians_m.size() / 2];
     for (const FrameCoverage& frame : coverage_.frames) say_odd_frame(frame, usual_m);
   }
 

@@ -34,7 +34,10 @@ Json spread_json(const ResidualSpread& spread) {
 
 Json settings_json(const std::vector<ProposedSetting>& settings) {
   Json json = Json::object();
-  for (const ProposedSetting& setting : settings) json[setting.key] = rounded(setting.value);
+  for (const ProposedSetting& setting : settings) {
+    const bool is_count = setting.key.ends_with("_px");
+    json[setting.key] = is_count ? Json(std::llround(setting.value)) : rounded(setting.value);
+  }
   return json;
 }
 

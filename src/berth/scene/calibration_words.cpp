@@ -53,21 +53,17 @@ std::string headline(const CameraCalibration& camera) {
     return fmt::format("Nothing found that can be used; the scene's pose stays: {}.",
                        camera.refused);
   }
-  const std::string frames = frames_text(camera.frames.size());
+  const std::string off = "This camera's view of the robot was off by " + mm_text(camera.moved_m);
   if (std::isnan(camera.halves_m)) {
-    return fmt::format(
-        "The robot moved by {} in this camera's view. {} cannot tell how sure that is.",
-        mm_text(camera.moved_m), camera.frames.size() == 1 ? "One frame" : "These " + frames);
+    return off + ". How sure the pose that was found is, one frame cannot tell.";
   }
-  const double sure_m = camera.halves_m / 2;
-  if (camera.moved_m <= sure_m) {
-    return fmt::format(
-        "The scene's pose was right: the robot moved by {} in this camera's view, and {} can tell "
-        "{}.",
-        mm_text(camera.moved_m), frames, mm_text(sure_m));
+  const std::string sure =
+      fmt::format("± {} ({})", mm_text(camera.halves_m / 2), frames_text(camera.frames.size()));
+  if (camera.moved_m <= camera.halves_m / 2) {
+    return fmt::format("The scene's pose was right: what was found differs by {}, sure to {}.",
+                       mm_text(camera.moved_m), sure);
   }
-  return fmt::format("The robot moved by {} in this camera's view, sure to ± {} ({}).",
-                     mm_text(camera.moved_m), mm_text(sure_m), frames);
+  return fmt::format("{}; now it is sure to {}.", off, sure);
 }
 
 std::string clock_text(const CameraCalibration& camera, const TeachInCamera& source) {
