@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "berth/calibration/frame_displacement.hpp"
 #include "berth/calibration/pose_watch.hpp"
 #include "berth/render/robot_renderer.hpp"
 #include "tests/support/drawn_person.hpp"
@@ -55,11 +57,77 @@ std::vector<DepthImage> noisy_images(const DepthImage& depth_m, std::uint32_t se
   return images;
 }
 
-SeenThroughs watch(const std::vector<DepthImage>& images, const RobotImage& robot) {
+/// One second of images, the robot where it is believed to be in them, and the joints.
+struct Second {
+  std::vector<DepthImage> images;
+  const RobotImage& robot;
+  const JointState& joints;
+  /// The pose of the camera as it is believed to be, in the frame of the one that took the images.
+  Pose X_CC = Pose::Identity();
+};
+
+template <class Take>
+void each_bumped_second(const OpenCamera& camera, const Bump& bump, int nth, const Take& take) {
+  Believed believed(camera);
+  for (std::size_t k = 0; k < camera.source.depth.size(); k += static_cast<std::size_t>(nth)) {
+    const auto images = noisy_images(camera.read_depth(k), static_cast<std::uint32_t>(1000 * k));
+    for (const Eigen::Vector3d& direction : directions()) {
+      const Pose X_CC = Eigen::Translation3d(bump.offset_m * direction) *
+                        Pose(Eigen::AngleAxisd(bump.angle_rad, direction));
+      take(Second{images, believed.robot(camera.at_exposure[k], X_CC), camera.at_exposure[k], X_CC});
+    }
+  }
+}
+
+template <class Take>
+void each_hidden_second(const OpenCamera& camera, int draws, const Take& take) {
+  Believed believed(camera);
+  const RobotModel& model = camera.view->robot()->model();
+  for (int draw = 0; draw < draws; ++draw) {
+    const auto seed = static_cast<std::uint32_t>(draw);
+    testing::Random random(7000 + seed);
+    const auto k = static_cast<std::size_t>(
+        random.whole(0, static_cast<int>(camera.source.depth.size()) - 1));
+    const RobotImage& robot = believed.robot(camera.at_exposure[k]);
+    const auto link = static_cast<std::size_t>(random.whole(1, model.link_count() - 1));
+    const Eigen::Vector3d target_B_m =
+        believed.pose().X_BL[model.evaluated_links[link]].translation();
+    const DepthImage hidden_m =
+        testing::hide_robot(random(0, 0.9), camera.view->camera(), believed.X_BC(), target_B_m,
+                            camera.read_depth(k), robot, seed);
+    take(Second{noisy_images(hidden_m, 100 * seed), robot, camera.at_exposure[k]});
+  }
+}
+
+SeenThroughs seen_throughs(const Second& second) {
   PoseWatch watch(kTellT);
   SeenThroughs told;
-  for (const DepthImage& depth_m : images) told.push_back(watch.look(depth_m, robot, {}).seen_through);
+  for (const DepthImage& depth_m : second.images) {
+    told.push_back(watch.look(depth_m, second.robot, {}).seen_through);
+  }
   return told;
+}
+
+FrameDisplacement displacement_of(const OpenCamera& camera, const Pose& X_CC) {
+  const RobotModel& model = camera.view->robot()->model();
+  const CameraMount& mount = camera.view->mount();
+  return {model, camera.view->robot()->meshes(), mount.camera, *model.find_link(mount.parent_link),
+          mount.X_PC * X_CC, 0};
+}
+
+/// Whether T or D raises an alarm within the second.
+bool is_watch_alarm(const OpenCamera& camera, const Second& second, const WatchSettings& rule) {
+  const FrameDisplacement displacement = displacement_of(camera, second.X_CC);
+  PoseWatch watch(rule, [&](DepthView depth_m, const JointState& joints, std::stop_token stop) {
+    return displacement.measure(depth_m, joints, std::move(stop));
+  });
+  JointState joints = second.joints;
+  for (std::size_t i = 0; i < second.images.size(); ++i) {
+    joints.stamp_s = static_cast<double>(i) / kFramesPerSecond;
+    watch.look(second.images[i], second.robot, joints);
+    if (watch.wait().has_moved) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -75,39 +143,47 @@ SeenThroughs own_frames(const OpenCamera& camera) {
   return told;
 }
 
-std::vector<SeenThroughs> bumped_seconds(const OpenCamera& camera, const Bump& bump, int nth) {
-  Believed believed(camera);
-  std::vector<SeenThroughs> seconds;
+Displacements own_displacements(const OpenCamera& camera, int nth) {
+  const FrameDisplacement displacement = displacement_of(camera, Pose::Identity());
+  Displacements told_m;
   for (std::size_t k = 0; k < camera.source.depth.size(); k += static_cast<std::size_t>(nth)) {
-    const auto images = noisy_images(camera.read_depth(k), static_cast<std::uint32_t>(1000 * k));
-    for (const Eigen::Vector3d& direction : directions()) {
-      const Pose X_CC = Eigen::Translation3d(bump.offset_m * direction) *
-                        Pose(Eigen::AngleAxisd(bump.angle_rad, direction));
-      seconds.push_back(watch(images, believed.robot(camera.at_exposure[k], X_CC)));
-    }
+    told_m.push_back(displacement.measure(camera.read_depth(k), camera.at_exposure[k])
+                         .value_or(std::numeric_limits<double>::quiet_NaN()));
   }
+  return told_m;
+}
+
+std::vector<SeenThroughs> bumped_seconds(const OpenCamera& camera, const Bump& bump, int nth) {
+  std::vector<SeenThroughs> seconds;
+  each_bumped_second(camera, bump, nth,
+                     [&](const Second& second) { seconds.push_back(seen_throughs(second)); });
   return seconds;
 }
 
 std::vector<SeenThroughs> hidden_seconds(const OpenCamera& camera, int draws) {
-  Believed believed(camera);
-  const RobotModel& model = camera.view->robot()->model();
   std::vector<SeenThroughs> seconds;
-  for (int draw = 0; draw < draws; ++draw) {
-    const auto seed = static_cast<std::uint32_t>(draw);
-    testing::Random random(7000 + seed);
-    const auto k = static_cast<std::size_t>(
-        random.whole(0, static_cast<int>(camera.source.depth.size()) - 1));
-    const RobotImage& robot = believed.robot(camera.at_exposure[k]);
-    const auto link = static_cast<std::size_t>(random.whole(1, model.link_count() - 1));
-    const Eigen::Vector3d target_B_m =
-        believed.pose().X_BL[model.evaluated_links[link]].translation();
-    const DepthImage hidden_m =
-        testing::hide_robot(random(0, 0.9), camera.view->camera(), believed.X_BC(), target_B_m,
-                            camera.read_depth(k), robot, seed);
-    seconds.push_back(watch(noisy_images(hidden_m, 100 * seed), robot));
-  }
+  each_hidden_second(camera, draws,
+                     [&](const Second& second) { seconds.push_back(seen_throughs(second)); });
   return seconds;
+}
+
+AlarmCount bumped_alarms(const OpenCamera& camera, const Bump& bump, int nth,
+                         const WatchSettings& rule) {
+  AlarmCount count;
+  each_bumped_second(camera, bump, nth, [&](const Second& second) {
+    count.alarms += is_watch_alarm(camera, second, rule);
+    ++count.seconds;
+  });
+  return count;
+}
+
+AlarmCount hidden_alarms(const OpenCamera& camera, int draws, const WatchSettings& rule) {
+  AlarmCount count;
+  each_hidden_second(camera, draws, [&](const Second& second) {
+    count.alarms += is_watch_alarm(camera, second, rule);
+    ++count.seconds;
+  });
+  return count;
 }
 
 bool is_alarm(const SeenThroughs& frames, const WatchSettings& rule) {

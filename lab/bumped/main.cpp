@@ -66,15 +66,38 @@ void print_camera(const Measured& camera) {
   }
 }
 
+void print_whole_watch(const OpenCamera& camera, int nth, int draws) {
+  const WatchSettings rule = learned_limits(own_frames(camera), own_displacements(camera, nth));
+  const auto cell = [](const AlarmCount& count) {
+    return fmt::format("{} of {}", count.alarms, count.seconds);
+  };
+  constexpr double kDegree = std::numbers::pi / 180;
+  fmt::print("| {} | {:.1f} % | {:.0f} mm | {} | {} | {} | {} | {} |\n", camera.source.name,
+             100 * rule.max_seen_through, 1000 * rule.max_displacement_m,
+             cell(bumped_alarms(camera, {.offset_m = 0.02}, nth, rule)),
+             cell(bumped_alarms(camera, {.angle_rad = 2 * kDegree}, nth, rule)),
+             cell(bumped_alarms(camera, {.angle_rad = 1 * kDegree}, nth, rule)),
+             cell(bumped_alarms(camera, {}, nth, rule)), cell(hidden_alarms(camera, draws, rule)));
+  std::fflush(stdout);
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"How often T alone finds a bumped camera within a second, and alarms for nothing"};
   std::string scene_file;
   int nth = 1, draws = 50;
+  bool whole_watch = false;
   app.add_option("scene", scene_file, "the scene file")->required();
   app.add_option("--nth", nth, "every so many frames are bumped")->check(CLI::Range(1, 1000));
   app.add_option("--draws", draws, "people for each camera")->check(CLI::Range(1, 1000));
+  app.add_flag("--whole-watch", whole_watch, "T and D together, by the limits that are learned");
   CLI11_PARSE(app, argc, argv);
   const OpenScene scene = open_scene(scene_file);
+  if (whole_watch) {
+    fmt::print("| camera | T | D | 2 cm | 2 degrees | 1 degree | not bumped | people |\n"
+               "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
+    for (const OpenCamera& camera : scene.cameras) print_whole_watch(camera, nth, draws);
+    return 0;
+  }
   for (const OpenCamera& camera : scene.cameras) print_camera(measure(camera, nth, draws));
   return 0;
 }

@@ -99,9 +99,10 @@ class CameraReport {
                          "2; expected {:.1f} at least",
                          out_.score_after, kLeastScore));
     } else if (out_.score_after < out_.score_before) {
-      refuse(fmt::format("the images agree with the scene's own pose by {:.3f} of 2, with the "
-                         "best one found by {:.3f}",
-                         out_.score_before, out_.score_after));
+      refuse(fmt::format("the best one found, {:.1f} mm from it, agrees with the images by {:.3f} of "
+                         "2, the scene's own by {:.3f}",
+                         1000 * displacement_m(drawer_, 2, estimate_, start_)[0],
+                         out_.score_after, out_.score_before));
     } else {
       measure_uncertainty();
     }

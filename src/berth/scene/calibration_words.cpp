@@ -50,8 +50,7 @@ std::string mm_text(double length_m) {
 
 std::string headline(const CameraCalibration& camera) {
   if (!camera.refused.empty()) {
-    return fmt::format("Nothing found that can be used; the scene's pose stays: {}.",
-                       camera.refused);
+    return fmt::format("The scene's pose stays: {}.", camera.refused);
   }
   const std::string off = "This camera's view of the robot was off by " + mm_text(camera.moved_m);
   if (std::isnan(camera.halves_m)) {
