@@ -124,7 +124,7 @@ TEST(CalibrationPage, ARefusedPoseProposesNothing) {
   const Page page(small.report());
   EXPECT_EQ(
       page.texts("//p[@class='lead refused']"),
-      Texts{"Nothing found that can be used; the scene's pose stays: the images agree by 0.20 "
+      Texts{"The scene's pose stays: the images agree by 0.20 "
             "of 2."});
   EXPECT_TRUE(page.has("None are proposed"));
   EXPECT_FALSE(page.has("nan"));

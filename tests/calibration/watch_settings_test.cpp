@@ -57,7 +57,7 @@ TEST(LearnedLimits, LieAboveTheGreatestValueThatWasSeen) {
 TEST(LearnedLimits, LeaveRoomForAPersonWhereLittleWasSeen) {
   const WatchSettings settings = learned_limits(std::vector{0.001}, std::vector{0.001});
   EXPECT_DOUBLE_EQ(settings.max_seen_through, 0.03);
-  EXPECT_DOUBLE_EQ(settings.max_displacement_m, 0.012);
+  EXPECT_DOUBLE_EQ(settings.max_displacement_m, 0.008);
 }
 
 TEST(LearnedLimits, AreOffWhereNothingWasSeen) {

@@ -35,7 +35,7 @@ WatchSettings learned_limits(std::span<const double> seen_through,
     settings.max_seen_through = std::clamp(2 * most_seen_through + 0.01, 0.03, 1.0);
   }
   const double most_m = greatest(displacement_m);
-  if (!std::isnan(most_m)) settings.max_displacement_m = std::max(1.5 * most_m, 0.010);
+  if (!std::isnan(most_m)) settings.max_displacement_m = std::max(1.5 * most_m, 0.008);
   return settings;
 }
 
