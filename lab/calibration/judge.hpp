@@ -25,6 +25,8 @@ struct Judgement {
   /// Pixels of the masks, which show the robot in the colour image, that stay obstacles.
   int mask_pixels = 0;
   int mask_pixels_left = 0;
+  /// Those of them that lie within 10 cm of the depth of a robot pixel near them.
+  int robot_pixels_left = 0;
 };
 Judgement judge(const SceneFile& scene, const std::filesystem::path& folder);
 

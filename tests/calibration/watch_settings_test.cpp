@@ -11,7 +11,7 @@
 namespace berth {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotTold = std::numeric_limits<double>::quiet_NaN();
 
 std::string message_for(const std::function<void(WatchSettings&)>& spoil) {
   WatchSettings settings;
@@ -31,7 +31,7 @@ TEST(WatchSettings, EachKeyOutsideItsDomainIsNamed) {
   const std::pair<const char*, std::function<void(Settings&)>> cases[] = {
       {"watch.max_seen_through: -0.1", [](Settings& s) { s.max_seen_through = -0.1; }},
       {"watch.max_seen_through: 1.1", [](Settings& s) { s.max_seen_through = 1.1; }},
-      {"watch.max_displacement_m: nan", [](Settings& s) { s.max_displacement_m = kNaN; }},
+      {"watch.max_displacement_m: nan", [](Settings& s) { s.max_displacement_m = kNotTold; }},
       {"watch.agreeing_frames: 0", [](Settings& s) { s.agreeing_frames = 0; }},
       {"watch.frames: 1001", [](Settings& s) { s.frames = 1001; }},
       {"watch.check_every_s: -1", [](Settings& s) { s.check_every_s = -1; }},
@@ -48,7 +48,7 @@ TEST(WatchSettings, EachKeyOutsideItsDomainIsNamed) {
 
 TEST(LearnedLimits, LieAboveTheGreatestValueThatWasSeen) {
   const WatchSettings settings =
-      learned_limits(std::vector{0.01, kNaN, 0.04, 0.02}, std::vector{0.002, 0.016, kNaN});
+      learned_limits(std::vector{0.01, kNotTold, 0.04, 0.02}, std::vector{0.002, 0.016, kNotTold});
   EXPECT_DOUBLE_EQ(settings.max_seen_through, 0.09);
   EXPECT_DOUBLE_EQ(settings.max_displacement_m, 0.024);
   EXPECT_NO_THROW(validate(settings));
@@ -62,7 +62,7 @@ TEST(LearnedLimits, LeaveRoomForAPersonWhereLittleWasSeen) {
 
 TEST(LearnedLimits, AreOffWhereNothingWasSeen) {
   EXPECT_FALSE(learned_limits({}, {}).is_on());
-  EXPECT_FALSE(learned_limits(std::vector{kNaN}, std::vector{kNaN}).is_on());
+  EXPECT_FALSE(learned_limits(std::vector{kNotTold}, std::vector{kNotTold}).is_on());
   EXPECT_DOUBLE_EQ(learned_limits(std::vector{0.9}, {}).max_seen_through, 1)
       << "which no frame exceeds: valid, and no alarm";
 }
