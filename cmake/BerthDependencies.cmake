@@ -1,6 +1,7 @@
 # The libraries of the house; also what an installed berth asks of its user (berthConfig.cmake includes this file).
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(TBB REQUIRED)
+find_package(Threads REQUIRED)
 find_package(assimp REQUIRED)
 find_package(fmt REQUIRED)
 find_package(pugixml REQUIRED)

@@ -140,15 +140,19 @@ void add_visibility(CLI::App& command, EvaluationArguments& arguments) {
       ->check(CLI::IsMember({"on", "off"}));
 }
 
-void add_output(CLI::App& command, CommonArguments& arguments) {
+void add_format(CLI::App& command, const char* what, OutputFormat& format) {
   const std::map<std::string, OutputFormat> formats{{"table", OutputFormat::table},
                                                     {"json", OutputFormat::json}};
   command
       .add_option_function<std::string>(
-          "--format",
-          [&arguments, formats](const std::string& name) { arguments.format = formats.at(name); },
-          "A table for people, or one JSON object per frame and line (default: table)")
+          "--format", [&format, formats](const std::string& name) { format = formats.at(name); },
+          what)
       ->check(CLI::IsMember({"table", "json"}));
+}
+
+void add_output(CLI::App& command, CommonArguments& arguments) {
+  add_format(command, "A table for people, or one JSON object per frame and line (default: table)",
+             arguments.format);
   command.add_option("--out", arguments.out, "Write there instead of to standard output")
       ->type_name("FILE");
   add_threads(command, arguments.threads);
@@ -226,6 +230,30 @@ void add_filter_options(CLI::App& command, FilterArguments& arguments) {
   add_backend_options(command, "Where images are rendered and filtered", arguments.where);
   add_threads(command, arguments.threads);
   command.footer("Example:\n  berth filter scene.yaml --out filtered");
+}
+
+void add_calibrate_options(CLI::App& command, CalibrateArguments& arguments) {
+  command
+      .add_option("scene", arguments.scene,
+                  "The scene: the arm in five or more poses, nobody and nothing else moves")
+      ->required()
+      ->type_name("SCENE.yaml");
+  command
+      .add_option("--out", arguments.out,
+                  "The scene with what was found; the scene itself is never changed")
+      ->required()
+      ->type_name("NEW.yaml");
+  command
+      .add_option("--report", arguments.report_folder,
+                  "Folder for a page with pictures before and after")
+      ->type_name("DIR");
+  command.add_flag("--joint-zeros", arguments.joint_zeros,
+                   "Look for the joints' zeros, too; wants ten poses or more");
+  command.add_flag("--correct-depth", arguments.correct_depth,
+                   "Take the camera's depth error out of its readings from now on");
+  add_format(command, "A table for people, or one JSON object (default: table)", arguments.format);
+  add_threads(command, arguments.threads);
+  command.footer("Example:\n  berth calibrate scene.yaml --out taught_in.yaml --report report");
 }
 
 void add_evaluate_options(CLI::App& command, EvaluateArguments& arguments) {

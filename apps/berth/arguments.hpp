@@ -57,6 +57,16 @@ struct FilterArguments {
   int threads = 0;
 };
 
+struct CalibrateArguments {
+  std::filesystem::path scene;
+  std::filesystem::path out;
+  std::filesystem::path report_folder;
+  bool joint_zeros = false;
+  bool correct_depth = false;
+  OutputFormat format = OutputFormat::table;
+  int threads = 0;
+};
+
 struct EvaluateArguments : CommonArguments {
   std::filesystem::path camera;
   std::filesystem::path robot_depth;
@@ -73,6 +83,7 @@ struct DemoArguments {
 
 void add_run_options(CLI::App& command, RunArguments& arguments);
 void add_filter_options(CLI::App& command, FilterArguments& arguments);
+void add_calibrate_options(CLI::App& command, CalibrateArguments& arguments);
 void add_evaluate_options(CLI::App& command, EvaluateArguments& arguments);
 void add_demo_options(CLI::App& command, DemoArguments& arguments);
 

@@ -21,6 +21,7 @@ int run_command_line(int argc, const char* const* argv) {
   DemoArguments demo;
   RunArguments run;
   FilterArguments filter;
+  CalibrateArguments calibrate;
   EvaluateArguments evaluate;
   CLI::App* demo_command = program.add_subcommand(
       "demo", "Run the bundled scene: a table of links and distances, and pictures");
@@ -28,11 +29,14 @@ int run_command_line(int argc, const char* const* argv) {
       program.add_subcommand("run", "Run the frames of a scene through the whole pipeline");
   CLI::App* filter_command = program.add_subcommand(
       "filter", "Write the robot's depth, its link IDs and the obstacles as images");
+  CLI::App* calibrate_command = program.add_subcommand(
+      "calibrate", "Find the cameras' poses and settings from images of the moving arm");
   CLI::App* evaluate_command =
       program.add_subcommand("evaluate", "Distances from these three images alone");
   add_demo_options(*demo_command, demo);
   add_run_options(*run_command, run);
   add_filter_options(*filter_command, filter);
+  add_calibrate_options(*calibrate_command, calibrate);
   add_evaluate_options(*evaluate_command, evaluate);
   program.footer(
       "Examples:\n  berth demo\n  berth run scene.yaml --picture pictures\nberth COMMAND --help "
@@ -50,6 +54,9 @@ int run_command_line(int argc, const char* const* argv) {
   if (*demo_command) return carry_out(demo.threads, [&] { app::demo_command(demo); });
   if (*run_command) return carry_out(run.threads, [&] { app::run_command(run); });
   if (*filter_command) return carry_out(filter.threads, [&] { app::filter_command(filter); });
+  if (*calibrate_command) {
+    return carry_out(calibrate.threads, [&] { app::calibrate_command(calibrate); });
+  }
   return carry_out(evaluate.threads, [&] { app::evaluate_command(evaluate); });
 }
 

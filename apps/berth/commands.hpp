@@ -8,6 +8,7 @@ namespace berth::app {
 /// user, and Interrupted where the user stopped it.
 void run_command(const RunArguments& arguments);
 void filter_command(const FilterArguments& arguments);
+void calibrate_command(const CalibrateArguments& arguments);
 void evaluate_command(const EvaluateArguments& arguments);
 void demo_command(const DemoArguments& arguments);
 

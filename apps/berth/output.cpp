@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <stdexcept>
@@ -17,15 +18,32 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Such as "camera left" or "cameras left, right (too_old, 0.210 s)".
+/// Such as "moved" or "moved: 31 % of the robot seen through, off by 0.054 m".
+std::string trouble_text(const CameraState& state) {
+  std::string text(name_of(state.status));
+  if (state.status != CameraStatus::moved) return text;
+  const char* before = ": ";
+  if (!std::isnan(state.watch.seen_through)) {
+    text += fmt::format("{}{:.0f} % of the robot seen through", before,
+                        100 * state.watch.seen_through);
+    before = ", ";
+  }
+  if (!std::isnan(state.watch.displacement_m)) {
+    text += fmt::format("{}off by {:.3f} m", before, state.watch.displacement_m);
+  }
+  return text;
+}
+
+/// Such as "camera left" or "cameras left, right (too_old)".
 std::string cameras_text(const FrameResult& result) {
   std::string text = result.cameras.size() == 1 ? "camera" : "cameras";
   const char* before = " ";
   for (const CameraResult& camera : result.cameras) {
     text += before + camera.name;
     before = ", ";
-    if (camera.state.status != CameraStatus::ok && !result.asks_images) {
-      text += fmt::format(" ({})", name_of(camera.state.status));
+    const bool is_said = camera.state.status == CameraStatus::moved || !result.asks_images;
+    if (camera.state.status != CameraStatus::ok && is_said) {
+      text += fmt::format(" ({})", trouble_text(camera.state));
     }
   }
   return text;

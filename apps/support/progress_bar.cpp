@@ -20,7 +20,12 @@ ProgressBar::~ProgressBar() { clear(); }
 void ProgressBar::step() {
   ++done_;
   if (!is_terminal_) return;
-  const std::size_t filled = total_ == 0 ? kWidth : kWidth * done_ / total_;
+  if (total_ == 0) {
+    fmt::print(stderr, "\r{}: step {}", doing_, done_);
+    std::fflush(stderr);
+    return;
+  }
+  const std::size_t filled = kWidth * done_ / total_;
   fmt::print(stderr, "\r{} [{:=<{}}{: <{}}] {}/{}", doing_, "", filled, "", kWidth - filled, done_,
              total_);
   std::fflush(stderr);

@@ -1,9 +1,7 @@
 #include "lab/filter/judged_recording.hpp"
 
 #include <Eigen/Geometry>
-#include <fstream>
 #include <numbers>
-#include <sstream>
 #include <stdexcept>
 
 #include "berth/scene/open_scene.hpp"
@@ -12,26 +10,6 @@
 
 namespace berth::lab {
 namespace {
-
-using Ranges = std::map<std::pair<int, std::string>, ExpectedRange>;
-
-Ranges read_ranges(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream) throw std::runtime_error(file.string() + ": cannot be read");
-  std::string line;
-  std::getline(stream, line);
-  Ranges ranges;
-  while (std::getline(stream, line)) {
-    std::istringstream fields(line);
-    int frame = 0;
-    std::string link;
-    ExpectedRange range;
-    fields >> frame >> link >> range.min_m >> range.max_m;
-    range.is_checked = line.find("[checked") != std::string::npos;
-    ranges[{frame, link}] = range;
-  }
-  return ranges;
-}
 
 Eigen::Vector3d random_direction(testing::Random& random) {
   Eigen::Vector3d direction{random.gaussian(), random.gaussian(), random.gaussian()};
@@ -66,7 +44,7 @@ JudgedRecording load_recording(const std::filesystem::path& folder, int draws) {
   const OpenCamera& camera = scene.cameras.front();
   const View& view = *camera.view;
   const RobotModel& model = view.robot()->model();
-  const Ranges ranges = read_ranges(folder / "expected.tsv");
+  const ExpectedRanges ranges = read_expected_ranges(folder / "expected.tsv");
   const std::vector<std::string> names = model.evaluated_link_names();
   RobotRenderer renderer(view.robot()->meshes(), view.camera());
   JudgedRecording recording{folder.filename().string(), {}};

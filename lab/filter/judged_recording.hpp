@@ -3,24 +3,15 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "berth/types/camera.hpp"
 #include "berth/types/image.hpp"
 #include "berth/types/robot_image.hpp"
+#include "lab/filter/expected_ranges.hpp"
 
 namespace berth::lab {
-
-/// The range that a link's distance lies in (expected.tsv).
-struct ExpectedRange {
-  double min_m = 0;
-  double max_m = 0;
-  /// Against a background without a robot; else an estimate.
-  bool is_checked = false;
-};
 
 /// One image with the robot where the calibration says that it is.
 struct JudgedView {

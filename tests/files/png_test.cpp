@@ -104,6 +104,28 @@ TEST(DepthPng, DepthsOutsideNearAndFarAreNoReading) {
   EXPECT_TRUE(std::isnan(kept_m(3, 0)));
 }
 
+/// Near and far hold for what the offset gives; a reading that it takes to 0 or below is none.
+TEST(DepthPng, AnOffsetIsAddedToReadingsBeforeNearAndFar) {
+  const TemporaryFolder folder;
+  DepthImage depth_m(6, 1, kNoDepth);
+  for (int u = 0; u < 5; ++u) depth_m(u, 0) = 0.1F * static_cast<float>(u + 1);
+  write_depth_png(folder / "depth.png", depth_m, 0.001);
+  const auto read_with = [&](double near_m, double far_m, double offset_m) {
+    return read_depth_png(folder / "depth.png", camera_of(6, 1), 0.001, near_m, far_m, offset_m);
+  };
+  const DepthImage nearer_m = read_with(0, kInfinity, -0.2);
+  EXPECT_TRUE(std::isnan(nearer_m(0, 0)));
+  EXPECT_TRUE(std::isnan(nearer_m(1, 0)));
+  EXPECT_FLOAT_EQ(nearer_m(2, 0), 0.1F);
+  EXPECT_TRUE(std::isnan(nearer_m(5, 0)));
+  const DepthImage kept_m = read_with(0.25, 0.45, 0.1);
+  EXPECT_TRUE(std::isnan(kept_m(0, 0)));
+  EXPECT_FLOAT_EQ(kept_m(1, 0), 0.3F);
+  EXPECT_FLOAT_EQ(kept_m(2, 0), 0.4F);
+  EXPECT_TRUE(std::isnan(kept_m(3, 0)));
+  EXPECT_TRUE(std::isnan(kept_m(5, 0)));
+}
+
 TEST(DepthPng, AViewWithGapsBetweenItsRowsIsWrittenWithoutThem) {
   const TemporaryFolder folder;
   DepthImage depth_m(4, 3, 9.0F);

@@ -174,6 +174,18 @@ TEST_F(GlPipeline, ASensorRuleIsRefusedByName) {
   EXPECT_EQ(refusal({}), "");
 }
 
+TEST_F(GlPipeline, AWatchIsRefusedByName) {
+  for (const WatchSettings& watch :
+       {WatchSettings{.max_seen_through = 0.03}, WatchSettings{.max_displacement_m = 0.02}}) {
+    ViewSettings settings = camera_.view->settings();
+    settings.watch = watch;
+    const auto view = testing::view_with(*camera_.view, settings);
+    EXPECT_EQ(error_message<std::invalid_argument>([&] { GlObserver observer(view); }),
+              "watch: a camera is watched on the CPU alone; expected max_seen_through and "
+              "max_displacement_m to be 0 on OpenGL");
+  }
+}
+
 TEST_F(GlPipeline, AnImageOfAnotherSizeIsRefused) {
   const auto gl_view = view_with(Method::gl_exact);
   GlObserver observer(gl_view);

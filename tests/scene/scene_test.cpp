@@ -30,6 +30,7 @@ cameras:
     pose: {parent: base_link, xyz: [1.5, 0, 0.8], rpy: [0, 0, 1.5707963267948966]}
     depth: [depth/0.png, /data/1.png]
     depth_scale: 0.0002
+    depth_offset_m: -0.003
     stamps: [-0.5, 2]
     near_m: 0.3
     far_m: 4
@@ -80,6 +81,7 @@ time: {max_skew_s: 0.01, max_extrapolation_s: 0.02}
   EXPECT_EQ(left.parent_link, "base_link");
   EXPECT_EQ(left.depth, (std::vector<fs::path>{folder / "a/depth/0.png", "/data/1.png"}));
   EXPECT_EQ(left.depth_scale_m, 0.0002);
+  EXPECT_EQ(left.depth_offset_m, -0.003);
   EXPECT_EQ(left.stamps_s, (std::vector<double>{-0.5, 2}));
   EXPECT_EQ(left.near_m, 0.3);
   EXPECT_EQ(left.far_m, 4);
@@ -121,6 +123,7 @@ TEST(Scene, LeavesDefaultsToThoseWhoOwnThem) {
   EXPECT_EQ(scene.robot.geometry, GeometryKind::visual);
   EXPECT_TRUE(scene.robot.package_paths.empty());
   EXPECT_EQ(scene.cameras[0].depth_scale_m, 0.001);
+  EXPECT_EQ(scene.cameras[0].depth_offset_m, 0);
   EXPECT_TRUE(scene.cameras[0].stamps_s.empty());
   EXPECT_EQ(scene.cameras[0].near_m, 0);
   EXPECT_EQ(scene.cameras[0].far_m, std::numeric_limits<double>::infinity());

@@ -39,22 +39,6 @@ DrawnObstacle box_at(const Eigen::Vector3d& size_m, const Pose& X_BO) {
   return {make_box(size_m), X_BO};
 }
 
-void add_room(Random& random, const RobotExtent& robot, DrawnScene& scene) {
-  const double floor_z_m = std::min(robot.lowest_z_m - robot.radius_m * random(0.02, 0.3),
-                                    scene.X_BC.translation().z() - kLeastCameraClearance_m);
-  Pose X_BO = Pose::Identity();
-  X_BO.translation() = robot.centre_B_m;
-  X_BO.translation().z() = floor_z_m - kWallThickness_m / 2;
-  const double size_m = 2 * kRoomHalf_m;
-  scene.obstacles.push_back(box_at({size_m, size_m, kWallThickness_m}, X_BO));
-  Eigen::Vector3d away = scene.X_BC.linear().col(2);
-  away.z() = 0;
-  X_BO.linear() =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), away).toRotationMatrix();
-  X_BO.translation() = robot.centre_B_m + robot.radius_m * random(1.1, 2.5) * away.normalized();
-  scene.obstacles.push_back(box_at({kWallThickness_m, size_m, size_m}, X_BO));
-}
-
 /// A point on a link, each link as likely as the others.
 Eigen::Vector3d draw_robot_point_B(Random& random, const RobotModel& model, const RobotPose& pose) {
   const std::size_t index = model.evaluated_links[random.whole(0, model.link_count() - 1)];
@@ -144,6 +128,23 @@ RobotPose obstacle_pose(const std::vector<DrawnObstacle>& obstacles) {
   return pose;
 }
 
+void add_room(Random& random, const RobotExtent& robot, const Pose& X_BC,
+              std::vector<DrawnObstacle>& obstacles) {
+  const double floor_z_m = std::min(robot.lowest_z_m - robot.radius_m * random(0.02, 0.3),
+                                    X_BC.translation().z() - kLeastCameraClearance_m);
+  Pose X_BO = Pose::Identity();
+  X_BO.translation() = robot.centre_B_m;
+  X_BO.translation().z() = floor_z_m - kWallThickness_m / 2;
+  const double size_m = 2 * kRoomHalf_m;
+  obstacles.push_back(box_at({size_m, size_m, kWallThickness_m}, X_BO));
+  Eigen::Vector3d away = X_BC.linear().col(2);
+  away.z() = 0;
+  X_BO.linear() =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), away).toRotationMatrix();
+  X_BO.translation() = robot.centre_B_m + robot.radius_m * random(1.1, 2.5) * away.normalized();
+  obstacles.push_back(box_at({kWallThickness_m, size_m, size_m}, X_BO));
+}
+
 DrawnScene draw_scene(const RobotModel& model, const std::vector<MeshTree>& link_trees,
                       const DrawnSceneSettings& settings, std::uint32_t seed) {
   Random random(seed);
@@ -152,7 +153,7 @@ DrawnScene draw_scene(const RobotModel& model, const std::vector<MeshTree>& link
   forward_kinematics(model, scene.joints.position, scene.pose);
   const RobotExtent robot = extent_of(model, scene.pose);
   look_at_robot(random, model, robot, settings, scene);
-  if (settings.has_room) add_room(random, robot, scene);
+  if (settings.has_room) add_room(random, robot, scene.X_BC, scene.obstacles);
   add_obstacles(random, model, link_trees, robot, settings, scene);
   cast_obstacles(scene);
   return scene;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "berth/robot/kinematics.hpp"
+#include "tests/support/drawn_camera.hpp"
 #include "tests/support/mesh_distance.hpp"
 #include "tests/support/random.hpp"
 
@@ -50,6 +51,10 @@ struct DrawnScene {
 /// robot cannot be seen from anywhere.
 DrawnScene draw_scene(const RobotModel& model, const std::vector<MeshTree>& link_trees,
                       const DrawnSceneSettings& settings, std::uint32_t seed);
+
+/// A floor below the robot, and a wall behind it as a camera with this pose sees it.
+void add_room(Random& random, const RobotExtent& robot, const Pose& X_BC,
+              std::vector<DrawnObstacle>& obstacles);
 
 /// Within the limits, continuous joints within +- pi.
 JointState draw_joints(Random& random, const RobotModel& model);

@@ -7,10 +7,8 @@
 #include <new>
 
 namespace berth {
-namespace {
 
-/// The folder's own name is meant letter by letter.
-std::string escape(const std::string& text) {
+std::string escape_glob(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
     if (std::string_view("*?[]\\").find(c) != std::string_view::npos) escaped += '\\';
@@ -18,8 +16,6 @@ std::string escape(const std::string& text) {
   }
   return escaped;
 }
-
-}  // namespace
 
 bool is_quick_pattern(const std::string& pattern) {
   int parts = 0;
@@ -32,7 +28,8 @@ bool is_quick_pattern(const std::string& pattern) {
 std::vector<std::filesystem::path> glob_files(const std::filesystem::path& folder,
                                               const std::string& pattern) {
   const bool absolute = pattern.starts_with('/');
-  const std::string full = absolute ? pattern : escape((folder / "").string()) + pattern;
+  // The folder's own name is meant letter by letter.
+  const std::string full = absolute ? pattern : escape_glob((folder / "").string()) + pattern;
   glob_t found{};
   const int code = ::glob(full.c_str(), GLOB_NOSORT, nullptr, &found);
   std::vector<std::string> names;

@@ -19,9 +19,11 @@ void check_scale(const std::filesystem::path& file, double depth_scale_m) {
   throw_bad_file({file, 0, "depth scale"}, fmt::format("{}", depth_scale_m), kDepthScaleExpected);
 }
 
-float depth_of(std::uint16_t units, double depth_scale_m, float near_m, float far_m) {
-  const float depth_m = static_cast<float>(units * depth_scale_m);
-  const bool valid = units != 0 && std::isfinite(depth_m) && depth_m >= near_m && depth_m <= far_m;
+float depth_of(std::uint16_t units, double depth_scale_m, double offset_m, float near_m,
+               float far_m) {
+  const float depth_m = static_cast<float>(units * depth_scale_m + offset_m);
+  const bool valid = units != 0 && std::isfinite(depth_m) && depth_m > 0 && depth_m >= near_m &&
+                     depth_m <= far_m;
   return valid ? depth_m : kNoDepth;
 }
 
@@ -45,13 +47,15 @@ Image<std::uint16_t> numbers_of(ImageView<T> image, ToNumber to_number) {
 bool is_depth_scale(double depth_scale_m) { return depth_scale_m >= 1e-6 && depth_scale_m <= 0.1; }
 
 DepthImage read_depth_png(const std::filesystem::path& file, const Camera& expected_size,
-                          double depth_scale_m, double near_m, double far_m) {
+                          double depth_scale_m, double near_m, double far_m, double offset_m) {
   check_scale(file, depth_scale_m);
   const Image<std::uint16_t> units = read_gray_png(file, expected_size, PngDepths::only_16_bit);
   DepthImage depth_m(units.width(), units.height());
   std::transform(units.pixels().begin(), units.pixels().end(), depth_m.pixels().begin(),
                  [=, near = static_cast<float>(near_m), far = static_cast<float>(far_m)](
-                     std::uint16_t value) { return depth_of(value, depth_scale_m, near, far); });
+                     std::uint16_t value) {
+                   return depth_of(value, depth_scale_m, offset_m, near, far);
+                 });
   return depth_m;
 }
 

@@ -15,13 +15,15 @@ namespace berth {
 bool is_depth_scale(double depth_scale_m);
 constexpr const char* kDepthScaleExpected = "metres per unit from 1e-6 to 0.1, such as 0.001";
 
-/// Depth in metres of a 16-bit grayscale PNG whose unit is `depth_scale_m`. The pixel value 0 and
-/// depths outside [near_m, far_m] become NaN. Throws std::runtime_error where the file is missing,
+/// Depth in metres of a 16-bit grayscale PNG whose unit is `depth_scale_m`: its number times the
+/// unit, plus `offset_m`. The number 0, depths that are not above 0 then, and those outside
+/// [near_m, far_m] become NaN. Throws std::runtime_error where the file is missing,
 /// empty, incomplete, damaged, of another pixel format, of another size than the camera's, or the
 /// scale is no is_depth_scale.
 DepthImage read_depth_png(const std::filesystem::path& file, const Camera& expected_size,
                           double depth_scale_m, double near_m = 0,
-                          double far_m = std::numeric_limits<double>::infinity());
+                          double far_m = std::numeric_limits<double>::infinity(),
+                          double offset_m = 0);
 
 /// The link IDs of an 8- or 16-bit grayscale PNG. Throws as read_depth_png does.
 Image<LinkId> read_link_ids_png(const std::filesystem::path& file, const Camera& expected_size);

@@ -186,7 +186,10 @@ YamlValue YamlMap::at(std::string_view key) const {
 }
 
 YamlValue load_yaml(const std::filesystem::path& file) {
-  const std::string text = read_file_bytes(file);
+  return parse_yaml(file, read_file_bytes(file));
+}
+
+YamlValue parse_yaml(const std::filesystem::path& file, const std::string& text) {
   try {
     if (const int documents = count_documents(text); documents != 1) {
       throw_bad_file({file}, documents == 0 ? "no YAML document" : "several YAML documents", "one");

@@ -76,4 +76,7 @@ class YamlMap {
 /// grammar.
 YamlValue load_yaml(const std::filesystem::path& file);
 
+/// The same for a text that is, or will be, the content of `file`.
+YamlValue parse_yaml(const std::filesystem::path& file, const std::string& text);
+
 }  // namespace berth

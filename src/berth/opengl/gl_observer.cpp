@@ -16,6 +16,13 @@ void require_no_sensor_rules(const SensorSettings& sensor) {
       fmt::format("sensor.{}: runs on the CPU alone; expected it off on OpenGL", key));
 }
 
+void require_no_watch(const WatchSettings& watch) {
+  if (!watch.is_on()) return;
+  throw std::invalid_argument(
+      "watch: a camera is watched on the CPU alone; expected max_seen_through and "
+      "max_displacement_m to be 0 on OpenGL");
+}
+
 }  // namespace
 
 GlObserver::GlObserver(std::shared_ptr<const View> view)
@@ -24,6 +31,7 @@ GlObserver::GlObserver(std::shared_ptr<const View> view)
       renderer_(view_->robot()->model(), view_->camera()),
       region_(view_->camera().width_px, view_->camera().height_px) {
   require_no_sensor_rules(view_->settings().sensor);
+  require_no_watch(view_->settings().watch);
   const double scale = view_->settings().self_filter.robot_region_scale;
   if (scale == 0) return;
   region_renderer_.emplace(robot_region(view_->robot()->model(), scale), view_->camera());

@@ -15,8 +15,8 @@ namespace berth {
 /// the context that is current when it is made, and to its thread.
 class GlObserver {
  public:
-  /// Throws std::invalid_argument where a rule of the view's SensorSettings is on: they run on the
-  /// CPU alone.
+  /// Throws std::invalid_argument where a rule of the view's SensorSettings is on, or its watch: they
+  /// run on the CPU alone.
   explicit GlObserver(std::shared_ptr<const View> view);
 
   /// As Observer::observe. `frame` was made for the view's camera.

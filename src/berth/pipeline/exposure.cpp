@@ -17,6 +17,7 @@ bool begin_exposure(const std::shared_ptr<const View>& view, DepthView depth_m,
   out.number = ++exposures;
   out.stamp_s = at_exposure.stamp_s;
   out.time = time;
+  out.watch = {};
   if (time.status != TimeStatus::ok) {
     out.X_BC = unset_pose();
     out.pose.X_BL.clear();

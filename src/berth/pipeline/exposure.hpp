@@ -5,6 +5,7 @@
 
 #include "berth/robot/kinematics.hpp"
 #include "berth/types/camera.hpp"
+#include "berth/types/camera_watch.hpp"
 #include "berth/types/image.hpp"
 #include "berth/types/joint_state.hpp"
 #include "berth/types/time_status.hpp"
@@ -22,6 +23,8 @@ struct Exposure {
   double stamp_s = 0;
   /// Unless its status is ok there is no robot and no reading in the frame, and no answer from it.
   FrameTime time;
+  /// Where the camera has moved, there is no answer either.
+  CameraWatch watch;
   /// The camera's pose in the robot's root link, and the robot's, when the image was exposed.
   Pose X_BC = Pose::Identity();
   RobotPose pose;

@@ -14,22 +14,33 @@ bool is_used(CameraStatus status) {
 
 }  // namespace
 
-CameraState camera_state(const Frame* frame, double now_s, const TimeSettings& settings) {
+CameraState camera_state(const Exposure& exposure, double now_s, const TimeSettings& settings) {
   CameraState state;
-  if (!frame || !frame->view) return state;
-  state.stamp_s = frame->stamp_s;
-  state.age_s = now_s - frame->stamp_s;
-  state.time = frame->time.status;
-  if (frame->time.status != TimeStatus::ok) {
+  if (!exposure.view) return state;
+  state.stamp_s = exposure.stamp_s;
+  state.age_s = now_s - exposure.stamp_s;
+  state.time = exposure.time.status;
+  state.watch = exposure.watch;
+  if (state.time != TimeStatus::ok) {
     state.status = CameraStatus::untimely;
+  } else if (exposure.watch.has_moved) {
+    state.status = CameraStatus::moved;
+    state.time = TimeStatus::camera_moved;
   } else if (state.age_s < -settings.max_clock_offset_s) {
     state.status = CameraStatus::untimely;
     state.time = TimeStatus::frame_in_future;
   } else if (!(state.age_s <= settings.max_frame_age_s)) {
     state.status = CameraStatus::too_old;
   } else {
-    state.status = frame->is_blind ? CameraStatus::blind : CameraStatus::ok;
+    state.status = CameraStatus::ok;
   }
+  return state;
+}
+
+CameraState camera_state(const Frame* frame, double now_s, const TimeSettings& settings) {
+  if (!frame) return {};
+  CameraState state = camera_state(*frame, now_s, settings);
+  if (state.status == CameraStatus::ok && frame->is_blind) state.status = CameraStatus::blind;
   return state;
 }
 

@@ -11,7 +11,10 @@
 
 namespace berth {
 
-/// What becomes of one camera at `now_s`. `frame` is its newest one, or null where it has none yet.
+/// What becomes of one camera at `now_s`, but for whether it is blind.
+CameraState camera_state(const Exposure& exposure, double now_s, const TimeSettings& settings);
+
+/// The same. `frame` is its newest one, or null where it has none yet.
 CameraState camera_state(const Frame* frame, double now_s, const TimeSettings& settings);
 
 /// The newest frame of each camera, as questions with method `mesh` see them: which of them are
@@ -20,8 +23,8 @@ CameraState camera_state(const Frame* frame, double now_s, const TimeSettings& s
 class FrameSet {
  public:
   /// Camera k's newest frame, or null where it has none yet. Each belongs to another View of one
-  /// robot, whose method is `mesh`, and has to outlive the questions. A frame that is untimely, or
-  /// too old at `now_s`, is left out: its readings are not known any more, and what it would have
+  /// robot, whose method is `mesh`, and has to outlive the questions. A frame that is untimely, of
+  /// a camera that moved, or too old at `now_s`, is left out: its readings are not known any more, and what it would have
   /// seen free is hidden again. Without now_s the newest stamp is taken for now. Nobody may ask
   /// meanwhile. Reuses its memory.
   void assign(std::span<const Frame* const> frames, const TimeSettings& settings,

@@ -2,20 +2,42 @@
 
 #include <stdexcept>
 
+#include "berth/calibration/frame_displacement.hpp"
 #include "berth/pipeline/prepare_frame.hpp"
 
 namespace berth {
+namespace {
 
-Observer::Observer(std::shared_ptr<const View> view)
-    : view_(std::move(view)), renderer_(view_->robot()->meshes(), view_->camera()) {
+/// Where nobody gave another way, and the view's settings ask for one.
+MeasureDisplacement displacement_of(const View& view, MeasureDisplacement given) {
+  if (given || !(view.settings().watch.max_displacement_m > 0)) return given;
+  const RobotModel& model = view.robot()->model();
+  const FrameDisplacement displacement(model, view.robot()->meshes(), view.camera(),
+                                       *model.find_link(view.mount().parent_link),
+                                       view.mount().X_PC, view.settings().watch.bias_m);
+  return [displacement](DepthView depth_m, const JointState& joints, std::stop_token stop) {
+    return displacement.measure(depth_m, joints, std::move(stop));
+  };
+}
+
+}  // namespace
+
+Observer::Observer(std::shared_ptr<const View> view, MeasureDisplacement measure)
+    : view_(std::move(view)),
+      renderer_(view_->robot()->meshes(), view_->camera()),
+      watch_(view_->settings().watch, displacement_of(*view_, std::move(measure))) {
   if (view_->region_meshes()) region_renderer_.emplace(view_->region_meshes(), view_->camera());
 }
 
 void Observer::observe(DepthView depth_m, const JointState& at_exposure, Frame& frame,
                        FrameTime time) {
   const Camera& camera = view_->camera();
-  if (!begin_exposure(view_, depth_m, at_exposure, time, frame)) return clear_images(camera, frame);
+  if (!begin_exposure(view_, depth_m, at_exposure, time, frame)) {
+    frame.watch = watch_.pass_over();
+    return clear_images(camera, frame);
+  }
   renderer_.render(frame.pose, frame.X_BC, frame.robot);
+  frame.watch = watch_.look(depth_m, frame.robot, at_exposure);
   filter(depth_m, frame);
   apply_sensor_rules(depth_m, frame.robot, background_, view_->settings().sensor, sensor_,
                      frame.obstacles);
@@ -41,6 +63,8 @@ void Observer::observe(DepthView depth_m, double stamp_s, const JointBuffer& joi
   observe(depth_m, at_exposure_, frame, time);
 }
 
+void Observer::finish_watch(Frame& frame) { frame.watch = watch_.wait(); }
+
 void Observer::learn_background(DepthView depth_m, const Frame& frame) {
   require_size(view_->camera(), depth_m);
   const SensorSettings& settings = view_->settings().sensor;
@@ -48,8 +72,8 @@ void Observer::learn_background(DepthView depth_m, const Frame& frame) {
     throw std::invalid_argument(
         "sensor.background_frames: 0; expected 1 or more, to learn a background");
   }
-  // Without its robot the image would give the arm for a background.
-  if (frame.time.status != TimeStatus::ok) return;
+  // Without its robot, or with the robot elsewhere, the image would give the arm for a background.
+  if (frame.time.status != TimeStatus::ok || frame.watch.has_moved) return;
   background_.learn(view_->camera(), depth_m, frame.robot, frame.obstacles.fate, settings);
 }
 

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "berth/calibration/pose_watch.hpp"
 #include "berth/pipeline/frame.hpp"
 #include "berth/pipeline/timeliness.hpp"
 #include "berth/pipeline/view.hpp"
@@ -15,7 +16,9 @@ namespace berth {
 /// The camera's clock: depth images to frames. One for each thread.
 class Observer {
  public:
-  explicit Observer(std::shared_ptr<const View> view);
+  /// `measure` is how the view's WatchSettings::max_displacement_m is watched. Throws
+  /// std::invalid_argument where that is set without it.
+  explicit Observer(std::shared_ptr<const View> view, MeasureDisplacement measure = {});
 
   /// Renders the robot at the joint angles of the exposure, removes it from the image, and writes
   /// all of `frame`, whose memory it reuses. `depth_m` is as large as the camera's image, NaN where
@@ -28,9 +31,13 @@ class Observer {
   /// and stamps have to go forward from call to call (FrameClock).
   void observe(DepthView depth_m, double stamp_s, const JointBuffer& joints, Frame& frame);
 
+  /// Waits for what the watch measures in the background, and tells it in `frame`, the last one:
+  /// for recordings, where nothing is to depend on how long it took.
+  void finish_watch(Frame& frame);
+
   /// Learns what the image shows beside the robot as background of later frames (Background).
   /// `frame` is what observe made of `depth_m`; one whose joints are not known (its time is not ok)
-  /// is passed over. Use images of the place as it is meant to be: somebody who stands still in
+  /// or whose camera has moved is passed over. Use images of the place as it is meant to be: somebody who stands still in
   /// them becomes background too, and later counts as an obstacle wherever the robot hides the
   /// place. Throws std::invalid_argument where SensorSettings::background_frames is 0, and for a
   /// wrong size.
@@ -48,7 +55,7 @@ class Observer {
   SensorWorkspace sensor_;
   Background background_;
   FrameClock clock_;
-  /// What is doubtful, as if it were an obstacle.
+  PoseWatch watch_;
   JointState at_exposure_;
 };
 

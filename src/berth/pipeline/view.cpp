@@ -99,6 +99,7 @@ View::View(std::shared_ptr<const Robot> robot, CameraMount mount, ViewSettings s
   validate(settings_.self_filter);
   validate(settings_.sensor);
   validate(settings_.space);
+  validate(settings_.watch);
   if (settings_.sensor.has_background()) {
     require_fixed_camera(model, parent_, settings_.sensor.background_frames);
   }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "berth/calibration/watch_settings.hpp"
 #include "berth/distance/mesh/settings.hpp"
 #include "berth/pipeline/robot.hpp"
 #include "berth/self_filter/settings.hpp"
@@ -28,6 +29,8 @@ struct ViewSettings {
   SensorSettings sensor;
   /// For method `mesh`.
   SpaceSettings space;
+  /// Whether the camera still stands where it should.
+  WatchSettings watch;
 };
 
 /// One camera that sees the robot: constant once made, shared by its observers, frames and their

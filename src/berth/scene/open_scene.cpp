@@ -136,14 +136,15 @@ std::size_t bytes_of(const DepthImage& image) {
 DepthImage OpenCamera::read_depth(std::size_t frame) const {
   if (!kept_depth_m[frame].pixels().empty()) return kept_depth_m[frame];
   return read_depth_png(source.depth[frame], view->camera(), source.depth_scale_m, source.near_m,
-                        source.far_m);
+                        source.far_m, source.depth_offset_m);
 }
 
 OpenScene open_scene(const SceneFile& source, const std::function<void()>& before_image) {
   OpenScene scene;
   scene.file = source.file;
+  scene.joint_offsets = source.joint_offsets;
   RobotModel model = load_robot(source.robot);
-  const JointTrajectory joints = read_trajectory(model, source);
+  scene.joints = std::make_shared<const JointTrajectory>(read_trajectory(model, source));
   scene.robot = with_file_named(source, [&] {
     return std::make_shared<const Robot>(std::move(model), source.evaluation, attached_to(source));
   });
@@ -154,7 +155,7 @@ OpenScene open_scene(const SceneFile& source, const std::function<void()>& befor
     const CameraMount mount{read_camera_info(from.info), from.parent_link, from.X_PC};
     camera.view = with_file_named(
         source, [&] { return std::make_shared<const View>(scene.robot, mount, from.settings); });
-    find_joints(joints, camera);
+    find_joints(*scene.joints, camera);
     camera.kept_depth_m.resize(from.depth.size());
     for (std::size_t frame = 0; frame < from.depth.size(); ++frame) {
       before_image();

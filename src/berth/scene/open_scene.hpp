@@ -3,10 +3,12 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <vector>
 
 #include "berth/pipeline/view.hpp"
+#include "berth/robot/joint_trajectory.hpp"
 #include "berth/scene/scene_file.hpp"
 #include "berth/types/joint_state.hpp"
 
@@ -30,6 +32,9 @@ struct OpenCamera {
 struct OpenScene {
   std::filesystem::path file;
   std::shared_ptr<const Robot> robot;
+  /// With the file's offsets in them.
+  std::shared_ptr<const JointTrajectory> joints;
+  std::map<std::string, double> joint_offsets;
   std::vector<OpenCamera> cameras;
   std::size_t frame_count = 0;  ///< of all cameras
 };

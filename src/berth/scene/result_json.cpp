@@ -55,8 +55,8 @@ Json json_of(const AnswerTiming& timing, const std::string& name) {
             {"max", timing.max_us}}}};
 }
 
-/// Seconds; null where they are not known.
-Json json_of(double value_s) { return std::isfinite(value_s) ? Json(value_s) : Json(); }
+/// Null where it is not known.
+Json json_of(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 Json json_of(const Timeliness& time) {
   return {{"status", name_of(time.status)},
@@ -82,6 +82,11 @@ Json camera_json(const CameraResult& camera, bool is_alone) {
                {"stamp_s", json_of(camera.state.stamp_s)},
                {"age_s", json_of(camera.state.age_s)},
                {"status", status_of(camera.state)}};
+  const CameraWatch& watch = camera.state.watch;
+  if (watch.is_on) {
+    json["seen_through"] = json_of(watch.seen_through);
+    json["displacement_m"] = json_of(watch.displacement_m);
+  }
   if (!is_alone && camera.self_filter) json["self_filter"] = fates_json(*camera.self_filter);
   return json;
 }

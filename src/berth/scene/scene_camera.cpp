@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kUnitLengthTolerance = 1e-3;
 constexpr double kFarthest_m = 1e5;
+constexpr double kLargestDepthOffset_m = 1;
 
 std::string read_name(const YamlValue& value) {
   const std::string name = value.text();
@@ -89,9 +90,9 @@ Pose read_pose(const YamlMap& pose) {
 
 SceneCamera read_scene_camera(const YamlValue& value, const ViewSettings& settings) {
   const YamlMap map(value,
-                    {"name", "info", "pose", "depth", "depth_scale", "stamps", "near_m", "far_m", "clock_offset_s",
+                    {"name", "info", "pose", "depth", "depth_scale", "depth_offset_m", "stamps", "near_m", "far_m", "clock_offset_s",
                      "self_filter",
-                     "sensor", "space"});
+                     "sensor", "space", "watch"});
   const YamlMap pose(map.at("pose"), {"parent", "xyz", "quaternion_xyzw", "rpy"});
   SceneCamera camera;
   camera.name = read_name(map.at("name"));
@@ -106,6 +107,10 @@ SceneCamera read_scene_camera(const YamlValue& value, const ViewSettings& settin
   if (const auto scale = map.find("depth_scale")) {
     camera.depth_scale_m = scale->positive();
     if (!is_depth_scale(camera.depth_scale_m)) scale->fail(kDepthScaleExpected);
+  }
+  if (const auto offset = map.find("depth_offset_m")) {
+    camera.depth_offset_m = offset->number();
+    if (std::abs(camera.depth_offset_m) > kLargestDepthOffset_m) offset->fail("metres, -1 to 1");
   }
   map.read("near_m", &YamlValue::non_negative, camera.near_m);
   if (const auto far = map.find("far_m")) {

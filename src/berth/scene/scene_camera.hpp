@@ -12,7 +12,7 @@ SceneCamera read_scene_camera(const YamlValue& value, const ViewSettings& settin
 /// The pose of a map with xyz and one of the two rotations.
 Pose read_pose(const YamlMap& pose);
 
-/// The maps self_filter, sensor and space of a scene or a camera, over `settings`.
+/// The maps self_filter, sensor, space and watch of a scene or a camera, over `settings`.
 void read_view_settings(const YamlMap& map, ViewSettings& settings);
 
 }  // namespace berth

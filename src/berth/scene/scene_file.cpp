@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "berth/scene/scene_camera.hpp"
+#include "berth/files/read_file.hpp"
 #include "berth/files/yaml_value.hpp"
 #include "berth/scene/settings_yaml.hpp"
 
@@ -118,12 +119,17 @@ void read_view_settings(const YamlMap& map, ViewSettings& settings) {
   }
   if (const auto sensor = map.find("sensor")) read_settings(*sensor, settings.sensor);
   if (const auto space = map.find("space")) read_settings(*space, settings.space);
+  if (const auto watch = map.find("watch")) read_settings(*watch, settings.watch);
 }
 
 SceneFile read_scene(const std::filesystem::path& file) {
-  const YamlMap map(load_yaml(file),
+  return parse_scene(file, read_file_bytes(file));
+}
+
+SceneFile parse_scene(const std::filesystem::path& file, const std::string& text) {
+  const YamlMap map(parse_yaml(file, text),
                     {"robot", "cameras", "attached", "joints", "joint_offsets", "fixed_joints",
-                     "self_filter", "sensor", "space", "evaluation", "time"});
+                     "self_filter", "sensor", "space", "watch", "evaluation", "time"});
   SceneFile scene;
   scene.file = file;
   scene.robot = read_robot(map.at("robot"));

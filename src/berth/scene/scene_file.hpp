@@ -23,6 +23,8 @@ struct SceneCamera {
   Pose X_PC = unset_pose();
   std::vector<std::filesystem::path> depth;
   double depth_scale_m = 0.001;
+  /// Added to each reading, once it is in metres.
+  double depth_offset_m = 0;
   /// One for each image, increasing. Empty: image k belongs to row k of the joints.
   std::vector<double> stamps_s;
   /// The joints' clock at an exposure is its stamp plus this.
@@ -69,5 +71,8 @@ struct SceneFile {
 /// unknown or missing keys, keys that stand twice, wrong types, values outside their domain, a glob
 /// without match.
 SceneFile read_scene(const std::filesystem::path& file);
+
+/// The same for a text that is, or will be, the content of `file`.
+SceneFile parse_scene(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace berth

@@ -64,6 +64,7 @@ void SceneRun::learn_background(std::size_t i, const std::function<void()>& befo
     before_image();
     const DepthImage depth_m = camera.read_depth(k);
     learner.observe(depth_m, camera.at_exposure[k], frame, camera.exposure_time[k]);
+    learner.finish_watch(frame);
     pipelines_[i]->learn_background(depth_m, frame);
   }
 }
@@ -153,9 +154,7 @@ CameraResult SceneRun::camera_result(std::size_t c, const Answer& answer) {
   if (has_mesh()) {
     camera.state = answer.cameras[c];
   } else {
-    const bool ok = exposure.time.status == TimeStatus::ok;
-    camera.state = {ok ? CameraStatus::ok : CameraStatus::untimely, exposure.stamp_s, 0,
-                    exposure.time.status};
+    camera.state = camera_state(exposure, exposure.stamp_s, scene_.robot->settings().time);
   }
   return camera;
 }

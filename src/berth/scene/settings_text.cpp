@@ -102,6 +102,9 @@ std::string settings_table(std::string_view group) {
   } else if (group == "space") {
     const SpaceSettings settings;
     visit_settings(settings, write);
+  } else if (group == "watch") {
+    const WatchSettings settings;
+    visit_settings(settings, write);
   } else if (group == "evaluation") {
     const EvaluationSettings settings;
     write({"method", {}, "how the distances are found"}, settings.method);

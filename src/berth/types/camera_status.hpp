@@ -5,6 +5,7 @@
 #include <limits>
 #include <string_view>
 
+#include "berth/types/camera_watch.hpp"
 #include "berth/types/time_status.hpp"
 
 namespace berth {
@@ -16,10 +17,11 @@ enum class CameraStatus : std::uint8_t {
   untimely,  ///< stamps or joints of its frame are wrong (FrameTime says how): not used
   too_old,   ///< its frame is older than TimeSettings::max_frame_age_s: not used
   blind,     ///< hardly a pixel has a reading: those there are count, but nothing is seen free
+  moved,     ///< it does not stand where it should (PoseWatch): not used
 };
 /// By enumerator.
-inline constexpr std::array<std::string_view, 5> kCameraStatusNames = {"ok", "no_frame", "untimely",
-                                                                       "too_old", "blind"};
+inline constexpr std::array<std::string_view, 6> kCameraStatusNames = {
+    "ok", "no_frame", "untimely", "too_old", "blind", "moved"};
 
 constexpr std::string_view name_of(CameraStatus status) {
   return kCameraStatusNames[static_cast<std::size_t>(status)];
@@ -34,6 +36,8 @@ struct CameraState {
   double age_s = std::numeric_limits<double>::quiet_NaN();
   /// Why it is untimely.
   TimeStatus time = TimeStatus::ok;
+  /// Of its frame.
+  CameraWatch watch = {};
 };
 
 }  // namespace berth

@@ -7,7 +7,8 @@
 
 namespace berth {
 
-/// Whether stamps and joints allow an answer. What is not ok gives none: see Timeliness.
+/// Whether stamps and joints, and the camera, allow an answer. What is not ok gives none: see
+/// Timeliness.
 enum class TimeStatus : std::uint8_t {
   ok,
   no_joints,             ///< nobody has given a joint sample yet
@@ -20,13 +21,14 @@ enum class TimeStatus : std::uint8_t {
   stale_frame,      ///< the frame is too old
   stale_joints,     ///< the joints are too old
   no_frame,         ///< no camera has given a frame yet
+  camera_moved,     ///< the camera does not stand where it should (CameraStatus::moved)
 };
-inline constexpr int kTimeStatusCount = 11;
+inline constexpr int kTimeStatusCount = 12;
 /// By enumerator.
 inline constexpr std::array<std::string_view, kTimeStatusCount> kTimeStatusNames = {
     "ok",          "no_joints",       "missing_joint", "extrapolated_too_far",
     "skewed",      "stamp_went_back", "stamp_jumped",  "frame_in_future",
-    "stale_frame", "stale_joints",    "no_frame"};
+    "stale_frame", "stale_joints",    "no_frame",      "camera_moved"};
 
 constexpr std::string_view name_of(TimeStatus status) {
   return kTimeStatusNames[static_cast<std::size_t>(status)];

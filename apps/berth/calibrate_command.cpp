@@ -1,0 +1,71 @@
+// calibrate: teach-in of a scene.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <stdexcept>
+
+#include "apps/berth/calibration_page.hpp"
+#include "apps/berth/commands.hpp"
+#include "apps/berth/run_frames.hpp"
+#include "apps/support/interrupt.hpp"
+#include "apps/support/progress_bar.hpp"
+#include "berth/scene/calibrate_scene.hpp"
+#include "berth/scene/calibration_json.hpp"
+#include "berth/scene/calibration_report.hpp"
+#include "berth/scene/calibration_table.hpp"
+
+namespace berth::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Before minutes of work, not after them.
+void require_other_file(const fs::path& scene, const fs::path& out) {
+  std::error_code error;
+  if (!fs::exists(out, error) || !fs::equivalent(scene, out, error)) return;
+  throw std::runtime_error(fmt::format("{}: is the scene itself; expected another file for --out",
+                                       out.string()));
+}
+
+OpenScene open_for_teach_in(const fs::path& file) {
+  SceneFile scene = read_scene(file);
+  // No question is asked: nothing has to be made ready for one.
+  scene.evaluation.method = Method::exact;
+  scene.evaluation.visibility = false;
+  std::size_t images = 0;
+  for (const SceneCamera& camera : scene.cameras) images += camera.depth.size();
+  ProgressBar progress("read images", images);
+  return open_scene(scene, [&progress] {
+    stop_if_interrupted();
+    progress.step();
+  });
+}
+
+}  // namespace
+
+void calibrate_command(const CalibrateArguments& arguments) {
+  require_other_file(arguments.scene, arguments.out);
+  const OpenScene scene = open_for_teach_in(arguments.scene);
+  const SceneTeachIn material = make_teach_in(scene);
+  CalibrateSceneSettings settings;
+  settings.fit.joint_zeros = arguments.joint_zeros;
+  settings.correct_depth = arguments.correct_depth;
+  SceneCalibration calibration;
+  {
+    ProgressBar progress("teach in", 0);
+    settings.fit.pause = [&progress] {
+      stop_if_interrupted();
+      progress.step();
+    };
+    calibration = calibrate_scene(scene, material, settings);
+  }
+  const CalibrationReport report{&material.teach_in, &calibration.found, calibration.filters,
+                                 arguments.correct_depth, calibration.warnings};
+  const std::string text = arguments.format == OutputFormat::json ? calibration_json(report) + "\n"
+                                                                  : calibration_table(report);
+  if (!arguments.report_folder.empty()) write_calibration_page(arguments.report_folder, arguments.scene.string(), report);
+  write_rewritten_scene(arguments.scene, calibration.change, arguments.out);
+  std::fputs(text.c_str(), stdout);
+}
+
+}  // namespace berth::app

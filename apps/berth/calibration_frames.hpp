@@ -1,0 +1,49 @@
+// The frames of a teach-in as pictures, and their residuals as a histogram.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "apps/berth/residual_histogram.hpp"
+#include "berth/scene/calibration_report.hpp"
+#include "berth/scene/teach_in_coverage.hpp"
+
+namespace berth::app {
+
+/// One picture of a frame.
+struct FramePicture {
+  /// A file's name in the page's folder; empty: the joints are not known at the clock that was
+  /// found.
+  std::string file;
+  /// Pixels beside the robot that are like it, see robot_webs().
+  int web_px = 0;
+};
+
+struct FramePictures {
+  /// TeachInFrame::number.
+  int number = 0;
+  FramePicture before;
+  FramePicture after;
+};
+
+struct CalibrationFrames {
+  ResidualHistogram before;
+  ResidualHistogram after;
+  std::vector<FramePictures> pictures;
+};
+
+/// At most so many frames of a camera are drawn.
+inline constexpr std::size_t kMostPictures = 6;
+
+/// Which frames are drawn: spread over all, and the one that agrees worst. Increasing.
+std::vector<std::size_t> frames_to_draw(const TeachInCamera& camera,
+                                        const TeachInCoverage& coverage);
+
+/// Writes the pictures of one camera to `folder` as PNG files. Throws std::runtime_error where one
+/// cannot be drawn or written.
+CalibrationFrames write_calibration_frames(const std::filesystem::path& folder,
+                                           const CalibrationReport& report, std::size_t camera,
+                                           const TeachInCoverage& coverage);
+
+}  // namespace berth::app

@@ -1,0 +1,37 @@
+// One frame of a teach-in with the robot's model on it.
+#pragma once
+
+#include <string>
+
+#include "apps/berth/picture_pixels.hpp"
+#include "berth/types/image.hpp"
+#include "berth/types/robot_image.hpp"
+
+namespace berth::app {
+
+/// All of one size.
+struct CalibrationPicture {
+  DepthView sensor_depth_m;
+  /// Of the camera, so that all its pictures have the same greys.
+  DepthTone tone;
+  const RobotImage* robot = nullptr;
+  /// Reading - model.
+  DepthView residual_m;
+  /// See robot_webs().
+  ImageView<std::uint8_t> webs;
+  /// What is shown.
+  PixelRect part;
+};
+
+inline constexpr Rgb kWebColor{0xF0, 0xE4, 0x42};
+inline constexpr Rgb kOutlineColor{0x10, 0x10, 0x10};
+
+/// The bytes of a PNG: depth in dark grey, robot pixels in residual_color(), the model's outline,
+/// webs. Small images are enlarged by a whole factor. Throws std::runtime_error where it cannot be
+/// drawn.
+std::string calibration_picture_png(const CalibrationPicture& picture);
+
+/// The least rectangle that holds the robot; empty where none is seen.
+PixelRect robot_rect(const Image<LinkId>& link_id);
+
+}  // namespace berth::app

@@ -1,0 +1,104 @@
+#include "lab/calibration/judge.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "berth/files/png.hpp"
+#include "berth/pipeline/asker.hpp"
+#include "berth/pipeline/observer.hpp"
+#include "berth/scene/open_scene.hpp"
+#include "lab/filter/expected_ranges.hpp"
+
+namespace berth::lab {
+namespace {
+
+constexpr double kFar_m = 0.01;
+constexpr int kNear_px = 10;
+constexpr float kLikeRobot_m = 0.10F;
+
+void set(const std::vector<ProposedSetting>& proposed, auto& settings) {
+  for (const ProposedSetting& one : proposed) {
+    visit_settings(settings, [&](const Setting& setting, auto& value) {
+      if (setting.name != one.key) return;
+      if constexpr (std::is_arithmetic_v<std::remove_reference_t<decltype(value)>>) {
+        value = static_cast<std::remove_reference_t<decltype(value)>>(one.value);
+      }
+    });
+  }
+}
+
+/// Whether the reading lies at the robot's own depth: else it shows what is behind the robot, and
+/// the colour image's mask and the depth image do not agree to the pixel.
+bool is_like_robot(const RobotImage& robot, int u, int v, float z_m) {
+  const PixelRect near = clip({u - kNear_px, v - kNear_px, u + kNear_px + 1, v + kNear_px + 1},
+                              robot.depth_m.width(), robot.depth_m.height());
+  for (int b = near.v_begin; b < near.v_end; ++b) {
+    for (int a = near.u_begin; a < near.u_end; ++a) {
+      if (std::abs(robot.depth_m(a, b) - z_m) < kLikeRobot_m) return true;
+    }
+  }
+  return false;
+}
+
+void count_mask(const std::filesystem::path& file, const Camera& camera, const Frame& frame,
+                DepthView depth_m, Judgement& judgement) {
+  const Image<LinkId> mask = read_link_ids_png(file, camera);
+  for (int v = 0; v < camera.height_px; ++v) {
+    for (int u = 0; u < camera.width_px; ++u) {
+      if (mask(u, v) == 0) continue;
+      ++judgement.mask_pixels;
+      if (!is_kept(frame.obstacles.fate(u, v))) continue;
+      ++judgement.mask_pixels_left;
+      judgement.robot_pixels_left += is_like_robot(frame.robot, u, v, depth_m(u, v));
+    }
+  }
+}
+
+}  // namespace
+
+SceneFile with_result(SceneFile scene, const CalibrationResult& found,
+                      const FilterProposal& proposal) {
+  SceneCamera& camera = scene.cameras[0];
+  camera.X_PC = found.cameras[0].X_PC;
+  camera.clock_offset_s = found.cameras[0].clock_offset_s;
+  for (const auto& [joint, offset] : found.joint_offsets) scene.joint_offsets[joint] += offset;
+  set(proposal.self_filter, camera.settings.self_filter);
+  set(proposal.sensor, camera.settings.sensor);
+  return scene;
+}
+
+Judgement judge(const SceneFile& file, const std::filesystem::path& folder) {
+  const OpenScene scene = open_scene(file);
+  const OpenCamera& camera = scene.cameras.front();
+  const ExpectedRanges ranges = read_expected_ranges(folder / "expected.tsv");
+  const std::vector<std::string> names = scene.robot->model().evaluated_link_names();
+  Observer observer(camera.view);
+  Asker asker(scene.robot);
+  Frame frame;
+  Judgement judgement;
+  for (std::size_t i = 0; i < camera.source.depth.size(); ++i) {
+    const DepthImage depth_m = camera.read_depth(i);
+    observer.observe(depth_m, camera.at_exposure[i], frame);
+    for (const LinkDistance& link : asker.ask(frame).distances.links) {
+      const ExpectedRange& range = ranges.at({static_cast<int>(i), names[link.id - 1]});
+      const bool is_inside = link.distance_m >= range.min_m && link.distance_m <= range.max_m;
+      (range.is_checked ? judgement.checked : judgement.estimates) += 1;
+      (range.is_checked ? judgement.checked_in_range : judgement.estimates_in_range) += is_inside;
+      judgement.too_far += !(link.distance_m <= range.max_m + kFar_m);
+    }
+    count_mask(folder / fmt::format("reference/robot_mask_{:06}.png", i), camera.view->camera(), frame,
+               depth_m, judgement);
+  }
+  return judgement;
+}
+
+std::string text_of(const Judgement& judgement) {
+  return fmt::format("{} of {} checked rows in range, {} of {} estimates, {} too far; of {} mask "
+                     "pixels {} left, {} of them at the robot's depth",
+                     judgement.checked_in_range, judgement.checked, judgement.estimates_in_range,
+                     judgement.estimates, judgement.too_far, judgement.mask_pixels,
+                     judgement.mask_pixels_left, judgement.robot_pixels_left);
+}
+
+}  // namespace berth::lab

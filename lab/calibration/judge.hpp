@@ -1,0 +1,36 @@
+// What a teach-in is worth on a real recording whose distances and masks are known.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "berth/calibration/calibrate.hpp"
+#include "berth/calibration/filter_settings.hpp"
+#include "berth/scene/scene_file.hpp"
+
+namespace berth::lab {
+
+/// The scene with what was found of its first camera.
+SceneFile with_result(SceneFile scene, const CalibrationResult& found,
+                      const FilterProposal& proposal);
+
+/// Counts over all frames and links of a recording (expected.tsv, reference/robot_mask_*.png).
+struct Judgement {
+  int checked = 0;
+  int checked_in_range = 0;
+  int estimates = 0;
+  int estimates_in_range = 0;
+  /// By more than 1 cm.
+  int too_far = 0;
+  /// Pixels of the masks, which show the robot in the colour image, that stay obstacles.
+  int mask_pixels = 0;
+  int mask_pixels_left = 0;
+  /// Those of them that lie within 10 cm of the depth of a robot pixel near them.
+  int robot_pixels_left = 0;
+};
+Judgement judge(const SceneFile& scene, const std::filesystem::path& folder);
+
+/// Such as "27 of 27 checked in range, 0 too far, ...".
+std::string text_of(const Judgement& judgement);
+
+}  // namespace berth::lab

@@ -1,0 +1,59 @@
+// measure_calibration: how near teach-in comes to the truth, on real recordings and drawn ones.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <filesystem>
+#include <numbers>
+
+#include "lab/calibration/drawn.hpp"
+#include "lab/calibration/recordings.hpp"
+
+int main(int argc, char** argv) {
+  namespace lab = berth::lab;
+  CLI::App app("Measures teach-in: recordings from random starts, drawn scenes with known truth");
+  std::filesystem::path data;
+  std::string robot;
+  int starts = 0;
+  double zero_deg = 0;
+  lab::DrawnTrials trials;
+  trials.seeds = 0;
+  app.add_option("--data", data, "Folder with robots and recordings")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  app.add_option("--starts", starts, "Recordings: so many random starts");
+  app.add_option("--judged", trials.start.judged, "So many of them are judged by known distances");
+  app.add_option("--offset-m", trials.start.offset_m, "How far off a start is");
+  app.add_option("--angle-deg", trials.start.angle_deg);
+  app.add_option("--seeds", trials.seeds, "Drawn scenes: so many of each robot");
+  app.add_option("--robot", robot, "Only robots whose names hold this");
+  app.add_option("--poses", trials.drawn.poses);
+  app.add_flag("--moves", trials.drawn.moves, "Images are taken while the robot moves");
+  app.add_option("--depth-share", trials.drawn.errors.depth_share);
+  app.add_option("--clock-s", trials.drawn.errors.clock_offset_s);
+  app.add_option("--joint-zero-deg", zero_deg);
+  app.add_flag("--each", trials.prints_each, "Tell each drawn scene on standard error");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    for (const char* name : {"xarm7_realsense", "lbr_med7_zed2i"}) {
+      if (starts > 0) lab::measure_recording(data / "recordings" / name, trials.start, starts);
+    }
+    if (trials.seeds == 0) return 0;
+    trials.drawn.errors.joint_zero = zero_deg * std::numbers::pi / 180;
+    trials.joint_zeros = zero_deg > 0;
+    std::vector<lab::TrialRobot> robots = lab::load_trial_robots(data / "robots");
+    std::erase_if(robots, [&](const lab::TrialRobot& one) {
+      return one.name.find(robot) == std::string::npos;
+    });
+    fmt::print("{}| start {:.0f} cm, {:.0f} degrees off, depth {:g} %, clock {:g} ms, joints {:g} "
+               "degrees, {} poses | {} ",
+               lab::kDrawnHeading, 100 * trials.start.offset_m, trials.start.angle_deg,
+               100 * trials.drawn.errors.depth_share, 1000 * trials.drawn.errors.clock_offset_s,
+               zero_deg, trials.drawn.poses, robots.size() * trials.seeds);
+    lab::measure_drawn(robots, trials);
+    return 0;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "measure_calibration: {}\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+#include "tests/support/drawn_teach_in.hpp"
+
+namespace berth::lab {
+
+/// How far the points of the robot, as the camera sees them, lie from where they truly are: a mean
+/// over all frames and all corners of evaluated links. `joint_offsets` is what was found of each
+/// joint.
+double robot_points_apart_m(const testing::DrawnTeachIn& drawn, const Pose& X_PC_found,
+                            const std::vector<double>& joint_offsets);
+
+}  // namespace berth::lab

@@ -1,0 +1,25 @@
+// What is known of the distances in a real recording.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+
+namespace berth::lab {
+
+/// The range that a link's distance lies in (expected.tsv).
+struct ExpectedRange {
+  double min_m = 0;
+  double max_m = 0;
+  /// Against a background without a robot; else an estimate.
+  bool is_checked = false;
+};
+
+/// By frame and link.
+using ExpectedRanges = std::map<std::pair<int, std::string>, ExpectedRange>;
+
+/// Of a recording's expected.tsv. Throws std::runtime_error where it cannot be read.
+ExpectedRanges read_expected_ranges(const std::filesystem::path& file);
+
+}  // namespace berth::lab

@@ -1,0 +1,172 @@
+#include "berth/calibration/calibrate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "berth/calibration/compare_estimates.hpp"
+#include "berth/calibration/fit_camera.hpp"
+#include "berth/calibration/score.hpp"
+#include "berth/calibration/uncertainty.hpp"
+
+namespace berth {
+namespace {
+
+/// Clocks and joints are looked for within about this.
+constexpr double kClockPrior_s = 0.05;
+constexpr double kJointPrior = 0.035;
+/// Less certain than this counts as not determined.
+constexpr double kCertainClock_s = 0.005;
+constexpr double kCertainDepthScale = 0.005;
+constexpr double kCertainDepthOffset_m = 0.004;
+constexpr double kCertainRobot_m = 0.01;
+/// Below, the pose is a wrong place: those of other cameras and robots had 0.77 at most.
+constexpr double kLeastScore = 0.8;
+constexpr ScoreSettings kLastScore{1, 0.03, 10};
+
+FitPriors priors_of(const TeachInCamera& camera) {
+  FitPriors priors;
+  if (camera.has_stamps) priors.clock_s = kClockPrior_s;
+  return priors;
+}
+
+/// The teach-in of one of its cameras alone.
+TeachIn alone(const TeachIn& teach_in, std::size_t camera) {
+  TeachIn one = teach_in;
+  one.cameras = {teach_in.cameras[camera]};
+  return one;
+}
+
+/// Joint zeros, with all cameras at once. Starts from and writes `estimate`.
+void find_joint_zeros(const TeachIn& teach_in, FitPriors priors, CalibrationEstimate& estimate,
+                      CalibrationResult& result) {
+  FrameDrawer drawer(teach_in, {2, 1});
+  const std::size_t joints = teach_in.model->joints.size();
+  priors.joints.assign(joints, kJointPrior);
+  const FitResult all = refine(drawer, estimate, priors);
+  const std::vector<bool> determined = determined_joints(all);
+  estimate = all.estimate;
+  for (std::size_t j = 0; j < joints; ++j) {
+    const std::string& name = teach_in.model->joints[j].name;
+    if (determined[j]) {
+      result.joint_offsets[name] = estimate.joint_shift[j];
+    } else {
+      estimate.joint_shift[j] = 0;
+      result.joints_not_determined.push_back(name);
+    }
+  }
+  // What was found stands on all joints being free; the poses are those without the rest.
+  priors.joints.clear();
+  estimate = refine(drawer, estimate, priors).estimate;
+}
+
+/// Tells of one camera what the estimate of all says.
+class CameraReport {
+ public:
+  CameraReport(const TeachIn& teach_in, std::size_t camera, const CalibrationEstimate& estimate)
+      : one_(alone(teach_in, camera)),
+        source_(*teach_in.cameras[camera]),
+        drawer_(one_, {2, 1}),
+        start_(start_of(one_)) {
+    estimate_.cameras = {estimate.cameras[camera]};
+    estimate_.joint_shift = estimate.joint_shift;
+  }
+
+  CameraCalibration run() {
+    out_.camera = source_.name;
+    for (const TeachInFrame& frame : source_.frames) out_.frames.push_back(frame.number);
+    out_.score_before = score(drawer_, start_, kLastScore).value;
+    out_.score_after = score(drawer_, estimate_, kLastScore).value;
+    out_.before = residuals(drawer_, start_)[0];
+    judge();
+    const CameraEstimate& camera = estimate_.cameras[0];
+    out_.X_PC = camera.X_PC;
+    out_.clock_offset_s = source_.clock_offset_s + camera.clock_shift_s;
+    out_.depth = {camera.depth_offset_m, camera.depth_scale};
+    out_.dilation_px = camera.dilation_px;
+    out_.after = residuals(drawer_, estimate_)[0];
+    out_.moved_m = displacement_m(drawer_, 2, estimate_, start_)[0];
+    return std::move(out_);
+  }
+
+ private:
+  void judge() {
+    if (out_.score_after < kLeastScore) {
+      out_.is_found = false;
+      refuse(fmt::format("no pose was found that explains the images: the best agrees by {:.2f} of "
+                         "2; expected {:.1f} at least",
+                         out_.score_after, kLeastScore));
+    } else if (out_.score_after < out_.score_before) {
+      refuse(fmt::format("the best one found, {:.1f} mm from it, agrees with the images by {:.3f} of "
+                         "2, the scene's own by {:.3f}",
+                         1000 * displacement_m(drawer_, 2, estimate_, start_)[0],
+                         out_.score_after, out_.score_before));
+    } else {
+      measure_uncertainty();
+    }
+  }
+
+  void refuse(std::string why) {
+    out_.refused = std::move(why);
+    out_.halves_m = std::numeric_limits<double>::quiet_NaN();
+    estimate_ = start_;
+  }
+
+  void measure_uncertainty() {
+    FitPriors priors = priors_of(source_);
+    const FitResult whole = refine(drawer_, estimate_, priors);
+    const FitResult even = refine(drawer_, estimate_, priors, FrameChoice::even);
+    const FitResult odd = source_.frames.size() > 1
+                              ? refine(drawer_, estimate_, priors, FrameChoice::odd)
+                              : even;
+    out_.halves_m = source_.frames.size() > 1
+                        ? displacement_m(drawer_, 2, even.estimate, odd.estimate)[0]
+                        : std::numeric_limits<double>::quiet_NaN();
+    const CameraDeviation deviation = deviation_of(whole, even, odd, 0);
+    out_.sigma_xyz_m = deviation.xyz_m;
+    out_.sigma_rotation_rad = deviation.rotation_rad;
+    out_.sigma_clock_s = deviation.clock_s;
+    CameraEstimate& camera = estimate_.cameras[0];
+    if (deviation.robot_m > kCertainRobot_m) out_.not_determined.push_back("pose");
+    if (!source_.has_stamps || deviation.clock_s > kCertainClock_s) {
+      out_.not_determined.push_back("clock_offset_s");
+      camera.clock_shift_s = 0;
+    }
+    if (deviation.depth_offset_m > kCertainDepthOffset_m) {
+      out_.not_determined.push_back("depth.offset_m");
+    }
+    if (deviation.depth_scale > kCertainDepthScale) out_.not_determined.push_back("depth.scale");
+  }
+
+  const TeachIn one_;
+  const TeachInCamera& source_;
+  FrameDrawer drawer_;
+  const CalibrationEstimate start_;
+  CalibrationEstimate estimate_;
+  CameraCalibration out_;
+};
+
+}  // namespace
+
+CalibrationResult calibrate(const TeachIn& teach_in, const CalibrationSettings& settings) {
+  CalibrationEstimate estimate = start_of(teach_in);
+  FitPriors priors;
+  for (std::size_t c = 0; c < teach_in.cameras.size(); ++c) {
+    const TeachIn one = alone(teach_in, c);
+    FrameDrawer drawer(one, camera_steps(teach_in.cameras[c]->camera.width_px));
+    const FitPriors of_camera = priors_of(*teach_in.cameras[c]);
+    estimate.cameras[c] = fit_camera(drawer, of_camera, settings.pause).estimate.cameras[0];
+    priors.clock_s = std::max(priors.clock_s, of_camera.clock_s);
+  }
+  CalibrationResult result;
+  if (settings.joint_zeros) find_joint_zeros(teach_in, priors, estimate, result);
+  for (std::size_t c = 0; c < teach_in.cameras.size(); ++c) {
+    settings.pause();
+    result.cameras.push_back(CameraReport(teach_in, c, estimate).run());
+  }
+  return result;
+}
+
+}  // namespace berth

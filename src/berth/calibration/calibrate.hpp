@@ -1,0 +1,84 @@
+// Teach-in: from images of a moving arm to the cameras' poses, clocks and depth errors.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "berth/calibration/teach_in.hpp"
+
+namespace berth {
+
+/// How far readings lie from the model's surface, along the optical axis, where they are the
+/// robot's (within 10 cm). NaN where there is none.
+struct ResidualSpread {
+  double median_m = 0;
+  double p90_m = 0;
+  double p99_m = 0;
+};
+
+/// A reading z shows a surface at offset_m + scale z.
+struct DepthError {
+  double offset_m = 0;
+  double scale = 1;
+};
+
+/// What was found of one camera.
+struct CameraCalibration {
+  std::string camera;
+  /// The pose of the optical frame in the parent link's frame P, and one standard deviation of it:
+  /// of its origin, and of a small turn about the axes of P. They belong together: what moves the
+  /// robot's points is halves_m.
+  Pose X_PC = unset_pose();
+  Eigen::Vector3d sigma_xyz_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d sigma_rotation_rad = Eigen::Vector3d::Zero();
+  double clock_offset_s = 0;
+  double sigma_clock_s = 0;
+  DepthError depth;
+  /// How many pixels wider than its model the camera sees the robot, on each side.
+  double dilation_px = 0;
+  /// How far the points of the robot that it sees have moved from where the scene had them, in the
+  /// mean.
+  double moved_m = 0;
+  /// How far they lie apart, in the mean, between a fit to the even and one to the odd frames: what
+  /// to expect from other frames. NaN with fewer than two frames.
+  double halves_m = 0;
+  ResidualSpread before;
+  /// With depth's error taken out.
+  ResidualSpread after;
+  /// How well model and images agree; 2 is perfect.
+  double score_before = 0;
+  double score_after = 0;
+  /// Numbers of the frames that were used.
+  std::vector<int> frames;
+  /// What the frames do not tell, by its key: "pose", "clock_offset_s", "depth.offset_m",
+  /// "depth.scale". It is left as it was, but for the pose.
+  std::vector<std::string> not_determined;
+  /// Whether any pose explains the images; if none does, nothing is to be used.
+  bool is_found = true;
+  /// Why the pose that was found is not to be used, and the start's is told; empty: it is good.
+  std::string refused;
+};
+
+struct CalibrationResult {
+  /// In the order of TeachIn::cameras.
+  std::vector<CameraCalibration> cameras;
+  /// Found with joint_zeros: to be added to what is believed of each joint, rad or m, by name.
+  std::map<std::string, double> joint_offsets;
+  std::vector<std::string> joints_not_determined;
+};
+
+struct CalibrationSettings {
+  /// Whether to look for the joints' zeros as well. Few frames are overfitted so.
+  bool joint_zeros = false;
+  /// Called now and then from the calling thread; to stop, it throws.
+  std::function<void()> pause = [] {};
+};
+
+/// Fits all cameras of the teach-in, on all threads that TBB gives. Each camera needs one frame at
+/// least. The result depends neither on threads nor on time.
+CalibrationResult calibrate(const TeachIn& teach_in, const CalibrationSettings& settings = {});
+
+}  // namespace berth

@@ -1,0 +1,58 @@
+#include "berth/calibration/frame_displacement.hpp"
+
+#include <algorithm>
+
+#include "berth/calibration/compare_estimates.hpp"
+#include "berth/calibration/fit.hpp"
+#include "berth/calibration/score.hpp"
+
+namespace berth {
+namespace {
+
+/// Fewer pixels of the robot, at every second pixel of every second row, tell no pose.
+constexpr double kLeastPixels = 300;
+/// The depth's error was learnt at teach-in: one frame tells less of it.
+constexpr double kBiasDeviation_m = 0.002;
+constexpr double kScaleDeviation = 0.002;
+/// A camera that was bumped is off by centimetres; one that is off by more is found by T.
+const std::vector<FitRound> kRounds{{4, 6, 0.10, 0.08, 48, 0.08}, {2, 5, 0.05, 0.04, 24, 0.06}};
+
+}  // namespace
+
+FrameDisplacement::FrameDisplacement(const RobotModel& model,
+                                     std::shared_ptr<const LinkMeshes> meshes,
+                                     const Camera& camera, std::size_t parent, const Pose& X_PC,
+                                     double bias_m)
+    : model_(&model),
+      meshes_(std::move(meshes)),
+      camera_(camera),
+      parent_(parent),
+      X_PC_(X_PC),
+      bias_m_(bias_m) {}
+
+std::optional<double> FrameDisplacement::measure(DepthView depth_m, const JointState& joints,
+                                                 std::stop_token stop) const {
+  TeachInCamera camera;
+  camera.camera = camera_;
+  camera.parent = parent_;
+  camera.X_PC = X_PC_;
+  TeachInFrame& frame = camera.frames.emplace_back();
+  frame.joints = joints;
+  frame.depth_m.resize(depth_m.width, depth_m.height, kNoDepth);
+  for (int v = 0; v < depth_m.height; ++v) {
+    std::copy_n(depth_m.row(v), depth_m.width, frame.depth_m.row(v));
+  }
+  const TeachIn one{model_, meshes_, nullptr, {&camera}};
+  FrameDrawer drawer(one, {4, 2});
+  CalibrationEstimate start = start_of(one);
+  start.cameras[0].depth_offset_m = -bias_m_;
+  if (score(drawer, start, {2, 1, 0}).pixels < kLeastPixels || stop.stop_requested()) return {};
+  FitPriors priors;
+  priors.depth_offset_m = kBiasDeviation_m;
+  priors.depth_scale = kScaleDeviation;
+  priors.expected_depth_offset_m = -bias_m_;
+  const CalibrationEstimate fitted = fit(drawer, start, priors, kRounds).estimate;
+  return displacement_m(drawer, 4, start, fitted)[0];
+}
+
+}  // namespace berth

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+
+#include "berth/calibration/agreement.hpp"
+#include "berth/calibration/displacement_check.hpp"
+#include "berth/calibration/watch_settings.hpp"
+#include "berth/types/camera_watch.hpp"
+#include "berth/types/image.hpp"
+#include "berth/types/joint_state.hpp"
+#include "berth/types/robot_image.hpp"
+
+namespace berth {
+
+/// A frame says nothing of T where fewer of the pixels looked at are judged, or where a larger
+/// share of the robot is hidden: what is left of it is outline then. For D less may be hidden,
+/// since what hides the robot pulls at the fit.
+inline constexpr int kLeastJudgedPixels = 100;
+inline constexpr double kMostHiddenForSeenThrough = 0.8;
+inline constexpr double kMostHiddenForDisplacement = 0.25;
+
+/// Tells whether one camera stands where it is said to, from the robot in its images. It has moved
+/// once T or D says so, and is back once neither does; T and D each by k of their last n verdicts
+/// (WatchSettings; two of three for D). A frame that says nothing is no verdict: it neither raises
+/// nor clears. One for each camera, used by one thread.
+class PoseWatch {
+ public:
+  /// Throws std::invalid_argument for settings outside of their domain, and where max_displacement_m
+  /// is set and nothing measures D. The thread that measures is there only where both are given.
+  explicit PoseWatch(const WatchSettings& settings, MeasureDisplacement measure = {});
+
+  /// Judges one frame: the camera's image, the robot as it should be seen in it, the joints at its
+  /// exposure. Takes D of an earlier frame where it is there, and begins with this frame's where it
+  /// is due. Allocates nothing after the first frame that D was begun of.
+  const CameraWatch& look(DepthView depth_m, const RobotImage& robot,
+                          const JointState& at_exposure);
+
+  /// A frame that was not observed, since its joints are not known: no verdict.
+  const CameraWatch& pass_over();
+
+  /// Waits for D where it is being measured, and takes it: what is told then does not depend on how
+  /// long it took. For recordings.
+  const CameraWatch& wait();
+
+ private:
+  void take_displacement();
+  bool is_due(double stamp_s) const;
+
+  WatchSettings settings_;
+  CameraWatch state_;
+  Agreement by_seen_through_;
+  Agreement by_displacement_;
+  std::optional<DisplacementCheck> check_;
+  std::optional<double> begun_s_;
+};
+
+}  // namespace berth

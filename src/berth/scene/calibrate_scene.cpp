@@ -1,0 +1,164 @@
+#include "berth/scene/calibrate_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "berth/calibration/frame_displacement.hpp"
+#include "berth/calibration/moved_environment.hpp"
+#include "berth/calibration/seen_through.hpp"
+#include "berth/render/robot_renderer.hpp"
+
+namespace berth {
+namespace {
+
+/// D is measured in so many frames: it takes a tenth of a second.
+constexpr std::size_t kMostDisplacements = 10;
+
+void require_poses(const OpenScene& scene, const CalibrationResult& found) {
+  for (const CameraCalibration& camera : found.cameras) {
+    if (camera.is_found) continue;
+    throw std::runtime_error(
+        fmt::format("{}: camera {}: {}", scene.file.string(), camera.camera, camera.refused));
+  }
+}
+
+bool is_told(const CameraCalibration& camera, std::string_view key) {
+  const auto& missing = camera.not_determined;
+  return std::find(missing.begin(), missing.end(), key) == missing.end();
+}
+
+/// T and D of the frames that were used, with the camera where it was found.
+WatchSettings normal_range(const TeachIn& teach_in, const TeachInCamera& source,
+                           const CameraCalibration& found, const CalibrateSceneSettings& settings,
+                           const std::map<std::string, double>& joint_offsets, double bias_m) {
+  RobotRenderer renderer(teach_in.meshes, source.camera);
+  const FrameDisplacement displacement(*teach_in.model, teach_in.meshes, source.camera,
+                                       source.parent, found.X_PC, bias_m);
+  const double clock_shift_s = found.clock_offset_s - source.clock_offset_s;
+  RobotImage robot;
+  RobotPose pose;
+  std::vector<double> seen_through;
+  std::vector<double> displacement_m;
+  for (const TeachInFrame& frame : source.frames) {
+    settings.fit.pause();
+    JointState joints = frame.joints;
+    if (clock_shift_s != 0 &&
+        teach_in.joints->at(frame.joints.stamp_s + found.clock_offset_s, kOnlyBetweenSamples,
+                            joints).status != TimeStatus::ok) {
+      continue;
+    }
+    for (std::size_t j = 0; j < joints.position.size(); ++j) {
+      const auto offset = joint_offsets.find(teach_in.model->joints[j].name);
+      if (offset != joint_offsets.end()) joints.position[j] += offset->second;
+    }
+    DepthImage depth_m = frame.depth_m;
+    if (settings.correct_depth) {
+      for (float& z_m : depth_m.pixels()) {
+        z_m = static_cast<float>(found.depth.offset_m + found.depth.scale * z_m);
+      }
+    }
+    forward_kinematics(*teach_in.model, joints.position, pose);
+    renderer.render(pose, pose.X_BL[source.parent] * found.X_PC, robot);
+    seen_through.push_back(read_robot(depth_m, robot, bias_m).seen_through());
+    if (displacement_m.size() >= kMostDisplacements) continue;
+    displacement_m.push_back(displacement.measure(depth_m, joints)
+                                 .value_or(std::numeric_limits<double>::quiet_NaN()));
+  }
+  WatchSettings watch = learned_limits(seen_through, displacement_m);
+  watch.bias_m = bias_m;
+  return watch;
+}
+
+/// To a thousandth: more digits would say nothing.
+double rounded_up(double value) { return std::ceil(1000 * value) / 1000; }
+
+std::map<std::string, double> as_map(const std::vector<ProposedSetting>& proposed) {
+  std::map<std::string, double> map;
+  for (const ProposedSetting& one : proposed) map[one.key] = one.value;
+  return map;
+}
+
+SceneCameraChange change_of(const SceneCamera& source, const CameraCalibration& found,
+                            const FilterProposal& filter, const WatchSettings& watch,
+                            bool correct_depth) {
+  SceneCameraChange change;
+  change.camera = source.name;
+  if (found.refused.empty()) {
+    change.X_PC = found.X_PC;
+    if (is_told(found, "clock_offset_s")) change.clock_offset_s = found.clock_offset_s;
+    if (correct_depth) {
+      change.depth_scale_m = found.depth.scale * source.depth_scale_m;
+      change.depth_offset_m = found.depth.offset_m + found.depth.scale * source.depth_offset_m;
+    }
+  }
+  change.maps["self_filter"] = as_map(filter.self_filter);
+  change.maps["sensor"] = as_map(filter.sensor);
+  std::map<std::string, double>& limits = change.maps["watch"];
+  if (watch.max_seen_through > 0) limits["max_seen_through"] = rounded_up(watch.max_seen_through);
+  if (watch.max_displacement_m > 0) {
+    limits["max_displacement_m"] = rounded_up(watch.max_displacement_m);
+  }
+  if (watch.is_on()) limits["bias_m"] = std::round(1000 * watch.bias_m) / 1000 + 0.0;
+  std::erase_if(change.maps, [](const auto& map) { return map.second.empty(); });
+  return change;
+}
+
+/// One sentence for each camera, about the greatest change.
+void warn_of_changes(const std::vector<EnvironmentChange>& changes, const std::string& camera,
+                     std::vector<std::string>& warnings) {
+  const EnvironmentChange* greatest = nullptr;
+  for (const EnvironmentChange& one : changes) {
+    if (one.camera == camera && (!greatest || one.share > greatest->share)) greatest = &one;
+  }
+  if (!greatest) return;
+  warnings.push_back(fmt::format(
+      "camera {}: something beside the robot moved, most of all between frames {} and {} ({:.0f} % "
+      "of what is seen there); expected fixed things alone",
+      camera, greatest->before, greatest->after, 100 * greatest->share));
+}
+
+std::vector<std::string> warnings_of(const SceneTeachIn& material, const CalibrationResult& found) {
+  std::vector<std::string> warnings = material.warnings;
+  const std::vector<EnvironmentChange> changes = moved_environment(material.teach_in, found);
+  for (const CameraCalibration& camera : found.cameras) {
+    warn_of_changes(changes, camera.camera, warnings);
+  }
+  return warnings;
+}
+
+}  // namespace
+
+SceneCalibration calibrate_scene(const OpenScene& scene, const SceneTeachIn& material,
+                                 const CalibrateSceneSettings& settings) {
+  const TeachIn& teach_in = material.teach_in;
+  SceneCalibration calibration;
+  calibration.found = calibrate(teach_in, settings.fit);
+  const CalibrationResult& found = calibration.found;
+  require_poses(scene, found);
+  calibration.warnings = warnings_of(material, found);
+  for (std::size_t c = 0; c < scene.cameras.size(); ++c) {
+    settings.fit.pause();
+    const ViewSettings& present = scene.cameras[c].view->settings();
+    const bool corrects = settings.correct_depth && found.cameras[c].refused.empty();
+    calibration.filters.push_back(
+        propose_filter(teach_in, c, found, corrects, present.self_filter, present.sensor));
+    calibration.watches.push_back(normal_range(teach_in, *teach_in.cameras[c], found.cameras[c],
+                                               settings, found.joint_offsets,
+                                               calibration.filters[c].bias_m));
+    calibration.change.cameras.push_back(change_of(scene.cameras[c].source, found.cameras[c],
+                                                   calibration.filters[c], calibration.watches[c],
+                                                   corrects));
+  }
+  for (const auto& [joint, offset] : found.joint_offsets) {
+    const auto before = scene.joint_offsets.find(joint);
+    calibration.change.joint_offsets[joint] =
+        offset + (before == scene.joint_offsets.end() ? 0 : before->second);
+  }
+  return calibration;
+}
+
+}  // namespace berth

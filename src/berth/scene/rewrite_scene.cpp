@@ -1,0 +1,210 @@
+#include "berth/scene/rewrite_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "berth/files/error.hpp"
+#include "berth/files/file_bytes.hpp"
+#include "berth/files/number.hpp"
+#include "berth/files/yaml_edit.hpp"
+#include "berth/scene/moved_path.hpp"
+#include "berth/scene/scene_file.hpp"
+
+namespace berth {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kMostPoseError = 1e-9;
+
+/// Where a scene names files and folders; "*" is any one step.
+const std::array<YamlPath, 7> kPlacesOfPaths = {{{"robot", "urdf"},
+                                                 {"robot", "package_paths", "*"},
+                                                 {"cameras", "*", "info"},
+                                                 {"cameras", "*", "depth"},
+                                                 {"cameras", "*", "depth", "*"},
+                                                 {"joints"},
+                                                 {"attached", "*", "mesh"}}};
+const YamlPath& kPlaceOfPattern = kPlacesOfPaths[3];
+
+bool is_place(const YamlPath& path, const YamlPath& place) {
+  const auto fits = [](const std::string& step, const std::string& wanted) {
+    return wanted == "*" || step == wanted;
+  };
+  return std::equal(path.begin(), path.end(), place.begin(), place.end(), fits);
+}
+
+void move_paths(const YamlScalars& scene, const fs::path& from_file, const fs::path& to_file,
+                YamlScalars& changed) {
+  const PathMove move(from_file, to_file);
+  for (const auto& [place, text] : scene) {
+    const auto names_file = [&](const YamlPath& known) { return is_place(place, known); };
+    if (std::none_of(kPlacesOfPaths.begin(), kPlacesOfPaths.end(), names_file)) continue;
+    const std::string moved =
+        is_place(place, kPlaceOfPattern) ? move.pattern(text) : move.path(text).string();
+    if (moved != text) changed[place] = moved;
+  }
+}
+
+/// With ten decimals at most.
+std::string printed_number(double value) {
+  std::string text = fmt::format("{:.10f}", value);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text == "-0" ? "0" : text;
+}
+
+/// Angles about the fixed axes x, then y, then z. The one about x is taken from what the others
+/// leave, so that they give the rotation where the camera's x is along the parent's z too.
+Eigen::Vector3d rpy_of(const Eigen::Matrix3d& R) {
+  const double yaw = std::atan2(R(1, 0), R(0, 0));
+  const double c = std::cos(yaw);
+  const double s = std::sin(yaw);
+  return {std::atan2(s * R(0, 2) - c * R(1, 2), c * R(1, 1) - s * R(0, 1)),
+          std::atan2(-R(2, 0), std::hypot(R(0, 0), R(1, 0))), yaw};
+}
+
+YamlPath joined(YamlPath path, const YamlPath& more) {
+  path.insert(path.end(), more.begin(), more.end());
+  return path;
+}
+
+/// The new pose with the user's kind of rotation, a quaternion with the user's sign.
+void change_pose(const Pose& X_PC, const YamlScalars& scene, const YamlPath& pose,
+                 YamlScalars& changed) {
+  const auto set_list = [&](const std::string& key, const auto& values) {
+    for (Eigen::Index i = 0; i < values.size(); ++i) {
+      changed[joined(pose, {key, std::to_string(i)})] = printed_number(values[i]);
+    }
+  };
+  set_list("xyz", X_PC.translation());
+  if (scene.contains(joined(pose, {"rpy", "0"}))) return set_list("rpy", rpy_of(X_PC.linear()));
+  Eigen::Vector4d xyzw = Eigen::Quaterniond(X_PC.linear()).normalized().coeffs();
+  Eigen::Vector4d old_xyzw;
+  for (Eigen::Index i = 0; i < old_xyzw.size(); ++i) {
+    old_xyzw[i] = *parse_finite(scene.at(joined(pose, {"quaternion_xyzw", std::to_string(i)})));
+  }
+  if (xyzw.dot(old_xyzw) < 0) xyzw = -xyzw;
+  set_list("quaternion_xyzw", xyzw);
+}
+
+std::string exact(double value) { return fmt::format("{}", value); }
+
+std::size_t index_of(const SceneFile& scene, const std::string& camera) {
+  const auto named = [&](const SceneCamera& one) { return one.name == camera; };
+  const auto at = std::find_if(scene.cameras.begin(), scene.cameras.end(), named);
+  if (at == scene.cameras.end()) {
+    throw std::invalid_argument(
+        fmt::format("{}: no camera is named {}", scene.file.string(), camera));
+  }
+  return static_cast<std::size_t>(at - scene.cameras.begin());
+}
+
+void change_camera(const SceneCameraChange& change, const YamlScalars& scene,
+                   const YamlPath& camera, YamlScalars& changed) {
+  const auto set = [&](const std::string& key, const std::optional<double>& value) {
+    if (value) changed[joined(camera, {key})] = exact(*value);
+  };
+  set("clock_offset_s", change.clock_offset_s);
+  set("depth_scale", change.depth_scale_m);
+  set("depth_offset_m", change.depth_offset_m);
+  if (change.X_PC) change_pose(*change.X_PC, scene, joined(camera, {"pose"}), changed);
+  for (const auto& [map, values] : change.maps) {
+    for (const auto& [key, value] : values) changed[joined(camera, {map, key})] = exact(value);
+  }
+}
+
+void require_same_file(const SceneFile& scene, const std::string& where, const fs::path& found,
+                       const fs::path& expected) {
+  if (is_same_path(found, expected)) return;
+  throw_bad_file({scene.file, 0, where}, "would lead to " + found.string(), expected.string());
+}
+
+/// Throws unless the new scene names the same files as the old one.
+void require_same_files(const SceneFile& found, const SceneFile& expected) {
+  const auto same = [&](const std::string& where, const fs::path& file, const fs::path& wanted) {
+    require_same_file(expected, where, file, wanted);
+  };
+  same("robot.urdf", found.robot.urdf, expected.robot.urdf);
+  for (const auto& [name, folder] : expected.robot.package_paths) {
+    same("robot.package_paths." + name, found.robot.package_paths.at(name), folder);
+  }
+  same("joints", found.joints, expected.joints);
+  for (std::size_t i = 0; i < expected.attached.size(); ++i) {
+    if (expected.attached[i].mesh.empty()) continue;
+    same(fmt::format("attached[{}].mesh", i), found.attached[i].mesh, expected.attached[i].mesh);
+  }
+  for (std::size_t i = 0; i < expected.cameras.size(); ++i) {
+    const std::string where = fmt::format("cameras[{}].", i);
+    const SceneCamera& camera = expected.cameras[i];
+    same(where + "info", found.cameras[i].info, camera.info);
+    if (found.cameras[i].depth.size() != camera.depth.size()) {
+      throw_bad_file({expected.file, 0, where + "depth"},
+                     fmt::format("would be {} images", found.cameras[i].depth.size()),
+                     fmt::format("{}", camera.depth.size()));
+    }
+    for (std::size_t k = 0; k < camera.depth.size(); ++k) {
+      same(fmt::format("{}depth[{}]", where, k), found.cameras[i].depth[k], camera.depth[k]);
+    }
+  }
+}
+
+/// Throws unless the new scene has the given poses; cameras without one have theirs of before.
+void require_poses(const SceneFile& found, const SceneFile& scene, const SceneChange& change) {
+  std::vector<Pose> wanted;
+  for (const SceneCamera& camera : scene.cameras) wanted.push_back(camera.X_PC);
+  for (const SceneCameraChange& camera : change.cameras) {
+    if (camera.X_PC) wanted[index_of(scene, camera.camera)] = *camera.X_PC;
+  }
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const Pose& X_PC = found.cameras[i].X_PC;
+    const double error = (X_PC.matrix() - wanted[i].matrix()).cwiseAbs().maxCoeff();
+    if (error <= kMostPoseError) continue;
+    throw_bad_file({scene.file, 0, fmt::format("cameras[{}].pose", i)},
+                   fmt::format("would be off by {:.3g}", error),
+                   "a rigid transform within 100 km, given to 1e-9");
+  }
+}
+
+}  // namespace
+
+std::string rewritten_scene(const fs::path& scene_file, const SceneChange& change,
+                            const fs::path& new_file) {
+  const fs::path new_folder = fs::absolute(new_file).parent_path();
+  if (!fs::is_directory(new_folder)) {
+    throw_bad_file({new_file}, "its folder is missing", "a file in a folder that is there");
+  }
+  const std::string text = read_file_bytes(scene_file);
+  const SceneFile scene = parse_scene(scene_file, text);
+  const YamlScalars scalars = yaml_scalars(text);
+  YamlScalars changed;
+  move_paths(scalars, scene_file, new_file, changed);
+  for (const SceneCameraChange& camera : change.cameras) {
+    const std::size_t index = index_of(scene, camera.camera);
+    change_camera(camera, scalars, {"cameras", std::to_string(index)}, changed);
+  }
+  for (const auto& [joint, offset] : change.joint_offsets) {
+    changed[{"joint_offsets", joint}] = exact(offset);
+  }
+  const std::string new_text = edited_yaml(scene_file, text, changed);
+  const SceneFile new_scene = parse_scene(new_file, new_text);
+  require_same_files(new_scene, scene);
+  require_poses(new_scene, scene, change);
+  return new_text;
+}
+
+void write_rewritten_scene(const fs::path& scene_file, const SceneChange& change,
+                           const fs::path& new_file) {
+  if (fs::exists(new_file) && fs::equivalent(scene_file, new_file)) {
+    throw_bad_file({new_file}, fmt::format("is the same file as {}", scene_file.string()),
+                   "another one: the scene itself is never overwritten");
+  }
+  write_file_bytes(new_file, rewritten_scene(scene_file, change, new_file));
+}
+
+}  // namespace berth

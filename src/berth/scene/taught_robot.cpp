@@ -1,0 +1,56 @@
+#include "berth/scene/taught_robot.hpp"
+
+#include "berth/robot/joints_at_time.hpp"
+
+namespace berth {
+
+TaughtRobot::TaughtRobot(const TeachIn& teach_in, const CalibrationResult& result,
+                         std::size_t camera)
+    : teach_in_(teach_in),
+      result_(result),
+      camera_(camera),
+      renderer_(teach_in.meshes, teach_in.cameras[camera]->camera) {
+  const Camera& size = source().camera;
+  image_.depth_m.resize(size.width_px, size.height_px, kNoDepth);
+  image_.link_id.resize(size.width_px, size.height_px, kNoLink);
+}
+
+const RobotImage* TaughtRobot::draw(std::size_t frame, TeachInSide side) {
+  const std::optional<JointState> at = joints(source().frames[frame], side);
+  if (!at) return nullptr;
+  forward_kinematics(*teach_in_.model, at->position, pose_);
+  const Pose& X_PC = side == TeachInSide::before ? source().X_PC : found().X_PC;
+  renderer_.render(pose_, pose_.X_BL[source().parent] * X_PC, image_);
+  return &image_;
+}
+
+DepthImage TaughtRobot::residual_m(std::size_t frame, TeachInSide side,
+                                   const RobotImage& robot) const {
+  const DepthImage& reading_m = source().frames[frame].depth_m;
+  const DepthError error = side == TeachInSide::before ? DepthError{} : found().depth;
+  DepthImage residual_m(reading_m.width(), reading_m.height(), kNoDepth);
+  for (std::size_t i = 0; i < reading_m.pixels().size(); ++i) {
+    if (!is_robot(robot.link_id.pixels()[i])) continue;
+    const double z_m = error.offset_m + error.scale * reading_m.pixels()[i];
+    residual_m.pixels()[i] = static_cast<float>(z_m - robot.depth_m.pixels()[i]);
+  }
+  return residual_m;
+}
+
+std::optional<JointState> TaughtRobot::joints(const TeachInFrame& frame, TeachInSide side) const {
+  JointState joints = frame.joints;
+  if (side == TeachInSide::before) return joints;
+  if (teach_in_.joints && found().clock_offset_s != source().clock_offset_s) {
+    const double time_s = frame.joints.stamp_s + found().clock_offset_s;
+    if (teach_in_.joints->at(time_s, kOnlyBetweenSamples, joints).status != TimeStatus::ok) {
+      return std::nullopt;
+    }
+  }
+  for (std::size_t j = 0; j < joints.position.size(); ++j) {
+    const auto offset = result_.joint_offsets.find(teach_in_.model->joints[j].name);
+    if (offset != result_.joint_offsets.end()) joints.position[j] += offset->second;
+  }
+  return joints;
+}
+
+}  // namespace berth

@@ -1,0 +1,195 @@
+// A camera that does not stand where it should: its frames are not used.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "berth/pipeline/asker.hpp"
+#include "berth/pipeline/observer.hpp"
+#include "berth/scene/open_scene.hpp"
+#include "tests/support/error_message.hpp"
+#include "tests/support/view_with.hpp"
+
+namespace berth {
+namespace {
+
+constexpr std::size_t kFrame = 17;
+
+class MovedCamera : public ::testing::Test {
+ protected:
+  MovedCamera()
+      : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml")),
+        camera_(scene_.cameras.front()),
+        depth_m_(camera_.read_depth(kFrame)) {}
+
+  /// As the bundled camera, but believed to be turned by so much.
+  std::shared_ptr<const View> view_of(const std::shared_ptr<const Robot>& robot, double turn_rad,
+                                      const WatchSettings& watch = kEachFrame) const {
+    CameraMount mount = camera_.view->mount();
+    mount.X_PC.rotate(Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitY()));
+    ViewSettings settings;
+    settings.watch = watch;
+    return std::make_shared<const View>(robot, mount, settings);
+  }
+  std::shared_ptr<const Robot> robot_with(Method method) const {
+    EvaluationSettings settings;
+    settings.method = method;
+    return std::make_shared<const Robot>(camera_.view->robot()->model(), settings);
+  }
+  Frame& observe(Observer& observer, Frame& frame, FrameTime time = {}) const {
+    observer.observe(depth_m_, camera_.at_exposure[kFrame], frame, time);
+    return frame;
+  }
+  static void expect_withheld(const Answer& answer) {
+    EXPECT_EQ(answer.time.status, TimeStatus::camera_moved) << name_of(answer.time.status);
+    ASSERT_FALSE(answer.distances.links.empty());
+    for (const LinkDistance& link : answer.distances.links) {
+      EXPECT_EQ(link.status, LinkStatus::untimely);
+      EXPECT_TRUE(std::isnan(link.distance_m));
+    }
+  }
+
+  static constexpr WatchSettings kEachFrame{
+      .max_seen_through = 0.03, .agreeing_frames = 1, .frames = 1};
+  static constexpr double kTurn_rad = 0.05;
+
+  OpenScene scene_;
+  const OpenCamera& camera_;
+  DepthImage depth_m_;
+};
+
+TEST_F(MovedCamera, NoMethodAnswersFromItsFrame) {
+  for (const Method method : {Method::mesh, Method::exact, Method::brute_force, Method::lattice}) {
+    const auto robot = robot_with(method);
+    Observer observer(view_of(robot, kTurn_rad));
+    Frame frame;
+    observe(observer, frame);
+    EXPECT_TRUE(frame.watch.has_moved);
+    EXPECT_GT(frame.watch.seen_through, 0.1);
+    Asker asker(robot);
+    expect_withheld(asker.ask(frame));
+    expect_withheld(asker.ask(frame, frame.stamp_s + 0.01));
+    expect_withheld(asker.ask(frame, frame.stamp_s + 10));
+    expect_withheld(asker.ask(frame, camera_.at_exposure[3]));
+  }
+}
+
+TEST_F(MovedCamera, OneThatStandsAsItShouldAnswersAsIfNobodyWatched) {
+  for (const Method method : {Method::mesh, Method::exact}) {
+    const auto robot = robot_with(method);
+    Observer watched(view_of(robot, 0)), plain(view_of(robot, 0, {}));
+    Frame frame, plain_frame;
+    observe(watched, frame);
+    observe(plain, plain_frame);
+    EXPECT_TRUE(frame.watch.is_on);
+    EXPECT_FALSE(frame.watch.has_moved);
+    EXPECT_LT(frame.watch.seen_through, 0.02);
+    EXPECT_FALSE(plain_frame.watch.is_on);
+    Asker one(robot), other(robot);
+    const LinkDistances& a = one.ask(frame).distances;
+    const LinkDistances& b = other.ask(plain_frame).distances;
+    for (std::size_t i = 0; i < a.links.size(); ++i) {
+      EXPECT_EQ(a.links[i].distance_m, b.links[i].distance_m);
+    }
+  }
+}
+
+TEST_F(MovedCamera, TheOthersAnswerStands) {
+  const auto robot = robot_with(Method::mesh);
+  Observer good(view_of(robot, 0)), bumped(view_of(robot, kTurn_rad));
+  Frame left, right;
+  observe(good, left);
+  observe(bumped, right);
+  const Frame* both[] = {&right, &left};
+  const Frame* alone[] = {&left};
+  FrameSet with_both, with_one;
+  with_both.assign(both, {}, left.stamp_s);
+  with_one.assign(alone, {}, left.stamp_s);
+  EXPECT_EQ(with_both.cameras()[0].status, CameraStatus::moved);
+  EXPECT_GT(with_both.cameras()[0].watch.seen_through, 0.1);
+  EXPECT_EQ(with_both.cameras()[1].status, CameraStatus::ok);
+  EXPECT_EQ(with_both.used(), std::vector{1});
+  Asker a(robot), b(robot);
+  const Answer& answer = a.ask(with_both);
+  const Answer& expected = b.ask(with_one);
+  EXPECT_EQ(answer.time.status, TimeStatus::ok);
+  for (std::size_t i = 0; i < answer.distances.links.size(); ++i) {
+    EXPECT_EQ(answer.distances.links[i].distance_m, expected.distances.links[i].distance_m);
+  }
+  const Frame* moved[] = {&right, nullptr};
+  FrameSet none;
+  none.assign(moved, {}, right.stamp_s);
+  expect_withheld(a.ask(none));
+}
+
+TEST_F(MovedCamera, AnUntimelyFrameSaysWhatIsWrongWithItsTime) {
+  const auto robot = robot_with(Method::mesh);
+  Observer observer(view_of(robot, kTurn_rad));
+  Frame frame;
+  observe(observer, frame);
+  FrameTime skewed;
+  skewed.status = TimeStatus::skewed;
+  observe(observer, frame, skewed);
+  EXPECT_TRUE(frame.watch.has_moved) << "no frame cleared it";
+  EXPECT_TRUE(std::isnan(frame.watch.seen_through));
+  const CameraState state = camera_state(&frame, frame.stamp_s, {});
+  EXPECT_EQ(state.status, CameraStatus::untimely);
+  EXPECT_EQ(state.time, TimeStatus::skewed);
+  Asker asker(robot);
+  EXPECT_EQ(asker.ask(frame).time.status, TimeStatus::skewed);
+}
+
+TEST_F(MovedCamera, TheDisplacementIsToldOnceItIsFinished) {
+  const auto robot = robot_with(Method::exact);
+  const WatchSettings settings{.max_displacement_m = 0.02, .check_every_s = 0};
+  double measured_m = 0.05;
+  Observer observer(view_of(robot, 0, settings),
+                    [&](DepthView depth_m, const JointState& at_exposure, std::stop_token) {
+                      EXPECT_EQ(depth_m.width, 640);
+                      EXPECT_EQ(at_exposure.stamp_s, camera_.at_exposure[kFrame].stamp_s);
+                      return std::optional(measured_m);
+                    });
+  Frame frame;
+  for (const bool has_moved : {false, true}) {
+    observe(observer, frame);
+    observer.finish_watch(frame);
+    EXPECT_EQ(frame.watch.has_moved, has_moved);
+    EXPECT_EQ(frame.watch.displacement_m, 0.05);
+  }
+  Asker asker(robot);
+  expect_withheld(asker.ask(frame));
+  measured_m = 0.001;
+  for (const bool has_moved : {true, false}) {
+    observe(observer, frame);
+    observer.finish_watch(frame);
+    EXPECT_EQ(frame.watch.has_moved, has_moved);
+  }
+}
+
+TEST_F(MovedCamera, NothingIsLearnedFromIt) {
+  const auto robot = robot_with(Method::exact);
+  for (const double turn_rad : {0.0, kTurn_rad}) {
+    const auto view = view_of(robot, turn_rad);
+    ViewSettings settings = view->settings();
+    settings.sensor.background_frames = 1;
+    Observer observer(testing::view_with(*view, settings));
+    Frame frame;
+    observer.observe(depth_m_, camera_.at_exposure[kFrame], frame);
+    observer.learn_background(depth_m_, frame);
+    // Without a reading, what was learned stands where the robot is now.
+    observer.observe(camera_.read_depth(0), camera_.at_exposure[0], frame);
+    EXPECT_EQ(frame.obstacles.count_of(PixelFate::background) > 0, turn_rad == 0);
+  }
+}
+
+TEST_F(MovedCamera, BadSettingsAreRefusedByTheView) {
+  const auto robot = robot_with(Method::exact);
+  const auto refusal = [&](const WatchSettings& watch) {
+    return error_message<std::invalid_argument>(
+        [&] { Observer observer(view_of(robot, 0, watch)); });
+  };
+  expect_parts(refusal({.max_seen_through = 2}), {"watch.max_seen_through: 2"});
+  expect_parts(refusal({.max_displacement_m = 0.02}), {"watch.max_displacement_m: 0.02"});
+}
+
+}  // namespace
+}  // namespace berth

@@ -1,0 +1,89 @@
+// From a scene file to results: a camera that was bumped.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "berth/scene/result_json.hpp"
+#include "berth/scene/scene_run.hpp"
+#include "tests/scene/scene_text.hpp"
+#include "tests/support/error_message.hpp"
+
+namespace berth {
+namespace {
+
+using Json = nlohmann::json;
+
+TEST(WatchInScenes, ACamerasOwnKeysGoOverThoseOfTheScene) {
+  SceneText text;
+  text.more_camera = "watch: {max_seen_through: 0.07, frames: 5, agreeing_frames: 4}";
+  text.end += "\nwatch: {max_seen_through: 0.04, max_displacement_m: 0.02, check_every_s: 1}";
+  const WatchSettings watch = read_text(text).cameras[0].settings.watch;
+  EXPECT_EQ(watch.max_seen_through, 0.07);
+  EXPECT_EQ(watch.max_displacement_m, 0.02);
+  EXPECT_EQ(watch.frames, 5);
+  EXPECT_EQ(watch.agreeing_frames, 4);
+  EXPECT_EQ(watch.check_every_s, 1);
+  text.more_camera = "watch: {max_seen: 0.07}";
+  expect_parts(error_message([&] { read_text(text); }), {"max_seen", "max_seen_through"});
+}
+
+/// Four images of each of the bundled cameras; the camera `left` was turned by 3 degrees.
+SceneFile bumped_scene(Method method) {
+  SceneFile scene = read_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml");
+  scene.evaluation.method = method;
+  for (SceneCamera& camera : scene.cameras) {
+    camera.depth.resize(4);
+    camera.stamps_s.resize(4);
+    camera.settings.watch = {.max_seen_through = 0.03, .agreeing_frames = 2, .frames = 2};
+    if (camera.name == "left") {
+      camera.X_PC.rotate(Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitX()));
+    }
+  }
+  return scene;
+}
+
+TEST(WatchInScenes, OfSeveralCamerasTheOneThatMovedIsNamedAndTheOthersAnswer) {
+  const OpenScene scene = open_scene(bumped_scene(Method::mesh));
+  SceneRun run(scene);
+  Json line;
+  while (run.next()) line = Json::parse(result_json(run.ask()));
+  ASSERT_EQ(line["cameras"].size(), 3U);
+  for (const Json& camera : line["cameras"]) {
+    const bool is_left = camera["camera"] == "left";
+    EXPECT_EQ(camera["status"], is_left ? "moved" : "ok");
+    EXPECT_EQ(camera["seen_through"] > 0.03, is_left);
+    EXPECT_TRUE(camera["displacement_m"].is_null());
+  }
+  EXPECT_EQ(line["time"]["status"], "ok");
+  for (const Json& link : line["links"]) {
+    EXPECT_NE(link["camera"], "left");
+    EXPECT_NE(link["status"], "untimely");
+  }
+}
+
+TEST(WatchInScenes, AMethodOnImagesGivesNoAnswerFromTheOneThatMoved) {
+  const OpenScene scene = open_scene(bumped_scene(Method::exact));
+  SceneRun run(scene);
+  while (run.next()) {
+    const Json line = Json::parse(result_json(run.ask()));
+    const bool has_moved = line["camera"] == "left" && line["frame"] > 0;
+    EXPECT_EQ(line["cameras"][0]["status"], has_moved ? "moved" : "ok");
+    EXPECT_EQ(line["time"]["status"], has_moved ? "camera_moved" : "ok");
+    EXPECT_EQ(line["links"][0]["distance_m"].is_null(), has_moved);
+  }
+}
+
+TEST(WatchInScenes, WithoutItNothingIsAdded) {
+  SceneFile file = bumped_scene(Method::exact);
+  for (SceneCamera& camera : file.cameras) camera.settings.watch = {};
+  const OpenScene scene = open_scene(file);
+  SceneRun run(scene);
+  while (run.next()) {
+    const Json line = Json::parse(result_json(run.ask()));
+    EXPECT_EQ(line["cameras"][0]["status"], "ok");
+    EXPECT_FALSE(line["cameras"][0].contains("seen_through"));
+  }
+}
+
+}  // namespace
+}  // namespace berth

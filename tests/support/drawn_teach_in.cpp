@@ -1,0 +1,170 @@
+#include "tests/support/drawn_teach_in.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "tests/support/drawn_obstacles.hpp"
+#include "tests/support/drawn_scene.hpp"
+#include "tests/support/sensor_model.hpp"
+
+namespace berth::testing {
+namespace {
+
+constexpr int kMostPlaces = 200;
+/// Of the image, in each pose.
+constexpr double kLeastSeenShare = 0.02;
+/// From one pose to the next, and how often the joints are told.
+constexpr double kLeg_s = 1.5;
+constexpr double kSample_s = 0.01;
+
+using Joints = std::vector<double>;
+
+/// Half the way of each joint's range at most from one pose to the next.
+std::vector<Joints> draw_waypoints(Random& random, const RobotModel& model, int count) {
+  std::vector<Joints> waypoints;
+  for (int i = 0; i < count; ++i) {
+    Joints next = draw_joints(random, model).position;
+    if (!waypoints.empty()) {
+      for (std::size_t j = 0; j < next.size(); ++j) {
+        next[j] = waypoints.back()[j] + std::clamp(next[j] - waypoints.back()[j], -1.0, 1.0);
+      }
+    }
+    waypoints.push_back(next);
+  }
+  return waypoints;
+}
+
+Joints joints_at(const std::vector<Joints>& waypoints, double time_s) {
+  const double leg = std::clamp(time_s / kLeg_s, 0.0, static_cast<double>(waypoints.size() - 1));
+  const auto from = std::min(static_cast<std::size_t>(leg), waypoints.size() - 2);
+  const double part = 0.5 - 0.5 * std::cos(std::numbers::pi * (leg - static_cast<double>(from)));
+  Joints joints;
+  for (std::size_t j = 0; j < waypoints[0].size(); ++j) {
+    joints.push_back(std::lerp(waypoints[from][j], waypoints[from + 1][j], part));
+  }
+  return joints;
+}
+
+RobotPose pose_at(const RobotModel& model, const Joints& joints) {
+  RobotPose pose;
+  forward_kinematics(model, joints, pose);
+  return pose;
+}
+
+/// The robot is seen in each pose.
+void place_camera(Random& random, const RobotModel& model, const std::vector<Joints>& exposures,
+                  const DrawnTeachInSettings& settings, TeachInCamera& camera) {
+  const RobotExtent robot = extent_of(model, pose_at(model, exposures[0]));
+  for (int i = 0; i < kMostPlaces; ++i) {
+    camera.camera = draw_camera(random, settings.width_px, settings.height_px);
+    camera.X_PC = draw_camera_pose(random, robot);
+    const bool is_seen = std::all_of(exposures.begin(), exposures.end(), [&](const Joints& joints) {
+      const EmbreeRenderer rays(model, pose_at(model, joints), camera.X_PC, camera.camera);
+      return robot_share(cast_image(rays, camera.camera)) > kLeastSeenShare;
+    });
+    if (is_seen) return;
+  }
+  throw std::runtime_error("no camera sees robot " + model.name);
+}
+
+/// Farther from the robot's middle than the robot reaches, so that it never meets them.
+void add_things(Random& random, const RobotExtent& robot, const Pose& X_BC,
+                std::vector<DrawnObstacle>& obstacles) {
+  for (int i = 0; i < 6; ++i) {
+    const double radius_m = robot.radius_m * random(0.1, 0.4);
+    const Eigen::Vector3d direction = draw_rotation(random) * Eigen::Vector3d::UnitX();
+    const Eigen::Vector3d p_B_m =
+        robot.centre_B_m + (1.3 * robot.radius_m + radius_m) * direction;
+    // Nothing stands between camera and robot.
+    if (direction.dot((X_BC.translation() - robot.centre_B_m).normalized()) > 0.2) continue;
+    Pose X_BO(draw_rotation(random));
+    X_BO.translation() = p_B_m;
+    obstacles.push_back({draw_obstacle(random, radius_m), X_BO});
+  }
+}
+
+DepthImage sense(const RobotModel& model, const Joints& joints,
+                 const std::vector<DrawnObstacle>& obstacles, const TeachInCamera& camera,
+                 const DrawnTeachInSettings& settings, std::uint32_t seed) {
+  const EmbreeRenderer rays(model, pose_at(model, joints), camera.X_PC, camera.camera);
+  DepthImage depth_m = cast_image(rays, camera.camera).depth_m;
+  const RobotModel room = obstacle_model(obstacles);
+  const EmbreeRenderer room_rays(room, obstacle_pose(obstacles), camera.X_PC, camera.camera);
+  const DepthImage room_m = cast_image(room_rays, camera.camera).depth_m;
+  for (std::size_t i = 0; i < depth_m.pixels().size(); ++i) {
+    float& z_m = depth_m.pixels()[i];
+    const float behind_m = room_m.pixels()[i];
+    if (std::isnan(z_m) || behind_m < z_m) z_m = behind_m;
+    z_m *= static_cast<float>(1 + settings.errors.depth_share);
+  }
+  if (!settings.has_sensor_errors) return depth_m;
+  darken_outlines(2, depth_m);
+  mix_edge_pixels(0.1, seed + 1, depth_m);
+  add_noise(0.0015, seed + 2, depth_m);
+  quantise(0.003, depth_m);
+  drop_out(0.02, seed + 3, depth_m);
+  return depth_m;
+}
+
+/// Which joints no image can tell: one that moves all that is seen alike, and one at the end whose
+/// link looks alike from all sides, as a rule.
+bool is_observable(const RobotModel& model, std::size_t joint) {
+  return joint > 0 && joint + 1 < model.joints.size() &&
+         model.joints[joint].type != JointType::prismatic;
+}
+
+}  // namespace
+
+DrawnTeachIn draw_teach_in(const RobotModel& model, std::shared_ptr<const LinkMeshes> meshes,
+                           const DrawnTeachInSettings& settings, std::uint32_t seed) {
+  Random random(seed);
+  const std::vector<Joints> waypoints = draw_waypoints(random, model, settings.poses + 1);
+  std::vector<double> stamps_s;
+  std::vector<Joints> exposures;
+  for (int i = 0; i < settings.poses; ++i) {
+    stamps_s.push_back(kLeg_s * (i + (settings.moves ? random(0.3, 0.7) : 0)));
+    exposures.push_back(joints_at(waypoints, stamps_s.back() + settings.errors.clock_offset_s));
+  }
+  DrawnTeachIn drawn;
+  drawn.camera = std::make_unique<TeachInCamera>();
+  TeachInCamera& camera = *drawn.camera;
+  camera.name = "camera";
+  place_camera(random, model, exposures, settings, camera);
+  drawn.X_PC_true = camera.X_PC;
+  camera.has_stamps = settings.moves;
+
+  std::vector<DrawnObstacle> obstacles;
+  const RobotExtent robot = extent_of(model, pose_at(model, exposures[0]));
+  add_room(random, robot, camera.X_PC, obstacles);
+  add_things(random, robot, camera.X_PC, obstacles);
+
+  for (std::size_t j = 0; j < model.joints.size(); ++j) {
+    const double sign = random.whole(0, 1) == 0 ? -1 : 1;
+    drawn.joint_shift.push_back(is_observable(model, j) ? sign * settings.errors.joint_zero : 0);
+  }
+  const auto believed = [&](double time_s) {
+    Joints joints = joints_at(waypoints, time_s);
+    for (std::size_t j = 0; j < joints.size(); ++j) joints[j] -= drawn.joint_shift[j];
+    return joints;
+  };
+  for (int i = 0; i < settings.poses; ++i) {
+    camera.frames.push_back({i,
+                             sense(model, exposures[i], obstacles, camera, settings,
+                                   seed + 10 * static_cast<std::uint32_t>(i)),
+                             {stamps_s[i], believed(stamps_s[i])}});
+    drawn.joints_at_exposure.push_back(believed(stamps_s[i] + settings.errors.clock_offset_s));
+  }
+  std::vector<std::string> names;
+  for (const MovableJoint& joint : model.joints) names.push_back(joint.name);
+  std::vector<JointTrajectory::Sample> samples;
+  for (double t_s = -0.5; t_s < kLeg_s * settings.poses + 0.5; t_s += kSample_s) {
+    samples.push_back({t_s, believed(t_s)});
+  }
+  drawn.joints = std::make_unique<JointTrajectory>(model, "drawn", names, samples);
+  drawn.teach_in = {&model, std::move(meshes), drawn.joints.get(), {drawn.camera.get()}};
+  return drawn;
+}
+
+}  // namespace berth::testing
