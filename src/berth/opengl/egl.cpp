@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <initializer_list>
 
 #include "berth/opengl/gl_context.hpp"
 
@@ -11,7 +12,8 @@ namespace berth {
 namespace {
 
 /// libepoxy ends the program if it does not find a library, so look before it does.
-void require_library(const char* what, std::vector<const char*> names, const char* package) {
+void require_library(const char* what, std::initializer_list<const char*> names,
+                     const char* package) {
   for (const char* name : names) {
     if (dlopen(name, RTLD_LAZY | RTLD_LOCAL)) return;
   }
