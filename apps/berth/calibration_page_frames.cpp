@@ -43,19 +43,21 @@ std::string legend() {
       key(striped(beyond_scale(-1)), "something more than 10 cm before the robot"),
       key(striped(beyond_scale(1)), "the camera sees through the model"),
       key(css(kWebColor), "beside the model, like the robot, and not in most other images"),
-      key(css(kOutlineColor) + "; outline: 1px solid var(--line)", "outline of the model"));
+      key(css(kOutlineColor) + "; outline: 1px solid var(--line)",
+          "outline of the model, light where there is no reading"));
 }
 
 std::string figure(const FramePicture& picture, int number, const char* side) {
   if (picture.file.empty()) {
     return fmt::format(
         "<figure><div class=\"none\">The joints are not known at the clock that was found.</div>"
-        "<figcaption>{}</figcaption></figure>",
+        "<figcaption><strong>{}</strong></figcaption></figure>",
         side);
   }
   return fmt::format(
       "<figure><a href=\"{0}\"><img src=\"{0}\" alt=\"frame {1}, {2}\" loading=\"lazy\"/></a>"
-      "<figcaption>{2}: {3} px beside the model are like the robot</figcaption></figure>",
+      "<figcaption><strong>{2}</strong>: {3} px beside the model are like the "
+      "robot</figcaption></figure>",
       picture.file, number, side, picture.web_px);
 }
 
