@@ -48,7 +48,7 @@ class CameraSection {
     fmt::format_to(out_, "</div></div>\n");
     add_settings();
     add_pose();
-    html_ += frames_html(source_, frames_);
+    html_ += frames_html(source_, found_, frames_);
     return std::move(html_) + "</section>\n";
   }
 

@@ -63,7 +63,8 @@ std::string figure(const FramePicture& picture, int number, const char* side) {
 
 }  // namespace
 
-std::string frames_html(const TeachInCamera& source, const CalibrationFrames& frames) {
+std::string frames_html(const TeachInCamera& source, const CameraCalibration& found,
+                        const CalibrationFrames& frames) {
   std::string html = "<h3>The images</h3>\n";
   const auto out = std::back_inserter(html);
   const std::size_t shown = frames.pictures.size(), all = source.frames.size();
@@ -76,10 +77,11 @@ std::string frames_html(const TeachInCamera& source, const CalibrationFrames& fr
                  "The robot is white where the reading is where the model is. After a good "
                  "calibration it is pale, without a blue or orange rim on one side.</p>\n");
   html += legend();
+  const bool has_after = found.refused.empty();
   for (const FramePictures& frame : frames.pictures) {
     fmt::format_to(out, "<h4>Frame {}</h4>\n<div class=\"frame\">{}{}</div>\n", frame.number,
-                   figure(frame.before, frame.number, "before"),
-                   figure(frame.after, frame.number, "after"));
+                   figure(frame.before, frame.number, has_after ? "before" : "the scene's pose"),
+                   has_after ? figure(frame.after, frame.number, "after") : "");
   }
   return html;
 }
