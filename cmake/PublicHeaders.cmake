@@ -32,6 +32,9 @@ set(BERTH_PUBLIC_HEADERS
   berth/distance/mesh/settings.hpp
   berth/visibility/doubtful.hpp
   berth/visibility/visibility.hpp
+  berth/calibration/calibrate.hpp
+  berth/calibration/filter_settings.hpp
+  berth/calibration/pose_watch.hpp
   berth/pipeline/answer.hpp
   berth/pipeline/asker.hpp
   berth/pipeline/frame.hpp
@@ -48,6 +51,9 @@ set(BERTH_PUBLIC_HEADERS
   berth/opengl/gl_robot_renderer.hpp
   berth/opengl/gl_self_filter.hpp
   berth/scene/backend.hpp
+  berth/scene/calibrate_scene.hpp
+  berth/scene/calibration_json.hpp
+  berth/scene/calibration_table.hpp
   berth/scene/frame_result.hpp
   berth/scene/open_scene.hpp
   berth/scene/result_json.hpp

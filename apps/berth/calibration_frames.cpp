@@ -117,8 +117,9 @@ CalibrationFrames write_calibration_frames(const std::filesystem::path& folder,
     const std::optional<Side> after = take(taught, k, TeachInSide::after);
     if (before) frames.before.add(before->residual_m);
     if (after) frames.after.add(after->residual_m);
-    if (std::find(drawn.begin(), drawn.end(), k) != drawn.end())
-      frames.pictures.push_back(writer.write(k, before, after));
+    if (std::find(drawn.begin(), drawn.end(), k) == drawn.end()) continue;
+    const bool has_moved = taught.found().refused.empty();
+    frames.pictures.push_back(writer.write(k, before, has_moved ? after : std::nullopt));
   }
   return frames;
 }

@@ -14,7 +14,7 @@ namespace berth::app {
 /// One picture of a frame.
 struct FramePicture {
   /// A file's name in the page's folder; empty: the joints are not known at the clock that was
-  /// found.
+  /// found, or the pose that was found is refused.
   std::string file;
   /// Pixels beside the robot that are like it, see robot_webs().
   int web_px = 0;

@@ -19,6 +19,10 @@ using Html = std::back_insert_iterator<std::string>;
 
 std::string length_cell(double length_m) { return std::isnan(length_m) ? "–" : mm_text(length_m); }
 
+std::string quaternion_text(const Eigen::Quaterniond& q) {
+  return fmt::format("{:.5f}, {:.5f}, {:.5f}, {:.5f}", q.x(), q.y(), q.z(), q.w());
+}
+
 class CameraSection {
  public:
   CameraSection(const CalibrationReport& report, std::size_t camera,
@@ -44,7 +48,7 @@ class CameraSection {
     fmt::format_to(out_, "</div></div>\n");
     add_settings();
     add_pose();
-    html_ += frames_html(source_, frames_);
+    html_ += frames_html(source_, found_, frames_);
     return std::move(html_) + "</section>\n";
   }
 
@@ -145,19 +149,23 @@ class CameraSection {
                      "xyz"[i], source_.X_PC.translation()[i], found_.X_PC.translation()[i],
                      is_good ? "± " + mm_text(found_.sigma_xyz_m[i]) : "–");
     }
-    const auto quaternion = [](const Pose& X) {
-      const Eigen::Quaterniond q(X.linear());
-      return fmt::format("{:.5f}, {:.5f}, {:.5f}, {:.5f}", q.x(), q.y(), q.z(), q.w());
-    };
+    add_rotation();
+    fmt::format_to(out_, "</table></div>\n");
+    add_moves();
+  }
+
+  void add_rotation() {
+    const Eigen::Quaterniond q_scene(source_.X_PC.linear());
+    Eigen::Quaterniond q_found(found_.X_PC.linear());
+    // q and -q are the same rotation; people compare the two.
+    if (q_found.dot(q_scene) < 0) q_found.coeffs() = -q_found.coeffs();
     const Eigen::Vector3d turn_deg = found_.sigma_rotation_rad * (180 / EIGEN_PI);
     fmt::format_to(
         out_, "<tr><td>quaternion x, y, z, w</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-        quaternion(source_.X_PC), quaternion(found_.X_PC),
-        is_good
+        quaternion_text(q_scene), quaternion_text(q_found),
+        found_.refused.empty()
             ? fmt::format("± {:.2f}°, {:.2f}°, {:.2f}°", turn_deg.x(), turn_deg.y(), turn_deg.z())
             : "–");
-    fmt::format_to(out_, "</table></div>\n");
-    add_moves();
   }
 
   void add_moves() {

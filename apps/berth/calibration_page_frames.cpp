@@ -43,25 +43,28 @@ std::string legend() {
       key(striped(beyond_scale(-1)), "something more than 10 cm before the robot"),
       key(striped(beyond_scale(1)), "the camera sees through the model"),
       key(css(kWebColor), "beside the model, like the robot, and not in most other images"),
-      key(css(kOutlineColor) + "; outline: 1px solid var(--line)", "outline of the model"));
+      key(css(kOutlineColor) + "; outline: 1px solid var(--line)",
+          "outline of the model, light where there is no reading"));
 }
 
 std::string figure(const FramePicture& picture, int number, const char* side) {
   if (picture.file.empty()) {
     return fmt::format(
         "<figure><div class=\"none\">The joints are not known at the clock that was found.</div>"
-        "<figcaption>{}</figcaption></figure>",
+        "<figcaption><strong>{}</strong></figcaption></figure>",
         side);
   }
   return fmt::format(
       "<figure><a href=\"{0}\"><img src=\"{0}\" alt=\"frame {1}, {2}\" loading=\"lazy\"/></a>"
-      "<figcaption>{2}: {3} px beside the model are like the robot</figcaption></figure>",
+      "<figcaption><strong>{2}</strong>: {3} px beside the model are like the "
+      "robot</figcaption></figure>",
       picture.file, number, side, picture.web_px);
 }
 
 }  // namespace
 
-std::string frames_html(const TeachInCamera& source, const CalibrationFrames& frames) {
+std::string frames_html(const TeachInCamera& source, const CameraCalibration& found,
+                        const CalibrationFrames& frames) {
   std::string html = "<h3>The images</h3>\n";
   const auto out = std::back_inserter(html);
   const std::size_t shown = frames.pictures.size(), all = source.frames.size();
@@ -74,10 +77,11 @@ std::string frames_html(const TeachInCamera& source, const CalibrationFrames& fr
                  "The robot is white where the reading is where the model is. After a good "
                  "calibration it is pale, without a blue or orange rim on one side.</p>\n");
   html += legend();
+  const bool has_after = found.refused.empty();
   for (const FramePictures& frame : frames.pictures) {
     fmt::format_to(out, "<h4>Frame {}</h4>\n<div class=\"frame\">{}{}</div>\n", frame.number,
-                   figure(frame.before, frame.number, "before"),
-                   figure(frame.after, frame.number, "after"));
+                   figure(frame.before, frame.number, has_after ? "before" : "the scene's pose"),
+                   has_after ? figure(frame.after, frame.number, "after") : "");
   }
   return html;
 }

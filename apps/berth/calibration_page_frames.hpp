@@ -4,10 +4,12 @@
 #include <string>
 
 #include "apps/berth/calibration_frames.hpp"
-#include "berth/calibration/teach_in.hpp"
+#include "berth/calibration/calibrate.hpp"
 
 namespace berth::app {
 
-std::string frames_html(const TeachInCamera& source, const CalibrationFrames& frames);
+/// `found` tells whether there is an after.
+std::string frames_html(const TeachInCamera& source, const CameraCalibration& found,
+                        const CalibrationFrames& frames);
 
 }  // namespace berth::app

@@ -36,7 +36,7 @@ code { font-family: ui-monospace, "DejaVu Sans Mono", monospace; font-size: .92e
 figure { margin: 0; }
 figcaption { color: var(--faint); font-size: .9rem; margin-top: .25rem; }
 .frame { display: grid; grid-template-columns: 1fr 1fr; gap: .75rem; margin: .25rem 0 1.25rem; }
-.frame img { display: block; width: 100%; max-height: 38rem; object-fit: contain; background: #15181d; border-radius: .3rem; }
+.frame img { display: block; width: 100%; max-height: 48rem; object-fit: contain; background: #15181d; border-radius: .3rem; }
 .frame .none { background: var(--paper); border-radius: .3rem; padding: 1rem; }
 @media (max-width: 40rem) { body { padding: .5rem; } section { padding: 1rem; } .frame { grid-template-columns: 1fr; } }
 svg { display: block; width: 100%; height: auto; max-width: 36rem; }

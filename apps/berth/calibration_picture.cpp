@@ -37,7 +37,7 @@ bool is_outline(const CalibrationPicture& picture, int u, int v) {
 Rgb color_at(const CalibrationPicture& picture, int u, int v, int x, int y) {
   constexpr int kStripe_px = 2;
   const float depth_m = picture.sensor_depth_m(u, v);
-  if (is_outline(picture, u, v)) return kOutlineColor;
+  if (is_outline(picture, u, v)) return std::isnan(depth_m) ? kBlindOutlineColor : kOutlineColor;
   if (std::isnan(depth_m)) return hatch(x, y, kStripe_px);
   if (picture.webs(u, v)) return kWebColor;
   const float residual_m = picture.residual_m(u, v);

@@ -25,6 +25,8 @@ struct CalibrationPicture {
 
 inline constexpr Rgb kWebColor{0xF0, 0xE4, 0x42};
 inline constexpr Rgb kOutlineColor{0x10, 0x10, 0x10};
+/// Of the outline where there is no reading, which is dark.
+inline constexpr Rgb kBlindOutlineColor{0xC8, 0xC8, 0xC8};
 
 /// The bytes of a PNG: depth in dark grey, robot pixels in residual_color(), the model's outline,
 /// webs. Small images are enlarged by a whole factor. Throws std::runtime_error where it cannot be

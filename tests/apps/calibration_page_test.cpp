@@ -127,6 +127,8 @@ TEST(CalibrationPage, ARefusedPoseProposesNothing) {
       Texts{"The scene's pose stays: the images agree by 0.20 "
             "of 2."});
   EXPECT_TRUE(page.has("None are proposed"));
+  EXPECT_EQ(page.pictures().size(), 5);
+  EXPECT_FALSE(page.has("not known at the clock"));
   EXPECT_FALSE(page.has("nan"));
 }
 

@@ -93,12 +93,14 @@ TEST(CalibrationPicture, BeyondTheScaleIsStripedAndNoReadingHatched) {
   OneSquare one;
   one.depth_m()(25, 20) = 2;
   one.depth_m()(26, 20) = 0.5F;
-  one.depth_m()(27, 20) = kNoDepth;
+  one.depth_m()(27, 20) = one.depth_m()(20, 25) = kNoDepth;
   const Image<Rgb> drawn = one.drawn();
   const auto is_one_of = [](Rgb c, const Stripes& s) { return c == s.dark || c == s.light; };
   EXPECT_TRUE(is_one_of(drawn(25, 20), beyond_scale(1)));
   EXPECT_TRUE(is_one_of(drawn(26, 20), beyond_scale(-1)));
   EXPECT_LT(drawn(27, 20).g, 64);
+  EXPECT_EQ(drawn(20, 25), kBlindOutlineColor);
+  EXPECT_EQ(drawn(20, 26), kOutlineColor);
 }
 
 TEST(CalibrationPicture, ShowsThePartAskedFor) {

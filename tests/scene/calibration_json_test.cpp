@@ -72,6 +72,8 @@ TEST(CalibrationJson, NumbersAreRoundedAndTheQuaternionStaysOne) {
   const std::vector<double> q = camera["quaternion_xyzw"];
   EXPECT_NEAR(std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3])), 1, 3e-9);
   EXPECT_NEAR(q[3], std::cos(0.15), 1e-9);
+  small.found().X_PC.linear() = Eigen::AngleAxisd(3.5, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  EXPECT_GT(json_of(small)["cameras"][0]["quaternion_xyzw"][3], 0.1);
 }
 
 TEST(CalibrationJson, FramesOfAllCamerasAreCounted) {

@@ -17,7 +17,7 @@ namespace berth {
 /// since what hides the robot pulls at the fit.
 inline constexpr int kLeastJudgedPixels = 100;
 inline constexpr double kMostHiddenForSeenThrough = 0.8;
-inline constexpr double kMostHiddenForDisplacement = 0.25;
+inline constexpr double kMostHiddenForDisplacement = 0.4;
 
 /// Tells whether one camera stands where it is said to, from the robot in its images. It has moved
 /// once T or D says so, and is back once neither does; T and D each by k of their last n verdicts

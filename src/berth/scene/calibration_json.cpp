@@ -21,7 +21,10 @@ Json rounded(double value, double per_unit = kPerUnit) {
 
 Json rounded(const Eigen::Vector3d& v) { return {rounded(v.x()), rounded(v.y()), rounded(v.z())}; }
 
-Json rounded(const Eigen::Quaterniond& q) {
+/// Of a rotation's two quaternions the one with w >= 0.
+Json quaternion_json(const Pose& X) {
+  Eigen::Quaterniond q(X.linear());
+  if (q.w() < 0) q.coeffs() = -q.coeffs();
   return {rounded(q.x(), kPerQuaternionUnit), rounded(q.y(), kPerQuaternionUnit),
           rounded(q.z(), kPerQuaternionUnit), rounded(q.w(), kPerQuaternionUnit)};
 }
@@ -72,7 +75,7 @@ Json calibrated_camera_json(const CalibrationReport& report, std::size_t index) 
   json["camera"] = found.camera;
   json["parent"] = report.teach_in->model->links[source.parent].name;
   json["xyz"] = rounded(Eigen::Vector3d(found.X_PC.translation()));
-  json["quaternion_xyzw"] = rounded(Eigen::Quaterniond(found.X_PC.linear()));
+  json["quaternion_xyzw"] = quaternion_json(found.X_PC);
   json["sigma_xyz_m"] = is_good ? rounded(found.sigma_xyz_m) : Json();
   json["sigma_rotation_rad"] = is_good ? rounded(found.sigma_rotation_rad) : Json();
   json["clock_offset_s"] = rounded(found.clock_offset_s);
