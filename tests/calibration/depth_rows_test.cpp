@@ -15,14 +15,10 @@ std::vector<FitRow> rows_of(const RobotImage& robot, const DepthImage& depth_m,
   return rows;
 }
 
-HandMadeImage plate() {
-  HandMadeImage image;
-  add_plate({30, 20, 70, 50}, 1, 1, image);
-  return image;
-}
+constexpr PixelRect kFacing{30, 20, 70, 50};
 
 TEST(DepthRows, ThePlatesRowsAreItsWayAlongTheAxis) {
-  const HandMadeImage image = plate();
+  const HandMadeImage image = plate(kFacing);
   DepthImage depth_m = sensed(image.robot);
   for (float& z_m : depth_m.pixels()) z_m += 0.01F;
   const std::vector<FitRow> rows = rows_of(image.robot, depth_m);
@@ -84,7 +80,7 @@ TEST(DepthRows, TheDepthErrorsDerivativesAreRight) {
 }
 
 TEST(DepthRows, NoReadingAFarOneAndSceneryGiveNone) {
-  HandMadeImage image = plate();
+  HandMadeImage image = plate(kFacing);
   DepthImage depth_m = sensed(image.robot);
   const std::size_t all = rows_of(image.robot, depth_m).size();
   depth_m(40, 30) = kNoDepth;
@@ -93,12 +89,12 @@ TEST(DepthRows, NoReadingAFarOneAndSceneryGiveNone) {
   depth_m(46, 30) = 1.02F;
   EXPECT_EQ(rows_of(image.robot, depth_m).size(), all - 3);
   EXPECT_EQ(rows_of(image.robot, depth_m, {}, {1, 0.05}).size(), all - 1);
-  add_plate({30, 20, 70, 50}, 1, kEnvironmentLink, image);
+  add_plate(kFacing, 1, kEnvironmentLink, image);
   EXPECT_TRUE(rows_of(image.robot, depth_m).empty());
 }
 
 TEST(DepthRows, AStrideTakesFewerPixels) {
-  const HandMadeImage image = plate();
+  const HandMadeImage image = plate(kFacing);
   const std::size_t all = rows_of(image.robot, sensed(image.robot)).size();
   const std::size_t some = rows_of(image.robot, sensed(image.robot), {}, {3, 0.03}).size();
   EXPECT_NEAR(static_cast<double>(some), static_cast<double>(all) / 9, 20);

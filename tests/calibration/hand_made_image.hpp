@@ -28,6 +28,13 @@ inline void add_plate(const PixelRect& pixels, float depth_m, LinkId id, HandMad
   }
 }
 
+/// Link 1 as a plate at 1 m.
+inline HandMadeImage plate(const PixelRect& pixels) {
+  HandMadeImage image;
+  add_plate(pixels, 1, 1, image);
+  return image;
+}
+
 /// Link 1 as a ball.
 inline HandMadeImage ball(const Eigen::Vector3d& centre_C_m, double radius_m) {
   HandMadeImage image;
