@@ -33,7 +33,7 @@ TEST(CalibrationTable, SaysWhatWasFoundAndHowSureThatIs) {
       "    99 %          20.0 mm    0.0 mm\n"
       "  agreement          1.25      1.75   (of 2)\n"
       "  clock offset: not looked for: the images have no stamps\n"
-      "  depth: the camera reads 0.0 mm too far at 1.4 m; left as it is\n"
+      "  depth: the camera reads 0.0 mm too far at 1.45 m; left as it is\n"
       "  settings\n"
       "    self_filter.tolerance_m: 0.03 m\n"
       "      Because of the tolerance.\n"
@@ -100,10 +100,10 @@ TEST(CalibrationWords, DepthsErrorIsToldAtADistance) {
   testing::SmallTeachIn small;
   small.found().depth = {0, 1 / 1.01};
   EXPECT_EQ(depth_text(small.found(), 1.5, true),
-            "the camera reads 15.0 mm too far at 1.5 m; the new scene takes that out");
+            "the camera reads 15.0 mm too far at 1.50 m; the new scene takes that out");
   small.found().depth = {0.01, 1};
   EXPECT_EQ(depth_text(small.found(), 1.5, false),
-            "the camera reads 10.0 mm too near at 1.5 m; left as it is");
+            "the camera reads 10.0 mm too near at 1.50 m; left as it is");
   EXPECT_EQ(depth_text(small.found(), std::nan(""), false), "unknown: no reading shows the robot");
 }
 

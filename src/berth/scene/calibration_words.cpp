@@ -81,7 +81,7 @@ std::string depth_text(const CameraCalibration& camera, double depth_m, bool cor
   const double reading_m = (depth_m - camera.depth.offset_m) / camera.depth.scale;
   const double error_m = reading_m - depth_m;
   if (std::isnan(error_m)) return "unknown: no reading shows the robot";
-  return fmt::format("the camera reads {} too {} at {:.1f} m; {}", mm_text(std::abs(error_m)),
+  return fmt::format("the camera reads {} too {} at {:.2f} m; {}", mm_text(std::abs(error_m)),
                      error_m < 0 ? "near" : "far", depth_m,
                      corrects_depth ? "the new scene takes that out" : "left as it is");
 }
