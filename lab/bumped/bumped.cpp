@@ -118,8 +118,8 @@ FrameDisplacement displacement_of(const OpenCamera& camera, const Pose& X_CC) {
 /// Whether T or D raises an alarm within the second.
 bool is_watch_alarm(const OpenCamera& camera, const Second& second, const WatchSettings& rule) {
   const FrameDisplacement displacement = displacement_of(camera, second.X_CC);
-  PoseWatch watch(rule, [&](DepthView depth_m, const JointState& joints, std::stop_token stop) {
-    return displacement.measure(depth_m, joints, std::move(stop));
+  PoseWatch watch(rule, [&](DepthView depth_m, const JointState& joints, const std::stop_token& stop) {
+    return displacement.measure(depth_m, joints, stop);
   });
   JointState joints = second.joints;
   for (std::size_t i = 0; i < second.images.size(); ++i) {

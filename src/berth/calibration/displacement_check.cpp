@@ -15,7 +15,7 @@ void copy(DepthView from, DepthImage& to) {
 }  // namespace
 
 DisplacementCheck::DisplacementCheck(MeasureDisplacement measure)
-    : measure_(std::move(measure)), thread_([this](std::stop_token stop) { run(std::move(stop)); }) {}
+    : measure_(std::move(measure)), thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 bool DisplacementCheck::start(DepthView depth_m, const JointState& at_exposure) {
   const std::lock_guard lock(mutex_);
@@ -39,7 +39,7 @@ void DisplacementCheck::wait() {
   changed_.wait(lock, [this] { return step_ != Step::asked; });
 }
 
-void DisplacementCheck::run(std::stop_token stop) {
+void DisplacementCheck::run(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (changed_.wait(lock, stop, [this] { return step_ == Step::asked; })) {
     lock.unlock();

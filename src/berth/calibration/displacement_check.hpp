@@ -36,7 +36,7 @@ class DisplacementCheck {
  private:
   enum class Step { idle, asked, done };
 
-  void run(std::stop_token stop);
+  void run(const std::stop_token& stop);
 
   MeasureDisplacement measure_;
   std::mutex mutex_;

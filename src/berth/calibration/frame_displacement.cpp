@@ -35,7 +35,7 @@ FrameDisplacement::FrameDisplacement(const RobotModel& model,
       bias_m_(bias_m) {}
 
 std::optional<double> FrameDisplacement::measure(DepthView depth_m, const JointState& joints,
-                                                 std::stop_token stop) const {
+                                                 const std::stop_token& stop) const {
   TeachInCamera camera;
   camera.camera = camera_;
   camera.parent = parent_;

@@ -21,7 +21,7 @@ class FrameDisplacement {
   /// where they fit the image best; 0 where the image agrees hardly better there. Nothing where the image shows too little of the
   /// robot, or `stop` was requested before the fit began.
   std::optional<double> measure(DepthView depth_m, const JointState& joints,
-                                std::stop_token stop = {}) const;
+                                const std::stop_token& stop = {}) const;
 
  private:
   const RobotModel* model_;

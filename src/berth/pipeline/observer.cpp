@@ -15,8 +15,8 @@ MeasureDisplacement displacement_of(const View& view, MeasureDisplacement given)
   const FrameDisplacement displacement(model, view.robot()->meshes(), view.camera(),
                                        *model.find_link(view.mount().parent_link),
                                        view.mount().X_PC, view.settings().watch.bias_m);
-  return [displacement](DepthView depth_m, const JointState& joints, std::stop_token stop) {
-    return displacement.measure(depth_m, joints, std::move(stop));
+  return [displacement](DepthView depth_m, const JointState& joints, const std::stop_token& stop) {
+    return displacement.measure(depth_m, joints, stop);
   };
 }
 
