@@ -96,7 +96,7 @@ TEST(CalibrateScene, ACorrectedDepthIsWhatTheNewSceneReads) {
   testing::DrawnTeachInSettings settings = kSmall;
   settings.errors.depth_share = 0.02;
   const Taught taught(settings, 2, {.depth_scale_m = 0.0005, .depth_offset_m = 0.1},
-                      {.correct_depth = true});
+                      {.fit = {}, .correct_depth = true});
   const CameraCalibration& found = taught.calibration.found.cameras[0];
   ASSERT_EQ(found.refused, "");
   ASSERT_NE(found.depth.scale, 1);
