@@ -30,7 +30,7 @@ struct DrawnTeachInSettings {
   bool moves = false;
   /// Like a Kinect's: noise, steps, lost and mixed pixels, dark outlines.
   bool has_sensor_errors = true;
-  TeachInErrors errors;
+  TeachInErrors errors = {};
 };
 
 /// The images are made of the truth; `teach_in` believes the true camera and clock 0, and joints

@@ -1,0 +1,156 @@
+// What holds of every teach-in, whatever the images: it repeats, stops, and refuses.
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "berth/render/robot_renderer.hpp"
+#include "berth/robot/kinematics.hpp"
+#include "tests/calibration/found_error.hpp"
+
+namespace berth {
+namespace {
+
+using testing::DrawnTeachIn;
+
+/// Small images, so that it is quick.
+DrawnTeachIn draw_small(std::uint32_t seed, int poses = 5) {
+  return bundled_arm().draw({.width_px = 320, .height_px = 240, .poses = poses}, seed);
+}
+
+void expect_same(const CameraCalibration& a, const CameraCalibration& b) {
+  EXPECT_EQ(a.X_PC.matrix(), b.X_PC.matrix());
+  EXPECT_EQ(a.sigma_xyz_m, b.sigma_xyz_m);
+  EXPECT_EQ(a.sigma_rotation_rad, b.sigma_rotation_rad);
+  EXPECT_EQ(a.clock_offset_s, b.clock_offset_s);
+  EXPECT_EQ(a.depth.offset_m, b.depth.offset_m);
+  EXPECT_EQ(a.depth.scale, b.depth.scale);
+  EXPECT_EQ(a.dilation_px, b.dilation_px);
+  EXPECT_EQ(a.moved_m, b.moved_m);
+  EXPECT_EQ(a.halves_m, b.halves_m);
+  EXPECT_EQ(a.before.p90_m, b.before.p90_m);
+  EXPECT_EQ(a.after.p90_m, b.after.p90_m);
+  EXPECT_EQ(a.score_after, b.score_after);
+  EXPECT_EQ(a.not_determined, b.not_determined);
+  EXPECT_EQ(a.refused, b.refused);
+}
+
+TEST(CalibrateRules, OneThreadFindsTheSameBits) {
+  DrawnTeachIn drawn = draw_small(1);
+  disturb(drawn, 0.05, 5 * kDegree, 1);
+  const CalibrationResult many = calibrate(drawn.teach_in, {.joint_zeros = true});
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  const CalibrationResult one = calibrate(drawn.teach_in, {.joint_zeros = true});
+  expect_same(many.cameras[0], one.cameras[0]);
+  EXPECT_EQ(many.joint_offsets, one.joint_offsets);
+  EXPECT_EQ(many.joints_not_determined, one.joints_not_determined);
+}
+
+TEST(CalibrateRules, ACameraIsFoundBesideOthersAsItIsAlone) {
+  DrawnTeachIn left = draw_small(1);
+  DrawnTeachIn right = draw_small(2);
+  disturb(left, 0.05, 5 * kDegree, 1);
+  disturb(right, 0.05, 5 * kDegree, 2);
+  right.camera->name = "right";
+  TeachIn both = left.teach_in;
+  both.joints = nullptr;
+  both.cameras = {left.camera.get(), right.camera.get()};
+  const CalibrationResult found = calibrate(both);
+  ASSERT_EQ(found.cameras.size(), 2U);
+  EXPECT_EQ(found.cameras[1].camera, "right");
+  expect_same(found.cameras[0], calibrate(left.teach_in).cameras[0]);
+  expect_same(found.cameras[1], calibrate(right.teach_in).cameras[0]);
+}
+
+TEST(CalibrateRules, APauseThatThrowsStopsIt) {
+  const DrawnTeachIn drawn = draw_small(1);
+  int pauses = 0;
+  const auto stop = [&pauses] {
+    if (++pauses == 3) throw std::runtime_error("stopped");
+  };
+  EXPECT_THROW(calibrate(drawn.teach_in, {.pause = stop}), std::runtime_error);
+  EXPECT_EQ(pauses, 3);
+}
+
+/// No pose explains the images; the start's is told.
+void expect_refused(const DrawnTeachIn& drawn) {
+  const CameraCalibration found = calibrate(drawn.teach_in).cameras[0];
+  EXPECT_FALSE(found.is_found);
+  EXPECT_NE(found.refused.find("no pose was found that explains the images: the best agrees by "),
+            std::string::npos)
+      << found.refused;
+  EXPECT_NE(found.refused.find("; expected 0.8 at least"), std::string::npos) << found.refused;
+  EXPECT_EQ(found.X_PC.matrix(), drawn.camera->X_PC.matrix());
+  EXPECT_TRUE(std::isnan(found.halves_m));
+}
+
+TEST(CalibrateRules, ACameraThatSeesNoRobotIsRefused) {
+  // The room alone, from where there are readings.
+  DrawnTeachIn drawn = draw_small(1, 3);
+  for (TeachInFrame& frame : drawn.camera->frames) {
+    std::fill(frame.depth_m.pixels().begin(), frame.depth_m.pixels().end(), 3.5F);
+  }
+  expect_refused(drawn);
+  // And one that looks away, so that the robot is never in the image.
+  DrawnTeachIn away = draw_small(1, 3);
+  away.camera->X_PC = away.camera->X_PC * Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitY());
+  expect_refused(away);
+}
+
+TEST(CalibrateRules, ImagesOfNoiseAreRefused) {
+  DrawnTeachIn drawn = draw_small(1, 3);
+  testing::Random random(5);
+  for (TeachInFrame& frame : drawn.camera->frames) {
+    for (float& z_m : frame.depth_m.pixels()) z_m = static_cast<float>(random(0.3, 4));
+  }
+  expect_refused(drawn);
+}
+
+TEST(CalibrateRules, ImagesWithoutAReadingAreRefused) {
+  DrawnTeachIn drawn = draw_small(1, 3);
+  for (TeachInFrame& frame : drawn.camera->frames) {
+    frame.depth_m.resize(320, 240, kNoDepth);
+  }
+  expect_refused(drawn);
+}
+
+TEST(CalibrateRules, OneFrameIsFittedButNothingChecksIt) {
+  DrawnTeachIn drawn = draw_small(3, 1);
+  disturb(drawn, 0.02, 2 * kDegree, 1);
+  const CameraCalibration found = calibrate(drawn.teach_in).cameras[0];
+  EXPECT_TRUE(found.is_found);
+  EXPECT_TRUE(std::isnan(found.halves_m));
+  EXPECT_GT(found.score_after, found.score_before);
+}
+
+TEST(CalibrateRules, ACameraThatALinkCarriesIsFound) {
+  // It looks at the arm from beside the first link that turns, and turns with it.
+  DrawnTeachIn drawn = draw_small(2);
+  const RobotModel& model = bundled_arm().model;
+  TeachInCamera& camera = *drawn.camera;
+  camera.parent = *model.find_link("arm_link_1");
+  RobotPose pose;
+  forward_kinematics(model, camera.frames[0].joints.position, pose);
+  drawn.X_PC_true = pose.X_BL[camera.parent].inverse() * drawn.X_PC_true;
+  RobotRenderer renderer(bundled_arm().meshes, camera.camera);
+  RobotImage robot;
+  for (TeachInFrame& frame : camera.frames) {
+    forward_kinematics(model, frame.joints.position, pose);
+    renderer.render(pose, pose.X_BL[camera.parent] * drawn.X_PC_true, robot);
+    frame.depth_m = robot.depth_m;
+    for (float& z_m : frame.depth_m.pixels()) z_m = std::fmin(z_m, 5.0F);
+    testing::add_noise(0.0015, 1, frame.depth_m);
+  }
+  disturb(drawn, 0.05, 5 * kDegree, 1);
+  const CalibrationResult found = calibrate(drawn.teach_in);
+  EXPECT_EQ(found.cameras[0].refused, "");
+  // Its points as the camera sees them, at the first pose; at the others they are carried along.
+  const Pose X_CC = found.cameras[0].X_PC.inverse() * drawn.X_PC_true;
+  const Eigen::Vector3d middle_C_m(0, 0, 1.5);
+  EXPECT_LT((X_CC * middle_C_m - middle_C_m).norm(), kWorst_m);
+  EXPECT_LT(Eigen::AngleAxisd(X_CC.linear()).angle(), 0.3 * kDegree);
+}
+
+}  // namespace
+}  // namespace berth
