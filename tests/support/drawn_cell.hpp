@@ -1,0 +1,106 @@
+// The bundled arm, drawn as it goes through poses, as a scene on disk.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <string>
+
+#include "berth/files/png.hpp"
+#include "tests/support/drawn_teach_in.hpp"
+#include "tests/support/sensor_model.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace berth::testing {
+
+/// What the scene file of a DrawnCell says.
+struct CellLines {
+  /// How far the camera's pose in it is from the truth.
+  double offset_m = 0.05;
+  double angle_rad = 0.09;
+  /// Images of readings in these units, which are those less this.
+  double depth_scale_m = 0.001;
+  double depth_offset_m = 0;
+  std::string more = "";
+};
+
+/// cell/scene.yaml and all that it names but the robot, in a folder that goes with the object.
+class DrawnCell {
+ public:
+  /// `arm_folder` holds the bundled arm.
+  DrawnCell(const std::filesystem::path& arm_folder, const DrawnTeachInSettings& settings,
+            std::uint32_t seed, const CellLines& lines = {})
+      : model(load_robot({.urdf = arm_folder / "arm.urdf",
+                          .package_paths = {{"berth_arm", arm_folder}},
+                          .environment_links = {"table"}})),
+        drawn(draw_teach_in(model, build_link_meshes(model), settings, seed)) {
+    folder_.write("cell/camera_info.yaml", info_text());
+    folder_.write("cell/joints.csv", joints_text());
+    std::filesystem::create_directories(folder_ / "cell/depth");
+    for (std::size_t f = 0; f < drawn.camera->frames.size(); ++f) {
+      DepthImage raw = drawn.camera->frames[f].depth_m;
+      for (float& z_m : raw.pixels()) z_m -= static_cast<float>(lines.depth_offset_m);
+      write_depth_png(folder_ / fmt::format("cell/depth/{:06}.png", f), raw, lines.depth_scale_m);
+    }
+    folder_.write("cell/scene.yaml", scene_text(arm_folder, lines, seed));
+  }
+
+  std::filesystem::path folder() const { return folder_.path(); }
+  std::filesystem::path scene() const { return folder_ / "cell/scene.yaml"; }
+  std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
+  void write(const std::string& name, const std::string& bytes) const {
+    folder_.write(name, bytes);
+  }
+
+  RobotModel model;
+  DrawnTeachIn drawn;
+
+ private:
+  std::string info_text() const {
+    const Camera& c = drawn.camera->camera;
+    return fmt::format(
+        "image_width: {}\nimage_height: {}\ncamera_matrix:\n  rows: 3\n  cols: 3\n"
+        "  data: [{}, 0, {}, 0, {}, {}, 0, 0, 1]\ndistortion_model: plumb_bob\n"
+        "distortion_coefficients:\n  rows: 1\n  cols: 5\n  data: [0, 0, 0, 0, 0]\n",
+        c.width_px, c.height_px, c.fx_px, c.cx_px, c.fy_px, c.cy_px);
+  }
+
+  /// A row for each image.
+  std::string joints_text() const {
+    std::string text = "time";
+    for (const MovableJoint& joint : model.joints) text += "," + joint.name;
+    text += "\n";
+    for (const TeachInFrame& frame : drawn.camera->frames) {
+      text += fmt::format("{}", frame.number);
+      for (const double position : frame.joints.position) text += fmt::format(",{}", position);
+      text += "\n";
+    }
+    return text;
+  }
+
+  std::string scene_text(const std::filesystem::path& arm_folder, const CellLines& lines,
+                         std::uint32_t seed) const {
+    const Pose X_PC = miscalibrated(drawn.X_PC_true, lines.offset_m, lines.angle_rad, seed);
+    const Eigen::Vector3d p = X_PC.translation();
+    const Eigen::Quaterniond q(X_PC.linear());
+    return fmt::format(
+        "# Our cell.\n"
+        "robot:\n  urdf: {0}/arm.urdf\n  package_paths: {{berth_arm: {0}}}\n"
+        "  environment_links: [table]\n"
+        "cameras:\n"
+        "  - name: camera  # above the door\n"
+        "    info: camera_info.yaml\n"
+        "    pose: {{parent: {1}, xyz: [{2}, {3}, {4}], quaternion_xyzw: [{5}, {6}, {7}, {8}]}}\n"
+        "    depth: depth/*.png\n"
+        "    depth_scale: {9}  # as its driver says\n"
+        "    depth_offset_m: {10}\n"
+        "joints: joints.csv\n"
+        "evaluation: {{method: exact, range_m: 1}}\n{11}",
+        arm_folder.string(), model.links[0].name, p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w(),
+        lines.depth_scale_m, lines.depth_offset_m, lines.more);
+  }
+
+  TemporaryFolder folder_;
+};
+
+}  // namespace berth::testing
