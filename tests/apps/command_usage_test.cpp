@@ -76,6 +76,13 @@ TEST(Usage, WrongCommandLineIsRefused) {
       {evaluate_with({"--final-grid-radius-px", "two"}), "--final-grid-radius-px"},
       {evaluate_with({"--tile-px", "0"}), "--tile-px"},
       {evaluate_with({"--tile-px", "65"}), "--tile-px"},
+      {{"calibrate"}, "scene"},
+      {{"calibrate", "scene.yaml"}, "--out"},
+      {{"calibrate", "--out", "new.yaml"}, "scene"},
+      {{"calibrate", "scene.yaml", "--out"}, "--out"},
+      {{"calibrate", "scene.yaml", "--out", "new.yaml", "--range", "1"}, "--range"},
+      {{"calibrate", "scene.yaml", "--out", "new.yaml", "--format", "xml"}, "--format"},
+      {{"calibrate", "scene.yaml", "--out", "new.yaml", "--threads", "0"}, "--threads"},
       {{"demo", "--threads", "0"}, "--threads"},
       {{"demo", "scene.yaml"}, "scene.yaml"},
   };
@@ -99,6 +106,7 @@ TEST(Usage, HelpIsOnStandardOutputAndHasAnExample) {
                                     {"run", "--help"},
                                     {"filter", "--help"},
                                     {"evaluate", "--help"},
+                                    {"calibrate", "--help"},
                                     {"demo", "--help"}};
   for (const Words& arguments : table) {
     const Outcome outcome = run_berth(folder / "", arguments);
@@ -114,7 +122,7 @@ TEST(Usage, HelpIsOnStandardOutputAndHasAnExample) {
 TEST(Usage, HelpNamesEveryCommand) {
   const TemporaryFolder folder;
   const std::string out = run_berth(folder / "", {"--help"}).out;
-  for (const char* command : {"demo", "run", "filter", "evaluate"}) {
+  for (const char* command : {"demo", "run", "filter", "evaluate", "calibrate"}) {
     EXPECT_NE(out.find(command), std::string::npos) << command;
   }
 }
