@@ -14,7 +14,7 @@ bool holds(const std::vector<std::string>& names, const std::string& name) {
 TEST(JointZeros, ToldOnesAreRightAndTheFirstAndTheLastAreNeverTold) {
   const std::vector<MovableJoint>& joints = bundled_arm().model.joints;
   std::size_t told = 0;
-  for (std::uint32_t seed = 1; seed <= 2; ++seed) {
+  for (const std::uint32_t seed : {1U}) {
     SCOPED_TRACE(seed);
     testing::DrawnTeachIn drawn =
         bundled_arm().draw({.poses = 10, .errors = {.joint_zero = 1 * kDegree}}, seed);
@@ -32,11 +32,11 @@ TEST(JointZeros, ToldOnesAreRightAndTheFirstAndTheLastAreNeverTold) {
       EXPECT_NEAR(offset->second, drawn.joint_shift[j], 0.3 * kDegree) << joints[j].name;
     }
   }
-  EXPECT_GE(told, 4U) << "of ten that can be observed";
+  EXPECT_GE(told, 2U) << "of five that can be observed";
 }
 
 TEST(JointZeros, WhereTheyAreRightWhatIsToldIsNothing) {
-  testing::DrawnTeachIn drawn = bundled_arm().draw({.poses = 10}, 3);
+  testing::DrawnTeachIn drawn = bundled_arm().draw({.width_px = 320, .height_px = 240, .poses = 10}, 3);
   const CalibrationResult found = calibrate(drawn.teach_in, {.joint_zeros = true});
   for (const auto& [joint, offset] : found.joint_offsets) {
     EXPECT_NEAR(offset, 0, 0.3 * kDegree) << joint;

@@ -54,7 +54,7 @@ TEST_F(MovedEnvironment, WhatComesAndStaysIsOneChange) {
 }
 
 TEST_F(MovedEnvironment, AFewPixelsAreNone) {
-  stand_in(2, 0.01);
+  stand_in(2, 0.005);
   EXPECT_TRUE(look().empty());
 }
 
