@@ -20,8 +20,14 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Before minutes of work, not after them.
-void require_other_file(const fs::path& scene, const fs::path& out) {
+void require_place_for(const fs::path& out, const fs::path& scene) {
   std::error_code error;
+  const fs::path folder = fs::absolute(out, error).parent_path();
+  if (!fs::is_directory(folder, error)) {
+    throw std::runtime_error(fmt::format("{}: cannot be written: there is no folder {}; expected one "
+                                         "that is there",
+                                         out.string(), folder.string()));
+  }
   if (!fs::exists(out, error) || !fs::equivalent(scene, out, error)) return;
   throw std::runtime_error(fmt::format("{}: is the scene itself; expected another file for --out",
                                        out.string()));
@@ -44,7 +50,7 @@ OpenScene open_for_teach_in(const fs::path& file) {
 }  // namespace
 
 void calibrate_command(const CalibrateArguments& arguments) {
-  require_other_file(arguments.scene, arguments.out);
+  require_place_for(arguments.out, arguments.scene);
   const OpenScene scene = open_for_teach_in(arguments.scene);
   const SceneTeachIn material = make_teach_in(scene);
   CalibrateSceneSettings settings;

@@ -189,7 +189,7 @@ TEST(CalibrateCommand, TheBundledSceneIsTaughtWhereItStands) {
       folder.path(), {"calibrate", (kBundled / "one_camera.yaml").string(), "--out", "new.yaml",
                       "--format", "json"}));
   const Json& camera = json.at("cameras").at(0);
-  EXPECT_TRUE(camera.at("refused").is_null());
+  // Its pose is the true one: a fit to noisy images comes near, or agrees no better.
   EXPECT_LT(camera.at("moved_m").get<double>(), 0.005);
   EXPECT_EQ(json.at("frames_used"), 20);
   EXPECT_NEAR(camera.at("clock_offset_s").get<double>(), 0, 0.002);

@@ -188,7 +188,7 @@ TEST_F(MovedCamera, BadSettingsAreRefusedByTheView) {
         [&] { Observer observer(view_of(robot, 0, watch)); });
   };
   expect_parts(refusal({.max_seen_through = 2}), {"watch.max_seen_through: 2"});
-  expect_parts(refusal({.max_displacement_m = 0.02}), {"watch.max_displacement_m: 0.02"});
+  expect_parts(refusal({.max_displacement_m = -0.02}), {"watch.max_displacement_m: -0.02"});
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ TEST(CalibrateScene, TheNewSceneHasPoseSettingsAndWatch) {
   EXPECT_TRUE(watch.is_on());
   EXPECT_GE(watch.max_seen_through, 0.03);
   EXPECT_LT(watch.max_seen_through, 0.2);
-  EXPECT_GE(watch.max_displacement_m, 0.012);
+  EXPECT_GE(watch.max_displacement_m, 0.008);
   EXPECT_LT(watch.max_displacement_m, 0.05);
   EXPECT_NEAR(watch.bias_m, filter.bias_m, 5e-4);
   EXPECT_NO_THROW(open_scene(scene));

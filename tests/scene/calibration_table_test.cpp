@@ -66,7 +66,7 @@ TEST(CalibrationTable, ARefusedPoseSaysWhyAndProposesNothing) {
   small.found().refused = "the robot is elsewhere";
   small.proposal = {};
   const std::string table = calibration_table(small.report());
-  EXPECT_TRUE(says(table, "the scene's pose stays: the robot is elsewhere.\n"));
+  EXPECT_TRUE(says(table, "The scene's pose stays: the robot is elsewhere.\n"));
   EXPECT_TRUE(says(table, "  depth: not looked for\n"));
   EXPECT_FALSE(says(table, "settings"));
 }

@@ -103,6 +103,7 @@ class CameraReport {
                          "2, the scene's own by {:.3f}",
                          1000 * displacement_m(drawer_, 2, estimate_, start_)[0],
                          out_.score_after, out_.score_before));
+      out_.score_after = out_.score_before;
     } else {
       measure_uncertainty();
     }

@@ -48,7 +48,8 @@ struct CameraCalibration {
   ResidualSpread before;
   /// With depth's error taken out.
   ResidualSpread after;
-  /// How well model and images agree; 2 is perfect.
+  /// How well model and images agree, at the scene's pose and at the one that is told; 2 is perfect.
+  /// Where none was found, that of the best that was tried.
   double score_before = 0;
   double score_after = 0;
   /// Numbers of the frames that were used.

@@ -16,8 +16,8 @@ namespace berth {
 /// The camera's clock: depth images to frames. One for each thread.
 class Observer {
  public:
-  /// `measure` is how the view's WatchSettings::max_displacement_m is watched. Throws
-  /// std::invalid_argument where that is set without it.
+  /// `measure` is how the view's WatchSettings::max_displacement_m is watched; without it, as
+  /// FrameDisplacement does.
   explicit Observer(std::shared_ptr<const View> view, MeasureDisplacement measure = {});
 
   /// Renders the robot at the joint angles of the exposure, removes it from the image, and writes
