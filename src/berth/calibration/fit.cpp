@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 
 #include "berth/calibration/depth_rows.hpp"
 #include "berth/calibration/outline_rows.hpp"
@@ -66,21 +65,25 @@ class Fit {
  private:
   Eigen::Index unknowns() const { return cameras_ * kCameraUnknowns + joints_; }
 
+  /// The middle of what each camera sees of the robot. Added up in the frames' order, so that it
+  /// does not depend on threads.
   void find_pivots(int step) {
     result_.pivot_C_m.assign(start_.cameras.size(), Eigen::Vector3d(0, 0, 1));
-    std::vector<Eigen::Vector4d> sums(start_.cameras.size(), Eigen::Vector4d::Zero());
-    std::mutex mutex;
+    std::vector<std::vector<Eigen::Vector4d>> parts(start_.cameras.size());
+    for (std::size_t c = 0; c < parts.size(); ++c) {
+      parts[c].assign(drawer_.teach_in().cameras[c]->frames.size(), Eigen::Vector4d::Zero());
+    }
     drawer_.draw(step, start_, {}, choice_, [&](const DrawnFrame& drawn) {
-      Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+      Eigen::Vector4d& sum = parts[drawn.camera_index][drawn.frame_index];
       const auto add = [&](int u, int v, LinkId) {
         sum += point_at(drawn.camera, u, v, drawn.robot.depth_m(u, v)).homogeneous();
       };
       each_robot_pixel(drawn.camera, drawn.robot, add, 2);
-      const std::lock_guard lock(mutex);
-      sums[drawn.camera_index] += sum;
     });
-    for (std::size_t c = 0; c < sums.size(); ++c) {
-      if (sums[c].w() > 0) result_.pivot_C_m[c] = sums[c].head<3>() / sums[c].w();
+    for (std::size_t c = 0; c < parts.size(); ++c) {
+      Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+      for (const Eigen::Vector4d& part : parts[c]) sum += part;
+      if (sum.w() > 0) result_.pivot_C_m[c] = sum.head<3>() / sum.w();
     }
   }
 

@@ -187,7 +187,9 @@ void insert_value(const std::filesystem::path& file, const YamlPath& path, const
   const auto [map, steps] = find_value(document, path);
   std::string entry = scalar_as_yaml(value);
   for (std::size_t i = path.size(); i-- > steps;) {
-    entry = scalar_as_yaml(path[i]) + ": " + (i + 1 < path.size() ? "{" + entry + "}" : entry);
+    const bool is_map = i + 1 < path.size();
+    entry = fmt::format("{}: {}{}{}", scalar_as_yaml(path[i]), is_map ? "{" : "", entry,
+                        is_map ? "}" : "");
   }
   if (!map.IsMap() || !insert_entry(text, map, entry)) {
     throw_bad_file(place_of(file, document, path), "cannot be added here",
