@@ -63,6 +63,7 @@ struct CameraCalibration {
   std::string refused;
 };
 
+/// What was found of all cameras and of the joints.
 struct CalibrationResult {
   /// In the order of TeachIn::cameras.
   std::vector<CameraCalibration> cameras;
@@ -71,6 +72,7 @@ struct CalibrationResult {
   std::vector<std::string> joints_not_determined;
 };
 
+/// What is looked for.
 struct CalibrationSettings {
   /// Whether to look for the joints' zeros as well. Few frames are overfitted so.
   bool joint_zeros = false;

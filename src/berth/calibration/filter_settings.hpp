@@ -29,6 +29,7 @@ struct SmallestObstacle {
   double finger_width_m = 0;
 };
 
+/// Settings for one camera, and what they do to its own images.
 struct FilterProposal {
   std::vector<ProposedSetting> self_filter;
   std::vector<ProposedSetting> sensor;

@@ -11,12 +11,14 @@
 
 namespace berth {
 
+/// What teach-in is to find, and to change.
 struct CalibrateSceneSettings {
   CalibrationSettings fit;
   /// Whether the depth error that was found is taken out of the readings from now on.
   bool correct_depth = false;
 };
 
+/// What teach-in found of a scene.
 struct SceneCalibration {
   CalibrationResult found;
   /// One for each camera, as below.
