@@ -151,6 +151,12 @@ class CameraReport {
 
 }  // namespace
 
+DepthImage corrected(const DepthImage& depth_m, const DepthError& error) {
+  DepthImage out = depth_m;
+  for (float& z_m : out.pixels()) z_m = static_cast<float>(error.offset_m + error.scale * z_m);
+  return out;
+}
+
 CalibrationResult calibrate(const TeachIn& teach_in, const CalibrationSettings& settings) {
   CalibrationEstimate estimate = start_of(teach_in);
   FitPriors priors;

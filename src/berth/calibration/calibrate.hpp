@@ -25,6 +25,9 @@ struct DepthError {
   double scale = 1;
 };
 
+/// The image with that error taken out.
+DepthImage corrected(const DepthImage& depth_m, const DepthError& error);
+
 /// What was found of one camera.
 struct CameraCalibration {
   std::string camera;

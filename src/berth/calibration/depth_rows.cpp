@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "berth/calibration/robot_pixels.hpp"
+
 namespace berth {
 namespace {
 
@@ -41,7 +43,7 @@ void append_depth_rows(const Camera& camera, DepthView depth_m, const RobotImage
   for (int v = extent.v_begin; v < extent.v_end; v += limits.stride) {
     for (int u = extent.u_begin; u < extent.u_end; u += limits.stride) {
       const LinkId id = robot.link_id(u, v);
-      if (id == kNoLink || id == kEnvironmentLink) continue;
+      if (!is_robot(id)) continue;
       const float reading_m = depth_m(u, v);
       const float corrected_m = estimate.corrected(reading_m);
       const float model_m = robot.depth_m(u, v);

@@ -118,8 +118,7 @@ class Proposer {
                                 camera_.width_px, camera_.height_px);
     for (int b = near.v_begin; b < near.v_end; b += 3) {
       for (int a = near.u_begin; a < near.u_end; a += 3) {
-        const LinkId id = view.robot.link_id(a, b);
-        if (id == kNoLink || id == kEnvironmentLink) continue;
+        if (!is_robot(view.robot.link_id(a, b))) continue;
         if (std::abs(view.robot.depth_m(a, b) - z_m) < kRobotLike_m) return true;
       }
     }
@@ -203,12 +202,6 @@ class Proposer {
   std::vector<float> overshoot_m_;
   FilterProposal out_;
 };
-
-DepthImage corrected(const DepthImage& depth_m, const DepthError& error) {
-  DepthImage out = depth_m;
-  for (float& z_m : out.pixels()) z_m = static_cast<float>(error.offset_m + error.scale * z_m);
-  return out;
-}
 
 }  // namespace
 

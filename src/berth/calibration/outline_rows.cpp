@@ -3,6 +3,8 @@
 #include <cmath>
 #include <optional>
 
+#include "berth/calibration/robot_pixels.hpp"
+
 namespace berth {
 namespace {
 
@@ -36,7 +38,7 @@ class OutlineSearch {
     const PixelRect extent = clip(robot_.extent, camera_.width_px, camera_.height_px);
     for (int v = extent.v_begin; v < extent.v_end; ++v) {
       for (int u = extent.u_begin; u < extent.u_end; ++u) {
-        if (!is_robot(u, v)) continue;
+        if (!is_robot_at(u, v)) continue;
         for (const Way way : {Way{1, 0}, Way{-1, 0}, Way{0, 1}, Way{0, -1}}) look(u, v, way);
       }
     }
@@ -49,10 +51,7 @@ class OutlineSearch {
   bool is_inside(int u, int v) const {
     return u >= 0 && v >= 0 && u < camera_.width_px && v < camera_.height_px;
   }
-  bool is_robot(int u, int v) const {
-    const LinkId id = robot_.link_id(u, v);
-    return id != kNoLink && id != kEnvironmentLink;
-  }
+  bool is_robot_at(int u, int v) const { return is_robot(robot_.link_id(u, v)); }
   /// Whether the model has nothing at a pixel that stands near `z_m` or before it.
   bool is_open(int u, int v, float z_m) const {
     return robot_.link_id(u, v) == kNoLink || robot_.depth_m(u, v) > z_m + kLeastBackground_m;
@@ -89,7 +88,7 @@ class OutlineSearch {
       const int kv = v + k * way.dv;
       if (!is_inside(ku, kv)) return Sensed::before;
       // Inside the model's outline its own surface tells what is like the robot.
-      const bool has_model = k < 0 && is_robot(ku, kv);
+      const bool has_model = k < 0 && is_robot_at(ku, kv);
       return sense(ku, kv, has_model ? robot_.depth_m(ku, kv) : z_m);
     };
     int last = 0;

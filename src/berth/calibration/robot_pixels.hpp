@@ -1,4 +1,4 @@
-// Inside calibration/ only: the robot's pixels in an image, and statistics of what they show.
+// Inside berth only: the robot's pixels in an image, and statistics of what they show.
 #pragma once
 
 #include <algorithm>
@@ -13,6 +13,9 @@ namespace berth {
 /// Farther from the model, along the optical axis, a reading is not the robot's.
 inline constexpr float kRobotLike_m = 0.10F;
 
+/// Whether it is a link of the robot, not scenery.
+constexpr bool is_robot(LinkId id) { return id != kNoLink && id != kEnvironmentLink; }
+
 /// Calls take(u, v, link) for each pixel of an evaluated link.
 template <class Take>
 void each_robot_pixel(const Camera& camera, const RobotImage& robot, const Take& take,
@@ -21,7 +24,7 @@ void each_robot_pixel(const Camera& camera, const RobotImage& robot, const Take&
   for (int v = extent.v_begin; v < extent.v_end; v += stride) {
     for (int u = extent.u_begin; u < extent.u_end; u += stride) {
       const LinkId id = robot.link_id(u, v);
-      if (id != kNoLink && id != kEnvironmentLink) take(u, v, id);
+      if (is_robot(id)) take(u, v, id);
     }
   }
 }

@@ -10,7 +10,7 @@
 #include "berth/calibration/frame_displacement.hpp"
 #include "berth/calibration/moved_environment.hpp"
 #include "berth/calibration/seen_through.hpp"
-#include "berth/render/robot_renderer.hpp"
+#include "berth/scene/taught_robot.hpp"
 
 namespace berth {
 namespace {
@@ -32,41 +32,26 @@ bool is_told(const CameraCalibration& camera, std::string_view key) {
 }
 
 /// T and D of the frames that were used, with the camera where it was found.
-WatchSettings normal_range(const TeachIn& teach_in, const TeachInCamera& source,
-                           const CameraCalibration& found, const CalibrateSceneSettings& settings,
-                           const std::map<std::string, double>& joint_offsets, double bias_m) {
-  RobotRenderer renderer(teach_in.meshes, source.camera);
+WatchSettings normal_range(const TeachIn& teach_in, std::size_t camera,
+                           const CalibrationResult& result, const CalibrateSceneSettings& settings,
+                           double bias_m) {
+  TaughtRobot taught(teach_in, result, camera);
+  const TeachInCamera& source = taught.source();
   const FrameDisplacement displacement(*teach_in.model, teach_in.meshes, source.camera,
-                                       source.parent, found.X_PC, bias_m);
-  const double clock_shift_s = found.clock_offset_s - source.clock_offset_s;
-  RobotImage robot;
-  RobotPose pose;
+                                       source.parent, taught.found().X_PC, bias_m);
   std::vector<double> seen_through;
   std::vector<double> displacement_m;
-  for (const TeachInFrame& frame : source.frames) {
+  for (std::size_t k = 0; k < source.frames.size(); ++k) {
     settings.fit.pause();
-    JointState joints = frame.joints;
-    if (clock_shift_s != 0 &&
-        teach_in.joints->at(frame.joints.stamp_s + found.clock_offset_s, kOnlyBetweenSamples,
-                            joints).status != TimeStatus::ok) {
-      continue;
-    }
-    for (std::size_t j = 0; j < joints.position.size(); ++j) {
-      const auto offset = joint_offsets.find(teach_in.model->joints[j].name);
-      if (offset != joint_offsets.end()) joints.position[j] += offset->second;
-    }
-    DepthImage depth_m = frame.depth_m;
-    if (settings.correct_depth) {
-      for (float& z_m : depth_m.pixels()) {
-        z_m = static_cast<float>(found.depth.offset_m + found.depth.scale * z_m);
-      }
-    }
-    forward_kinematics(*teach_in.model, joints.position, pose);
-    renderer.render(pose, pose.X_BL[source.parent] * found.X_PC, robot);
-    seen_through.push_back(read_robot(depth_m, robot, bias_m).seen_through());
+    const RobotImage* robot = taught.draw(k, TeachInSide::after);
+    if (!robot) continue;
+    DepthImage depth_m = source.frames[k].depth_m;
+    if (settings.correct_depth) depth_m = corrected(depth_m, taught.found().depth);
+    seen_through.push_back(read_robot(depth_m, *robot, bias_m).seen_through());
     if (displacement_m.size() >= kMostDisplacements) continue;
-    displacement_m.push_back(displacement.measure(depth_m, joints)
-                                 .value_or(std::numeric_limits<double>::quiet_NaN()));
+    displacement_m.push_back(
+        displacement.measure(depth_m, *taught.joints(k, TeachInSide::after))
+            .value_or(std::numeric_limits<double>::quiet_NaN()));
   }
   WatchSettings watch = learned_limits(seen_through, displacement_m);
   watch.bias_m = bias_m;
@@ -146,9 +131,8 @@ SceneCalibration calibrate_scene(const OpenScene& scene, const SceneTeachIn& mat
     const bool corrects = settings.correct_depth && found.cameras[c].refused.empty();
     calibration.filters.push_back(
         propose_filter(teach_in, c, found, corrects, present.self_filter, present.sensor));
-    calibration.watches.push_back(normal_range(teach_in, *teach_in.cameras[c], found.cameras[c],
-                                               settings, found.joint_offsets,
-                                               calibration.filters[c].bias_m));
+    calibration.watches.push_back(
+        normal_range(teach_in, c, found, settings, calibration.filters[c].bias_m));
     calibration.change.cameras.push_back(change_of(scene.cameras[c].source, found.cameras[c],
                                                    calibration.filters[c], calibration.watches[c],
                                                    corrects));

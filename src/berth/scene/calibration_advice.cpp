@@ -119,7 +119,7 @@ class Advisor {
     add_side(coverage_.across, "to the left", "to the right", "width", gaps);
     add_side(coverage_.down, "up", "down", "height", gaps);
     add_least_seen_link(gaps);
-    const Spread& depth = coverage_.depth_m;
+    const CoveredRange& depth = coverage_.depth_m;
     if (depth.high - depth.low < kDeepEnough_m) {
       gaps.push_back(
           fmt::format("with the arm nearer to the camera or farther away: it was only "
@@ -129,7 +129,7 @@ class Advisor {
     return gaps;
   }
 
-  void add_side(const Spread& seen, const char* low_side, const char* high_side, const char* extent,
+  void add_side(const CoveredRange& seen, const char* low_side, const char* high_side, const char* extent,
                 std::vector<std::string>& gaps) const {
     if (!(seen.high - seen.low < kWideEnough)) return;
     gaps.push_back(fmt::format(

@@ -16,7 +16,7 @@ TaughtRobot::TaughtRobot(const TeachIn& teach_in, const CalibrationResult& resul
 }
 
 const RobotImage* TaughtRobot::draw(std::size_t frame, TeachInSide side) {
-  const std::optional<JointState> at = joints(source().frames[frame], side);
+  const std::optional<JointState> at = joints(frame, side);
   if (!at) return nullptr;
   forward_kinematics(*teach_in_.model, at->position, pose_);
   const Pose& X_PC = side == TeachInSide::before ? source().X_PC : found().X_PC;
@@ -37,11 +37,11 @@ DepthImage TaughtRobot::residual_m(std::size_t frame, TeachInSide side,
   return residual_m;
 }
 
-std::optional<JointState> TaughtRobot::joints(const TeachInFrame& frame, TeachInSide side) const {
-  JointState joints = frame.joints;
+std::optional<JointState> TaughtRobot::joints(std::size_t frame, TeachInSide side) const {
+  JointState joints = source().frames[frame].joints;
   if (side == TeachInSide::before) return joints;
   if (teach_in_.joints && found().clock_offset_s != source().clock_offset_s) {
-    const double time_s = frame.joints.stamp_s + found().clock_offset_s;
+    const double time_s = joints.stamp_s + found().clock_offset_s;
     if (teach_in_.joints->at(time_s, kOnlyBetweenSamples, joints).status != TimeStatus::ok) {
       return std::nullopt;
     }

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "berth/calibration/calibrate.hpp"
+#include "berth/calibration/robot_pixels.hpp"
 #include "berth/calibration/teach_in.hpp"
 #include "berth/render/robot_renderer.hpp"
 
@@ -17,6 +18,10 @@ class TaughtRobot {
   /// `teach_in` and `result` have to outlive it.
   TaughtRobot(const TeachIn& teach_in, const CalibrationResult& result, std::size_t camera);
 
+  /// Where the joints were, by what was believed or found; none where the clock that was found lies
+  /// outside of what is known of them.
+  std::optional<JointState> joints(std::size_t frame, TeachInSide side) const;
+
   /// Valid until the next call. Null where the joints are not known at the clock that was found.
   const RobotImage* draw(std::size_t frame, TeachInSide side);
 
@@ -28,8 +33,6 @@ class TaughtRobot {
   const CameraCalibration& found() const { return result_.cameras[camera_]; }
 
  private:
-  std::optional<JointState> joints(const TeachInFrame& frame, TeachInSide side) const;
-
   const TeachIn& teach_in_;
   const CalibrationResult& result_;
   std::size_t camera_;
@@ -37,8 +40,5 @@ class TaughtRobot {
   RobotPose pose_;
   RobotImage image_;
 };
-
-/// Whether it is a link of the robot, not scenery.
-constexpr bool is_robot(LinkId id) { return id != kNoLink && id != kEnvironmentLink; }
 
 }  // namespace berth

@@ -3,24 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "berth/calibration/robot_pixels.hpp"
 #include "berth/scene/taught_robot.hpp"
 
 namespace berth {
 namespace {
 
-/// Farther from the model a reading is not the robot's.
-constexpr float kRobotLike_m = 0.10F;
 constexpr int kLeastLink_px = 100;
 constexpr double kOutermost = 0.02;
 
-double quantile(std::vector<float>& values, double share) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * (values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
-Spread spread_of(std::vector<float>& values) {
+CoveredRange range_of(std::vector<float>& values) {
   return {quantile(values, kOutermost), quantile(values, 1 - kOutermost)};
 }
 
@@ -92,9 +84,9 @@ TeachInCoverage coverage_of(const CalibrationReport& report, std::size_t camera)
       if (link_px[i] >= kLeastLink_px) ++coverage.frames_with_link[i];
     }
   }
-  coverage.across = spread_of(readings.across);
-  coverage.down = spread_of(readings.down);
-  coverage.depth_m = spread_of(readings.depth_m);
+  coverage.across = range_of(readings.across);
+  coverage.down = range_of(readings.down);
+  coverage.depth_m = range_of(readings.depth_m);
   coverage.median_depth_m = quantile(readings.depth_m, 0.5);
   return coverage;
 }

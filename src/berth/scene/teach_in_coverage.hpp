@@ -22,7 +22,7 @@ struct FrameCoverage {
 };
 
 /// The middle of what is seen, without the outermost 2 % on each side; NaN where there is none.
-struct Spread {
+struct CoveredRange {
   double low = std::numeric_limits<double>::quiet_NaN();
   double high = std::numeric_limits<double>::quiet_NaN();
 };
@@ -34,9 +34,9 @@ struct TeachInCoverage {
   /// have its readings.
   std::vector<int> frames_with_link;
   /// Where in the images the robot's readings are: 0 is the left or upper edge, 1 the other one.
-  Spread across;
-  Spread down;
-  Spread depth_m;
+  CoveredRange across;
+  CoveredRange down;
+  CoveredRange depth_m;
   double median_depth_m = std::numeric_limits<double>::quiet_NaN();
   /// joint_range[j]: how far joint j of RobotModel::joints moved over all frames, rad or m.
   std::vector<double> joint_range;
