@@ -43,6 +43,10 @@ set(BERTH_PUBLIC_HEADERS
   berth/pipeline/robot.hpp
   berth/pipeline/trajectory.hpp
   berth/pipeline/view.hpp
+  berth/live/joint_intake.hpp
+  berth/live/live_asker.hpp
+  berth/live/live_camera.hpp
+  berth/live/raw_depth.hpp
   berth/opengl/gl_asker.hpp
   berth/opengl/gl_context.hpp
   berth/opengl/gl_evaluate.hpp

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "berth/robot/primitives.hpp"
+#include "tests/support/error_message.hpp"
 #include "tests/robot/mesh_writing.hpp"
 #include "tests/robot/robot_text.hpp"
 
@@ -205,6 +206,16 @@ TEST(Urdf, MeshPathsAreRelativeOrAbsoluteOrOfAPackage) {
   EXPECT_EQ(triangles("package://other/meshes/part.stl",
                       {.package_paths = {{"other", folder.path() / "elsewhere"}}}),
             1U);
+}
+
+TEST(Urdf, TheTextMayComeFromNoFile) {
+  const RobotModel model =
+      load_robot({.urdf = "robot_description", .urdf_text = robot_xml(box_link_xml("base"))});
+  EXPECT_EQ(model.link_count(), 1);
+  expect_parts(error_message([] {
+                 load_robot({.urdf = "robot_description", .urdf_text = "<robot>"});
+               }),
+               {"robot_description"});
 }
 
 TEST(Urdf, EnvironmentAndIgnoredLinksAreNotCounted) {

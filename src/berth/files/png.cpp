@@ -3,34 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 
+#include "berth/files/depth_units.hpp"
 #include "berth/files/error.hpp"
 #include "berth/files/png_codec.hpp"
 
 namespace berth {
 namespace {
 
-constexpr double kLargestUnit = 65535;
-
 void check_scale(const std::filesystem::path& file, double depth_scale_m) {
   if (is_depth_scale(depth_scale_m)) return;
   throw_bad_file({file, 0, "depth scale"}, fmt::format("{}", depth_scale_m), kDepthScaleExpected);
-}
-
-float depth_of(std::uint16_t units, double depth_scale_m, double offset_m, float near_m,
-               float far_m) {
-  const float depth_m = static_cast<float>(units * depth_scale_m + offset_m);
-  const bool valid = units != 0 && std::isfinite(depth_m) && depth_m > 0 && depth_m >= near_m &&
-                     depth_m <= far_m;
-  return valid ? depth_m : kNoDepth;
-}
-
-std::uint16_t units_of(float depth_m, double depth_scale_m) {
-  if (std::isnan(depth_m)) return 0;
-  return static_cast<std::uint16_t>(
-      std::clamp(std::round(depth_m / depth_scale_m), 1.0, kLargestUnit));
 }
 
 template <typename T, typename ToNumber>
@@ -52,9 +36,8 @@ DepthImage read_depth_png(const std::filesystem::path& file, const Camera& expec
   const Image<std::uint16_t> units = read_gray_png(file, expected_size, PngDepths::only_16_bit);
   DepthImage depth_m(units.width(), units.height());
   std::transform(units.pixels().begin(), units.pixels().end(), depth_m.pixels().begin(),
-                 [=, near = static_cast<float>(near_m), far = static_cast<float>(far_m)](
-                     std::uint16_t value) {
-                   return depth_of(value, depth_scale_m, offset_m, near, far);
+                 [rule = DepthUnits{depth_scale_m, offset_m, near_m, far_m}](std::uint16_t number) {
+                   return depth_of(number, rule);
                  });
   return depth_m;
 }
@@ -65,7 +48,7 @@ Image<LinkId> read_link_ids_png(const std::filesystem::path& file, const Camera&
 
 void write_depth_png(const std::filesystem::path& file, DepthView depth_m, double depth_scale_m) {
   check_scale(file, depth_scale_m);
-  const auto to_units = [=](float z_m) { return units_of(z_m, depth_scale_m); };
+  const auto to_units = [=](float z_m) { return number_of(z_m, depth_scale_m); };
   write_gray_png(file, numbers_of(depth_m, to_units), 16);
 }
 

@@ -68,6 +68,11 @@ TimeStatus JointBuffer::newest(JointState& joints) const {
   return missing_.empty() ? TimeStatus::no_joints : TimeStatus::missing_joint;
 }
 
+double JointBuffer::newest_stamp_s() const {
+  const std::lock_guard lock(mutex_);
+  return samples_.empty() ? std::numeric_limits<double>::quiet_NaN() : samples_.back().stamp_s;
+}
+
 std::string JointBuffer::missing_joint() const {
   const std::lock_guard lock(mutex_);
   return std::string(missing_);

@@ -36,6 +36,9 @@ class JointBuffer {
   /// last lacked a joint, missing_joint, and then `joints` is NaN.
   TimeStatus newest(JointState& joints) const;
 
+  /// Of the newest sample; NaN where there is none.
+  double newest_stamp_s() const;
+
   /// The joint that the sample pushed last lacked; empty where it lacked none.
   std::string missing_joint() const;
 

@@ -239,7 +239,8 @@ bool RobotModel::is_moved(std::size_t index) const {
 }
 
 RobotModel load_robot(const RobotSettings& settings) {
-  const auto source = parse_urdf(settings.urdf);
+  const auto source = parse_urdf(
+      settings.urdf, settings.urdf_text ? *settings.urdf_text : read_urdf(settings.urdf));
   RobotModel model;
   model.name = source->getName();
   append_tree(settings, *source->getRoot(), std::nullopt, model);

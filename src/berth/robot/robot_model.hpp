@@ -95,6 +95,9 @@ struct RobotSettings {
   GeometryKind geometry = GeometryKind::visual;
   std::vector<std::string> environment_links = {};
   std::vector<std::string> ignore_links = {};
+  /// The URDF itself, where it comes from no file; `urdf` then is a name for messages, and the
+  /// place that relative mesh paths begin at.
+  std::optional<std::string> urdf_text = {};
 };
 
 /// Loads a URDF and its meshes. Evaluated are the links that have geometry and are neither scenery

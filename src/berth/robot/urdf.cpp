@@ -41,13 +41,11 @@ class LogListener : public console_bridge::OutputHandler {
   std::vector<std::string> errors_;
 };
 
-std::string read_text(const std::filesystem::path& path) {
-  std::string text = read_file_bytes(path);
+void require_text(const std::filesystem::path& path, const std::string& text) {
   if (text.find_first_not_of(" \t\r\n") == std::string::npos)
     refuse(path, "the URDF is empty; expected <robot>");
   if (text.find('\0') != std::string::npos)
     refuse(path, "the URDF holds a zero byte; expected UTF-8, not UTF-16");
-  return text;
 }
 
 constexpr const char* kExpected = "one <robot>, a tree of links, as in wiki.ros.org/urdf/XML";
@@ -148,8 +146,11 @@ void require_usable_xml(const std::filesystem::path& path, const std::string& te
 
 }  // namespace
 
-urdf::ModelInterfaceSharedPtr parse_urdf(const std::filesystem::path& path) {
-  const std::string text = read_text(path);
+std::string read_urdf(const std::filesystem::path& path) { return read_file_bytes(path); }
+
+urdf::ModelInterfaceSharedPtr parse_urdf(const std::filesystem::path& path,
+                                         const std::string& text) {
+  require_text(path, text);
   require_usable_xml(path, text);
   const auto model = parse(path, text);
   require_one_parent_each(path, *model);

@@ -1,0 +1,161 @@
+#include "berth/live/live_camera.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+#include "berth/pipeline/observer.hpp"
+
+namespace berth {
+namespace {
+
+constexpr double kLongestWait_s = 60;
+
+double steady_now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+void validate(const LiveCameraSettings& settings) {
+  if (!std::isfinite(settings.clock_offset_s)) {
+    throw std::invalid_argument(fmt::format("clock_offset_s: {}; expected a finite number",
+                                            settings.clock_offset_s));
+  }
+  if (!(settings.max_wait_s >= 0 && settings.max_wait_s <= kLongestWait_s)) {
+    throw std::invalid_argument(fmt::format("max_wait_s: {}; expected a number from 0 to {}",
+                                            settings.max_wait_s, kLongestWait_s));
+  }
+}
+
+}  // namespace
+
+LiveCamera::LiveCamera(std::shared_ptr<const View> view, const JointIntake& joints,
+                       LiveCameraSettings settings, OnFrame on_frame)
+    : view_(std::move(view)),
+      joints_(joints),
+      settings_(settings),
+      on_frame_(std::move(on_frame)) {
+  validate(settings_);
+  thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+}
+
+LiveCamera::~LiveCamera() = default;
+
+void LiveCamera::push(double stamp_s, DepthImage depth_m, std::shared_ptr<const void> with) {
+  require_size(view_->camera(), depth_m);
+  {
+    const std::lock_guard lock(mutex_);
+    if (waiting_.size() == kMostWaitingImages) {
+      spare_.push_back(std::move(waiting_.front().depth_m));
+      waiting_.pop_front();
+      ++counts_.dropped;
+    }
+    waiting_.push_back({stamp_s, std::move(depth_m), std::move(with), steady_now_s()});
+  }
+  changed_.notify_one();
+}
+
+DepthImage LiveCamera::spare_image() {
+  const std::lock_guard lock(mutex_);
+  if (spare_.empty()) return {};
+  DepthImage image = std::move(spare_.back());
+  spare_.pop_back();
+  return image;
+}
+
+void LiveCamera::joints_came() {
+  // Taken, so that the thread is not between its look at the joints and its sleep.
+  { const std::lock_guard lock(mutex_); }
+  changed_.notify_one();
+}
+
+std::shared_ptr<const Frame> LiveCamera::newest() const {
+  const std::lock_guard lock(mutex_);
+  return newest_;
+}
+
+LiveCameraCounts LiveCamera::counts() const {
+  const std::lock_guard lock(mutex_);
+  return counts_;
+}
+
+bool LiveCamera::has_joints(const Waiting& image) const {
+  return joints_.buffer().newest_stamp_s() >= image.stamp_s + settings_.clock_offset_s;
+}
+
+bool LiveCamera::is_ready(const Waiting& image) const {
+  // No joints will ever lie behind a stamp that is no number.
+  return !std::isfinite(image.stamp_s) || has_joints(image) ||
+         steady_now_s() >= image.since_s + settings_.max_wait_s;
+}
+
+std::shared_ptr<Frame> LiveCamera::take_frame() {
+  std::unique_ptr<Frame> frame;
+  {
+    const std::lock_guard lock(pool_->mutex);
+    if (!pool_->free.empty()) {
+      frame = std::move(pool_->free.back());
+      pool_->free.pop_back();
+    }
+  }
+  if (!frame) frame = std::make_unique<Frame>();
+  // Who holds it longest gives it back, also after this camera is gone.
+  return {frame.release(), [pool = pool_](Frame* used) {
+            const std::lock_guard lock(pool->mutex);
+            pool->free.emplace_back(used);
+          }};
+}
+
+FrameTime LiveCamera::joints_of(const Waiting& image, JointState& at_exposure) {
+  const TimeSettings& limits = view_->robot()->settings().time;
+  const TimeStatus stamp = clock_.next(image.stamp_s, limits);
+  FrameTime time = joints_.buffer().at(image.stamp_s + settings_.clock_offset_s, limits.joints,
+                                       at_exposure);
+  at_exposure.stamp_s = image.stamp_s;
+  if (stamp != TimeStatus::ok) time.status = stamp;
+  return time;
+}
+
+std::optional<LiveCamera::Waiting> LiveCamera::next_image(const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    if (!changed_.wait(lock, stop, [&] { return !waiting_.empty(); })) return std::nullopt;
+    // While it waits, a newer image may take its place.
+    const double wait_s = waiting_.front().since_s + settings_.max_wait_s - steady_now_s();
+    changed_.wait_for(lock, stop, std::chrono::duration<double>(std::max(0.0, wait_s)),
+                      [&] { return is_ready(waiting_.front()); });
+    if (stop.stop_requested()) return std::nullopt;
+    if (!is_ready(waiting_.front())) continue;
+    Waiting image = std::move(waiting_.front());
+    waiting_.pop_front();
+    return image;
+  }
+}
+
+void LiveCamera::keep(Waiting image, const std::shared_ptr<Frame>& frame, double begin_s) {
+  const std::lock_guard lock(mutex_);
+  newest_ = frame;
+  spare_.push_back(std::move(image.depth_m));
+  ++counts_.images;
+  counts_.untimely += frame->time.status != TimeStatus::ok;
+  counts_.last_wait_s = begin_s - image.since_s;
+  counts_.longest_wait_s = std::max(counts_.longest_wait_s, counts_.last_wait_s);
+  counts_.last_observe_s = steady_now_s() - begin_s;
+}
+
+void LiveCamera::run(const std::stop_token& stop) {
+  Observer observer(view_);
+  JointState at_exposure;
+  while (std::optional<Waiting> image = next_image(stop)) {
+    const double begin_s = steady_now_s();
+    const FrameTime time = joints_of(*image, at_exposure);
+    const std::shared_ptr<Frame> frame = take_frame();
+    observer.observe(image->depth_m, at_exposure, *frame, time);
+    if (on_frame_) on_frame_(*frame, image->depth_m, image->with);
+    keep(*std::move(image), frame, begin_s);
+  }
+}
+
+}  // namespace berth

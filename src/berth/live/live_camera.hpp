@@ -1,0 +1,109 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "berth/live/joint_intake.hpp"
+#include "berth/pipeline/frame.hpp"
+#include "berth/pipeline/view.hpp"
+
+namespace berth {
+
+struct LiveCameraSettings {
+  /// The joints' clock at an exposure is the image's stamp plus this.
+  double clock_offset_s = 0;
+  /// An image waits so long, by this computer's steady clock, for the joints around its exposure.
+  /// Then it is observed without them, and its status says what is missing. At most 60.
+  double max_wait_s = 0.1;
+};
+
+/// How many images wait at most; of more the oldest is dropped, since a newer one tells more.
+inline constexpr std::size_t kMostWaitingImages = 3;
+
+/// What became of a camera's images.
+struct LiveCameraCounts {
+  std::int64_t images = 0;    ///< that were observed
+  std::int64_t dropped = 0;   ///< that were not, since newer ones had come
+  std::int64_t untimely = 0;  ///< whose time was not ok
+  double last_wait_s = 0;     ///< of the newest image, for its joints
+  double longest_wait_s = 0;
+  double last_observe_s = 0;  ///< how long it took to observe the newest image
+};
+
+/// A running camera: images come from any thread, wait for the joints around their exposure, and a
+/// thread of its own makes frames of them.
+class LiveCamera {
+ public:
+  /// A frame, the image it was made of, and what push() was given with it.
+  using OnFrame =
+      std::function<void(const Frame&, DepthView depth_m, const std::shared_ptr<const void>& with)>;
+
+  /// `joints` outlives it. `on_frame` is called in the camera's thread, before newest() has the
+  /// frame; it must not throw. Throws std::invalid_argument for a setting outside of its domain.
+  LiveCamera(std::shared_ptr<const View> view, const JointIntake& joints,
+             LiveCameraSettings settings = {}, OnFrame on_frame = {});
+  /// Ends the thread; images that wait are dropped.
+  ~LiveCamera();
+  LiveCamera(const LiveCamera&) = delete;
+  LiveCamera& operator=(const LiveCamera&) = delete;
+
+  /// Takes an image: as large as the camera's, NaN where there is no reading. Throws
+  /// std::invalid_argument for another size.
+  void push(double stamp_s, DepthImage depth_m, std::shared_ptr<const void> with = {});
+  /// An image whose memory is not used any more, of any size and content: fill it and push it.
+  DepthImage spare_image();
+  /// To be called after each JointIntake::push: an image may wait for it.
+  void joints_came();
+
+  const std::shared_ptr<const View>& view() const { return view_; }
+  /// Null before the first one. Constant, and kept for who holds it.
+  std::shared_ptr<const Frame> newest() const;
+  LiveCameraCounts counts() const;
+
+ private:
+  struct Waiting {
+    double stamp_s = 0;
+    DepthImage depth_m;
+    std::shared_ptr<const void> with;
+    double since_s = 0;
+  };
+  /// Frames that nobody holds any more.
+  struct Pool {
+    std::mutex mutex;
+    std::vector<std::unique_ptr<Frame>> free;
+  };
+
+  void run(const std::stop_token& stop);
+  /// The oldest image that is ready; none at the end.
+  std::optional<Waiting> next_image(const std::stop_token& stop);
+  void keep(Waiting image, const std::shared_ptr<Frame>& frame, double begin_s);
+  /// Whether the joints after its exposure are there, or it has waited long enough.
+  bool is_ready(const Waiting& image) const;
+  bool has_joints(const Waiting& image) const;
+  std::shared_ptr<Frame> take_frame();
+  FrameTime joints_of(const Waiting& image, JointState& at_exposure);
+
+  std::shared_ptr<const View> view_;
+  const JointIntake& joints_;
+  LiveCameraSettings settings_;
+  OnFrame on_frame_;
+  std::shared_ptr<Pool> pool_ = std::make_shared<Pool>();
+  FrameClock clock_;
+  mutable std::mutex mutex_;
+  std::condition_variable_any changed_;
+  std::deque<Waiting> waiting_;
+  std::vector<DepthImage> spare_;
+  std::shared_ptr<const Frame> newest_;
+  LiveCameraCounts counts_;
+  /// The last member: the thread uses all the others.
+  std::jthread thread_;
+};
+
+}  // namespace berth

@@ -1,0 +1,165 @@
+#include "berth/live/live_asker.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include "berth/live/live_camera.hpp"
+#include "berth/pipeline/observer.hpp"
+#include "berth/scene/scene_run.hpp"
+#include "tests/live/live_scene.hpp"
+#include "tests/support/error_message.hpp"
+#include "tests/support/view_with.hpp"
+
+namespace berth {
+namespace {
+
+std::vector<float> distances_of(const LinkDistances& distances) {
+  std::vector<float> out;
+  for (const LinkDistance& link : distances.links) out.push_back(link.distance_m);
+  return out;
+}
+
+void expect_near(const std::vector<float>& got, const std::vector<float>& expected) {
+  ASSERT_EQ(got.size(), expected.size());
+  for (std::size_t i = 0; i < got.size(); ++i) {
+    if (std::isnan(expected[i])) {
+      EXPECT_TRUE(std::isnan(got[i])) << i;
+    } else {
+      EXPECT_NEAR(got[i], expected[i], 1e-5) << i;
+    }
+  }
+}
+
+std::shared_ptr<const Frame> observe(const OpenCamera& camera, std::size_t i) {
+  Observer observer(camera.view);
+  auto frame = std::make_shared<Frame>();
+  observer.observe(camera.read_depth(i), camera.at_exposure[i], *frame, camera.exposure_time[i]);
+  return frame;
+}
+
+class AskedScene : public ::testing::Test {
+ protected:
+  AskedScene() : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml")) {
+    push_joints(scene_, -1, 10, joints_);
+    for (const OpenCamera& camera : scene_.cameras) frames_.push_back(observe(camera, 0));
+  }
+  double newest_s() const {
+    double newest_s = 0;
+    for (const auto& frame : frames_) newest_s = std::max(newest_s, frame->stamp_s);
+    return newest_s;
+  }
+  /// The newest joints at this time.
+  const JointBuffer& joints_at(double time_s) {
+    newest_.clear();
+    JointState joints;
+    joints_.buffer().at(time_s, kOnlyBetweenSamples, joints);
+    newest_.push(time_s, joint_names(scene_.robot->model()), joints.position);
+    return newest_;
+  }
+
+  OpenScene scene_;
+  JointIntake joints_{scene_.robot->model(), {}};
+  JointBuffer newest_{scene_.robot->model(), 2};
+  LiveFrames frames_;
+};
+
+TEST_F(AskedScene, WholeSceneGivesWhatSceneRunGives) {
+  SceneRun run(scene_);
+  LiveAsker asker(scene_.robot, frames_.size());
+  LiveFrames frames(scene_.cameras.size());
+  for (int line = 0; line < 8 && run.next(); ++line) {
+    frames[run.camera_number()] = observe(run.camera(), run.frame_number());
+    const FrameResult expected = run.ask();
+    const Answer& answer = asker.ask_at_exposure(frames);
+    EXPECT_EQ(answer.frame_stamp_s, expected.stamp_s);
+    expect_near(distances_of(answer.distances), distances_of(*expected.distances));
+    for (std::size_t c = 0; c < frames.size(); ++c) {
+      EXPECT_EQ(asker.cameras()[c].status, expected.cameras[c].state.status);
+    }
+  }
+}
+
+TEST_F(AskedScene, ACameraThatStopsIsLeftOutOnceItIsTooOld) {
+  LiveAsker asker(scene_.robot, 3);
+  const double max_age_s = scene_.robot->settings().time.max_frame_age_s;
+  const double now_s = newest_s();
+  asker.ask(frames_, joints_at(now_s), now_s);
+  for (const CameraState& camera : asker.cameras()) EXPECT_EQ(camera.status, CameraStatus::ok);
+  const double later_s = frames_[0]->stamp_s + max_age_s + 0.001;
+  ASSERT_LT(later_s, frames_[1]->stamp_s + max_age_s);
+  const Answer& answer = asker.ask(frames_, joints_at(later_s), later_s);
+  EXPECT_EQ(asker.cameras()[0].status, CameraStatus::too_old);
+  EXPECT_EQ(asker.cameras()[1].status, CameraStatus::ok);
+  EXPECT_EQ(answer.time.status, TimeStatus::ok) << "the others' answer stands";
+  EXPECT_EQ(answer.cameras[0].status, CameraStatus::too_old);
+  EXPECT_EQ(asker.ask(frames_, joints_at(now_s + 1), now_s + 1).time.status,
+            TimeStatus::stale_frame);
+}
+
+TEST_F(AskedScene, AgesAreThoseOfTheQuestion) {
+  LiveAsker asker(scene_.robot, 3);
+  for (const double wait_s : {0.001, 0.01}) {
+    const double now_s = newest_s() + wait_s;
+    asker.ask(frames_, joints_at(now_s), now_s);
+    EXPECT_NEAR(asker.cameras()[1].age_s, now_s - frames_[1]->stamp_s, 1e-12);
+  }
+}
+
+TEST_F(AskedScene, OldJointsAndNoFramesAreStatuses) {
+  LiveAsker asker(scene_.robot, 3);
+  const double now_s = newest_s() + 0.1;
+  EXPECT_EQ(asker.ask(frames_, joints_at(now_s - 0.05), now_s).time.status,
+            TimeStatus::stale_joints);
+  EXPECT_EQ(asker.ask(LiveFrames(3), joints_at(now_s), now_s).time.status, TimeStatus::no_frame);
+  EXPECT_EQ(asker.ask_at_exposure(LiveFrames(3)).time.status, TimeStatus::no_frame);
+  for (const LinkDistance& link : asker.ask_at_exposure(LiveFrames(3)).distances.links) {
+    EXPECT_EQ(link.status, LinkStatus::untimely);
+  }
+}
+
+TEST_F(AskedScene, AMethodThatComparesImagesAsksItsOnlyCamera) {
+  const View& view = *scene_.cameras[0].view;
+  const auto exact = testing::view_with(view, testing::exact_evaluation(), view.settings());
+  EXPECT_THROW(LiveAsker(exact->robot(), 2), std::invalid_argument);
+  LiveAsker asker(exact->robot(), 1);
+  EXPECT_EQ(asker.ask_at_exposure(LiveFrames(1)).time.status, TimeStatus::no_frame);
+  Observer observer(exact);
+  auto frame = std::make_shared<Frame>();
+  observer.observe(scene_.cameras[0].read_depth(5), scene_.cameras[0].at_exposure[5], *frame);
+  Asker plain(exact->robot());
+  EXPECT_EQ(distances_of(asker.ask_at_exposure({frame}).distances),
+            distances_of(plain.ask(*frame).distances));
+  EXPECT_EQ(asker.cameras()[0].status, CameraStatus::ok);
+}
+
+TEST_F(AskedScene, CamerasRunWhileQuestionsAreAsked) {
+  std::vector<std::unique_ptr<LiveCamera>> cameras;
+  for (const OpenCamera& camera : scene_.cameras) {
+    cameras.push_back(
+        std::make_unique<LiveCamera>(camera.view, joints_, LiveCameraSettings{.max_wait_s = 30}));
+  }
+  std::atomic<bool> stop = false;
+  std::jthread feeder([&] {
+    for (std::size_t i = 0; i < 10; ++i) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        const OpenCamera& from = scene_.cameras[c];
+        cameras[c]->push(from.source.stamps_s[i], from.read_depth(i));
+        comes_true([&] { return cameras[c]->counts().images > static_cast<int>(i); });
+      }
+    }
+    stop = true;
+  });
+  LiveAsker asker(scene_.robot, 3);
+  int answers = 0;
+  while (!stop) {
+    LiveFrames frames;
+    for (const auto& camera : cameras) frames.push_back(camera->newest());
+    const Answer& answer = asker.ask_at_exposure(frames);
+    answers += answer.time.status == TimeStatus::ok;
+  }
+  EXPECT_GT(answers, 0);
+}
+
+}  // namespace
+}  // namespace berth
