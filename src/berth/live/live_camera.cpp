@@ -134,10 +134,9 @@ std::optional<LiveCamera::Waiting> LiveCamera::next_image(const std::stop_token&
   }
 }
 
-void LiveCamera::keep(Waiting image, const std::shared_ptr<Frame>& frame, double begin_s) {
+void LiveCamera::keep(const Waiting& image, const std::shared_ptr<Frame>& frame, double begin_s) {
   const std::lock_guard lock(mutex_);
   newest_ = frame;
-  spare_.push_back(std::move(image.depth_m));
   ++counts_.images;
   counts_.untimely += frame->time.status != TimeStatus::ok;
   counts_.last_wait_s = begin_s - image.since_s;
@@ -153,8 +152,10 @@ void LiveCamera::run(const std::stop_token& stop) {
     const FrameTime time = joints_of(*image, at_exposure);
     const std::shared_ptr<Frame> frame = take_frame();
     observer.observe(image->depth_m, at_exposure, *frame, time);
+    keep(*image, frame, begin_s);
     if (on_frame_) on_frame_(*frame, image->depth_m, image->with);
-    keep(*std::move(image), frame, begin_s);
+    const std::lock_guard lock(mutex_);
+    spare_.push_back(std::move(image->depth_m));
   }
 }
 

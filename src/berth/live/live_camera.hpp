@@ -45,7 +45,7 @@ class LiveCamera {
   using OnFrame =
       std::function<void(const Frame&, DepthView depth_m, const std::shared_ptr<const void>& with)>;
 
-  /// `joints` outlives it. `on_frame` is called in the camera's thread, before newest() has the
+  /// `joints` outlives it. `on_frame` is called in the camera's thread, after newest() has the
   /// frame; it must not throw. Throws std::invalid_argument for a setting outside of its domain.
   LiveCamera(std::shared_ptr<const View> view, const JointIntake& joints,
              LiveCameraSettings settings = {}, OnFrame on_frame = {});
@@ -83,7 +83,7 @@ class LiveCamera {
   void run(const std::stop_token& stop);
   /// The oldest image that is ready; none at the end.
   std::optional<Waiting> next_image(const std::stop_token& stop);
-  void keep(Waiting image, const std::shared_ptr<Frame>& frame, double begin_s);
+  void keep(const Waiting& image, const std::shared_ptr<Frame>& frame, double begin_s);
   /// Whether the joints after its exposure are there, or it has waited long enough.
   bool is_ready(const Waiting& image) const;
   bool has_joints(const Waiting& image) const;

@@ -82,16 +82,6 @@ TriangleMesh mesh_of(const SceneAttachment& attachment) {
   return read_mesh_file(attachment.mesh);
 }
 
-std::vector<Attachment> attached_to(const SceneFile& scene) {
-  std::vector<Attachment> attached;
-  for (const SceneAttachment& from : scene.attached) {
-    const bool is_link = !from.name.empty();
-    attached.push_back({is_link ? from.name : fmt::format("{} at {}", from.link, from.place),
-                        from.link, mesh_of(from), from.X_LA, is_link});
-  }
-  return attached;
-}
-
 /// The joints at each exposure. Throws where none of the stamps can be meant for these joints.
 void find_joints(const JointTrajectory& joints, OpenCamera& camera) {
   const SceneCamera& source = camera.source;
@@ -139,6 +129,16 @@ DepthImage OpenCamera::read_depth(std::size_t frame) const {
                         source.far_m, source.depth_offset_m);
 }
 
+std::vector<Attachment> attachments_of(const SceneFile& scene) {
+  std::vector<Attachment> attached;
+  for (const SceneAttachment& from : scene.attached) {
+    const bool is_link = !from.name.empty();
+    attached.push_back({is_link ? from.name : fmt::format("{} at {}", from.link, from.place),
+                        from.link, mesh_of(from), from.X_LA, is_link});
+  }
+  return attached;
+}
+
 OpenScene open_scene(const SceneFile& source, const std::function<void()>& before_image) {
   OpenScene scene;
   scene.file = source.file;
@@ -146,7 +146,7 @@ OpenScene open_scene(const SceneFile& source, const std::function<void()>& befor
   RobotModel model = load_robot(source.robot);
   scene.joints = std::make_shared<const JointTrajectory>(read_trajectory(model, source));
   scene.robot = with_file_named(source, [&] {
-    return std::make_shared<const Robot>(std::move(model), source.evaluation, attached_to(source));
+    return std::make_shared<const Robot>(std::move(model), source.evaluation, attachments_of(source));
   });
   std::size_t kept_bytes = 0;
   for (const SceneCamera& from : source.cameras) {

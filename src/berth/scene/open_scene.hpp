@@ -39,6 +39,10 @@ struct OpenScene {
   std::size_t frame_count = 0;  ///< of all cameras
 };
 
+/// What the scene's `attached:` describes, with its meshes. Throws std::runtime_error as
+/// read_mesh_file does.
+std::vector<Attachment> attachments_of(const SceneFile& scene);
+
 /// Checked images are kept in memory up to so many bytes in all; the rest is decoded a second time.
 inline constexpr std::size_t kMostKeptBytes = std::size_t{512} << 20;
 

@@ -1,0 +1,164 @@
+// Distances of a running robot: cameras and joint states in, berth_msgs/LinkDistances out.
+#include <atomic>
+#include <berth_msgs/msg/link_distances.hpp>
+#include <berth_msgs/msg/separation.hpp>
+#include <chrono>
+#include <rclcpp_components/register_node_macro.hpp>
+#include <visualization_msgs/msg/marker_array.hpp>
+
+#include "answer_messages.hpp"
+#include "live_node.hpp"
+#include "markers.hpp"
+#include "question_times.hpp"
+
+namespace berth_ros {
+namespace {
+
+rcl_interfaces::msg::ParameterDescriptor rate(const std::string& text, double most) {
+  rcl_interfaces::msg::ParameterDescriptor descriptor;
+  descriptor.description = text;
+  descriptor.read_only = true;
+  descriptor.floating_point_range.resize(1);
+  descriptor.floating_point_range[0].to_value = most;
+  return descriptor;
+}
+
+}  // namespace
+
+class DistanceNode : public LiveNode {
+ public:
+  explicit DistanceNode(const rclcpp::NodeOptions& options)
+      : LiveNode("distance_node", options, false) {
+    const rclcpp::QoS qos = rclcpp::QoS(10);
+    distances_ = create_publisher<berth_msgs::msg::LinkDistances>("distances", qos);
+    at_exposure_ = create_publisher<berth_msgs::msg::LinkDistances>("distances_at_exposure", qos);
+    separation_ = create_publisher<berth_msgs::msg::Separation>("separation", qos);
+    markers_ = create_publisher<visualization_msgs::msg::MarkerArray>("markers", qos);
+    diagnostics_.add("questions", [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
+      report_questions(status);
+    });
+    const double question_hz = declare_parameter(
+        "question_rate_hz", 100.0, rate("questions a second; 0: one for each joint state", 1000));
+    const double marker_hz =
+        declare_parameter("marker_rate_hz", 10.0, rate("markers a second; 0: none", 100));
+    asks_on_joints_ = question_hz == 0;
+    group_ = create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive);
+    if (question_hz > 0) question_timer_ = timer(question_hz, [this] { ask(); });
+    if (marker_hz > 0) marker_timer_ = timer(marker_hz, [this] { show(); });
+    listen();
+  }
+  /// Cameras' threads and callbacks use what is below.
+  ~DistanceNode() override { stop(); }
+
+ private:
+  template <class Call>
+  rclcpp::TimerBase::SharedPtr timer(double hz, Call call) {
+    return rclcpp::create_timer(this, get_clock(), rclcpp::Duration::from_seconds(1 / hz), call,
+                                group_);
+  }
+
+  void on_joints() override {
+    if (asks_on_joints_) ask();
+  }
+  void on_robot() override {
+    const LiveRobot now = live();
+    const std::lock_guard lock(asker_mutex_);
+    asker_.reset();
+    exposure_asker_.reset();
+    robot_ = now;
+    if (!now.robot) return;
+    asker_.emplace(now.robot, camera_names().size());
+    exposure_asker_.emplace(now.robot, camera_names().size());
+  }
+
+  void ask() {
+    const rclcpp::Time now = this->now();
+    const auto begin = std::chrono::steady_clock::now();
+    auto message = std::make_unique<berth_msgs::msg::LinkDistances>();
+    {
+      const std::lock_guard lock(asker_mutex_);
+      if (asker_) {
+        const berth::Answer& answer =
+            asker_->ask(frames(*robot_.robot), robot_.joints->buffer(), clock_.seconds(now));
+        to_message(answer, context(*asker_, now), *message);
+      } else {
+        say_no_robot(camera_names(), now, *message);
+      }
+      to_message(*message, separation_message_);
+      if (marker_timer_) last_ = *message;
+    }
+    distances_->publish(std::move(message));
+    separation_->publish(separation_message_);
+    const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - begin;
+    times_.add(took.count());
+  }
+
+  void on_frame(std::size_t, const berth::Frame&,
+                const std::shared_ptr<const sensor_msgs::msg::Image>&) override {
+    if (at_exposure_->get_subscription_count() == 0) return;
+    auto message = std::make_unique<berth_msgs::msg::LinkDistances>();
+    {
+      const std::lock_guard lock(asker_mutex_);
+      if (!exposure_asker_) return;
+      const berth::Answer& answer = exposure_asker_->ask_at_exposure(frames(*robot_.robot));
+      to_message(answer, context(*exposure_asker_, this->now()), *message);
+    }
+    at_exposure_->publish(std::move(message));
+  }
+
+  void show() {
+    if (markers_->get_subscription_count() == 0) return;
+    visualization_msgs::msg::MarkerArray array;
+    {
+      const std::lock_guard lock(asker_mutex_);
+      array = markers_of(last_);
+    }
+    markers_->publish(array);
+  }
+
+  AnswerContext context(const berth::LiveAsker& asker, const rclcpp::Time& now) const {
+    return {*robot_.robot, camera_names(), asker.cameras(), asker.frames(), clock_, now};
+  }
+
+  void report_questions(diagnostic_updater::DiagnosticStatusWrapper& status) {
+    const QuestionTimes::Summary times = times_.take();
+    status.add("questions since the last report", times.count);
+    status.add("median, us", times.median_us);
+    status.add("99 %, us", times.p99_us);
+    status.add("greatest, us", times.greatest_us);
+    using diagnostic_msgs::msg::DiagnosticStatus;
+    std::uint8_t answer = berth_msgs::msg::LinkDistances::NO_ROBOT;
+    {
+      const std::lock_guard lock(asker_mutex_);
+      if (marker_timer_ && robot_.robot) answer = last_.status;
+    }
+    if (times.count == 0) return status.summary(DiagnosticStatus::WARN, "none was asked");
+    if (answer == berth_msgs::msg::LinkDistances::OK) {
+      return status.summary(DiagnosticStatus::OK, "answered");
+    }
+    const std::string why = answer < berth::kTimeStatusCount
+                                ? std::string(berth::kTimeStatusNames[answer])
+                                : "no robot model";
+    status.summary(DiagnosticStatus::ERROR, "no distances: " + why);
+  }
+
+  rclcpp::Publisher<berth_msgs::msg::LinkDistances>::SharedPtr distances_;
+  rclcpp::Publisher<berth_msgs::msg::LinkDistances>::SharedPtr at_exposure_;
+  rclcpp::Publisher<berth_msgs::msg::Separation>::SharedPtr separation_;
+  rclcpp::Publisher<visualization_msgs::msg::MarkerArray>::SharedPtr markers_;
+  bool asks_on_joints_ = false;
+  std::mutex asker_mutex_;
+  LiveRobot robot_;
+  std::optional<berth::LiveAsker> asker_;
+  std::optional<berth::LiveAsker> exposure_asker_;
+  berth_msgs::msg::LinkDistances last_;
+  berth_msgs::msg::Separation separation_message_;
+  QuestionTimes times_;
+  rclcpp::CallbackGroup::SharedPtr group_;
+  rclcpp::TimerBase::SharedPtr question_timer_;
+  rclcpp::TimerBase::SharedPtr marker_timer_;
+};
+
+}  // namespace berth_ros
+
+RCLCPP_COMPONENTS_REGISTER_NODE(berth_ros::DistanceNode)

@@ -1,0 +1,278 @@
+#include "node_settings.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "berth/files/camera_info.hpp"
+
+namespace berth_ros {
+namespace {
+
+using rcl_interfaces::msg::ParameterDescriptor;
+
+ParameterDescriptor described(const std::string& text, bool is_read_only = true) {
+  ParameterDescriptor descriptor;
+  descriptor.description = text;
+  descriptor.read_only = is_read_only;
+  return descriptor;
+}
+
+constexpr std::array<const char*, 6> kGroups = {"self_filter", "sensor", "space",
+                                                "watch", "evaluation", "time"};
+
+/// All overrides NAME: number below a prefix, declared.
+std::map<std::string, double> declare_numbers(rclcpp::Node& node, const std::string& prefix,
+                                              const std::string& sentence) {
+  std::map<std::string, double> numbers;
+  for (const auto& [name, value] : node.get_node_parameters_interface()->get_parameter_overrides()) {
+    if (name.rfind(prefix + ".", 0) != 0) continue;
+    numbers[name.substr(prefix.size() + 1)] =
+        node.declare_parameter(name, rclcpp::ParameterType::PARAMETER_DOUBLE, described(sentence))
+            .get<double>();
+  }
+  return numbers;
+}
+
+template <class Visit>
+void visit_view_groups(const Visit& visit, berth::ViewSettings& view) {
+  visit("self_filter", view.self_filter);
+  visit("sensor", view.sensor);
+  visit("space", view.space);
+  visit("watch", view.watch);
+}
+
+PoseSource pose_source_of(const std::string& text) {
+  if (text == "auto") return PoseSource::automatic;
+  if (text == "tf") return PoseSource::tf;
+  if (text == "scene") return PoseSource::scene;
+  throw std::invalid_argument("camera_poses: \"" + text + "\"; expected one of auto, tf, scene");
+}
+
+}  // namespace
+
+NodeSettings::NodeSettings(rclcpp::Node& node, bool has_one_camera) {
+  const std::string scene = node.declare_parameter(
+      "scene", "", described("a scene file: robot, cameras and settings; parameters go over it. "
+                             "Its time: is about its recording and not heeded"));
+  if (!scene.empty()) scene_ = berth::read_scene(scene);
+  declare_robot(node);
+  declare_joints(node);
+  declare_evaluation(node);
+  declare_cameras(node, has_one_camera);
+  check({});
+}
+
+void NodeSettings::declare_robot(rclcpp::Node& node) {
+  if (scene_) robot_ = scene_->robot;
+  urdf_path_ = node.declare_parameter(
+      "urdf_path", scene_ ? scene_->robot.urdf.string() : std::string(),
+      described("the robot's URDF; empty: the topic robot_description has it"));
+  robot_.urdf = urdf_path_.empty() ? "robot_description" : urdf_path_;
+  const std::string geometry = node.declare_parameter(
+      "geometry", robot_.geometry == berth::GeometryKind::visual ? "visual" : "collision",
+      described("which shapes of the URDF are the robot: visual or collision"));
+  if (geometry != "visual" && geometry != "collision") {
+    throw std::invalid_argument("geometry: \"" + geometry + "\"; expected visual or collision");
+  }
+  robot_.geometry =
+      geometry == "visual" ? berth::GeometryKind::visual : berth::GeometryKind::collision;
+  robot_.environment_links = node.declare_parameter(
+      "environment_links", robot_.environment_links,
+      described("links that are scenery: taken out of the images, not evaluated"));
+  robot_.ignore_links = node.declare_parameter(
+      "ignore_links", robot_.ignore_links, described("links that are neither taken out nor evaluated"));
+}
+
+void NodeSettings::declare_joints(rclcpp::Node& node) {
+  if (scene_) {
+    joints_.offsets = scene_->joint_offsets;
+    joints_.fixed = scene_->fixed_joints;
+  }
+  joints_.max_hold_s = node.declare_parameter(
+      "max_joint_hold_s", 0.0,
+      described("a joint keeps its last position for so long while newer ones of others come: for "
+                "a gripper that tells its joints more seldom than the arm"));
+  for (const auto& [joint, value] :
+       declare_numbers(node, "joint_offsets", "added to this joint's positions, rad or m")) {
+    joints_.offsets[joint] = value;
+  }
+  for (const auto& [joint, value] :
+       declare_numbers(node, "fixed_joints", "the position of a joint that nobody tells, rad or m")) {
+    joints_.fixed[joint] = value;
+  }
+}
+
+void NodeSettings::declare_evaluation(rclcpp::Node& node) {
+  const berth::EvaluationSettings defaults = scene_ ? scene_->evaluation : berth::EvaluationSettings{};
+  const auto& overrides = node.get_node_parameters_interface()->get_parameter_overrides();
+  const auto declare = [&](const berth::Setting& setting, const auto& value) {
+    const std::string name = "evaluation." + std::string(setting.name);
+    const auto now = node.declare_parameter(name, parameter_of(value), descriptor_of(setting, value));
+    if (overrides.count(name) > 0) given_[name] = now;
+  };
+  declare({"method", {}, "how the distances are found"}, defaults.method);
+  declare({"visibility", {}, "whether to tell how much of each link the cameras see"},
+          defaults.visibility);
+  declare_settings(node, "evaluation", defaults.distance, false, given_);
+  declare_settings(node, "time", berth::TimeSettings{}, false, given_);
+  berth::ViewSettings view = scene_ ? scene_->cameras.front().settings : berth::ViewSettings{};
+  visit_view_groups(
+      [&](const std::string& group, const auto& settings) {
+        declare_settings(node, group, settings, false, given_);
+      },
+      view);
+}
+
+void NodeSettings::declare_cameras(rclcpp::Node& node, bool has_one_camera) {
+  std::vector<std::string> names = {"camera"};
+  if (scene_) {
+    names.clear();
+    for (const berth::SceneCamera& camera : scene_->cameras) names.push_back(camera.name);
+  }
+  if (has_one_camera) {
+    const std::string name = node.declare_parameter(
+        "camera", names.front(), described("its name in the scene file and in messages"));
+    return declare_camera(node, name, true);
+  }
+  names = node.declare_parameter(
+      "cameras", names, described("names of the cameras: NAME/depth_image, NAME/camera_info"));
+  if (names.empty()) throw std::invalid_argument("cameras: none; expected one name at least");
+  for (const std::string& name : names) declare_camera(node, name, false);
+}
+
+void NodeSettings::declare_camera(rclcpp::Node& node, const std::string& name,
+                                  bool has_one_camera) {
+  CameraSettings camera;
+  camera.name = name;
+  camera.topic_prefix = has_one_camera ? "" : name + "/";
+  if (scene_) {
+    const auto found = std::find_if(scene_->cameras.begin(), scene_->cameras.end(),
+                                    [&](const berth::SceneCamera& c) { return c.name == name; });
+    if (found == scene_->cameras.end()) {
+      throw std::invalid_argument("camera \"" + name + "\": " + scene_->file.string() +
+                                  " has none of this name");
+    }
+    camera.units = {found->depth_scale_m, found->depth_offset_m, found->near_m, found->far_m};
+    camera.live.clock_offset_s = found->clock_offset_s;
+    camera.view = found->settings;
+    // The intrinsics are those of camera_info.
+    camera.scene_mount = berth::CameraMount{{}, found->parent_link, found->X_PC};
+  }
+  // Of one camera the names have no prefix, of several that of the camera.
+  const std::string prefix = has_one_camera ? "" : name + ".";
+  const auto declare = [&](const std::string& key, auto& value, const std::string& sentence) {
+    value = node.declare_parameter(prefix + key, value, described(sentence));
+  };
+  declare("image_transport", camera.image_transport,
+          "raw, compressedDepth, or another transport that carries depth");
+  declare("rectified", camera.is_rectified,
+          "the images are rectified: camera_info's P counts, and its distortion does not");
+  declare("depth_scale", camera.units.scale_m, "metres per unit of 16UC1 images");
+  declare("depth_offset_m", camera.units.offset_m, "added to each reading, in metres");
+  declare("near_m", camera.units.near_m, "nearer readings are none");
+  declare("far_m", camera.units.far_m, "farther readings are none");
+  declare("clock_offset_s", camera.live.clock_offset_s,
+          "the joints' clock at an exposure is the image's stamp plus this");
+  declare("max_wait_s", camera.live.max_wait_s,
+          "how long an image waits for the joints around its exposure");
+  std::string poses = "auto";
+  declare("camera_poses", poses,
+          "where the camera's pose comes from: tf, scene, or auto: TF where it knows the camera "
+          "when its first image comes, else the scene file");
+  camera.pose_source = pose_source_of(poses);
+  if (camera.pose_source == PoseSource::scene && !camera.scene_mount) {
+    throw std::invalid_argument("camera_poses: scene; expected a scene file");
+  }
+  if (!has_one_camera) {
+    declare("filtered", camera.is_filtered,
+            "the images come from a self_filter_node: their robot is taken out already");
+    visit_view_groups(
+        [&](const std::string& group, const auto& settings) {
+          declare_settings(node, prefix + group, settings, true, given_);
+        },
+        camera.view);
+  }
+  cameras_.push_back(camera);
+}
+
+berth::EvaluationSettings NodeSettings::evaluation_of(const GivenParameters& given) const {
+  berth::EvaluationSettings evaluation =
+      scene_ ? scene_->evaluation : berth::EvaluationSettings{};
+  evaluation.time = {};
+  const auto apply = [&](const std::string& name, auto& value) {
+    const auto found = given.find(name);
+    if (found != given.end()) assign_parameter(name, found->second, value);
+  };
+  apply("evaluation.method", evaluation.method);
+  apply("evaluation.visibility", evaluation.visibility);
+  apply_given(given, "evaluation", evaluation.distance);
+  apply_given(given, "time", evaluation.time);
+  return evaluation;
+}
+
+std::vector<CameraSettings> NodeSettings::cameras_of(const GivenParameters& given) const {
+  std::vector<CameraSettings> cameras = cameras_;
+  for (CameraSettings& camera : cameras) {
+    visit_view_groups(
+        [&](const std::string& group, auto& settings) {
+          apply_given(given, group, settings);
+          apply_given(given, camera.name + "." + group, settings);
+        },
+        camera.view);
+    // A robot that was taken out cannot tell whether the camera was bumped.
+    if (camera.is_filtered) {
+      camera.view.watch.max_seen_through = 0;
+      camera.view.watch.max_displacement_m = 0;
+    }
+  }
+  return cameras;
+}
+
+bool NodeSettings::is_setting(const std::string& name) const {
+  return std::any_of(kGroups.begin(), kGroups.end(), [&](const std::string& group) {
+    if (name.rfind(group + ".", 0) == 0) return true;
+    return std::any_of(cameras_.begin(), cameras_.end(), [&](const CameraSettings& camera) {
+      return name.rfind(camera.name + "." + group + ".", 0) == 0;
+    });
+  });
+}
+
+GivenParameters NodeSettings::with(const std::vector<rclcpp::Parameter>& changes) const {
+  GivenParameters given = given_;
+  for (const rclcpp::Parameter& change : changes) {
+    if (is_setting(change.get_name())) given[change.get_name()] = change.get_parameter_value();
+  }
+  return given;
+}
+
+void NodeSettings::check(const std::vector<rclcpp::Parameter>& changes) const {
+  const GivenParameters given = with(changes);
+  const berth::EvaluationSettings evaluation = evaluation_of(given);
+  berth::validate(evaluation.distance);
+  berth::validate(evaluation.time);
+  if (berth::runs_on_opengl(evaluation.method)) {
+    throw std::invalid_argument("evaluation.method: " + std::string(name_of(evaluation.method)) +
+                                " runs on OpenGL; expected mesh, exact, brute_force or lattice");
+  }
+  if (evaluation.method != berth::Method::mesh && cameras_.size() > 1) {
+    throw std::invalid_argument("evaluation.method: " + std::string(name_of(evaluation.method)) +
+                                " looks at one camera; expected mesh for several");
+  }
+  for (CameraSettings camera : cameras_of(given)) {
+    berth::validate(camera.view.self_filter);
+    visit_view_groups(
+        [](const std::string& group, const auto& settings) {
+          visit_settings(settings, berth::SettingCheck{group});
+        },
+        camera.view);
+  }
+}
+
+bool NodeSettings::take(const std::vector<rclcpp::Parameter>& changes) {
+  given_ = with(changes);
+  return std::any_of(changes.begin(), changes.end(), [&](const rclcpp::Parameter& change) {
+    return is_setting(change.get_name());
+  });
+}
+
+}  // namespace berth_ros

@@ -1,0 +1,86 @@
+// What a node is told: by parameters, over a scene file where there is one.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <rclcpp/rclcpp.hpp>
+#include <string>
+#include <vector>
+
+#include "berth/files/depth_units.hpp"
+#include "berth/live/joint_intake.hpp"
+#include "berth/live/live_camera.hpp"
+#include "berth/pipeline/view.hpp"
+#include "berth/scene/scene_file.hpp"
+#include "setting_parameters.hpp"
+
+namespace berth_ros {
+
+/// Where a camera's pose comes from.
+enum class PoseSource {
+  automatic,  ///< TF where it knows the camera when its first image comes, else the scene file
+  tf,
+  scene
+};
+
+/// One camera as the node is told of it.
+struct CameraSettings {
+  std::string name;
+  /// Before its topics' names: "" or "left/".
+  std::string topic_prefix;
+  std::string image_transport = "raw";
+  /// The images are rectified: camera_info's P counts, and its distortion does not.
+  bool is_rectified = false;
+  /// Their robot is taken out already.
+  bool is_filtered = false;
+  berth::DepthUnits units;
+  berth::LiveCameraSettings live;
+  berth::ViewSettings view;
+  PoseSource pose_source = PoseSource::automatic;
+  /// Of the scene file.
+  std::optional<berth::CameraMount> scene_mount;
+};
+
+/// Declares the parameters and keeps those that were given.
+class NodeSettings {
+ public:
+  /// Reads the scene file where `scene` names one. `camera_names` is the default of `cameras`;
+  /// with one unnamed camera (self_filter_node) topics have no prefix. Throws std::runtime_error
+  /// and std::invalid_argument for bad files and values.
+  NodeSettings(rclcpp::Node& node, bool has_one_camera);
+
+  const std::optional<berth::SceneFile>& scene() const { return scene_; }
+  /// Empty: the URDF comes as a message.
+  const std::string& urdf_path() const { return urdf_path_; }
+  /// What the robot's model is loaded by, but for the URDF's text.
+  berth::RobotSettings robot_settings() const { return robot_; }
+  berth::JointIntakeSettings joint_settings() const { return joints_; }
+  berth::EvaluationSettings evaluation() const { return evaluation_of(given_); }
+  std::vector<CameraSettings> cameras() const { return cameras_of(given_); }
+
+  /// Throws std::invalid_argument where settings with these changes would be refused.
+  void check(const std::vector<rclcpp::Parameter>& changes) const;
+  /// Whether any of them is a setting of robot or cameras, so that those have to be made anew.
+  bool take(const std::vector<rclcpp::Parameter>& changes);
+
+ private:
+  void declare_robot(rclcpp::Node& node);
+  void declare_joints(rclcpp::Node& node);
+  void declare_evaluation(rclcpp::Node& node);
+  void declare_cameras(rclcpp::Node& node, bool has_one_camera);
+  void declare_camera(rclcpp::Node& node, const std::string& name, bool has_one_camera);
+  bool is_setting(const std::string& name) const;
+  GivenParameters with(const std::vector<rclcpp::Parameter>& changes) const;
+  berth::EvaluationSettings evaluation_of(const GivenParameters& given) const;
+  std::vector<CameraSettings> cameras_of(const GivenParameters& given) const;
+
+  std::optional<berth::SceneFile> scene_;
+  std::string urdf_path_;
+  berth::RobotSettings robot_;
+  berth::JointIntakeSettings joints_;
+  std::vector<CameraSettings> cameras_;
+  GivenParameters given_;
+};
+
+}  // namespace berth_ros

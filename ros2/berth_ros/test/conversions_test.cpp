@@ -1,0 +1,175 @@
+// What needs no running node: settings as parameters, camera_info, stamps, messages.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "answer_messages.hpp"
+#include "camera_input.hpp"
+#include "camera_pose.hpp"
+#include "markers.hpp"
+#include "setting_parameters.hpp"
+
+namespace berth_ros {
+namespace {
+
+using berth_msgs::msg::LinkDistance;
+using berth_msgs::msg::LinkDistances;
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+template <class Call>
+std::string error_of(Call&& call) {
+  try {
+    call();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(StampClock, StampsComeBackToTheNanosecond) {
+  StampClock clock;
+  const rclcpp::Time first(1'700'000'000, 123'456'789);
+  EXPECT_EQ(clock.seconds(first), 0);
+  for (const std::int64_t ns : {1LL, -5LL, 987'654'321LL, 3'600'000'000'001LL}) {
+    const rclcpp::Time stamp(first.nanoseconds() + ns);
+    EXPECT_EQ(rclcpp::Time(clock.stamp(clock.seconds(stamp))).nanoseconds(), stamp.nanoseconds());
+  }
+  EXPECT_EQ(rclcpp::Time(clock.stamp(std::nan(""))).nanoseconds(), 0);
+}
+
+TEST(Parameters, EachSettingComesBack) {
+  const auto there_and_back = [](auto settings) {
+    visit_settings(settings, [](const berth::Setting& setting, auto& value) {
+      auto out = value;
+      assign_parameter(std::string(setting.name), parameter_of(value), out);
+      EXPECT_EQ(out, value) << setting.name;
+      const auto descriptor = descriptor_of(setting, value);
+      EXPECT_FALSE(descriptor.description.empty()) << setting.name;
+    });
+  };
+  there_and_back(berth::SelfFilterSettings{});
+  there_and_back(berth::SensorSettings{});
+  there_and_back(berth::SpaceSettings{});
+  there_and_back(berth::WatchSettings{});
+  there_and_back(berth::DistanceSettings{});
+  there_and_back(berth::TimeSettings{});
+}
+
+TEST(Parameters, AnUnknownNameIsRefusedWithThoseThatThereAre) {
+  berth::Method method{};
+  const std::string why = error_of([&] {
+    assign_parameter("evaluation.method", rclcpp::ParameterValue("exakt"), method);
+  });
+  EXPECT_NE(why.find("exakt"), std::string::npos);
+  EXPECT_NE(why.find("exact"), std::string::npos);
+}
+
+sensor_msgs::msg::CameraInfo info() {
+  sensor_msgs::msg::CameraInfo info;
+  info.width = 640;
+  info.height = 480;
+  info.k = {500, 0, 320, 0, 510, 240, 0, 0, 1};
+  info.p = {400, 0, 300, 0, 0, 410, 220, 0, 0, 0, 1, 0};
+  return info;
+}
+
+TEST(CameraInfo, KCountsAndOfRectifiedImagesP) {
+  EXPECT_EQ(camera_of(info(), false).fx_px, 500);
+  EXPECT_EQ(camera_of(info(), false).cy_px, 240);
+  EXPECT_EQ(camera_of(info(), true).fx_px, 400);
+  EXPECT_EQ(camera_of(info(), true).cy_px, 220);
+}
+
+TEST(CameraInfo, WhatIsNoPinholeCameraIsRefusedByName) {
+  const auto why = [](auto change, bool is_rectified = false) {
+    auto changed = info();
+    change(changed);
+    return error_of([&] { camera_of(changed, is_rectified); });
+  };
+  const auto distort = [](auto& i) { i.d = {0.1, 0, 0, 0, 0}; };
+  EXPECT_NE(why(distort).find("rectified"), std::string::npos);
+  EXPECT_EQ(why(distort, true), "");
+  EXPECT_EQ(why([](auto& i) { i.d = {0, 0, 0, 0, 0}; }), "");
+  EXPECT_NE(why([](auto& i) { i.binning_x = 2; }).find("binning"), std::string::npos);
+  EXPECT_NE(why([](auto& i) { i.roi.x_offset = 2; }).find("region of interest"), std::string::npos);
+  EXPECT_NE(why([](auto& i) { i.roi.width = 100; }).find("region of interest"), std::string::npos);
+  EXPECT_NE(why([](auto& i) { i.k[0] = 0; }).find("intrinsics"), std::string::npos);
+  EXPECT_NE(why([](auto& i) { i.width = 0; }).find("intrinsics"), std::string::npos);
+}
+
+TEST(CameraPose, ATenthOfAMillimetreIsTheSamePlace) {
+  berth::CameraMount a;
+  a.parent_link = "base";
+  a.X_PC = berth::Pose::Identity();
+  berth::CameraMount b = a;
+  b.X_PC.translation().x() += 0.00009;
+  EXPECT_TRUE(is_same_mount(a, b));
+  b.X_PC.translation().x() += 0.0001;
+  EXPECT_FALSE(is_same_mount(a, b));
+  b = a;
+  b.X_PC.rotate(Eigen::AngleAxisd(0.001, Eigen::Vector3d::UnitZ()));
+  EXPECT_FALSE(is_same_mount(a, b));
+  b = a;
+  b.parent_link = "hand";
+  EXPECT_FALSE(is_same_mount(a, b));
+}
+
+LinkDistance link(const std::string& name, std::uint8_t status, float distance_m, bool is_moved = true) {
+  LinkDistance link;
+  link.link = name;
+  link.status = status;
+  link.is_moved = is_moved;
+  link.distance_m = status == LinkDistance::OK ? distance_m : kNaN;
+  link.lower_bound_m = distance_m;
+  return link;
+}
+
+berth_msgs::msg::Separation separation_of(const std::vector<LinkDistance>& links) {
+  LinkDistances distances;
+  distances.links = links;
+  berth_msgs::msg::Separation out;
+  to_message(distances, out);
+  return out;
+}
+
+TEST(Separation, IsTheLeastBoundOfTheLinksThatMove) {
+  const auto out = separation_of({link("base", LinkDistance::OK, 0.0F, false),
+                                  link("arm", LinkDistance::OK, 0.4F),
+                                  link("hand", LinkDistance::OK, 0.3F),
+                                  link("tool", LinkDistance::NONE_IN_RANGE, 1.0F)});
+  EXPECT_TRUE(out.has_distance);
+  EXPECT_FLOAT_EQ(out.distance_m, 0.3F);
+  EXPECT_EQ(out.link, "hand");
+}
+
+TEST(Separation, WhatIsNotKnownIsNeverFar) {
+  for (const std::uint8_t status : {LinkDistance::NOT_VISIBLE, LinkDistance::CUT_SHORT,
+                                    LinkDistance::UNTIMELY, LinkDistance::NOT_SEEN}) {
+    const auto out = separation_of({link("arm", LinkDistance::OK, 0.4F), link("hand", status, 0.5F)});
+    EXPECT_FALSE(out.has_distance) << int{status};
+    EXPECT_TRUE(std::isnan(out.distance_m));
+    EXPECT_EQ(out.link, "hand");
+    EXPECT_EQ(out.link_status, status);
+  }
+  EXPECT_FALSE(separation_of({}).has_distance);
+  EXPECT_FALSE(separation_of({link("base", LinkDistance::OK, 1, false)}).has_distance);
+  EXPECT_FALSE(separation_of({link("arm", LinkDistance::OK, kNaN)}).has_distance) << "no bound";
+}
+
+TEST(Markers, EachDistanceHasALineItsEndsAndItsLength) {
+  LinkDistances distances;
+  distances.range_m = 1;
+  distances.links = {link("near", LinkDistance::OK, 0.0F), link("none", LinkDistance::UNTIMELY, 0),
+                     link("far", LinkDistance::OK, 1.0F)};
+  const auto markers = markers_of(distances).markers;
+  ASSERT_EQ(markers.size(), 1U + 2 * 3);
+  EXPECT_EQ(markers[0].action, visualization_msgs::msg::Marker::DELETEALL);
+  EXPECT_EQ(markers[1].color.r, 1);
+  EXPECT_EQ(markers[1].color.g, 0);
+  EXPECT_EQ(markers[4].color.r, 0);
+  EXPECT_EQ(markers[4].color.g, 1);
+  EXPECT_EQ(markers[6].text, "1.000 m");
+}
+
+}  // namespace
+}  // namespace berth_ros

@@ -1,0 +1,119 @@
+"""The bundled scene through the nodes gives the distances of `berth run`, with the images' stamps."""
+import json
+import math
+import os
+import subprocess
+import threading
+import time
+import unittest
+
+import launch_testing.actions
+import pytest
+import rclpy
+from ament_index_python.packages import get_package_share_directory
+from berth_msgs.msg import LinkDistances, Separation
+from launch import LaunchDescription
+from launch_ros.actions import Node
+from rclpy.executors import SingleThreadedExecutor
+from sensor_msgs.msg import Image
+
+SCENE = os.path.join(get_package_share_directory("berth_ros"), "bundled", "scene.yaml")
+STATUS = {"ok": 0, "none_in_range": 1, "not_visible": 2, "cut_short": 3, "untimely": 4, "not_seen": 5}
+
+
+@pytest.mark.launch_test
+def generate_test_description():
+    return LaunchDescription([
+        Node(package="berth_ros", executable="distance_node", output="screen", parameters=[{
+            "cameras": ["camera", "left", "right"], "environment_links": ["table"], "evaluation.range_m": 1.0}]),
+        Node(package="berth_ros", executable="self_filter_node", name="left_filter", output="screen",
+             remappings=[("depth_image", "left/depth_image"), ("camera_info", "left/camera_info")],
+             parameters=[{"environment_links": ["table"]}]),
+        Node(package="berth_ros", executable="scene_player_node", output="screen",
+             parameters=[{"scene": SCENE, "loop": False, "start_after_s": 8.0}]),
+        launch_testing.actions.ReadyToTest(),
+    ])
+
+
+class Demo(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rclpy.init()
+        cls.node = rclpy.create_node("listener")
+        cls.at_exposure, cls.distances, cls.separations = [], [], []
+        cls.left, cls.world = {}, {}
+        node = cls.node
+        node.create_subscription(LinkDistances, "distances_at_exposure", cls.at_exposure.append, 100)
+        node.create_subscription(LinkDistances, "distances", cls.distances.append, 100)
+        node.create_subscription(Separation, "separation", cls.separations.append, 100)
+        qos = rclpy.qos.qos_profile_sensor_data
+        node.create_subscription(Image, "left/depth_image", lambda m: cls.left.update({stamp(m): m}), qos)
+        node.create_subscription(Image, "world_depth", lambda m: cls.world.update({stamp(m): m}), qos)
+        executor = SingleThreadedExecutor()
+        executor.add_node(node)
+        threading.Thread(target=executor.spin, daemon=True).start()
+        run = subprocess.run(["berth", "run", SCENE, "--format", "json"], check=True, capture_output=True, text=True)
+        cls.expected = [json.loads(line) for line in run.stdout.splitlines()]
+        end = time.time() + 60
+        while time.time() < end and len(cls.at_exposure) < len(cls.expected):
+            time.sleep(0.1)
+        time.sleep(0.5)
+
+    @classmethod
+    def tearDownClass(cls):
+        rclpy.try_shutdown()
+
+    def test_distances_are_those_of_berth_run(self):
+        self.assertEqual(len(self.at_exposure), len(self.expected))
+        start = stamp(self.at_exposure[0]) - round(self.expected[0]["stamp_s"] * 1e9)
+        got = {stamp(m) - start: m for m in self.at_exposure}
+        worst = 0.0
+        for line in self.expected:
+            message = got[round(line["stamp_s"] * 1e9)]
+            self.assertEqual(message.status, LinkDistances.OK)
+            self.assertEqual(message.header.frame_id, "table")
+            for link, expected in zip(message.links, line["links"], strict=True):
+                self.assertEqual(link.link, expected["link"])
+                self.assertEqual(link.status, STATUS[expected["status"]])
+                if expected["distance_m"] is None:
+                    self.assertTrue(math.isnan(link.distance_m))
+                    continue
+                worst = max(worst, abs(link.distance_m - expected["distance_m"]))
+        print(f"{len(self.expected)} lines, greatest difference {worst:.2g} m")
+        self.assertLess(worst, 1e-5)
+
+    def test_questions_are_answered_on_their_own_clock(self):
+        answered = [m for m in self.distances if m.status == LinkDistances.OK]
+        self.assertGreater(len(answered), 200)
+        for message in answered:
+            self.assertLessEqual(message.frame_age_s, 0.15)
+            self.assertLessEqual(message.joints_age_s, 0.02)
+            self.assertGreater(stamp_of(message.question_stamp), stamp(message))
+        stale = self.distances[-1]
+        self.assertNotEqual(stale.status, LinkDistances.OK, "the scene has ended")
+        self.assertTrue(all(math.isnan(link.distance_m) for link in stale.links))
+
+    def test_separation_is_the_least_of_the_links_that_move(self):
+        known = [m for m in self.separations if m.has_distance]
+        self.assertGreater(len(known), 100)
+        by_stamp = {(stamp(m), m.links[0].distance_m): m for m in self.distances if m.links}
+        self.assertTrue(by_stamp)
+        self.assertNotEqual(known[0].link, "arm_link_0")
+
+    def test_the_filtered_image_is_the_same_but_for_the_robot(self):
+        self.assertGreater(len(self.world), 20)
+        for at, world in self.world.items():
+            image = self.left[at]
+            self.assertEqual((world.encoding, world.header.frame_id), (image.encoding, image.header.frame_id))
+            before, after = memoryview(image.data).cast("H"), memoryview(world.data).cast("H")
+            kept = sum(1 for a in after if a)
+            self.assertTrue(0 < kept < len(after))
+            self.assertTrue(all(a in (0, b) for a, b in zip(after, before, strict=True)))
+
+
+def stamp(message):
+    return stamp_of(message.header.stamp)
+
+
+def stamp_of(time_message):
+    return time_message.sec * 10**9 + time_message.nanosec
