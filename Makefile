@@ -110,12 +110,12 @@ docs:
 	scripts/setup.sh packages.txt packages-docs.txt
 	scripts/docs.sh
 
-# clang-tidy over src and apps. LINT: a part of the paths, such as src/berth/robot.
+# clang-tidy over src and apps. PART: a part of the paths, such as src/berth/robot.
 lint:
 	scripts/setup.sh packages.txt packages-opengl.txt packages-lint.txt
 	cmake --preset lint
 	cmake --build --preset lint --target berth_shader_texts
-	scripts/lint.sh $(LINT)
+	scripts/lint.sh "$(PART)"
 
 format:
 	git ls-files '*.hpp' '*.cpp' | xargs clang-format -i
