@@ -1,5 +1,6 @@
 #include "robot_description.hpp"
 
+#include <ament_index_cpp/get_package_prefix.hpp>
 #include <ament_index_cpp/get_package_share_directory.hpp>
 #include <fstream>
 #include <regex>
