@@ -9,6 +9,7 @@
 #include "answer_messages.hpp"
 #include "live_node.hpp"
 #include "markers.hpp"
+#include "nodes.hpp"
 #include "question_times.hpp"
 
 namespace berth_ros {
@@ -158,6 +159,10 @@ class DistanceNode : public LiveNode {
   rclcpp::TimerBase::SharedPtr question_timer_;
   rclcpp::TimerBase::SharedPtr marker_timer_;
 };
+
+std::shared_ptr<rclcpp::Node> make_distance_node(const rclcpp::NodeOptions& options) {
+  return std::make_shared<DistanceNode>(options);
+}
 
 }  // namespace berth_ros
 

@@ -12,6 +12,7 @@
 #include <berth_msgs/msg/link_distances.hpp>
 
 #include "berth/scene/open_scene.hpp"
+#include "nodes.hpp"
 #include "scene_messages.hpp"
 
 namespace berth_ros {
@@ -132,6 +133,10 @@ class LatencyProbeNode : public rclcpp::Node {
   rclcpp::Subscription<berth_msgs::msg::LinkDistances>::SharedPtr distances_;
   std::jthread player_;
 };
+
+std::shared_ptr<rclcpp::Node> make_latency_probe_node(const rclcpp::NodeOptions& options) {
+  return std::make_shared<LatencyProbeNode>(options);
+}
 
 }  // namespace berth_ros
 

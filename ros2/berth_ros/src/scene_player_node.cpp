@@ -4,6 +4,7 @@
 #include <rclcpp/rclcpp.hpp>
 #include <rclcpp_components/register_node_macro.hpp>
 
+#include "nodes.hpp"
 #include "scene_messages.hpp"
 
 namespace berth_ros {
@@ -79,6 +80,10 @@ class ScenePlayerNode : public rclcpp::Node {
   rclcpp::Time start_;
   rclcpp::TimerBase::SharedPtr timer_;
 };
+
+std::shared_ptr<rclcpp::Node> make_scene_player_node(const rclcpp::NodeOptions& options) {
+  return std::make_shared<ScenePlayerNode>(options);
+}
 
 }  // namespace berth_ros
 

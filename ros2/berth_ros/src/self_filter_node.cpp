@@ -6,6 +6,7 @@
 
 #include "berth/live/raw_depth.hpp"
 #include "live_node.hpp"
+#include "nodes.hpp"
 
 namespace berth_ros {
 
@@ -78,6 +79,10 @@ class SelfFilterNode : public LiveNode {
   rclcpp::Publisher<Image>::SharedPtr robot_mask_;
   rclcpp::Publisher<Image>::SharedPtr robot_depth_;
 };
+
+std::shared_ptr<rclcpp::Node> make_self_filter_node(const rclcpp::NodeOptions& options) {
+  return std::make_shared<SelfFilterNode>(options);
+}
 
 }  // namespace berth_ros
 
