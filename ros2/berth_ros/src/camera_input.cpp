@@ -118,10 +118,20 @@ void CameraInput::refuse(const std::string& why) {
 }
 
 void CameraInput::on_info(const std::shared_ptr<const sensor_msgs::msg::CameraInfo>& info) {
+  take_info(*info);
+  std::shared_ptr<const ImageMessage> early;
+  {
+    const std::lock_guard lock(mutex_);
+    early = std::move(early_image_);
+  }
+  if (early) on_image(early);
+}
+
+void CameraInput::take_info(const sensor_msgs::msg::CameraInfo& info) {
   std::unique_ptr<berth::LiveCamera> before;
   const std::lock_guard lock(mutex_);
   try {
-    const berth::Camera camera = camera_of(*info, settings_.is_rectified);
+    const berth::Camera camera = camera_of(info, settings_.is_rectified);
     if (camera_ && is_same(camera, *camera_)) return;
     camera_ = camera;
     trouble_ = "no image yet";
@@ -155,10 +165,6 @@ bool CameraInput::find_mount(const ImageMessage& image) {
 }
 
 bool CameraInput::make_ready(const ImageMessage& image) {
-  if (!camera_) {
-    refuse("an image came, and no camera_info");
-    return false;
-  }
   if (!robot_) {
     refuse("an image came, and there is no robot model yet");
     return false;
@@ -186,6 +192,12 @@ void CameraInput::on_image(const std::shared_ptr<const ImageMessage>& image) {
 
 void CameraInput::take_image(const std::shared_ptr<const ImageMessage>& image) {
   const std::lock_guard lock(mutex_);
+  if (!camera_) {
+    // Of both that come together either may be first.
+    if (early_image_) refuse("images come, and no camera_info that is right");
+    early_image_ = image;
+    return;
+  }
   try {
     if (!make_ready(*image)) return;
     berth::DepthImage depth_m = live_->spare_image();

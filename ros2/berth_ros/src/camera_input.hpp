@@ -52,6 +52,7 @@ class CameraInput {
 
  private:
   void on_info(const std::shared_ptr<const sensor_msgs::msg::CameraInfo>& info);
+  void take_info(const sensor_msgs::msg::CameraInfo& info);
   void on_image(const std::shared_ptr<const ImageMessage>& image);
   void take_image(const std::shared_ptr<const ImageMessage>& image);
   /// Makes live_ where all that it needs is known; else says in trouble_ what is not.
@@ -68,6 +69,8 @@ class CameraInput {
   std::shared_ptr<const berth::Robot> robot_;
   std::shared_ptr<const berth::JointIntake> joints_;
   std::optional<berth::Camera> camera_;
+  /// The newest one that came before any camera_info.
+  std::shared_ptr<const ImageMessage> early_image_;
   std::optional<berth::CameraMount> mount_;
   bool takes_scene_pose_ = false;
   std::string trouble_ = "no camera_info yet";

@@ -3,6 +3,7 @@
 #include <berth_msgs/msg/link_distances.hpp>
 #include <berth_msgs/msg/separation.hpp>
 #include <chrono>
+#include <deque>
 #include <rclcpp_components/register_node_macro.hpp>
 #include <visualization_msgs/msg/marker_array.hpp>
 
@@ -67,20 +68,23 @@ class DistanceNode : public LiveNode {
     asker_.reset();
     exposure_asker_.reset();
     robot_ = now;
+    recent_.assign(camera_names().size(), {});
     if (!now.robot) return;
     asker_.emplace(now.robot, camera_names().size());
     exposure_asker_.emplace(now.robot, camera_names().size());
   }
 
   void ask() {
-    const rclcpp::Time now = this->now();
     const auto begin = std::chrono::steady_clock::now();
     auto message = std::make_unique<berth_msgs::msg::LinkDistances>();
     {
       const std::lock_guard lock(asker_mutex_);
+      const berth::LiveFrames frames = robot_.robot ? this->frames(*robot_.robot) : berth::LiveFrames();
+      // Later than any image and any joint state that it asks about.
+      const rclcpp::Time now = this->now();
       if (asker_) {
         const berth::Answer& answer =
-            asker_->ask(frames(*robot_.robot), robot_.joints->buffer(), clock_.seconds(now));
+            asker_->ask(frames, robot_.joints->buffer(), clock_.seconds(now));
         to_message(answer, context(*asker_, now), *message);
       } else {
         say_no_robot(camera_names(), now, *message);
@@ -94,17 +98,33 @@ class DistanceNode : public LiveNode {
     times_.add(took.count());
   }
 
-  void on_frame(std::size_t, const berth::Frame&,
+  void on_frame(std::size_t camera, const berth::Frame& frame,
                 const std::shared_ptr<const sensor_msgs::msg::Image>&) override {
     if (at_exposure_->get_subscription_count() == 0) return;
     auto message = std::make_unique<berth_msgs::msg::LinkDistances>();
     {
       const std::lock_guard lock(asker_mutex_);
       if (!exposure_asker_) return;
-      const berth::Answer& answer = exposure_asker_->ask_at_exposure(frames(*robot_.robot));
+      keep_recent(camera);
+      const berth::Answer& answer = exposure_asker_->ask_at_exposure(frames_at(frame.stamp_s));
       to_message(answer, context(*exposure_asker_, this->now()), *message);
     }
     at_exposure_->publish(std::move(message));
+  }
+  void keep_recent(std::size_t camera) {
+    auto& recent = recent_[camera];
+    if (recent.size() == kRecent) recent.pop_front();
+    recent.push_back(frames(*robot_.robot)[camera]);
+  }
+  /// Each camera's newest frame of that time: another camera's thread may be ahead.
+  berth::LiveFrames frames_at(double stamp_s) const {
+    berth::LiveFrames frames(recent_.size());
+    for (std::size_t c = 0; c < frames.size(); ++c) {
+      for (const auto& frame : recent_[c]) {
+        if (frame && frame->stamp_s <= stamp_s) frames[c] = frame;
+      }
+    }
+    return frames;
   }
 
   void show() {
@@ -147,6 +167,9 @@ class DistanceNode : public LiveNode {
   rclcpp::Publisher<berth_msgs::msg::LinkDistances>::SharedPtr at_exposure_;
   rclcpp::Publisher<berth_msgs::msg::Separation>::SharedPtr separation_;
   rclcpp::Publisher<visualization_msgs::msg::MarkerArray>::SharedPtr markers_;
+  static constexpr std::size_t kRecent = 4;
+  /// Of each camera, for distances_at_exposure.
+  std::vector<std::deque<std::shared_ptr<const berth::Frame>>> recent_;
   bool asks_on_joints_ = false;
   std::mutex asker_mutex_;
   LiveRobot robot_;
