@@ -61,6 +61,8 @@ void LiveNode::listen() {
   } else {
     rclcpp::SubscriptionOptions options;
     options.callback_group = robot_group_;
+    // Within a process, Humble has no transient local.
+    options.use_intra_process_comm = rclcpp::IntraProcessSetting::Disable;
     description_subscription_ = create_subscription<std_msgs::msg::String>(
         "robot_description", rclcpp::QoS(1).transient_local().reliable(),
         [this](const std_msgs::msg::String& text) { on_description(text); }, options);

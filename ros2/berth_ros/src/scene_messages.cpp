@@ -80,8 +80,11 @@ void PlayedScene::joints_at(double time_s, berth::JointState& out) const {
 }
 
 SceneMessages::SceneMessages(rclcpp::Node& node, const PlayedScene& scene) : transforms_(node) {
+  // Within a process, who comes late would get nothing.
+  rclcpp::PublisherOptions options;
+  options.use_intra_process_comm = rclcpp::IntraProcessSetting::Disable;
   description_ = node.create_publisher<std_msgs::msg::String>(
-      "robot_description", rclcpp::QoS(1).transient_local().reliable());
+      "robot_description", rclcpp::QoS(1).transient_local().reliable(), options);
   std_msgs::msg::String description;
   description.data = urdf_with_file_names(scene.file());
   description_->publish(description);
