@@ -1,0 +1,29 @@
+"""The example's one rule: what is not known stops the robot."""
+import importlib.machinery
+import importlib.util
+import pathlib
+
+import pytest
+from berth_msgs.msg import Separation
+
+FILE = pathlib.Path(__file__).parent.parent / "examples" / "scale_speed"
+LOADER = importlib.machinery.SourceFileLoader("scale_speed", str(FILE))
+scale_speed = importlib.util.module_from_spec(importlib.util.spec_from_loader("scale_speed", LOADER))
+LOADER.exec_module(scale_speed)
+
+
+@pytest.mark.parametrize("distance_m, scale", [(0.0, 0.0), (0.2, 0.0), (0.4, 0.5), (0.6, 1.0), (5.0, 1.0)])
+def test_the_scale_grows_with_the_distance(distance_m, scale):
+    assert scale_speed.scale_of(Separation(has_distance=True, distance_m=distance_m), 0.2, 0.6) == pytest.approx(scale)
+
+
+@pytest.mark.parametrize("separation", [
+    Separation(has_distance=False, distance_m=1.0),
+    Separation(has_distance=True, distance_m=float("nan")),
+])
+def test_what_is_not_known_stops_the_robot(separation):
+    assert scale_speed.scale_of(separation, 0.2, 0.6) == 0.0
+
+
+def test_it_is_an_example_and_short():
+    assert len(FILE.read_text().splitlines()) < 120
