@@ -43,7 +43,7 @@ void move_paths(const YamlScalars& scene, const fs::path& from_file, const fs::p
                 YamlScalars& changed) {
   const PathMove move(from_file, to_file);
   for (const auto& [place, text] : scene) {
-    const auto names_file = [&](const YamlPath& known) { return is_place(place, known); };
+    const auto names_file = [&path = place](const YamlPath& known) { return is_place(path, known); };
     if (std::none_of(kPlacesOfPaths.begin(), kPlacesOfPaths.end(), names_file)) continue;
     const std::string moved =
         is_place(place, kPlaceOfPattern) ? move.pattern(text) : move.path(text).string();
