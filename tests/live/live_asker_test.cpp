@@ -1,6 +1,7 @@
 #include "berth/live/live_asker.hpp"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <atomic>
 
@@ -159,6 +160,39 @@ TEST_F(AskedScene, CamerasRunWhileQuestionsAreAsked) {
     answers += answer.time.status == TimeStatus::ok;
   }
   EXPECT_GT(answers, 0);
+}
+
+TEST_F(AskedScene, MemoryStaysAsItIsOnceWarm) {
+  const OpenCamera& from = scene_.cameras[0];
+  const std::vector<std::string> names = joint_names(scene_.robot->model());
+  JointIntake joints(scene_.robot->model(), {});
+  LiveCamera camera(from.view, joints, LiveCameraSettings{.max_wait_s = 30});
+  LiveAsker asker(scene_.robot, 1);
+  const DepthImage image = from.read_depth(0);
+  double time_s = 0;
+  int images = 0;
+  const auto run = [&](int count) {
+    for (int i = 0; i < count; ++i, ++images) {
+      DepthImage copy = camera.spare_image();
+      copy = image;
+      camera.push(time_s, std::move(copy));
+      for (int k = 0; k < 20; ++k, time_s += 0.001) {
+        joints.push(time_s, names, from.at_exposure[(i + k) % from.at_exposure.size()].position);
+        camera.joints_came();
+      }
+      ASSERT_TRUE(comes_true([&] { return camera.counts().images > images; }));
+      asker.ask({camera.newest()}, joints.buffer(), time_s);
+    }
+    malloc_trim(0);
+  };
+  const auto used = [] {
+    const struct mallinfo2 info = mallinfo2();
+    return static_cast<std::int64_t>(info.uordblks + info.hblkhd);
+  };
+  run(60);
+  const std::int64_t before = used();
+  run(200);
+  EXPECT_LT(used() - before, 20000) << "bytes";
 }
 
 }  // namespace
