@@ -183,7 +183,7 @@ TEST(CalibrateCommand, AFolderThatIsNotThereIsTold) {
 }
 
 TEST(CalibrateCommand, ABackgroundStandsBesideTheNewSceneAndRunsBeginWithIt) {
-  const DrawnCell cell = small_cell();
+  const DrawnCell cell = small_cell(3, {.more = "sensor: {background_frames: 1}\n"});
   std::filesystem::create_directory(cell / "taught");
   const Outcome outcome = run_berth(cell.folder(), {"calibrate", "cell/scene.yaml", "--out",
                                                     "taught/new.yaml", "--background"});

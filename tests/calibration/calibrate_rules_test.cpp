@@ -190,16 +190,13 @@ void empty_images(DrawnTeachIn& drawn) {
 
 TEST(CalibrateRules, ACameraOnTheHandIsFoundByTheRestOfTheArm) {
   for (const auto mount : {testing::DrawnMount::hand, testing::DrawnMount::upper_link}) {
-    for (std::uint32_t seed = 1; seed <= 2; ++seed) {
-      SCOPED_TRACE(seed);
-      DrawnTeachIn drawn = draw_carried(mount, seed);
-      ASSERT_NE(drawn.camera->parent, 0U);
-      disturb(drawn, 0.05, 5 * kDegree, seed);
-      const CameraCalibration found = calibrate(drawn.teach_in).cameras[0];
-      EXPECT_EQ(found.refused, "");
-      EXPECT_LT(lab::seen_points_apart_m(drawn, found.X_PC, drawn.joint_shift), 0.003);
-      EXPECT_NEAR(found.clock_offset_s, 0, 0.003);
-    }
+    DrawnTeachIn drawn = draw_carried(mount, 1);
+    ASSERT_NE(drawn.camera->parent, 0U);
+    disturb(drawn, 0.05, 5 * kDegree, 1);
+    const CameraCalibration found = calibrate(drawn.teach_in).cameras[0];
+    EXPECT_EQ(found.refused, "");
+    EXPECT_LT(lab::seen_points_apart_m(drawn, found.X_PC, drawn.joint_shift), 0.003);
+    EXPECT_NEAR(found.clock_offset_s, 0, 0.003);
   }
 }
 

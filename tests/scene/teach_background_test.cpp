@@ -17,11 +17,11 @@ using testing::CellLines;
 using testing::DrawnCell;
 using testing::DrawnMount;
 
-const std::string kArm = BERTH_SOURCE_DIR "/data/bundled/arm";
+const std::string kArmFolder = BERTH_SOURCE_DIR "/data/bundled/arm";
 
 DrawnCell right_cell(CellLines lines = {}, DrawnMount mount = DrawnMount::root) {
   lines.offset_m = lines.angle_rad = 0;
-  return {kArm, {.width_px = 160, .height_px = 120, .poses = 4, .mount = mount}, 2, lines};
+  return {kArmFolder, {.width_px = 160, .height_px = 120, .poses = 4, .mount = mount}, 2, lines};
 }
 
 /// Of the scene as it is: nothing is fitted. new.yaml and its background are there afterwards.
