@@ -63,7 +63,8 @@ set(BERTH_PUBLIC_HEADERS
   berth/scene/result_json.hpp
   berth/scene/result_table.hpp
   berth/scene/scene_file.hpp
-  berth/scene/scene_run.hpp)
+  berth/scene/scene_run.hpp
+  berth/scene/teach_background.hpp)
 
 cmake_policy(VERSION 3.22)  # also where an install script includes this file
 

@@ -251,6 +251,8 @@ void add_calibrate_options(CLI::App& command, CalibrateArguments& arguments) {
                    "Look for the joints' zeros, too; wants ten poses or more");
   command.add_flag("--correct-depth", arguments.correct_depth,
                    "Take the camera's depth error out of its readings from now on");
+  command.add_flag("--background", arguments.background,
+                   "Keep what the cameras see where the robot is not, as a PNG beside NEW.yaml");
   add_format(command, "A table for people, or one JSON object (default: table)", arguments.format);
   add_threads(command, arguments.threads);
   command.footer("Example:\n  berth calibrate scene.yaml --out taught_in.yaml --report report");

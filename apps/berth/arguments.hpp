@@ -63,6 +63,7 @@ struct CalibrateArguments {
   std::filesystem::path report_folder;
   bool joint_zeros = false;
   bool correct_depth = false;
+  bool background = false;
   OutputFormat format = OutputFormat::table;
   int threads = 0;
 };

@@ -13,6 +13,7 @@
 #include "berth/scene/calibration_json.hpp"
 #include "berth/scene/calibration_report.hpp"
 #include "berth/scene/calibration_table.hpp"
+#include "berth/scene/teach_background.hpp"
 
 namespace berth::app {
 namespace {
@@ -52,6 +53,8 @@ OpenScene open_for_teach_in(const fs::path& file) {
 void calibrate_command(const CalibrateArguments& arguments) {
   require_place_for(arguments.out, arguments.scene);
   const OpenScene scene = open_for_teach_in(arguments.scene);
+  const std::vector<std::string> without_background =
+      arguments.background ? require_backgrounds(scene, arguments.out) : older_backgrounds(scene);
   const SceneTeachIn material = make_teach_in(scene);
   CalibrateSceneSettings settings;
   settings.fit.joint_zeros = arguments.joint_zeros;
@@ -65,11 +68,25 @@ void calibrate_command(const CalibrateArguments& arguments) {
     };
     calibration = calibrate_scene(scene, material, settings);
   }
+  std::vector<std::string>& warnings = calibration.warnings;
+  warnings.insert(warnings.end(), without_background.begin(), without_background.end());
+  std::vector<TaughtBackground> backgrounds;
+  if (arguments.background) {
+    ProgressBar progress("learn background", 0);
+    backgrounds = teach_backgrounds(
+        scene, arguments.out,
+        [&progress] {
+          stop_if_interrupted();
+          progress.step();
+        },
+        calibration.change);
+  }
   const CalibrationReport report{&material.teach_in, &calibration.found, calibration.filters,
                                  arguments.correct_depth, calibration.warnings};
   const std::string text = arguments.format == OutputFormat::json ? calibration_json(report) + "\n"
                                                                   : calibration_table(report);
   if (!arguments.report_folder.empty()) write_calibration_page(arguments.report_folder, arguments.scene.string(), report);
+  write_backgrounds(backgrounds);
   write_rewritten_scene(arguments.scene, calibration.change, arguments.out);
   std::fputs(text.c_str(), stdout);
 }

@@ -23,7 +23,8 @@ struct TeachInError {
   /// Of joints that were determined; NaN where none was.
   double joint = std::numeric_limits<double>::quiet_NaN();
   double halves_m = 0;
-  bool is_refused = false;
+  /// Empty where the result is good.
+  std::string refused;
   double time_s = 0;
 };
 
@@ -38,7 +39,7 @@ TeachInError error_of(const TrialRobot& robot, const DrawnTrials& trials, std::u
   TeachInError error;
   error.time_s = stopwatch.ms() / 1000;
   const CameraCalibration& camera = found.cameras[0];
-  error.is_refused = !camera.refused.empty();
+  error.refused = camera.refused;
   error.halves_m = camera.halves_m;
   error.clock_s = std::abs(camera.clock_offset_s - trials.drawn.errors.clock_offset_s);
   // At 1.5 m, since offset and scale stand for each other.
@@ -52,7 +53,9 @@ TeachInError error_of(const TrialRobot& robot, const DrawnTrials& trials, std::u
     joint_offsets[j] = offset->second;
     error.joint = std::fmax(error.joint, std::abs(offset->second - drawn.joint_shift[j]));
   }
-  error.robot_m = robot_points_apart_m(drawn, camera.X_PC, joint_offsets);
+  const bool is_carried = trials.drawn.mount != testing::DrawnMount::root;
+  error.robot_m = (is_carried ? seen_points_apart_m : robot_points_apart_m)(drawn, camera.X_PC,
+                                                                            joint_offsets);
   return error;
 }
 
@@ -75,15 +78,15 @@ void measure_drawn(const std::vector<TrialRobot>& robots, const DrawnTrials& tri
     for (int seed = 1; seed <= trials.seeds; ++seed) {
       const TeachInError error = error_of(robot, trials, static_cast<std::uint32_t>(seed));
       if (trials.prints_each) {
-        fmt::print(stderr, "{} {}: {}robot {:.2f} mm (halves {:.2f}), clock {:.2f} ms, depth {:.3f} %, "
+        fmt::print(stderr, "{} {}: {} robot {:.2f} mm (halves {:.2f}), clock {:.2f} ms, depth {:.3f} %, "
                    "joints {:.3f} deg, {:.1f} s\n",
-                   robot.name, seed, error.is_refused ? "refused, " : "", 1000 * error.robot_m,
+                   robot.name, seed, error.refused, 1000 * error.robot_m,
                    1000 * error.halves_m, 1000 * error.clock_s, 100 * error.depth_share,
                    error.joint * 180 / std::numbers::pi, error.time_s);
       }
       time_s.push_back(error.time_s);
-      refused += error.is_refused;
-      if (error.is_refused) continue;
+      refused += !error.refused.empty();
+      if (!error.refused.empty()) continue;
       robot_m.push_back(error.robot_m);
       clock_s.push_back(error.clock_s);
       depth_share.push_back(error.depth_share);

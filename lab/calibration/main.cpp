@@ -16,6 +16,8 @@ int main(int argc, char** argv) {
   std::string robot;
   int starts = 0;
   double zero_deg = 0;
+  bool is_on_hand = false;
+  bool is_on_upper_link = false;
   lab::DrawnTrials trials;
   trials.seeds = 0;
   app.add_option("--data", data, "Folder with robots and recordings")
@@ -29,6 +31,8 @@ int main(int argc, char** argv) {
   app.add_option("--robot", robot, "Only robots whose names hold this");
   app.add_option("--poses", trials.drawn.poses);
   app.add_flag("--moves", trials.drawn.moves, "Images are taken while the robot moves");
+  app.add_flag("--hand", is_on_hand, "The camera is fixed to the last link that a joint turns");
+  app.add_flag("--upper-link", is_on_upper_link, "The camera is fixed to a link half the way up the arm");
   app.add_option("--depth-share", trials.drawn.errors.depth_share);
   app.add_option("--clock-s", trials.drawn.errors.clock_offset_s);
   app.add_option("--joint-zero-deg", zero_deg);
@@ -41,6 +45,8 @@ int main(int argc, char** argv) {
     if (trials.seeds == 0) return 0;
     trials.drawn.errors.joint_zero = zero_deg * std::numbers::pi / 180;
     trials.joint_zeros = zero_deg > 0;
+    if (is_on_hand) trials.drawn.mount = berth::testing::DrawnMount::hand;
+    if (is_on_upper_link) trials.drawn.mount = berth::testing::DrawnMount::upper_link;
     std::vector<lab::TrialRobot> robots = lab::load_trial_robots(data / "robots");
     std::erase_if(robots, [&](const lab::TrialRobot& one) {
       return one.name.find(robot) == std::string::npos;

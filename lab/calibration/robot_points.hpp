@@ -12,4 +12,9 @@ namespace berth::lab {
 double robot_points_apart_m(const testing::DrawnTeachIn& drawn, const Pose& X_PC_found,
                             const std::vector<double>& joint_offsets);
 
+/// The same over the points that the camera sees: for one that the robot carries, most of the rest
+/// lies behind it.
+double seen_points_apart_m(const testing::DrawnTeachIn& drawn, const Pose& X_PC_found,
+                           const std::vector<double>& joint_offsets);
+
 }  // namespace berth::lab

@@ -182,6 +182,31 @@ TEST(CalibrateCommand, AFolderThatIsNotThereIsTold) {
                  {"nowhere/new.yaml"});
 }
 
+TEST(CalibrateCommand, ABackgroundStandsBesideTheNewSceneAndRunsBeginWithIt) {
+  const DrawnCell cell = small_cell(3, {.more = "sensor: {background_frames: 1}\n"});
+  std::filesystem::create_directory(cell / "taught");
+  const Outcome outcome = run_berth(cell.folder(), {"calibrate", "cell/scene.yaml", "--out",
+                                                    "taught/new.yaml", "--background"});
+  ASSERT_EQ(outcome.exit_status, 0) << outcome.err;
+  EXPECT_EQ(all_names(cell / "taught"),
+            (std::vector<std::string>{"new.background.camera.png", "new.yaml"}));
+  const OpenScene scene = open_scene(cell / "taught/new.yaml");
+  ASSERT_TRUE(scene.cameras.at(0).background_m.has_value());
+  const Outcome run = run_berth(cell.folder(), {"run", "taught/new.yaml", "--format", "json"});
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  const Json first = Json::parse(run.out.substr(0, run.out.find('\n')));
+  EXPECT_GT(first.at("self_filter").at("background").get<int>(), 100);
+}
+
+TEST(CalibrateCommand, ABackgroundOfACameraOnTheHandIsRefusedBeforeAnyWork) {
+  const DrawnCell cell(kBundled / "arm",
+                       {.width_px = 160, .height_px = 120, .poses = 3,
+                        .mount = testing::DrawnMount::hand},
+                       2);
+  expect_refused(cell, {"calibrate", "cell/scene.yaml", "--out", "new.yaml", "--background"},
+                 {"scene.yaml: camera camera: moves with link ", "so that it has no background"});
+}
+
 TEST(CalibrateCommand, TheBundledSceneIsTaughtWhereItStands) {
   if (!std::filesystem::exists(kBundled / "one_camera.yaml")) GTEST_SKIP() << "no bundled scene";
   const TemporaryFolder folder;

@@ -152,5 +152,82 @@ TEST(CalibrateRules, ACameraThatALinkCarriesIsFound) {
   EXPECT_LT(Eigen::AngleAxisd(X_CC.linear()).angle(), 0.3 * kDegree);
 }
 
+/// A room of 6 x 6 x 3 m around the root link, without a robot, from this camera on its way.
+DepthImage room_m(const Camera& camera, const Pose& X_BC) {
+  const Eigen::Vector3d low(-3, -3, -1);
+  const Eigen::Vector3d high(3, 3, 2);
+  DepthImage depth_m(camera.width_px, camera.height_px);
+  for (int v = 0; v < camera.height_px; ++v) {
+    for (int u = 0; u < camera.width_px; ++u) {
+      const Eigen::Vector3d ray =
+          X_BC.linear() * Eigen::Vector3d((u - camera.cx_px) / camera.fx_px,
+                                          (v - camera.cy_px) / camera.fy_px, 1);
+      double z_m = 100;
+      for (int i = 0; i < 3; ++i) {
+        const double wall_m = (ray[i] > 0 ? high[i] : low[i]) - X_BC.translation()[i];
+        if (ray[i] != 0) z_m = std::min(z_m, wall_m / ray[i]);
+      }
+      depth_m(u, v) = static_cast<float>(z_m);
+    }
+  }
+  return depth_m;
+}
+
+DrawnTeachIn draw_carried(testing::DrawnMount mount, std::uint32_t seed) {
+  return bundled_arm().draw(
+      {.width_px = 320, .height_px = 240, .poses = 5, .moves = true, .mount = mount}, seed);
+}
+
+/// The same way, and nothing of the robot in the images.
+void empty_images(DrawnTeachIn& drawn) {
+  RobotPose pose;
+  for (std::size_t k = 0; k < drawn.camera->frames.size(); ++k) {
+    forward_kinematics(bundled_arm().model, drawn.joints_at_exposure[k], pose);
+    drawn.camera->frames[k].depth_m =
+        room_m(drawn.camera->camera, pose.X_BL[drawn.camera->parent] * drawn.X_PC_true);
+  }
+}
+
+TEST(CalibrateRules, ACameraOnTheHandIsFoundByTheRestOfTheArm) {
+  for (const auto mount : {testing::DrawnMount::hand, testing::DrawnMount::upper_link}) {
+    DrawnTeachIn drawn = draw_carried(mount, 1);
+    ASSERT_NE(drawn.camera->parent, 0U);
+    disturb(drawn, 0.05, 5 * kDegree, 1);
+    const CameraCalibration found = calibrate(drawn.teach_in).cameras[0];
+    EXPECT_EQ(found.refused, "");
+    EXPECT_LT(lab::seen_points_apart_m(drawn, found.X_PC, drawn.joint_shift), 0.003);
+    EXPECT_NEAR(found.clock_offset_s, 0, 0.003);
+  }
+}
+
+TEST(CalibrateRules, ACameraOnTheHandThatSeesNothingOfTheRobotSaysSo) {
+  for (std::uint32_t seed = 1; seed <= 4; ++seed) {
+    SCOPED_TRACE(seed);
+    DrawnTeachIn drawn = draw_carried(testing::DrawnMount::hand, seed);
+    empty_images(drawn);
+    // Where the robot should be in view, and where it is not.
+    expect_refused(drawn);
+    drawn.camera->X_PC =
+        drawn.X_PC_true * Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitY());
+    const CameraCalibration found = calibrate(drawn.teach_in).cameras[0];
+    EXPECT_FALSE(found.is_found);
+    EXPECT_TRUE(found.X_PC.isApprox(drawn.camera->X_PC, 0));
+    const bool says_so =
+        found.refused.starts_with("nothing of the robot is seen where the scene has the camera, in "
+                                  "any of its 5 frames, and no pose was found");
+    // The other side of a hand shows the gripper, as a rule.
+    EXPECT_TRUE(says_so || found.score_before > -2) << found.refused;
+  }
+}
+
+TEST(CalibrateRules, NoRobotWhereTheSceneHasTheCameraIsSaid) {
+  DrawnTeachIn away = draw_small(1, 3);
+  away.camera->X_PC =
+      away.camera->X_PC * Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitY());
+  EXPECT_TRUE(calibrate(away.teach_in).cameras[0].refused.starts_with(
+      "nothing of the robot is seen where the scene has the camera, in any of its 3 frames, and no "
+      "pose was found that explains the images: the best agrees by "));
+}
+
 }  // namespace
 }  // namespace berth

@@ -13,6 +13,8 @@ namespace berth::testing {
 namespace {
 
 constexpr int kMostPlaces = 200;
+/// Of a robot that carries its camera: in many, the camera sees nothing of it.
+constexpr int kMostDrives = 30;
 /// Of the image, in each pose.
 constexpr double kLeastSeenShare = 0.02;
 /// From one pose to the next, and how often the joints are told.
@@ -69,6 +71,41 @@ void place_camera(Random& random, const RobotModel& model, const std::vector<Joi
   throw std::runtime_error("no camera sees robot " + model.name);
 }
 
+std::vector<RobotPose> poses_at(const RobotModel& model, const std::vector<Joints>& exposures) {
+  std::vector<RobotPose> poses;
+  for (const Joints& joints : exposures) poses.push_back(pose_at(model, joints));
+  return poses;
+}
+
+/// Where the robot goes, and when its images are taken.
+struct Drive {
+  std::vector<Joints> waypoints;
+  std::vector<double> stamps_s;
+  std::vector<Joints> exposures;
+};
+
+/// With a camera, which is set, that sees the robot on the way.
+Drive draw_drive(Random& random, const RobotModel& model, const DrawnTeachInSettings& settings,
+                 TeachInCamera& camera) {
+  for (int i = 0; i < kMostDrives; ++i) {
+    Drive drive{draw_waypoints(random, model, settings.poses + 1), {}, {}};
+    for (int k = 0; k < settings.poses; ++k) {
+      drive.stamps_s.push_back(kLeg_s * (k + (settings.moves ? random(0.3, 0.7) : 0)));
+      drive.exposures.push_back(
+          joints_at(drive.waypoints, drive.stamps_s.back() + settings.errors.clock_offset_s));
+    }
+    if (settings.mount == DrawnMount::root) {
+      place_camera(random, model, drive.exposures, settings, camera);
+      return drive;
+    }
+    if (place_hand_camera(random, model, poses_at(model, drive.exposures), settings.mount,
+                          settings.width_px, settings.height_px, camera)) {
+      return drive;
+    }
+  }
+  throw std::runtime_error("no camera on robot " + model.name + " sees it");
+}
+
 /// Farther from the robot's middle than the robot reaches, so that it never meets them.
 void add_things(Random& random, const RobotExtent& robot, const Pose& X_BC,
                 std::vector<DrawnObstacle>& obstacles) {
@@ -88,10 +125,12 @@ void add_things(Random& random, const RobotExtent& robot, const Pose& X_BC,
 DepthImage sense(const RobotModel& model, const Joints& joints,
                  const std::vector<DrawnObstacle>& obstacles, const TeachInCamera& camera,
                  const DrawnTeachInSettings& settings, std::uint32_t seed) {
-  const EmbreeRenderer rays(model, pose_at(model, joints), camera.X_PC, camera.camera);
+  const RobotPose pose = pose_at(model, joints);
+  const Pose X_BC = pose.X_BL[camera.parent] * camera.X_PC;
+  const EmbreeRenderer rays(model, pose, X_BC, camera.camera);
   DepthImage depth_m = cast_image(rays, camera.camera).depth_m;
   const RobotModel room = obstacle_model(obstacles);
-  const EmbreeRenderer room_rays(room, obstacle_pose(obstacles), camera.X_PC, camera.camera);
+  const EmbreeRenderer room_rays(room, obstacle_pose(obstacles), X_BC, camera.camera);
   const DepthImage room_m = cast_image(room_rays, camera.camera).depth_m;
   for (std::size_t i = 0; i < depth_m.pixels().size(); ++i) {
     float& z_m = depth_m.pixels()[i];
@@ -108,6 +147,21 @@ DepthImage sense(const RobotModel& model, const Joints& joints,
   return depth_m;
 }
 
+/// All that the robot and the camera that it carries reach in these poses.
+RobotExtent reach_of(const RobotModel& model, const std::vector<RobotPose>& poses,
+                     const TeachInCamera& camera) {
+  RobotExtent reach = extent_of(model, poses[0]);
+  for (const RobotPose& pose : poses) {
+    const RobotExtent robot = extent_of(model, pose);
+    const Eigen::Vector3d p_B_m = pose.X_BL[camera.parent] * camera.X_PC.translation();
+    reach.radius_m = std::max({reach.radius_m, (p_B_m - reach.centre_B_m).norm(),
+                               (robot.centre_B_m - reach.centre_B_m).norm() + robot.radius_m});
+    reach.lowest_z_m =
+        std::min({reach.lowest_z_m, robot.lowest_z_m, p_B_m.z() - kLeastCameraClearance_m});
+  }
+  return reach;
+}
+
 /// Which joints no image can tell: one that moves all that is seen alike, and one at the end whose
 /// link looks alike from all sides, as a rule.
 bool is_observable(const RobotModel& model, std::size_t joint) {
@@ -120,25 +174,22 @@ bool is_observable(const RobotModel& model, std::size_t joint) {
 DrawnTeachIn draw_teach_in(const RobotModel& model, std::shared_ptr<const LinkMeshes> meshes,
                            const DrawnTeachInSettings& settings, std::uint32_t seed) {
   Random random(seed);
-  const std::vector<Joints> waypoints = draw_waypoints(random, model, settings.poses + 1);
-  std::vector<double> stamps_s;
-  std::vector<Joints> exposures;
-  for (int i = 0; i < settings.poses; ++i) {
-    stamps_s.push_back(kLeg_s * (i + (settings.moves ? random(0.3, 0.7) : 0)));
-    exposures.push_back(joints_at(waypoints, stamps_s.back() + settings.errors.clock_offset_s));
-  }
   DrawnTeachIn drawn;
   drawn.camera = std::make_unique<TeachInCamera>();
   TeachInCamera& camera = *drawn.camera;
   camera.name = "camera";
-  place_camera(random, model, exposures, settings, camera);
-  drawn.X_PC_true = camera.X_PC;
   camera.has_stamps = settings.moves;
+  const Drive drive = draw_drive(random, model, settings, camera);
+  const auto& [waypoints, stamps_s, exposures] = drive;
+  drawn.X_PC_true = camera.X_PC;
 
+  const std::vector<RobotPose> poses = poses_at(model, exposures);
+  const Pose X_BC = poses[0].X_BL[camera.parent] * camera.X_PC;
+  const RobotExtent reach = settings.mount == DrawnMount::root ? extent_of(model, poses[0])
+                                                               : reach_of(model, poses, camera);
   std::vector<DrawnObstacle> obstacles;
-  const RobotExtent robot = extent_of(model, pose_at(model, exposures[0]));
-  add_room(random, robot, camera.X_PC, obstacles);
-  add_things(random, robot, camera.X_PC, obstacles);
+  add_room(random, reach, X_BC, obstacles);
+  add_things(random, reach, X_BC, obstacles);
 
   for (std::size_t j = 0; j < model.joints.size(); ++j) {
     const double sign = random.whole(0, 1) == 0 ? -1 : 1;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "berth/calibration/teach_in.hpp"
+#include "tests/support/drawn_hand_camera.hpp"
 #include "tests/support/random.hpp"
 
 namespace berth::testing {
@@ -31,6 +32,7 @@ struct DrawnTeachInSettings {
   /// Like a Kinect's: noise, steps, lost and mixed pixels, dark outlines.
   bool has_sensor_errors = true;
   TeachInErrors errors = {};
+  DrawnMount mount = DrawnMount::root;
 };
 
 /// The images are made of the truth; `teach_in` believes the true camera and clock 0, and joints

@@ -95,9 +95,7 @@ class CameraReport {
   void judge() {
     if (out_.score_after < kLeastScore) {
       out_.is_found = false;
-      refuse(fmt::format("no pose was found that explains the images: the best agrees by {:.2f} of "
-                         "2; expected {:.1f} at least",
-                         out_.score_after, kLeastScore));
+      refuse(unexplained());
     } else if (out_.score_after < out_.score_before) {
       refuse(fmt::format("the best one found, {:.1f} mm from it, agrees with the images by {:.3f} of "
                          "2, the scene's own by {:.3f}",
@@ -107,6 +105,18 @@ class CameraReport {
     } else {
       measure_uncertainty();
     }
+  }
+
+  std::string unexplained() {
+    const std::string best = fmt::format(
+        "no pose was found that explains the images: the best agrees by {:.2f} of 2; expected {:.1f} "
+        "at least",
+        out_.score_after, kLeastScore);
+    if (score(drawer_, start_, kLastScore).pixels > 0) return best;
+    return fmt::format("nothing of the robot is seen where the scene has the camera, in any of its {} "
+                       "frames, and {}; expected a camera that sees parts of the robot, and its pose "
+                       "to within 20 cm and 15 degrees",
+                       source_.frames.size(), best);
   }
 
   void refuse(std::string why) {

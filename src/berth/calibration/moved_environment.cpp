@@ -56,6 +56,7 @@ std::vector<EnvironmentChange> moved_environment(const TeachIn& teach_in,
   for (std::size_t c = 0; c < teach_in.cameras.size(); ++c) {
     TeachIn one = teach_in;
     one.cameras = {teach_in.cameras[c]};
+    if (teach_in.model->is_moved(one.cameras[0]->parent)) continue;
     const std::vector<TeachInFrame>& frames = one.cameras[0]->frames;
     std::vector<DepthImage> beside(frames.size());
     FrameDrawer(one, {kStep}).draw(

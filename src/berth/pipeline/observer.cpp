@@ -65,16 +65,28 @@ void Observer::observe(DepthView depth_m, double stamp_s, const JointBuffer& joi
 
 void Observer::finish_watch(Frame& frame) { frame.watch = watch_.wait(); }
 
+const SensorSettings& Observer::background_settings() const {
+  const SensorSettings& settings = view_->settings().sensor;
+  if (settings.has_background()) return settings;
+  throw std::invalid_argument(
+      "sensor.background_frames: 0; expected 1 or more, to learn a background");
+}
+
 void Observer::learn_background(DepthView depth_m, const Frame& frame) {
   require_size(view_->camera(), depth_m);
-  const SensorSettings& settings = view_->settings().sensor;
-  if (!settings.has_background()) {
-    throw std::invalid_argument(
-        "sensor.background_frames: 0; expected 1 or more, to learn a background");
-  }
+  const SensorSettings& settings = background_settings();
   // Without its robot, or with the robot elsewhere, the image would give the arm for a background.
   if (frame.time.status != TimeStatus::ok || frame.watch.has_moved) return;
   background_.learn(view_->camera(), depth_m, frame.robot, frame.obstacles.fate, settings);
+}
+
+DepthImage Observer::background_m() const {
+  return background_.learned_m(view_->camera(), background_settings());
+}
+
+void Observer::set_background(DepthView depth_m) {
+  require_size(view_->camera(), depth_m);
+  background_.assign(depth_m, background_settings());
 }
 
 }  // namespace berth

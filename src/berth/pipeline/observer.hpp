@@ -43,8 +43,16 @@ class Observer {
   /// wrong size.
   void learn_background(DepthView depth_m, const Frame& frame);
 
+  /// What was learned; NaN where it is not known yet. Throws as learn_background does where the
+  /// setting is 0.
+  DepthImage background_m() const;
+  /// Takes this as learned, in place of what was: the background of earlier images. Throws as
+  /// learn_background does.
+  void set_background(DepthView depth_m);
+
  private:
   void filter(DepthView depth_m, Frame& frame);
+  const SensorSettings& background_settings() const;
 
   std::shared_ptr<const View> view_;
   RobotRenderer renderer_;

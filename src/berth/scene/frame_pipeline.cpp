@@ -30,6 +30,7 @@ class CpuPipeline : public FramePipeline {
   void learn_background(DepthView depth_m, const Frame& frame) override {
     observer_.learn_background(depth_m, frame);
   }
+  void set_background(DepthView depth_m) override { observer_.set_background(depth_m); }
 
  private:
   Observer observer_;

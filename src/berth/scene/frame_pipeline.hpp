@@ -26,6 +26,8 @@ class FramePipeline {
   virtual const Frame& frame() = 0;
   /// Takes these images as background, where the view's settings ask for one.
   virtual void learn_background(DepthView, const Frame&) {}
+  /// Begins with this one.
+  virtual void set_background(DepthView) {}
 };
 
 /// Observes on the CPU; asks on `gl` if the robot's method runs there.

@@ -156,6 +156,10 @@ OpenScene open_scene(const SceneFile& source, const std::function<void()>& befor
     camera.view = with_file_named(
         source, [&] { return std::make_shared<const View>(scene.robot, mount, from.settings); });
     find_joints(*scene.joints, camera);
+    if (from.background) {
+      camera.background_m =
+          read_depth_png(*from.background, mount.camera, kBackgroundScale_m);
+    }
     camera.kept_depth_m.resize(from.depth.size());
     for (std::size_t frame = 0; frame < from.depth.size(); ++frame) {
       before_image();

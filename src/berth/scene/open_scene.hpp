@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "berth/pipeline/view.hpp"
@@ -24,6 +25,8 @@ struct OpenCamera {
   std::vector<FrameTime> exposure_time;
   /// The images that were kept when they were checked; one without pixels is read again.
   std::vector<DepthImage> kept_depth_m;
+  /// That of the scene file; none where it is learned, or the rule is off.
+  std::optional<DepthImage> background_m;
 
   DepthImage read_depth(std::size_t frame) const;
 };

@@ -23,11 +23,12 @@ namespace fs = std::filesystem;
 constexpr double kMostPoseError = 1e-9;
 
 /// Where a scene names files and folders; "*" is any one step.
-const std::array<YamlPath, 7> kPlacesOfPaths = {{{"robot", "urdf"},
+const std::array<YamlPath, 8> kPlacesOfPaths = {{{"robot", "urdf"},
                                                  {"robot", "package_paths", "*"},
                                                  {"cameras", "*", "info"},
                                                  {"cameras", "*", "depth"},
                                                  {"cameras", "*", "depth", "*"},
+                                                 {"cameras", "*", "background"},
                                                  {"joints"},
                                                  {"attached", "*", "mesh"}}};
 const YamlPath& kPlaceOfPattern = kPlacesOfPaths[3];
@@ -113,6 +114,9 @@ void change_camera(const SceneCameraChange& change, const YamlScalars& scene,
   set("clock_offset_s", change.clock_offset_s);
   set("depth_scale", change.depth_scale_m);
   set("depth_offset_m", change.depth_offset_m);
+  if (change.background) {
+    changed[joined(camera, {"background"})] = change.background->filename().string();
+  }
   if (change.X_PC) change_pose(*change.X_PC, scene, joined(camera, {"pose"}), changed);
   for (const auto& [map, values] : change.maps) {
     for (const auto& [key, value] : values) changed[joined(camera, {map, key})] = exact(value);
@@ -143,6 +147,7 @@ void require_same_files(const SceneFile& found, const SceneFile& expected) {
     const std::string where = fmt::format("cameras[{}].", i);
     const SceneCamera& camera = expected.cameras[i];
     same(where + "info", found.cameras[i].info, camera.info);
+    if (camera.background) same(where + "background", found.cameras[i].background.value(), *camera.background);
     if (found.cameras[i].depth.size() != camera.depth.size()) {
       throw_bad_file({expected.file, 0, where + "depth"},
                      fmt::format("would be {} images", found.cameras[i].depth.size()),
@@ -152,6 +157,14 @@ void require_same_files(const SceneFile& found, const SceneFile& expected) {
       same(fmt::format("{}depth[{}]", where, k), found.cameras[i].depth[k], camera.depth[k]);
     }
   }
+}
+
+SceneFile with_backgrounds(SceneFile scene, const SceneChange& change) {
+  for (const SceneCameraChange& camera : change.cameras) {
+    if (!camera.background) continue;
+    scene.cameras[index_of(scene, camera.camera)].background = fs::absolute(*camera.background);
+  }
+  return scene;
 }
 
 /// Throws unless the new scene has the given poses; cameras without one have theirs of before.
@@ -193,7 +206,7 @@ std::string rewritten_scene(const fs::path& scene_file, const SceneChange& chang
   }
   const std::string new_text = edited_yaml(scene_file, text, changed);
   const SceneFile new_scene = parse_scene(new_file, new_text);
-  require_same_files(new_scene, scene);
+  require_same_files(new_scene, with_backgrounds(scene, change));
   require_poses(new_scene, scene, change);
   return new_text;
 }

@@ -21,6 +21,8 @@ struct SceneCameraChange {
   std::optional<double> depth_offset_m;
   /// Numbers in maps of the entry, such as {"self_filter", {{"tolerance_m", 0.03}}}.
   std::map<std::string, std::map<std::string, double>> maps;
+  /// A file in the new scene's folder.
+  std::optional<std::filesystem::path> background = std::nullopt;
 };
 
 /// New values of a scene file.

@@ -90,7 +90,7 @@ Pose read_pose(const YamlMap& pose) {
 
 SceneCamera read_scene_camera(const YamlValue& value, const ViewSettings& settings) {
   const YamlMap map(value,
-                    {"name", "info", "pose", "depth", "depth_scale", "depth_offset_m", "stamps", "near_m", "far_m", "clock_offset_s",
+                    {"name", "info", "pose", "depth", "depth_scale", "depth_offset_m", "stamps", "near_m", "far_m", "clock_offset_s", "background",
                      "self_filter",
                      "sensor", "space", "watch"});
   const YamlMap pose(map.at("pose"), {"parent", "xyz", "quaternion_xyzw", "rpy"});
@@ -120,6 +120,12 @@ SceneCamera read_scene_camera(const YamlValue& value, const ViewSettings& settin
   }
   camera.settings = settings;
   read_view_settings(map, camera.settings);
+  if (const auto background = map.find("background")) {
+    camera.background = background->path();
+    if (!camera.settings.sensor.has_background()) {
+      background->fail("sensor.background_frames of 1 or more with it, which turns the rule on");
+    }
+  }
   return camera;
 }
 

@@ -31,9 +31,14 @@ struct SceneCamera {
   double clock_offset_s = 0;
   double near_m = 0;
   double far_m = std::numeric_limits<double>::infinity();
+  /// The background to begin with, in place of one that is learned from `depth`.
+  std::optional<std::filesystem::path> background;
   /// Those of the scene, with the camera's own over them.
   ViewSettings settings;
 };
+
+/// The unit of a background's PNG, whatever that of the camera's images is.
+inline constexpr double kBackgroundScale_m = 0.001;
 
 /// Something that moves with a link, as the file describes it: one of the four shapes.
 struct SceneAttachment {

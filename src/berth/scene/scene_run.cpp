@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "berth/scene/frame_pipeline.hpp"
+#include "berth/scene/learn_background.hpp"
 
 namespace berth {
 namespace {
@@ -33,7 +34,7 @@ SceneRun::SceneRun(const OpenScene& scene, const BackendChoice& where,
     } catch (const std::invalid_argument& error) {
       throw std::runtime_error(fmt::format("{}: {}", scene.file.string(), error.what()));
     }
-    learn_background(i, before_image);
+    begin_background(i, before_image);
   }
   if (has_mesh()) asker_.emplace(scene.robot);
   plan_steps();
@@ -55,18 +56,13 @@ void SceneRun::plan_steps() {
                    [](const Step& a, const Step& b) { return a.stamp_s < b.stamp_s; });
 }
 
-void SceneRun::learn_background(std::size_t i, const std::function<void()>& before_image) {
+void SceneRun::begin_background(std::size_t i, const std::function<void()>& before_image) {
   const OpenCamera& camera = scene_.cameras[i];
   if (!camera.view->settings().sensor.has_background()) return;
-  Observer learner(camera.view);
-  Frame frame;
-  for (std::size_t k = 0; k < camera.source.depth.size(); ++k) {
-    before_image();
-    const DepthImage depth_m = camera.read_depth(k);
-    learner.observe(depth_m, camera.at_exposure[k], frame, camera.exposure_time[k]);
-    learner.finish_watch(frame);
+  if (camera.background_m) return pipelines_[i]->set_background(*camera.background_m);
+  learn_background(camera, before_image, [&](DepthView depth_m, const Frame& frame) {
     pipelines_[i]->learn_background(depth_m, frame);
-  }
+  });
 }
 
 void SceneRun::observe(const Step& step) {

@@ -28,7 +28,8 @@ class FramePipeline;
 /// by camera, and each answer is that of one image.
 class SceneRun {
  public:
-  /// The scene has to outlive it. Learns the background of the cameras that ask for one;
+  /// The scene has to outlive it. Learns the background of the cameras that ask for one and whose
+  /// scene does not name it;
   /// `before_image` is called before each of these images. Throws std::runtime_error where the
   /// backend is not there or the scene's settings do not go with it.
   explicit SceneRun(const OpenScene& scene, const BackendChoice& where = {},
@@ -67,7 +68,7 @@ class SceneRun {
   const Step& step() const { return steps_[step_ - 1]; }
   bool has_mesh() const;
   void plan_steps();
-  void learn_background(std::size_t camera, const std::function<void()>& before_image);
+  void begin_background(std::size_t camera, const std::function<void()>& before_image);
   void observe(const Step& step);
   void assign_frames();
   FrameResult result_of(const Answer& answer);

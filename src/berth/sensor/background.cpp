@@ -48,6 +48,26 @@ void Background::learn(const Camera& camera, DepthView sensor_depth_m, const Rob
   });
 }
 
+void Background::assign(DepthView depth_m, const SensorSettings& settings) {
+  count_.resize(depth_m.width, depth_m.height, 0);
+  least_m_.resize(depth_m.width, depth_m.height, kNoDepth);
+  for (int v = 0; v < depth_m.height; ++v) {
+    for (int u = 0; u < depth_m.width; ++u) {
+      least_m_(u, v) = depth_m(u, v);
+      count_(u, v) = std::isnan(depth_m(u, v)) ? 0 : settings.background_frames;
+    }
+  }
+}
+
+DepthImage Background::learned_m(const Camera& camera, const SensorSettings& settings) const {
+  DepthImage out(camera.width_px, camera.height_px, kNoDepth);
+  if (count_.width() != out.width() || count_.height() != out.height()) return out;
+  for (int v = 0; v < out.height(); ++v) {
+    for (int u = 0; u < out.width(); ++u) out(u, v) = depth_m(u, v, settings);
+  }
+  return out;
+}
+
 void Background::complete(DepthView sensor_depth_m, const SensorSettings& settings,
                           ObstacleImage& out) const {
   if (count_.width() != out.fate.width() || count_.height() != out.fate.height()) return;

@@ -25,6 +25,12 @@ class Background {
   void learn(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,
              const Image<PixelFate>& fates, const SensorSettings& settings);
 
+  /// Takes this as learned, in place of what was; NaN is not known.
+  void assign(DepthView depth_m, const SensorSettings& settings);
+
+  /// depth_m() of all pixels of the camera.
+  DepthImage learned_m(const Camera& camera, const SensorSettings& settings) const;
+
   /// The least of the readings once background_frames of them agree; NaN before that.
   float depth_m(int u, int v, const SensorSettings& settings) const {
     return count_(u, v) >= settings.background_frames ? least_m_(u, v) : kNoDepth;
