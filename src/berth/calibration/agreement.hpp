@@ -9,9 +9,13 @@ namespace berth {
 /// hold it in the same way: with k above n / 2 both cannot be had at once.
 class Agreement {
  public:
-  Agreement(int agreeing, int of) : agreeing_(agreeing), last_(static_cast<std::size_t>(of)) {}
+  /// As if all verdicts so far had been `state`.
+  Agreement(int agreeing, int of, bool state = false)
+      : agreeing_(agreeing),
+        last_(static_cast<std::size_t>(of), state),
+        true_(state ? of : 0),
+        state_(state) {}
 
-  /// Before n verdicts were given, the missing ones are false.
   void add(bool verdict) {
     true_ += static_cast<int>(verdict) - static_cast<int>(last_[next_]);
     last_[next_] = verdict;
@@ -25,8 +29,8 @@ class Agreement {
   int agreeing_;
   std::vector<bool> last_;
   std::size_t next_ = 0;
-  int true_ = 0;
-  bool state_ = false;
+  int true_;
+  bool state_;
 };
 
 }  // namespace berth

@@ -2,16 +2,10 @@
 
 #include <limits>
 
-#include "berth/calibration/seen_through.hpp"
-
 namespace berth {
 namespace {
 
 constexpr int kAgreeingChecks = 2, kChecks = 3;
-
-bool tells_seen_through(const RobotReadings& robot) {
-  return robot.judged() >= kLeastJudgedPixels && robot.hidden_share() <= kMostHiddenForSeenThrough;
-}
 
 bool tells_displacement(const RobotReadings& robot) {
   return robot.judged() + robot.before >= kLeastJudgedPixels &&
@@ -40,9 +34,11 @@ PoseWatch::PoseWatch(const WatchSettings& settings, MeasureDisplacement measure)
 
 const CameraWatch& PoseWatch::look(DepthView depth_m, const RobotImage& robot,
                                    const JointState& at_exposure) {
-  if (!state_.is_on) return state_;
+  if (!state_.is_on && settings_.min_at_robot == 0) return state_;
   const RobotReadings readings = read_robot(depth_m, robot, settings_.bias_m);
-  const bool tells = tells_seen_through(readings);
+  judge_place(readings);
+  if (!state_.is_on) return state_;
+  const bool tells = readings.tells();
   state_.seen_through =
       tells ? readings.seen_through() : std::numeric_limits<double>::quiet_NaN();
   if (tells && settings_.max_seen_through > 0) {
@@ -56,7 +52,24 @@ const CameraWatch& PoseWatch::look(DepthView depth_m, const RobotImage& robot,
   return state_;
 }
 
+void PoseWatch::judge_place(const RobotReadings& readings) {
+  if (settings_.min_at_robot == 0) return;
+  const bool tells = readings.tells();
+  state_.is_hidden = readings.is_hidden();
+  state_.at_robot = tells ? readings.at_robot() : std::numeric_limits<double>::quiet_NaN();
+  if (!tells) return;
+  const bool verdict = state_.at_robot < settings_.min_at_robot;
+  if (by_place_) {
+    by_place_->add(verdict);
+  } else {
+    by_place_.emplace(settings_.agreeing_frames, settings_.frames, verdict);
+  }
+  state_.is_implausible = by_place_->state();
+}
+
 const CameraWatch& PoseWatch::pass_over() {
+  state_.is_hidden = false;
+  state_.at_robot = std::numeric_limits<double>::quiet_NaN();
   state_.seen_through = std::numeric_limits<double>::quiet_NaN();
   take_displacement();
   return state_;

@@ -73,7 +73,7 @@ void Observer::learn_background(DepthView depth_m, const Frame& frame) {
         "sensor.background_frames: 0; expected 1 or more, to learn a background");
   }
   // Without its robot, or with the robot elsewhere, the image would give the arm for a background.
-  if (frame.time.status != TimeStatus::ok || frame.watch.has_moved) return;
+  if (frame.time.status != TimeStatus::ok || !frame.watch.is_trusted()) return;
   background_.learn(view_->camera(), depth_m, frame.robot, frame.obstacles.fate, settings);
 }
 
