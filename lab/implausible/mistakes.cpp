@@ -89,16 +89,13 @@ auto shifted_joints(int shift) {
   };
 }
 
-auto images_of(std::size_t other) {
-  return [other](OpenScene& scene, std::size_t c) {
-    keep_images(scene.cameras[c]);
-    keep_images(scene.cameras[other]);
-    std::swap(scene.cameras[c].kept_depth_m, scene.cameras[other].kept_depth_m);
-    for (const std::size_t i : {c, other}) {
-      auto& images = scene.cameras[i].kept_depth_m;
-      images.resize(scene.cameras[i].source.depth.size(), images.back());
-    }
-  };
+/// As if another camera of the same kind had taken the images.
+void swap_poses(OpenScene& scene, std::size_t c) {
+  OpenCamera& other = scene.cameras[c == 0 ? 1 : 0];
+  CameraMount one = scene.cameras[c].view->mount(), two = other.view->mount();
+  std::swap(one.X_PC, two.X_PC);
+  set_mount(scene, scene.cameras[c], one);
+  set_mount(scene, other, two);
 }
 
 void freeze(OpenScene& scene, std::size_t c) {
@@ -134,12 +131,11 @@ void add_poses(Mistakes& all) {
   all.push_back({"`xyz` in millimetres", "millimetres",
                  other_mount([](CameraMount& mount) { mount.X_PC.translation() *= 1000; })});
   all.push_back({"`rpy` in degrees", "rpy were in degrees", rpy_in_degrees});
-  all.push_back({"pose mirrored in y", "", other_mount([](CameraMount& mount) {
+  all.push_back({"pose mirrored in y", "mirrored in y", other_mount([](CameraMount& mount) {
                    const Eigen::DiagonalMatrix<double, 3> mirror(1, -1, 1);
                    mount.X_PC.linear() = mirror * mount.X_PC.linear() * mirror;
                    mount.X_PC.translation().y() *= -1;
                  })});
-  all.back().as_if = "mirrored in y";
   all.push_back({"`y` with the wrong sign", "pose's y", other_mount([](CameraMount& mount) {
                    mount.X_PC.translation().y() *= -1;
                  })});
@@ -160,13 +156,12 @@ void add_images(const OpenScene& scene, Mistakes& all) {
                    }
                  })});
   if (scene.cameras.size() > 1) {
-    all.push_back({"another camera's images", "images were those of camera",
-                   [](OpenScene& s, std::size_t c) { images_of(c == 0 ? 1 : 0)(s, c); }});
+    all.push_back({"another camera's images", "of camera", swap_poses});
   }
-  all.push_back({"dead camera: one depth", "the same reading",
+  all.push_back({"dead camera: one depth", "are the same",
                  each_reading([](float) { return 1.5F; })});
   all.push_back({"dead camera: one image", "do not change", freeze});
-  all.push_back({"dead camera: no reading", "",
+  all.push_back({"dead camera: no reading", "hardly a pixel",
                  each_reading([](float) { return kNoDepth; })});
 }
 

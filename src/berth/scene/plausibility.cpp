@@ -112,7 +112,20 @@ void explain(const OpenScene& scene, RobotInImages& images, CameraPlausibility& 
   if (tried[1].share >= best.share - kAlike) camera.as_if += " or " + tried[1].mistake->as_if;
 }
 
-CameraPlausibility judged(const OpenScene& scene, std::size_t number) {
+std::string counted_text(const RobotReadings& readings, std::size_t frames) {
+  const int seen = with_reading(readings);
+  if (seen == 0) return fmt::format("in {} of its images no pixel of the robot has a reading", frames);
+  const auto percent = [seen](int count) { return 100.0 * count / seen; };
+  return fmt::format(
+      "of the robot's readings in {} of its images {:.0f} % lie at its surface, {:.0f} % behind it, "
+      "{:.0f} % before it",
+      frames, percent(readings.at_surface), percent(readings.behind),
+      percent(readings.before + readings.hidden));
+}
+
+}  // namespace
+
+CameraPlausibility find_implausible(const OpenScene& scene, std::size_t number) {
   const double least = scene.cameras[number].view->settings().watch.min_at_robot;
   CameraPlausibility camera;
   camera.camera = scene.cameras[number].source.name;
@@ -129,22 +142,9 @@ CameraPlausibility judged(const OpenScene& scene, std::size_t number) {
   return camera;
 }
 
-std::string counted_text(const RobotReadings& readings, std::size_t frames) {
-  const int seen = with_reading(readings);
-  if (seen == 0) return fmt::format("in {} of its images no pixel of the robot has a reading", frames);
-  const auto percent = [seen](int count) { return 100.0 * count / seen; };
-  return fmt::format(
-      "of the robot's readings in {} of its images {:.0f} % lie at its surface, {:.0f} % behind it, "
-      "{:.0f} % before it",
-      frames, percent(readings.at_surface), percent(readings.behind),
-      percent(readings.before + readings.hidden));
-}
-
-}  // namespace
-
 std::vector<CameraPlausibility> find_implausible(const OpenScene& scene) {
   std::vector<CameraPlausibility> cameras;
-  for (std::size_t c = 0; c < scene.cameras.size(); ++c) cameras.push_back(judged(scene, c));
+  for (std::size_t c = 0; c < scene.cameras.size(); ++c) cameras.push_back(find_implausible(scene, c));
   return cameras;
 }
 

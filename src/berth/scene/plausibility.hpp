@@ -42,6 +42,9 @@ inline constexpr double kLeastGain = 0.3;
 /// looked at. Throws std::runtime_error where an image cannot be read again.
 std::vector<CameraPlausibility> find_implausible(const OpenScene& scene);
 
+/// The same of one camera.
+CameraPlausibility find_implausible(const OpenScene& scene, std::size_t camera);
+
 /// One sentence or two for people: which camera, what share, what was expected, what would explain
 /// it. Empty where there is nothing to say.
 std::string text_of(const CameraPlausibility& camera);

@@ -64,20 +64,23 @@ const DepthImage& RobotInImages::depth_m(std::size_t camera, std::size_t frame) 
 }
 
 RobotReadings RobotInImages::readings(const CameraBelief& belief) {
+  RobotReadings sum;
+  for (std::size_t i = 0; i < frames_.size(); ++i) add(readings(belief, i), sum);
+  return sum;
+}
+
+RobotReadings RobotInImages::readings(const CameraBelief& belief, std::size_t i) {
+  const DepthImage& read_m = depth_m(belief.images_of, frames_[i]);
+  if (read_m.pixels().empty()) return {};
+  changed_m_ = read_m;
+  for (float& z_m : changed_m_.pixels()) z_m *= static_cast<float>(belief.depth_factor);
+  if (belief.is_mirrored) mirror(changed_m_);
   const auto& robot = scene_.robot;
   const View view(robot, belief.mount);
   RobotRenderer renderer(robot->meshes(), belief.mount.camera);
-  RobotReadings sum;
-  for (std::size_t i = 0; i < frames_.size(); ++i) {
-    DepthImage depth = depth_m(belief.images_of, frames_[i]);
-    if (depth.pixels().empty()) continue;
-    for (float& z_m : depth.pixels()) z_m *= static_cast<float>(belief.depth_factor);
-    if (belief.is_mirrored) mirror(depth);
-    forward_kinematics(robot->model(), belief.positions[i], pose_);
-    renderer.render(pose_, view.camera_pose(pose_), robot_);
-    add(read_robot(depth, robot_, camera().view->settings().watch.bias_m), sum);
-  }
-  return sum;
+  forward_kinematics(robot->model(), belief.positions[i], pose_);
+  renderer.render(pose_, view.camera_pose(pose_), robot_);
+  return read_robot(changed_m_, robot_, camera().view->settings().watch.bias_m);
 }
 
 }  // namespace berth

@@ -39,13 +39,15 @@ class RobotInImages {
   /// As the scene says.
   const CameraBelief& given() const { return given_; }
 
-  /// All frames together, with readings that near_m and far_m leave out counted too: a wrong scale
-  /// takes all of them out of these limits. Throws std::runtime_error where an image cannot be read
-  /// again.
+  /// All frames together. Throws as depth_m() does.
   RobotReadings readings(const CameraBelief& belief);
 
-  /// Image number `frame` of a camera, near_m and far_m not applied; empty where it has none or its
-  /// size is not this camera's.
+  /// Of frames()[i] alone.
+  RobotReadings readings(const CameraBelief& belief, std::size_t i);
+
+  /// Image number `frame` of a camera, with readings that near_m and far_m leave out: a wrong
+  /// scale takes all of them out of these limits. Empty where it has none or its size is not this
+  /// camera's. Throws std::runtime_error where it cannot be read again.
   const DepthImage& depth_m(std::size_t camera, std::size_t frame);
 
  private:
@@ -55,6 +57,7 @@ class RobotInImages {
   CameraBelief given_;
   /// By camera and frame.
   std::map<std::pair<std::size_t, std::size_t>, DepthImage> depth_m_;
+  DepthImage changed_m_;
   RobotPose pose_;
   RobotImage robot_;
 };

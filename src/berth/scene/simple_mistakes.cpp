@@ -31,18 +31,18 @@ class Mistakes {
 
  private:
   template <class Change>
-  void add(const char* kind, std::string as_if, const Change& change) {
+  void add(std::string as_if, const Change& change) {
     CameraBelief corrected = given_;
     change(corrected);
-    found_.push_back({kind, std::move(as_if), std::move(corrected)});
+    found_.push_back({std::move(as_if), std::move(corrected)});
   }
   void add_pose(std::string as_if, const Pose& X_PC) {
-    add("pose", std::move(as_if), [&](CameraBelief& belief) { belief.mount.X_PC = X_PC; });
+    add(std::move(as_if), [&](CameraBelief& belief) { belief.mount.X_PC = X_PC; });
   }
 
   void add_depths() {
     for (const double factor : {10.0, 0.1, 100.0, 0.01, 1000.0, 0.001}) {
-      add("depth", fmt::format("depth_scale were {:.6g}", factor * camera_.source.depth_scale_m),
+      add(fmt::format("depth_scale were {:.6g}", factor * camera_.source.depth_scale_m),
           [&](CameraBelief& belief) { belief.depth_factor = factor; });
     }
   }
@@ -50,8 +50,7 @@ class Mistakes {
   void add_focal_lengths() {
     for (const double factor : {0.5, 2.0}) {
       const Camera& camera = given_.mount.camera;
-      add("focal length",
-          fmt::format("the focal length were {:.6g} px", factor * camera.fx_px),
+      add(fmt::format("the focal length were {:.6g} px", factor * camera.fx_px),
           [&](CameraBelief& belief) {
             belief.mount.camera.fx_px *= factor;
             belief.mount.camera.fy_px *= factor;
@@ -111,13 +110,16 @@ class Mistakes {
   }
 
   void add_images() {
-    add("images", "the images were mirrored from left to right", [](CameraBelief& belief) {
+    add("the images were mirrored from left to right", [](CameraBelief& belief) {
       belief.is_mirrored = true;
     });
     for (std::size_t c = 0; c < scene_.cameras.size(); ++c) {
       if (c == given_.images_of) continue;
-      add("images", fmt::format("the images were those of camera {}", name_of(c)),
+      add(fmt::format("the images were those of camera {}", name_of(c)),
           [&](CameraBelief& belief) { belief.images_of = c; });
+      if (scene_.cameras[c].view->mount().parent_link != given_.mount.parent_link) continue;
+      add_pose(fmt::format("the pose were that of camera {}", name_of(c)),
+               scene_.cameras[c].view->mount().X_PC);
     }
     add_frame_shift(1, "the joints were those of one image later");
     add_frame_shift(-1, "the joints were those of one image earlier");
@@ -127,7 +129,7 @@ class Mistakes {
   void add_frame_shift(int shift, const char* as_if) {
     const auto last = static_cast<int>(camera_.at_exposure.size()) - 1;
     if (last < 1) return;
-    add("time", as_if, [&](CameraBelief& belief) {
+    add(as_if, [&](CameraBelief& belief) {
       for (std::size_t i = 0; i < belief.positions.size(); ++i) {
         const int k = std::clamp(static_cast<int>(images_.frames()[i]) + shift, 0, last);
         if (camera_.exposure_time[k].status != TimeStatus::ok) continue;
@@ -147,22 +149,22 @@ class Mistakes {
         }
       };
     };
-    add("joints", "the joints were in degrees", scaled(kDegree_rad));
-    add("joints", "the joints had been turned from degrees to radians twice",
+    add("the joints were in degrees", scaled(kDegree_rad));
+    add("the joints had been turned from degrees to radians twice",
         scaled(1 / kDegree_rad));
   }
 
   void add_joint_orders() {
     const auto& joints = scene_.robot->model().joints;
     for (std::size_t j = 0; j + 1 < joints.size(); ++j) {
-      add("joints", fmt::format("joints {} and {} were swapped", joints[j].name, joints[j + 1].name),
+      add(fmt::format("joints {} and {} were swapped", joints[j].name, joints[j + 1].name),
           [&](CameraBelief& belief) {
             for (std::vector<double>& position : belief.positions) {
               std::swap(position[j], position[j + 1]);
             }
           });
     }
-    add("joints", "the joints' order were the other way round", [](CameraBelief& belief) {
+    add("the joints' order were the other way round", [](CameraBelief& belief) {
       for (std::vector<double>& position : belief.positions) std::ranges::reverse(position);
     });
   }

@@ -9,8 +9,6 @@ namespace berth {
 
 /// One simple mistake in a scene, and what the scene would say without it.
 struct SimpleMistake {
-  /// In one word or two, such as "depth scale"; those of one kind are corrected by different values.
-  std::string kind;
   /// Goes on after "as if ", such as "depth_scale were 0.001".
   std::string as_if;
   CameraBelief corrected;
