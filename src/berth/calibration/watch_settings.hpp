@@ -12,7 +12,7 @@ struct WatchSettings {
   /// A frame in which a smaller share of the robot's readings lies at its surface
   /// (RobotReadings::at_robot) speaks for an implausible camera; 0 is off. The default lies in the
   /// middle between good scenes and mistakes (figures in docs/calibration.md).
-  double min_at_robot = 0.2;
+  double min_at_robot = 0.02;
   /// T of a frame (RobotReadings::seen_through) above this speaks for a camera that moved; 0 is
   /// off.
   double max_seen_through = 0;

@@ -13,8 +13,8 @@ namespace {
 
 /// Explanations that are this near to the best one are told beside it.
 constexpr double kAlike = 0.05;
-/// One that has most of the robot outside of the image counts as if it saw this share of what the
-/// best of them sees.
+/// One that has most of the robot outside of the image counts as if it saw this share of what fits
+/// in the best of them.
 constexpr double kLeastSeen = 0.25;
 
 int with_reading(const RobotReadings& readings) {
@@ -92,7 +92,7 @@ std::vector<Tried> tried_mistakes(const std::vector<SimpleMistake>& mistakes,
   int most = 0;
   for (const SimpleMistake& mistake : mistakes) {
     all.push_back({&mistake, images.readings(mistake.corrected)});
-    most = std::max(most, with_reading(all.back().readings));
+    most = std::max(most, all.back().readings.at_surface);
   }
   const double least_seen = std::max<double>(kLeastSeen * most, kLeastJudgedPixels);
   for (Tried& one : all) one.share = share_at_robot(one.readings, least_seen);
