@@ -9,13 +9,15 @@ namespace berth {
 /// hold it in the same way: with k above n / 2 both cannot be had at once.
 class Agreement {
  public:
-  /// As if all verdicts so far had been `state`.
-  Agreement(int agreeing, int of, bool state = false)
-      : agreeing_(agreeing),
-        last_(static_cast<std::size_t>(of), state),
-        true_(state ? of : 0),
-        state_(state) {}
+  Agreement(int agreeing, int of) : agreeing_(agreeing), last_(static_cast<std::size_t>(of)) {}
 
+  /// As if all verdicts so far had been this one.
+  void begin(bool verdict) {
+    last_.assign(last_.size(), verdict);
+    true_ = verdict ? static_cast<int>(last_.size()) : 0;
+    state_ = verdict;
+  }
+  /// Before n verdicts were given, the missing ones are false.
   void add(bool verdict) {
     true_ += static_cast<int>(verdict) - static_cast<int>(last_[next_]);
     last_[next_] = verdict;
@@ -29,8 +31,8 @@ class Agreement {
   int agreeing_;
   std::vector<bool> last_;
   std::size_t next_ = 0;
-  int true_;
-  bool state_;
+  int true_ = 0;
+  bool state_ = false;
 };
 
 }  // namespace berth

@@ -1,6 +1,7 @@
 #include "berth/calibration/pose_watch.hpp"
 
 #include <limits>
+#include <utility>
 
 namespace berth {
 namespace {
@@ -22,7 +23,8 @@ const WatchSettings& checked(const WatchSettings& settings) {
 PoseWatch::PoseWatch(const WatchSettings& settings, MeasureDisplacement measure)
     : settings_(checked(settings)),
       by_seen_through_(settings.agreeing_frames, settings.frames),
-      by_displacement_(kAgreeingChecks, kChecks) {
+      by_displacement_(kAgreeingChecks, kChecks),
+      by_place_(settings.agreeing_frames, settings.frames) {
   state_.is_on = settings.is_on();
   if (settings.max_displacement_m == 0) return;
   if (!measure) {
@@ -59,12 +61,12 @@ void PoseWatch::judge_place(const RobotReadings& readings) {
   state_.at_robot = tells ? readings.at_robot() : std::numeric_limits<double>::quiet_NaN();
   if (!tells) return;
   const bool verdict = state_.at_robot < settings_.min_at_robot;
-  if (by_place_) {
-    by_place_->add(verdict);
+  if (std::exchange(has_place_verdict_, true)) {
+    by_place_.add(verdict);
   } else {
-    by_place_.emplace(settings_.agreeing_frames, settings_.frames, verdict);
+    by_place_.begin(verdict);
   }
-  state_.is_implausible = by_place_->state();
+  state_.is_implausible = by_place_.state();
 }
 
 const CameraWatch& PoseWatch::pass_over() {

@@ -53,8 +53,8 @@ class PoseWatch {
   CameraWatch state_;
   Agreement by_seen_through_;
   Agreement by_displacement_;
-  /// None before the first verdict.
-  std::optional<Agreement> by_place_;
+  Agreement by_place_;
+  bool has_place_verdict_ = false;
   std::optional<DisplacementCheck> check_;
   std::optional<double> begun_s_;
 };
