@@ -60,6 +60,7 @@ set(BERTH_PUBLIC_HEADERS
   berth/scene/calibration_table.hpp
   berth/scene/frame_result.hpp
   berth/scene/open_scene.hpp
+  berth/scene/plausibility.hpp
   berth/scene/result_json.hpp
   berth/scene/result_table.hpp
   berth/scene/scene_file.hpp

@@ -21,6 +21,9 @@ namespace fs = std::filesystem;
 /// Such as "moved" or "moved: 31 % of the robot seen through, off by 0.054 m".
 std::string trouble_text(const CameraState& state) {
   std::string text(name_of(state.status));
+  if (state.status == CameraStatus::implausible && !std::isnan(state.watch.at_robot)) {
+    return text + fmt::format(": {:.0f} % at the robot's surface", 100 * state.watch.at_robot);
+  }
   if (state.status != CameraStatus::moved) return text;
   const char* before = ": ";
   if (!std::isnan(state.watch.seen_through)) {
@@ -41,7 +44,8 @@ std::string cameras_text(const FrameResult& result) {
   for (const CameraResult& camera : result.cameras) {
     text += before + camera.name;
     before = ", ";
-    const bool is_said = camera.state.status == CameraStatus::moved || !result.asks_images;
+    const bool is_said = camera.state.status == CameraStatus::moved ||
+                         camera.state.status == CameraStatus::implausible || !result.asks_images;
     if (camera.state.status != CameraStatus::ok && is_said) {
       text += fmt::format(" ({})", trouble_text(camera.state));
     }

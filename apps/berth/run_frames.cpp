@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <set>
 #include <stdexcept>
 #include <system_error>
 
@@ -53,6 +54,32 @@ void draw(const fs::path& folder, const OpenScene& scene, SceneRun& run,
                  result.link_is_moved});
 }
 
+void say(const OpenScene& scene, const std::string& text) {
+  if (!text.empty()) fmt::print(stderr, "{}: {}\n", scene.file.string(), text);
+}
+
+/// Each camera that becomes implausible later than at its start, once.
+class LateImplausible {
+ public:
+  explicit LateImplausible(const SceneRun& run) {
+    for (const CameraPlausibility& camera : run.plausibility()) {
+      if (camera.is_implausible) said_.insert(camera.camera);
+    }
+  }
+  void look(const OpenScene& scene, const FrameResult& result) {
+    for (const CameraResult& camera : result.cameras) {
+      if (camera.state.status != CameraStatus::implausible) continue;
+      if (!said_.insert(camera.name).second) continue;
+      say(scene, fmt::format("camera {}: from its image {} on the robot is not where it should be; "
+                             "its images are not used",
+                             camera.name, camera.frame));
+    }
+  }
+
+ private:
+  std::set<std::string> said_;
+};
+
 }  // namespace
 
 OpenScene open_scene_over(const fs::path& file, const EvaluationArguments& arguments) {
@@ -71,6 +98,7 @@ void make_folders(const OpenScene& scene, const fs::path& folder) {
 
 void each_frame(const OpenScene& scene, SceneRun& run, const char* doing,
                 const std::function<void()>& take) {
+  for (const CameraPlausibility& camera : run.plausibility()) say(scene, text_of(camera));
   ProgressBar progress(doing, scene.frame_count);
   while (run.next()) {
     stop_if_interrupted();
@@ -85,8 +113,10 @@ void run_frames(const OpenScene& scene, const BackendChoice& where, const fs::pa
   SceneRun run(scene, where, stop_if_interrupted);
   const bool draws = !picture_folder.empty();
   if (draws) make_folders(scene, picture_folder);
+  LateImplausible late(run);
   each_frame(scene, run, "run", [&] {
     const FrameResult result = run.ask(repeat);
+    late.look(scene, result);
     if (draws) draw(picture_folder, scene, run, result);
     take(result);
   });

@@ -63,6 +63,47 @@ TEST(PoseWatch, HasMovedOnceKOfNFramesSayItAndIsBackOnceKDoNot) {
   EXPECT_FALSE(camera.look(0.05).has_moved);
 }
 
+TEST(PoseWatch, ARobotThatIsNotThereIsImplausibleFromTheFirstFrameOn) {
+  Watched camera({.min_at_robot = 0.1, .agreeing_frames = 3, .frames = 4});
+  EXPECT_FALSE(camera.look_at_nothing().is_implausible);
+  const CameraWatch& state = camera.look(0.95);
+  EXPECT_TRUE(state.is_implausible);
+  EXPECT_FALSE(state.is_trusted());
+  EXPECT_FALSE(state.has_moved);
+  EXPECT_FALSE(state.is_on);
+  EXPECT_NEAR(state.at_robot, 0.05, 1e-3);
+  EXPECT_TRUE(camera.look(0.5).is_implausible);
+  EXPECT_TRUE(camera.look(0.5).is_implausible);
+  EXPECT_FALSE(camera.look(0.5).is_implausible);
+}
+
+TEST(PoseWatch, OneThatWasPlausibleIsImplausibleOnceKOfNFramesSayIt) {
+  Watched camera({.min_at_robot = 0.1, .agreeing_frames = 3, .frames = 4});
+  for (int i = 0; i < 5; ++i) EXPECT_FALSE(camera.look(0.85).is_implausible);
+  EXPECT_FALSE(camera.look(1).is_implausible);
+  EXPECT_FALSE(camera.look(1).is_implausible);
+  EXPECT_TRUE(std::isnan(camera.watch.pass_over().at_robot));
+  EXPECT_TRUE(camera.look(1).is_implausible);
+}
+
+TEST(PoseWatch, ARobotThatIsHiddenIsNotImplausible) {
+  Watched camera({.min_at_robot = 0.1});
+  EXPECT_TRUE(camera.look(1, 0.9).is_hidden);
+  EXPECT_FALSE(camera.look(1, 0.9).is_implausible);
+  EXPECT_TRUE(std::isnan(camera.look(1, 0.9).at_robot));
+  EXPECT_FALSE(camera.look(0, 0.5).is_hidden);
+  EXPECT_NEAR(camera.look(0, 0.5).at_robot, 1, 1e-9);
+  camera.look(0, 0.9);
+  EXPECT_FALSE(camera.watch.pass_over().is_hidden);
+}
+
+TEST(PoseWatch, WithTheLimitAtZeroNothingIsImplausible) {
+  Watched camera({.min_at_robot = 0});
+  EXPECT_FALSE(camera.look(1).is_implausible);
+  EXPECT_TRUE(std::isnan(camera.look(1).at_robot));
+  EXPECT_FALSE(camera.look(1, 0.9).is_hidden);
+}
+
 TEST(PoseWatch, AFrameThatSaysNothingNeitherRaisesNorClears) {
   Watched camera(kBySeenThrough);
   const auto say_nothing = [&] {

@@ -39,8 +39,9 @@ class MovedCamera : public ::testing::Test {
     observer.observe(depth_m_, camera_.at_exposure[kFrame], frame, time);
     return frame;
   }
-  static void expect_withheld(const Answer& answer) {
-    EXPECT_EQ(answer.time.status, TimeStatus::camera_moved) << name_of(answer.time.status);
+  static void expect_withheld(const Answer& answer,
+                              TimeStatus status = TimeStatus::camera_moved) {
+    EXPECT_EQ(answer.time.status, status) << name_of(answer.time.status);
     ASSERT_FALSE(answer.distances.links.empty());
     for (const LinkDistance& link : answer.distances.links) {
       EXPECT_EQ(link.status, LinkStatus::untimely);
@@ -70,6 +71,26 @@ TEST_F(MovedCamera, NoMethodAnswersFromItsFrame) {
     expect_withheld(asker.ask(frame, frame.stamp_s + 0.01));
     expect_withheld(asker.ask(frame, frame.stamp_s + 10));
     expect_withheld(asker.ask(frame, camera_.at_exposure[3]));
+  }
+}
+
+TEST_F(MovedCamera, NorFromOneThatIsImplausible) {
+  for (const Method method : {Method::mesh, Method::exact}) {
+    const auto robot = robot_with(method);
+    // Without a limit that somebody set.
+    Observer observer(view_of(robot, 1.2, {}));
+    Frame frame;
+    DepthImage far_m = depth_m_;
+    for (float& z_m : far_m.pixels()) z_m *= 10;
+    observer.observe(far_m, camera_.at_exposure[kFrame], frame);
+    EXPECT_FALSE(frame.watch.is_implausible) << "no robot in the image, no verdict";
+    Observer other(view_of(robot, 0, {}));
+    other.observe(far_m, camera_.at_exposure[kFrame], frame);
+    EXPECT_TRUE(frame.watch.is_implausible);
+    Asker asker(robot);
+    expect_withheld(asker.ask(frame), TimeStatus::camera_implausible);
+    expect_withheld(asker.ask(frame, frame.stamp_s + 0.01), TimeStatus::camera_implausible);
+    EXPECT_EQ(camera_state(&frame, frame.stamp_s, {}).status, CameraStatus::implausible);
   }
 }
 

@@ -14,9 +14,12 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 static_assert(static_cast<int>(berth::LinkStatus::not_seen) == LinkDistance::NOT_SEEN);
 static_assert(static_cast<int>(berth::LinkStatus::untimely) == LinkDistance::UNTIMELY);
 static_assert(static_cast<int>(berth::TimeStatus::camera_moved) == LinkDistances::CAMERA_MOVED);
+static_assert(static_cast<int>(berth::TimeStatus::camera_implausible) ==
+              LinkDistances::CAMERA_IMPLAUSIBLE);
 static_assert(static_cast<int>(berth::TimeStatus::stale_frame) == LinkDistances::STALE_FRAME);
 static_assert(berth::kTimeStatusCount == LinkDistances::NO_ROBOT);
 static_assert(static_cast<int>(berth::CameraStatus::moved) == berth_msgs::msg::CameraState::MOVED);
+static_assert(static_cast<int>(berth::CameraStatus::hidden) == berth_msgs::msg::CameraState::HIDDEN);
 
 geometry_msgs::msg::Point point_of(const Eigen::Vector3d& p) {
   geometry_msgs::msg::Point point;

@@ -246,6 +246,12 @@ void LiveNode::report_camera(std::size_t camera, DiagnosticStatusWrapper& status
     status.add("seen through the robot", state.watch.seen_through);
     status.add("robot displaced by, m", state.watch.displacement_m);
   }
+  if (state.watch.is_implausible) {
+    status.add("share of readings at the robot's surface", state.watch.at_robot);
+  }
+  if (state.status == berth::CameraStatus::hidden) {
+    return status.summary(DiagnosticStatus::WARN, "the robot is hidden");
+  }
   if (state.status == berth::CameraStatus::ok) return status.summary(DiagnosticStatus::OK, "ok");
   const std::string_view why = state.status == berth::CameraStatus::untimely
                                    ? name_of(state.time)

@@ -219,10 +219,11 @@ std::vector<CameraSettings> NodeSettings::cameras_of(const GivenParameters& give
           apply_given(given, camera.name + "." + group, settings);
         },
         camera.view);
-    // A robot that was taken out cannot tell whether the camera was bumped.
+    // A robot that was taken out cannot tell whether it is where it should be.
     if (camera.is_filtered) {
       camera.view.watch.max_seen_through = 0;
       camera.view.watch.max_displacement_m = 0;
+      camera.view.watch.min_at_robot = 0;
     }
   }
   return cameras;

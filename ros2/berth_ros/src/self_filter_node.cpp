@@ -28,7 +28,7 @@ class SelfFilterNode : public LiveNode {
   void on_frame(std::size_t, const berth::Frame& frame,
                 const std::shared_ptr<const Image>& image) override {
     // Without the robot's pose nobody knows which pixels are the robot's: no image is better.
-    if (frame.time.status != berth::TimeStatus::ok || frame.watch.has_moved) return;
+    if (frame.time.status != berth::TimeStatus::ok || !frame.watch.is_trusted()) return;
     const berth::Camera& camera = frame.view->camera();
     if (world_depth_.getNumSubscribers() > 0) world_depth_.publish(without_robot(frame, *image, camera));
     if (robot_mask_->get_subscription_count() > 0) robot_mask_->publish(mask_of(frame, *image));

@@ -11,6 +11,12 @@ class Agreement {
  public:
   Agreement(int agreeing, int of) : agreeing_(agreeing), last_(static_cast<std::size_t>(of)) {}
 
+  /// As if all verdicts so far had been this one.
+  void begin(bool verdict) {
+    last_.assign(last_.size(), verdict);
+    true_ = verdict ? static_cast<int>(last_.size()) : 0;
+    state_ = verdict;
+  }
   /// Before n verdicts were given, the missing ones are false.
   void add(bool verdict) {
     true_ += static_cast<int>(verdict) - static_cast<int>(last_[next_]);

@@ -1,17 +1,12 @@
 #include "berth/calibration/pose_watch.hpp"
 
 #include <limits>
-
-#include "berth/calibration/seen_through.hpp"
+#include <utility>
 
 namespace berth {
 namespace {
 
 constexpr int kAgreeingChecks = 2, kChecks = 3;
-
-bool tells_seen_through(const RobotReadings& robot) {
-  return robot.judged() >= kLeastJudgedPixels && robot.hidden_share() <= kMostHiddenForSeenThrough;
-}
 
 bool tells_displacement(const RobotReadings& robot) {
   return robot.judged() + robot.before >= kLeastJudgedPixels &&
@@ -28,7 +23,8 @@ const WatchSettings& checked(const WatchSettings& settings) {
 PoseWatch::PoseWatch(const WatchSettings& settings, MeasureDisplacement measure)
     : settings_(checked(settings)),
       by_seen_through_(settings.agreeing_frames, settings.frames),
-      by_displacement_(kAgreeingChecks, kChecks) {
+      by_displacement_(kAgreeingChecks, kChecks),
+      by_place_(settings.agreeing_frames, settings.frames) {
   state_.is_on = settings.is_on();
   if (settings.max_displacement_m == 0) return;
   if (!measure) {
@@ -40,9 +36,11 @@ PoseWatch::PoseWatch(const WatchSettings& settings, MeasureDisplacement measure)
 
 const CameraWatch& PoseWatch::look(DepthView depth_m, const RobotImage& robot,
                                    const JointState& at_exposure) {
-  if (!state_.is_on) return state_;
+  if (!state_.is_on && settings_.min_at_robot == 0) return state_;
   const RobotReadings readings = read_robot(depth_m, robot, settings_.bias_m);
-  const bool tells = tells_seen_through(readings);
+  judge_place(readings);
+  if (!state_.is_on) return state_;
+  const bool tells = readings.tells();
   state_.seen_through =
       tells ? readings.seen_through() : std::numeric_limits<double>::quiet_NaN();
   if (tells && settings_.max_seen_through > 0) {
@@ -56,7 +54,24 @@ const CameraWatch& PoseWatch::look(DepthView depth_m, const RobotImage& robot,
   return state_;
 }
 
+void PoseWatch::judge_place(const RobotReadings& readings) {
+  if (settings_.min_at_robot == 0) return;
+  const bool tells = readings.tells();
+  state_.is_hidden = readings.is_hidden();
+  state_.at_robot = tells ? readings.at_robot() : std::numeric_limits<double>::quiet_NaN();
+  if (!tells) return;
+  const bool verdict = state_.at_robot < settings_.min_at_robot;
+  if (std::exchange(has_place_verdict_, true)) {
+    by_place_.add(verdict);
+  } else {
+    by_place_.begin(verdict);
+  }
+  state_.is_implausible = by_place_.state();
+}
+
 const CameraWatch& PoseWatch::pass_over() {
+  state_.is_hidden = false;
+  state_.at_robot = std::numeric_limits<double>::quiet_NaN();
   state_.seen_through = std::numeric_limits<double>::quiet_NaN();
   take_displacement();
   return state_;

@@ -4,6 +4,7 @@
 
 #include "berth/calibration/agreement.hpp"
 #include "berth/calibration/displacement_check.hpp"
+#include "berth/calibration/seen_through.hpp"
 #include "berth/calibration/watch_settings.hpp"
 #include "berth/types/camera_watch.hpp"
 #include "berth/types/image.hpp"
@@ -12,17 +13,18 @@
 
 namespace berth {
 
-/// A frame says nothing of T where fewer of the pixels looked at are judged, or where a larger
-/// share of the robot is hidden: what is left of it is outline then. For D less may be hidden,
-/// since what hides the robot pulls at the fit.
-inline constexpr int kLeastJudgedPixels = 100;
-inline constexpr double kMostHiddenForSeenThrough = 0.8;
+/// For D less may be hidden than for T, since what hides the robot pulls at the fit.
 inline constexpr double kMostHiddenForDisplacement = 0.4;
 
 /// Tells whether one camera stands where it is said to, from the robot in its images. It has moved
 /// once T or D says so, and is back once neither does; T and D each by k of their last n verdicts
 /// (WatchSettings; two of three for D). A frame that says nothing is no verdict: it neither raises
-/// nor clears. One for each camera, used by one thread.
+/// nor clears.
+///
+/// It also tells, without anything that was learned, that a camera is implausible: the camera sees
+/// through nearly all of the robot. The first frame that says something decides at once, so that no
+/// answer stands on a mistake of the scene; then k of n frames do. One for each camera, used by one
+/// thread.
 class PoseWatch {
  public:
   /// Throws std::invalid_argument for settings outside of their domain, and where max_displacement_m
@@ -43,6 +45,7 @@ class PoseWatch {
   const CameraWatch& wait();
 
  private:
+  void judge_place(const RobotReadings& readings);
   void take_displacement();
   bool is_due(double stamp_s) const;
 
@@ -50,6 +53,8 @@ class PoseWatch {
   CameraWatch state_;
   Agreement by_seen_through_;
   Agreement by_displacement_;
+  Agreement by_place_;
+  bool has_place_verdict_ = false;
   std::optional<DisplacementCheck> check_;
   std::optional<double> begun_s_;
 };

@@ -43,6 +43,16 @@ void read_row(const float* reading_m, const float* model_m, const LinkId* id, in
 
 double RobotReadings::seen_through() const { return share(behind, judged()); }
 
+double RobotReadings::at_robot() const { return share(at_surface, judged()); }
+
+bool RobotReadings::tells() const {
+  return judged() >= kLeastJudgedPixels && hidden_share() <= kMostHiddenForSeenThrough;
+}
+
+bool RobotReadings::is_hidden() const {
+  return hidden >= kLeastJudgedPixels && hidden_share() > kMostHiddenForSeenThrough;
+}
+
 double RobotReadings::hidden_share() const {
   return share(hidden, hidden + before + at_surface + behind);
 }

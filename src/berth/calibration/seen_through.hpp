@@ -30,9 +30,21 @@ struct RobotReadings {
   int judged() const { return at_surface + behind; }
   /// T, the share of the judged pixels that are seen through; NaN where none is judged.
   double seen_through() const;
+  /// The share of the judged pixels that are at the surface; NaN where none is judged.
+  double at_robot() const;
+  /// Whether enough is judged, and little enough hidden, for these shares to tell anything: what is
+  /// left of a robot that is hidden further is its outline.
+  bool tells() const;
+  /// Whether it is too much hidden for that.
+  bool is_hidden() const;
   /// The share of the pixels with a reading that are hidden; NaN where there is none.
   double hidden_share() const;
 };
+
+/// A frame says nothing of T where fewer of the pixels looked at are judged, or where a larger
+/// share of the robot is hidden.
+inline constexpr int kLeastJudgedPixels = 100;
+inline constexpr double kMostHiddenForSeenThrough = 0.8;
 
 /// Both images have one size. Looks at rows that lie evenly over the robot's extent in the image,
 /// at no more than kMostReadPixels pixels. Readings are known to lie `bias_m` behind the surface.

@@ -6,9 +6,13 @@
 
 namespace berth {
 
-/// When a camera counts as moved. Off by default: what is normal is learnt from frames of the
-/// camera as it is meant to stand (learned_limits), by teach-in.
+/// When a camera counts as implausible, and when as moved. The latter is off by default: what is
+/// normal is learnt from frames of the camera as it is meant to stand (learned_limits), by teach-in.
 struct WatchSettings {
+  /// A frame in which a smaller share of the robot's readings lies at its surface
+  /// (RobotReadings::at_robot) speaks for an implausible camera; 0 is off. The default lies in the
+  /// middle between good scenes and mistakes (figures in docs/calibration.md).
+  double min_at_robot = 0.02;
   /// T of a frame (RobotReadings::seen_through) above this speaks for a camera that moved; 0 is
   /// off.
   double max_seen_through = 0;
@@ -25,6 +29,7 @@ struct WatchSettings {
   /// last three have to agree.
   double check_every_s = 0.4;
 
+  /// Whether it is watched for bumps.
   bool is_on() const { return max_seen_through > 0 || max_displacement_m > 0; }
 };
 
@@ -34,6 +39,10 @@ inline constexpr int kMostWatchedFrames = 1000;
 /// The list of these settings.
 template <SettingsOf<WatchSettings> Settings, class Visitor>
 void visit_settings(Settings& s, Visitor&& visit) {
+  visit({"min_at_robot", {.most = 1},
+         "a camera is implausible where a smaller share of the robot's readings lies within 5 cm of "
+         "its surface, or where one simple mistake explains where they lie; 0 is off"},
+        s.min_at_robot);
   visit({"max_seen_through", {.most = 1},
          "a camera counts as moved where a larger share of the robot's readings lies 5 cm or more "
          "behind its surface; 0 is off"},

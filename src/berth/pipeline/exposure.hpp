@@ -23,7 +23,7 @@ struct Exposure {
   double stamp_s = 0;
   /// Unless its status is ok there is no robot and no reading in the frame, and no answer from it.
   FrameTime time;
-  /// Where the camera has moved, there is no answer either.
+  /// Where the camera has moved or is implausible, there is no answer either.
   CameraWatch watch;
   /// The camera's pose in the robot's root link, and the robot's, when the image was exposed.
   Pose X_BC = Pose::Identity();

@@ -9,7 +9,8 @@ namespace berth {
 namespace {
 
 bool is_used(CameraStatus status) {
-  return status == CameraStatus::ok || status == CameraStatus::blind;
+  return status == CameraStatus::ok || status == CameraStatus::blind ||
+         status == CameraStatus::hidden;
 }
 
 }  // namespace
@@ -23,6 +24,9 @@ CameraState camera_state(const Exposure& exposure, double now_s, const TimeSetti
   state.watch = exposure.watch;
   if (state.time != TimeStatus::ok) {
     state.status = CameraStatus::untimely;
+  } else if (exposure.watch.is_implausible) {
+    state.status = CameraStatus::implausible;
+    state.time = TimeStatus::camera_implausible;
   } else if (exposure.watch.has_moved) {
     state.status = CameraStatus::moved;
     state.time = TimeStatus::camera_moved;
@@ -32,7 +36,7 @@ CameraState camera_state(const Exposure& exposure, double now_s, const TimeSetti
   } else if (!(state.age_s <= settings.max_frame_age_s)) {
     state.status = CameraStatus::too_old;
   } else {
-    state.status = CameraStatus::ok;
+    state.status = exposure.watch.is_hidden ? CameraStatus::hidden : CameraStatus::ok;
   }
   return state;
 }
@@ -40,7 +44,7 @@ CameraState camera_state(const Exposure& exposure, double now_s, const TimeSetti
 CameraState camera_state(const Frame* frame, double now_s, const TimeSettings& settings) {
   if (!frame) return {};
   CameraState state = camera_state(*frame, now_s, settings);
-  if (state.status == CameraStatus::ok && frame->is_blind) state.status = CameraStatus::blind;
+  if (is_used(state.status) && frame->is_blind) state.status = CameraStatus::blind;
   return state;
 }
 

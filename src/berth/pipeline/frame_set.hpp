@@ -24,7 +24,7 @@ class FrameSet {
  public:
   /// Camera k's newest frame, or null where it has none yet. Each belongs to another View of one
   /// robot, whose method is `mesh`, and has to outlive the questions. A frame that is untimely, of
-  /// a camera that moved, or too old at `now_s`, is left out: its readings are not known any more, and what it would have
+  /// a camera that moved or is implausible, or too old at `now_s`, is left out: its readings are not known any more, and what it would have
   /// seen free is hidden again. Without now_s the newest stamp is taken for now. Nobody may ask
   /// meanwhile. Reuses its memory.
   void assign(std::span<const Frame* const> frames, const TimeSettings& settings,

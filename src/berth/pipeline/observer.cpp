@@ -76,7 +76,7 @@ void Observer::learn_background(DepthView depth_m, const Frame& frame) {
   require_size(view_->camera(), depth_m);
   const SensorSettings& settings = background_settings();
   // Without its robot, or with the robot elsewhere, the image would give the arm for a background.
-  if (frame.time.status != TimeStatus::ok || frame.watch.has_moved) return;
+  if (frame.time.status != TimeStatus::ok || !frame.watch.is_trusted()) return;
   background_.learn(view_->camera(), depth_m, frame.robot, frame.obstacles.fate, settings);
 }
 

@@ -10,6 +10,7 @@
 #include "berth/calibration/frame_displacement.hpp"
 #include "berth/calibration/moved_environment.hpp"
 #include "berth/calibration/seen_through.hpp"
+#include "berth/scene/plausibility.hpp"
 #include "berth/scene/taught_robot.hpp"
 
 namespace berth {
@@ -18,11 +19,16 @@ namespace {
 /// D is measured in so many frames: it takes a tenth of a second.
 constexpr std::size_t kMostDisplacements = 10;
 
+/// Where no pose explains the images, a simple mistake may.
 void require_poses(const OpenScene& scene, const CalibrationResult& found) {
   for (const CameraCalibration& camera : found.cameras) {
     if (camera.is_found) continue;
-    throw std::runtime_error(
-        fmt::format("{}: camera {}: {}", scene.file.string(), camera.camera, camera.refused));
+    std::string text =
+        fmt::format("{}: camera {}: {}", scene.file.string(), camera.camera, camera.refused);
+    for (const CameraPlausibility& other : find_implausible(scene)) {
+      if (other.camera == camera.camera && other.is_implausible) text += "\n" + text_of(other);
+    }
+    throw std::runtime_error(text);
   }
 }
 

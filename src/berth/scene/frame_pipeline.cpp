@@ -20,6 +20,7 @@ class CpuPipeline : public FramePipeline {
   void observe(DepthView depth_m, const JointState& at_exposure, FrameTime time) override {
     observer_.observe(depth_m, at_exposure, frame_, time);
     observer_.finish_watch(frame_);
+    mark(frame_);
   }
   const Answer& ask() override { return asker_ ? asker_->ask(frame_) : gl_asker_->ask(frame_); }
   const Exposure& exposure() const override { return frame_; }

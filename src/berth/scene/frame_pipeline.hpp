@@ -21,6 +21,8 @@ class FramePipeline {
   /// The rest is about the last image. At the joint angles of its exposure:
   virtual const Answer& ask() = 0;
   virtual const Exposure& exposure() const = 0;
+  /// Whatever its frames say from now on, the camera is implausible.
+  void distrust() { is_distrusted_ = true; }
   virtual std::array<std::int64_t, kPixelFateCount> fate_counts() = 0;
   /// The images in this program's memory; read back from the GPU at each call.
   virtual const Frame& frame() = 0;
@@ -28,6 +30,13 @@ class FramePipeline {
   virtual void learn_background(DepthView, const Frame&) {}
   /// Begins with this one.
   virtual void set_background(DepthView) {}
+
+ protected:
+  /// For each frame, once it is observed.
+  void mark(Exposure& exposure) const { exposure.watch.is_implausible |= is_distrusted_; }
+
+ private:
+  bool is_distrusted_ = false;
 };
 
 /// Observes on the CPU; asks on `gl` if the robot's method runs there.

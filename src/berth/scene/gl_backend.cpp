@@ -25,6 +25,7 @@ class GlPipeline : public FramePipeline {
 
   void observe(DepthView depth_m, const JointState& at_exposure, FrameTime time) override {
     observer_.observe(depth_m, at_exposure, gl_frame_, time);
+    mark(gl_frame_);
   }
   const Answer& ask() override {
     return gl_asker_ ? gl_asker_->ask(gl_frame_) : asker_->ask(frame());

@@ -87,6 +87,7 @@ Json camera_json(const CameraResult& camera, bool is_alone) {
     json["seen_through"] = json_of(watch.seen_through);
     json["displacement_m"] = json_of(watch.displacement_m);
   }
+  if (watch.is_implausible) json["at_robot"] = json_of(watch.at_robot);
   if (!is_alone && camera.self_filter) json["self_filter"] = fates_json(*camera.self_filter);
   return json;
 }

@@ -34,12 +34,9 @@ Eigen::Quaterniond read_quaternion(const YamlValue& value) {
   return rotation.normalized();
 }
 
-/// As in a URDF: about the fixed axes x, then y, then z.
-Eigen::Quaterniond read_rpy(const YamlValue& value) {
+Eigen::Vector3d read_rpy(const YamlValue& value) {
   const std::vector<double> rpy_rad = value.numbers(3);
-  return Eigen::AngleAxisd(rpy_rad[2], Eigen::Vector3d::UnitZ()) *
-         Eigen::AngleAxisd(rpy_rad[1], Eigen::Vector3d::UnitY()) *
-         Eigen::AngleAxisd(rpy_rad[0], Eigen::Vector3d::UnitX());
+  return {rpy_rad[0], rpy_rad[1], rpy_rad[2]};
 }
 
 std::vector<std::filesystem::path> read_depth_files(const YamlValue& value) {
@@ -85,7 +82,13 @@ Pose read_pose(const YamlMap& pose) {
                    "either quaternion_xyzw or rpy");
   }
   return Eigen::Translation3d(xyz_m[0], xyz_m[1], xyz_m[2]) *
-         (quaternion ? read_quaternion(*quaternion) : read_rpy(*rpy));
+         (quaternion ? read_quaternion(*quaternion) : rotation_of_rpy(read_rpy(*rpy)));
+}
+
+Eigen::Quaterniond rotation_of_rpy(const Eigen::Vector3d& rpy_rad) {
+  return Eigen::AngleAxisd(rpy_rad.z(), Eigen::Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(rpy_rad.y(), Eigen::Vector3d::UnitY()) *
+         Eigen::AngleAxisd(rpy_rad.x(), Eigen::Vector3d::UnitX());
 }
 
 SceneCamera read_scene_camera(const YamlValue& value, const ViewSettings& settings) {
@@ -99,6 +102,7 @@ SceneCamera read_scene_camera(const YamlValue& value, const ViewSettings& settin
   camera.info = map.at("info").path();
   camera.parent_link = pose.at("parent").text();
   camera.X_PC = read_pose(pose);
+  if (const auto rpy = pose.find("rpy")) camera.rpy_rad = read_rpy(*rpy);
   camera.depth = read_depth_files(map.at("depth"));
   if (const auto stamps = map.find("stamps")) {
     camera.stamps_s = read_stamps(*stamps, camera.depth.size());

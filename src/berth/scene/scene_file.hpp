@@ -21,6 +21,8 @@ struct SceneCamera {
   std::string parent_link;
   /// The pose of the optical frame C in the parent link's frame P; NaN until it is read.
   Pose X_PC = unset_pose();
+  /// As the file has them; none where it has a quaternion.
+  std::optional<Eigen::Vector3d> rpy_rad;
   std::vector<std::filesystem::path> depth;
   double depth_scale_m = 0.001;
   /// Added to each reading, once it is in metres.

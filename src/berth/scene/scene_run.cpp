@@ -18,11 +18,22 @@ std::vector<bool> links_that_move(const RobotModel& model) {
   return moved;
 }
 
+/// Throws where no camera is left.
+std::vector<CameraPlausibility> plausible_cameras(const OpenScene& scene) {
+  std::vector<CameraPlausibility> cameras = find_implausible(scene);
+  if (!std::ranges::all_of(cameras, &CameraPlausibility::is_implausible)) return cameras;
+  std::string text;
+  for (const CameraPlausibility& camera : cameras) {
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "\n", scene.file.string(), text_of(camera));
+  }
+  throw std::runtime_error(text);
+}
+
 }  // namespace
 
 SceneRun::SceneRun(const OpenScene& scene, const BackendChoice& where,
                    const std::function<void()>& before_image)
-    : scene_(scene), newest_(scene.cameras.size()), frames_(scene.cameras.size()) {
+    : scene_(scene), plausibility_(plausible_cameras(scene)), newest_(scene.cameras.size()), frames_(scene.cameras.size()) {
   const bool on_gl = where.backend == Backend::opengl;
   if (on_gl || runs_on_opengl(scene.robot->settings().method)) {
     gl_ = open_gl_backend(where.gl_device);
@@ -34,7 +45,11 @@ SceneRun::SceneRun(const OpenScene& scene, const BackendChoice& where,
     } catch (const std::invalid_argument& error) {
       throw std::runtime_error(fmt::format("{}: {}", scene.file.string(), error.what()));
     }
-    begin_background(i, before_image);
+    if (plausibility_[i].is_implausible) {
+      pipelines_[i]->distrust();
+    } else {
+      begin_background(i, before_image);
+    }
   }
   if (has_mesh()) asker_.emplace(scene.robot);
   plan_steps();

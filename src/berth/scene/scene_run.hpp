@@ -12,6 +12,7 @@
 #include "berth/scene/frame_result.hpp"
 #include "berth/scene/gl_backend.hpp"
 #include "berth/scene/open_scene.hpp"
+#include "berth/scene/plausibility.hpp"
 
 namespace berth {
 
@@ -26,12 +27,15 @@ class FramePipeline;
 /// With method `mesh` the images of all cameras come in the order of their stamps, and each answer
 /// is that of the newest image of every camera; with a method that compares images they come camera
 /// by camera, and each answer is that of one image.
+///
+/// No image of a camera that is implausible (find_implausible) is used.
 class SceneRun {
  public:
   /// The scene has to outlive it. Learns the background of the cameras that ask for one and whose
   /// scene does not name it;
   /// `before_image` is called before each of these images. Throws std::runtime_error where the
-  /// backend is not there or the scene's settings do not go with it.
+  /// backend is not there or the scene's settings do not go with it, and where all cameras are
+  /// implausible; it says why.
   explicit SceneRun(const OpenScene& scene, const BackendChoice& where = {},
                     const std::function<void()>& before_image = [] {});
   ~SceneRun();
@@ -41,6 +45,9 @@ class SceneRun {
   /// Observes the next image, and all of other cameras that have its stamp; false where there is
   /// none.
   bool next();
+
+  /// What was found of each camera before the first image.
+  const std::vector<CameraPlausibility>& plausibility() const { return plausibility_; }
 
   /// The rest is about that image. The answer, asked so often, with the times of the questions
   /// where that is more than once; valid until the next image.
@@ -75,6 +82,7 @@ class SceneRun {
   CameraResult camera_result(std::size_t camera, const Answer& answer);
 
   const OpenScene& scene_;
+  std::vector<CameraPlausibility> plausibility_;
   std::unique_ptr<GlBackend> gl_;
   /// One for each camera.
   std::vector<std::unique_ptr<FramePipeline>> pipelines_;

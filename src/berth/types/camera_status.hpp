@@ -18,10 +18,13 @@ enum class CameraStatus : std::uint8_t {
   too_old,   ///< its frame is older than TimeSettings::max_frame_age_s: not used
   blind,     ///< hardly a pixel has a reading: those there are count, but nothing is seen free
   moved,     ///< it does not stand where it should (PoseWatch): not used
+  /// the robot is not where it should be in its images (WatchSettings::min_at_robot): not used
+  implausible,
+  hidden,  ///< the robot is hidden, so that nothing tells whether it is where it should be: used
 };
 /// By enumerator.
-inline constexpr std::array<std::string_view, 6> kCameraStatusNames = {
-    "ok", "no_frame", "untimely", "too_old", "blind", "moved"};
+inline constexpr std::array<std::string_view, 8> kCameraStatusNames = {
+    "ok", "no_frame", "untimely", "too_old", "blind", "moved", "implausible", "hidden"};
 
 constexpr std::string_view name_of(CameraStatus status) {
   return kCameraStatusNames[static_cast<std::size_t>(status)];

@@ -22,13 +22,15 @@ enum class TimeStatus : std::uint8_t {
   stale_joints,     ///< the joints are too old
   no_frame,         ///< no camera has given a frame yet
   camera_moved,     ///< the camera does not stand where it should (CameraStatus::moved)
+  camera_implausible,  ///< the robot is not where it should be (CameraStatus::implausible)
 };
-inline constexpr int kTimeStatusCount = 12;
+inline constexpr int kTimeStatusCount = 13;
 /// By enumerator.
 inline constexpr std::array<std::string_view, kTimeStatusCount> kTimeStatusNames = {
     "ok",          "no_joints",       "missing_joint", "extrapolated_too_far",
     "skewed",      "stamp_went_back", "stamp_jumped",  "frame_in_future",
-    "stale_frame", "stale_joints",    "no_frame",      "camera_moved"};
+    "stale_frame", "stale_joints",    "no_frame",      "camera_moved",
+    "camera_implausible"};
 
 constexpr std::string_view name_of(TimeStatus status) {
   return kTimeStatusNames[static_cast<std::size_t>(status)];

@@ -1,0 +1,18 @@
+// Scenes in which the robot is where it should be, or nearly.
+#pragma once
+
+#include <cstdint>
+
+#include "berth/scene/open_scene.hpp"
+
+namespace berth::lab {
+
+/// The camera believed to be off by so much, in a random direction and about a random axis.
+void move_camera(OpenScene& scene, std::size_t camera, double offset_m, double angle_rad,
+                 std::uint32_t seed);
+
+/// The camera with one image alone, its `seed`-th one, and in it somebody who hides up to 90 % of
+/// the robot.
+void hide_robot(OpenScene& scene, std::size_t camera, std::uint32_t seed);
+
+}  // namespace berth::lab

@@ -1,0 +1,168 @@
+#include "berth/scene/plausibility.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "berth/pipeline/frame.hpp"
+#include "berth/scene/simple_mistakes.hpp"
+
+namespace berth {
+namespace {
+
+/// Explanations that are this near to the best one are told beside it.
+constexpr double kAlike = 0.05;
+/// One that has most of the robot outside of the image counts as if it saw this share of what fits
+/// in the best of them.
+constexpr double kLeastSeen = 0.25;
+
+int with_reading(const RobotReadings& readings) {
+  return readings.judged() + readings.before + readings.hidden;
+}
+
+/// Somebody who hides the robot is no mistake. Readings up to kHidden_m before it are counted: a
+/// robot that is nearer than it should be is one.
+double share_at_robot(const RobotReadings& readings, double least_seen) {
+  return readings.at_surface / std::max<double>(readings.judged() + readings.before, least_seen);
+}
+
+/// How many of a camera's readings there are, and whether they differ.
+struct ReadingRange {
+  std::size_t pixels = 0;
+  std::size_t readings = 0;
+  float least_m = std::numeric_limits<float>::infinity();
+  float most_m = 0;
+};
+
+ReadingRange reading_range(RobotInImages& images) {
+  ReadingRange range;
+  for (const std::size_t frame : images.frames()) {
+    for (const float z_m : images.depth_m(images.given().images_of, frame).pixels()) {
+      ++range.pixels;
+      if (std::isnan(z_m)) continue;
+      ++range.readings;
+      range.least_m = std::min(range.least_m, z_m);
+      range.most_m = std::max(range.most_m, z_m);
+    }
+  }
+  return range;
+}
+
+bool is_same(const DepthImage& a, const DepthImage& b) {
+  return std::ranges::equal(a.pixels(), b.pixels(), [](float x, float y) {
+    return x == y || (std::isnan(x) && std::isnan(y));
+  });
+}
+
+bool do_images_change(RobotInImages& images) {
+  const std::vector<std::size_t>& frames = images.frames();
+  const std::size_t camera = images.given().images_of;
+  return frames.size() < 2 || std::any_of(frames.begin() + 1, frames.end(), [&](std::size_t frame) {
+           return !is_same(images.depth_m(camera, frames.front()), images.depth_m(camera, frame));
+         });
+}
+
+/// What is wrong with images of a robot that should be in them; empty where nothing is.
+std::string dead_text(RobotInImages& images, const RobotReadings& robot) {
+  if (with_reading(robot) + robot.none < kLeastJudgedPixels) return {};
+  const ReadingRange range = reading_range(images);
+  if (static_cast<double>(range.readings) < kLeastReadings * static_cast<double>(range.pixels)) {
+    return "hardly a pixel of its images has a reading";
+  }
+  if (range.least_m == range.most_m) {
+    return fmt::format("all readings of its images are the same, {:.4g} m", range.least_m);
+  }
+  // A robot that moved cannot be at its surface in all of them.
+  if (robot.behind >= kLeastJudgedPixels && !do_images_change(images)) {
+    return "its images do not change";
+  }
+  return {};
+}
+
+struct Tried {
+  const SimpleMistake* mistake;
+  RobotReadings readings;
+  double share = 0;
+};
+
+std::vector<Tried> tried_mistakes(const std::vector<SimpleMistake>& mistakes,
+                                  RobotInImages& images) {
+  std::vector<Tried> all;
+  int most = 0;
+  for (const SimpleMistake& mistake : mistakes) {
+    all.push_back({&mistake, images.readings(mistake.corrected)});
+    most = std::max(most, all.back().readings.at_surface);
+  }
+  const double least_seen = std::max<double>(kLeastSeen * most, kLeastJudgedPixels);
+  for (Tried& one : all) one.share = share_at_robot(one.readings, least_seen);
+  std::ranges::stable_sort(all, std::greater{}, &Tried::share);
+  return all;
+}
+
+void explain(const OpenScene& scene, RobotInImages& images, CameraPlausibility& camera) {
+  const double share_now = share_at_robot(camera.readings, kLeastJudgedPixels);
+  if (share_now > 1 - kLeastGain) return;
+  const std::vector<SimpleMistake> mistakes = simple_mistakes(scene, images);
+  const std::vector<Tried> tried = tried_mistakes(mistakes, images);
+  const Tried& best = tried.front();
+  if (best.share < kFits || best.share < share_now + kLeastGain) return;
+  camera.share_then = best.share;
+  camera.as_if = best.mistake->as_if;
+  if (tried[1].share >= best.share - kAlike) camera.as_if += " or " + tried[1].mistake->as_if;
+}
+
+std::string counted_text(const RobotReadings& readings, std::size_t frames) {
+  const int seen = with_reading(readings);
+  if (seen == 0) return fmt::format("in {} of its images no pixel of the robot has a reading", frames);
+  const auto percent = [seen](int count) { return 100.0 * count / seen; };
+  return fmt::format(
+      "of the robot's readings in {} of its images {:.0f} % lie at its surface, {:.0f} % behind it, "
+      "{:.0f} % before it",
+      frames, percent(readings.at_surface), percent(readings.behind),
+      percent(readings.before + readings.hidden));
+}
+
+}  // namespace
+
+CameraPlausibility find_implausible(const OpenScene& scene, std::size_t number) {
+  const double least = scene.cameras[number].view->settings().watch.min_at_robot;
+  CameraPlausibility camera;
+  camera.camera = scene.cameras[number].source.name;
+  if (least == 0) return camera;
+  RobotInImages images(scene, number);
+  camera.frames = images.frames().size();
+  if (camera.frames == 0) return camera;
+  camera.readings = images.readings(images.given());
+  camera.dead = dead_text(images, camera.readings);
+  if (camera.dead.empty()) explain(scene, images, camera);
+  camera.is_implausible = !camera.dead.empty() || !camera.as_if.empty() ||
+                          (camera.readings.tells() && camera.readings.at_robot() < least);
+  camera.is_hidden = !camera.is_implausible && camera.readings.is_hidden();
+  return camera;
+}
+
+std::vector<CameraPlausibility> find_implausible(const OpenScene& scene) {
+  std::vector<CameraPlausibility> cameras;
+  for (std::size_t c = 0; c < scene.cameras.size(); ++c) cameras.push_back(find_implausible(scene, c));
+  return cameras;
+}
+
+std::string text_of(const CameraPlausibility& camera) {
+  if (camera.is_hidden) {
+    return fmt::format(
+        "camera {}: the robot is hidden: {:.0f} % of its readings in {} images lie before it; "
+        "nothing tells whether it is where it should be",
+        camera.camera, 100 * camera.readings.hidden_share(), camera.frames);
+  }
+  if (!camera.is_implausible) return {};
+  std::string text =
+      fmt::format("camera {}: the robot is not where it should be: {}; expected most of them at its "
+                  "surface",
+                  camera.camera, counted_text(camera.readings, camera.frames));
+  if (!camera.dead.empty()) return text + fmt::format(". The camera is dead: {}", camera.dead);
+  if (camera.as_if.empty()) return text + ". No simple mistake explains it";
+  return text + fmt::format(". {:.0f} % would, as if {}", 100 * camera.share_then, camera.as_if);
+}
+
+}  // namespace berth

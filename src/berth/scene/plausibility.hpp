@@ -1,0 +1,52 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "berth/calibration/seen_through.hpp"
+#include "berth/scene/open_scene.hpp"
+
+namespace berth {
+
+/// Whether the robot is where it should be in one camera's images, and if not, which simple mistake
+/// in the scene would explain where it is.
+struct CameraPlausibility {
+  std::string camera;
+  /// Nothing may be concluded from its images.
+  bool is_implausible = false;
+  /// Something hides the robot in all images that were looked at: nothing tells whether it is where
+  /// it should be. No mistake.
+  bool is_hidden = false;
+  /// What was counted in the images that were looked at, and how many these are.
+  RobotReadings readings;
+  std::size_t frames = 0;
+  /// What is wrong, where the images alone tell: such as "all its readings are the same". Empty
+  /// where they do not.
+  std::string dead;
+  /// What explains it, as SimpleMistake::as_if; two with " or " between where they do so alike;
+  /// empty where nothing does.
+  std::string as_if;
+  /// The share of the robot's readings that would lie at its surface then.
+  double share_then = 0;
+};
+
+/// An explanation puts this share of the robot's readings at its surface, those that hide it left
+/// out.
+inline constexpr double kFits = 0.6;
+/// And so much more of them than the scene does.
+inline constexpr double kLeastGain = 0.3;
+
+/// Looks at some images of each camera. A camera is implausible where fewer of the robot's readings
+/// than WatchSettings::min_at_robot lie at its surface, where one simple mistake explains where they
+/// lie much better than the scene does, or where it is dead. One whose min_at_robot is 0 is not
+/// looked at. Throws std::runtime_error where an image cannot be read again.
+std::vector<CameraPlausibility> find_implausible(const OpenScene& scene);
+
+/// The same of one camera.
+CameraPlausibility find_implausible(const OpenScene& scene, std::size_t camera);
+
+/// One sentence or two for people: which camera, what share, what was expected, what would explain
+/// it. Empty where there is nothing to say.
+std::string text_of(const CameraPlausibility& camera);
+
+}  // namespace berth

@@ -1,0 +1,86 @@
+#include "berth/scene/robot_in_images.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "berth/files/png.hpp"
+#include "berth/robot/kinematics.hpp"
+
+namespace berth {
+namespace {
+
+std::vector<std::size_t> frames_to_look_at(const OpenCamera& camera, std::size_t most) {
+  std::vector<std::size_t> known;
+  for (std::size_t k = 0; k < camera.exposure_time.size(); ++k) {
+    if (camera.exposure_time[k].status == TimeStatus::ok) known.push_back(k);
+  }
+  if (known.size() <= most) return known;
+  std::vector<std::size_t> some;
+  for (std::size_t i = 0; i < most; ++i) some.push_back(known[i * (known.size() - 1) / (most - 1)]);
+  return some;
+}
+
+void mirror(DepthImage& image) {
+  for (int v = 0; v < image.height(); ++v) {
+    float* row = image.row(v);
+    std::reverse(row, row + image.width());
+  }
+}
+
+void add(const RobotReadings& one, RobotReadings& sum) {
+  sum.at_surface += one.at_surface;
+  sum.behind += one.behind;
+  sum.before += one.before;
+  sum.hidden += one.hidden;
+  sum.none += one.none;
+}
+
+}  // namespace
+
+RobotInImages::RobotInImages(const OpenScene& scene, std::size_t camera)
+    : scene_(scene),
+      camera_(camera),
+      frames_(frames_to_look_at(scene.cameras[camera], kMostFrames)) {
+  const OpenCamera& source = scene.cameras[camera];
+  given_.images_of = camera;
+  given_.mount = source.view->mount();
+  for (const std::size_t k : frames_) given_.positions.push_back(source.at_exposure[k].position);
+}
+
+const DepthImage& RobotInImages::depth_m(std::size_t camera, std::size_t frame) {
+  const auto [place, is_new] = depth_m_.try_emplace({camera, frame});
+  const OpenCamera& from = scene_.cameras[camera];
+  const Camera& size = this->camera().view->camera();
+  const Camera& own = from.view->camera();
+  const bool is_there = frame < from.source.depth.size() && own.width_px == size.width_px &&
+                        own.height_px == size.height_px;
+  if (is_new && is_there) {
+    const SceneCamera& source = from.source;
+    const bool has_limits = source.near_m > 0 || std::isfinite(source.far_m);
+    place->second = !has_limits ? from.read_depth(frame) : read_depth_png(source.depth[frame], own, source.depth_scale_m, 0,
+                                   std::numeric_limits<double>::infinity(), source.depth_offset_m);
+  }
+  return place->second;
+}
+
+RobotReadings RobotInImages::readings(const CameraBelief& belief) {
+  RobotReadings sum;
+  for (std::size_t i = 0; i < frames_.size(); ++i) add(readings(belief, i), sum);
+  return sum;
+}
+
+RobotReadings RobotInImages::readings(const CameraBelief& belief, std::size_t i) {
+  const DepthImage& read_m = depth_m(belief.images_of, frames_[i]);
+  if (read_m.pixels().empty()) return {};
+  changed_m_ = read_m;
+  for (float& z_m : changed_m_.pixels()) z_m *= static_cast<float>(belief.depth_factor);
+  if (belief.is_mirrored) mirror(changed_m_);
+  const auto& robot = scene_.robot;
+  const View view(robot, belief.mount);
+  RobotRenderer renderer(robot->meshes(), belief.mount.camera);
+  forward_kinematics(robot->model(), belief.positions[i], pose_);
+  renderer.render(pose_, view.camera_pose(pose_), robot_);
+  return read_robot(changed_m_, robot_, camera().view->settings().watch.bias_m);
+}
+
+}  // namespace berth

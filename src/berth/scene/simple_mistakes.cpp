@@ -1,0 +1,185 @@
+#include "berth/scene/simple_mistakes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "berth/scene/scene_camera.hpp"
+
+namespace berth {
+namespace {
+
+constexpr double kDegree_rad = std::numbers::pi / 180;
+
+/// The mistakes of one camera, one after another.
+class Mistakes {
+ public:
+  Mistakes(const OpenScene& scene, const RobotInImages& images)
+      : scene_(scene), images_(images), camera_(images.camera()), given_(images.given()) {}
+
+  std::vector<SimpleMistake> all() {
+    add_depths();
+    add_focal_lengths();
+    add_positions();
+    add_rotations();
+    add_images();
+    add_joint_units();
+    add_joint_orders();
+    return std::move(found_);
+  }
+
+ private:
+  template <class Change>
+  void add(std::string as_if, const Change& change) {
+    CameraBelief corrected = given_;
+    change(corrected);
+    found_.push_back({std::move(as_if), std::move(corrected)});
+  }
+  void add_pose(std::string as_if, const Pose& X_PC) {
+    add(std::move(as_if), [&](CameraBelief& belief) { belief.mount.X_PC = X_PC; });
+  }
+
+  void add_depths() {
+    for (const double factor : {10.0, 0.1, 100.0, 0.01, 1000.0, 0.001}) {
+      add(fmt::format("depth_scale were {:.6g}", factor * camera_.source.depth_scale_m),
+          [&](CameraBelief& belief) { belief.depth_factor = factor; });
+    }
+  }
+
+  void add_focal_lengths() {
+    for (const double factor : {0.5, 2.0}) {
+      const Camera& camera = given_.mount.camera;
+      add(fmt::format("the focal length were {:.6g} px", factor * camera.fx_px),
+          [&](CameraBelief& belief) {
+            belief.mount.camera.fx_px *= factor;
+            belief.mount.camera.fy_px *= factor;
+          });
+    }
+  }
+
+  Pose with_place(const Eigen::Vector3d& xyz_m) const {
+    Pose X_PC = given_.mount.X_PC;
+    X_PC.translation() = xyz_m;
+    return X_PC;
+  }
+  Pose with_rotation(const Eigen::Quaterniond& rotation) const {
+    return Eigen::Translation3d(given_.mount.X_PC.translation()) * rotation.normalized();
+  }
+
+  void add_positions() {
+    const Eigen::Vector3d xyz_m = given_.mount.X_PC.translation();
+    add_pose("the pose's xyz were in millimetres", with_place(xyz_m / 1000));
+    for (int axis = 0; axis < 3; ++axis) {
+      Eigen::Vector3d other_m = xyz_m;
+      other_m[axis] = -other_m[axis];
+      add_pose(fmt::format("the pose's {} had the other sign", "xyz"[axis]), with_place(other_m));
+    }
+    add_pose("the pose's x and y were swapped", with_place({xyz_m.y(), xyz_m.x(), xyz_m.z()}));
+    add_pose("the pose's y and z were swapped", with_place({xyz_m.x(), xyz_m.z(), xyz_m.y()}));
+  }
+
+  void add_rotations() {
+    const Pose& X_PC = given_.mount.X_PC;
+    const Eigen::Quaterniond q(X_PC.linear());
+    if (camera_.source.rpy_rad) {
+      add_pose("the pose's rpy were in degrees",
+               with_rotation(rotation_of_rpy(kDegree_rad * *camera_.source.rpy_rad)));
+    }
+    add_pose("the pose were that of the robot in the camera's frame", X_PC.inverse());
+    add_pose("the pose's rotation were the other way round", with_rotation(q.conjugate()));
+    add_pose("the quaternion's order were w, x, y, z",
+             with_rotation(Eigen::Quaterniond(q.x(), q.y(), q.z(), q.w())));
+    // Axes of the optical frame in one with x forward, y left, z up.
+    const Eigen::Quaterniond X_body_optical(
+        (Eigen::Matrix3d() << 0, 0, 1, -1, 0, 0, 0, -1, 0).finished());
+    add_pose("the pose were that of a frame with x forward, not of the optical frame",
+             with_rotation(q * X_body_optical));
+    add_pose("the pose were turned from x forward to the optical frame twice",
+             with_rotation(q * X_body_optical.conjugate()));
+    add_pose("the camera stood on its head",
+             with_rotation(q * Eigen::Quaterniond(0, 0, 0, 1)));
+    for (int axis = 0; axis < 2; ++axis) {
+      Eigen::Matrix3d mirror = Eigen::Matrix3d::Identity();
+      mirror(axis, axis) = -1;
+      const Eigen::Matrix3d turn = mirror * X_PC.linear() * mirror;
+      Pose mirrored = with_rotation(Eigen::Quaterniond(turn));
+      mirrored.translation() = mirror * X_PC.translation();
+      add_pose(fmt::format("the pose were mirrored in {}", "xy"[axis]), mirrored);
+    }
+  }
+
+  void add_images() {
+    add("the images were mirrored from left to right", [](CameraBelief& belief) {
+      belief.is_mirrored = true;
+    });
+    for (std::size_t c = 0; c < scene_.cameras.size(); ++c) {
+      if (c == given_.images_of) continue;
+      add(fmt::format("the images were those of camera {}", name_of(c)),
+          [&](CameraBelief& belief) { belief.images_of = c; });
+      if (scene_.cameras[c].view->mount().parent_link != given_.mount.parent_link) continue;
+      add_pose(fmt::format("the pose were that of camera {}", name_of(c)),
+               scene_.cameras[c].view->mount().X_PC);
+    }
+    add_frame_shift(1, "the joints were those of one image later");
+    add_frame_shift(-1, "the joints were those of one image earlier");
+  }
+  std::string name_of(std::size_t camera) const { return scene_.cameras[camera].source.name; }
+
+  void add_frame_shift(int shift, const char* as_if) {
+    const auto last = static_cast<int>(camera_.at_exposure.size()) - 1;
+    if (last < 1) return;
+    add(as_if, [&](CameraBelief& belief) {
+      for (std::size_t i = 0; i < belief.positions.size(); ++i) {
+        const int k = std::clamp(static_cast<int>(images_.frames()[i]) + shift, 0, last);
+        if (camera_.exposure_time[k].status != TimeStatus::ok) continue;
+        belief.positions[i] = camera_.at_exposure[k].position;
+      }
+    });
+  }
+
+  void add_joint_units() {
+    const auto scaled = [&](double factor) {
+      return [this, factor](CameraBelief& belief) {
+        const auto& joints = scene_.robot->model().joints;
+        for (std::vector<double>& position : belief.positions) {
+          for (std::size_t j = 0; j < joints.size(); ++j) {
+            if (joints[j].type != JointType::prismatic) position[j] *= factor;
+          }
+        }
+      };
+    };
+    add("the joints were in degrees", scaled(kDegree_rad));
+    add("the joints had been turned from degrees to radians twice",
+        scaled(1 / kDegree_rad));
+  }
+
+  void add_joint_orders() {
+    const auto& joints = scene_.robot->model().joints;
+    for (std::size_t j = 0; j + 1 < joints.size(); ++j) {
+      add(fmt::format("joints {} and {} were swapped", joints[j].name, joints[j + 1].name),
+          [&](CameraBelief& belief) {
+            for (std::vector<double>& position : belief.positions) {
+              std::swap(position[j], position[j + 1]);
+            }
+          });
+    }
+    add("the joints' order were the other way round", [](CameraBelief& belief) {
+      for (std::vector<double>& position : belief.positions) std::ranges::reverse(position);
+    });
+  }
+
+  const OpenScene& scene_;
+  const RobotInImages& images_;
+  const OpenCamera& camera_;
+  const CameraBelief& given_;
+  std::vector<SimpleMistake> found_;
+};
+
+}  // namespace
+
+std::vector<SimpleMistake> simple_mistakes(const OpenScene& scene, const RobotInImages& images) {
+  return Mistakes(scene, images).all();
+}
+
+}  // namespace berth

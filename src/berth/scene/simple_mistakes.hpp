@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "berth/scene/robot_in_images.hpp"
+
+namespace berth {
+
+/// One simple mistake in a scene, and what the scene would say without it.
+struct SimpleMistake {
+  /// Goes on after "as if ", such as "depth_scale were 0.001".
+  std::string as_if;
+  CameraBelief corrected;
+};
+
+/// All that are tried for a camera of this scene: depth in other units, another focal length, a pose
+/// in other units, axes, order or direction, images that are mirrored, another camera's, or one frame
+/// early or late, joints in other units or another order.
+std::vector<SimpleMistake> simple_mistakes(const OpenScene& scene, const RobotInImages& images);
+
+}  // namespace berth

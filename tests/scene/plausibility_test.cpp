@@ -1,0 +1,181 @@
+// The robot is not where it should be: simple mistakes in the bundled scene.
+#include "berth/scene/plausibility.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "berth/scene/result_json.hpp"
+#include "berth/scene/scene_run.hpp"
+#include "lab/implausible/good_scenes.hpp"
+#include "lab/implausible/mistakes.hpp"
+#include "tests/support/error_message.hpp"
+
+namespace berth {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Some images of each of the bundled cameras, the arm in other poses in each.
+SceneFile thinned_scene(Method method = Method::exact) {
+  SceneFile scene = read_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml");
+  scene.evaluation.method = method;
+  for (SceneCamera& camera : scene.cameras) {
+    std::vector<std::filesystem::path> depth;
+    std::vector<double> stamps_s;
+    for (std::size_t k = 0; k < camera.depth.size(); k += 9) {
+      depth.push_back(camera.depth[k]);
+      stamps_s.push_back(camera.stamps_s[k]);
+    }
+    camera.depth = depth;
+    camera.stamps_s = stamps_s;
+  }
+  return scene;
+}
+
+class Plausibility : public testing::Test {
+ protected:
+  static const OpenScene& right() {
+    static const OpenScene scene = open_scene(thinned_scene());
+    return scene;
+  }
+};
+
+TEST_F(Plausibility, ARightSceneIsRight) {
+  for (const CameraPlausibility& camera : find_implausible(right())) {
+    EXPECT_FALSE(camera.is_implausible) << text_of(camera);
+    EXPECT_FALSE(camera.is_hidden);
+    EXPECT_EQ(text_of(camera), "");
+    EXPECT_GT(camera.readings.at_robot(), 0.98) << camera.camera;
+    EXPECT_GE(camera.frames, 4U);
+  }
+}
+
+TEST_F(Plausibility, EachMistakeIsFoundAndNamed) {
+  for (const lab::MadeMistake& mistake : lab::mistakes_in(right())) {
+    if (mistake.as_if.empty()) continue;
+    for (std::size_t c = 0; c < right().cameras.size(); ++c) {
+      OpenScene wrong = right();
+      mistake.make(wrong, c);
+      const CameraPlausibility found = find_implausible(wrong, c);
+      EXPECT_TRUE(found.is_implausible) << mistake.name << ", camera " << found.camera;
+      expect_parts(text_of(found), {"camera " + found.camera, "expected", mistake.as_if});
+    }
+  }
+}
+
+TEST_F(Plausibility, APoseThatIsOffAndPeopleAreNoMistakes) {
+  for (std::size_t c = 0; c < right().cameras.size(); ++c) {
+    for (std::uint32_t seed = 0; seed < 5; ++seed) {
+      for (const auto& [offset_m, angle_rad] : {std::pair{0.02, 0.035}, {0.05, 0.087}}) {
+        OpenScene off = right();
+        lab::move_camera(off, c, offset_m, angle_rad, seed);
+        const CameraPlausibility found = find_implausible(off, c);
+        EXPECT_FALSE(found.is_implausible) << text_of(found);
+      }
+      OpenScene hidden = right();
+      lab::hide_robot(hidden, c, seed);
+      const CameraPlausibility found = find_implausible(hidden, c);
+      EXPECT_FALSE(found.is_implausible) << text_of(found);
+    }
+  }
+}
+
+/// A wall before the camera.
+void hide_all(OpenCamera& camera) {
+  for (std::size_t k = 0; k < camera.source.depth.size(); ++k) {
+    camera.kept_depth_m[k] = camera.read_depth(k);
+    float z_m = 0.5F;
+    for (float& reading_m : camera.kept_depth_m[k].pixels()) {
+      z_m = z_m > 0.6F ? 0.5F : z_m + 0.001F;
+      reading_m = z_m;
+    }
+  }
+}
+
+TEST_F(Plausibility, AHiddenRobotIsToldAsHidden) {
+  OpenScene scene = right();
+  hide_all(scene.cameras[0]);
+  const CameraPlausibility found = find_implausible(scene, 0);
+  EXPECT_FALSE(found.is_implausible) << text_of(found);
+  EXPECT_TRUE(found.is_hidden);
+  expect_parts(text_of(found), {"camera camera", "hidden", "100 %"});
+  SceneRun run(scene);
+  ASSERT_TRUE(run.next());
+  const Json line = Json::parse(result_json(run.ask()));
+  EXPECT_EQ(line["cameras"][0]["status"], "hidden");
+  EXPECT_EQ(line["time"]["status"], "ok");
+}
+
+TEST_F(Plausibility, WhereAllCamerasAreImplausibleThereIsNoRun) {
+  SceneFile file = thinned_scene();
+  for (SceneCamera& camera : file.cameras) camera.depth_scale_m = 0.01;
+  const OpenScene scene = open_scene(file);
+  expect_parts(error_message([&] { SceneRun run(scene); }),
+               {"scene.yaml: camera camera", "0 % lie at its surface", "depth_scale were 0.001",
+                "camera left", "camera right"});
+}
+
+TEST_F(Plausibility, TheOtherCamerasAnswerStands) {
+  for (const Method method : {Method::mesh, Method::exact}) {
+    SceneFile file = thinned_scene(method);
+    file.cameras[1].depth_scale_m = 0.0001;
+    const OpenScene scene = open_scene(file);
+    SceneRun run(scene);
+    EXPECT_TRUE(run.plausibility()[1].is_implausible);
+    int answers = 0;
+    while (run.next()) {
+      const Json line = Json::parse(result_json(run.ask()));
+      for (const Json& camera : line["cameras"]) {
+        if (camera["frame"].is_null() || camera["status"] == "too_old") continue;
+        const bool is_left = camera["camera"] == "left";
+        EXPECT_EQ(camera["status"], is_left ? "implausible" : "ok");
+        EXPECT_EQ(camera.contains("at_robot"), is_left);
+      }
+      const bool is_left_alone = method == Method::exact && line["camera"] == "left";
+      if (is_left_alone) EXPECT_EQ(line["time"]["status"], "camera_implausible");
+      for (const Json& link : line["links"]) {
+        if (is_left_alone) EXPECT_EQ(link["status"], "untimely");
+        if (method == Method::mesh) EXPECT_NE(link["camera"], "left");
+      }
+      answers += line["time"]["status"] == "ok";
+    }
+    EXPECT_GT(answers, 5);
+  }
+}
+
+TEST_F(Plausibility, WithTheLimitAtZeroNobodyLooks) {
+  SceneFile file = thinned_scene();
+  for (SceneCamera& camera : file.cameras) {
+    camera.depth_scale_m = 0.01;
+    camera.settings.watch.min_at_robot = 0;
+  }
+  const OpenScene scene = open_scene(file);
+  SceneRun run(scene);
+  ASSERT_TRUE(run.next());
+  const Json line = Json::parse(result_json(run.ask()));
+  EXPECT_EQ(line["cameras"][0]["status"], "ok");
+}
+
+TEST_F(Plausibility, AHigherLimitRefusesAPoseThatIsOff) {
+  SceneFile file = thinned_scene();
+  for (SceneCamera& camera : file.cameras) camera.settings.watch.min_at_robot = 0.9;
+  OpenScene scene = open_scene(file);
+  EXPECT_FALSE(find_implausible(scene, 0).is_implausible);
+  lab::move_camera(scene, 0, 0.05, 0.087, 1);
+  const CameraPlausibility found = find_implausible(scene, 0);
+  EXPECT_TRUE(found.is_implausible);
+  expect_parts(text_of(found), {"No simple mistake"});
+}
+
+TEST_F(Plausibility, ReadingsOutsideOfTheCamerasLimitsAreLookedAt) {
+  SceneFile file = thinned_scene();
+  file.cameras[0].depth_scale_m = 0.01;
+  file.cameras[0].far_m = 4;
+  const CameraPlausibility found = find_implausible(open_scene(file), 0);
+  EXPECT_TRUE(found.is_implausible);
+  EXPECT_EQ(found.as_if, "depth_scale were 0.001");
+}
+
+}  // namespace
+}  // namespace berth
