@@ -16,11 +16,10 @@ const Camera kCamera{3, 2, 100, 100, 1, 0.5};
 /// Rows of three numbers, with `gap` bytes after each.
 template <class T>
 std::vector<std::uint8_t> bytes_of(const std::vector<T>& numbers, std::size_t gap) {
-  std::vector<std::uint8_t> bytes;
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const auto* from = reinterpret_cast<const std::uint8_t*>(&numbers[i]);
-    bytes.insert(bytes.end(), from, from + sizeof(T));
-    if (i % 3 == 2) bytes.insert(bytes.end(), gap, 0xEE);
+  const std::size_t row_bytes = 3 * sizeof(T) + gap;
+  std::vector<std::uint8_t> bytes(numbers.size() / 3 * row_bytes, 0xEE);
+  for (std::size_t v = 0; v < numbers.size() / 3; ++v) {
+    std::memcpy(bytes.data() + v * row_bytes, numbers.data() + 3 * v, 3 * sizeof(T));
   }
   return bytes;
 }
