@@ -20,6 +20,8 @@ constexpr int kManyFrames = 5000;
 
 /// Far more frames than berth can draw before a test interrupts it.
 void make_long(CommandScene& scene) {
+  // One image again and again is a dead camera.
+  scene.lines.more += "watch: {min_at_robot: 0}\n";
   scene.lines.depth = "[depth/000000.png";
   scene.lines.more_camera = "stamps: [0";
   for (int i = 1; i < kManyFrames; ++i) {

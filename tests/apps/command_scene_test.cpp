@@ -114,6 +114,8 @@ TEST(SceneKey, StampsAreAnsweredBetweenRows) {
 
 TEST(SceneKey, CameraNameAndInfoAreUsed) {
   CommandScene scene;
+  // The images are those of another camera.
+  scene.lines.more += "watch: {min_at_robot: 0}\n";
   const Json before = scene.run().at(0);
   scene.lines.name = "other";
   scene.lines.info = "other.yaml";
@@ -126,6 +128,8 @@ TEST(SceneKey, CameraNameAndInfoAreUsed) {
 
 TEST(SceneKey, QuaternionAndRpyArePosesAlike) {
   CommandScene scene;
+  // The images are those of another camera.
+  scene.lines.more += "watch: {min_at_robot: 0}\n";
   const Json rpy = scene.run().at(1);
   scene.lines.pose =
       "{parent: base, xyz: [0, -2, 0.3], quaternion_xyzw: [-0.7071067811865476, 0, 0, "
