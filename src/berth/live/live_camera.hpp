@@ -16,6 +16,7 @@
 
 namespace berth {
 
+/// How images and joints of a running camera go together.
 struct LiveCameraSettings {
   /// The joints' clock at an exposure is the image's stamp plus this.
   double clock_offset_s = 0;
