@@ -15,7 +15,9 @@ int main(int argc, char** argv) {
   // The camera stands 2 m before the robot, 0.5 m high, and looks back at it: z forward, x right, y down.
   mount.X_PC.linear() << 0, 0, -1, 1, 0, 0, 0, -1, 0;
   mount.X_PC.translation() << 2, 0, 0.5;
-  const auto view = std::make_shared<const berth::View>(robot, mount);
+  berth::ViewSettings settings;
+  settings.watch.min_at_robot = 0;  // a made-up image shows no robot, which would make it implausible
+  const auto view = std::make_shared<const berth::View>(robot, mount, settings);
 
   // What the driver of a real camera gives: metres, NaN where there is no reading. Here it is a wall.
   const berth::DepthImage depth_m(640, 480, 2.6F);

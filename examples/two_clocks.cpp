@@ -49,7 +49,9 @@ int main(int argc, char** argv) {
   berth::CameraMount mount{{640, 480, 525, 525, 319.5, 239.5}, model.links.front().name};
   mount.X_PC.linear() << 0, 0, -1, 1, 0, 0, 0, -1, 0;
   mount.X_PC.translation() << 2, 0, 0.5;
-  const auto view = std::make_shared<const berth::View>(robot, mount);
+  berth::ViewSettings settings;
+  settings.watch.min_at_robot = 0;  // a made-up image shows no robot, which would make it implausible
+  const auto view = std::make_shared<const berth::View>(robot, mount, settings);
   berth::JointBuffer joints(model, 500);
 
   LatestFrame latest;
