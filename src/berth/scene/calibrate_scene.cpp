@@ -26,7 +26,7 @@ void require_poses(const OpenScene& scene, const CalibrationResult& found) {
     std::string text =
         fmt::format("{}: camera {}: {}", scene.file.string(), camera.camera, camera.refused);
     for (const CameraPlausibility& other : find_implausible(scene)) {
-      if (other.camera == camera.camera && other.is_implausible) text += "\n" + text_of(other);
+      if (other.camera == camera.camera && other.is_implausible) text += "; " + text_of(other);
     }
     throw std::runtime_error(text);
   }
