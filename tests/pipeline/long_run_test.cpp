@@ -51,7 +51,10 @@ std::shared_ptr<const View> make_view() {
   CameraMount mount{{64, 48, 50, 50, 31.5, 23.5}, "l0"};
   mount.X_PC.linear() << 0, 0, -1, 1, 0, 0, 0, -1, 0;
   mount.X_PC.translation() << 2, 0, 0.5;
-  return std::make_shared<const View>(std::make_shared<const Robot>(make_robot(), testing::exact_evaluation()), mount);
+  ViewSettings settings;
+  settings.watch.min_at_robot = 0;  // the images show no robot
+  return std::make_shared<const View>(
+      std::make_shared<const Robot>(make_robot(), testing::exact_evaluation()), mount, settings);
 }
 
 JointState joints_of(int pose) {
