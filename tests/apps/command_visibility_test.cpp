@@ -41,6 +41,9 @@ TEST(Visibility, OfABoxBelowTheCameraFrontAndTopAreSeen) {
 
 TEST(Visibility, WhatStandsInFrontHidesIt) {
   CommandScene scene;
+  // The same depth all over is a dead camera.
+  scene.lines.more += "watch: {min_at_robot: 0}\n";
+  scene.write_scene();
   scene.surroundings.rectangles = {{{0, 0, 64, 48}, 1}};
   scene.write_images();
   const Json base = link_of(scene.run().at(0), "base")["visibility"]["surface"];
@@ -57,6 +60,9 @@ TEST(Visibility, LinkThatIsHiddenByTheRobotHasNoSpace) {
 
 TEST(Visibility, NothingInRangeOfACameraThatReadsNothingIsKnownForWhatItIs) {
   CommandScene scene;
+  // The same depth all over is a dead camera.
+  scene.lines.more += "watch: {min_at_robot: 0}\n";
+  scene.write_scene();
   scene.surroundings = {kNoDepth, {{{0, 0, 64, 48}, kNoDepth}}, 0};
   scene.write_images();
   const Json link = link_of(scene.run().at(0), "upper");
