@@ -25,7 +25,7 @@ TEST(CommandImplausible, OneOfTwoCamerasIsSaidAndTheOtherAnswers) {
   EXPECT_NE(outcome.err.find("camera wrong: the robot is not where it should be"),
             std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("depth_scale were 0.001"), std::string::npos) << outcome.err;
-  EXPECT_EQ(outcome.err.find("camera front"), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find("camera front: "), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.out.find("wrong (implausible"), std::string::npos) << outcome.out;
 }
 
