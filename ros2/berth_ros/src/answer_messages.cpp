@@ -153,9 +153,8 @@ void to_message(const LinkDistances& distances, berth_msgs::msg::Separation& out
   out.robot_point = out.obstacle_point = no_point();
   out.frame_age_s = kNaN;
   for (const auto& camera : distances.cameras) {
-    const bool used = camera.status == berth_msgs::msg::CameraState::OK ||
-                      camera.status == berth_msgs::msg::CameraState::BLIND;
-    if (used) out.frame_age_s = std::fmax(out.frame_age_s, camera.age_s);
+    const auto status = static_cast<berth::CameraStatus>(camera.status);
+    if (berth::is_used(status)) out.frame_age_s = std::fmax(out.frame_age_s, camera.age_s);
   }
   const LinkDistance* nearest = nullptr;
   for (const LinkDistance& link : distances.links) {

@@ -3,11 +3,17 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "berth/live/raw_depth.hpp"
 #include "camera_pose.hpp"
 
 namespace berth_ros {
 namespace {
+
+bool is_same(const berth::Camera& a, const berth::Camera& b) {
+  return a.width_px == b.width_px && a.height_px == b.height_px && a.fx_px == b.fx_px &&
+         a.fy_px == b.fy_px && a.cx_px == b.cx_px && a.cy_px == b.cy_px;
+}
+
+}  // namespace
 
 berth::RawDepth raw_of(const sensor_msgs::msg::Image& image) {
   return {image.data,
@@ -17,13 +23,6 @@ berth::RawDepth raw_of(const sensor_msgs::msg::Image& image) {
           image.encoding,
           image.is_bigendian != 0};
 }
-
-bool is_same(const berth::Camera& a, const berth::Camera& b) {
-  return a.width_px == b.width_px && a.height_px == b.height_px && a.fx_px == b.fx_px &&
-         a.fy_px == b.fy_px && a.cx_px == b.cx_px && a.cy_px == b.cy_px;
-}
-
-}  // namespace
 
 berth::Camera camera_of(const sensor_msgs::msg::CameraInfo& info, bool is_rectified) {
   const bool is_distorted =

@@ -12,6 +12,7 @@
 #include <tf2_ros/buffer.h>
 
 #include "berth/live/live_camera.hpp"
+#include "berth/live/raw_depth.hpp"
 #include "node_settings.hpp"
 #include "stamp_clock.hpp"
 
@@ -20,6 +21,9 @@ namespace berth_ros {
 /// The pinhole camera of a camera_info. Throws std::invalid_argument where it is none: without
 /// intrinsics, with distortion unless `is_rectified`, with binning or a region of interest.
 berth::Camera camera_of(const sensor_msgs::msg::CameraInfo& info, bool is_rectified);
+
+/// The message's pixels, which it keeps.
+berth::RawDepth raw_of(const sensor_msgs::msg::Image& image);
 
 /// How a camera stands, for diagnostics.
 struct CameraReport {

@@ -90,6 +90,7 @@ class DistanceNode : public LiveNode {
         say_no_robot(camera_names(), now, *message);
       }
       to_message(*message, separation_message_);
+      last_status_ = message->status;
       if (marker_timer_) last_ = *message;
     }
     distances_->publish(std::move(message));
@@ -142,18 +143,18 @@ class DistanceNode : public LiveNode {
   }
 
   void report_questions(diagnostic_updater::DiagnosticStatusWrapper& status) {
-    const QuestionTimes::Summary times = times_.take();
-    status.add("questions since the last report", times.count);
-    status.add("median, us", times.median_us);
-    status.add("99 %, us", times.p99_us);
-    status.add("greatest, us", times.greatest_us);
     using diagnostic_msgs::msg::DiagnosticStatus;
-    std::uint8_t answer = berth_msgs::msg::LinkDistances::NO_ROBOT;
+    const std::optional<berth::AnswerTiming> times = times_.take();
+    if (!times) return status.summary(DiagnosticStatus::WARN, "none was asked");
+    status.add("questions since the last report", times->repeat);
+    status.add("median, us", times->p50_us);
+    status.add("99 %, us", times->p99_us);
+    status.add("greatest, us", times->max_us);
+    std::uint8_t answer = 0;
     {
       const std::lock_guard lock(asker_mutex_);
-      if (marker_timer_ && robot_.robot) answer = last_.status;
+      answer = last_status_;
     }
-    if (times.count == 0) return status.summary(DiagnosticStatus::WARN, "none was asked");
     if (answer == berth_msgs::msg::LinkDistances::OK) {
       return status.summary(DiagnosticStatus::OK, "answered");
     }
@@ -175,7 +176,9 @@ class DistanceNode : public LiveNode {
   LiveRobot robot_;
   std::optional<berth::LiveAsker> asker_;
   std::optional<berth::LiveAsker> exposure_asker_;
+  /// For markers, where there are any.
   berth_msgs::msg::LinkDistances last_;
+  std::uint8_t last_status_ = berth_msgs::msg::LinkDistances::NO_ROBOT;
   berth_msgs::msg::Separation separation_message_;
   QuestionTimes times_;
   rclcpp::CallbackGroup::SharedPtr group_;

@@ -11,6 +11,7 @@
 
 #include <berth_msgs/msg/link_distances.hpp>
 
+#include "berth/scene/frame_result.hpp"
 #include "berth/scene/open_scene.hpp"
 #include "nodes.hpp"
 #include "scene_messages.hpp"
@@ -18,25 +19,13 @@
 namespace berth_ros {
 namespace {
 
-/// Times in milliseconds.
-class Latencies {
- public:
-  void add(double ms) { ms_.push_back(ms); }
-  std::string row(const std::string& name) {
-    if (ms_.empty()) return "| " + name + " | 0 | | | |\n";
-    std::sort(ms_.begin(), ms_.end());
-    const auto at = [&](double share) {
-      return ms_[static_cast<std::size_t>(share * static_cast<double>(ms_.size() - 1))];
-    };
-    char text[160];
-    std::snprintf(text, sizeof text, "| %s | %zu | %.2f | %.2f | %.2f |\n", name.c_str(), ms_.size(),
-                  at(0.5), at(0.99), ms_.back());
-    return text;
-  }
-
- private:
-  std::vector<double> ms_;
-};
+std::string row_of(const std::string& name, const std::vector<double>& times_us) {
+  const berth::AnswerTiming timing = berth::timing_of(times_us);
+  char text[160];
+  std::snprintf(text, sizeof text, "| %s | %d | %.2f | %.2f | %.2f |\n", name.c_str(), timing.repeat,
+                timing.p50_us / 1e3, timing.p99_us / 1e3, timing.max_us / 1e3);
+  return text;
+}
 
 }  // namespace
 
@@ -102,7 +91,7 @@ class LatencyProbeNode : public rclcpp::Node {
       rclcpp::Time& last = last_.try_emplace(name, 0, 0, at.get_clock_type()).first->second;
       if (at <= last) return;
       last = at;
-      if (counts) latencies_[name].add((heard.nanoseconds() - at.nanoseconds()) * 1e-6);
+      if (counts) times_us_[name].push_back((heard.nanoseconds() - at.nanoseconds()) * 1e-3);
     };
     for (const auto& camera : answer.cameras) take("image of " + camera.camera, camera.stamp);
     take("joint state", answer.joints_stamp);
@@ -112,7 +101,7 @@ class LatencyProbeNode : public rclcpp::Node {
     const std::lock_guard lock(mutex_);
     std::printf("%ld answers, %ld ok\n| in | new ones | median, ms | 99 %% | greatest |\n"
                 "| --- | ---: | ---: | ---: | ---: |\n", answers_, ok_);
-    for (auto& [name, latencies] : latencies_) std::fputs(latencies.row(name).c_str(), stdout);
+    for (const auto& [name, times_us] : times_us_) std::fputs(row_of(name, times_us).c_str(), stdout);
     std::fflush(stdout);
     rclcpp::shutdown();
   }
@@ -126,7 +115,8 @@ class LatencyProbeNode : public rclcpp::Node {
   berth::JointState joints_;
   std::mutex mutex_;
   std::map<std::string, rclcpp::Time> last_;
-  std::map<std::string, Latencies> latencies_;
+  /// What came in, and how long after it an answer knew of it.
+  std::map<std::string, std::vector<double>> times_us_;
   long answers_ = 0;
   long ok_ = 0;
   rclcpp::Time begin_;

@@ -4,7 +4,6 @@
 #include <rclcpp_components/register_node_macro.hpp>
 #include <sensor_msgs/image_encodings.hpp>
 
-#include "berth/live/raw_depth.hpp"
 #include "live_node.hpp"
 #include "nodes.hpp"
 
@@ -38,10 +37,7 @@ class SelfFilterNode : public LiveNode {
   std::shared_ptr<Image> without_robot(const berth::Frame& frame, const Image& image,
                                        const berth::Camera& camera) const {
     auto out = std::make_shared<Image>(image);
-    const berth::RawDepth raw{image.data, static_cast<int>(image.width),
-                              static_cast<int>(image.height), image.step, image.encoding,
-                              image.is_bigendian != 0};
-    berth::write_raw_obstacles(raw, camera, frame.obstacles, camera_settings().units, out->data);
+    berth::write_raw_obstacles(raw_of(image), camera, frame.obstacles, camera_settings().units, out->data);
     return out;
   }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 namespace berth {
@@ -173,10 +172,8 @@ bool JointIntake::emit(double stamp_s) {
     } else if (*after == stamp_s) {
       whole_[i] = series.position[k];
     } else {
-      double step = series.position[k] - series.position[k - 1];
-      if (is_continuous_[i]) step = std::remainder(step, 2 * std::numbers::pi);
       const double share = (stamp_s - after[-1]) / (after[0] - after[-1]);
-      whole_[i] = series.position[k - 1] + share * step;
+      whole_[i] = joint_between(series.position[k - 1], series.position[k], share, is_continuous_[i]);
     }
   }
   buffer_.push(stamp_s, names_, whole_);

@@ -108,16 +108,6 @@ std::shared_ptr<Frame> LiveCamera::take_frame() {
           }};
 }
 
-FrameTime LiveCamera::joints_of(const Waiting& image, JointState& at_exposure) {
-  const TimeSettings& limits = view_->robot()->settings().time;
-  const TimeStatus stamp = clock_.next(image.stamp_s, limits);
-  FrameTime time = joints_.buffer().at(image.stamp_s + settings_.clock_offset_s, limits.joints,
-                                       at_exposure);
-  at_exposure.stamp_s = image.stamp_s;
-  if (stamp != TimeStatus::ok) time.status = stamp;
-  return time;
-}
-
 std::optional<LiveCamera::Waiting> LiveCamera::next_image(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (true) {
@@ -146,12 +136,11 @@ void LiveCamera::keep(const Waiting& image, const std::shared_ptr<Frame>& frame,
 
 void LiveCamera::run(const std::stop_token& stop) {
   Observer observer(view_);
-  JointState at_exposure;
   while (std::optional<Waiting> image = next_image(stop)) {
     const double begin_s = steady_now_s();
-    const FrameTime time = joints_of(*image, at_exposure);
     const std::shared_ptr<Frame> frame = take_frame();
-    observer.observe(image->depth_m, at_exposure, *frame, time);
+    observer.observe(image->depth_m, image->stamp_s, joints_.buffer(), *frame,
+                     settings_.clock_offset_s);
     keep(*image, frame, begin_s);
     if (on_frame_) on_frame_(*frame, image->depth_m, image->with);
     const std::lock_guard lock(mutex_);

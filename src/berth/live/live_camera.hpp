@@ -89,14 +89,12 @@ class LiveCamera {
   bool is_ready(const Waiting& image) const;
   bool has_joints(const Waiting& image) const;
   std::shared_ptr<Frame> take_frame();
-  FrameTime joints_of(const Waiting& image, JointState& at_exposure);
 
   std::shared_ptr<const View> view_;
   const JointIntake& joints_;
   LiveCameraSettings settings_;
   OnFrame on_frame_;
   std::shared_ptr<Pool> pool_ = std::make_shared<Pool>();
-  FrameClock clock_;
   mutable std::mutex mutex_;
   std::condition_variable_any changed_;
   std::deque<Waiting> waiting_;

@@ -6,14 +6,6 @@
 #include "berth/pipeline/view.hpp"
 
 namespace berth {
-namespace {
-
-bool is_used(CameraStatus status) {
-  return status == CameraStatus::ok || status == CameraStatus::blind ||
-         status == CameraStatus::hidden;
-}
-
-}  // namespace
 
 CameraState camera_state(const Exposure& exposure, double now_s, const TimeSettings& settings) {
   CameraState state;

@@ -55,10 +55,12 @@ void Observer::filter(DepthView depth_m, Frame& frame) {
               frame.obstacles);
 }
 
-void Observer::observe(DepthView depth_m, double stamp_s, const JointBuffer& joints, Frame& frame) {
+void Observer::observe(DepthView depth_m, double stamp_s, const JointBuffer& joints, Frame& frame,
+                       double clock_offset_s) {
   const TimeSettings& settings = view_->robot()->settings().time;
   const TimeStatus stamp = clock_.next(stamp_s, settings);
-  FrameTime time = joints.at(stamp_s, settings.joints, at_exposure_);
+  FrameTime time = joints.at(stamp_s + clock_offset_s, settings.joints, at_exposure_);
+  at_exposure_.stamp_s = stamp_s;
   if (stamp != TimeStatus::ok) time.status = stamp;
   observe(depth_m, at_exposure_, frame, time);
 }

@@ -28,8 +28,10 @@ class Observer {
   void observe(DepthView depth_m, const JointState& at_exposure, Frame& frame, FrameTime time = {});
 
   /// The same for a running camera and robot: the joints are those of the buffer at the exposure,
-  /// and stamps have to go forward from call to call (FrameClock).
-  void observe(DepthView depth_m, double stamp_s, const JointBuffer& joints, Frame& frame);
+  /// and stamps have to go forward from call to call (FrameClock). The joints' clock at an exposure
+  /// is its stamp plus `clock_offset_s`.
+  void observe(DepthView depth_m, double stamp_s, const JointBuffer& joints, Frame& frame,
+               double clock_offset_s = 0);
 
   /// Waits for what the watch measures in the background, and tells it in `frame`, the last one:
   /// for recordings, where nothing is to depend on how long it took.

@@ -13,9 +13,8 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 void follow_line(const JointState& before, const JointState& after, double share,
                  const std::vector<bool>& is_continuous, JointState& joints) {
   for (std::size_t i = 0; i < before.position.size(); ++i) {
-    double step = after.position[i] - before.position[i];
-    if (is_continuous[i]) step = std::remainder(step, 2 * std::numbers::pi);
-    joints.position[i] = before.position[i] + share * step;
+    joints.position[i] =
+        joint_between(before.position[i], after.position[i], share, is_continuous[i]);
   }
 }
 
@@ -38,6 +37,12 @@ FrameTime time_of(std::span<const JointState> samples, double time_s,
 }
 
 }  // namespace
+
+double joint_between(double before, double after, double share, bool is_continuous) {
+  double step = after - before;
+  if (is_continuous) step = std::remainder(step, 2 * std::numbers::pi);
+  return before + share * step;
+}
 
 FrameTime joints_at_time(std::span<const JointState> samples,
                          const std::vector<bool>& is_continuous, double time_s,

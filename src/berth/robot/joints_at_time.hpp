@@ -32,6 +32,10 @@ void visit_settings(Settings& s, Visitor&& visit) {
 /// No limit but that nothing is extrapolated: for recordings whose joints are rare.
 inline constexpr JointTimeLimits kOnlyBetweenSamples{std::numeric_limits<double>::infinity(), 0};
 
+/// One joint on the line between two positions: `share` is 0 at `before`, 1 at `after`. A continuous
+/// joint takes the shorter way round.
+double joint_between(double before, double after, double share, bool is_continuous);
+
 /// The joints at `time_s`: linear between the two samples around it or, within the limit, beyond
 /// the two at the end (one sample alone is held); a continuous joint takes the shorter way round.
 /// `samples` have increasing stamps. Where the status is not ok, all of `joints` is NaN, as many as

@@ -21,13 +21,13 @@ constexpr std::size_t kMostDisplacements = 10;
 
 /// Where no pose explains the images, a simple mistake may.
 void require_poses(const OpenScene& scene, const CalibrationResult& found) {
-  for (const CameraCalibration& camera : found.cameras) {
+  for (std::size_t c = 0; c < found.cameras.size(); ++c) {
+    const CameraCalibration& camera = found.cameras[c];
     if (camera.is_found) continue;
     std::string text =
         fmt::format("{}: camera {}: {}", scene.file.string(), camera.camera, camera.refused);
-    for (const CameraPlausibility& other : find_implausible(scene)) {
-      if (other.camera == camera.camera && other.is_implausible) text += "; " + text_of(other);
-    }
+    const CameraPlausibility why = find_implausible(scene, c);
+    if (why.is_implausible) text += "; " + text_of(why);
     throw std::runtime_error(text);
   }
 }

@@ -64,21 +64,27 @@ const DepthImage& RobotInImages::depth_m(std::size_t camera, std::size_t frame) 
 }
 
 RobotReadings RobotInImages::readings(const CameraBelief& belief) {
+  const View view(scene_.robot, belief.mount);
+  RobotRenderer renderer(scene_.robot->meshes(), belief.mount.camera);
   RobotReadings sum;
-  for (std::size_t i = 0; i < frames_.size(); ++i) add(readings(belief, i), sum);
+  for (std::size_t i = 0; i < frames_.size(); ++i) add(readings(belief, view, renderer, i), sum);
   return sum;
 }
 
 RobotReadings RobotInImages::readings(const CameraBelief& belief, std::size_t i) {
+  const View view(scene_.robot, belief.mount);
+  RobotRenderer renderer(scene_.robot->meshes(), belief.mount.camera);
+  return readings(belief, view, renderer, i);
+}
+
+RobotReadings RobotInImages::readings(const CameraBelief& belief, const View& view,
+                                      RobotRenderer& renderer, std::size_t i) {
   const DepthImage& read_m = depth_m(belief.images_of, frames_[i]);
   if (read_m.pixels().empty()) return {};
   changed_m_ = read_m;
   for (float& z_m : changed_m_.pixels()) z_m *= static_cast<float>(belief.depth_factor);
   if (belief.is_mirrored) mirror(changed_m_);
-  const auto& robot = scene_.robot;
-  const View view(robot, belief.mount);
-  RobotRenderer renderer(robot->meshes(), belief.mount.camera);
-  forward_kinematics(robot->model(), belief.positions[i], pose_);
+  forward_kinematics(scene_.robot->model(), belief.positions[i], pose_);
   renderer.render(pose_, view.camera_pose(pose_), robot_);
   return read_robot(changed_m_, robot_, camera().view->settings().watch.bias_m);
 }

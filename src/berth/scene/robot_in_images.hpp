@@ -51,6 +51,9 @@ class RobotInImages {
   const DepthImage& depth_m(std::size_t camera, std::size_t frame);
 
  private:
+  RobotReadings readings(const CameraBelief& belief, const View& view, RobotRenderer& renderer,
+                         std::size_t i);
+
   const OpenScene& scene_;
   std::size_t camera_;
   std::vector<std::size_t> frames_;

@@ -30,6 +30,12 @@ constexpr std::string_view name_of(CameraStatus status) {
   return kCameraStatusNames[static_cast<std::size_t>(status)];
 }
 
+/// Whether the readings of its frame count.
+constexpr bool is_used(CameraStatus status) {
+  return status == CameraStatus::ok || status == CameraStatus::blind ||
+         status == CameraStatus::hidden;
+}
+
 /// One camera's part in an answer.
 struct CameraState {
   CameraStatus status = CameraStatus::no_frame;
