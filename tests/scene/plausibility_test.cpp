@@ -82,6 +82,21 @@ TEST_F(Plausibility, APoseThatIsOffAndPeopleAreNoMistakes) {
   }
 }
 
+TEST_F(Plausibility, ASimulationWhoseRobotStandsStillIsNotDead) {
+  OpenScene still = right();
+  OpenCamera& camera = still.cameras[0];
+  const DepthImage first_m = camera.read_depth(0);
+  for (std::size_t k = 0; k < camera.source.depth.size(); ++k) {
+    camera.kept_depth_m[k] = first_m;
+    camera.at_exposure[k].position = camera.at_exposure[0].position;
+  }
+  // So that much of the robot lies behind its surface.
+  lab::move_camera(still, 0, 0.05, 0.087, 1);
+  const CameraPlausibility found = find_implausible(still, 0);
+  EXPECT_EQ(found.dead, "");
+  EXPECT_FALSE(found.is_implausible) << text_of(found);
+}
+
 /// A wall before the camera.
 void hide_all(OpenCamera& camera) {
   for (std::size_t k = 0; k < camera.source.depth.size(); ++k) {

@@ -101,6 +101,8 @@ def test_berth_runs_the_scene(tmp_path, encoding):
     rows = np.loadtxt(out / "joints.csv", delimiter=",", skiprows=1)
     assert (out / "joints.csv").read_text().startswith("time,a,b")
     assert rows[rows[:, 0] == 0.1][0].tolist() == pytest.approx([0.1, 0.11, -0.1])
+    with open(out / "scene.yaml", "a") as file:
+        file.write("watch: {min_at_robot: 0}\n")  # the images are made up: they show no robot
     run = subprocess.run(["berth", "run", out / "scene.yaml", "--format", "json"], capture_output=True, text=True)
     assert run.returncode == 0, run.stderr
     lines = [json.loads(line) for line in run.stdout.splitlines()]

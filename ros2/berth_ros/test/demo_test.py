@@ -68,7 +68,8 @@ class Demo(unittest.TestCase):
         rclpy.try_shutdown()
 
     def test_distances_are_those_of_berth_run(self):
-        # The cameras' stamps say which images an answer is of.
+        # The cameras' stamps say which images an answer is of. Images that waited for the same joint state are answered
+        # in any order, so that not every line of the command has an answer of just its images.
         start = self.start_ns()
         got = {stamps_of(message, start): message for message in self.at_exposure}
         worst, compared = 0.0, 0
