@@ -33,14 +33,6 @@ std::map<std::string, double> declare_numbers(rclcpp::Node& node, const std::str
   return numbers;
 }
 
-template <class Visit>
-void visit_view_groups(const Visit& visit, berth::ViewSettings& view) {
-  visit("self_filter", view.self_filter);
-  visit("sensor", view.sensor);
-  visit("space", view.space);
-  visit("watch", view.watch);
-}
-
 PoseSource pose_source_of(const std::string& text) {
   if (text == "auto") return PoseSource::automatic;
   if (text == "tf") return PoseSource::tf;
@@ -104,23 +96,13 @@ void NodeSettings::declare_joints(rclcpp::Node& node) {
 
 void NodeSettings::declare_evaluation(rclcpp::Node& node) {
   const berth::EvaluationSettings defaults = scene_ ? scene_->evaluation : berth::EvaluationSettings{};
-  const auto& overrides = node.get_node_parameters_interface()->get_parameter_overrides();
-  const auto declare = [&](const berth::Setting& setting, const auto& value) {
-    const std::string name = "evaluation." + std::string(setting.name);
-    const auto now = node.declare_parameter(name, parameter_of(value), descriptor_of(setting, value));
-    if (overrides.count(name) > 0) given_[name] = now;
-  };
-  declare({"method", {}, "how the distances are found"}, defaults.method);
-  declare({"visibility", {}, "whether to tell how much of each link the cameras see"},
-          defaults.visibility);
-  declare_settings(node, "evaluation", defaults.distance, false, given_);
+  declare_settings(node, "evaluation", defaults, false, given_);
   declare_settings(node, "time", berth::TimeSettings{}, false, given_);
-  berth::ViewSettings view = scene_ ? scene_->cameras.front().settings : berth::ViewSettings{};
-  visit_view_groups(
-      [&](const std::string& group, const auto& settings) {
-        declare_settings(node, group, settings, false, given_);
-      },
-      view);
+  const berth::ViewSettings view =
+      scene_ ? scene_->cameras.front().settings : berth::ViewSettings{};
+  visit_setting_groups(view, [&](const std::string& group, const auto& settings) {
+    declare_settings(node, group, settings, false, given_);
+  });
 }
 
 void NodeSettings::declare_cameras(rclcpp::Node& node, bool has_one_camera) {
@@ -186,11 +168,9 @@ void NodeSettings::declare_camera(rclcpp::Node& node, const std::string& name,
   if (!has_one_camera) {
     declare("filtered", camera.is_filtered,
             "the images come from a self_filter_node: their robot is taken out already");
-    visit_view_groups(
-        [&](const std::string& group, const auto& settings) {
-          declare_settings(node, prefix + group, settings, true, given_);
-        },
-        camera.view);
+    visit_setting_groups(camera.view, [&](const std::string& group, const auto& settings) {
+      declare_settings(node, prefix + group, settings, true, given_);
+    });
   }
   cameras_.push_back(camera);
 }
@@ -199,13 +179,7 @@ berth::EvaluationSettings NodeSettings::evaluation_of(const GivenParameters& giv
   berth::EvaluationSettings evaluation =
       scene_ ? scene_->evaluation : berth::EvaluationSettings{};
   evaluation.time = {};
-  const auto apply = [&](const std::string& name, auto& value) {
-    const auto found = given.find(name);
-    if (found != given.end()) assign_parameter(name, found->second, value);
-  };
-  apply("evaluation.method", evaluation.method);
-  apply("evaluation.visibility", evaluation.visibility);
-  apply_given(given, "evaluation", evaluation.distance);
+  apply_given(given, "evaluation", evaluation);
   apply_given(given, "time", evaluation.time);
   return evaluation;
 }
@@ -213,12 +187,10 @@ berth::EvaluationSettings NodeSettings::evaluation_of(const GivenParameters& giv
 std::vector<CameraSettings> NodeSettings::cameras_of(const GivenParameters& given) const {
   std::vector<CameraSettings> cameras = cameras_;
   for (CameraSettings& camera : cameras) {
-    visit_view_groups(
-        [&](const std::string& group, auto& settings) {
-          apply_given(given, group, settings);
-          apply_given(given, camera.name + "." + group, settings);
-        },
-        camera.view);
+    visit_setting_groups(camera.view, [&](const std::string& group, auto& settings) {
+      apply_given(given, group, settings);
+      apply_given(given, camera.name + "." + group, settings);
+    });
     // A robot that was taken out cannot tell whether it is where it should be.
     if (camera.is_filtered) {
       camera.view.watch.max_seen_through = 0;

@@ -23,6 +23,17 @@ struct EvaluationSettings {
   TimeSettings time;
 };
 
+/// The list of these settings but `time`, which has a list of its own.
+template <SettingsOf<EvaluationSettings> Settings, class Visitor>
+void visit_settings(Settings& s, Visitor&& visit) {
+  visit({"method", {}, "how the distances are found"}, s.method);
+  visit_settings(s.distance, visit);
+  visit({"visibility",
+         {},
+         "whether to tell how much of each link and of the space around its answer the cameras see"},
+        s.visibility);
+}
+
 /// A robot and what is asked about it: constant once made, shared by all views, observers and
 /// askers, and their threads.
 class Robot {

@@ -33,6 +33,15 @@ struct ViewSettings {
   WatchSettings watch;
 };
 
+/// The lists of a camera's settings, each with its name in scene files.
+template <SettingsOf<ViewSettings> Settings, class Visitor>
+void visit_setting_groups(Settings& s, Visitor&& visit) {
+  visit("self_filter", s.self_filter);
+  visit("sensor", s.sensor);
+  visit("space", s.space);
+  visit("watch", s.watch);
+}
+
 /// One camera that sees the robot: constant once made, shared by its observers, frames and their
 /// threads.
 class View {

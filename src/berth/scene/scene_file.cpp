@@ -100,12 +100,6 @@ std::map<std::string, double> read_joint_values(const YamlMap& map, std::string_
   return values;
 }
 
-void read_evaluation(const YamlValue& value, EvaluationSettings& evaluation) {
-  const YamlMap map = read_settings(value, evaluation.distance, {"method", "visibility"});
-  if (const auto method = map.find("method")) evaluation.method = read_enum<Method>(*method);
-  map.read("visibility", &YamlValue::boolean, evaluation.visibility);
-}
-
 }  // namespace
 
 void read_view_settings(const YamlMap& map, ViewSettings& settings) {
@@ -142,7 +136,7 @@ SceneFile parse_scene(const std::filesystem::path& file, const std::string& text
   scene.fixed_joints = read_joint_values(map, "fixed_joints");
   scene.evaluation.time.joints = kOnlyBetweenSamples;
   if (const auto evaluation = map.find("evaluation")) {
-    read_evaluation(*evaluation, scene.evaluation);
+    read_settings(*evaluation, scene.evaluation);
   }
   if (const auto time = map.find("time")) read_settings(*time, scene.evaluation.time);
   return scene;

@@ -93,33 +93,25 @@ struct TableWriter {
 std::string settings_table(std::string_view group) {
   std::string table = "| key | default | may be | what it does |\n| --- | --- | --- | --- |\n";
   const TableWriter write{table};
-  if (group == "self_filter") {
-    const SelfFilterSettings settings;
-    visit_settings(settings, write);
-  } else if (group == "sensor") {
-    const SensorSettings settings;
-    visit_settings(settings, write);
-  } else if (group == "space") {
-    const SpaceSettings settings;
-    visit_settings(settings, write);
-  } else if (group == "watch") {
-    const WatchSettings settings;
-    visit_settings(settings, write);
-  } else if (group == "evaluation") {
+  bool is_known = true;
+  if (group == "evaluation") {
     const EvaluationSettings settings;
-    write({"method", {}, "how the distances are found"}, settings.method);
-    visit_settings(settings.distance, write);
-    write({"visibility",
-           {},
-           "whether to tell how much of each link and of the space around its "
-           "answer the cameras see"},
-          settings.visibility);
+    visit_settings(settings, write);
   } else if (group == "time") {
     // What read_scene() begins with.
     TimeSettings settings;
     settings.joints = kOnlyBetweenSamples;
     visit_settings(settings, write);
   } else {
+    is_known = false;
+    const ViewSettings view;
+    visit_setting_groups(view, [&](std::string_view name, const auto& settings) {
+      if (name != group) return;
+      is_known = true;
+      visit_settings(settings, write);
+    });
+  }
+  if (!is_known) {
     throw std::invalid_argument(fmt::format("settings group: \"{}\"; expected one of {}", group,
                                             fmt::join(kSettingGroups, ", ")));
   }
