@@ -231,13 +231,11 @@ void NodeSettings::check(const std::vector<rclcpp::Parameter>& changes) const {
     throw std::invalid_argument("evaluation.method: " + std::string(name_of(evaluation.method)) +
                                 " looks at one camera; expected mesh for several");
   }
-  for (CameraSettings camera : cameras_of(given)) {
+  for (const CameraSettings& camera : cameras_of(given)) {
     berth::validate(camera.view.self_filter);
-    visit_view_groups(
-        [](const std::string& group, const auto& settings) {
-          visit_settings(settings, berth::SettingCheck{group});
-        },
-        camera.view);
+    visit_setting_groups(camera.view, [](const std::string& group, const auto& settings) {
+      visit_settings(settings, berth::SettingCheck{group});
+    });
   }
 }
 
