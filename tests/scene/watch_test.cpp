@@ -27,6 +27,14 @@ TEST(WatchInScenes, ACamerasOwnKeysGoOverThoseOfTheScene) {
   expect_parts(error_message([&] { read_text(text); }), {"max_seen", "max_seen_through"});
 }
 
+TEST(WatchInScenes, ABiasMayLieBeforeTheModel) {
+  SceneText text;
+  text.more_camera = "watch: {bias_m: -0.002}";
+  EXPECT_EQ(read_text(text).cameras[0].settings.watch.bias_m, -0.002);
+  text.more_camera = "self_filter: {padding_m: -0.002}";
+  expect_parts(error_message([&] { read_text(text); }), {"padding_m", "-0.002", "0 or more"});
+}
+
 /// Four images of each of the bundled cameras; the camera `left` was turned by 3 degrees.
 SceneFile bumped_scene(Method method) {
   SceneFile scene = read_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml");

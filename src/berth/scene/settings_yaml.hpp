@@ -27,7 +27,9 @@ inline void read_setting(const YamlValue& value, const Domain&, bool& out) {
 }
 inline void read_setting(const YamlValue& value, const Domain&, int& out) { out = value.count(); }
 inline void read_setting(const YamlValue& value, const Domain& domain, double& out) {
-  out = domain.is_open ? value.positive() : value.non_negative();
+  out = domain.is_open     ? value.positive()
+        : domain.least < 0 ? value.number()
+                           : value.non_negative();
 }
 template <class Enum>
   requires std::is_enum_v<Enum>
