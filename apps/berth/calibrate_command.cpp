@@ -35,10 +35,7 @@ void require_place_for(const fs::path& out, const fs::path& scene) {
 }
 
 OpenScene open_for_teach_in(const fs::path& file) {
-  SceneFile scene = read_scene(file);
-  // No question is asked: nothing has to be made ready for one.
-  scene.evaluation.method = Method::exact;
-  scene.evaluation.visibility = false;
+  const SceneFile scene = read_scene_to_teach(file);
   std::size_t images = 0;
   for (const SceneCamera& camera : scene.cameras) images += camera.depth.size();
   ProgressBar progress("read images", images);

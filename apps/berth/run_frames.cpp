@@ -42,7 +42,8 @@ void draw(const fs::path& folder, const OpenScene& scene, SceneRun& run,
           const FrameResult& result) {
   const std::string which =
       scene.cameras.size() > 1 ? fmt::format(", camera {}", run.camera().source.name) : "";
-  const Frame& frame = run.frame();
+  const std::shared_ptr<const Frame> kept = run.frame();
+  const Frame& frame = *kept;
   LinkDistances distances = *result.distances;
   if (!result.asks_images) project_pairs(run.camera().view->camera(), frame.X_BC, distances);
   write_picture(folder_of(scene, run.camera(), folder) /

@@ -42,7 +42,7 @@ void filter_command(const FilterArguments& arguments) {
   SceneRun run(scene, arguments.where, stop_if_interrupted);
   make_folders(scene, arguments.out_folder);
   each_frame(scene, run, "filter", [&] {
-    write_images(folder_of(scene, run.camera(), arguments.out_folder), run, run.frame());
+    write_images(folder_of(scene, run.camera(), arguments.out_folder), run, *run.frame());
   });
 }
 

@@ -50,7 +50,7 @@ struct TwoRuns {
     const OpenScene scene = open_scene(file);
     SceneRun run(scene);
     std::vector<ObstacleImage> images;
-    while (run.next()) images.push_back(run.frame().obstacles);
+    while (run.next()) images.push_back(run.frame()->obstacles);
     return images;
   }
 };

@@ -6,6 +6,17 @@
 #include <stdexcept>
 
 namespace berth {
+namespace {
+
+double newest_stamp_s(const LiveFrames& frames) {
+  double newest_s = -std::numeric_limits<double>::infinity();
+  for (const auto& frame : frames) {
+    if (frame) newest_s = std::max(newest_s, frame->stamp_s);
+  }
+  return newest_s;
+}
+
+}  // namespace
 
 LiveAsker::LiveAsker(std::shared_ptr<const Robot> robot, std::size_t camera_count)
     : robot_(std::move(robot)), asker_(robot_), pointers_(camera_count), none_{} {
@@ -37,13 +48,15 @@ const Answer& LiveAsker::ask(const LiveFrames& frames, const JointBuffer& joints
   return has_mesh() ? asker_.ask(set_, joints, now_s) : asker_.ask(only_frame(), joints, now_s);
 }
 
-const Answer& LiveAsker::ask_at_exposure(const LiveFrames& frames) {
-  double newest_s = -std::numeric_limits<double>::infinity();
-  for (const auto& frame : frames) {
-    if (frame) newest_s = std::max(newest_s, frame->stamp_s);
-  }
-  look(frames, newest_s);
-  return has_mesh() ? asker_.ask(set_) : asker_.ask(only_frame());
+const Answer& LiveAsker::ask(const LiveFrames& frames, const JointState& joints,
+                             std::optional<double> now_s) {
+  look(frames, now_s.value_or(newest_stamp_s(frames)));
+  return has_mesh() ? asker_.ask(set_, joints, now_s) : asker_.ask(only_frame(), joints, now_s);
+}
+
+const Answer& LiveAsker::ask_at_exposure(const LiveFrames& frames, std::optional<double> now_s) {
+  look(frames, now_s.value_or(newest_stamp_s(frames)));
+  return has_mesh() ? asker_.ask(set_, now_s) : asker_.ask(only_frame(), now_s);
 }
 
 }  // namespace berth

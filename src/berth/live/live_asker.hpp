@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,8 +24,13 @@ class LiveAsker {
   /// The robot at its newest joints, against what the cameras see. `frames` has one for each
   /// camera. Valid until the next question.
   const Answer& ask(const LiveFrames& frames, const JointBuffer& joints, double now_s);
-  /// The robot as it stood at the newest exposure, which is the time of the question, too.
-  const Answer& ask_at_exposure(const LiveFrames& frames);
+  /// The same at any joints, now or where the robot is about to go. Without now_s the newest
+  /// exposure is the time of the question, here and below. Throws std::invalid_argument for wrong
+  /// joints.
+  const Answer& ask(const LiveFrames& frames, const JointState& joints,
+                    std::optional<double> now_s = {});
+  /// The robot as it stood at the newest exposure.
+  const Answer& ask_at_exposure(const LiveFrames& frames, std::optional<double> now_s = {});
 
   /// Camera k's part in the last answer, with methods that compare images as well.
   const std::vector<CameraState>& cameras() const { return cameras_; }

@@ -91,23 +91,6 @@ bool LiveCamera::is_ready(const Waiting& image) const {
          steady_now_s() >= image.since_s + settings_.max_wait_s;
 }
 
-std::shared_ptr<Frame> LiveCamera::take_frame() {
-  std::unique_ptr<Frame> frame;
-  {
-    const std::lock_guard lock(pool_->mutex);
-    if (!pool_->free.empty()) {
-      frame = std::move(pool_->free.back());
-      pool_->free.pop_back();
-    }
-  }
-  if (!frame) frame = std::make_unique<Frame>();
-  // Who holds it longest gives it back, also after this camera is gone.
-  return {frame.release(), [pool = pool_](Frame* used) {
-            const std::lock_guard lock(pool->mutex);
-            pool->free.emplace_back(used);
-          }};
-}
-
 std::optional<LiveCamera::Waiting> LiveCamera::next_image(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (true) {
@@ -138,7 +121,7 @@ void LiveCamera::run(const std::stop_token& stop) {
   Observer observer(view_);
   while (std::optional<Waiting> image = next_image(stop)) {
     const double begin_s = steady_now_s();
-    const std::shared_ptr<Frame> frame = take_frame();
+    const std::shared_ptr<Frame> frame = pool_.take();
     observer.observe(image->depth_m, image->stamp_s, joints_.buffer(), *frame,
                      settings_.clock_offset_s);
     keep(*image, frame, begin_s);

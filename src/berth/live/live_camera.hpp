@@ -12,6 +12,7 @@
 
 #include "berth/live/joint_intake.hpp"
 #include "berth/pipeline/frame.hpp"
+#include "berth/pipeline/frame_pool.hpp"
 #include "berth/pipeline/view.hpp"
 
 namespace berth {
@@ -75,11 +76,6 @@ class LiveCamera {
     std::shared_ptr<const void> with;
     double since_s = 0;
   };
-  /// Frames that nobody holds any more.
-  struct Pool {
-    std::mutex mutex;
-    std::vector<std::unique_ptr<Frame>> free;
-  };
 
   void run(const std::stop_token& stop);
   /// The oldest image that is ready; none at the end.
@@ -88,13 +84,12 @@ class LiveCamera {
   /// Whether the joints after its exposure are there, or it has waited long enough.
   bool is_ready(const Waiting& image) const;
   bool has_joints(const Waiting& image) const;
-  std::shared_ptr<Frame> take_frame();
 
   std::shared_ptr<const View> view_;
   const JointIntake& joints_;
   LiveCameraSettings settings_;
   OnFrame on_frame_;
-  std::shared_ptr<Pool> pool_ = std::make_shared<Pool>();
+  FramePool pool_;
   mutable std::mutex mutex_;
   std::condition_variable_any changed_;
   std::deque<Waiting> waiting_;

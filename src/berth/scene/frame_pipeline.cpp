@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "berth/pipeline/asker.hpp"
+#include "berth/pipeline/frame_pool.hpp"
 
 namespace berth {
 namespace {
@@ -18,16 +19,19 @@ class CpuPipeline : public FramePipeline {
   }
 
   void observe(DepthView depth_m, const JointState& at_exposure, FrameTime time) override {
-    observer_.observe(depth_m, at_exposure, frame_, time);
-    observer_.finish_watch(frame_);
-    mark(frame_);
+    // Given back first, so that its memory serves again where nobody else holds it.
+    frame_.reset();
+    frame_ = pool_.take();
+    observer_.observe(depth_m, at_exposure, *frame_, time);
+    observer_.finish_watch(*frame_);
+    mark(*frame_);
   }
-  const Answer& ask() override { return asker_ ? asker_->ask(frame_) : gl_asker_->ask(frame_); }
-  const Exposure& exposure() const override { return frame_; }
+  const Answer& ask() override { return asker_ ? asker_->ask(*frame_) : gl_asker_->ask(*frame_); }
+  const Exposure& exposure() const override { return *frame_; }
   std::array<std::int64_t, kPixelFateCount> fate_counts() override {
-    return frame_.obstacles.count;
+    return frame_->obstacles.count;
   }
-  const Frame& frame() override { return frame_; }
+  std::shared_ptr<const Frame> frame() override { return frame_; }
   void learn_background(DepthView depth_m, const Frame& frame) override {
     observer_.learn_background(depth_m, frame);
   }
@@ -37,7 +41,8 @@ class CpuPipeline : public FramePipeline {
   Observer observer_;
   std::optional<Asker> asker_;
   std::unique_ptr<FrameAsker> gl_asker_;
-  Frame frame_;
+  FramePool pool_;
+  std::shared_ptr<Frame> frame_;
 };
 
 }  // namespace

@@ -24,8 +24,9 @@ class FramePipeline {
   /// Whatever its frames say from now on, the camera is implausible.
   void distrust() { is_distrusted_ = true; }
   virtual std::array<std::int64_t, kPixelFateCount> fate_counts() = 0;
-  /// The images in this program's memory; read back from the GPU at each call.
-  virtual const Frame& frame() = 0;
+  /// The images in this program's memory; read back from the GPU at each call. Nothing writes to it
+  /// while somebody holds it.
+  virtual std::shared_ptr<const Frame> frame() = 0;
   /// Takes these images as background, where the view's settings ask for one.
   virtual void learn_background(DepthView, const Frame&) {}
   /// Begins with this one.

@@ -7,6 +7,7 @@
 #include "berth/opengl/gl_evaluate.hpp"
 #include "berth/opengl/gl_observer.hpp"
 #include "berth/pipeline/asker.hpp"
+#include "berth/pipeline/frame_pool.hpp"
 #include "berth/scene/frame_pipeline.hpp"
 
 namespace berth {
@@ -28,14 +29,16 @@ class GlPipeline : public FramePipeline {
     mark(gl_frame_);
   }
   const Answer& ask() override {
-    return gl_asker_ ? gl_asker_->ask(gl_frame_) : asker_->ask(frame());
+    return gl_asker_ ? gl_asker_->ask(gl_frame_) : asker_->ask(*frame());
   }
   const Exposure& exposure() const override { return gl_frame_; }
   std::array<std::int64_t, kPixelFateCount> fate_counts() override {
     return observer_.fate_counts();
   }
-  const Frame& frame() override {
-    read_back(gl_frame_, frame_);
+  std::shared_ptr<const Frame> frame() override {
+    frame_.reset();
+    frame_ = pool_.take();
+    read_back(gl_frame_, *frame_);
     return frame_;
   }
 
@@ -44,7 +47,8 @@ class GlPipeline : public FramePipeline {
   std::optional<Asker> asker_;
   std::optional<GlAsker> gl_asker_;
   GlFrame gl_frame_;
-  Frame frame_;
+  FramePool pool_;
+  std::shared_ptr<Frame> frame_;
 };
 
 class FrameAskerOnGl : public FrameAsker {

@@ -6,17 +6,12 @@
 #include <chrono>
 #include <stdexcept>
 
+#include "berth/scene/answer_result.hpp"
 #include "berth/scene/frame_pipeline.hpp"
 #include "berth/scene/learn_background.hpp"
 
 namespace berth {
 namespace {
-
-std::vector<bool> links_that_move(const RobotModel& model) {
-  std::vector<bool> moved;
-  for (const std::size_t link : model.evaluated_links) moved.push_back(model.is_moved(link));
-  return moved;
-}
 
 /// Throws where no camera is left.
 std::vector<CameraPlausibility> plausible_cameras(const OpenScene& scene) {
@@ -33,7 +28,11 @@ std::vector<CameraPlausibility> plausible_cameras(const OpenScene& scene) {
 
 SceneRun::SceneRun(const OpenScene& scene, const BackendChoice& where,
                    const std::function<void()>& before_image)
-    : scene_(scene), plausibility_(plausible_cameras(scene)), newest_(scene.cameras.size()), frames_(scene.cameras.size()) {
+    : scene_(scene),
+      plausibility_(plausible_cameras(scene)),
+      newest_(scene.cameras.size()),
+      kept_(scene.cameras.size()),
+      frames_(scene.cameras.size()) {
   const bool on_gl = where.backend == Backend::opengl;
   if (on_gl || runs_on_opengl(scene.robot->settings().method)) {
     gl_ = open_gl_backend(where.gl_device);
@@ -105,7 +104,8 @@ bool SceneRun::next() {
 
 void SceneRun::assign_frames() {
   for (std::size_t c = 0; c < frames_.size(); ++c) {
-    if (newest_[c].number) frames_[c] = &pipelines_[c]->frame();
+    if (newest_[c].number) kept_[c] = pipelines_[c]->frame();
+    frames_[c] = kept_[c].get();
   }
   // One camera's frame is new whenever it is asked.
   const std::optional<double> now_s =
@@ -113,7 +113,7 @@ void SceneRun::assign_frames() {
   frame_set_.assign(frames_, scene_.robot->settings().time, now_s);
 }
 
-const Frame& SceneRun::frame() { return pipelines_[step().camera]->frame(); }
+std::shared_ptr<const Frame> SceneRun::frame() { return pipelines_[step().camera]->frame(); }
 
 FrameResult SceneRun::ask(int repeat) {
   std::vector<double> times_us;
@@ -132,21 +132,10 @@ FrameResult SceneRun::ask(int repeat) {
 }
 
 FrameResult SceneRun::result_of(const Answer& answer) {
-  const EvaluationSettings& settings = scene_.robot->settings();
-  FrameResult result;
+  FrameResult result = berth::result_of(*scene_.robot, answer);
   // Lines are counted where all cameras answer together.
   result.frame = static_cast<int>(has_mesh() ? step_ - 1 : step().frame);
   result.stamp_s = step().stamp_s;
-  result.method = name_of(settings.method);
-  result.asks_images = asks_images(settings.method);
-  result.range_m = settings.distance.range_m;
-  result.has_bounds = has_mesh() || settings.distance.tolerance_m.value_or(0) > 0 ||
-                      settings.distance.deadline_us;
-  result.link_names = scene_.robot->model().evaluated_link_names();
-  result.link_is_moved = links_that_move(scene_.robot->model());
-  result.distances = &answer.distances;
-  if (settings.visibility) result.visibility = &answer.visibility;
-  result.time = answer.time;
   if (gl_) result.gl_renderer = gl_->renderer();
   for (std::size_t c = 0; c < scene_.cameras.size(); ++c) {
     if (has_mesh() || c == step().camera) result.cameras.push_back(camera_result(c, answer));

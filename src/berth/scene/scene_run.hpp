@@ -57,8 +57,9 @@ class SceneRun {
   /// Its number among the images of its camera.
   std::size_t frame_number() const { return step().frame; }
   DepthView sensor_depth_m() const { return newest_[step().camera].depth_m; }
-  /// The images in this program's memory; read back from the GPU at each call.
-  const Frame& frame();
+  /// The images in this program's memory; read back from the GPU at each call. It stays as it is for
+  /// who holds it.
+  std::shared_ptr<const Frame> frame();
 
  private:
   struct Step {
@@ -91,6 +92,7 @@ class SceneRun {
   /// How many of them were taken, and how many observed.
   std::size_t step_ = 0;
   std::size_t observed_ = 0;
+  std::vector<std::shared_ptr<const Frame>> kept_;
   std::vector<const Frame*> frames_;
   FrameSet frame_set_;
   std::optional<Asker> asker_;

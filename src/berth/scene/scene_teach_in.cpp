@@ -108,6 +108,13 @@ void warn(const OpenCamera& camera, const std::vector<std::size_t>& usable,
 
 }  // namespace
 
+SceneFile read_scene_to_teach(const std::filesystem::path& file) {
+  SceneFile scene = read_scene(file);
+  scene.evaluation.method = Method::exact;
+  scene.evaluation.visibility = false;
+  return scene;
+}
+
 SceneTeachIn make_teach_in(const OpenScene& scene) {
   SceneTeachIn material;
   material.teach_in.model = &scene.robot->model();

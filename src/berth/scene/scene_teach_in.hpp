@@ -21,6 +21,9 @@ struct SceneTeachIn {
   std::vector<std::string> warnings;
 };
 
+/// read_scene() of a scene that is asked no question: nothing is made ready for one.
+SceneFile read_scene_to_teach(const std::filesystem::path& file);
+
 /// More frames than this of a camera tell nothing new.
 inline constexpr std::size_t kMostTeachInFrames = 20;
 
