@@ -1,5 +1,5 @@
 # Thin fronts of CMake. Each target does all set-up that it needs, on a bare Debian 12 too.
-.PHONY: demo opengl test test-ros2 build bench lab study bench-gpu sanitize sanitize-thinned fuzz trust berth_trust trust-distances trust-real-images trust-long-runs trust-whole-robot setup docs lint format clean
+.PHONY: demo opengl python test test-ros2 build bench lab study bench-gpu sanitize sanitize-thinned fuzz trust berth_trust trust-distances trust-real-images trust-long-runs trust-whole-robot setup docs lint format clean
 
 # A fresh build folder is configured for berth alone, which needs the fewest packages. One that has more keeps it.
 product = test -e build/release/build.ninja || cmake --preset product
@@ -97,13 +97,20 @@ trust-whole-robot: setup
 	BERTH_MESH_TWIN=full build/release/tests/truth/mesh_distances_test
 	build/release/lab/berth_trust --whole-robot $(if $(BERTH_DATA),--robots $(BERTH_DATA)/robots) $(TRUST_OPTIONS)
 
+# Adds the Python module to what build/release has: build/release/python/berth.
+python:
+	scripts/setup.sh packages.txt packages-python.txt
+	$(product)
+	cmake -B build/release -DBERTH_PYTHON=ON
+	cmake --build --preset release --target berth_python
+
 # The ROS 2 packages and their tests, in a ROS 2 that is sourced.
 test-ros2:
 	scripts/test_ros2.sh
 
 # All that the tests need.
 setup:
-	scripts/setup.sh packages.txt packages-opengl.txt packages-lab.txt packages-tests.txt
+	scripts/setup.sh packages.txt packages-opengl.txt packages-lab.txt packages-python.txt packages-tests.txt
 
 # The API's pages: build/docs/html/index.html.
 docs:

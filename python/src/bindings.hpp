@@ -1,0 +1,18 @@
+// The parts of the module, in the order in which their types need each other.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace berth::python {
+
+void bind_statuses(pybind11::module_& m);
+void bind_all_settings(pybind11::module_& m);
+void bind_robot(pybind11::module_& m);
+void bind_view(pybind11::module_& m);
+void bind_answer(pybind11::module_& m);
+void bind_asker(pybind11::module_& m);
+void bind_images(pybind11::module_& m);
+void bind_scene(pybind11::module_& m);
+void bind_calibration(pybind11::module_& m);
+
+}  // namespace berth::python

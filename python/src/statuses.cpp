@@ -1,0 +1,38 @@
+#include <string>
+
+#include "berth/types/camera_status.hpp"
+#include "berth/types/link_distance.hpp"
+#include "berth/types/obstacle_image.hpp"
+#include "berth/types/time_status.hpp"
+#include "bindings.hpp"
+
+namespace berth::python {
+namespace {
+
+namespace py = pybind11;
+
+/// An enum of Python whose members have the names that berth writes everywhere.
+template <class Enum, std::size_t N>
+void bind_enum(py::module_& m, const char* name, const std::array<std::string_view, N>& names,
+               const char* what) {
+  py::enum_<Enum> bound(m, name, what);
+  for (std::size_t i = 0; i < N; ++i) {
+    bound.value(std::string(names[i]).c_str(), static_cast<Enum>(i));
+  }
+}
+
+}  // namespace
+
+void bind_statuses(py::module_& m) {
+  bind_enum<LinkStatus>(m, "LinkStatus", kLinkStatusNames, "What is known of a link's distance.");
+  bind_enum<TimeStatus>(m, "TimeStatus", kTimeStatusNames,
+                        "Whether stamps, joints and cameras allow an answer.");
+  bind_enum<CameraStatus>(m, "CameraStatus", kCameraStatusNames,
+                          "What became of a camera in a question.");
+  bind_enum<ObstacleKind>(m, "ObstacleKind", kObstacleKindNames,
+                          "Whether an obstacle's point was measured, or is hidden behind one.");
+  bind_enum<PixelFate>(m, "PixelFate", kPixelFateNames,
+                       "What became of a pixel: the numbers in Frame.fate.");
+}
+
+}  // namespace berth::python
