@@ -150,6 +150,13 @@ void bind_images(py::module_& m) {
         py::arg("depth_scale") = std::nullopt,
         "Takes the robot out of a depth image. robot_depth_m and link_id are those of render().\n"
         "Gives what is left (float32, NaN elsewhere) and the fate of each pixel (PixelFate).");
+  m.def(
+      "needs_copy",
+      [](const py::object& depth, std::optional<double> depth_scale) {
+        return depth_of(depth, depth_scale).kept.ptr() != depth.ptr();
+      },
+      py::arg("depth"), py::arg("depth_scale") = std::nullopt,
+      "Whether berth copies this depth image before it works on it, in place of looking at it.");
   m.def("read_depth_png", &read_png, py::arg("file"), py::arg("camera"), py::arg("depth_scale"),
         "For berth.io.read_depth.");
   m.def("write_depth_png", &write_png, py::arg("file"), py::arg("depth"), py::arg("depth_scale"),

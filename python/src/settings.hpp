@@ -69,7 +69,8 @@ void assign_value(const std::string& name, const py::handle& value, T& out) {
   }
 }
 
-/// Sets one, and checks it. Throws AttributeError-like TypeError for a name that there is not.
+/// Sets one, or changes nothing. Throws TypeError for a name that there is not,
+/// std::invalid_argument for a value outside of its domain.
 template <class Settings>
 void set_setting(const std::string& group, const std::string& name, const py::handle& value,
                  Settings& settings) {

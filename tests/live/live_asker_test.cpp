@@ -81,6 +81,24 @@ TEST_F(AskedScene, WholeSceneGivesWhatSceneRunGives) {
   }
 }
 
+TEST_F(AskedScene, AnyJointsAreThoseOfABufferThatHasThem) {
+  const auto new_asker = [&] { return LiveAsker(scene_.robot, frames_.size()); };
+  JointState joints;
+  const double now_s = newest_s();
+  joints_.buffer().at(now_s, kOnlyBetweenSamples, joints);
+  LiveAsker of_buffer = new_asker(), with_time = new_asker(), without_time = new_asker();
+  const std::vector<float> expected =
+      distances_of(of_buffer.ask(frames_, joints_at(now_s), now_s).distances);
+  expect_near(distances_of(with_time.ask(frames_, joints, now_s).distances), expected);
+  const Answer& timeless = without_time.ask(frames_, joints);
+  expect_near(distances_of(timeless.distances), expected);
+  EXPECT_TRUE(std::isnan(timeless.time.frame_age_s));
+  EXPECT_EQ(with_time.ask_at_exposure(frames_, now_s + 10).time.status, TimeStatus::stale_frame);
+  joints.position.pop_back();
+  expect_parts(error_message<std::invalid_argument>([&] { with_time.ask(frames_, joints); }),
+               {"6", "7"});
+}
+
 TEST_F(AskedScene, ACameraThatStopsIsLeftOutOnceItIsTooOld) {
   LiveAsker asker(scene_.robot, 3);
   const double max_age_s = scene_.robot->settings().time.max_frame_age_s;

@@ -40,6 +40,15 @@ def test_the_same_image_in_other_memory_gives_the_same_frame(observer, step, mak
     assert np.array_equal(given, before, equal_nan=True), "the image is not written to"
 
 
+@pytest.mark.parametrize("make, copies", [
+    (lambda d: d, False), (upside_down, False), (with_rows_apart, False), (lambda d: d[::2], False),
+    (with_columns_apart, True), (np.asfortranarray, True), (lambda d: d.astype(np.float64), True),
+    (lambda d: np.nan_to_num(d), True), (lambda d: np.rint(np.nan_to_num(d)).astype(np.uint16), True),
+])
+def test_nothing_is_copied_that_can_be_looked_at(step, make, copies):
+    assert berth.needs_copy(make(step.depth_m)) == copies
+
+
 @pytest.mark.parametrize("dtype", ["<u2", ">u2"])
 def test_whole_numbers_are_millimetres_unless_told(observer, step, dtype):
     expected = observer.observe(step.depth_m, step.joints)
