@@ -71,31 +71,35 @@ def frame(shown: berth.Frame, answer: Optional[berth.Answer] = None, camera: Opt
     Returns the axes.
     """
     image, names = _fate_image(shown)
-    axes = _axes(ax, (8, 8 * image.shape[0] / image.shape[1] + 0.6))
+    axes = _axes(ax, (10.5, 8 * image.shape[0] / image.shape[1] + 0.4))
     from matplotlib.patches import Patch
 
     axes.imshow(image, interpolation="nearest")
     axes.set(title=f"{shown.camera}, {shown.stamp_s:.3f} s", xticks=[], yticks=[])
-    handles = [Patch(color="#A8A8A8", label="obstacle")] + [Patch(color=FATE_COLORS[n], label=n.replace("_", " ")) for n in names]
-    axes.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0), ncols=min(len(handles), 5), frameon=False)
+    handles: List[Any] = [Patch(color="#A8A8A8", label="obstacle")]
+    handles += [Patch(color=FATE_COLORS[name], label=name.replace("_", " ")) for name in names]
     if answer is not None and camera is not None:
-        _draw_pairs(axes, shown, answer, camera)
+        handles += _draw_pairs(axes, shown, answer, camera)
+    axes.legend(handles=handles, loc="center left", bbox_to_anchor=(1, 0.5), frameon=False)
     return axes
 
 
-def _draw_pairs(axes: Any, shown: berth.Frame, answer: berth.Answer, camera: berth.Camera) -> None:
+def _draw_pairs(axes: Any, shown: berth.Frame, answer: berth.Answer, camera: berth.Camera) -> List[Any]:
+    """A line from each link to what is nearest; returns their entries of the legend."""
+    from matplotlib.lines import Line2D
+
+    entries = []
     to_camera = np.linalg.inv(shown.X_BC)
     for i, link in enumerate(answer.links):
-        if not np.isfinite(link.distance_m):
-            continue
         points = np.stack([link.robot_point_B_m, link.obstacle_point_B_m]) @ to_camera[:3, :3].T + to_camera[:3, 3]
-        if (points[:, 2] <= 0).any():
+        if not (points[:, 2] > 0).all():
             continue
         u = camera.fx_px * points[:, 0] / points[:, 2] + camera.cx_px
         v = camera.fy_px * points[:, 1] / points[:, 2] + camera.cy_px
         color = LINK_COLORS[i % len(LINK_COLORS)]
         axes.plot(u, v, "o-", color=color, markersize=3, linewidth=1.5, scalex=False, scaley=False)
-        axes.annotate(f"{link.distance_m:.2f} m", (u[0], v[0]), color=color, fontsize=8, clip_on=True)
+        entries.append(Line2D([], [], color=color, marker="o", markersize=3, label=f"{link.name}: {link.distance_m:.3f} m"))
+    return entries
 
 
 def distances(answers: Sequence[berth.Answer], moving_only: bool = True, ax: Optional[Axes] = None) -> Any:
@@ -127,7 +131,7 @@ def links(answer: berth.Answer, ax: Optional[Axes] = None) -> Any:
         axes.text(np.nan_to_num(link.distance_m), i, text, va="center", fontsize=8)
     axes.margins(x=0.15)
     axes.invert_yaxis()
-    axes.set(xlabel="least distance, m", title=answer.time_status.name.replace("_", " "))
+    axes.set(xlabel="least distance, m", title=f"exposure at {answer.frame_stamp_s:.3f} s, {answer.time_status.name.replace('_', ' ')}")
     return axes
 
 
@@ -141,7 +145,7 @@ def residuals(calibration: berth.Calibration, ax: Optional[Axes] = None) -> Any:
             axes.plot([0, values[1] * 1000], [i + offset] * 2, color=color, linewidth=6, label=label)
             axes.plot([values[0] * 1000], [i + offset], "|", color="black", markersize=12)
     axes.set(yticks=range(len(cameras)), yticklabels=[camera.camera for camera in cameras],
-             xlabel="residual, mm: bar to 90 %, mark at the median")
+             xlabel="residual, mm: bar to 90 %, mark at the median", xlim=(0, None), ylim=(-0.7, len(cameras) - 0.3))
     axes.legend(frameon=False)
     return axes
 
