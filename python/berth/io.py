@@ -128,9 +128,11 @@ _Messages = Callable[[List[str]], Iterator[Tuple[str, Any]]]
 def _open_rosbag(bag: str) -> Tuple[Dict[str, str], _Messages]:
     try:
         from rosbags.highlevel import AnyReader  # type: ignore[import]
+        from rosbags.typesys import Stores, get_typestore  # type: ignore[import]
     except ImportError as error:
         raise ImportError("import_bag needs the package rosbags: pip install berth[bags]") from error
-    reader = AnyReader([pathlib.Path(bag)])
+    # The messages that are read are the same in all releases; bags of Humble do not bring their definitions.
+    reader = AnyReader([pathlib.Path(bag)], default_typestore=get_typestore(Stores.ROS2_HUMBLE))
     reader.open()
     types = {connection.topic: connection.msgtype for connection in reader.connections}
 
