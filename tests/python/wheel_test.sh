@@ -16,5 +16,9 @@ unset_path "$work/venv/bin/pip" install --no-index --no-deps "$work"/dist/berth-
 cd "$work"
 unset_path "$work/venv/bin/python" -m berth --version
 unset_path "$work/venv/bin/python" -c "import berth; assert berth.__file__.startswith('$work/venv'), berth.__file__"
+cat > boxes.urdf <<'URDF'
+<robot name="boxes"><link name="base_link"><visual><geometry><box size="0.2 0.2 0.6"/></geometry></visual></link></robot>
+URDF
+unset_path "$work/venv/bin/python" "$source/examples/python/one_frame.py" boxes.urdf
 unset_path "$work/venv/bin/python" "$source/examples/python/look_ahead.py" "$source/data/bundled/scene.yaml"
 unset_path "$work/venv/bin/python" "$source/examples/python/calibrate.py" "$source/data/bundled/one_camera.yaml" new.yaml
