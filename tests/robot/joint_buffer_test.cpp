@@ -116,6 +116,26 @@ TEST_F(Buffer, AMissingJointIsNamedAndNothingOlderIsTakenForIt) {
   EXPECT_EQ(buffer_.newest(joints_), TimeStatus::ok);
 }
 
+TEST_F(Buffer, VelocityIsTheWayOfAWindowOverItsTime) {
+  std::vector<double> velocity;
+  EXPECT_EQ(buffer_.velocity(0.02, velocity), TimeStatus::no_joints);
+  push(buffer_, 1.00, 0.0, 3.1);
+  EXPECT_EQ(buffer_.velocity(0.02, velocity), TimeStatus::no_joints);
+  EXPECT_TRUE(std::isnan(velocity.at(0)));
+  push(buffer_, 1.01, 0.1, -3.1);
+  EXPECT_EQ(buffer_.velocity(0.02, velocity), TimeStatus::ok) << "the oldest, where none is older";
+  EXPECT_NEAR(velocity.at(0), 10, 1e-9);
+  EXPECT_NEAR(velocity.at(1), (2 * std::numbers::pi - 6.2) / 0.01, 1e-9);
+  push(buffer_, 1.02, 0.4, -3.1);
+  push(buffer_, 1.03, 0.7, -3.1);
+  EXPECT_EQ(buffer_.velocity(0.015, velocity), TimeStatus::ok);
+  EXPECT_NEAR(velocity.at(0), 30, 1e-9);
+  EXPECT_NEAR(velocity.at(1), 0, 1e-9);
+  buffer_.push(1.04, std::vector<std::string>{"wheel"}, std::array{0.0});
+  EXPECT_EQ(buffer_.velocity(0.015, velocity), TimeStatus::missing_joint);
+  EXPECT_TRUE(std::isnan(velocity.at(1)));
+}
+
 TEST_F(Buffer, WrongUseIsRefused) {
   EXPECT_THROW(JointBuffer(two_joints(), 1), std::invalid_argument);
   EXPECT_THROW(buffer_.push(0, kNames, std::array{1.0}), std::invalid_argument);

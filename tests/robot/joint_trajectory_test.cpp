@@ -74,6 +74,27 @@ TEST(JointTrajectory, NothingIsExtrapolatedUnlessTheLimitAllowsIt) {
   EXPECT_NEAR(state.position[0], 1.1, 1e-12);
 }
 
+TEST(JointTrajectory, VelocityIsTheSlopeBetweenTheSamplesAround) {
+  const JointTrajectory joints =
+      trajectory({{1, {3.1, 0, 0, 0}}, {2, {-3.1, 1, 0, 2}}, {4, {-3.1, 2, 0, 2}}});
+  std::vector<double> velocity;
+  for (const double time_s : {1.0, 1.5, 2.0}) {
+    joints.velocity(time_s, velocity);
+    ASSERT_EQ(velocity.size(), 3U);
+    EXPECT_NEAR(velocity[0], 1, 1e-12);
+    EXPECT_NEAR(velocity[1], 2 * std::numbers::pi - 6.2, 1e-12);
+    EXPECT_NEAR(velocity[2], 2, 1e-12);
+  }
+  joints.velocity(3, velocity);
+  EXPECT_NEAR(velocity[0], 0.5, 1e-12);
+  for (const double time_s : {0.99, 4.01, std::nan("")}) {
+    joints.velocity(time_s, velocity);
+    EXPECT_TRUE(std::isnan(velocity[0])) << time_s;
+  }
+  trajectory({{1, {0, 0, 0, 0}}}).velocity(1, velocity);
+  EXPECT_TRUE(std::isnan(velocity[0])) << "one sample has no slope";
+}
+
 TEST(JointTrajectory, AMissingSampleIsNamed) {
   const std::string message = error_message([] { trajectory({{1, {0, 0, 0, 0}}}).sample(1); });
   EXPECT_NE(message.find("joints.csv: 1 rows"), std::string::npos) << message;

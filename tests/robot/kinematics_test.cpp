@@ -6,6 +6,8 @@
 #include <numbers>
 #include <random>
 
+#include "berth/robot/link_twists.hpp"
+#include "berth/robot/point_jacobian.hpp"
 #include "tests/robot/error_text.hpp"
 #include "tests/robot/robot_text.hpp"
 
@@ -120,6 +122,88 @@ TEST(Kinematics, PoseOfAnotherRobotIsReplaced) {
   pose.X_BL.resize(50);
   forward_kinematics(arm_model(), {0, 0}, pose);
   EXPECT_EQ(pose.X_BL.size(), 4U);
+}
+
+/// The twist of each link, from two poses a short time before and after.
+std::vector<LinkTwist> differences(const RobotModel& model, const std::vector<double>& positions,
+                                   const std::vector<double>& velocities) {
+  constexpr double kStep_s = 1e-6;
+  RobotPose before, after;
+  std::vector<double> q = positions;
+  for (std::size_t i = 0; i < q.size(); ++i) q[i] = positions[i] - kStep_s * velocities[i];
+  forward_kinematics(model, q, before);
+  for (std::size_t i = 0; i < q.size(); ++i) q[i] = positions[i] + kStep_s * velocities[i];
+  forward_kinematics(model, q, after);
+  std::vector<LinkTwist> twists;
+  for (std::size_t i = 0; i < model.links.size(); ++i) {
+    const Eigen::Matrix3d turn = after.X_BL[i].linear() * before.X_BL[i].linear().transpose();
+    const Eigen::AngleAxisd angle(turn);
+    twists.push_back({(after.X_BL[i].translation() - before.X_BL[i].translation()) / (2 * kStep_s),
+                      angle.angle() / (2 * kStep_s) * angle.axis()});
+  }
+  return twists;
+}
+
+TEST(LinkTwists, AreTheDerivativesOfThePoses) {
+  const TemporaryFolder folder;
+  const RobotModel model = load_text(
+      folder,
+      robot_xml(box_link_xml("base") + box_link_xml("arm") + box_link_xml("slide") +
+                box_link_xml("tool") + box_link_xml("finger") +
+                joint_xml("turn", "revolute", "base", "arm",
+                          R"(<origin xyz="1 0 0" rpy="0.3 0.2 0.1"/><axis xyz="0.2 1 2"/>)") +
+                joint_xml("slide", "prismatic", "arm", "slide",
+                          R"(<origin xyz="0 0.5 2" rpy="1 0 0"/><axis xyz="0 5 1"/>)") +
+                joint_xml("roll", "continuous", "slide", "tool",
+                          R"(<origin xyz="1 0 0.3"/><axis xyz="1 0 0"/>)") +
+                joint_xml("finger", "revolute", "tool", "finger",
+                          R"(<origin xyz="0.1 0 0"/><axis xyz="0 0 1"/>)"
+                          R"(<mimic joint="turn" multiplier="-2" offset="0.1"/>)")));
+  ASSERT_EQ(model.joints.size(), 3U);
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> number(-2, 2);
+  for (int trial = 0; trial < 50; ++trial) {
+    const std::vector<double> positions{number(random), number(random), number(random)};
+    const std::vector<double> velocities{number(random), number(random), number(random)};
+    RobotPose pose;
+    forward_kinematics(model, positions, pose);
+    std::vector<LinkTwist> twists;
+    link_twists(model, pose, velocities, twists);
+    const std::vector<LinkTwist> expected = differences(model, positions, velocities);
+    ASSERT_EQ(twists.size(), expected.size());
+    for (std::size_t i = 0; i < twists.size(); ++i) {
+      EXPECT_LE((twists[i].linear_B_m_s - expected[i].linear_B_m_s).norm(), 1e-6) << i;
+      EXPECT_LE((twists[i].angular_B_rad_s - expected[i].angular_B_rad_s).norm(), 1e-6) << i;
+    }
+  }
+}
+
+TEST(PointJacobian, TimesVelocitiesIsTheVelocityOfThePoint) {
+  const RobotModel model = arm_model();
+  const std::vector<double> positions{0.7, 0.3}, velocities{1.1, -0.4};
+  RobotPose pose;
+  forward_kinematics(model, positions, pose);
+  std::vector<LinkTwist> twists;
+  link_twists(model, pose, velocities, twists);
+  for (std::size_t i = 0; i < model.links.size(); ++i) {
+    const Eigen::Vector3d arm_B(0.3, -0.2, 0.5);
+    Eigen::Matrix3Xd jacobian;
+    point_jacobian(model, pose, i, pose.X_BL[i].translation() + arm_B, jacobian);
+    ASSERT_EQ(jacobian.cols(), 2);
+    const Eigen::Vector3d expected =
+        twists[i].linear_B_m_s + twists[i].angular_B_rad_s.cross(arm_B);
+    EXPECT_LE((jacobian * Eigen::Vector2d(1.1, -0.4) - expected).norm(), 1e-12) << i;
+  }
+}
+
+TEST(LinkTwists, NeedAVelocityForEachJoint) {
+  const RobotModel model = arm_model();
+  RobotPose pose;
+  forward_kinematics(model, {0, 0}, pose);
+  std::vector<LinkTwist> twists;
+  expect_error<std::invalid_argument>(
+      [&] { link_twists(model, pose, std::vector<double>{1}, twists); },
+      {"joint velocities", "\"test\"", "1", "expected 2"});
 }
 
 TEST(Kinematics, WrongNumberOfPositionsThrows) {

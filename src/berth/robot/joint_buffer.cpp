@@ -68,6 +68,23 @@ TimeStatus JointBuffer::newest(JointState& joints) const {
   return missing_.empty() ? TimeStatus::no_joints : TimeStatus::missing_joint;
 }
 
+TimeStatus JointBuffer::velocity(double window_s, std::vector<double>& velocity) const {
+  const std::lock_guard lock(mutex_);
+  velocity.assign(names_.size(), std::numeric_limits<double>::quiet_NaN());
+  if (!missing_.empty()) return TimeStatus::missing_joint;
+  if (samples_.size() < 2) return TimeStatus::no_joints;
+  const JointState& newest = samples_.back();
+  auto before = samples_.end() - 2;
+  while (before != samples_.begin() && newest.stamp_s - before->stamp_s < window_s) --before;
+  for (std::size_t i = 0; i < velocity.size(); ++i) {
+    const double way =
+        joint_between(before->position[i], newest.position[i], 1, is_continuous_[i]) -
+        before->position[i];
+    velocity[i] = way / (newest.stamp_s - before->stamp_s);
+  }
+  return TimeStatus::ok;
+}
+
 double JointBuffer::newest_stamp_s() const {
   const std::lock_guard lock(mutex_);
   return samples_.empty() ? std::numeric_limits<double>::quiet_NaN() : samples_.back().stamp_s;

@@ -36,6 +36,12 @@ class JointBuffer {
   /// last lacked a joint, missing_joint, and then `joints` is NaN.
   TimeStatus newest(JointState& joints) const;
 
+  /// How fast the joints move at the newest sample: its way from the last sample that is at least
+  /// `window_s` older (from the oldest, where none is), over the time between; rad/s or m/s, one
+  /// for each joint. It lags by half of the window. Where there are not two samples (no_joints), or
+  /// the one pushed last lacked a joint (missing_joint), all are NaN.
+  TimeStatus velocity(double window_s, std::vector<double>& velocity) const;
+
   /// Of the newest sample; NaN where there is none.
   double newest_stamp_s() const;
 

@@ -63,6 +63,19 @@ FrameTime JointTrajectory::at(double time_s, const JointTimeLimits& limits,
   return joints_at_time(states_, is_continuous_, time_s, limits, joints);
 }
 
+void JointTrajectory::velocity(double time_s, std::vector<double>& velocity) const {
+  velocity.assign(is_continuous_.size(), std::numeric_limits<double>::quiet_NaN());
+  if (states_.size() < 2 || !(time_s >= first_s() && time_s <= last_s())) return;
+  const auto after = std::max(states_.begin() + 1,
+                              std::ranges::lower_bound(states_, time_s, {}, &JointState::stamp_s));
+  const JointState &a = *(after - 1), &b = *after;
+  for (std::size_t i = 0; i < velocity.size(); ++i) {
+    const double way =
+        joint_between(a.position[i], b.position[i], 1, is_continuous_[i]) - a.position[i];
+    velocity[i] = way / (b.stamp_s - a.stamp_s);
+  }
+}
+
 const JointState& JointTrajectory::sample(std::size_t index) const {
   if (index < states_.size()) return states_[index];
   throw std::runtime_error(

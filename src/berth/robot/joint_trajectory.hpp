@@ -27,6 +27,9 @@ class JointTrajectory {
 
   /// See joints_at_time().
   FrameTime at(double time_s, const JointTimeLimits& limits, JointState& joints) const;
+  /// How fast each joint moves at a time: the slope between the two samples around it, rad/s or
+  /// m/s. All are NaN outside of the samples. Reuses the memory of `velocity`.
+  void velocity(double time_s, std::vector<double>& velocity) const;
   /// What the constructor was given.
   const std::string& source() const { return source_; }
   double first_s() const { return states_.front().stamp_s; }

@@ -16,6 +16,8 @@ struct JointTimeLimits {
   double max_skew_s = 0.02;
   /// Beyond the first or the last sample.
   double max_extrapolation_s = 0;
+
+  bool operator==(const JointTimeLimits&) const = default;
 };
 
 /// The list of these settings.

@@ -1,0 +1,77 @@
+#include "lab/closed_loop/cell.hpp"
+
+#include <fmt/format.h>
+
+#include "berth/files/read_file.hpp"
+#include "lab/bundled_scene/bundled_camera.hpp"
+#include "lab/bundled_scene/room.hpp"
+
+namespace berth::lab {
+namespace {
+
+/// The bundled URDF with a floor.
+std::string cell_urdf(const std::string& file) {
+  std::string urdf = read_file_bytes(file);
+  const std::string floor = fmt::format(
+      "<link name=\"floor\"><visual><geometry><box size=\"8 8 0.1\"/></geometry></visual></link>\n"
+      "<joint name=\"floor\" type=\"fixed\"><parent link=\"table\"/><child link=\"floor\"/>"
+      "<origin xyz=\"0 0 {}\"/></joint>\n",
+      kFloorZ_m - 0.05);
+  return urdf.insert(urdf.rfind("</robot>"), floor);
+}
+
+Camera halved(const Camera& camera) {
+  return {camera.width_px / 2, camera.height_px / 2,           camera.fx_px / 2,
+          camera.fy_px / 2,    (camera.width_px / 2 - 1) / 2., (camera.height_px / 2 - 1) / 2.};
+}
+
+}  // namespace
+
+RobotModel cell_model() {
+  const std::string folder = BERTH_BUNDLED_ARM;
+  RobotSettings settings;
+  settings.urdf = folder + "/arm.urdf";
+  settings.package_paths["berth_arm"] = folder;
+  settings.environment_links = {"table", "floor"};
+  settings.urdf_text = cell_urdf(settings.urdf);
+  return load_robot(settings);
+}
+
+std::vector<CellCamera> cell_cameras() {
+  std::vector<CellCamera> cameras;
+  for (const BundledCamera& camera : bundled_cameras()) {
+    cameras.push_back({camera.name, halved(camera.camera), camera.place.X_TC()});
+  }
+  return cameras;
+}
+
+SeparationSettings cell_separation() {
+  SeparationSettings settings;
+  settings.deceleration_m_s2 = kArmDeceleration_m_s2;
+  settings.acceleration_m_s2 = kArmAcceleration_m_s2;
+  settings.reaction_time_s = 0.04;
+  return settings;
+}
+
+std::shared_ptr<const Robot> cell_robot(Method method) {
+  EvaluationSettings settings;
+  settings.method = method;
+  settings.distance.range_m = kCellRange_m;
+  return std::make_shared<const Robot>(cell_model(), settings);
+}
+
+std::vector<std::shared_ptr<const View>> cell_views(const std::shared_ptr<const Robot>& robot,
+                                                    const std::vector<int>& cameras) {
+  const std::vector<CellCamera> all = cell_cameras();
+  ViewSettings settings;
+  settings.sensor.speckle_px = 8;
+  std::vector<std::shared_ptr<const View>> views;
+  for (const int camera : cameras) {
+    views.push_back(std::make_shared<const View>(
+        robot, CameraMount{all[camera].camera, robot->model().links.front().name, all[camera].X_BC},
+        settings));
+  }
+  return views;
+}
+
+}  // namespace berth::lab

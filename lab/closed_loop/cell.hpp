@@ -1,0 +1,45 @@
+// The bundled arm in its cell, and the cameras around it.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "berth/pipeline/robot.hpp"
+#include "berth/pipeline/view.hpp"
+#include "berth/separation/settings.hpp"
+
+namespace berth::lab {
+
+struct CellCamera {
+  std::string name;
+  Camera camera;
+  Pose X_BC;
+};
+
+/// Arm, table and floor; the latter two are scenery. People are all that is not in the URDF.
+RobotModel cell_model();
+
+/// Those of the bundled scene, with half as many pixels in each direction.
+std::vector<CellCamera> cell_cameras();
+
+/// How fast the arm's fastest point loses speed when it brakes, and gains it.
+inline constexpr double kArmDeceleration_m_s2 = 4;
+inline constexpr double kArmAcceleration_m_s2 = 3;
+
+/// berth's defaults, but for the robot's data: brake, motors, and the time of the loop from a
+/// question until the arm obeys.
+SeparationSettings cell_separation();
+
+/// How far distances are looked for: above what the arm needs at full speed.
+inline constexpr double kCellRange_m = 2;
+
+/// With berth's default settings but for method and range.
+std::shared_ptr<const Robot> cell_robot(Method method);
+
+/// Of these cameras, by their place in cell_cameras(). Settings are the defaults, but for speckle:
+/// these cameras mix pixels at outlines.
+std::vector<std::shared_ptr<const View>> cell_views(const std::shared_ptr<const Robot>& robot,
+                                                    const std::vector<int>& cameras);
+
+}  // namespace berth::lab

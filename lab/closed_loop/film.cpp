@@ -1,0 +1,72 @@
+#include "lab/closed_loop/film.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "apps/berth/picture.hpp"
+#include "apps/berth/picture_projection.hpp"
+#include "berth/files/file_bytes.hpp"
+#include "lab/closed_loop/cell.hpp"
+
+namespace berth::lab {
+namespace {
+
+/// Of the encounter's time.
+constexpr std::array kPictures = {0.12, 0.3, 0.42, 0.55, 0.8};
+
+class FilmedSupervisor : public MonitorSupervisor {
+ public:
+  FilmedSupervisor(double duration_s, std::filesystem::path folder)
+      : MonitorSupervisor(Method::mesh, {0, 1, 2}, cell_separation()),
+        duration_s_(duration_s),
+        folder_(std::move(folder)) {}
+
+  void see(std::size_t which, const DepthImage& depth_m, double stamp_s,
+           const JointBuffer& joints) override {
+    MonitorSupervisor::see(which, depth_m, stamp_s, joints);
+    if (which == 0) newest_depth_m_ = depth_m;
+  }
+
+  double scale(const Situation& situation) override {
+    const double scale = MonitorSupervisor::scale(situation);
+    const bool is_time =
+        taken_ < kPictures.size() && situation.now_s >= kPictures[taken_] * duration_s_;
+    if (is_time && newest(0)) draw(situation.now_s);
+    return scale;
+  }
+
+ private:
+  void draw(double now_s) {
+    const Frame& frame = *newest(0);
+    LinkDistances distances = answer().distances;
+    app::project_pairs(frame.view->camera(), frame.X_BC, distances);
+    const RobotModel& model = frame.view->robot()->model();
+    app::write_picture(
+        folder_ / fmt::format("film_{}.png", taken_),
+        {newest_depth_m_, &frame.robot, &frame.obstacles, &distances, model.evaluated_link_names(),
+         kCellRange_m, fmt::format("{:.2f} s, speed {:.0f} %", now_s, 100 * last().speed_scale)});
+    ++taken_;
+  }
+
+  double duration_s_;
+  std::filesystem::path folder_;
+  DepthImage newest_depth_m_;
+  std::size_t taken_ = 0;
+};
+
+}  // namespace
+
+void film_encounter(std::uint32_t seed, const std::filesystem::path& folder) {
+  FilmedSupervisor supervisor(Encounter(seed).duration_s(), folder);
+  std::vector<Moment> moments;
+  simulate(seed, supervisor, {}, &moments);
+  std::string csv = "time_s,clearance_m,fastest_m_s,scale\n";
+  for (const Moment& m : moments) {
+    csv += fmt::format("{:.3f},{:.4f},{:.4f},{:.4f}\n", m.time_s, m.clearance_m, m.fastest_m_s,
+                       m.scale);
+  }
+  write_file_bytes(folder / "moments.csv", csv);
+}
+
+}  // namespace berth::lab

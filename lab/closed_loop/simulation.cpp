@@ -1,0 +1,201 @@
+#include "lab/closed_loop/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+
+#include "lab/closed_loop/cell.hpp"
+#include "lab/closed_loop/eyes.hpp"
+#include "lab/closed_loop/judge.hpp"
+
+namespace berth::lab {
+namespace {
+
+constexpr double kStep_s = 0.001;
+
+struct Image {
+  std::size_t which;
+  double stamp_s;
+  double arrives_s;
+  DepthImage depth_m;
+};
+
+struct JointSample {
+  double stamp_s;
+  std::vector<double> position;
+};
+
+struct Command {
+  double obeyed_s;
+  double scale;
+  std::optional<Evasion> evasion;
+};
+
+double range_of(const std::vector<Pose>& X_BP) {
+  double range_m = std::numeric_limits<double>::infinity();
+  for (const Pose& X : X_BP) range_m = std::min(range_m, X.translation().head<2>().norm());
+  return range_m;
+}
+
+std::vector<std::string> joint_names(const RobotModel& model) {
+  std::vector<std::string> names;
+  for (const MovableJoint& joint : model.joints) names.push_back(joint.name);
+  return names;
+}
+
+/// All that happens in one encounter.
+class Loop {
+ public:
+  Loop(std::uint32_t seed, Supervisor& supervisor, const SimulationSettings& settings)
+      : settings_(settings),
+        supervisor_(supervisor),
+        model_(cell_model()),
+        names_(joint_names(model_)),
+        encounter_(seed),
+        arm_(model_, encounter_.first_phase()),
+        clearance_(model_, person_parts()),
+        judge_(clearance_),
+        eyes_(model_, seed),
+        joints_(model_, 500),
+        cameras_(supervisor.cameras()),
+        next_image_s_(cameras_.size()) {
+    for (std::size_t c = 0; c < cameras_.size(); ++c) {
+      next_image_s_[c] = (1.0 + static_cast<double>(c) / 3) / settings.image_hz;
+    }
+    first_phase_s_ = arm_.phase_s();
+    result_.seed = seed;
+  }
+
+  EncounterResult run(std::vector<Moment>* moments) {
+    const double end_s = std::min(settings_.most_s, encounter_.duration_s());
+    const int steps = static_cast<int>(end_s / kStep_s);
+    for (int i = 0; i < steps; ++i) {
+      time_s_ = i * kStep_s;
+      step(moments);
+    }
+    judge_.finish();
+    result_.least_moving_m = judge_.least_moving_m();
+    result_.contact_m_s = judge_.contact_m_s();
+    result_.has_touched = judge_.has_touched();
+    result_.duration_s = steps * kStep_s;
+    result_.phase_s = arm_.phase_s() - first_phase_s_;
+    result_.stopped_share = stopped_steps_ / static_cast<double>(steps);
+    return result_;
+  }
+
+ private:
+  bool is_faulty(Fault fault) const {
+    return settings_.fault == fault && time_s_ >= settings_.fault_s;
+  }
+
+  std::vector<Pose> person() const {
+    std::vector<Pose> X_BP = encounter_.pose_at(time_s_);
+    if (!settings_.has_person) {
+      for (Pose& X : X_BP) X.translation().z() -= 100;
+    }
+    return X_BP;
+  }
+
+  void step(std::vector<Moment>* moments) {
+    send_joints();
+    send_images();
+    if (time_s_ >= next_question_s_) ask(moments);
+    while (!commands_.empty() && commands_.front().obeyed_s <= time_s_) {
+      commanded_ = commands_.front();
+      commands_.pop_front();
+    }
+    arm_.step(commanded_.scale, kStep_s, commanded_.evasion ? &*commanded_.evasion : nullptr);
+    look();
+  }
+
+  void send_joints() {
+    if (is_faulty(Fault::no_joints)) return;
+    sent_.push_back({time_s_, arm_.position_rad()});
+    if (is_faulty(Fault::not_a_number)) {
+      sent_.back().position[2] = std::numeric_limits<double>::quiet_NaN();
+    }
+    if (is_faulty(Fault::frozen_joints)) sent_.back().position = frozen_;
+    frozen_ = sent_.back().position;
+    while (!sent_.empty() && sent_.front().stamp_s + settings_.joint_latency_s <= time_s_) {
+      joints_.push(sent_.front().stamp_s, names_, sent_.front().position);
+      sent_.pop_front();
+    }
+  }
+
+  void send_images() {
+    for (std::size_t c = 0; c < cameras_.size(); ++c) {
+      if (time_s_ < next_image_s_[c]) continue;
+      next_image_s_[c] += 1 / settings_.image_hz;
+      if (c == 0 && is_faulty(Fault::no_images)) continue;
+      Image image{c, time_s_, time_s_ + settings_.image_latency_s, {}};
+      if (is_faulty(Fault::late_images)) image.arrives_s += 0.5;
+      image.depth_m = eyes_.look(cameras_[c], arm_.pose(), person());
+      if (c == 0 && is_faulty(Fault::covered_camera)) {
+        std::ranges::fill(image.depth_m.pixels(), std::numeric_limits<float>::quiet_NaN());
+      }
+      images_.push_back(std::move(image));
+    }
+    while (!images_.empty() && images_.front().arrives_s <= time_s_) {
+      const Image& image = images_.front();
+      supervisor_.see(image.which, image.depth_m, image.stamp_s, joints_);
+      images_.pop_front();
+    }
+  }
+
+  void ask(std::vector<Moment>* moments) {
+    next_question_s_ += 1 / settings_.question_hz;
+    const std::vector<Pose> X_BP = person();
+    const double scale = supervisor_.scale({time_s_, joints_, arm_.plan(), range_of(X_BP)});
+    commands_.push_back({time_s_ + settings_.controller_s, scale, supervisor_.evasion()});
+    const bool is_after_fault = settings_.fault != Fault::none && time_s_ >= settings_.fault_s;
+    if (is_after_fault && scale == 0 && std::isnan(result_.commanded_stop_s)) {
+      result_.commanded_stop_s = time_s_ - settings_.fault_s;
+    }
+    if (!moments) return;
+    moments->push_back({time_s_, clearance_.at(arm_.pose(), X_BP), arm_.fastest_m_s(), scale});
+  }
+
+  void look() {
+    const double fastest_m_s = arm_.fastest_m_s();
+    if (fastest_m_s < kMoving_m_s) {
+      ++stopped_steps_;
+      const bool is_after_fault = !std::isnan(result_.commanded_stop_s);
+      if (is_after_fault && std::isnan(result_.stopped_s)) {
+        result_.stopped_s = time_s_ - settings_.fault_s;
+      }
+    }
+    if (judge_.wants(time_s_)) judge_.look({time_s_, arm_.pose(), person(), fastest_m_s});
+  }
+
+  SimulationSettings settings_;
+  Supervisor& supervisor_;
+  RobotModel model_;
+  std::vector<std::string> names_;
+  Encounter encounter_;
+  MovingArm arm_;
+  TrueClearance clearance_;
+  Judge judge_;
+  Eyes eyes_;
+  JointBuffer joints_;
+  std::vector<int> cameras_;
+  std::vector<double> next_image_s_;
+  std::deque<JointSample> sent_;
+  std::vector<double> frozen_;
+  std::deque<Image> images_;
+  std::deque<Command> commands_;
+  Command commanded_{};
+  double time_s_ = 0;
+  double next_question_s_ = 0;
+  double first_phase_s_ = 0;
+  int stopped_steps_ = 0;
+  EncounterResult result_;
+};
+
+}  // namespace
+
+EncounterResult simulate(std::uint32_t seed, Supervisor& supervisor,
+                         const SimulationSettings& settings, std::vector<Moment>* moments) {
+  return Loop(seed, supervisor, settings).run(moments);
+}
+
+}  // namespace berth::lab

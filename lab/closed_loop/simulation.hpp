@@ -1,0 +1,66 @@
+// One encounter of arm and person, millisecond by millisecond.
+#pragma once
+
+#include "lab/closed_loop/encounter.hpp"
+#include "lab/closed_loop/moving_arm.hpp"
+#include "lab/closed_loop/supervisor.hpp"
+
+namespace berth::lab {
+
+/// What may go wrong, from fault_s on.
+enum class Fault {
+  none,
+  late_images,     ///< each image takes half a second more
+  no_images,       ///< of one camera
+  covered_camera,  ///< no pixel of it has a reading
+  no_joints,       ///< joint states stop
+  not_a_number,    ///< one joint is NaN
+  frozen_joints,   ///< joint states come, and say that the arm stands still
+};
+
+struct SimulationSettings {
+  double image_hz = 30;
+  double image_latency_s = 0.060;
+  double joint_latency_s = 0.002;
+  double question_hz = 50;
+  /// From an answer until the arm obeys.
+  double controller_s = 0.010;
+  Fault fault = Fault::none;
+  double fault_s = 0;
+  /// Whether there is a person.
+  bool has_person = true;
+  /// At most so long; less where the encounter is over.
+  double most_s = 60;
+};
+
+struct EncounterResult {
+  std::uint32_t seed = 0;
+  double duration_s = 0;
+  /// How far the arm came, as a time at full speed.
+  double phase_s = 0;
+  /// Between arm and person while the arm moved; infinite where it never did.
+  double least_moving_m = std::numeric_limits<double>::infinity();
+  /// Of the arm's fastest point while both met; 0 where they did not, or it stood.
+  double contact_m_s = 0;
+  bool has_touched = false;
+  /// The share of the time in which the arm stood still.
+  double stopped_share = 0;
+  /// When the first stop was commanded after the fault, and when the arm stood; NaN where never.
+  double commanded_stop_s = std::numeric_limits<double>::quiet_NaN();
+  double stopped_s = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// What is told of each question.
+struct Moment {
+  double time_s;
+  double clearance_m;
+  double fastest_m_s;
+  double scale;
+};
+
+/// `moments` get what was told, unless they are null.
+EncounterResult simulate(std::uint32_t seed, Supervisor& supervisor,
+                         const SimulationSettings& settings,
+                         std::vector<Moment>* moments = nullptr);
+
+}  // namespace berth::lab

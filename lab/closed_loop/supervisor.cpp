@@ -1,0 +1,54 @@
+#include "lab/closed_loop/supervisor.hpp"
+
+#include <chrono>
+
+#include "lab/closed_loop/cell.hpp"
+
+namespace berth::lab {
+
+void Supervisor::see(std::size_t, const DepthImage&, double, const JointBuffer&) {}
+
+MonitorSupervisor::MonitorSupervisor(Method method, std::vector<int> cameras,
+                                     const SeparationSettings& settings)
+    : robot_(cell_robot(method)),
+      cameras_(std::move(cameras)),
+      frames_(cameras_.size()),
+      asker_(robot_, cameras_.size()),
+      monitor_(robot_, settings) {
+  for (const auto& view : cell_views(robot_, cameras_)) {
+    observers_.push_back(std::make_unique<Observer>(view));
+  }
+}
+
+void MonitorSupervisor::see(std::size_t which, const DepthImage& depth_m, double stamp_s,
+                            const JointBuffer& joints) {
+  auto frame = std::make_shared<Frame>();
+  observers_[which]->observe(depth_m, stamp_s, joints, *frame);
+  frames_[which] = std::move(frame);
+}
+
+double MonitorSupervisor::scale(const Situation& situation) {
+  answer_ = &asker_.ask(frames_, situation.joints, situation.now_s);
+  situation.joints.newest(newest_);
+  const auto start = std::chrono::steady_clock::now();
+  last_ = &monitor_.look({*answer_, asker_.cameras(), asker_.frames(), newest_.position,
+                          situation.plan.velocity_rad_s, situation.now_s});
+  const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
+  monitor_us_.push_back(took.count());
+  return last_->speed_scale;
+}
+
+EvadingSupervisor::EvadingSupervisor(Method method, std::vector<int> cameras,
+                                     const SeparationSettings& settings)
+    : MonitorSupervisor(method, std::move(cameras), settings), evader_(robot(), "arm_link_7", {}) {}
+
+double EvadingSupervisor::scale(const Situation& situation) {
+  const double scale = MonitorSupervisor::scale(situation);
+  evasion_.reset();
+  if (answer().time.status == TimeStatus::ok) {
+    evasion_ = evader_.look(answer(), newest_joints().position);
+  }
+  return scale;
+}
+
+}  // namespace berth::lab

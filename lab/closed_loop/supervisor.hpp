@@ -1,0 +1,99 @@
+// Who decides how fast the arm may go.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "berth/live/live_asker.hpp"
+#include "berth/pipeline/observer.hpp"
+#include "berth/separation/evasion.hpp"
+#include "berth/separation/monitor.hpp"
+#include "lab/closed_loop/path.hpp"
+
+namespace berth::lab {
+
+/// What there is to decide by.
+struct Situation {
+  double now_s;
+  const JointBuffer& joints;
+  const PathPoint& plan;
+  /// From the base's axis to the person's nearest part.
+  double person_range_m;
+};
+
+class Supervisor {
+ public:
+  virtual ~Supervisor() = default;
+  /// By their place in cell_cameras().
+  virtual std::vector<int> cameras() const { return {}; }
+  /// An image of cameras()[which] has come.
+  virtual void see(std::size_t which, const DepthImage& depth_m, double stamp_s,
+                   const JointBuffer& joints);
+  /// Of the planned velocity, 0 to 1.
+  virtual double scale(const Situation& situation) = 0;
+  /// How the arm gives way, of the last question.
+  virtual std::optional<Evasion> evasion() const { return {}; }
+};
+
+/// Nobody.
+class NoSupervisor : public Supervisor {
+ public:
+  double scale(const Situation&) override { return 1; }
+};
+
+/// A scanner around the cell: stop whenever anybody is this near.
+class FixedZone : public Supervisor {
+ public:
+  explicit FixedZone(double range_m) : range_m_(range_m) {}
+  double scale(const Situation& situation) override {
+    return situation.person_range_m < range_m_ ? 0 : 1;
+  }
+
+ private:
+  double range_m_;
+};
+
+/// berth.
+class MonitorSupervisor : public Supervisor {
+ public:
+  MonitorSupervisor(Method method, std::vector<int> cameras, const SeparationSettings& settings);
+  std::vector<int> cameras() const override { return cameras_; }
+  void see(std::size_t which, const DepthImage& depth_m, double stamp_s,
+           const JointBuffer& joints) override;
+  double scale(const Situation& situation) override;
+  const Separation& last() const { return *last_; }
+  const std::shared_ptr<const Robot>& robot() const { return robot_; }
+  const JointState& newest_joints() const { return newest_; }
+  const Answer& answer() const { return *answer_; }
+  /// How long the monitor took, of each question, without the answer itself.
+  const std::vector<double>& monitor_us() const { return monitor_us_; }
+  /// Null where it has none yet.
+  const std::shared_ptr<const Frame>& newest(std::size_t which) const { return frames_[which]; }
+
+ private:
+  std::shared_ptr<const Robot> robot_;
+  std::vector<int> cameras_;
+  std::vector<std::unique_ptr<Observer>> observers_;
+  LiveFrames frames_;
+  LiveAsker asker_;
+  SeparationMonitor monitor_;
+  JointState newest_;
+  const Separation* last_ = nullptr;
+  const Answer* answer_ = nullptr;
+  std::vector<double> monitor_us_;
+};
+
+/// berth, with an arm that gives way besides.
+class EvadingSupervisor : public MonitorSupervisor {
+ public:
+  EvadingSupervisor(Method method, std::vector<int> cameras, const SeparationSettings& settings);
+  double scale(const Situation& situation) override;
+  std::optional<Evasion> evasion() const override { return evasion_; }
+
+ private:
+  Evader evader_;
+  std::optional<Evasion> evasion_;
+};
+
+}  // namespace berth::lab

@@ -1,0 +1,106 @@
+#include "speed_monitor.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "berth/scene/answer_result.hpp"
+#include "berth/scene/separation_text.hpp"
+
+namespace berth_ros {
+namespace {
+
+using berth_msgs::msg::Separation;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// The constants of the message are the enumerators.
+static_assert(static_cast<int>(berth::SeparationState::clear) == Separation::CLEAR);
+static_assert(static_cast<int>(berth::SeparationState::reduced) == Separation::REDUCED);
+static_assert(static_cast<int>(berth::SeparationState::stop) == Separation::STOP);
+
+std::string text_of(const berth::Separation& separation, const berth::Answer& answer,
+                    const AnswerContext& context) {
+  berth::FrameResult result = berth::result_of(context.robot, answer);
+  for (std::size_t c = 0; c < context.cameras.size(); ++c) {
+    result.cameras.emplace_back();
+    result.cameras.back().name = context.camera_names[c];
+    result.cameras.back().state = context.cameras[c];
+  }
+  result.separation = &separation;
+  return berth::separation_text(result);
+}
+
+void add_links(const berth::Separation& separation, const berth::RobotModel& model,
+               Separation& out) {
+  out.links.clear();
+  for (const berth::LinkSeparation& link : separation.links) {
+    if (!link.is_moved) continue;
+    auto& message = out.links.emplace_back();
+    message.link = model.links[model.evaluated_links[link.id - 1]].name;
+    message.speed_m_s = link.speed_m_s;
+    message.distance_m = link.distance_m;
+    message.required_m = link.required_m;
+    message.speed_scale = link.speed_scale;
+    message.reason = name_of(link.reason);
+  }
+}
+
+}  // namespace
+
+void PlannedVelocity::take(const sensor_msgs::msg::JointState& message,
+                           const berth::RobotModel& model, double now_s) {
+  stamp_s_ = now_s;
+  velocity_.assign(model.joints.size(), kNaN);
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const auto found = std::find(message.name.begin(), message.name.end(), model.joints[i].name);
+    const std::size_t at = found - message.name.begin();
+    if (at < message.velocity.size()) velocity_[i] = message.velocity[at];
+  }
+}
+
+const std::vector<double>& PlannedVelocity::at(double now_s, double max_age_s) {
+  const double age_s = now_s - stamp_s_;
+  if (!(age_s >= 0 && age_s <= max_age_s)) std::fill(velocity_.begin(), velocity_.end(), kNaN);
+  return velocity_;
+}
+
+SpeedMonitor::SpeedMonitor(std::shared_ptr<const berth::Robot> robot,
+                           const berth::SeparationSettings& settings, double velocity_window_s)
+    : robot_(std::move(robot)), monitor_(robot_, settings), velocity_window_s_(velocity_window_s) {}
+
+void SpeedMonitor::look(const berth::Answer& answer, const AnswerContext& context,
+                        const berth::JointBuffer& joints, PlannedVelocity& planned,
+                        Separation& out) {
+  const double now_s = context.clock.seconds(context.now);
+  joints.newest(newest_);
+  joints.velocity(velocity_window_s_, velocity_);
+  out.is_planned = planned.is_there();
+  const std::vector<double>& velocity =
+      out.is_planned ? planned.at(now_s, robot_->settings().time.max_frame_age_s) : velocity_;
+  const berth::Separation& separation = monitor_.look(
+      {answer, context.cameras, context.frames, newest_.position, velocity, now_s});
+  out.state = static_cast<std::uint8_t>(separation.state);
+  out.speed_scale = separation.speed_scale;
+  out.reason = name_of(separation.reason);
+  out.text = text_of(separation, answer, context);
+  out.reaction_time_s = separation.reaction_time_s;
+  add_links(separation, robot_->model(), out);
+}
+
+void say_unmonitored(Separation& out) {
+  out.state = Separation::UNMONITORED;
+  out.speed_scale = out.reaction_time_s = kNaN;
+  out.is_planned = false;
+  out.reason.clear();
+  out.text.clear();
+  out.links.clear();
+}
+
+void say_stop(const std::string& text, Separation& out) {
+  say_unmonitored(out);
+  out.state = Separation::STOP;
+  out.speed_scale = 0;
+  out.reason = "untimely";
+  out.text = "stop: " + text;
+}
+
+}  // namespace berth_ros

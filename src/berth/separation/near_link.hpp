@@ -1,0 +1,25 @@
+// Inside separation/ only: how near something may be to one link, by what is known and the policies
+// for what is not.
+#pragma once
+
+#include "berth/separation/separation.hpp"
+#include "berth/separation/settings.hpp"
+#include "berth/types/link_distance.hpp"
+#include "berth/types/link_visibility.hpp"
+
+namespace berth {
+
+struct NearLink {
+  double distance_m = 0;
+  SeparationReason reason = SeparationReason::untimely;
+};
+
+/// `visibility` is the link's. `range_m`: how far distances are looked for.
+NearLink near_link(const SeparationSettings& settings, const LinkDistance& link,
+                   const LinkVisibility& visibility, double range_m);
+
+/// `near` with one more thing that may be there, at distance_m.
+NearLink with_unknown(const NearLink& near, UnknownPolicy policy, double distance_m,
+                      SeparationReason reason);
+
+}  // namespace berth

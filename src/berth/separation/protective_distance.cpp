@@ -1,0 +1,66 @@
+#include "berth/separation/protective_distance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace berth {
+namespace {
+
+/// 2^-20 of a speed is far below what a robot can be told.
+constexpr int kHalvings = 20;
+
+Stopping between(const StoppingRow& low, const StoppingRow& high, double speed_m_s) {
+  const double share = (speed_m_s - low.speed_m_s) / (high.speed_m_s - low.speed_m_s);
+  return {low.time_s + share * (high.time_s - low.time_s),
+          low.distance_m + share * (high.distance_m - low.distance_m)};
+}
+
+}  // namespace
+
+Stopping stopping_from(const SeparationSettings& settings, double speed_m_s) {
+  if (speed_m_s <= 0) return {};
+  const std::vector<StoppingRow>& rows = settings.stopping;
+  if (rows.empty()) {
+    const double a = settings.deceleration_m_s2;
+    return {speed_m_s / a, speed_m_s * speed_m_s / (2 * a)};
+  }
+  const auto above = std::ranges::lower_bound(rows, speed_m_s, {}, &StoppingRow::speed_m_s);
+  if (above == rows.end()) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    return {kInfinity, kInfinity};
+  }
+  // A brake takes time to grip, at any speed.
+  if (above == rows.begin()) return {above->time_s, above->distance_m};
+  return between(*(above - 1), *above, speed_m_s);
+}
+
+double protective_distance_m(const SeparationSettings& settings, const ProtectiveTerms& terms,
+                             const LinkSpeed& speed) {
+  const Stopping stopping = stopping_from(settings, speed.robot_m_s);
+  if (std::isinf(stopping.distance_m)) return stopping.distance_m;
+  const double person_m = settings.human_speed_m_s * (terms.reaction_time_s + stopping.time_s);
+  const double share = speed.robot_m_s > 0 ? speed.link_m_s / speed.robot_m_s : 1;
+  const double robot_m = speed.link_m_s * terms.reaction_time_s + share * stopping.distance_m;
+  return person_m + robot_m + settings.intrusion_m + terms.camera_uncertainty_m +
+         settings.robot_uncertainty_m;
+}
+
+double greatest_speed_scale(const SeparationSettings& settings, const ProtectiveTerms& terms,
+                            const LinkSpeed& speed, double distance_m, double most) {
+  const auto has_room = [&](double scale) {
+    return protective_distance_m(settings, terms,
+                                 {scale * speed.link_m_s, scale * speed.robot_m_s}) <= distance_m;
+  };
+  if (has_room(most)) return most;
+  if (!has_room(0)) return 0;
+  double enough = 0;
+  double too_much = most;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = (enough + too_much) / 2;
+    (has_room(middle) ? enough : too_much) = middle;
+  }
+  return enough;
+}
+
+}  // namespace berth

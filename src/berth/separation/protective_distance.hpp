@@ -1,0 +1,43 @@
+// How far away everything has to be (ISO/TS 15066, 5.5.4).
+#pragma once
+
+#include "berth/separation/settings.hpp"
+
+namespace berth {
+
+/// How long, and over which way, a robot brakes from a speed.
+struct Stopping {
+  double time_s = 0;
+  double distance_m = 0;
+};
+
+/// Both are infinite above the last row of the settings' table.
+Stopping stopping_from(const SeparationSettings& settings, double speed_m_s);
+
+/// The terms of the protective distance that no speed changes.
+struct ProtectiveTerms {
+  /// T_r: from the exposure to the moment at which the robot begins to brake.
+  double reaction_time_s = 0;
+  /// Z_d.
+  double camera_uncertainty_m = 0;
+};
+
+/// How fast a link moves, and the robot that it belongs to.
+struct LinkSpeed {
+  /// v_r: of the link's fastest point.
+  double link_m_s = 0;
+  /// Of the robot's fastest point: all links brake as long as it does. At least link_m_s.
+  double robot_m_s = 0;
+};
+
+/// S = v_h (T_r + T_s) + v_r T_r + S_s + C + Z_d + Z_r, with the robot's T_s, and the link's part
+/// of its S_s. It grows with the speed.
+double protective_distance_m(const SeparationSettings& settings, const ProtectiveTerms& terms,
+                             const LinkSpeed& speed);
+
+/// The greatest share, 0 to `most`, of the speed at which everything may be as near as
+/// `distance_m`. 0 where not even a robot that stands still would have enough room.
+double greatest_speed_scale(const SeparationSettings& settings, const ProtectiveTerms& terms,
+                            const LinkSpeed& speed, double distance_m, double most = 1);
+
+}  // namespace berth

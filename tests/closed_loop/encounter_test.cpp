@@ -1,0 +1,105 @@
+// The simulation itself: people, arm and judge are what they say.
+#include "lab/closed_loop/encounter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "lab/closed_loop/cell.hpp"
+#include "lab/closed_loop/judge.hpp"
+#include "lab/closed_loop/moving_arm.hpp"
+#include "lab/closed_loop/policies.hpp"
+#include "lab/closed_loop/simulation.hpp"
+
+namespace berth::lab {
+namespace {
+
+TEST(ClosedLoop, NobodyIsFasterThanTheySay) {
+  const std::vector<TriangleMesh> parts = person_parts();
+  for (const std::uint32_t seed : {0U, 1U, 2U}) {
+    const Encounter encounter(seed);
+    EXPECT_LE(encounter.speed_m_s(), 1.6);
+    double fastest_m_s = 0;
+    constexpr double kStep_s = 0.005;
+    for (double t = 0; t + kStep_s < encounter.duration_s(); t += kStep_s) {
+      const std::vector<Pose> a = encounter.pose_at(t), b = encounter.pose_at(t + kStep_s);
+      for (std::size_t i = 0; i < parts.size(); ++i) {
+        for (std::size_t k = 0; k < parts[i].vertices_m.size(); k += 40) {
+          const Eigen::Vector3d p = parts[i].vertices_m[k].cast<double>();
+          fastest_m_s = std::max(fastest_m_s, (a[i] * p - b[i] * p).norm() / kStep_s);
+        }
+      }
+    }
+    EXPECT_LE(fastest_m_s, 1.03 * encounter.speed_m_s()) << seed;
+    EXPECT_GE(fastest_m_s, 0.9 * encounter.speed_m_s()) << seed;
+  }
+}
+
+TEST(ClosedLoop, TheArmsSpeedChangesNoFasterThanItsMotorsAllow) {
+  const RobotModel model = cell_model();
+  MovingArm arm(model, 0.1);
+  double before_m_s = 0, fastest_m_s = 0;
+  for (int i = 0; i < 6000; ++i) {
+    arm.step(i / 1000 % 2 == 0 ? 1 : 0, 0.001);
+    const double change = (arm.fastest_m_s() - before_m_s) / 0.001;
+    EXPECT_LE(change, kArmAcceleration_m_s2 + 1e-6) << i;
+    // Where the path itself slows down, its corner may be sharper than the brake.
+    if (i / 1000 % 2 == 1) {
+      EXPECT_GE(change, -2 * kArmDeceleration_m_s2) << i;
+    }
+    before_m_s = arm.fastest_m_s();
+    fastest_m_s = std::max(fastest_m_s, before_m_s);
+  }
+  EXPECT_EQ(before_m_s, 0);
+  EXPECT_GT(fastest_m_s, 0.8);
+}
+
+TEST(ClosedLoop, TheJudgeFindsWhatFclFindsAtEachStep) {
+  const RobotModel model = cell_model();
+  const TrueClearance clearance(model, person_parts());
+  const Encounter encounter(2);
+  MovingArm arm(model, encounter.first_phase());
+  Judge judge(clearance);
+  double least_m = std::numeric_limits<double>::infinity();
+  const double middle_s = encounter.duration_s() / 2;
+  for (double t = middle_s - 0.6; t < middle_s + 0.6; t += 0.02) {
+    for (int i = 0; i < 20; ++i) arm.step(1, 0.001);
+    const Meeting meeting{t, arm.pose(), encounter.pose_at(t), arm.fastest_m_s()};
+    if (judge.wants(t)) judge.look(meeting);
+    const double now_m = clearance.at(meeting.pose, meeting.X_BP);
+    EXPECT_LE(clearance.at_least(meeting.pose, meeting.X_BP), now_m + 1e-6);
+    if (meeting.fastest_m_s >= kMoving_m_s) least_m = std::min(least_m, now_m);
+  }
+  judge.finish();
+  EXPECT_NEAR(judge.least_moving_m(), least_m, 1e-9);
+}
+
+TEST(ClosedLoop, WithoutAMonitorSomebodyIsHit) {
+  const auto nobody = make_supervisor("none");
+  double fastest_m_s = 0;
+  for (std::uint32_t seed = 0; seed < 6; ++seed) {
+    fastest_m_s = std::max(fastest_m_s, simulate(seed, *nobody, {}).contact_m_s);
+  }
+  EXPECT_GT(fastest_m_s, 0.2);
+}
+
+TEST(ClosedLoop, TheMonitorStopsTheArmBeforeAnybodyIsThere) {
+  const auto monitor = make_supervisor("three");
+  std::vector<Moment> moments;
+  SimulationSettings settings;
+  settings.most_s = 5;
+  const EncounterResult result = simulate(2, *monitor, settings, &moments);
+  EXPECT_EQ(result.contact_m_s, 0);
+  EXPECT_GT(result.least_moving_m, 0.2);
+  EXPECT_GT(result.phase_s, 0.5) << "it moved, where nobody was near";
+  const auto slows = [](const Moment& moment) { return moment.scale > 0 && moment.scale < 1; };
+  EXPECT_TRUE(std::ranges::any_of(moments, slows));
+  EXPECT_EQ(std::ranges::min_element(moments, {}, &Moment::clearance_m)->fastest_m_s, 0);
+}
+
+TEST(ClosedLoop, UnknownPoliciesAreRefused) {
+  EXPECT_THROW(make_supervisor("brave"), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace berth::lab

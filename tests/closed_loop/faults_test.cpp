@@ -1,0 +1,58 @@
+// A fault in each input stops the arm within the time that the protective distance assumes.
+#include <gtest/gtest.h>
+
+#include "lab/closed_loop/cell.hpp"
+#include "lab/closed_loop/policies.hpp"
+#include "lab/closed_loop/simulation.hpp"
+
+namespace berth::lab {
+namespace {
+
+/// Nobody is there; the arm goes at full speed until the fault.
+EncounterResult run_with(Fault fault) {
+  SimulationSettings settings;
+  settings.has_person = false;
+  settings.fault = fault;
+  settings.fault_s = 1.5;
+  settings.most_s = 2.5;
+  return simulate(3, *make_supervisor("three"), settings);
+}
+
+/// S holds for images up to this old, and a question comes after that.
+double assumed_s() {
+  const SimulationSettings settings;
+  return TimeSettings().max_frame_age_s + 1 / settings.question_hz + 0.001;
+}
+
+/// From its greatest speed.
+constexpr double kStopping_s = 1.5 / kArmDeceleration_m_s2;
+
+class Faults : public ::testing::TestWithParam<Fault> {};
+
+TEST_P(Faults, StopTheArmInTime) {
+  const EncounterResult result = run_with(GetParam());
+  EXPECT_GT(result.phase_s, 0.5) << "it moved before";
+  EXPECT_LE(result.commanded_stop_s, assumed_s());
+  EXPECT_LE(result.stopped_s, assumed_s() + SimulationSettings().controller_s + kStopping_s);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Faults,
+                         ::testing::Values(Fault::late_images, Fault::no_images,
+                                           Fault::covered_camera, Fault::no_joints,
+                                           Fault::not_a_number));
+
+// Joint states that say what is not true come in time. The cameras see the arm where it should not
+// be: once it is beyond the filter's tolerance, it is an obstacle to itself.
+TEST(OtherFaults, JointsThatStandStillWhileTheArmMovesStopItOnceItIsSeen) {
+  const EncounterResult result = run_with(Fault::frozen_joints);
+  EXPECT_LE(result.commanded_stop_s, 0.5);
+}
+
+TEST(OtherFaults, WithoutOneTheArmGoesOn) {
+  const EncounterResult result = run_with(Fault::none);
+  EXPECT_TRUE(std::isnan(result.commanded_stop_s));
+  EXPECT_GT(result.phase_s, 1.5);
+}
+
+}  // namespace
+}  // namespace berth::lab

@@ -1,0 +1,207 @@
+// From a scene file's `separation:` to results.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "berth/scene/result_json.hpp"
+#include "berth/scene/result_table.hpp"
+#include "berth/scene/scene_run.hpp"
+#include "berth/scene/separation_text.hpp"
+#include "tests/scene/scene_text.hpp"
+#include "tests/support/error_message.hpp"
+
+namespace berth {
+namespace {
+
+using Json = nlohmann::json;
+
+SeparationSettings read_separation_of(const std::string& text) {
+  return *read_text(with(&SceneText::end, "joints: j.csv\nseparation: " + text)).separation;
+}
+
+TEST(SeparationInScenes, IsOffWhereTheFileHasNone) {
+  EXPECT_FALSE(read_text(SceneText()).separation);
+}
+
+TEST(SeparationInScenes, HasItsDefaultsWhereTheMapIsEmpty) {
+  EXPECT_EQ(read_separation_of("{}").human_speed_m_s, SeparationSettings().human_speed_m_s);
+}
+
+TEST(SeparationInScenes, HasEveryKeyAndTheTable) {
+  const SeparationSettings settings = read_separation_of(
+      "{human_speed_m_s: 2, reaction_time_s: 0.2, deceleration_m_s2: 3, acceleration_m_s2: 4, "
+      "intrusion_m: 0.1, camera_uncertainty_m: 0.05, robot_uncertainty_m: 0.02, "
+      "directed_speed: true, release_m: 0.06, hold_s: 0.4, least_scale: 0.1, least_seen: 0.3, "
+      "not_seen: assume_range, camera: ignore, doubtful: stop, hidden: ignore, "
+      "assumed_range_m: 0.5, stopping: [{speed_m_s: 0.5, time_s: 0.2, distance_m: 0.05}, "
+      "{speed_m_s: 1, time_s: 0.3, distance_m: 0.2}]}");
+  EXPECT_EQ(settings.human_speed_m_s, 2);
+  EXPECT_EQ(settings.camera_uncertainty_m, 0.05);
+  EXPECT_TRUE(settings.directed_speed);
+  EXPECT_EQ(settings.not_seen, UnknownPolicy::assume_range);
+  EXPECT_EQ(settings.camera, UnknownPolicy::ignore);
+  EXPECT_EQ(settings.doubtful, UnknownPolicy::stop);
+  EXPECT_EQ(settings.hidden, UnknownPolicy::ignore);
+  ASSERT_EQ(settings.stopping.size(), 2U);
+  EXPECT_EQ(settings.stopping[1].speed_m_s, 1);
+  EXPECT_EQ(settings.stopping[1].time_s, 0.3);
+  EXPECT_EQ(settings.stopping[1].distance_m, 0.2);
+}
+
+TEST(SeparationInScenes, RefusesWhatIsWrongAndSaysWhere) {
+  const auto message = [](const std::string& text) {
+    return error_message([&] { read_separation_of(text); });
+  };
+  expect_parts(message("{human_sped_m_s: 1}"),
+               {"scene.yaml:9", "human_sped_m_s", "human_speed_m_s"});
+  expect_parts(message("{human_speed_m_s: -1}"), {"human_speed_m_s", "-1", "0 or more"});
+  expect_parts(message("{camera: slow}"), {"camera", "slow", "stop, assume_range"});
+  expect_parts(message("{stopping: [{speed_m_s: 1, time_s: 1}]}"), {"stopping", "distance_m"});
+  expect_parts(message("{stopping: [{speed_m_s: 0, time_s: 1, distance_m: 1}]}"),
+               {"speed_m_s", "0"});
+}
+
+/// The bundled scene's first images, with a robot that is hardly ever in somebody's way.
+SceneFile monitored_scene(Method method) {
+  SceneFile scene = read_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml");
+  scene.evaluation.method = method;
+  for (SceneCamera& camera : scene.cameras) {
+    camera.depth.resize(4);
+    camera.stamps_s.resize(4);
+  }
+  scene.separation.emplace();
+  scene.separation->camera = UnknownPolicy::ignore;
+  scene.separation->human_speed_m_s = 0.1;
+  scene.separation->intrusion_m = 0;
+  scene.separation->hold_s = scene.separation->release_m = 0;
+  scene.separation->acceleration_m_s2 = 0;
+  scene.separation->camera_uncertainty_m = 0;
+  scene.separation->deceleration_m_s2 = 1;
+  return scene;
+}
+
+TEST(SeparationInScenes, IsInEachLineOfJson) {
+  const OpenScene scene = open_scene(monitored_scene(Method::mesh));
+  SceneRun run(scene);
+  int reduced = 0;
+  while (run.next()) {
+    const FrameResult result = run.ask();
+    const Json line = Json::parse(result_json(result));
+    const Json& separation = line["separation"];
+    ASSERT_EQ(separation.size(), 7U);
+    EXPECT_EQ(separation["state"], name_of(result.separation->state));
+    EXPECT_EQ(separation["speed_scale"], result.separation->speed_scale);
+    EXPECT_EQ(separation["text"], separation_text(result));
+    EXPECT_GT(separation["reaction_time_s"], 0.0999);
+    double least = 1;
+    for (const Json& link : line["links"]) {
+      EXPECT_EQ(link.contains("separation"), link["link"] != "arm_link_0");
+      if (!link.contains("separation")) continue;
+      const Json& of_link = link["separation"];
+      EXPECT_NEAR(of_link["margin_m"],
+                  double(of_link["distance_m"]) - double(of_link["required_m"]), 1e-9);
+      least = std::min(least, double(of_link["speed_scale"]));
+    }
+    if (separation["state"] != "reduced") continue;
+    ++reduced;
+    EXPECT_EQ(separation["speed_scale"], least);
+    EXPECT_TRUE(separation["link"].is_string());
+  }
+  EXPECT_GT(reduced, 3);
+}
+
+TEST(SeparationInScenes, AMethodOnImagesIsMonitoredCameraByCamera) {
+  const OpenScene scene = open_scene(monitored_scene(Method::exact));
+  SceneRun run(scene);
+  while (run.next()) {
+    const Json line = Json::parse(result_json(run.ask()));
+    // One camera sees less than enough of some link, or nothing near enough.
+    EXPECT_TRUE(line["separation"]["reason"].is_string());
+    EXPECT_TRUE(line["links"][3]["separation"]["required_m"].is_number());
+  }
+}
+
+TEST(SeparationInScenes, TheTableTellsWhatEachLinkNeeds) {
+  const OpenScene scene = open_scene(monitored_scene(Method::mesh));
+  SceneRun run(scene);
+  ASSERT_TRUE(run.next());
+  const std::string table = result_table(run.ask());
+  EXPECT_NE(table.find("needs [m]  may go"), std::string::npos) << table;
+  EXPECT_NE(table.find("%\n"), std::string::npos) << table;
+}
+
+TEST(SeparationInScenes, WithoutItNothingIsAdded) {
+  SceneFile file = monitored_scene(Method::mesh);
+  file.separation.reset();
+  const OpenScene scene = open_scene(file);
+  SceneRun run(scene);
+  ASSERT_TRUE(run.next());
+  const FrameResult result = run.ask();
+  EXPECT_FALSE(Json::parse(result_json(result)).contains("separation"));
+  EXPECT_EQ(result_table(result).find("may go"), std::string::npos);
+}
+
+TEST(SeparationInScenes, BadSettingsNameTheFile) {
+  SceneFile file = monitored_scene(Method::mesh);
+  file.separation->stopping = {{1, 0.2, 0.1}, {0.5, 0.3, 0.2}};
+  expect_parts(error_message([&] { open_scene(file); }),
+               {"scene.yaml", "separation.stopping[1].speed_m_s", "0.5", "above 1"});
+  file = monitored_scene(Method::mesh);
+  file.evaluation.visibility = false;
+  const OpenScene scene = open_scene(file);
+  expect_parts(error_message([&] { SceneRun run(scene); }), {"scene.yaml", "visibility is off"});
+}
+
+/// A result of two links with this in it.
+struct Told {
+  Separation separation;
+  LinkDistances distances;
+  std::vector<LinkVisibility> visibility;
+  FrameResult result;
+
+  Told(SeparationState state, SeparationReason reason, double scale = 0) {
+    distances.links.resize(2);
+    visibility.resize(2);
+    visibility[1].surface.seen = 0.59F;
+    separation.state = state;
+    separation.reason = reason;
+    separation.speed_scale = scale;
+    separation.link = 2;
+    separation.camera = 0;
+    separation.links.resize(2);
+    separation.links[1] = {2, true, 0.614, 0.3107, 0.5231, -0.2124, scale, reason};
+    result.link_names = {"base", "hand"};
+    result.cameras.resize(1);
+    result.cameras[0].name = "left";
+    result.cameras[0].state.status = CameraStatus::too_old;
+    result.distances = &distances;
+    result.visibility = &visibility;
+    result.separation = &separation;
+  }
+  std::string text() const { return separation_text(result); }
+};
+
+TEST(SeparationText, SaysWhatAndWhy) {
+  using enum SeparationState;
+  using R = SeparationReason;
+  EXPECT_EQ(Told(clear, R::none, 1).text(), "clear");
+  EXPECT_EQ(
+      Told(reduced, R::reading, 0.429).text(),
+      "reduced to 42 %: hand is 0.310 m from what a camera sees; at 0.61 m/s it needs 0.523 m");
+  EXPECT_EQ(Told(stop, R::hidden).text(),
+            "stop: hand is 0.310 m from space that no camera sees; at 0.61 m/s it needs 0.523 m");
+  EXPECT_NE(Told(stop, R::doubtful).text().find("dropped as doubtful"), std::string::npos);
+  EXPECT_NE(Told(reduced, R::range).text().find("the end of the range"), std::string::npos);
+  EXPECT_NE(Told(reduced, R::cut_short).text().find("the deadline"), std::string::npos);
+  EXPECT_EQ(Told(stop, R::not_seen).text(), "stop: hand is 41 % unseen");
+  EXPECT_EQ(Told(stop, R::camera).text(), "stop: camera left cannot be relied on (too_old)");
+  EXPECT_EQ(Told(stop, R::untimely).text(), "stop: there is no answer in time");
+  EXPECT_EQ(Told(stop, R::velocity).text(), "stop: the robot's velocity is not known");
+  EXPECT_EQ(Told(stop, R::hold).text(), "stop: there has not been room for long enough");
+  Told unknown(stop, R::not_seen);
+  unknown.visibility[1].surface.seen = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(unknown.text(), "stop: hand is not seen");
+}
+
+}  // namespace
+}  // namespace berth

@@ -1,0 +1,289 @@
+// The monitor on the bundled scene: three cameras, a robot that moves, and faults in each input.
+#include "berth/separation/monitor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "berth/pipeline/asker.hpp"
+#include "berth/pipeline/frame_set.hpp"
+#include "berth/pipeline/observer.hpp"
+#include "berth/scene/open_scene.hpp"
+#include "tests/support/allocation_count.hpp"
+#include "tests/support/error_message.hpp"
+
+namespace berth {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+/// Taken within 34 ms.
+constexpr std::array<std::size_t, 3> kImages = {5, 5, 4};
+
+/// Without what hides the effect of a single input.
+SeparationSettings plain_settings() {
+  SeparationSettings settings;
+  settings.hold_s = settings.release_m = settings.acceleration_m_s2 = 0;
+  settings.least_seen = 0;
+  settings.not_seen = settings.hidden = settings.doubtful = UnknownPolicy::ignore;
+  return settings;
+}
+
+class Monitor : public ::testing::Test {
+ protected:
+  Monitor()
+      : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml")), asker_(scene_.robot) {
+    for (std::size_t c = 0; c < scene_.cameras.size(); ++c) {
+      const OpenCamera& camera = scene_.cameras[c];
+      Observer observer(camera.view);
+      auto frame = std::make_shared<Frame>();
+      observer.observe(camera.read_depth(kImages[c]), camera.at_exposure[kImages[c]], *frame);
+      now_s_ = std::max(now_s_, frame->stamp_s);
+      frames_.push_back(frame);
+    }
+    ask();
+  }
+
+  /// At now_s_, with the joints of that time.
+  void ask() {
+    std::vector<const Frame*> pointers;
+    for (const auto& frame : frames_) pointers.push_back(frame.get());
+    set_.assign(pointers, scene_.robot->settings().time, now_s_);
+    scene_.joints->at(now_s_, kOnlyBetweenSamples, joints_);
+    scene_.joints->velocity(now_s_, velocity_);
+    answer_ = asker_.ask(set_, joints_, now_s_);
+  }
+
+  SeparationQuestion question() const {
+    return {answer_, set_.cameras(), frames_, joints_.position, velocity_, now_s_};
+  }
+  /// Of a monitor that has just been made: with hold_s 0 nothing is held.
+  Separation look(const SeparationSettings& settings) const {
+    return SeparationMonitor(scene_.robot, settings).look(question());
+  }
+
+  OpenScene scene_;
+  Asker asker_;
+  std::vector<std::shared_ptr<const Frame>> frames_;
+  FrameSet set_;
+  double now_s_ = 0;
+  JointState joints_;
+  std::vector<double> velocity_;
+  Answer answer_;
+};
+
+TEST_F(Monitor, EachLinkHasTheRoomThatItsFormulaSays) {
+  const SeparationSettings settings = plain_settings();
+  const Separation separation = look(settings);
+  ASSERT_EQ(separation.links.size(), 8U);
+  EXPECT_NEAR(separation.reaction_time_s, settings.reaction_time_s + now_s_ - frames_[0]->stamp_s,
+              1e-9)
+      << "the oldest image counts";
+  std::vector<LinkTwist> twists;
+  RobotPose pose;
+  forward_kinematics(scene_.robot->model(), joints_.position, pose);
+  link_twists(scene_.robot->model(), pose, velocity_, twists);
+  double least = 1;
+  for (const LinkSeparation& link : separation.links) {
+    if (!link.is_moved) continue;
+    const std::size_t index = scene_.robot->model().evaluated_links[link.id - 1];
+    const double speed_m_s = greatest_speed_m_s(
+        hull_points(scene_.robot->model().links[index].mesh_L), pose.X_BL[index], twists[index]);
+    EXPECT_NEAR(link.speed_m_s, speed_m_s, 1e-9);
+    EXPECT_GT(link.speed_m_s, 0);
+    EXPECT_NEAR(link.margin_m, link.distance_m - link.required_m, 1e-12);
+    EXPECT_GE(link.distance_m, answer_.distances.links[link.id - 1].lower_bound_m);
+    least = std::min(least, link.speed_scale);
+  }
+  EXPECT_EQ(separation.speed_scale, least < settings.least_scale ? 0 : least);
+}
+
+TEST_F(Monitor, ALinkThatNoJointMovesNeedsNoRoom) {
+  const Separation separation = look(plain_settings());
+  EXPECT_FALSE(separation.links[0].is_moved);
+  EXPECT_EQ(separation.links[0].speed_scale, 1);
+  EXPECT_TRUE(std::isnan(separation.links[0].margin_m));
+}
+
+TEST_F(Monitor, SlowPeopleAndASmallReachLeaveTheRobotItsSpeed) {
+  SeparationSettings settings = plain_settings();
+  settings.human_speed_m_s = settings.intrusion_m = 0;
+  settings.camera_uncertainty_m = settings.robot_uncertainty_m = 0;
+  settings.reaction_time_s = 0;
+  settings.deceleration_m_s2 = 100;
+  const Separation separation = look(settings);
+  EXPECT_EQ(name_of(separation.state), "clear");
+  EXPECT_EQ(separation.speed_scale, 1);
+  EXPECT_EQ(name_of(separation.reason), "none");
+  EXPECT_EQ(separation.link, kNoLink);
+}
+
+TEST_F(Monitor, TheDefaultsStopBesideSomethingNear) {
+  const Separation separation = look(SeparationSettings());
+  EXPECT_EQ(name_of(separation.state), "stop");
+  EXPECT_EQ(separation.speed_scale, 0);
+  EXPECT_NE(separation.link, kNoLink);
+}
+
+/// Settings that leave a scale between 0 and 1.
+SeparationSettings reduced_settings() {
+  SeparationSettings settings = plain_settings();
+  settings.human_speed_m_s = 0.2;
+  settings.intrusion_m = 0;
+  settings.camera_uncertainty_m = settings.robot_uncertainty_m = 0;
+  settings.deceleration_m_s2 = 0.4;
+  return settings;
+}
+
+TEST_F(Monitor, TheScaleLeavesEachLinkItsRoom) {
+  const Separation before = look(reduced_settings());
+  ASSERT_EQ(name_of(before.state), "reduced") << before.speed_scale;
+  for (double& v : velocity_) v *= before.speed_scale;
+  const Separation after = look(reduced_settings());
+  EXPECT_GT(after.speed_scale, 0.999);
+  for (const LinkSeparation& link : after.links) {
+    if (!link.is_moved) continue;
+    EXPECT_GE(link.margin_m, -1e-5);
+  }
+  for (double& v : velocity_) v *= 1.05;
+  EXPECT_LT(look(reduced_settings()).speed_scale, 1);
+}
+
+TEST_F(Monitor, WhatTheRobotMayGainInSpeedCounts) {
+  SeparationSettings settings = reduced_settings();
+  const Separation before = look(settings);
+  settings.acceleration_m_s2 = 1;
+  const Separation after = look(settings);
+  EXPECT_NEAR(after.links[7].speed_m_s, before.links[7].speed_m_s + settings.reaction_time_s, 1e-9);
+  EXPECT_LT(after.speed_scale, before.speed_scale);
+}
+
+TEST_F(Monitor, TheDirectedSpeedIsAtMostTheSpeed) {
+  SeparationSettings settings = reduced_settings();
+  const Separation all = look(settings);
+  settings.directed_speed = true;
+  const Separation directed = look(settings);
+  bool is_less = false;
+  for (std::size_t i = 1; i < all.links.size(); ++i) {
+    EXPECT_LE(directed.links[i].speed_m_s, all.links[i].speed_m_s + 1e-9);
+    is_less |= directed.links[i].speed_m_s < 0.9 * all.links[i].speed_m_s;
+  }
+  EXPECT_TRUE(is_less);
+}
+
+TEST_F(Monitor, TheUncertaintyComesFromTheCamerasInUse) {
+  SeparationSettings settings = plain_settings();
+  const Separation automatic = look(settings);
+  settings.camera_uncertainty_m = 0;
+  const Separation none = look(settings);
+  for (std::size_t i = 1; i < none.links.size(); ++i) {
+    // Tolerance 5 cm, noise 2 cm at 1 m and 20 cm at 3 m.
+    const double z_d_m = automatic.links[i].required_m - none.links[i].required_m;
+    EXPECT_GE(z_d_m, 0.07 - 1e-9);
+    EXPECT_LE(z_d_m, 0.25);
+  }
+}
+
+TEST_F(Monitor, AnOldAnswerStops) {
+  now_s_ += 0.2;
+  ask();
+  const Separation separation = look(plain_settings());
+  EXPECT_EQ(name_of(separation.state), "stop");
+  EXPECT_EQ(name_of(separation.reason), "untimely");
+  EXPECT_TRUE(std::isnan(separation.reaction_time_s));
+  for (const LinkSeparation& link : separation.links) {
+    EXPECT_EQ(link.speed_scale, link.is_moved ? 0 : 1);
+  }
+}
+
+TEST_F(Monitor, AVelocityThatIsNotKnownStops) {
+  SeparationSettings settings = reduced_settings();
+  settings.human_speed_m_s = 0;
+  for (const double bad : {kNaN, std::numeric_limits<double>::infinity()}) {
+    const std::vector<double> good = velocity_;
+    velocity_[3] = bad;
+    EXPECT_EQ(name_of(look(settings).reason), "velocity");
+    EXPECT_EQ(name_of(look(settings).state), "stop");
+    velocity_ = good;
+  }
+  velocity_.pop_back();
+  EXPECT_EQ(name_of(look(settings).reason), "velocity") << "one is missing";
+}
+
+TEST_F(Monitor, APositionThatIsNotKnownStops) {
+  joints_.position[2] = kNaN;
+  EXPECT_EQ(name_of(look(plain_settings()).reason), "velocity");
+}
+
+TEST_F(Monitor, ALostCameraGoesByItsPolicy) {
+  frames_[1] = nullptr;
+  ask();
+  SeparationSettings settings = reduced_settings();
+  settings.camera = UnknownPolicy::ignore;
+  EXPECT_GT(look(settings).speed_scale, 0);
+  settings.camera = UnknownPolicy::stop;
+  const Separation stopped = look(settings);
+  EXPECT_EQ(name_of(stopped.state), "stop");
+  EXPECT_EQ(name_of(stopped.reason), "camera");
+  EXPECT_EQ(stopped.camera, 1);
+  settings.camera = UnknownPolicy::assume_range;
+  settings.assumed_range_m = 0.1;
+  const Separation assumed = look(settings);
+  EXPECT_GT(assumed.speed_scale, 0);
+  EXPECT_LE(assumed.speed_scale, stopped.speed_scale + 1);
+  for (const LinkSeparation& link : assumed.links) {
+    if (!link.is_moved) continue;
+    EXPECT_LE(link.distance_m, 0.1);
+  }
+}
+
+TEST_F(Monitor, ACoveredCameraIsALostOne) {
+  const OpenCamera& camera = scene_.cameras[2];
+  DepthImage dark = camera.read_depth(kImages[2]);
+  for (float& depth_m : dark.pixels()) depth_m = std::numeric_limits<float>::quiet_NaN();
+  auto covered = std::make_shared<Frame>();
+  Observer(camera.view).observe(dark, camera.at_exposure[kImages[2]], *covered);
+  frames_[2] = covered;
+  ask();
+  ASSERT_EQ(set_.cameras()[2].status, CameraStatus::blind);
+  EXPECT_EQ(name_of(look(plain_settings()).reason), "camera");
+}
+
+TEST_F(Monitor, ItBeginsWithAStopAndGoesOnAfterAWhile) {
+  SeparationSettings settings = reduced_settings();
+  settings.hold_s = 0.05;
+  SeparationMonitor monitor(scene_.robot, settings);
+  const Separation first = monitor.look(question());
+  EXPECT_EQ(name_of(first.state), "stop");
+  EXPECT_EQ(name_of(first.reason), "hold");
+  now_s_ += 0.06;
+  const Separation later = monitor.look(question());
+  EXPECT_EQ(name_of(later.state), "reduced");
+}
+
+TEST_F(Monitor, AllocatesNothing) {
+  SeparationMonitor monitor(scene_.robot, SeparationSettings());
+  const std::size_t before = allocation_count();
+  for (int i = 0; i < 3; ++i) monitor.look(question());
+  EXPECT_EQ(allocation_count(), before);
+}
+
+TEST_F(Monitor, NeedsARobotWhoseAnswersTellWhatIsSeen) {
+  EvaluationSettings evaluation;
+  evaluation.visibility = false;
+  const auto robot = std::make_shared<const Robot>(scene_.robot->model(), evaluation);
+  EXPECT_EQ(error_message<std::invalid_argument>([&] { SeparationMonitor(robot, {}); }),
+            "separation: visibility is off; expected on, since it tells which links are seen");
+}
+
+TEST_F(Monitor, RefusesBadSettings) {
+  SeparationSettings settings;
+  settings.least_seen = 2;
+  EXPECT_EQ(
+      error_message<std::invalid_argument>([&] { SeparationMonitor(scene_.robot, settings); }),
+      "separation.least_seen: 2; expected a finite number from 0 to 1");
+}
+
+}  // namespace
+}  // namespace berth
