@@ -5,6 +5,7 @@
 #include <chrono>
 #include <deque>
 #include <rclcpp_components/register_node_macro.hpp>
+#include <std_msgs/msg/float64.hpp>
 #include <visualization_msgs/msg/marker_array.hpp>
 
 #include "answer_messages.hpp"
@@ -12,6 +13,7 @@
 #include "markers.hpp"
 #include "nodes.hpp"
 #include "question_times.hpp"
+#include "speed_monitor.hpp"
 
 namespace berth_ros {
 namespace {
@@ -25,6 +27,13 @@ rcl_interfaces::msg::ParameterDescriptor rate(const std::string& text, double mo
   return descriptor;
 }
 
+rcl_interfaces::msg::ParameterDescriptor described_number(const std::string& text) {
+  rcl_interfaces::msg::ParameterDescriptor descriptor;
+  descriptor.description = text;
+  descriptor.read_only = true;
+  return descriptor;
+}
+
 }  // namespace
 
 class DistanceNode : public LiveNode {
@@ -35,6 +44,7 @@ class DistanceNode : public LiveNode {
     distances_ = create_publisher<berth_msgs::msg::LinkDistances>("distances", qos);
     at_exposure_ = create_publisher<berth_msgs::msg::LinkDistances>("distances_at_exposure", qos);
     separation_ = create_publisher<berth_msgs::msg::Separation>("separation", qos);
+    speed_scale_ = create_publisher<std_msgs::msg::Float64>("speed_scale", qos);
     markers_ = create_publisher<visualization_msgs::msg::MarkerArray>("markers", qos);
     diagnostics_.add("questions", [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
       report_questions(status);
@@ -43,10 +53,19 @@ class DistanceNode : public LiveNode {
         "question_rate_hz", 100.0, rate("questions a second; 0: one for each joint state", 1000));
     const double marker_hz =
         declare_parameter("marker_rate_hz", 10.0, rate("markers a second; 0: none", 100));
+    velocity_window_s_ = declare_parameter(
+        "velocity_window_s", 0.02,
+        described_number("over how long a time of joint states velocities are measured, where no "
+                         "planned_joint_states come"));
     asks_on_joints_ = question_hz == 0;
     group_ = create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive);
     if (question_hz > 0) question_timer_ = timer(question_hz, [this] { ask(); });
     if (marker_hz > 0) marker_timer_ = timer(marker_hz, [this] { show(); });
+    rclcpp::SubscriptionOptions with_group;
+    with_group.callback_group = group_;
+    planned_subscription_ = create_subscription<sensor_msgs::msg::JointState>(
+        "planned_joint_states", rclcpp::SensorDataQoS().keep_last(1),
+        [this](const sensor_msgs::msg::JointState& message) { on_plan(message); }, with_group);
     listen();
   }
   /// Cameras' threads and callbacks use what is below.
@@ -69,7 +88,12 @@ class DistanceNode : public LiveNode {
     exposure_asker_.reset();
     robot_ = now;
     recent_.assign(camera_names().size(), {});
+    monitor_.reset();
+    planned_ = {};
+    const std::optional<berth::SeparationSettings> separation = separation_settings();
+    is_monitored_ = separation.has_value();
     if (!now.robot) return;
+    if (separation) monitor_.emplace(now.robot, *separation, velocity_window_s_);
     asker_.emplace(now.robot, camera_names().size());
     exposure_asker_.emplace(now.robot, camera_names().size());
   }
@@ -77,6 +101,7 @@ class DistanceNode : public LiveNode {
   void ask() {
     const auto begin = std::chrono::steady_clock::now();
     auto message = std::make_unique<berth_msgs::msg::LinkDistances>();
+    bool is_told = false;
     {
       const std::lock_guard lock(asker_mutex_);
       const berth::LiveFrames frames = robot_.robot ? this->frames(*robot_.robot) : berth::LiveFrames();
@@ -85,18 +110,40 @@ class DistanceNode : public LiveNode {
       if (asker_) {
         const berth::Answer& answer =
             asker_->ask(frames, robot_.joints->buffer(), clock_.seconds(now));
-        to_message(answer, context(*asker_, now), *message);
+        const AnswerContext context = this->context(*asker_, now);
+        to_message(answer, context, *message);
+        if (monitor_) {
+          monitor_->look(answer, context, robot_.joints->buffer(), planned_, separation_message_);
+        } else {
+          say_unmonitored(separation_message_);
+        }
       } else {
         say_no_robot(camera_names(), now, *message);
+        if (is_monitored_) {
+          say_stop("there is no robot model", separation_message_);
+        } else {
+          say_unmonitored(separation_message_);
+        }
       }
       to_message(*message, separation_message_);
+      is_told = is_monitored_;
       last_status_ = message->status;
       if (marker_timer_) last_ = *message;
     }
     distances_->publish(std::move(message));
     separation_->publish(separation_message_);
+    if (is_told) {
+      std_msgs::msg::Float64 scale;
+      scale.data = separation_message_.speed_scale;
+      speed_scale_->publish(scale);
+    }
     const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - begin;
     times_.add(took.count());
+  }
+
+  void on_plan(const sensor_msgs::msg::JointState& message) {
+    const std::lock_guard lock(asker_mutex_);
+    if (robot_.robot) planned_.take(message, robot_.robot->model(), clock_.seconds(this->now()));
   }
 
   void on_frame(std::size_t camera, const berth::Frame& frame,
@@ -167,6 +214,8 @@ class DistanceNode : public LiveNode {
   rclcpp::Publisher<berth_msgs::msg::LinkDistances>::SharedPtr distances_;
   rclcpp::Publisher<berth_msgs::msg::LinkDistances>::SharedPtr at_exposure_;
   rclcpp::Publisher<berth_msgs::msg::Separation>::SharedPtr separation_;
+  rclcpp::Publisher<std_msgs::msg::Float64>::SharedPtr speed_scale_;
+  rclcpp::Subscription<sensor_msgs::msg::JointState>::SharedPtr planned_subscription_;
   rclcpp::Publisher<visualization_msgs::msg::MarkerArray>::SharedPtr markers_;
   static constexpr std::size_t kRecent = 4;
   /// Of each camera, for distances_at_exposure.
@@ -180,6 +229,10 @@ class DistanceNode : public LiveNode {
   berth_msgs::msg::LinkDistances last_;
   std::uint8_t last_status_ = berth_msgs::msg::LinkDistances::NO_ROBOT;
   berth_msgs::msg::Separation separation_message_;
+  double velocity_window_s_ = 0;
+  bool is_monitored_ = false;
+  std::optional<SpeedMonitor> monitor_;
+  PlannedVelocity planned_;
   QuestionTimes times_;
   rclcpp::CallbackGroup::SharedPtr group_;
   rclcpp::TimerBase::SharedPtr question_timer_;

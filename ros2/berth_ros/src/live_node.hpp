@@ -42,6 +42,10 @@ class LiveNode : public rclcpp::Node {
   void stop();
 
   LiveRobot live() const;
+  /// None: nothing is monitored.
+  std::optional<berth::SeparationSettings> separation_settings() const {
+    return settings_.separation();
+  }
   /// The newest of each camera of this robot.
   berth::LiveFrames frames(const berth::Robot& robot) const;
   const std::vector<std::string>& camera_names() const { return camera_names_; }

@@ -17,8 +17,9 @@ ParameterDescriptor described(const std::string& text, bool is_read_only = true)
   return descriptor;
 }
 
-constexpr std::array<const char*, 6> kGroups = {"self_filter", "sensor", "space",
-                                                "watch", "evaluation", "time"};
+constexpr std::array<const char*, 7> kGroups = {"self_filter", "sensor", "space", "watch",
+                                                "evaluation", "time", "separation"};
+constexpr const char* kMonitor = "separation.monitor";
 
 /// All overrides NAME: number below a prefix, declared.
 std::map<std::string, double> declare_numbers(rclcpp::Node& node, const std::string& prefix,
@@ -51,6 +52,7 @@ NodeSettings::NodeSettings(rclcpp::Node& node, bool has_one_camera) {
   declare_joints(node);
   declare_evaluation(node);
   declare_cameras(node, has_one_camera);
+  if (!has_one_camera) declare_separation(node);
   check({});
 }
 
@@ -175,6 +177,25 @@ void NodeSettings::declare_camera(rclcpp::Node& node, const std::string& name,
   cameras_.push_back(camera);
 }
 
+void NodeSettings::declare_separation(rclcpp::Node& node) {
+  const bool has_monitor = scene_ && scene_->separation;
+  given_[kMonitor] = node.declare_parameter(
+      kMonitor, rclcpp::ParameterValue(has_monitor),
+      described("whether to tell how fast the robot may go on (separation, speed_scale)", false));
+  declare_settings(node, "separation",
+                   has_monitor ? *scene_->separation : berth::SeparationSettings{}, false, given_);
+}
+
+std::optional<berth::SeparationSettings> NodeSettings::separation_of(
+    const GivenParameters& given) const {
+  const auto monitor = given.find(kMonitor);
+  if (monitor == given.end() || !monitor->second.get<bool>()) return {};
+  berth::SeparationSettings settings =
+      scene_ && scene_->separation ? *scene_->separation : berth::SeparationSettings{};
+  apply_given(given, "separation", settings);
+  return settings;
+}
+
 berth::EvaluationSettings NodeSettings::evaluation_of(const GivenParameters& given) const {
   berth::EvaluationSettings evaluation =
       scene_ ? scene_->evaluation : berth::EvaluationSettings{};
@@ -230,6 +251,13 @@ void NodeSettings::check(const std::vector<rclcpp::Parameter>& changes) const {
   if (evaluation.method != berth::Method::mesh && cameras_.size() > 1) {
     throw std::invalid_argument("evaluation.method: " + std::string(name_of(evaluation.method)) +
                                 " looks at one camera; expected mesh for several");
+  }
+  if (const auto separation = separation_of(given)) {
+    berth::validate(*separation);
+    if (!evaluation.visibility) {
+      throw std::invalid_argument(
+          "evaluation.visibility: false; expected true where separation.monitor is");
+    }
   }
   for (const CameraSettings& camera : cameras_of(given)) {
     berth::validate(camera.view.self_filter);

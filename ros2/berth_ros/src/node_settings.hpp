@@ -13,6 +13,7 @@
 #include "berth/live/live_camera.hpp"
 #include "berth/pipeline/view.hpp"
 #include "berth/scene/scene_file.hpp"
+#include "berth/separation/settings.hpp"
 #include "setting_parameters.hpp"
 
 namespace berth_ros {
@@ -58,6 +59,8 @@ class NodeSettings {
   berth::JointIntakeSettings joint_settings() const { return joints_; }
   berth::EvaluationSettings evaluation() const { return evaluation_of(given_); }
   std::vector<CameraSettings> cameras() const { return cameras_of(given_); }
+  /// None: nothing is monitored.
+  std::optional<berth::SeparationSettings> separation() const { return separation_of(given_); }
 
   /// Throws std::invalid_argument where settings with these changes would be refused.
   void check(const std::vector<rclcpp::Parameter>& changes) const;
@@ -68,11 +71,13 @@ class NodeSettings {
   void declare_robot(rclcpp::Node& node);
   void declare_joints(rclcpp::Node& node);
   void declare_evaluation(rclcpp::Node& node);
+  void declare_separation(rclcpp::Node& node);
   void declare_cameras(rclcpp::Node& node, bool has_one_camera);
   void declare_camera(rclcpp::Node& node, const std::string& name, bool has_one_camera);
   bool is_setting(const std::string& name) const;
   GivenParameters with(const std::vector<rclcpp::Parameter>& changes) const;
   berth::EvaluationSettings evaluation_of(const GivenParameters& given) const;
+  std::optional<berth::SeparationSettings> separation_of(const GivenParameters& given) const;
   std::vector<CameraSettings> cameras_of(const GivenParameters& given) const;
 
   std::optional<berth::SceneFile> scene_;

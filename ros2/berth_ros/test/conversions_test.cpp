@@ -8,6 +8,7 @@
 #include "camera_pose.hpp"
 #include "markers.hpp"
 #include "setting_parameters.hpp"
+#include "speed_monitor.hpp"
 
 namespace berth_ros {
 namespace {
@@ -53,6 +54,7 @@ TEST(Parameters, EachSettingComesBack) {
   there_and_back(berth::WatchSettings{});
   there_and_back(berth::DistanceSettings{});
   there_and_back(berth::TimeSettings{});
+  there_and_back(berth::SeparationSettings{});
 }
 
 TEST(Parameters, AnUnknownNameIsRefusedWithThoseThatThereAre) {
@@ -154,6 +156,41 @@ TEST(Separation, WhatIsNotKnownIsNeverFar) {
   EXPECT_FALSE(separation_of({}).has_distance);
   EXPECT_FALSE(separation_of({link("base", LinkDistance::OK, 1, false)}).has_distance);
   EXPECT_FALSE(separation_of({link("arm", LinkDistance::OK, kNaN)}).has_distance) << "no bound";
+}
+
+TEST(PlannedVelocity, IsInTheRobotsOrderAndNotOld) {
+  berth::RobotModel model;
+  model.joints.resize(2);
+  model.joints[0].name = "turn";
+  model.joints[1].name = "lift";
+  PlannedVelocity planned;
+  EXPECT_FALSE(planned.is_there());
+  sensor_msgs::msg::JointState message;
+  message.name = {"lift", "other", "turn"};
+  message.velocity = {0.5, 9, -0.2};
+  planned.take(message, model, 3);
+  EXPECT_TRUE(planned.is_there());
+  EXPECT_EQ(planned.at(3.1, 0.15), (std::vector<double>{-0.2, 0.5}));
+  EXPECT_TRUE(std::isnan(planned.at(3.2, 0.15)[0])) << "too old";
+  message.name = {"lift"};
+  planned.take(message, model, 4);
+  EXPECT_TRUE(std::isnan(planned.at(4, 0.15)[0])) << "one is missing";
+  EXPECT_EQ(planned.at(4, 0.15)[1], 0.5);
+  message.velocity.clear();
+  planned.take(message, model, 4);
+  EXPECT_TRUE(std::isnan(planned.at(4, 0.15)[1])) << "a name without a velocity";
+}
+
+TEST(Separation, IsSaidToBeUnmonitoredOrAStop) {
+  berth_msgs::msg::Separation out;
+  out.speed_scale = 0.5;
+  say_unmonitored(out);
+  EXPECT_EQ(out.state, berth_msgs::msg::Separation::UNMONITORED);
+  EXPECT_TRUE(std::isnan(out.speed_scale));
+  say_stop("there is no robot model", out);
+  EXPECT_EQ(out.state, berth_msgs::msg::Separation::STOP);
+  EXPECT_EQ(out.speed_scale, 0);
+  EXPECT_EQ(out.text, "stop: there is no robot model");
 }
 
 TEST(Markers, EachDistanceHasALineItsEndsAndItsLength) {

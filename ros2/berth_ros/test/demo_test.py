@@ -16,6 +16,7 @@ from launch import LaunchDescription
 from launch_ros.actions import Node
 from rclpy.executors import SingleThreadedExecutor
 from sensor_msgs.msg import Image
+from std_msgs.msg import Float64
 
 SCENE = os.path.join(get_package_share_directory("berth_ros"), "bundled", "scene.yaml")
 # Within it an answer depends on the one before, and a busy computer may drop an image.
@@ -28,7 +29,8 @@ def generate_test_description():
     return LaunchDescription([
         Node(package="berth_ros", executable="distance_node", output="screen", parameters=[{
             "cameras": ["camera", "left", "right"], "environment_links": ["table"], "evaluation.range_m": 1.0,
-            "evaluation.tolerance_m": TOLERANCE_M}]),
+            "evaluation.tolerance_m": TOLERANCE_M, "separation.monitor": True, "separation.human_speed_m_s": 0.1,
+            "separation.intrusion_m": 0.0, "separation.hold_s": 0.0, "separation.release_m": 0.0}]),
         Node(package="berth_ros", executable="self_filter_node", name="left_filter", output="screen",
              remappings=[("depth_image", "left/depth_image"), ("camera_info", "left/camera_info")],
              parameters=[{"environment_links": ["table"]}]),
@@ -43,12 +45,13 @@ class Demo(unittest.TestCase):
     def setUpClass(cls):
         rclpy.init()
         cls.node = rclpy.create_node("listener")
-        cls.at_exposure, cls.distances, cls.separations = [], [], []
+        cls.at_exposure, cls.distances, cls.separations, cls.scales = [], [], [], []
         cls.left, cls.world = {}, {}
         node = cls.node
         node.create_subscription(LinkDistances, "distances_at_exposure", cls.at_exposure.append, 100)
         node.create_subscription(LinkDistances, "distances", cls.distances.append, 100)
         node.create_subscription(Separation, "separation", cls.separations.append, 100)
+        node.create_subscription(Float64, "speed_scale", lambda m: cls.scales.append(m.data), 100)
         qos = rclpy.qos.qos_profile_sensor_data
         node.create_subscription(Image, "left/depth_image", lambda m: cls.left.update({stamp(m): m}), qos)
         node.create_subscription(Image, "world_depth", lambda m: cls.world.update({stamp(m): m}), qos)
@@ -115,6 +118,19 @@ class Demo(unittest.TestCase):
         by_stamp = {(stamp(m), m.links[0].distance_m): m for m in self.distances if m.links}
         self.assertTrue(by_stamp)
         self.assertNotEqual(known[0].link, "arm_link_0")
+
+    def test_the_monitor_tells_how_fast_the_robot_may_go(self):
+        told = [m for m in self.separations if m.status == LinkDistances.OK and m.links]
+        self.assertGreater(len(told), 20)
+        self.assertTrue(all(len(m.links) == 7 and m.reaction_time_s >= 0.1 for m in told))
+        for message in told:
+            self.assertLessEqual(message.speed_scale, min(link.speed_scale for link in message.links) + 1e-12)
+            self.assertEqual(message.state == Separation.STOP, message.speed_scale == 0)
+            self.assertTrue(message.text)
+        self.assertTrue(any(link.speed_m_s > 0.1 for m in told for link in m.links), "the arm moves")
+        self.assertGreater(len(self.scales), 20)
+        last = self.separations[-1]
+        self.assertEqual((last.state, last.speed_scale), (Separation.STOP, 0.0), "the scene has ended")
 
     def test_the_filtered_image_is_the_same_but_for_the_robot(self):
         self.assertGreater(len(self.world), 20)

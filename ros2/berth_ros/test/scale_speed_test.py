@@ -14,12 +14,13 @@ LOADER.exec_module(scale_speed)
 
 @pytest.mark.parametrize("distance_m, scale", [(0.0, 0.0), (0.2, 0.0), (0.4, 0.5), (0.6, 1.0), (5.0, 1.0)])
 def test_the_scale_grows_with_the_distance(distance_m, scale):
-    assert scale_speed.scale_of(Separation(has_distance=True, distance_m=distance_m), 0.2, 0.6) == pytest.approx(scale)
+    assert scale_speed.scale_of(Separation(state=Separation.UNMONITORED, has_distance=True, distance_m=distance_m), 0.2, 0.6) == pytest.approx(scale)
 
 
 @pytest.mark.parametrize("separation", [
-    Separation(has_distance=False, distance_m=1.0),
-    Separation(has_distance=True, distance_m=float("nan")),
+    Separation(state=Separation.UNMONITORED, has_distance=False, distance_m=1.0),
+    Separation(state=Separation.UNMONITORED, has_distance=True, distance_m=float("nan")),
+    Separation(state=Separation.STOP, has_distance=True, distance_m=5.0),
 ])
 def test_what_is_not_known_stops_the_robot(separation):
     assert scale_speed.scale_of(separation, 0.2, 0.6) == 0.0
