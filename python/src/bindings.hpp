@@ -14,5 +14,6 @@ void bind_asker(pybind11::module_& m);
 void bind_images(pybind11::module_& m);
 void bind_scene(pybind11::module_& m);
 void bind_calibration(pybind11::module_& m);
+void bind_page(pybind11::module_& m);
 
 }  // namespace berth::python

@@ -35,4 +35,5 @@ PYBIND11_MODULE(_berth, m) {
   berth::python::bind_images(m);
   berth::python::bind_scene(m);
   berth::python::bind_calibration(m);
+  berth::python::bind_page(m);
 }

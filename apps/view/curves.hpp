@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "apps/view/page_message.hpp"
+#include "berth/scene/frame_result.hpp"
+
+namespace berth::app {
+
+/// What is drawn over time of each link, of the last results.
+class Curves {
+ public:
+  /// Of `most` results no more are kept; `total` is how many there will be, 0: nobody knows.
+  Curves(std::size_t most, std::size_t total) : most_(most), total_(total) {}
+
+  void add(const FrameResult& result);
+  /// A sentence for the user; nothing where it is empty.
+  void warn(const std::string& text);
+
+  PageMessage message(const std::string& error = "") const;
+
+ private:
+  struct LinkPoint {
+    float distance_m;
+    float reading_m;
+    LinkStatus status;
+    bool is_doubtful;
+  };
+  struct Column {
+    double stamp_s;
+    std::vector<LinkPoint> links;
+  };
+
+  std::size_t most_;
+  std::size_t total_;
+  std::vector<std::string> warnings_;
+  std::deque<Column> columns_;
+};
+
+}  // namespace berth::app

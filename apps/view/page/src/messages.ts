@@ -1,0 +1,242 @@
+// What the program sends; apps/view/*_message*.cpp write it.
+
+export interface Link {
+  name: string;
+  id: number;
+  is_evaluated: boolean;
+  is_moved: boolean;
+  color: string;
+}
+
+export interface Camera {
+  name: string;
+  width_px: number;
+  height_px: number;
+  fx_px: number;
+  fy_px: number;
+  cx_px: number;
+  cy_px: number;
+}
+
+export interface Fate {
+  name: string;
+  color: string;
+  is_kept: boolean;
+}
+
+export interface Scene {
+  type: "scene";
+  file: string;
+  robot: string;
+  links: Link[];
+  cameras: Camera[];
+  /** Camera, number of its image, time in seconds. */
+  steps: [number, number, number][];
+  fates: Fate[];
+}
+
+export type Point = [number, number, number];
+
+export interface Pair {
+  camera: string | null;
+  obstacle_pixel: [number, number] | null;
+  robot_point_base_m: Point | null;
+  obstacle_point_base_m: Point | null;
+}
+
+export interface LinkResult extends Pair {
+  id: number;
+  link: string;
+  status: string;
+  distance_m: number | null;
+  lower_bound_m?: number | null;
+  obstacle_is?: "reading" | "hidden" | null;
+  reading_distance_m?: number | null;
+  reading?: Pair;
+  visibility?: {
+    surface: { seen: number } | null;
+    space_unknown: number | null;
+    doubtful_distance_m: number | null;
+  };
+}
+
+export interface CameraResult {
+  camera: string;
+  frame: number | null;
+  age_s: number | null;
+  status: string;
+  seen_through?: number;
+  self_filter?: Record<string, number>;
+}
+
+export interface Result {
+  frame: number;
+  stamp_s: number;
+  method: string;
+  range_m: number;
+  cameras: CameraResult[];
+  links: LinkResult[];
+  self_filter?: Record<string, number>;
+}
+
+export interface Shown {
+  type: "shown";
+  step: number;
+  result: Result;
+  /** Poses in the root link's frame, rows of the matrix. */
+  links: number[][] | null;
+  cameras: (number[] | null)[];
+}
+
+export type Value = number | boolean | string | null;
+
+export interface SettingText {
+  name: string;
+  unit: string;
+  sentence: string;
+  methods: string;
+  kind: "number" | "whole" | "bool" | "choice";
+  choices?: string[];
+  least?: number;
+  most?: number;
+  domain?: string;
+}
+
+export interface SettingGroup {
+  name: string;
+  by_camera: boolean;
+  settings: SettingText[];
+  /** One list of values for each camera, or one alone. */
+  now: Value[][];
+  file: Value[][];
+}
+
+export interface XyzRpy {
+  xyz_m: Point;
+  rpy_rad: Point;
+}
+
+export interface CameraPose {
+  camera: string;
+  parent: string;
+  now: XyzRpy;
+  file: XyzRpy;
+}
+
+export interface Settings {
+  type: "settings";
+  groups: SettingGroup[];
+  poses: CameraPose[];
+}
+
+export interface Timeline {
+  type: "timeline";
+  done: number;
+  total: number;
+  error: string;
+  warnings: string[];
+  stamps_s: number[];
+  /** Rows are links, columns are steps. */
+  links: {
+    distance_m: (number | null)[][];
+    reading_m: (number | null)[][];
+    status: string[][];
+    is_doubtful: boolean[][];
+  };
+}
+
+interface Spread {
+  median_m: number | null;
+  p90_m: number | null;
+}
+
+export interface TeachIn {
+  type: "teach_in";
+  state: "none" | "runs" | "found" | "failed" | "taken";
+  error: string;
+  cameras?: { name: string; headline: string; before: Spread; after: Spread }[];
+  warnings?: string[];
+  report?: string;
+}
+
+export interface Notice {
+  type: "notice";
+  number: number;
+  is_refused: boolean;
+  text: string;
+}
+
+export interface Mesh {
+  type: "mesh";
+  corners: number[];
+  triangles: number[];
+  corner_m: Float32Array;
+  triangle: Uint32Array;
+}
+
+export interface Image {
+  type: "image";
+  camera: number;
+  frame: number;
+  width_px: number;
+  height_px: number;
+  depth_m: Float32Array;
+  fate: Uint8Array;
+  link: Uint16Array;
+  /** -32768: no reading or no robot. */
+  behind_mm: Int16Array;
+}
+
+export interface Space {
+  type: "space";
+  corner_m: Point;
+  edge_m: number;
+  cells: [number, number, number];
+  /** 0: seen, 1: hidden, 2: unseen. */
+  sight: Uint8Array;
+}
+
+export type Message =
+  | Scene
+  | Shown
+  | Settings
+  | Timeline
+  | TeachIn
+  | Notice
+  | Mesh
+  | Image
+  | Space;
+
+function sum(values: number[]): number {
+  return values.reduce((all, one) => all + one, 0);
+}
+
+/** Where the next array begins: they are filled up to four bytes. */
+function filled(length: number): number {
+  return Math.ceil(length / 4) * 4;
+}
+
+export function readBinary(data: ArrayBuffer): Message {
+  const length = new DataView(data).getUint32(0, true);
+  const header = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 4, length)));
+  let at = 4 + length;
+  const take = <T>(array: new (data: ArrayBuffer, at: number, count: number) => T, bytes: number, count: number): T => {
+    const values = new array(data, at, count);
+    at += filled(bytes * count);
+    return values;
+  };
+  if (header.type === "mesh") {
+    header.corner_m = take(Float32Array, 4, 3 * sum(header.corners));
+    header.triangle = take(Uint32Array, 4, 3 * sum(header.triangles));
+  } else if (header.type === "image") {
+    const pixels = header.width_px * header.height_px;
+    header.depth_m = take(Float32Array, 4, pixels);
+    header.fate = take(Uint8Array, 1, pixels);
+    header.link = take(Uint16Array, 2, pixels);
+    header.behind_mm = take(Int16Array, 2, pixels);
+  } else if (header.type === "space") {
+    const [x, y, z] = header.cells;
+    header.sight = take(Uint8Array, 1, x * y * z);
+  }
+  return header;
+}

@@ -1,0 +1,51 @@
+// Teach-in: run it, see what it found, take it or not.
+import type { Request } from "./connection";
+import { lengthText, make } from "./dom";
+import type { TeachIn } from "./messages";
+
+export class TeachInPanel {
+  readonly element = make("div");
+
+  constructor(private readonly send: (request: Request) => void) {
+    this.setState({ type: "teach_in", state: "none", error: "" });
+  }
+
+  setState(found: TeachIn): void {
+    const button = (id: string, text: string, request: string) =>
+      make("button", { id, textContent: text, onclick: () => this.send({ do: request }) });
+    const start = button("teach", "Run the teach-in", "teach_in");
+    const text = make("p", {
+      textContent:
+        "Finds the cameras' poses, clocks and filter settings from these images: the arm in five poses or more, and nobody else moves.",
+    });
+    if (found.state === "runs") {
+      const wait = make("p", {}, [make("progress"), " It runs; this takes a minute or so."]);
+      return this.element.replaceChildren(text, wait, button("stop-teach", "Stop", "drop_teach_in"));
+    }
+    if (found.state === "failed") {
+      return this.element.replaceChildren(text, make("p", { className: "refused", textContent: found.error }), start);
+    }
+    if (found.state === "taken") {
+      return this.element.replaceChildren(text, make("p", { textContent: "Taken: see what is marked in the settings; save it from there." }), start);
+    }
+    if (found.state !== "found") return this.element.replaceChildren(text, start);
+    this.element.replaceChildren(
+      text,
+      ...(found.warnings ?? []).map((warning) => make("p", { className: "refused", textContent: warning })),
+      this.residuals(found),
+      make("div", { className: "row" }, [button("take-teach", "Take it", "take_teach_in"), button("drop-teach", "Leave it", "drop_teach_in")]),
+      make("details", {}, [make("summary", { textContent: "The whole report" }), make("pre", { textContent: found.report ?? "" })]),
+    );
+  }
+
+  private residuals(found: TeachIn): HTMLElement {
+    const head = make("tr", {}, ["readings of the robot lie off its surface by", "before", "after"].map((text) => make("th", { textContent: text })));
+    const rows = found.cameras!.flatMap((camera) => [
+      make("tr", {}, [make("th", { textContent: `${camera.name}: ${camera.headline}`, colSpan: 3 })]),
+      ...(["median_m", "p90_m"] as const).map((key) =>
+        make("tr", {}, [key === "median_m" ? "in the median" : "90 % of them, at most", lengthText(camera.before[key]), lengthText(camera.after[key])].map((text) => make("td", { textContent: text }))),
+      ),
+    ]);
+    return make("table", { id: "residuals" }, [make("thead", {}, [head]), make("tbody", {}, rows)]);
+  }
+}

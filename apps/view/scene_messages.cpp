@@ -1,0 +1,163 @@
+#include "apps/view/scene_messages.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/berth/picture_palette.hpp"
+#include "berth/scene/result_json.hpp"
+
+namespace berth::app {
+namespace {
+
+using SceneJson = nlohmann::ordered_json;
+
+std::string hex_of(Rgb color) {
+  return fmt::format("#{:02x}{:02x}{:02x}", color.r, color.g, color.b);
+}
+
+SceneJson links_json(const RobotModel& model) {
+  SceneJson links = SceneJson::array();
+  for (std::size_t i = 0; i < model.links.size(); ++i) {
+    const Link& link = model.links[i];
+    const bool is_evaluated = link.role == LinkRole::evaluated;
+    links.push_back({{"name", link.name},
+                     {"id", link.id},
+                     {"is_evaluated", is_evaluated},
+                     {"is_moved", model.is_moved(i)},
+                     {"color", is_evaluated ? hex_of(link_color(link.id)) : "#8a8a8a"}});
+  }
+  return links;
+}
+
+SceneJson cameras_json(const std::vector<PageCamera>& all) {
+  SceneJson cameras = SceneJson::array();
+  for (const auto& [name, camera] : all) {
+    cameras.push_back({{"name", name},
+                       {"width_px", camera.width_px},
+                       {"height_px", camera.height_px},
+                       {"fx_px", camera.fx_px},
+                       {"fy_px", camera.fy_px},
+                       {"cx_px", camera.cx_px},
+                       {"cy_px", camera.cy_px}});
+  }
+  return cameras;
+}
+
+SceneJson steps_json(const std::vector<ImageStep>& steps) {
+  SceneJson json = SceneJson::array();
+  for (const ImageStep& step : steps) json.push_back({step.camera, step.frame, step.stamp_s});
+  return json;
+}
+
+SceneJson fates_json_of_page() {
+  SceneJson fates = SceneJson::array();
+  for (int i = 0; i < kPixelFateCount; ++i) {
+    const auto fate = static_cast<PixelFate>(i);
+    fates.push_back(
+        {{"name", name_of(fate)}, {"color", hex_of(fate_color(fate))}, {"is_kept", is_kept(fate)}});
+  }
+  return fates;
+}
+
+SceneJson rows_of(const Pose& X) {
+  SceneJson rows = SceneJson::array();
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column) rows.push_back(X.matrix()(row, column));
+  }
+  return rows;
+}
+
+template <class T>
+std::span<const std::byte> bytes_of_all(const std::vector<T>& values) {
+  return std::as_bytes(std::span(values));
+}
+
+}  // namespace
+
+PageMessage scene_message(const std::string& name, const RobotModel& model,
+                          const std::vector<PageCamera>& cameras,
+                          const std::vector<ImageStep>& steps) {
+  return json_message({{"type", "scene"},
+                       {"file", name},
+                       {"robot", model.name},
+                       {"links", links_json(model)},
+                       {"cameras", cameras_json(cameras)},
+                       {"steps", steps_json(steps)},
+                       {"fates", fates_json_of_page()}});
+}
+
+PageMessage scene_message(const OpenScene& scene, const std::vector<ImageStep>& steps) {
+  std::vector<PageCamera> cameras;
+  for (const OpenCamera& one : scene.cameras) {
+    cameras.push_back({one.source.name, one.view->camera()});
+  }
+  return scene_message(scene.file.string(), scene.robot->model(), cameras, steps);
+}
+
+PageMessage mesh_message(const RobotModel& model) {
+  SceneJson header = {{"type", "mesh"}, {"corners", {}}, {"triangles", {}}};
+  std::vector<float> corners_m;
+  std::vector<std::uint32_t> triangles;
+  for (const Link& link : model.links) {
+    header["corners"].push_back(link.mesh_L.vertices_m.size());
+    header["triangles"].push_back(link.mesh_L.triangles.size());
+    for (const Eigen::Vector3f& corner : link.mesh_L.vertices_m) {
+      corners_m.insert(corners_m.end(), corner.begin(), corner.end());
+    }
+    for (const auto& triangle : link.mesh_L.triangles) {
+      triangles.insert(triangles.end(), triangle.begin(), triangle.end());
+    }
+  }
+  return binary_message(header, {bytes_of_all(corners_m), bytes_of_all(triangles)});
+}
+
+PageMessage shown_message(const RobotModel& model, const FrameResult& result, std::size_t step,
+                          const std::vector<const Frame*>& frames) {
+  SceneJson json = {{"type", "shown"}, {"step", step}, {"links", {}}, {"cameras", {}}};
+  const auto posed = [](const Frame* frame) {
+    return frame && frame->time.status == TimeStatus::ok;
+  };
+  const auto at = std::find_if(frames.begin(), frames.end(), posed);
+  const Frame* newest = at == frames.end() ? nullptr : *at;
+  for (const Frame* frame : frames) {
+    if (posed(frame) && frame->stamp_s > newest->stamp_s) newest = frame;
+    json["cameras"].push_back(posed(frame) ? rows_of(frame->X_BC) : SceneJson());
+  }
+  for (std::size_t i = 0; newest && i < model.links.size(); ++i) {
+    json["links"].push_back(rows_of(newest->pose.X_BL[i]));
+  }
+  json["result"] = SceneJson::parse(result_json(result));
+  return json_message(json);
+}
+
+PageMessage image_message(std::size_t camera, std::size_t number, const DepthImage& sensor_depth_m,
+                          const Frame& frame) {
+  constexpr std::int16_t kNone = std::numeric_limits<std::int16_t>::min();
+  constexpr float kMost_mm = std::numeric_limits<std::int16_t>::max();
+  const std::vector<float>& readings_m = sensor_depth_m.pixels();
+  const bool has_robot = frame.time.status == TimeStatus::ok;
+  std::vector<float> depth_m = readings_m;
+  std::vector<PixelFate> fates(readings_m.size(), PixelFate::no_reading);
+  std::vector<LinkId> links(readings_m.size(), kNoLink);
+  std::vector<std::int16_t> behind_mm(readings_m.size(), kNone);
+  for (std::size_t i = 0; has_robot && i < readings_m.size(); ++i) {
+    fates[i] = frame.obstacles.fate.pixels()[i];
+    links[i] = frame.robot.link_id.pixels()[i];
+    if (is_kept(fates[i])) depth_m[i] = frame.obstacles.depth_m.pixels()[i];
+    const float behind_m = readings_m[i] - frame.robot.depth_m.pixels()[i];
+    if (std::isnan(behind_m)) continue;
+    behind_mm[i] =
+        static_cast<std::int16_t>(std::lround(std::clamp(1000 * behind_m, -kMost_mm, kMost_mm)));
+  }
+  const SceneJson header = {{"type", "image"},
+                            {"camera", camera},
+                            {"frame", number},
+                            {"width_px", sensor_depth_m.width()},
+                            {"height_px", sensor_depth_m.height()}};
+  return binary_message(header, {bytes_of_all(depth_m), bytes_of_all(fates), bytes_of_all(links),
+                                 bytes_of_all(behind_mm)});
+}
+
+}  // namespace berth::app

@@ -1,0 +1,39 @@
+// A scene and its frames, as pages see them.
+#pragma once
+
+#include "apps/view/page_message.hpp"
+#include "berth/pipeline/frame.hpp"
+#include "berth/scene/frame_result.hpp"
+#include "berth/scene/open_scene.hpp"
+#include "berth/scene/scene_steps.hpp"
+
+namespace berth::app {
+
+struct PageCamera {
+  std::string name;
+  Camera camera;
+};
+
+/// What stays as it is: links, cameras, steps, and the colours of pictures. `name` is that of the
+/// scene's file; a running robot has no steps.
+PageMessage scene_message(const std::string& name, const RobotModel& model,
+                          const std::vector<PageCamera>& cameras,
+                          const std::vector<ImageStep>& steps);
+PageMessage scene_message(const OpenScene& scene, const std::vector<ImageStep>& steps);
+
+/// The triangles of each link in its own frame: three floats for each corner, all links one after
+/// another, then three whole numbers of 32 bits for each triangle, counted within the link.
+PageMessage mesh_message(const RobotModel& model);
+
+/// What is shown now: the result, and the poses of links and cameras in the root link's frame, each
+/// as the four rows of its matrix. frames[c] is that of camera c, or null.
+PageMessage shown_message(const RobotModel& model, const FrameResult& result, std::size_t step,
+                          const std::vector<const Frame*>& frames);
+
+/// One camera's image: of each pixel the depth that counts (float, NaN: none), the fate (8 bits),
+/// the link (16 bits) and how far its reading lies behind the robot's surface (16 bits, in mm;
+/// -32768: no reading or no robot).
+PageMessage image_message(std::size_t camera, std::size_t number, const DepthImage& sensor_depth_m,
+                          const Frame& frame);
+
+}  // namespace berth::app

@@ -1,0 +1,159 @@
+#include "apps/view/settings_message.hpp"
+
+#include <cmath>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include "berth/scene/rpy.hpp"
+
+namespace berth::app {
+namespace {
+
+using SettingJson = nlohmann::ordered_json;
+
+/// The unit that the name ends in.
+std::string_view unit_of_setting(std::string_view name) {
+  constexpr std::pair<std::string_view, std::string_view> kUnits[] = {
+      {"_m_s", "m/s"}, {"_per_m2", "1/m"}, {"_per_m", ""}, {"_m", "m"},
+      {"_px", "px"},   {"_us", "µs"},      {"_s", "s"}};
+  for (const auto& [end, unit] : kUnits) {
+    if (name.ends_with(end)) return unit;
+  }
+  return "";
+}
+
+template <class T>
+struct BareType {
+  using Type = T;
+};
+template <class T>
+struct BareType<std::optional<T>> {
+  using Type = T;
+};
+
+/// Null where there is none; text where it has no end.
+template <class T>
+SettingJson value_json(const T& value) {
+  if constexpr (requires { value.has_value(); }) {
+    return value ? value_json(*value) : SettingJson();
+  } else if constexpr (std::is_enum_v<T>) {
+    return name_of(value);
+  } else if constexpr (std::is_floating_point_v<T>) {
+    return std::isfinite(value) ? SettingJson(value) : SettingJson("no limit");
+  } else {
+    return value;
+  }
+}
+
+template <class T>
+SettingJson kind_json(const Domain& domain) {
+  if constexpr (std::is_same_v<T, bool>) {
+    return {{"kind", "bool"}};
+  } else if constexpr (std::is_enum_v<T>) {
+    SettingJson names = SettingJson::array();
+    for (const T one : all_of(T{})) {
+      if constexpr (std::is_same_v<T, Method>) {
+        if (runs_on_opengl(one)) continue;
+      }
+      names.push_back(name_of(one));
+    }
+    return {{"kind", "choice"}, {"choices", names}};
+  } else {
+    SettingJson json = {{"kind", std::is_integral_v<T> ? "whole" : "number"},
+                        {"least", domain.has_off ? 0 : domain.least},
+                        {"domain", domain.text(std::is_integral_v<T>)}};
+    if (std::isfinite(domain.most)) json["most"] = domain.most;
+    return json;
+  }
+}
+
+/// One object for each setting of a list.
+template <class Settings>
+SettingJson described(const Settings& settings) {
+  SettingJson all = SettingJson::array();
+  visit_settings(settings, [&](const Setting& setting, const auto& value) {
+    using T = typename BareType<std::remove_cvref_t<decltype(value)>>::Type;
+    SettingJson json = {{"name", setting.name},
+                        {"unit", unit_of_setting(setting.name)},
+                        {"sentence", setting.sentence},
+                        {"methods", setting.methods}};
+    json.update(kind_json<T>(setting.domain));
+    all.push_back(std::move(json));
+  });
+  return all;
+}
+
+template <class Settings>
+SettingJson values_of(const Settings& settings) {
+  SettingJson values = SettingJson::array();
+  visit_settings(settings,
+                 [&](const Setting&, const auto& value) { values.push_back(value_json(value)); });
+  return values;
+}
+
+SettingJson question_group(std::string_view name, const auto& now, const auto& original) {
+  return {{"name", name},
+          {"by_camera", false},
+          {"settings", described(now)},
+          {"now", SettingJson::array({values_of(now)})},
+          {"file", SettingJson::array({values_of(original)})}};
+}
+
+/// The values of one group of a camera's settings.
+SettingJson camera_values(const SceneCamera& camera, std::string_view group) {
+  SettingJson values;
+  visit_setting_groups(camera.settings, [&](std::string_view name, const auto& settings) {
+    if (name == group) values = values_of(settings);
+  });
+  return values;
+}
+
+SettingJson camera_groups(const ChangedScene& scene) {
+  SettingJson groups = SettingJson::array();
+  const ViewSettings& first = scene.now().cameras.front().settings;
+  visit_setting_groups(first, [&](std::string_view name, const auto& settings) {
+    SettingJson group = {{"name", name}, {"by_camera", true}, {"settings", described(settings)}};
+    for (std::size_t c = 0; c < scene.now().cameras.size(); ++c) {
+      group["now"].push_back(camera_values(scene.now().cameras[c], name));
+      group["file"].push_back(camera_values(scene.original().cameras[c], name));
+    }
+    groups.push_back(std::move(group));
+  });
+  return groups;
+}
+
+SettingJson pose_json(const SceneCamera& camera) {
+  const Eigen::Vector3d xyz_m = camera.X_PC.translation();
+  const Eigen::Vector3d rpy_rad = rpy_of(camera.X_PC.linear());
+  return {{"xyz_m", {xyz_m.x(), xyz_m.y(), xyz_m.z()}},
+          {"rpy_rad", {rpy_rad.x(), rpy_rad.y(), rpy_rad.z()}}};
+}
+
+SettingJson poses(const ChangedScene& scene) {
+  SettingJson all = SettingJson::array();
+  for (std::size_t c = 0; c < scene.now().cameras.size(); ++c) {
+    all.push_back({{"camera", scene.now().cameras[c].name},
+                   {"parent", scene.now().cameras[c].parent_link},
+                   {"now", pose_json(scene.now().cameras[c])},
+                   {"file", pose_json(scene.original().cameras[c])}});
+  }
+  return all;
+}
+
+}  // namespace
+
+PageMessage settings_message(const ChangedScene& scene) {
+  SettingJson groups = camera_groups(scene);
+  groups.push_back(
+      question_group("evaluation", scene.now().evaluation, scene.original().evaluation));
+  groups.push_back(
+      question_group("time", scene.now().evaluation.time, scene.original().evaluation.time));
+  if (scene.now().separation) {
+    groups.push_back(question_group("separation", *scene.now().separation,
+                                    scene.original().separation.value_or(SeparationSettings())));
+  }
+  return json_message({{"type", "settings"}, {"groups", groups}, {"poses", poses(scene)}});
+}
+
+}  // namespace berth::app

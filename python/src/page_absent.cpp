@@ -1,0 +1,13 @@
+// In a build without the page.
+#include "bindings.hpp"
+
+namespace berth::python {
+
+void bind_page(pybind11::module_& m) {
+  m.def("view", [](const pybind11::args&, const pybind11::kwargs&) {
+    throw pybind11::import_error(
+        "this berth was built without the page; expected a build with BERTH_VIEW=ON");
+  });
+}
+
+}  // namespace berth::python

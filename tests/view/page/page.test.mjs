@@ -1,0 +1,219 @@
+// The page as its user sees it, with the bundled scene.
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import { cpSync, readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { endAll, isReady, openPage, startBerth, startBrowser, temporaryFolder, until } from "./browser.mjs";
+
+let browser;
+// All cameras, and one alone, which takes less time.
+let berth;
+let single;
+let place;
+
+before(async () => {
+  place = temporaryFolder();
+  berth = await startBerth(["demo", "--view", "--port", "0"], place.folder);
+  const scene = join(process.env.BERTH_SOURCE_DIR, "data/bundled/one_camera.yaml");
+  single = await startBerth(["view", scene, "--port", "0", "--save-to", place.folder], place.folder);
+  browser = await startBrowser();
+});
+after(async () => {
+  await browser?.close();
+  await berth?.end();
+  await single?.end();
+  endAll();
+  place?.remove();
+});
+
+/** Clicks as the page's script sees it: waits for no frame to be drawn. */
+const click = (page, selector) => page.locator(selector).dispatchEvent("click");
+const text = (page, selector) => page.locator(selector).textContent();
+const open = (where = single.url, options = {}) => openPage(browser, where, options);
+const showSettings = (page) => click(page, "#panel-tabs button:nth-child(2)");
+
+/** Types it, as a user who replaces what is there. */
+async function type(page, key, value) {
+  await page.evaluate(([id, typed]) => {
+    const input = document.getElementById(id);
+    input.value = typed;
+    input.dispatchEvent(new Event("input"));
+  }, [key, String(value)]);
+}
+
+test("shows the bundled scene", async () => {
+  const page = await open(berth.url);
+  assert.equal(await page.locator("#links tbody tr").count(), 8);
+  assert.match(await text(page, "#legend"), /\d{5,} readings, 70468 triangles/);
+  assert.match(await text(page, "#when"), /of 101/);
+  await until(page, () => document.querySelector("#progress").classList.contains("done"));
+  const drawn = await page.evaluate(() => {
+    const canvas = document.querySelector("#canvas-image");
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    return new Set(data).size;
+  });
+  assert.ok(drawn > 50, `${drawn} values in the image`);
+  assert.deepEqual(page.errors, []);
+  await page.close();
+});
+
+test("a knob changes the distance, and goes back", async () => {
+  const page = await open();
+  const table = () => text(page, "#links");
+  const original = await table();
+  await showSettings(page);
+  await type(page, "evaluation.range_m", 0.25);
+  await until(page, () => document.getElementById("evaluation.range_m").closest(".changed") !== null);
+  await click(page, "#panel-tabs button:nth-child(1)");
+  await until(page, (was) => document.querySelector("#links").textContent !== was, original);
+  await showSettings(page);
+  await click(page, ".setting.changed button");
+  await until(page, () => document.querySelector(".setting.changed") === null);
+  await click(page, "#panel-tabs button:nth-child(1)");
+  await until(page, (was) => document.querySelector("#links").textContent === was, original);
+  await page.close();
+});
+
+test("a value that is refused says why, and the old one stays", async () => {
+  const page = await open();
+  await showSettings(page);
+  const before_m = await page.inputValue("[id='self_filter.padding_m']");
+  await type(page, "self_filter.padding_m", -1);
+  await until(page, () => /padding_m.*expected/.test(document.getElementById("notice").textContent));
+  await page.reload();
+  await isReady(page);
+  await showSettings(page);
+  assert.equal(await page.inputValue("[id='self_filter.padding_m']"), before_m);
+  await page.close();
+});
+
+test("saves what berth run accepts, and nothing over a file that is there", async () => {
+  const page = await open();
+  await showSettings(page);
+  await type(page, "evaluation.range_m", 0.8);
+  await until(page, () => document.getElementById("evaluation.range_m").closest(".changed") !== null);
+  await page.fill("#save-name", "mine.yaml");
+  await page.locator("#save").dispatchEvent("submit");
+  await until(page, () => document.getElementById("notice").textContent.startsWith("saved as"));
+  const run = spawnSync(process.env.BERTH, ["run", "mine.yaml", "--format", "json"], { cwd: place.folder, maxBuffer: 1e8 });
+  assert.equal(run.status, 0, String(run.stderr));
+  assert.equal(JSON.parse(String(run.stdout).split("\n")[0]).range_m, 0.8);
+  for (const name of ["mine.yaml", "../mine2.yaml", "mine.txt"]) {
+    await page.fill("#save-name", name);
+    await page.locator("#save").dispatchEvent("submit");
+    await until(page, (wanted) => document.getElementById("notice").textContent.includes(wanted), name);
+    assert.match(await text(page, "#notice"), /expected/);
+  }
+  await click(page, "#reset");
+  await until(page, () => document.querySelector(".setting.changed") === null);
+  await page.close();
+});
+
+test("two pages show the same image and settings", async () => {
+  const [one, two] = [await open(), await open()];
+  const start = await one.evaluate(() => Number(document.body.dataset.step));
+  await click(one, "#after");
+  for (const page of [one, two]) await until(page, (step) => Number(document.body.dataset.step) === step, start + 1);
+  await two.evaluate(() => document.activeElement.blur());
+  await two.keyboard.press("ArrowLeft");
+  for (const page of [one, two]) await until(page, (step) => Number(document.body.dataset.step) === step, start);
+  await showSettings(one);
+  await showSettings(two);
+  await type(one, "self_filter.padding_m", 0.04);
+  await until(two, () => document.getElementById("self_filter.padding_m").value === "0.04");
+  await click(one, "#reset");
+  await until(two, () => document.getElementById("self_filter.padding_m").value === "0.02");
+  await one.close();
+  await two.close();
+});
+
+test("each question has its answer a click away", async () => {
+  const page = await open(berth.url);
+  await until(page, () => document.querySelector("#progress").classList.contains("done"));
+  const ask = (number) => click(page, `#questions button:nth-child(${number})`);
+  await ask(1);
+  assert.equal(await page.locator("details[data-group=pose]").getAttribute("open"), "");
+  assert.match(await text(page, "#legend"), /behind it/);
+  await ask(2);
+  assert.ok((await page.locator("#fates tbody tr").count()) > 5);
+  await ask(3);
+  await page.waitForSelector("#link-details");
+  await ask(4);
+  await until(page, () => /^50 of 101/.test(document.getElementById("when").textContent));
+  assert.match(await text(page, "#link-details"), /arm_link_7.*13\.0 mm.*hidden/s);
+  await ask(5);
+  assert.match(await text(page, "#legend"), /hidden space/);
+  assert.deepEqual(page.errors, []);
+  await page.close();
+});
+
+test("a pixel tells its depth, fate and link", async () => {
+  const page = await open();
+  await page.evaluate(() => {
+    const canvas = document.getElementById("canvas-image");
+    const box = canvas.getBoundingClientRect();
+    const at = { clientX: box.left + box.width / 2, clientY: box.top + box.height - 3 };
+    canvas.dispatchEvent(new PointerEvent("pointermove", at));
+  });
+  assert.match(await text(page, "#pixel"), /^\(\d+, \d+\): .+, .+, .+/);
+  await page.close();
+});
+
+test("a tablet and a dark room do", async () => {
+  const page = await open(single.url, { viewport: { width: 820, height: 1100 }, colorScheme: "dark" });
+  const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+  assert.ok(wide <= 820, `${wide} pixels wide`);
+  await page.close();
+});
+
+test("a camera in the wrong place is told with its cause", async () => {
+  const folder = join(place.folder, "wrong");
+  cpSync(join(process.env.BERTH_SOURCE_DIR, "data/bundled"), folder, { recursive: true });
+  const file = join(folder, "one_camera.yaml");
+  const wrong = readFileSync(file, "utf8").replace(/depth_scale: 0.001/, "depth_scale: 0.01");
+  writeFileSync(file, wrong);
+  const other = await startBerth(["view", "one_camera.yaml", "--port", "0"], folder);
+  const page = await open(other.url);
+  await until(page, () => /depth_scale were 0.001/.test(document.getElementById("trouble").textContent));
+  await page.close();
+  assert.equal(await other.end(), 0);
+});
+
+test("a scene that cannot be read is told, and nothing is served", () => {
+  writeFileSync(join(place.folder, "bad.yaml"), "robot: {urdf: nowhere.urdf}\ncameras: 7\njoints: joints.csv\n");
+  const run = spawnSync(process.env.BERTH, ["view", "bad.yaml", "--port", "0"], { cwd: place.folder });
+  assert.equal(run.status, 1);
+  assert.equal(String(run.stdout), "");
+  assert.match(String(run.stderr), /bad.yaml.*cameras.*expected/s);
+});
+
+test("a taken port is told with the next free one", () => {
+  const port = new URL(berth.url).port;
+  const run = spawnSync(process.env.BERTH, ["demo", "--view", "--port", port], { cwd: place.folder });
+  assert.equal(run.status, 1);
+  assert.equal(String(run.stdout), "");
+  assert.match(String(run.stderr), new RegExp(`port ${port} of 127.0.0.1 is taken; expected a free one, such as --port \\d+`));
+});
+
+test("Ctrl-C ends it at once, whatever it does", async () => {
+  const other = await startBerth(["demo", "--view", "--port", "0"], place.folder);
+  const page = await open(other.url);
+  await click(page, "#panel-tabs button:nth-child(3)");
+  await click(page, "#teach");
+  await page.waitForSelector("#stop-teach");
+  const start_ms = performance.now();
+  assert.equal(await other.end(), 0);
+  const took_ms = performance.now() - start_ms;
+  assert.ok(took_ms < 3000, `${took_ms} ms`);
+  await page.close();
+});
+
+test("a program that ends leaves a message", async () => {
+  const scene = join(process.env.BERTH_SOURCE_DIR, "data/bundled/one_camera.yaml");
+  const other = await startBerth(["view", scene, "--port", "0"], place.folder);
+  const page = await open(other.url);
+  await other.end("SIGKILL");
+  await until(page, () => /berth has ended/.test(document.getElementById("trouble").textContent));
+  await page.close();
+});

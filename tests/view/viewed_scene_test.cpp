@@ -1,0 +1,249 @@
+#include "apps/view/viewed_scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <map>
+
+#include "apps/view/space_grid.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace berth::app {
+namespace {
+
+namespace fs = std::filesystem;
+using PageJson = nlohmann::json;
+using std::chrono::steady_clock;
+
+/// The JSON of a message, of either kind.
+PageJson json_of_message(const PageMessage& message) {
+  if (!message.is_binary) return PageJson::parse(message.bytes);
+  std::uint32_t length = 0;
+  std::memcpy(&length, message.bytes.data(), sizeof length);
+  return PageJson::parse(message.bytes.substr(sizeof length, length));
+}
+
+/// What pages would have: the newest message of each kind.
+class Messages {
+ public:
+  void take(const std::string& kind, PageMessage message) {
+    const std::scoped_lock lock(mutex_);
+    newest_[kind] = std::move(message);
+    ++count_[kind];
+    changed_.notify_all();
+  }
+  PageMessage newest(const std::string& kind) {
+    const std::scoped_lock lock(mutex_);
+    return newest_.at(kind);
+  }
+  PageJson json(const std::string& kind) { return json_of_message(newest(kind)); }
+  int count(const std::string& kind) {
+    const std::scoped_lock lock(mutex_);
+    return count_[kind];
+  }
+  /// Waits until there are more of this kind than before.
+  PageJson after(const std::string& kind, int before) {
+    std::unique_lock lock(mutex_);
+    if (!changed_.wait_for(lock, std::chrono::seconds(60), [&] { return count_[kind] > before; })) {
+      throw std::runtime_error("no " + kind);
+    }
+    return json_of_message(newest_[kind]);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::map<std::string, PageMessage> newest_;
+  std::map<std::string, int> count_;
+};
+
+class ViewedSceneTest : public ::testing::Test {
+ protected:
+  /// Does it, and waits for the next message of this kind.
+  PageJson ask(const PageJson& request, const std::string& kind) {
+    const int before = messages_.count(kind);
+    viewed_.receive(request.dump());
+    return messages_.after(kind, before);
+  }
+  /// The next notice, whichever place it has.
+  PageJson refused(const std::string& request) {
+    const std::string kind = "notice " + std::to_string(number_++ % 8);
+    const int before = messages_.count(kind);
+    viewed_.receive(request);
+    return messages_.after(kind, before);
+  }
+  /// Of a run that began after so many messages.
+  PageJson finished_timeline(int before) {
+    PageJson timeline = messages_.after("timeline", before);
+    while (timeline["done"] != timeline["total"] && timeline["error"] == "") {
+      timeline = messages_.after("timeline", messages_.count("timeline"));
+    }
+    return timeline;
+  }
+
+  Messages messages_;
+  TemporaryFolder folder_;
+  int number_ = 0;
+  ViewedScene viewed_{BERTH_SOURCE_DIR "/data/bundled/scene.yaml", folder_.path(),
+                      [this](const std::string& kind, PageMessage message) {
+                        messages_.take(kind, std::move(message));
+                      }};
+};
+
+PageJson set_request(const char* group, const char* key, const PageJson& value) {
+  return {{"do", "set"}, {"group", group}, {"key", key}, {"value", value}};
+}
+
+TEST_F(ViewedSceneTest, TellsAllThatAPageShows) {
+  const PageJson scene = messages_.json("scene");
+  EXPECT_EQ(scene["steps"].size(), 101u);
+  EXPECT_EQ(scene["cameras"][2]["name"], "right");
+  EXPECT_EQ(scene["fates"].size(), static_cast<std::size_t>(kPixelFateCount));
+  const PageJson mesh = messages_.json("mesh");
+  EXPECT_EQ(mesh["corners"].size(), scene["links"].size());
+  const PageJson shown = messages_.json("shown");
+  EXPECT_EQ(shown["links"].size(), scene["links"].size());
+  // The first at which every camera has an image.
+  EXPECT_EQ(shown["step"], 2);
+  for (int c = 0; c < 3; ++c) {
+    const PageMessage image = messages_.newest("image " + std::to_string(c));
+    const PageJson header = json_of_message(image);
+    EXPECT_EQ(header["camera"], c);
+    EXPECT_GT(image.bytes.size(),
+              header["width_px"].get<std::size_t>() * header["height_px"].get<std::size_t>() * 9);
+  }
+}
+
+TEST_F(ViewedSceneTest, SettingsComeFromTheListsAndTellWhatChanged) {
+  const auto padding = [&](const PageJson& settings) {
+    const PageJson& group = settings["groups"][0];
+    EXPECT_EQ(group["name"], "self_filter");
+    for (std::size_t i = 0; i < group["settings"].size(); ++i) {
+      if (group["settings"][i]["name"] != "padding_m") continue;
+      EXPECT_EQ(group["settings"][i]["unit"], "m");
+      EXPECT_NE(group["settings"][i]["sentence"], "");
+      return std::pair(group["now"][1][i].get<double>(), group["file"][1][i].get<double>());
+    }
+    return std::pair(0.0, 0.0);
+  };
+  EXPECT_EQ(padding(messages_.json("settings")), std::pair(0.02, 0.02));
+  PageJson request = set_request("self_filter", "padding_m", 0.04);
+  request["camera"] = 1;
+  EXPECT_EQ(padding(ask(request, "settings")), std::pair(0.04, 0.02));
+  EXPECT_EQ(padding(ask({{"do", "reset"}}, "settings")), std::pair(0.02, 0.02));
+}
+
+TEST_F(ViewedSceneTest, AKnobShowsOnTheFrameBeforeTheRestFollows) {
+  finished_timeline(0);
+  const int before = messages_.count("timeline");
+  const PageJson shown = ask(set_request("evaluation", "range_m", 0.25), "shown");
+  EXPECT_EQ(shown["result"]["range_m"], 0.25);
+  const PageJson timeline = finished_timeline(before);
+  EXPECT_EQ(timeline["links"]["status"][0].size(), 101u);
+}
+
+TEST_F(ViewedSceneTest, AChangeShowsWithinATenthOfASecond) {
+  finished_timeline(0);
+  std::vector<double> times_ms;
+  for (int i = 0; i < 11; ++i) {
+    const int before = messages_.count("image 2");
+    const auto start = steady_clock::now();
+    viewed_.receive(set_request("self_filter", "tolerance_m", 0.03 + 0.001 * i).dump());
+    messages_.after("image 2", before);
+    times_ms.push_back(
+        std::chrono::duration<double, std::milli>(steady_clock::now() - start).count());
+    // A user's next turn of a knob, while the other frames are computed.
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  std::ranges::nth_element(times_ms, times_ms.begin() + 5);
+  RecordProperty("median_ms", std::to_string(times_ms[5]));
+  // Ten times what is promised: machines that test are busy.
+  EXPECT_LT(times_ms[5], 1000) << "ms in the median";
+}
+
+TEST_F(ViewedSceneTest, ShowsTheStepThatIsAskedForLast) {
+  EXPECT_EQ(ask({{"do", "show"}, {"step", 49}}, "shown")["step"], 49);
+  EXPECT_EQ(ask({{"do", "show"}, {"step", 100000}}, "shown")["step"], 100);
+}
+
+TEST_F(ViewedSceneTest, ACameraIsMoved) {
+  const PageJson shown = ask(
+      {{"do", "pose"}, {"camera", 0}, {"xyz_m", {0, 0, 3}}, {"rpy_rad", {3.14, 0, 0}}}, "settings");
+  EXPECT_EQ(shown["poses"][0]["now"]["xyz_m"], PageJson({0.0, 0.0, 3.0}));
+  EXPECT_NE(shown["poses"][0]["file"]["xyz_m"], PageJson({0.0, 0.0, 3.0}));
+  const PageJson back = ask({{"do", "pose"}, {"camera", 0}, {"xyz_m", nullptr}}, "settings");
+  EXPECT_EQ(back["poses"][0]["now"], back["poses"][0]["file"]);
+}
+
+TEST_F(ViewedSceneTest, HiddenSpaceIsFoundOnRequest) {
+  const PageMessage message = [&] {
+    ask({{"do", "space"}, {"on", true}}, "space");
+    return messages_.newest("space");
+  }();
+  const PageJson header = json_of_message(message);
+  const std::size_t cells = header["cells"][0].get<std::size_t>() *
+                            header["cells"][1].get<std::size_t>() *
+                            header["cells"][2].get<std::size_t>();
+  EXPECT_LE(cells, kMostCells);
+  const std::string sight = message.bytes.substr(message.bytes.size() - (cells + 3) / 4 * 4, cells);
+  for (const char kind : {'\0', '\1', '\2'}) {
+    EXPECT_GT(std::ranges::count(sight, kind), static_cast<std::ptrdiff_t>(cells / 200))
+        << int{kind};
+  }
+  EXPECT_EQ(ask({{"do", "space"}, {"on", false}}, "space")["cells"], PageJson({0, 0, 0}));
+  ask(set_request("evaluation", "method", "exact"), "settings");
+  const PageJson notice = refused(R"({"do": "space", "on": true})");
+  EXPECT_TRUE(notice["is_refused"]);
+}
+
+TEST_F(ViewedSceneTest, RefusesWhatNoPageAsks) {
+  for (const char* request :
+       {"", "no json", "[]", "7", "{}", R"({"do": 7})", R"({"do": "fly"})", R"({"do": "show"})",
+        R"({"do": "show", "step": "x"})", R"({"do": "set"})",
+        R"({"do": "set", "group": "robot", "key": "urdf", "value": "x"})",
+        R"({"do": "set", "group": "self_filter", "key": "padding_m", "value": [1]})",
+        R"({"do": "set", "group": "sensor", "key": "holes", "value": "free\nrobot: x"})",
+        R"({"do": "set", "group": "sensor", "key": "holes", "value": "free", "camera": 9})",
+        R"({"do": "set", "group": 7, "key": {}, "value": 1})",
+        R"({"do": "pose", "camera": 0, "xyz_m": [1e9, 0, 0], "rpy_rad": [0, 0, 0]})",
+        R"({"do": "pose", "camera": -1, "xyz_m": [0, 0, 0], "rpy_rad": [0, 0, 0]})",
+        R"({"do": "save", "name": "../x.yaml"})", R"({"do": "save", "name": 7})"}) {
+    EXPECT_TRUE(refused(request)["is_refused"]) << request;
+  }
+  EXPECT_TRUE(folder_.names().empty());
+  EXPECT_EQ(ask({{"do", "show"}, {"step", 1}}, "shown")["step"], 1);
+}
+
+TEST_F(ViewedSceneTest, SavesIntoItsFolder) {
+  const PageJson notice = refused(R"({"do": "save", "name": "new.yaml"})");
+  EXPECT_FALSE(notice["is_refused"]) << notice;
+  EXPECT_EQ(folder_.names(), std::vector<std::string>{"new.yaml"});
+}
+
+TEST(TeachInOfViewedScene, IsStartedAndStopped) {
+  Messages messages;
+  const TemporaryFolder folder;
+  ViewedScene viewed(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml", folder.path(),
+                     [&](const std::string& kind, PageMessage message) {
+                       messages.take(kind, std::move(message));
+                     });
+  const auto ask = [&](const char* request, const std::string& kind) {
+    const int before = messages.count(kind);
+    viewed.receive(request);
+    return messages.after(kind, before);
+  };
+  EXPECT_EQ(ask(R"({"do": "teach_in"})", "teach_in")["state"], "runs");
+  // It answers meanwhile.
+  EXPECT_EQ(ask(R"({"do": "show", "step": 7})", "shown")["step"], 7);
+  EXPECT_EQ(ask(R"({"do": "drop_teach_in"})", "teach_in")["state"], "none");
+  // Nothing was found that could be taken.
+  const PageJson before = messages.json("settings");
+  viewed.receive(R"({"do": "take_teach_in"})");
+  EXPECT_EQ(ask(R"({"do": "show", "step": 8})", "shown")["step"], 8);
+  EXPECT_EQ(messages.json("settings"), before);
+}
+
+}  // namespace
+}  // namespace berth::app
