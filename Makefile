@@ -1,5 +1,5 @@
 # Thin fronts of CMake. Each target does all set-up that it needs, on a bare Debian 12 too.
-.PHONY: demo opengl python test test-ros2 build bench lab study bench-gpu sanitize sanitize-thinned fuzz trust berth_trust trust-distances trust-real-images trust-long-runs trust-whole-robot setup docs lint format clean
+.PHONY: demo view opengl python test test-ros2 build bench lab study closed-loop bench-gpu sanitize sanitize-thinned fuzz trust berth_trust trust-distances trust-real-images trust-long-runs trust-whole-robot setup docs lint format clean
 
 # A fresh build folder is configured for berth alone, which needs the fewest packages. One that has more keeps it.
 product = test -e build/release/build.ninja || cmake --preset product
@@ -15,6 +15,15 @@ opengl:
 	$(product)
 	cmake -B build/release -DBERTH_OPENGL=ON
 	cmake --build --preset release --target berth
+
+# The page that shows a scene: adds it to what build/release has, and opens the bundled scene. Who has npm, from wherever, keeps it.
+view:
+	scripts/setup.sh packages.txt packages-view.txt
+	command -v npm >/dev/null || scripts/setup.sh packages-page.txt
+	$(product)
+	cmake -B build/release -DBERTH_VIEW=ON
+	cmake --build --preset release --target berth berth_page
+	build/release/berth demo --view
 
 # JOIN=ON compiles the sources of each folder and of each program as one: half the time from scratch, more after a change.
 JOIN ?= OFF
@@ -44,6 +53,14 @@ lab:
 study: lab
 	cmake --build --preset release --target berth_study
 	build/release/lab/berth_study --out build/study $(if $(BERTH_DATA),$(recordings)) $(STUDY_OPTIONS)
+
+# An arm beside people, its speed scaled by who watches it. CLOSED_LOOP_OPTIONS: of berth_closed_loop, such as --encounters 20.
+closed-loop: lab
+	cmake --build --preset release --target berth_closed_loop
+	mkdir -p build/closed_loop
+	build/release/lab/berth_closed_loop --csv build/closed_loop/encounters.csv $(CLOSED_LOOP_OPTIONS)
+	build/release/lab/berth_closed_loop --film build/closed_loop --first 2
+	lab/closed_loop/film_strip.py build/closed_loop build/closed_loop/film_strip.png
 
 # Both on OpenGL. GL_DEVICE: as for `berth run --gl-device`; results.md is ready for lab/bench/RESULTS.md.
 gl_device = $(if $(GL_DEVICE),--gl-device "$(GL_DEVICE)")
@@ -110,7 +127,7 @@ test-ros2:
 
 # All that the tests need.
 setup:
-	scripts/setup.sh packages.txt packages-opengl.txt packages-lab.txt packages-python.txt packages-tests.txt
+	scripts/setup.sh packages.txt packages-opengl.txt packages-lab.txt packages-python.txt packages-view.txt packages-tests.txt
 
 # The API's pages: build/docs/html/index.html.
 docs:
@@ -119,7 +136,7 @@ docs:
 
 # clang-tidy over src and apps. PART: a part of the paths, such as src/berth/robot.
 lint:
-	scripts/setup.sh packages.txt packages-opengl.txt packages-lint.txt
+	scripts/setup.sh packages.txt packages-opengl.txt packages-view.txt packages-lint.txt
 	cmake --preset lint
 	cmake --build --preset lint --target berth_shader_texts
 	scripts/lint.sh "$(PART)"

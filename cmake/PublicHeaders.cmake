@@ -47,6 +47,10 @@ set(BERTH_PUBLIC_HEADERS
   berth/live/live_asker.hpp
   berth/live/live_camera.hpp
   berth/live/raw_depth.hpp
+  berth/separation/evasion.hpp
+  berth/separation/monitor.hpp
+  berth/separation/separation.hpp
+  berth/separation/settings.hpp
   berth/opengl/gl_asker.hpp
   berth/opengl/gl_context.hpp
   berth/opengl/gl_evaluate.hpp

@@ -158,6 +158,12 @@ void add_output(CLI::App& command, CommonArguments& arguments) {
   add_threads(command, arguments.threads);
 }
 
+void add_port(CLI::App& command, int& port) {
+  command.add_option("--port", port, "Port of the page; 0 takes any that is free (default: 8080)")
+      ->check(CLI::Range(0, 65535))
+      ->type_name("N");
+}
+
 /// Whether the words hold this one.
 bool has_word(std::string_view words, std::string_view word) {
   return fmt::format(" {} ", words).find(fmt::format(" {} ", word)) != std::string::npos;
@@ -287,11 +293,34 @@ void add_evaluate_options(CLI::App& command, EvaluateArguments& arguments) {
       "json");
 }
 
+void add_view_options(CLI::App& command, ViewArguments& arguments) {
+  command
+      .add_option("scene", arguments.scene, "The scene: robot, cameras, depth images, joint angles")
+      ->required()
+      ->type_name("SCENE.yaml");
+  add_port(command, arguments.port);
+  command
+      .add_option("--bind", arguments.bind,
+                  "Address to serve at; with another one than this computer's own the printed "
+                  "address has a token (default: 127.0.0.1)")
+      ->type_name("ADDRESS");
+  command
+      .add_option("--save-to", arguments.save_folder,
+                  "Folder that \"save as\" writes to (default: that of the scene)")
+      ->type_name("DIR");
+  add_threads(command, arguments.threads);
+  command.footer("Example:\n  berth view scene.yaml");
+}
+
 void add_demo_options(CLI::App& command, DemoArguments& arguments) {
   command
       .add_option("--picture", arguments.picture_folder,
                   "Folder for the pictures (default: berth_demo)")
       ->type_name("DIR");
+  CLI::Option* view =
+      command.add_flag("--view", arguments.view, "Show the scene by a page, as berth view does");
+  add_port(command, arguments.port);
+  command.get_option("--port")->needs(view);
   add_threads(command, arguments.threads);
   command.footer("Example:\n  berth demo --picture pictures");
 }

@@ -77,8 +77,20 @@ struct EvaluateArguments : CommonArguments {
   int repeat = 0;
 };
 
+struct ViewArguments {
+  std::filesystem::path scene;
+  std::string bind = "127.0.0.1";
+  int port = 8080;
+  /// Where scenes are saved; empty: beside the scene.
+  std::filesystem::path save_folder;
+  int threads = 0;
+};
+
 struct DemoArguments {
   std::filesystem::path picture_folder = "berth_demo";
+  /// Whether the scene is shown by a page instead of being run.
+  bool view = false;
+  int port = 8080;
   int threads = 0;
 };
 
@@ -86,6 +98,7 @@ void add_run_options(CLI::App& command, RunArguments& arguments);
 void add_filter_options(CLI::App& command, FilterArguments& arguments);
 void add_calibrate_options(CLI::App& command, CalibrateArguments& arguments);
 void add_evaluate_options(CLI::App& command, EvaluateArguments& arguments);
+void add_view_options(CLI::App& command, ViewArguments& arguments);
 void add_demo_options(CLI::App& command, DemoArguments& arguments);
 
 }  // namespace berth::app

@@ -23,6 +23,7 @@ int run_command_line(int argc, const char* const* argv) {
   FilterArguments filter;
   CalibrateArguments calibrate;
   EvaluateArguments evaluate;
+  ViewArguments view;
   CLI::App* demo_command = program.add_subcommand(
       "demo", "Run the bundled scene: a table of links and distances, and pictures");
   CLI::App* run_command =
@@ -33,11 +34,14 @@ int run_command_line(int argc, const char* const* argv) {
       "calibrate", "Find the cameras' poses and settings from images of the moving arm");
   CLI::App* evaluate_command =
       program.add_subcommand("evaluate", "Distances from these three images alone");
+  CLI::App* view_command = program.add_subcommand(
+      "view", "Show a scene by a page: what is seen, filtered and hidden, and change its settings");
   add_demo_options(*demo_command, demo);
   add_run_options(*run_command, run);
   add_filter_options(*filter_command, filter);
   add_calibrate_options(*calibrate_command, calibrate);
   add_evaluate_options(*evaluate_command, evaluate);
+  add_view_options(*view_command, view);
   program.footer(
       "Examples:\n  berth demo\n  berth run scene.yaml --picture pictures\nberth COMMAND --help "
       "tells more.");
@@ -57,6 +61,7 @@ int run_command_line(int argc, const char* const* argv) {
   if (*calibrate_command) {
     return carry_out(calibrate.threads, [&] { app::calibrate_command(calibrate); });
   }
+  if (*view_command) return carry_out(view.threads, [&] { app::view_command(view); });
   return carry_out(evaluate.threads, [&] { app::evaluate_command(evaluate); });
 }
 

@@ -10,6 +10,7 @@ void run_command(const RunArguments& arguments);
 void filter_command(const FilterArguments& arguments);
 void calibrate_command(const CalibrateArguments& arguments);
 void evaluate_command(const EvaluateArguments& arguments);
+void view_command(const ViewArguments& arguments);
 void demo_command(const DemoArguments& arguments);
 
 }  // namespace berth::app

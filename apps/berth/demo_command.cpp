@@ -27,6 +27,12 @@ std::optional<float> least_distance_m(const FrameResult& result) {
 }  // namespace
 
 void demo_command(const DemoArguments& arguments) {
+  if (arguments.view) {
+    // Nobody's own scene lies beside the bundled one.
+    return view_command({.scene = bundled_scene_file(),
+                         .port = arguments.port,
+                         .save_folder = fs::current_path()});
+  }
   const OpenScene scene = open_scene_over(bundled_scene_file(), {});
   std::optional<float> least_m;
   std::string closest;

@@ -12,6 +12,7 @@
 #include "berth/files/file_bytes.hpp"
 #include "berth/scene/result_json.hpp"
 #include "berth/scene/result_table.hpp"
+#include "berth/scene/separation_text.hpp"
 
 namespace berth::app {
 namespace {
@@ -27,8 +28,8 @@ std::string trouble_text(const CameraState& state) {
   if (state.status != CameraStatus::moved) return text;
   const char* before = ": ";
   if (!std::isnan(state.watch.seen_through)) {
-    text += fmt::format("{}{:.0f} % of the robot seen through", before,
-                        100 * state.watch.seen_through);
+    text +=
+        fmt::format("{}{:.0f} % of the robot seen through", before, 100 * state.watch.seen_through);
     before = ", ";
   }
   if (!std::isnan(state.watch.displacement_m)) {
@@ -58,9 +59,11 @@ std::string text_of(const FrameResult& result, OutputFormat format) {
   const bool timely = !result.time || result.time->status == TimeStatus::ok;
   const std::string trouble =
       timely ? "" : fmt::format(", no answer: {}", name_of(result.time->status));
-  return fmt::format("frame {}, {:.3f} s, {}, method {}, range {} m{}\n{}\n", result.frame,
+  const std::string separation =
+      result.separation ? fmt::format("speed: {}\n", separation_text(result)) : "";
+  return fmt::format("frame {}, {:.3f} s, {}, method {}, range {} m{}\n{}{}\n", result.frame,
                      result.stamp_s, cameras_text(result), result.method, result.range_m, trouble,
-                     result_table(result));
+                     separation, result_table(result));
 }
 
 /// An empty path is standard output.

@@ -7,8 +7,9 @@
 #include <system_error>
 
 #include "apps/berth/picture.hpp"
+#include "apps/berth/picture_projection.hpp"
 #include "apps/support/progress_bar.hpp"
-#include "berth/types/camera.hpp"
+#include "berth/scene/separation_text.hpp"
 
 namespace berth::app {
 namespace {
@@ -25,17 +26,11 @@ void make_folder(const fs::path& folder) {
   }
 }
 
-/// The pixels of each pair in this camera's image, whichever camera saw the obstacle.
-void project_pairs(const Camera& camera, const Pose& X_BC, LinkDistances& distances) {
-  const Pose X_CB = X_BC.inverse();
-  for (LinkDistance& link : distances.links) {
-    if (!link.has_distance()) continue;
-    const auto pixel_at = [&](const Eigen::Vector3f& p_B_m) {
-      return pixel_of(camera, X_CB * p_B_m.cast<double>()).value_or(Pixel{});
-    };
-    link.robot_pixel = pixel_at(link.robot_point_B_m);
-    link.obstacle_pixel = pixel_at(link.obstacle_point_B_m);
-  }
+/// Such as ", speed: reduced to 42 %".
+std::string speed_text(const FrameResult& result) {
+  if (!result.separation) return "";
+  const std::string text = separation_text(result);
+  return ", speed: " + text.substr(0, text.find(':'));
 }
 
 void draw(const fs::path& folder, const OpenScene& scene, SceneRun& run,
@@ -50,8 +45,8 @@ void draw(const fs::path& folder, const OpenScene& scene, SceneRun& run,
                     fmt::format("frame_{:06}.png", run.frame_number()),
                 {run.sensor_depth_m(), &frame.robot, &frame.obstacles, &distances,
                  result.link_names, result.range_m,
-                 fmt::format("{}{}, frame {}, {:.3f} s", scene.robot->model().name, which,
-                             run.frame_number(), frame.stamp_s),
+                 fmt::format("{}{}, frame {}, {:.3f} s{}", scene.robot->model().name, which,
+                             run.frame_number(), frame.stamp_s, speed_text(result)),
                  result.link_is_moved});
 }
 

@@ -67,7 +67,12 @@ PersonMotion person_motion(double time_s) {
   const double walk = smooth_step(0.0, 1.7, time_s) - smooth_step(2.3, 3.7, time_s);
   const double walked = smooth_step(0.0, 1.7, time_s) + smooth_step(2.3, 3.7, time_s);
   const double reach = smooth_step(0.7, 1.9, time_s) - smooth_step(2.2, 3.2, time_s);
-  return {1.72 - 0.55 * walk, 0.55 * walked, 0.28 * reach, reach};
+  PersonMotion motion;
+  motion.x_T_m = 1.72 - 0.55 * walk;
+  motion.walked_m = 0.55 * walked;
+  motion.lean_rad = 0.28 * reach;
+  motion.reach = reach;
+  return motion;
 }
 
 }  // namespace berth::lab

@@ -27,7 +27,9 @@ struct PersonMotion {
   double x_T_m;     ///< where the hips are
   double walked_m;  ///< way that the legs have gone
   double lean_rad;  ///< of the trunk, forward
-  double reach;     ///< of the left hand: 0 hangs down, 1 is at the arm
+  double reach;     ///< of the left hand: 0 hangs down, 1 is at reached_wrist_T_m
+  /// By default at the arm.
+  Eigen::Vector3d reached_wrist_T_m = {0.765, -0.16, 0.44};
 };
 PersonMotion person_motion(double time_s);
 

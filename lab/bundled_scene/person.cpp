@@ -15,7 +15,6 @@ using std::numbers::pi;
 
 // The body's frame H: on the floor below the hips' middle, x to the front, y to the left, z up.
 constexpr double kHipsZ_m = 0.90, kAnkleZ_m = 0.08, kHipY_m = 0.095, kShoulderY_m = 0.195;
-const Vector3d kReachedWrist_T_m{0.765, -0.16, 0.44};
 
 // The middle and the end of two bones that reach from `from` towards `to`, bent towards `bend`.
 struct TwoBones {
@@ -78,7 +77,7 @@ std::vector<Pose> person_kinematics(const PersonMotion& motion) {
     const double swing = -0.12 * left * std::sin(phase);
     const Vector3d hanging = shoulder + X_TH.linear() * Vector3d(0.08 + swing, 0.07 * left, -0.54);
     const double reach = left > 0 ? motion.reach : 0;
-    place_arm(X_TP, X_TH, shoulder, hanging + reach * (kReachedWrist_T_m - hanging), left);
+    place_arm(X_TP, X_TH, shoulder, hanging + reach * (motion.reached_wrist_T_m - hanging), left);
   }
   for (const double left : {1.0, -1.0}) place_leg(X_TP, X_TH, left, phase + (left > 0 ? 0 : pi));
   return X_TP;

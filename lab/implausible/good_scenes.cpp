@@ -45,7 +45,7 @@ void hide_robot(OpenScene& scene, std::size_t c, std::uint32_t seed) {
       pose.X_BL[model.evaluated_links[link]].translation(), camera.read_depth(k), robot, seed);
   camera.at_exposure = {camera.at_exposure[k]};
   camera.exposure_time = {camera.exposure_time[k]};
-  camera.kept_depth_m = {hidden_m};
+  camera.kept_depth_m = {std::make_shared<const DepthImage>(hidden_m)};
   camera.source.depth = {camera.source.depth[k]};
 }
 

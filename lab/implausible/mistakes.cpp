@@ -12,15 +12,19 @@ constexpr double kDegree_rad = std::numbers::pi / 180;
 
 void keep_images(OpenCamera& camera) {
   for (std::size_t k = 0; k < camera.kept_depth_m.size(); ++k) {
-    camera.kept_depth_m[k] = camera.read_depth(k);
+    camera.kept_depth_m[k] = std::make_shared<const DepthImage>(camera.read_depth(k));
   }
 }
 
 template <class Change>
 auto each_image(Change change) {
   return [change](OpenScene& scene, std::size_t c) {
-    keep_images(scene.cameras[c]);
-    for (DepthImage& image : scene.cameras[c].kept_depth_m) change(image);
+    OpenCamera& camera = scene.cameras[c];
+    for (std::size_t k = 0; k < camera.kept_depth_m.size(); ++k) {
+      DepthImage image = camera.read_depth(k);
+      change(image);
+      camera.kept_depth_m[k] = std::make_shared<const DepthImage>(std::move(image));
+    }
   };
 }
 

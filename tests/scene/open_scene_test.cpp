@@ -66,5 +66,40 @@ TEST(SceneJoints, AJointThatIsMissingTwiceOrUnknownIsNamed) {
                {"scene.yaml: joint_offsets.arm_joint_7: ", "joints.csv has no such joint"});
 }
 
+SceneFile bundled_file() { return read_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml"); }
+
+TEST(ReopenedScene, SharesRobotAndImages) {
+  const OpenScene before = open_scene(bundled_file());
+  SceneFile changed = bundled_file();
+  changed.cameras[0].settings.self_filter.padding_m = 0.05;
+  changed.cameras[0].X_PC.translation().x() += 0.1;
+  const OpenScene scene = reopen_scene(before, changed);
+  EXPECT_EQ(scene.robot, before.robot);
+  EXPECT_EQ(scene.frame_count, before.frame_count);
+  EXPECT_EQ(scene.cameras[0].kept_depth_m, before.cameras[0].kept_depth_m);
+  EXPECT_EQ(scene.cameras[0].view->settings().self_filter.padding_m, 0.05);
+  EXPECT_EQ(scene.cameras[0].view->mount().X_PC.translation(), changed.cameras[0].X_PC.translation());
+}
+
+TEST(ReopenedScene, IsThatOfTheChangedFile) {
+  SceneFile changed = bundled_file();
+  changed.evaluation.distance.range_m = 0.5;
+  changed.cameras[0].clock_offset_s = 0.01;
+  changed.joint_offsets = {{"arm_joint_2", 0.25}};
+  const OpenScene scene = reopen_scene(open_scene(bundled_file()), changed);
+  const OpenScene expected = open_scene(changed);
+  EXPECT_EQ(scene.robot->settings(), expected.robot->settings());
+  EXPECT_EQ(position_of(scene), position_of(expected));
+  EXPECT_EQ(scene.joint_offsets, expected.joint_offsets);
+}
+
+TEST(ReopenedScene, RefusesWhatAnOpenedOneDoes) {
+  const OpenScene before = open_scene(bundled_file());
+  SceneFile changed = bundled_file();
+  changed.cameras[0].settings.self_filter.padding_m = -1;
+  expect_parts(error_message([&] { reopen_scene(before, changed); }),
+               {"one_camera.yaml", "padding_m: -1", "expected"});
+}
+
 }  // namespace
 }  // namespace berth

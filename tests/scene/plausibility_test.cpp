@@ -85,7 +85,7 @@ TEST_F(Plausibility, APoseThatIsOffAndPeopleAreNoMistakes) {
 TEST_F(Plausibility, ASimulationWhoseRobotStandsStillIsNotDead) {
   OpenScene still = right();
   OpenCamera& camera = still.cameras[0];
-  const DepthImage first_m = camera.read_depth(0);
+  const auto first_m = std::make_shared<const DepthImage>(camera.read_depth(0));
   for (std::size_t k = 0; k < camera.source.depth.size(); ++k) {
     camera.kept_depth_m[k] = first_m;
     camera.at_exposure[k].position = camera.at_exposure[0].position;
@@ -100,12 +100,13 @@ TEST_F(Plausibility, ASimulationWhoseRobotStandsStillIsNotDead) {
 /// A wall before the camera.
 void hide_all(OpenCamera& camera) {
   for (std::size_t k = 0; k < camera.source.depth.size(); ++k) {
-    camera.kept_depth_m[k] = camera.read_depth(k);
+    DepthImage wall_m = camera.read_depth(k);
     float z_m = 0.5F;
-    for (float& reading_m : camera.kept_depth_m[k].pixels()) {
+    for (float& reading_m : wall_m.pixels()) {
       z_m = z_m > 0.6F ? 0.5F : z_m + 0.001F;
       reading_m = z_m;
     }
+    camera.kept_depth_m[k] = std::make_shared<const DepthImage>(std::move(wall_m));
   }
 }
 

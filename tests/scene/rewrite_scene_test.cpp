@@ -145,6 +145,19 @@ TEST_F(RewrittenScene, ReadsBackWhatWasChangedAndAllElse) {
             (std::map<std::string, double>{{"j1", 1}, {"j2", 1.0 / 3}, {"j.3 x", -1e-5}}));
 }
 
+TEST_F(RewrittenScene, WritesOtherValuesAtTheirPlaces) {
+  const std::string text = scene_of(kBlockCamera + kFlowCamera);
+  SceneChange change;
+  change.values = {{{"evaluation", "method"}, "exact"},
+                   {{"self_filter", "padding_m"}, "0.03"},
+                   {{"cameras", "1", "sensor", "holes"}, "obstacle"}};
+  const SceneFile scene = reread(text, change);
+  EXPECT_EQ(scene.evaluation.method, Method::exact);
+  EXPECT_EQ(scene.cameras[0].settings.self_filter.padding_m, 0.03);
+  EXPECT_EQ(scene.cameras[0].settings.sensor.holes, HolePolicy::free);
+  EXPECT_EQ(scene.cameras[1].settings.sensor.holes, HolePolicy::obstacle);
+}
+
 /// Also where the angles about x and z are not told apart.
 TEST_F(RewrittenScene, WritesPosesInTheUsersKindOfRotation) {
   testing::Random random(1);

@@ -51,7 +51,7 @@ TEST(SceneReference, HasTheTablesOfAllSettings) {
 
 TEST(SceneReference, TableNeedsAGroupThatThereIs) {
   expect_parts(error_message<std::invalid_argument>([] { settings_table("filter"); }),
-               {"filter", "self_filter, sensor, space, watch, evaluation, time"});
+               {"filter", "self_filter, sensor, space, watch, evaluation, time, separation"});
 }
 
 TEST(SceneReference, ItsExamplesAreScenes) {

@@ -22,6 +22,8 @@ struct LatticeSettings {
   int final_grid_radius_px = 2;
   /// gl_lattice: size of the tiles of the first lattice.
   int tile_px = 16;
+
+  bool operator==(const LatticeSettings&) const = default;
 };
 
 /// What is asked of every method of the distance stage.
@@ -40,6 +42,8 @@ struct DistanceSettings {
   double min_seen_share = 0.02;
   SurveillanceSettings surveillance = {};
   LatticeSettings lattice = {};
+
+  bool operator==(const DistanceSettings&) const = default;
 };
 
 /// The steps and radii of LatticeSettings lie between 1 and this.

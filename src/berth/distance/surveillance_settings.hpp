@@ -58,6 +58,8 @@ struct SurveillanceSettings {
   DepthInterval depth_interval = DepthInterval::gray_area;
   SearchPattern search_pattern = SearchPattern::row_major;
   Shrinking shrinking = Shrinking::per_link;
+
+  bool operator==(const SurveillanceSettings&) const = default;
 };
 
 }  // namespace berth

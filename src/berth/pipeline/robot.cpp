@@ -54,4 +54,10 @@ std::shared_ptr<const Robot> detach(const Robot& robot, const std::string& name)
   return std::make_shared<const Robot>(robot.bare_, robot.settings_, std::move(attached));
 }
 
+std::shared_ptr<const Robot> with_settings(const std::shared_ptr<const Robot>& robot,
+                                           const EvaluationSettings& settings) {
+  if (settings == robot->settings_) return robot;
+  return std::make_shared<const Robot>(robot->bare_, settings, robot->attached_);
+}
+
 }  // namespace berth

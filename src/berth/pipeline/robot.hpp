@@ -21,6 +21,8 @@ struct EvaluationSettings {
   /// Whether answers tell what the cameras cannot know (Answer::visibility).
   bool visibility = true;
   TimeSettings time;
+
+  bool operator==(const EvaluationSettings&) const = default;
 };
 
 /// The list of these settings but `time`, which has a list of its own.
@@ -64,6 +66,8 @@ class Robot {
 
   friend std::shared_ptr<const Robot> attach(const Robot& robot, const Attachment& attachment);
   friend std::shared_ptr<const Robot> detach(const Robot& robot, const std::string& name);
+  friend std::shared_ptr<const Robot> with_settings(const std::shared_ptr<const Robot>& robot,
+                                                    const EvaluationSettings& settings);
 };
 
 /// The robot as it is once it has taken something up. Constant robots are not changed: make views
@@ -73,5 +77,10 @@ std::shared_ptr<const Robot> attach(const Robot& robot, const Attachment& attach
 
 /// And once it has put it down. Throws std::invalid_argument where nothing of this name is attached.
 std::shared_ptr<const Robot> detach(const Robot& robot, const std::string& name);
+
+/// The same robot, asked otherwise; `robot` itself where the settings are the same. Throws as its
+/// constructor does.
+std::shared_ptr<const Robot> with_settings(const std::shared_ptr<const Robot>& robot,
+                                           const EvaluationSettings& settings);
 
 }  // namespace berth

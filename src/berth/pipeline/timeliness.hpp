@@ -23,6 +23,8 @@ struct TimeSettings {
   double max_frame_gap_s = 1;
   /// How far a frame's stamp may lie after the question, where the camera's clock goes ahead.
   double max_clock_offset_s = 0.005;
+
+  bool operator==(const TimeSettings&) const = default;
 };
 
 /// The list of these settings.

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "berth/separation/separation.hpp"
 #include "berth/types/camera.hpp"
 #include "berth/types/camera_status.hpp"
 #include "berth/types/link_distance.hpp"
@@ -63,6 +64,8 @@ struct FrameResult {
   const LinkDistances* distances = nullptr;
   /// Where it is told; not owned.
   const std::vector<LinkVisibility>* visibility = nullptr;
+  /// Where it is monitored; not owned.
+  const Separation* separation = nullptr;
   /// How the frame's stamp and joints go together.
   std::optional<Timeliness> time;
   /// In JSON under this name: evaluate_us or ask_us.

@@ -92,8 +92,9 @@ void find_joints(const JointTrajectory& joints, OpenCamera& camera) {
     if (source.stamps_s.empty()) {
       camera.at_exposure[frame] = joints.sample(frame);
     } else {
-      camera.exposure_time[frame] = joints.at(
-          source.stamps_s[frame] + source.clock_offset_s, camera.view->robot()->settings().time.joints, camera.at_exposure[frame]);
+      camera.exposure_time[frame] =
+          joints.at(source.stamps_s[frame] + source.clock_offset_s,
+                    camera.view->robot()->settings().time.joints, camera.at_exposure[frame]);
     }
     // The frame keeps its own stamp, the joints those of their clock.
     camera.at_exposure[frame].stamp_s -= source.clock_offset_s;
@@ -121,10 +122,32 @@ std::size_t bytes_of(const DepthImage& image) {
   return image.pixels().size() * sizeof(image.pixels().front());
 }
 
+std::optional<SeparationSettings> checked_separation(const SceneFile& scene) {
+  return with_file_named(scene, [&] {
+    if (scene.separation) validate(*scene.separation);
+    return scene.separation;
+  });
+}
+
+/// All of the scene's next camera but its images.
+OpenCamera& add_camera(const SceneFile& source, const Camera& pinhole, OpenScene& scene) {
+  const SceneCamera& from = source.cameras[scene.cameras.size()];
+  OpenCamera& camera = scene.cameras.emplace_back();
+  camera.source = from;
+  const CameraMount mount{pinhole, from.parent_link, from.X_PC};
+  camera.view = with_file_named(
+      source, [&] { return std::make_shared<const View>(scene.robot, mount, from.settings); });
+  find_joints(*scene.joints, camera);
+  if (from.background) {
+    camera.background_m = read_depth_png(*from.background, pinhole, kBackgroundScale_m);
+  }
+  return camera;
+}
+
 }  // namespace
 
 DepthImage OpenCamera::read_depth(std::size_t frame) const {
-  if (!kept_depth_m[frame].pixels().empty()) return kept_depth_m[frame];
+  if (kept_depth_m[frame]) return *kept_depth_m[frame];
   return read_depth_png(source.depth[frame], view->camera(), source.depth_scale_m, source.near_m,
                         source.far_m, source.depth_offset_m);
 }
@@ -146,26 +169,20 @@ OpenScene open_scene(const SceneFile& source, const std::function<void()>& befor
   RobotModel model = load_robot(source.robot);
   scene.joints = std::make_shared<const JointTrajectory>(read_trajectory(model, source));
   scene.robot = with_file_named(source, [&] {
-    return std::make_shared<const Robot>(std::move(model), source.evaluation, attachments_of(source));
+    return std::make_shared<const Robot>(std::move(model), source.evaluation,
+                                         attachments_of(source));
   });
+  scene.separation = checked_separation(source);
   std::size_t kept_bytes = 0;
   for (const SceneCamera& from : source.cameras) {
-    OpenCamera& camera = scene.cameras.emplace_back();
-    camera.source = from;
-    const CameraMount mount{read_camera_info(from.info), from.parent_link, from.X_PC};
-    camera.view = with_file_named(
-        source, [&] { return std::make_shared<const View>(scene.robot, mount, from.settings); });
-    find_joints(*scene.joints, camera);
-    if (from.background) {
-      camera.background_m =
-          read_depth_png(*from.background, mount.camera, kBackgroundScale_m);
-    }
+    OpenCamera& camera = add_camera(source, read_camera_info(from.info), scene);
     camera.kept_depth_m.resize(from.depth.size());
     for (std::size_t frame = 0; frame < from.depth.size(); ++frame) {
       before_image();
       DepthImage depth_m = camera.read_depth(frame);
       kept_bytes += bytes_of(depth_m);
-      if (kept_bytes <= kMostKeptBytes) camera.kept_depth_m[frame] = std::move(depth_m);
+      if (kept_bytes > kMostKeptBytes) continue;
+      camera.kept_depth_m[frame] = std::make_shared<const DepthImage>(std::move(depth_m));
     }
     scene.frame_count += from.depth.size();
   }
@@ -173,5 +190,23 @@ OpenScene open_scene(const SceneFile& source, const std::function<void()>& befor
 }
 
 OpenScene open_scene(const std::filesystem::path& file) { return open_scene(read_scene(file)); }
+
+OpenScene reopen_scene(const OpenScene& before, const SceneFile& changed) {
+  OpenScene scene;
+  scene.file = changed.file;
+  scene.joint_offsets = changed.joint_offsets;
+  scene.joints = changed.joint_offsets == before.joint_offsets
+                     ? before.joints
+                     : std::make_shared<const JointTrajectory>(
+                           read_trajectory(before.robot->model(), changed));
+  scene.robot = with_file_named(
+      changed, [&] { return with_settings(before.robot, changed.evaluation); });
+  scene.separation = checked_separation(changed);
+  scene.frame_count = before.frame_count;
+  for (const OpenCamera& from : before.cameras) {
+    add_camera(changed, from.view->camera(), scene).kept_depth_m = from.kept_depth_m;
+  }
+  return scene;
+}
 
 }  // namespace berth

@@ -23,8 +23,9 @@ struct OpenCamera {
   std::vector<JointState> at_exposure;
   /// And how they were found: all NaN where this is not ok.
   std::vector<FrameTime> exposure_time;
-  /// The images that were kept when they were checked; one without pixels is read again.
-  std::vector<DepthImage> kept_depth_m;
+  /// The images that were kept when they were checked; a null one is read again. Scenes
+  /// that differ in their settings share them.
+  std::vector<std::shared_ptr<const DepthImage>> kept_depth_m;
   /// That of the scene file; none where it is learned, or the rule is off.
   std::optional<DepthImage> background_m;
 
@@ -40,6 +41,8 @@ struct OpenScene {
   std::map<std::string, double> joint_offsets;
   std::vector<OpenCamera> cameras;
   std::size_t frame_count = 0;  ///< of all cameras
+  /// None: nothing is monitored.
+  std::optional<SeparationSettings> separation;
 };
 
 /// What the scene's `attached:` describes, with its meshes. Throws std::runtime_error as
@@ -54,9 +57,15 @@ inline constexpr std::size_t kMostKeptBytes = std::size_t{512} << 20;
 /// status. It is one if that holds for all frames of a camera. `before_image` is called before each
 /// image is read; to stop, it throws. Throws std::runtime_error with file, place, value and what
 /// was expected.
-OpenScene open_scene(const SceneFile& scene, const std::function<void()>& before_image = [] {});
+OpenScene open_scene(
+    const SceneFile& scene, const std::function<void()>& before_image = [] {});
 
 /// The same for read_scene(file).
 OpenScene open_scene(const std::filesystem::path& file);
+
+/// open_scene(changed) where `changed` differs from the file of `before` in settings of questions
+/// and cameras, in poses, clocks and joint offsets alone: robot and images are those of `before`, so
+/// that it takes a moment. Throws as open_scene does.
+OpenScene reopen_scene(const OpenScene& before, const SceneFile& changed);
 
 }  // namespace berth

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "berth/scene/separation_text.hpp"
+
 namespace berth {
 namespace {
 
@@ -169,6 +171,26 @@ Json link_json(const LinkDistance& link, const std::string& name, const FrameRes
   return json;
 }
 
+/// Null where a bound is infinite, too.
+Json json_of(const LinkSeparation& link) {
+  return {{"speed_m_s", json_of(link.speed_m_s)},     {"distance_m", json_of(link.distance_m)},
+          {"required_m", json_of(link.required_m)},   {"margin_m", json_of(link.margin_m)},
+          {"speed_scale", json_of(link.speed_scale)}, {"reason", name_of(link.reason)}};
+}
+
+Json separation_json(const FrameResult& result) {
+  const Separation& separation = *result.separation;
+  const bool has_link = separation.link != kNoLink;
+  const bool has_camera = separation.camera >= 0;
+  return {{"state", name_of(separation.state)},
+          {"speed_scale", json_of(separation.speed_scale)},
+          {"reason", name_of(separation.reason)},
+          {"link", has_link ? Json(result.link_names[separation.link - 1]) : Json()},
+          {"camera", has_camera ? Json(result.cameras[separation.camera].name) : Json()},
+          {"reaction_time_s", json_of(separation.reaction_time_s)},
+          {"text", separation_text(result)}};
+}
+
 }  // namespace
 
 std::string result_json(const FrameResult& result) {
@@ -185,6 +207,7 @@ std::string result_json(const FrameResult& result) {
   if (!result.gl_renderer.empty()) json["gl_renderer"] = result.gl_renderer;
   json["range_m"] = result.range_m;
   if (result.time) json["time"] = json_of(*result.time);
+  if (result.separation) json["separation"] = separation_json(result);
   json["cameras"] = Json::array();
   for (const CameraResult& camera : result.cameras) {
     json["cameras"].push_back(camera_json(camera, is_alone));
@@ -193,6 +216,9 @@ std::string result_json(const FrameResult& result) {
   for (std::size_t i = 0; i < links.size(); ++i) {
     json["links"].push_back(link_json(links[i], result.link_names[i], result));
     if (result.visibility) json["links"].back()["visibility"] = json_of((*result.visibility)[i]);
+    if (result.separation && result.is_moved(i)) {
+      json["links"].back()["separation"] = json_of(result.separation->links[i]);
+    }
   }
   if (result.asks_images) json["pairs"] = result.distances->pairs;
   if (result.timing) json["timing"] = json_of(*result.timing, result.timing_name);

@@ -62,6 +62,13 @@ std::string doubtful_text(const LinkVisibility& link) {
   return has_doubt(link) ? fmt::format("{:.4f}", link.doubtful_distance_m) : "-";
 }
 
+/// The room that a link needs, and the share of the robot's speed that it allows; cut, not rounded.
+void add_separation(const LinkSeparation& link, Line& line) {
+  const bool is_known = !std::isnan(link.required_m);
+  line.push_back(is_known ? fmt::format("{:.3f}", link.required_m) : "-");
+  line.push_back(link.is_moved ? fmt::format("{:.0f} %", std::floor(100 * link.speed_scale)) : "-");
+}
+
 std::vector<std::size_t> widths_of(const std::vector<Line>& lines) {
   std::vector<std::size_t> widths(lines.front().size());
   for (const Line& line : lines) {
@@ -104,13 +111,16 @@ std::string result_table(const FrameResult& result) {
   const bool has_doubts = result.visibility && std::any_of(result.visibility->begin(),
                                                            result.visibility->end(), has_doubt);
   if (has_doubts) lines.front().push_back("doubtful [m]");
+  if (result.separation) lines.front().insert(lines.front().end(), {"needs [m]", "may go"});
   for (const std::size_t i : moved_first(result)) {
-    Line& line = lines.emplace_back(Line{result.link_names[i], std::string(name_of(links[i].status))});
+    Line& line =
+        lines.emplace_back(Line{result.link_names[i], std::string(name_of(links[i].status))});
     const Line cells =
         result.asks_images ? image_line(links[i], result) : mesh_line(links[i], result);
     line.insert(line.end(), cells.begin(), cells.end());
     if (result.visibility) line.push_back(seen_text((*result.visibility)[i]));
     if (has_doubts) line.push_back(doubtful_text((*result.visibility)[i]));
+    if (result.separation) add_separation(result.separation->links[i], line);
   }
   const std::vector<std::size_t> widths = widths_of(lines);
   std::string table;

@@ -11,8 +11,8 @@
 #include "berth/files/error.hpp"
 #include "berth/files/file_bytes.hpp"
 #include "berth/files/number.hpp"
-#include "berth/files/yaml_edit.hpp"
 #include "berth/scene/moved_path.hpp"
+#include "berth/scene/rpy.hpp"
 #include "berth/scene/scene_file.hpp"
 
 namespace berth {
@@ -58,16 +58,6 @@ std::string printed_number(double value) {
   text.erase(text.find_last_not_of('0') + 1);
   if (text.ends_with('.')) text.pop_back();
   return text == "-0" ? "0" : text;
-}
-
-/// Angles about the fixed axes x, then y, then z. The one about x is taken from what the others
-/// leave, so that they give the rotation where the camera's x is along the parent's z too.
-Eigen::Vector3d rpy_of(const Eigen::Matrix3d& R) {
-  const double yaw = std::atan2(R(1, 0), R(0, 0));
-  const double c = std::cos(yaw);
-  const double s = std::sin(yaw);
-  return {std::atan2(s * R(0, 2) - c * R(1, 2), c * R(1, 1) - s * R(0, 1)),
-          std::atan2(-R(2, 0), std::hypot(R(0, 0), R(1, 0))), yaw};
 }
 
 YamlPath joined(YamlPath path, const YamlPath& more) {
@@ -204,6 +194,7 @@ std::string rewritten_scene(const fs::path& scene_file, const SceneChange& chang
   for (const auto& [joint, offset] : change.joint_offsets) {
     changed[{"joint_offsets", joint}] = exact(offset);
   }
+  for (const auto& [place, value] : change.values) changed[place] = value;
   const std::string new_text = edited_yaml(scene_file, text, changed);
   const SceneFile new_scene = parse_scene(new_file, new_text);
   require_same_files(new_scene, with_backgrounds(scene, change));

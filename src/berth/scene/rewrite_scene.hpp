@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "berth/files/yaml_edit.hpp"
 #include "berth/types/camera.hpp"
 
 namespace berth {
@@ -30,6 +31,8 @@ struct SceneChange {
   std::vector<SceneCameraChange> cameras;
   /// rad or m, by the name of the joint; in place of a joint's old offset, not added to it.
   std::map<std::string, double> joint_offsets;
+  /// Other values at their places in the file, such as {{"evaluation", "range_m"}, "0.8"}.
+  YamlScalars values = {};
 };
 
 /// The text of `scene_file` with the changes, to be written to `new_file`, whose folder is there.

@@ -7,6 +7,7 @@
 
 #include "berth/files/glob.hpp"
 #include "berth/files/png.hpp"
+#include "berth/scene/rpy.hpp"
 
 namespace berth {
 namespace {
@@ -83,12 +84,6 @@ Pose read_pose(const YamlMap& pose) {
   }
   return Eigen::Translation3d(xyz_m[0], xyz_m[1], xyz_m[2]) *
          (quaternion ? read_quaternion(*quaternion) : rotation_of_rpy(read_rpy(*rpy)));
-}
-
-Eigen::Quaterniond rotation_of_rpy(const Eigen::Vector3d& rpy_rad) {
-  return Eigen::AngleAxisd(rpy_rad.z(), Eigen::Vector3d::UnitZ()) *
-         Eigen::AngleAxisd(rpy_rad.y(), Eigen::Vector3d::UnitY()) *
-         Eigen::AngleAxisd(rpy_rad.x(), Eigen::Vector3d::UnitX());
 }
 
 SceneCamera read_scene_camera(const YamlValue& value, const ViewSettings& settings) {

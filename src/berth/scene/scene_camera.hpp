@@ -12,9 +12,6 @@ SceneCamera read_scene_camera(const YamlValue& value, const ViewSettings& settin
 /// The pose of a map with xyz and one of the two rotations.
 Pose read_pose(const YamlMap& pose);
 
-/// As in a URDF: about the fixed axes x, then y, then z.
-Eigen::Quaterniond rotation_of_rpy(const Eigen::Vector3d& rpy_rad);
-
 /// The maps self_filter, sensor, space and watch of a scene or a camera, over `settings`.
 void read_view_settings(const YamlMap& map, ViewSettings& settings);
 

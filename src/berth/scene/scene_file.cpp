@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "berth/scene/scene_camera.hpp"
 #include "berth/files/read_file.hpp"
 #include "berth/files/yaml_value.hpp"
+#include "berth/scene/scene_camera.hpp"
 #include "berth/scene/settings_yaml.hpp"
 
 namespace berth {
@@ -100,6 +100,19 @@ std::map<std::string, double> read_joint_values(const YamlMap& map, std::string_
   return values;
 }
 
+SeparationSettings read_separation(const YamlValue& value) {
+  SeparationSettings settings;
+  const YamlMap keys = read_settings(value, settings, {"stopping"});
+  if (const auto stopping = keys.find("stopping")) {
+    for (const YamlValue& item : stopping->list()) {
+      const YamlMap row(item, {"speed_m_s", "time_s", "distance_m"});
+      settings.stopping.push_back({row.at("speed_m_s").positive(), row.at("time_s").non_negative(),
+                                   row.at("distance_m").non_negative()});
+    }
+  }
+  return settings;
+}
+
 }  // namespace
 
 void read_view_settings(const YamlMap& map, ViewSettings& settings) {
@@ -121,9 +134,10 @@ SceneFile read_scene(const std::filesystem::path& file) {
 }
 
 SceneFile parse_scene(const std::filesystem::path& file, const std::string& text) {
-  const YamlMap map(parse_yaml(file, text),
-                    {"robot", "cameras", "attached", "joints", "joint_offsets", "fixed_joints",
-                     "self_filter", "sensor", "space", "watch", "evaluation", "time"});
+  const YamlMap map(
+      parse_yaml(file, text),
+      {"robot", "cameras", "attached", "joints", "joint_offsets", "fixed_joints", "self_filter",
+       "sensor", "space", "watch", "evaluation", "time", "separation"});
   SceneFile scene;
   scene.file = file;
   scene.robot = read_robot(map.at("robot"));
@@ -139,6 +153,9 @@ SceneFile parse_scene(const std::filesystem::path& file, const std::string& text
     read_settings(*evaluation, scene.evaluation);
   }
   if (const auto time = map.find("time")) read_settings(*time, scene.evaluation.time);
+  if (const auto separation = map.find("separation")) {
+    scene.separation = read_separation(*separation);
+  }
   return scene;
 }
 

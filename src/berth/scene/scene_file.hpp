@@ -10,6 +10,7 @@
 
 #include "berth/pipeline/view.hpp"
 #include "berth/robot/robot_model.hpp"
+#include "berth/separation/settings.hpp"
 #include "berth/types/camera.hpp"
 
 namespace berth {
@@ -71,6 +72,8 @@ struct SceneFile {
   /// Defaults where the file says nothing; the limits between joint samples and images are then
   /// kOnlyBetweenSamples.
   EvaluationSettings evaluation;
+  /// None: nothing is monitored.
+  std::optional<SeparationSettings> separation;
 };
 
 /// Reads SCENE.yaml; paths in it are relative to the file. Opens none of the files that it names,

@@ -51,23 +51,22 @@ SceneRun::SceneRun(const OpenScene& scene, const BackendChoice& where,
     }
   }
   if (has_mesh()) asker_.emplace(scene.robot);
-  plan_steps();
+  make_monitors();
+  steps_ = scene_steps(scene);
 }
 
 SceneRun::~SceneRun() = default;
 
 bool SceneRun::has_mesh() const { return scene_.robot->settings().method == Method::mesh; }
 
-void SceneRun::plan_steps() {
-  for (std::size_t c = 0; c < scene_.cameras.size(); ++c) {
-    const OpenCamera& camera = scene_.cameras[c];
-    for (std::size_t k = 0; k < camera.source.depth.size(); ++k) {
-      steps_.push_back({c, k, camera.at_exposure[k].stamp_s});
-    }
+void SceneRun::make_monitors() {
+  if (!scene_.separation) return;
+  try {
+    const SeparationMonitor monitor(scene_.robot, *scene_.separation);
+    monitors_.assign(has_mesh() ? 1 : scene_.cameras.size(), monitor);
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(fmt::format("{}: {}", scene_.file.string(), error.what()));
   }
-  if (!has_mesh()) return;
-  std::stable_sort(steps_.begin(), steps_.end(),
-                   [](const Step& a, const Step& b) { return a.stamp_s < b.stamp_s; });
 }
 
 void SceneRun::begin_background(std::size_t i, const std::function<void()>& before_image) {
@@ -79,7 +78,7 @@ void SceneRun::begin_background(std::size_t i, const std::function<void()>& befo
   });
 }
 
-void SceneRun::observe(const Step& step) {
+void SceneRun::observe(const ImageStep& step) {
   const OpenCamera& camera = scene_.cameras[step.camera];
   Newest& newest = newest_[step.camera];
   newest.number = step.frame;
@@ -93,11 +92,8 @@ bool SceneRun::next() {
   if (step_ == steps_.size()) return false;
   ++step_;
   if (observed_ >= step_) return true;
-  do {
-    observe(steps_[observed_]);
-    ++observed_;
-  } while (has_mesh() && observed_ < steps_.size() &&
-           steps_[observed_].stamp_s == step().stamp_s);
+  const std::size_t known = steps_known_at(scene_, steps_, step_ - 1);
+  while (observed_ < known) observe(steps_[observed_++]);
   if (has_mesh()) assign_frames();
   return true;
 }
@@ -128,7 +124,22 @@ FrameResult SceneRun::ask(int repeat) {
   FrameResult result = result_of(*answer);
   if (repeat > 0) result.timing = timing_of(std::move(times_us));
   result.timing_name = "ask_us";
+  if (!monitors_.empty()) result.separation = &look(*answer, result);
   return result;
+}
+
+const Separation& SceneRun::look(const Answer& answer, const FrameResult& result) {
+  scene_.joints->at(answer.joints_stamp_s, scene_.robot->settings().time.joints, joints_);
+  scene_.joints->velocity(answer.joints_stamp_s, velocity_);
+  std::vector<CameraState> states;
+  for (const CameraResult& camera : result.cameras) states.push_back(camera.state);
+  if (has_mesh()) {
+    return monitors_.front().look(
+        {answer, states, kept_, joints_.position, velocity_, result.stamp_s});
+  }
+  const std::shared_ptr<const Frame> shown = frame();
+  return monitors_[step().camera].look(
+      {answer, states, {&shown, 1}, joints_.position, velocity_, result.stamp_s});
 }
 
 FrameResult SceneRun::result_of(const Answer& answer) {

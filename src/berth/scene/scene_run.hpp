@@ -13,6 +13,8 @@
 #include "berth/scene/gl_backend.hpp"
 #include "berth/scene/open_scene.hpp"
 #include "berth/scene/plausibility.hpp"
+#include "berth/scene/scene_steps.hpp"
+#include "berth/separation/monitor.hpp"
 
 namespace berth {
 
@@ -36,8 +38,9 @@ class SceneRun {
   /// `before_image` is called before each of these images. Throws std::runtime_error where the
   /// backend is not there or the scene's settings do not go with it, and where all cameras are
   /// implausible; it says why.
-  explicit SceneRun(const OpenScene& scene, const BackendChoice& where = {},
-                    const std::function<void()>& before_image = [] {});
+  explicit SceneRun(
+      const OpenScene& scene, const BackendChoice& where = {},
+      const std::function<void()>& before_image = [] {});
   ~SceneRun();
   SceneRun(const SceneRun&) = delete;
   SceneRun& operator=(const SceneRun&) = delete;
@@ -57,30 +60,26 @@ class SceneRun {
   /// Its number among the images of its camera.
   std::size_t frame_number() const { return step().frame; }
   DepthView sensor_depth_m() const { return newest_[step().camera].depth_m; }
-  /// The images in this program's memory; read back from the GPU at each call. It stays as it is for
-  /// who holds it.
+  /// The images in this program's memory; read back from the GPU at each call. It stays as it is
+  /// for who holds it.
   std::shared_ptr<const Frame> frame();
 
  private:
-  struct Step {
-    std::size_t camera;
-    std::size_t frame;
-    double stamp_s;
-  };
   /// One camera's newest image.
   struct Newest {
     std::optional<std::size_t> number;
     DepthImage depth_m;
   };
 
-  const Step& step() const { return steps_[step_ - 1]; }
+  const ImageStep& step() const { return steps_[step_ - 1]; }
   bool has_mesh() const;
-  void plan_steps();
+  void make_monitors();
   void begin_background(std::size_t camera, const std::function<void()>& before_image);
-  void observe(const Step& step);
+  void observe(const ImageStep& step);
   void assign_frames();
   FrameResult result_of(const Answer& answer);
   CameraResult camera_result(std::size_t camera, const Answer& answer);
+  const Separation& look(const Answer& answer, const FrameResult& result);
 
   const OpenScene& scene_;
   std::vector<CameraPlausibility> plausibility_;
@@ -88,7 +87,7 @@ class SceneRun {
   /// One for each camera.
   std::vector<std::unique_ptr<FramePipeline>> pipelines_;
   std::vector<Newest> newest_;
-  std::vector<Step> steps_;
+  std::vector<ImageStep> steps_;
   /// How many of them were taken, and how many observed.
   std::size_t step_ = 0;
   std::size_t observed_ = 0;
@@ -96,6 +95,10 @@ class SceneRun {
   std::vector<const Frame*> frames_;
   FrameSet frame_set_;
   std::optional<Asker> asker_;
+  /// Where the scene asks for them: one, or with methods that compare images one for each camera.
+  std::vector<SeparationMonitor> monitors_;
+  JointState joints_;
+  std::vector<double> velocity_;
 };
 
 }  // namespace berth

@@ -12,6 +12,7 @@
 
 #include "berth/pipeline/view.hpp"
 #include "berth/robot/joints_at_time.hpp"
+#include "berth/separation/settings.hpp"
 
 namespace berth {
 namespace {
@@ -101,6 +102,9 @@ std::string settings_table(std::string_view group) {
     // What read_scene() begins with.
     TimeSettings settings;
     settings.joints = kOnlyBetweenSamples;
+    visit_settings(settings, write);
+  } else if (group == "separation") {
+    const SeparationSettings settings;
     visit_settings(settings, write);
   } else {
     is_known = false;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "berth/scene/scene_camera.hpp"
+#include "berth/scene/rpy.hpp"
 
 namespace berth {
 namespace {
