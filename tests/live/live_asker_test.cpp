@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <malloc.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 
 #include "berth/live/live_camera.hpp"
@@ -211,9 +213,16 @@ TEST_F(AskedScene, MemoryStaysAsItIsOnceWarm) {
     return static_cast<std::int64_t>(info.uordblks + info.hblkhd);
   };
   run(60);
-  const std::int64_t before = used();
-  run(200);
-  EXPECT_LT(used() - before, 20000) << "bytes";
+  // Once in a while an image is pushed before the last one's memory came back, and another one is
+  // made, which is kept. What leaks grows in each round.
+  std::array<std::int64_t, 9> growth_bytes;
+  for (std::int64_t& growth : growth_bytes) {
+    const std::int64_t before = used();
+    run(20);
+    growth = used() - before;
+  }
+  std::ranges::nth_element(growth_bytes, growth_bytes.begin() + 4);
+  EXPECT_LT(growth_bytes[4], 1000);
 }
 
 }  // namespace
