@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "berth/scene/separation_text.hpp"
+
 namespace berth::app {
 namespace {
 
@@ -19,7 +21,7 @@ CurveJson length_json(float length_m) {
 
 void Curves::add(const FrameResult& result) {
   const std::vector<LinkDistance>& links = result.distances->links;
-  Column column{result.stamp_s, {}};
+  Column column{result.stamp_s, {}, {}};
   for (std::size_t i = 0; i < links.size(); ++i) {
     const LinkDistance& link = links[i];
     const bool has_distance =
@@ -29,6 +31,9 @@ void Curves::add(const FrameResult& result) {
     column.links.push_back({has_distance ? link.distance_m : kNoLength,
                             link.reading.is_known() ? link.reading.distance_m : kNoLength,
                             link.status, is_doubtful});
+  }
+  if (result.separation) {
+    column.speed = Speed{result.separation->speed_scale, separation_text(result)};
   }
   columns_.push_back(std::move(column));
   if (columns_.size() > most_) columns_.pop_front();
@@ -44,8 +49,13 @@ PageMessage Curves::message(const std::string& error) const {
                      {"reading_m", CurveJson::array()},
                      {"status", CurveJson::array()},
                      {"is_doubtful", CurveJson::array()}};
+  CurveJson speed;
   for (const Column& column : columns_) {
     stamps.push_back(column.stamp_s);
+    if (column.speed) {
+      speed["scale"].push_back(column.speed->scale);
+      speed["text"].push_back(column.speed->text);
+    }
     for (std::size_t i = 0; i < column.links.size(); ++i) {
       links["distance_m"][i].push_back(length_json(column.links[i].distance_m));
       links["reading_m"][i].push_back(length_json(column.links[i].reading_m));
@@ -59,7 +69,8 @@ PageMessage Curves::message(const std::string& error) const {
                        {"error", error},
                        {"warnings", warnings_},
                        {"stamps_s", stamps},
-                       {"links", links}});
+                       {"links", links},
+                       {"speed", speed}});
 }
 
 }  // namespace berth::app

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,8 @@
 
 namespace berth::app {
 
-/// What is drawn over time of each link, of the last results.
+/// What is drawn over time of each link, and how fast the robot may go where that is monitored, of
+/// the last results.
 class Curves {
  public:
   /// Of `most` results no more are kept; `total` is how many there will be, 0: nobody knows.
@@ -29,9 +31,14 @@ class Curves {
     LinkStatus status;
     bool is_doubtful;
   };
+  struct Speed {
+    double scale;
+    std::string text;
+  };
   struct Column {
     double stamp_s;
     std::vector<LinkPoint> links;
+    std::optional<Speed> speed;
   };
 
   std::size_t most_;

@@ -15,8 +15,8 @@ using SettingJson = nlohmann::ordered_json;
 /// The unit that the name ends in.
 std::string_view unit_of_setting(std::string_view name) {
   constexpr std::pair<std::string_view, std::string_view> kUnits[] = {
-      {"_m_s", "m/s"}, {"_per_m2", "1/m"}, {"_per_m", ""}, {"_m", "m"},
-      {"_px", "px"},   {"_us", "µs"},      {"_s", "s"}};
+      {"_m_s2", "m/s²"}, {"_m_s", "m/s"}, {"_per_m2", "1/m"}, {"_per_m", ""},
+      {"_m", "m"},       {"_px", "px"},   {"_us", "µs"},      {"_s", "s"}};
   for (const auto& [end, unit] : kUnits) {
     if (name.ends_with(end)) return unit;
   }

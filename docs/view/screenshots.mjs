@@ -49,7 +49,7 @@ await shoot("tablet", [], { viewport: { width: 820, height: 1180 }, colorScheme:
 await browser.close();
 // A quarter of the bytes.
 const names = readdirSync(here).filter((name) => name.endsWith(".png")).map((name) => join(here, name));
-const smaller = "import sys\nfrom PIL import Image\nfor name in sys.argv[1:]: Image.open(name).convert('RGB').quantize(256, method=1).save(name, optimize=True)";
+const smaller = "import sys\nfrom PIL import Image\nfor name in sys.argv[1:]: Image.open(name).convert('RGB').quantize(256, method=0).save(name, optimize=True)";
 spawnSync("/usr/bin/python3", ["-c", smaller, ...names], { stdio: "inherit" });
 await berth.end();
 place.remove();

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 #include <map>
 
 #include "apps/view/space_grid.hpp"
+#include "berth/files/file_bytes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace berth::app {
@@ -142,6 +144,7 @@ TEST_F(ViewedSceneTest, AKnobShowsOnTheFrameBeforeTheRestFollows) {
   EXPECT_EQ(shown["result"]["range_m"], 0.25);
   const PageJson timeline = finished_timeline(before);
   EXPECT_EQ(timeline["links"]["status"][0].size(), 101u);
+  EXPECT_TRUE(timeline["speed"].is_null()) << "nothing monitors it";
 }
 
 TEST_F(ViewedSceneTest, AChangeShowsWithinATenthOfASecond) {
@@ -243,6 +246,76 @@ TEST(TeachInOfViewedScene, IsStartedAndStopped) {
   viewed.receive(R"({"do": "take_teach_in"})");
   EXPECT_EQ(ask(R"({"do": "show", "step": 8})", "shown")["step"], 8);
   EXPECT_EQ(messages.json("settings"), before);
+}
+
+TEST(TeachInOfViewedScene, IsFoundAndTaken) {
+  Messages messages;
+  const TemporaryFolder folder;
+  ViewedScene viewed(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml", folder.path(),
+                     [&](const std::string& kind, PageMessage message) {
+                       messages.take(kind, std::move(message));
+                     });
+  const auto ask = [&](const PageJson& request, const std::string& kind) {
+    const int before = messages.count(kind);
+    viewed.receive(request.dump());
+    return messages.after(kind, before);
+  };
+  const auto from_truth_m = [&](const PageJson& pose) {
+    double square_m2 = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double difference_m =
+          pose["now"]["xyz_m"][axis].get<double>() - pose["file"]["xyz_m"][axis].get<double>();
+      square_m2 += difference_m * difference_m;
+    }
+    return std::sqrt(square_m2);
+  };
+  PageJson file = messages.json("settings")["poses"][0]["file"];
+  file["xyz_m"][0] = file["xyz_m"][0].get<double>() + 0.03;
+  const PageJson moved =
+      ask({{"do", "pose"}, {"camera", 0}, {"xyz_m", file["xyz_m"]}, {"rpy_rad", file["rpy_rad"]}},
+          "settings");
+  EXPECT_NEAR(from_truth_m(moved["poses"][0]), 0.03, 1e-6);
+  EXPECT_EQ(ask({{"do", "teach_in"}}, "teach_in")["state"], "runs");
+  const PageJson found = messages.after("teach_in", messages.count("teach_in"));
+  ASSERT_EQ(found["state"], "found") << found;
+  EXPECT_LT(found["cameras"][0]["after"]["median_m"], found["cameras"][0]["before"]["median_m"]);
+  const int before = messages.count("settings");
+  EXPECT_EQ(ask({{"do", "take_teach_in"}}, "teach_in")["state"], "taken");
+  EXPECT_LT(from_truth_m(messages.after("settings", before)["poses"][0]), 0.01);
+}
+
+TEST(MonitoredScene, TellsHowFastTheRobotMayGoAtEachStep) {
+  const TemporaryFolder folder;
+  fs::copy(BERTH_SOURCE_DIR "/data/bundled", folder.path(), fs::copy_options::recursive);
+  // Slow people and a robot that brakes at once: it may go, but for a few frames.
+  folder.write("scene.yaml", read_file_bytes(folder / "scene.yaml") +
+                                 "separation: {human_speed_m_s: 0.1, reaction_time_s: 0.02, "
+                                 "deceleration_m_s2: 20, intrusion_m: 0, camera_uncertainty_m: 0, "
+                                 "not_seen: ignore, hidden: ignore, release_m: 0, hold_s: 0}\n");
+  Messages messages;
+  ViewedScene viewed(folder / "scene.yaml", folder.path(),
+                     [&](const std::string& kind, PageMessage message) {
+                       messages.take(kind, std::move(message));
+                     });
+  PageJson timeline = messages.after("timeline", 0);
+  while (timeline["done"] != timeline["total"]) {
+    timeline = messages.after("timeline", messages.count("timeline"));
+  }
+  const PageJson& scale = timeline["speed"]["scale"];
+  const PageJson& text = timeline["speed"]["text"];
+  ASSERT_EQ(scale.size(), timeline["stamps_s"].size());
+  int clear = 0, reduced = 0, stop = 0;
+  for (std::size_t i = 0; i < scale.size(); ++i) {
+    const auto said = text[i].get<std::string>();
+    EXPECT_EQ(said.starts_with("clear"), scale[i] == 1) << said;
+    EXPECT_EQ(said.starts_with("stop"), scale[i] == 0) << said;
+    ++(scale[i] == 1 ? clear : scale[i] == 0 ? stop : reduced);
+  }
+  EXPECT_GT(clear, 0);
+  EXPECT_GT(reduced, 0);
+  EXPECT_GT(stop, 0);
+  const PageJson groups = messages.json("settings")["groups"];
+  EXPECT_EQ(groups.back()["name"], "separation");
 }
 
 }  // namespace

@@ -148,6 +148,34 @@ test("each question has its answer a click away", async () => {
   await page.close();
 });
 
+test("hidden space is not offered where the method does not know it", async () => {
+  const page = await open();
+  assert.ok(await page.locator("#layer-hidden").isDisabled());
+  assert.ok(await page.locator("#question-hidden").isDisabled());
+  await page.close();
+  const all = await open(berth.url);
+  assert.ok(await all.locator("#layer-hidden").isEnabled());
+  await all.close();
+});
+
+test("a monitored scene tells how fast the robot may go", async () => {
+  const folder = join(place.folder, "monitored");
+  cpSync(join(process.env.BERTH_SOURCE_DIR, "data/bundled"), folder, { recursive: true });
+  const file = join(folder, "scene.yaml");
+  writeFileSync(file, `${readFileSync(file, "utf8")}separation: {}\n`);
+  const other = await startBerth(["view", "scene.yaml", "--port", "0"], folder);
+  const page = await open(other.url);
+  await until(page, () => /^Speed: stop: .*needs/.test(document.getElementById("speed")?.textContent));
+  assert.match(await text(page, "#speed-key"), /slower.*stop/);
+  await showSettings(page);
+  assert.match(await text(page, "details[data-group=separation]"), /deceleration_m_s2 \[m\/s²\]/);
+  await page.close();
+  assert.equal(await other.end(), 0);
+  const bare = await open(single.url);
+  assert.equal(await bare.locator("#speed").count(), 0);
+  await bare.close();
+});
+
 test("a pixel tells its depth, fate and link", async () => {
   const page = await open();
   await page.evaluate(() => {

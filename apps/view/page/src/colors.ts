@@ -18,6 +18,10 @@ export const coloringTexts: Record<Coloring, string> = {
   camera: "by camera",
 };
 
+/** Of the strip above the curves: where the robot has to go slower, and where it has to stop. */
+export const slowColor: Rgb = [0xe6, 0x9f, 0x00];
+export const stopColor: Rgb = [0x9b, 0x2d, 0x6f];
+
 export const hiddenColor = "#cc79a7";
 export const unseenColor = "#56b4e9";
 

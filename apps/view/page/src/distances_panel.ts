@@ -7,6 +7,7 @@ export class DistancesPanel {
   private scene?: Scene;
   private shown?: Shown;
   private chosen = "";
+  private speed = "";
 
   constructor(private readonly choose: (link: string) => void) {}
 
@@ -21,13 +22,20 @@ export class DistancesPanel {
     this.chosen = link;
     this.fill();
   }
+  /** What the separation monitor says; empty where there is none. */
+  setSpeed(text: string): void {
+    if (text === this.speed) return;
+    this.speed = text;
+    this.fill();
+  }
 
   private fill(): void {
     if (!this.scene || !this.shown) return;
     const { links } = this.shown.result;
     const chosen = links.find((link) => link.link === this.chosen);
     const focused = (document.activeElement as HTMLElement)?.dataset?.link;
-    this.element.replaceChildren(this.table(links), this.details(chosen), this.fates());
+    const speed = this.speed ? [make("p", { id: "speed", textContent: `Speed: ${this.speed}` })] : [];
+    this.element.replaceChildren(...speed, this.table(links), this.details(chosen), this.fates());
     if (focused) this.element.querySelector<HTMLElement>(`tr[data-link="${CSS.escape(focused)}"]`)?.focus();
   }
 

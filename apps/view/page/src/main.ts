@@ -1,5 +1,5 @@
 // The page: what comes from the program goes to all its parts, so that they show the same frame.
-import { colorings, coloringTexts, hiddenColor, unseenColor, type Coloring } from "./colors";
+import { colorings, coloringTexts, cssOf, hiddenColor, slowColor, stopColor, unseenColor, type Coloring } from "./colors";
 import { Connection } from "./connection";
 import { DistancesPanel } from "./distances_panel";
 import { byId, make, tabs } from "./dom";
@@ -102,6 +102,8 @@ function setShown(message: Shown): void {
   picture.setShown(message);
   if (!isLive()) plot.setStep(message.step);
   distances.setShown(message);
+  showSpeed();
+  offerSpace(message.result.method === "mesh");
   if (isLive()) {
     byId("when").textContent = `${message.result.stamp_s.toFixed(3)} s`;
     return;
@@ -128,10 +130,29 @@ function setImage(image: Image): void {
 function setTimeline(message: Timeline): void {
   timeline = message;
   plot.setTimeline(message);
+  showSpeed();
   const progress = byId<HTMLProgressElement>("progress");
   progress.value = message.total > 0 ? message.done / message.total : 0;
   progress.classList.toggle("done", isLive() || message.done === message.total || message.error !== "");
   trouble([message.error, ...message.warnings].filter((text) => text !== "").join("\n"));
+}
+
+/** Which parts of space no camera sees is known to one method alone. */
+function offerSpace(isKnown: boolean): void {
+  for (const key of ["hidden", "unseen"]) {
+    const box = byId<HTMLInputElement>(`layer-${key}`);
+    box.disabled = !isKnown;
+    box.parentElement!.title = isKnown ? "" : "Known to method mesh alone";
+  }
+  byId<HTMLButtonElement>("question-hidden").disabled = !isKnown;
+  if (!isKnown && (layers.hidden || layers.unseen)) setLayers({ hidden: false, unseen: false });
+}
+
+/** What the separation monitor says of the image that is shown. */
+function showSpeed(): void {
+  const texts = timeline?.speed?.text ?? [];
+  byId("speed-key").hidden = texts.length === 0;
+  distances.setSpeed(texts[isLive() ? texts.length - 1 : (shown?.step ?? 0)] ?? "");
 }
 
 function trouble(text: string): void {
@@ -267,7 +288,15 @@ const questions: [string, string, () => void][] = [
 ];
 
 byId("questions").append(...questions.map(([textContent, title, onclick]) => make("button", { textContent, title, onclick })));
+byId("questions").lastElementChild!.id = "question-hidden";
 makeLayers();
+byId("speed-key").append(
+  ...([["slower", slowColor], ["stop", stopColor]] as const).map(([text, color]) => {
+    const key = make("i", { className: "key" });
+    key.style.background = cssOf(color);
+    return make("span", {}, [key, text]);
+  }),
+);
 setLayers({});
 showPanel(0);
 byId("play").onclick = () => play(!isPlaying);

@@ -143,6 +143,8 @@ export interface Timeline {
     status: string[][];
     is_doubtful: boolean[][];
   };
+  /** Where a separation monitor watches, of each step. */
+  speed: { scale: number[]; text: string[] } | null;
 }
 
 interface Spread {

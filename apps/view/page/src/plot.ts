@@ -1,6 +1,6 @@
 // Distances over time. A click goes to an image.
 import uPlot from "uplot";
-import { cssOf, type Rgb } from "./colors";
+import { cssOf, slowColor, stopColor, type Rgb } from "./colors";
 import type { Scene, Timeline } from "./messages";
 
 const warnColor: Rgb = [0xd9, 0x50, 0x00];
@@ -110,7 +110,7 @@ export class Plot {
     });
   }
 
-  /** The image that is shown, and where some link that moves has no distance that holds. */
+  /** The image that is shown, how fast the robot may go, and where some link that moves has no distance that holds. */
   private drawMarks(plot: uPlot): void {
     const { ctx, bbox } = plot;
     ctx.save();
@@ -122,6 +122,12 @@ export class Plot {
       if (rows.every(({ row }) => ["ok", "none_in_range"].includes(status[row][i]))) continue;
       ctx.fillRect(x(i) - 2, bbox.top + bbox.height - 7, 4, 7);
     }
+    this.timeline?.speed?.scale.forEach((scale, i) => {
+      if (scale >= 1) return;
+      ctx.fillStyle = cssOf(scale > 0 ? slowColor : stopColor);
+      const end = i + 1 < this.times.length ? x(i + 1) : x(i) + 2;
+      ctx.fillRect(x(i), bbox.top, Math.max(2, end - x(i)), 7);
+    });
     ctx.fillStyle = getComputedStyle(document.body).getPropertyValue("--ink");
     if (this.step >= 0 && this.step < this.times.length) ctx.fillRect(x(this.step) - 1, bbox.top, 2, bbox.height);
     ctx.restore();
