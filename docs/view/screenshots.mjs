@@ -1,7 +1,5 @@
 // Makes the pictures of docs/view.md: ctest's Page tests say which variables it needs.
 //     BERTH=build/release/berth BERTH_PAGE_WORK=build/release/apps/view/page CHROMIUM=/usr/bin/chromium node docs/view/screenshots.mjs
-import { spawnSync } from "node:child_process";
-import { readdirSync } from "node:fs";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { openPage, startBerth, startBrowser, temporaryFolder, until } from "../../tests/view/page/browser.mjs";
@@ -47,9 +45,5 @@ await shoot("pose", [
 ], { end: (page) => page.locator("#reset").dispatchEvent("click") });
 await shoot("tablet", [], { viewport: { width: 820, height: 1180 }, colorScheme: "dark" });
 await browser.close();
-// A quarter of the bytes.
-const names = readdirSync(here).filter((name) => name.endsWith(".png")).map((name) => join(here, name));
-const smaller = "import sys\nfrom PIL import Image\nfor name in sys.argv[1:]: Image.open(name).convert('RGB').quantize(256, method=0).save(name, optimize=True)";
-spawnSync("/usr/bin/python3", ["-c", smaller, ...names], { stdio: "inherit" });
 await berth.end();
 place.remove();
