@@ -58,6 +58,7 @@ set(BERTH_PUBLIC_HEADERS
   berth/opengl/gl_observer.hpp
   berth/opengl/gl_robot_renderer.hpp
   berth/opengl/gl_self_filter.hpp
+  berth/scene/answer_result.hpp
   berth/scene/backend.hpp
   berth/scene/calibrate_scene.hpp
   berth/scene/calibration_json.hpp
@@ -69,6 +70,7 @@ set(BERTH_PUBLIC_HEADERS
   berth/scene/result_table.hpp
   berth/scene/scene_file.hpp
   berth/scene/scene_run.hpp
+  berth/scene/separation_text.hpp
   berth/scene/teach_background.hpp)
 
 cmake_policy(VERSION 3.22)  # also where an install script includes this file

@@ -18,7 +18,7 @@ struct AnswerContext {
   /// LiveAsker's, of the same question.
   const std::vector<berth::CameraState>& cameras;
   const berth::LiveFrames& frames;
-  const StampClock& clock;
+  StampClock& clock;
   /// The time of the question.
   rclcpp::Time now;
 };

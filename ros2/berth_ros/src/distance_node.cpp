@@ -185,7 +185,7 @@ class DistanceNode : public LiveNode {
     markers_->publish(array);
   }
 
-  AnswerContext context(const berth::LiveAsker& asker, const rclcpp::Time& now) const {
+  AnswerContext context(const berth::LiveAsker& asker, const rclcpp::Time& now) {
     return {*robot_.robot, camera_names(), asker.cameras(), asker.frames(), clock_, now};
   }
 

@@ -53,7 +53,8 @@ void PlannedVelocity::take(const sensor_msgs::msg::JointState& message,
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const auto found = std::find(message.name.begin(), message.name.end(), model.joints[i].name);
     const std::size_t at = found - message.name.begin();
-    if (at < message.velocity.size()) velocity_[i] = message.velocity[at];
+    const bool is_there = found != message.name.end() && at < message.velocity.size();
+    if (is_there) velocity_[i] = message.velocity[at];
   }
 }
 

@@ -21,6 +21,8 @@ from std_msgs.msg import Float64
 SCENE = os.path.join(get_package_share_directory("berth_ros"), "bundled", "scene.yaml")
 # Within it an answer depends on the one before, and a busy computer may drop an image.
 TOLERANCE_M = 2e-6
+# Nearer than this two things touch: a distance is the root of a square that single precision rounds.
+TOUCHING_M = 1e-4
 STATUS = {"ok": 0, "none_in_range": 1, "not_visible": 2, "cut_short": 3, "untimely": 4, "not_seen": 5}
 
 
@@ -90,7 +92,8 @@ class Demo(unittest.TestCase):
                 if expected["distance_m"] is None:
                     self.assertTrue(math.isnan(link.distance_m))
                     continue
-                worst = max(worst, abs(link.distance_m - expected["distance_m"]))
+                if max(link.distance_m, expected["distance_m"]) > TOUCHING_M:
+                    worst = max(worst, abs(link.distance_m - expected["distance_m"]))
         print(f"{compared} of {len(self.expected)} lines, greatest difference {worst:.2g} m")
         self.assertGreater(compared, 0.3 * len(self.expected))
         self.assertLess(worst, 1e-5)
