@@ -10,7 +10,7 @@ namespace berth::lab {
 namespace {
 
 /// As for one camera.
-constexpr std::size_t kLeafPoints = 32;
+constexpr std::size_t kCamerasLeafPoints = 32;
 constexpr float kSampleStep_m = 0.005f;
 
 /// Points as nanoflann wants to see them.
@@ -91,7 +91,7 @@ class CamerasNanoflann : public CamerasPeer {
   std::vector<std::vector<Eigen::Vector3f>> samples_L_m_;
   CamerasCloud cloud_;
   nanoflann::KDTreeSingleIndexAdaptor<Metric, CamerasCloud, 3> tree_{
-      3, cloud_, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafPoints)};
+      3, cloud_, nanoflann::KDTreeSingleIndexAdaptorParams(kCamerasLeafPoints)};
 };
 
 }  // namespace

@@ -16,7 +16,7 @@
 namespace berth::lab {
 namespace {
 
-const std::vector<std::string> kColumns = {
+const std::vector<std::string> kCompareColumns = {
     "median ms",   "p99 ms",          "max ms",      "build ms",   "speed-up",    "memory MB",
     "known to mm", "error median mm", "too near mm", "too far mm", "links missed"};
 
@@ -93,7 +93,7 @@ Table::Row reader_row(const Peer& reader, const Record& record, double bytes) {
   Table::Row row{reader.name(), {}, ""};
   row.values = {median_ms, percentile(record.total_ms, 0.99), percentile(record.total_ms, 1),
                 median(record.build_ms)};
-  row.values.resize(kColumns.size());
+  row.values.resize(kCompareColumns.size());
   row.remark = fmt::format("{:.1f} MB at {:.0f} GB/s", bytes / 1e6, bytes / 1e6 / median_ms);
   return row;
 }
@@ -135,7 +135,7 @@ Table compare_peers(const SceneSet& scenes, const RunLimits& limits,
     progress.step();
   }
 
-  Table table{scenes.title, scenes.note, "method", kColumns, {}};
+  Table table{scenes.title, scenes.note, "method", kCompareColumns, {}};
   table.rows.push_back(reader_row(*reader, read, bytes));
   for (std::size_t p = 0; p < peers.size(); ++p) {
     table.rows.push_back(row_of(*peers[p], records[p], truth));

@@ -13,17 +13,17 @@
 namespace berth::lab {
 namespace {
 
-const std::vector<std::string> kColumns = {"median ms",
-                                           "95 % ms",
-                                           "max ms",
-                                           "x exact",
-                                           "build ms",
-                                           "from readings, median mm",
-                                           "too near mm",
-                                           "too far mm",
-                                           "beyond both, median mm",
-                                           "beyond both, max mm",
-                                           "links missed"};
+const std::vector<std::string> kWholeRobotColumns = {"median ms",
+                                                     "95 % ms",
+                                                     "max ms",
+                                                     "x exact",
+                                                     "build ms",
+                                                     "from readings, median mm",
+                                                     "too near mm",
+                                                     "too far mm",
+                                                     "beyond both, median mm",
+                                                     "beyond both, max mm",
+                                                     "links missed"};
 
 /// What one method did on all scenes so far.
 struct CamerasRecord {
@@ -76,7 +76,7 @@ Table::Row row_of(const std::string& name, const CamerasRecord& record, double e
         {median(record.error_mm), record.too_near_mm, record.too_far_mm,
          median(record.beyond_both_mm), percentile(record.beyond_both_mm, 1), record.links_missed});
   }
-  row.values.resize(kColumns.size());
+  row.values.resize(kWholeRobotColumns.size());
   return row;
 }
 
@@ -154,7 +154,7 @@ Table compare_whole_robot(const std::filesystem::path& scene_file, int scenes) {
                       "each set of frames costs. Errors are against mesh: of the distance to "
                       "readings, and how far beyond the distance to what is seen or hidden.",
                       scenes),
-          "method", kColumns, comparison.rows()};
+          "method", kWholeRobotColumns, comparison.rows()};
 }
 
 }  // namespace berth::lab

@@ -18,7 +18,7 @@ namespace berth::lab {
 namespace {
 
 /// Of each edge: 112 000 triangles of the bundled robot.
-constexpr int kParts = 5;
+constexpr int kCoarseParts = 5;
 
 /// Of the lattices' obstacle pixels, in x and y.
 constexpr int kLatticeStep = 8;
@@ -161,8 +161,9 @@ Table measure(const std::string& title, const Recording& recording,
                   "directions, lattices with steps of {} px, by the clock on the wall. "
                   "Upload, render and self filter each until the GPU has done them; the "
                   "rows below those begin with images on the GPU, but for the last three.",
-                  view->camera().width_px, view->camera().height_px, triangle_count(view->robot()->model()),
-                  view->robot()->model().link_count(), frames, rounds + 1, kLatticeStep),
+                  view->camera().width_px, view->camera().height_px,
+                  triangle_count(view->robot()->model()), view->robot()->model().link_count(),
+                  frames, rounds + 1, kLatticeStep),
       stages.all());
 }
 
@@ -177,7 +178,7 @@ Table measure_gl_stages_of_100_000(const std::filesystem::path& scene_file, int 
   const auto recording = open_recording(scene_file, "bundled");
   const OpenCamera& camera = recording->camera();
   const auto robot = std::make_shared<const Robot>(
-      coarse_robot(read_scene(scene_file).robot, kParts), camera.view->robot()->settings());
+      coarse_robot(read_scene(scene_file).robot, kCoarseParts), camera.view->robot()->settings());
   const auto view =
       std::make_shared<const View>(robot, camera.view->mount(), camera.view->settings());
   return measure("Stages on OpenGL, 100 000 triangles", *recording, view, 1, rounds);

@@ -11,8 +11,8 @@
 namespace berth::lab {
 namespace {
 
-const std::vector<std::string> kColumns = {"pixels", "robot pixels", "median ms", "max ms",
-                                           "build ms"};
+const std::vector<std::string> kGrowthColumns = {"pixels", "robot pixels", "median ms", "max ms",
+                                                 "build ms"};
 
 struct Size {
   int width;
@@ -57,7 +57,7 @@ Table measure_growth_of_image(int scenes, const RunLimits& limits) {
       "Growth with the image",
       fmt::format("berth exact, one thread, {} random scenes of each size, 8 links.", scenes),
       "image",
-      kColumns,
+      kGrowthColumns,
       {}};
   app::ProgressBar progress(table.title, std::size(kSizes));
   for (const Size& size : kSizes) {
@@ -73,7 +73,7 @@ Table measure_growth_of_links(int scenes, const RunLimits& limits) {
   Table table{"Growth with the links",
               fmt::format("berth exact, one thread, {} random scenes each, 640 x 480.", scenes),
               "links",
-              kColumns,
+              kGrowthColumns,
               {}};
   app::ProgressBar progress(table.title, std::size(kLinks));
   for (const int links : kLinks) {

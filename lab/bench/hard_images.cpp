@@ -11,7 +11,7 @@ using testing::empty_images;
 using testing::ImagePair;
 using testing::random_images;
 
-constexpr int kLinks = 8;
+constexpr int kHardLinks = 8;
 
 /// The direction (x, y, 1) through a pixel's centre.
 struct Ray {
@@ -32,9 +32,9 @@ void for_each_pixel(const ImagePair& images, Draw draw) {
 
 /// The links stand side by side as columns from u_begin on, width_px for all.
 void put_robot(ImagePair& images, int u, int v, double depth_m, double u_begin, double width_px) {
-  const int column = static_cast<int>((u - u_begin) / width_px * kLinks);
+  const int column = static_cast<int>((u - u_begin) / width_px * kHardLinks);
   images.robot.depth_m(u, v) = static_cast<float>(depth_m);
-  images.robot.link_id(u, v) = static_cast<LinkId>(1 + std::clamp(column, 0, kLinks - 1));
+  images.robot.link_id(u, v) = static_cast<LinkId>(1 + std::clamp(column, 0, kHardLinks - 1));
 }
 
 /// Depth of a sphere around (0, 0, centre_m), near (-1) or far (+1) side; NaN beside it.
@@ -48,7 +48,7 @@ ImagePair sphere_images(double gap_m, int side, int width, int height) {
   constexpr double kCentre_m = 1.5;
   // Its outline holds about 8 % of the image's pixels.
   constexpr double kRadius_m = 0.227;
-  ImagePair images = empty_images(width, height, kLinks);
+  ImagePair images = empty_images(width, height, kHardLinks);
   const double radius_px = images.camera.fx_px * kRadius_m / kCentre_m;
   for_each_pixel(images, [&](int u, int v) {
     const Ray ray = ray_through(images.camera, u, v);
@@ -64,8 +64,8 @@ ImagePair sphere_images(double gap_m, int side, int width, int height) {
 }  // namespace
 
 ImagePair contact_images(std::uint32_t seed, int width, int height) {
-  ImagePair images = random_images(seed, width, height, kLinks);
-  std::array<bool, kLinks + 1> touched{};
+  ImagePair images = random_images(seed, width, height, kHardLinks);
+  std::array<bool, kHardLinks + 1> touched{};
   touched[kNoLink] = true;
   for_each_pixel(images, [&](int u, int v) {
     const LinkId id = images.robot.link_id(u, v);
@@ -77,7 +77,7 @@ ImagePair contact_images(std::uint32_t seed, int width, int height) {
 }
 
 ImagePair noise_images(std::uint32_t seed, int width, int height) {
-  ImagePair images = random_images(seed, width, height, kLinks);
+  ImagePair images = random_images(seed, width, height, kHardLinks);
   std::mt19937 engine(seed);
   for (float& depth_m : images.obstacle_depth_m.pixels()) {
     depth_m = 0.4f + 2.6f * static_cast<float>(engine()) / 4294967296.0f;
@@ -89,7 +89,7 @@ ImagePair noise_images(std::uint32_t seed, int width, int height) {
 }
 
 ImagePair checkerboard_images(int cell_px, int width, int height) {
-  ImagePair images = empty_images(width, height, kLinks);
+  ImagePair images = empty_images(width, height, kHardLinks);
   const int u_begin = 3 * width / 10;
   const int u_end = 7 * width / 10;
   for_each_pixel(images, [&](int u, int v) {
@@ -106,7 +106,7 @@ ImagePair checkerboard_images(int cell_px, int width, int height) {
 ImagePair plate_images(double tilt_rad, int width, int height) {
   constexpr double kPlate_m = 1.2;
   constexpr double kGap_m = 0.3;
-  ImagePair images = empty_images(width, height, kLinks);
+  ImagePair images = empty_images(width, height, kHardLinks);
   const double u_begin = 0.36 * width;
   const double u_end = 0.64 * width;
   for_each_pixel(images, [&](int u, int v) {

@@ -10,7 +10,7 @@ namespace berth::lab {
 namespace {
 
 /// The fastest of those tried: 15 (PCL's), 64, 128.
-constexpr int kLeafPoints = 64;
+constexpr int kFlannLeafPoints = 64;
 
 class FlannResult : public flann::ResultSet<float> {
  public:
@@ -34,7 +34,7 @@ class FlannPeer : public Peer {
     tree_.reset();
     if (points_C_m_.empty()) return;
     const flann::Matrix<float> points(points_C_m_[0].data(), points_C_m_.size(), 3);
-    tree_.emplace(points, flann::KDTreeSingleIndexParams(kLeafPoints));
+    tree_.emplace(points, flann::KDTreeSingleIndexParams(kFlannLeafPoints));
     tree_->buildIndex();
   }
 
