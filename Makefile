@@ -25,13 +25,13 @@ view:
 	cmake --build --preset release --target berth berth_page
 	build/release/berth demo --view
 
-# JOIN=ON compiles the sources of each folder and of each program as one: half the time from scratch, more after a change.
-JOIN ?= OFF
+# All tests. Those that hold the clock against a limit run apart, one after the other: what runs beside them would fail them.
 test: build
-	ctest --preset release -j2
+	ctest --preset release -LE timing -j2
+	ctest --preset release -L timing -j1
 
 build: setup
-	cmake --preset release -DBERTH_JOIN_SOURCES=$(JOIN)
+	cmake --preset release
 	cmake --build --preset release
 
 # BERTH_DATA: a folder with recordings to measure as well, here and below. BENCH_OPTIONS: of berth_bench, such as --quick.
@@ -49,7 +49,7 @@ lab:
 	$(product)
 	cmake -B build/release -DBERTH_OPENGL=ON -DBERTH_BUILD_LAB=ON
 
-# STUDY_OPTIONS: of berth_study, such as --quick. A study that was stopped goes on.
+# Writes build/study/index.html. STUDY_OPTIONS: of berth_study, such as --quick. A study that was stopped goes on.
 study: lab
 	cmake --build --preset release --target berth_study
 	build/release/lab/berth_study --out build/study $(if $(BERTH_DATA),$(recordings)) $(STUDY_OPTIONS)
@@ -83,7 +83,7 @@ sanitize-%: setup
 sanitize-thinned: thinned-asan thinned-tsan
 # thinned-scalar: vector code for one lane through its own tests.
 thinned-%: setup
-	cmake --preset $* -DBERTH_JOIN_SOURCES=$(JOIN)
+	cmake --preset $*
 	cmake --build --preset $* --target $*_thinned
 	ctest --preset $* -j2 --label-regex $* --no-tests=error
 
@@ -92,15 +92,17 @@ FUZZ_SECONDS ?= 300
 fuzz:
 	scripts/fuzz.sh "$(FUZZ_SECONDS)"
 
-# What `make test` shows thinned, in full. TRUST_OPTIONS: of berth_trust, such as --scenes 20.
+# What `make test` shows thinned, in full; all tables land in build/trust/. TRUST_OPTIONS: of berth_trust, such as --scenes 20.
+trust_table = mkdir -p build/trust && build/release/lab/berth_trust $(if $(BERTH_DATA),--robots $(BERTH_DATA)/robots) $(2) $(TRUST_OPTIONS) \
+  >build/trust/$(1).md && cat build/trust/$(1).md
 trust: trust-distances trust-real-images trust-long-runs trust-whole-robot
 berth_trust: lab
 	cmake --build --preset release --target berth_trust
 trust-distances: berth_trust
-	build/release/lab/berth_trust $(if $(BERTH_DATA),--robots $(BERTH_DATA)/robots) $(TRUST_OPTIONS)
+	$(call trust_table,distances)
 trust-real-images: berth_trust
 ifneq ($(BERTH_DATA),)
-	build/release/lab/berth_trust --robots $(BERTH_DATA)/robots --real-images $(BERTH_DATA)/depth $(TRUST_OPTIONS)
+	$(call trust_table,real_images,--real-images $(BERTH_DATA)/depth)
 else
 	@echo "trust-real-images: skipped; BERTH_DATA=FOLDER names the folder with robots/ and depth/"
 endif
@@ -112,7 +114,7 @@ trust-whole-robot: setup
 	cmake --preset release
 	cmake --build --preset release --target berth_trust mesh_distances_test
 	BERTH_MESH_TWIN=full build/release/tests/truth/mesh_distances_test
-	build/release/lab/berth_trust --whole-robot $(if $(BERTH_DATA),--robots $(BERTH_DATA)/robots) $(TRUST_OPTIONS)
+	$(call trust_table,whole_robot,--whole-robot)
 
 # Adds the Python module to what build/release has: build/release/python/berth.
 python:

@@ -1,13 +1,47 @@
-# berth_compile_options(<target>): what all of berth is compiled with. Comes after the target's sources.
-function(berth_compile_options target)
-  target_compile_features(${target} PUBLIC cxx_std_20)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor
-                         $<$<BOOL:${BERTH_WARNINGS_AS_ERRORS}>:-Werror>)
+# berth_precompiled_headers(<name> <header>...): what many sources include, read once for all of them, with what nearly all
+# include. It changes no source's meaning: each compiles without it, as the preset `dev` shows. Vector code never has it: there
+# GCC 12 took a * b + c for one operation and ended a search in a crash.
+function(berth_precompiled_headers name)
+  add_library(${name} OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp)
+  target_compile_features(${name} PRIVATE cxx_std_20)
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  target_link_libraries(${name} PRIVATE Eigen3::Eigen fmt::fmt)
+  berth_sanitize(${name})
+  target_precompile_headers(${name} PRIVATE
+    <Eigen/Geometry> <fmt/format.h> <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <limits> <map> <memory>
+    <optional> <span> <stdexcept> <string> <string_view> <utility> <vector> ${ARGN})
+endfunction()
+
+# berth_sanitize(<target>)
+function(berth_sanitize target)
   if(BERTH_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${BERTH_SANITIZE} -fno-omit-frame-pointer)
     target_link_options(${target} PUBLIC -fsanitize=${BERTH_SANITIZE})
   endif()
-  berth_join_sources(${target})
+endfunction()
+
+# berth_compile_options(<target> [<name>]): what all of berth is compiled with; the name is of precompiled headers, in place of
+# `berth_precompiled`, or NONE.
+function(berth_compile_options target)
+  set(precompiled berth_precompiled ${ARGN})
+  list(GET precompiled -1 precompiled)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor
+                         $<$<BOOL:${BERTH_WARNINGS_AS_ERRORS}>:-Werror>)
+  berth_sanitize(${target})
+  if(NOT precompiled STREQUAL "NONE")
+    target_precompile_headers(${target} REUSE_FROM ${precompiled})
+    # As their owner has it: the definitions, and code for any address, in a program as well. -fpch-preprocess is for ccache.
+    target_compile_options(${target} PRIVATE -fPIC $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+    target_compile_definitions(${target} PRIVATE $<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>)
+    get_target_property(sources ${target} SOURCES)
+    foreach(source IN LISTS sources)
+      file(STRINGS ${source} vectors REGEX "hwy/" LIMIT_COUNT 1)
+      if(vectors)
+        set_source_files_properties(${source} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+      endif()
+    endforeach()
+  endif()
 endfunction()
 
 # berth_cold_code(<target>): arguments, text and pages, which nobody waits for. Compiles in two thirds of the time.
@@ -15,29 +49,15 @@ function(berth_cold_code target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
-# berth_join_sources(<target>): with BERTH_JOIN_SOURCES its sources are compiled as one, which reads their headers once. Those
-# that compile themselves once for each instruction set stay alone, unless there is one instruction set.
-function(berth_join_sources target)
-  if(NOT BERTH_JOIN_SOURCES)
-    return()
-  endif()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
-  # Of what a source keeps to itself, as if its neighbours and a header's readers saw it.
-  target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
-  get_target_property(sources ${target} SOURCES)
-  foreach(source IN LISTS sources)
-    file(STRINGS ${source} repeated REGEX "hwy/foreach_target.h" LIMIT_COUNT 1)
-    if(repeated AND NOT BERTH_SCALAR)
-      set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-    endif()
-  endforeach()
-endfunction()
+berth_precompiled_headers(berth_precompiled)
+# For those who open scenes and tell of them.
+berth_precompiled_headers(berth_precompiled_scene <berth/scene/scene_run.hpp>)
 
-# berth_library(<folder> SOURCES ... DEPENDS ... USES ... [COMPONENT opengl]): one target for each folder of src/berth.
+# berth_library(<folder> SOURCES ... DEPENDS ... USES ... [COMPONENT opengl] [PRECOMPILED ...]): one target for each folder of src/berth.
 # DEPENDS are libraries that its headers need, USES are those that only its sources need. COMPONENT: users get it only where
 # they ask find_package for it.
 function(berth_library folder)
-  cmake_parse_arguments(ARG "" "COMPONENT" "SOURCES;DEPENDS;USES" ${ARGN})
+  cmake_parse_arguments(ARG "" "COMPONENT;PRECOMPILED" "SOURCES;DEPENDS;USES" ${ARGN})
   add_library(berth_${folder} ${ARG_SOURCES})
   add_library(berth::${folder} ALIAS berth_${folder})
   set_target_properties(berth_${folder} PROPERTIES EXPORT_NAME ${folder} VERSION ${PROJECT_VERSION}
@@ -45,7 +65,7 @@ function(berth_library folder)
   target_include_directories(berth_${folder} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(berth_${folder} PUBLIC ${ARG_DEPENDS} PRIVATE ${ARG_USES})
-  berth_compile_options(berth_${folder})
+  berth_compile_options(berth_${folder} ${ARG_PRECOMPILED})
   if(BUILD_SHARED_LIBS)
     # By the linker, so that objects are the same for both kinds of library. Installed, the libraries lie in one folder.
     set(map ${PROJECT_SOURCE_DIR}/cmake/exported_symbols.map)
@@ -58,19 +78,21 @@ function(berth_library folder)
   set_property(GLOBAL APPEND PROPERTY BERTH_LIBRARIES_OF_${ARG_COMPONENT} berth_${folder})
 endfunction()
 
-# berth_program(<name> SOURCES ... DEPENDS ...)
+# berth_program(<name> SOURCES ... DEPENDS ... [PRECOMPILED ...])
 function(berth_program name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "" "PRECOMPILED" "SOURCES;DEPENDS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_DEPENDS})
-  berth_compile_options(${name})
+  berth_compile_options(${name} ${ARG_PRECOMPILED})
 endfunction()
 
-# berth_test(<name> SOURCES ... DEPENDS ... SANITIZE ...): a GoogleTest program, each of its tests one line of ctest.
-# SANITIZE: the presets (asan, tsan, scalar) whose thinned run has it: the target asan_thinned and so on, the label in ctest.
+# berth_test(<name> SOURCES ... DEPENDS ... SANITIZE ... [TIMING] [COST ...]): a GoogleTest program, each of its tests one line of
+# ctest. SANITIZE: the presets (asan, tsan, scalar) whose thinned run has it: the target asan_thinned and so on, the label in
+# ctest. TIMING: its tests hold the clock against a limit, and run apart, with the label `timing`. COST: about how many seconds
+# its longest test takes, where that is many; ctest begins with these.
 function(berth_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;SANITIZE" ${ARGN})
-  berth_program(${name} SOURCES ${ARG_SOURCES} DEPENDS ${ARG_DEPENDS} GTest::gtest_main)
+  cmake_parse_arguments(ARG "TIMING" "COST" "SOURCES;DEPENDS;SANITIZE" ${ARGN})
+  berth_program(${name} SOURCES ${ARG_SOURCES} DEPENDS ${ARG_DEPENDS} GTest::gtest_main PRECOMPILED berth_precompiled_tests)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   foreach(preset ${ARG_SANITIZE})
     if(NOT TARGET ${preset}_thinned)
@@ -78,8 +100,15 @@ function(berth_test name)
     endif()
     add_dependencies(${preset}_thinned ${name})
   endforeach()
-  list(JOIN ARG_SANITIZE _ label)  # one word, because gtest_discover_tests takes no list
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS "${label}")
+  set(labels ${ARG_SANITIZE})
+  if(ARG_TIMING)
+    list(APPEND labels timing)
+  endif()
+  if(NOT ARG_COST)
+    set(ARG_COST 0)
+  endif()
+  list(JOIN labels _ label)  # one word, because gtest_discover_tests takes no list
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 COST ${ARG_COST} LABELS "${label}")
 endfunction()
 
 # berth_vector_code(<folder>): its sources compile parts of themselves once for each instruction set (Highway). Without
@@ -87,6 +116,7 @@ endfunction()
 # a struct; such machines use NEON. Processors with SSSE3 and without SSE4 (2006, 2007) use one lane: a tenth of the time to compile.
 function(berth_vector_code folder)
   target_link_libraries(berth_${folder} PRIVATE berth::vector)
+  set_target_properties(berth_${folder} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)
   target_compile_options(berth_${folder} PRIVATE -ffp-contract=off)
   target_compile_definitions(berth_${folder} PRIVATE
     "HWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128|HWY_RVV|HWY_SSSE3)"

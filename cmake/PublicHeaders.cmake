@@ -6,72 +6,38 @@ set(BERTH_PUBLIC_HEADERS
   berth/types/camera_status.hpp
   berth/types/image.hpp
   berth/types/joint_state.hpp
-  berth/types/link_distance.hpp
-  berth/types/link_visibility.hpp
-  berth/types/obstacle_image.hpp
-  berth/types/robot_image.hpp
   berth/types/setting.hpp
-  berth/types/space_pair.hpp
-  berth/types/time_status.hpp
-  berth/types/whole_link_distance.hpp
   berth/files/camera_info.hpp
   berth/files/joints_csv.hpp
-  berth/files/png.hpp
   berth/robot/joint_buffer.hpp
   berth/robot/joint_trajectory.hpp
   berth/robot/kinematics.hpp
   berth/robot/robot_model.hpp
-  berth/robot/robot_region.hpp
-  berth/render/robot_renderer.hpp
-  berth/self_filter/self_filter.hpp
-  berth/self_filter/settings.hpp
-  berth/sensor/sensor_rules.hpp
-  berth/sensor/settings.hpp
-  berth/distance/evaluate.hpp
-  berth/distance/settings.hpp
-  berth/distance/mesh/settings.hpp
-  berth/visibility/doubtful.hpp
-  berth/visibility/visibility.hpp
-  berth/calibration/calibrate.hpp
-  berth/calibration/filter_settings.hpp
-  berth/calibration/pose_watch.hpp
-  berth/pipeline/answer.hpp
-  berth/pipeline/asker.hpp
+  berth/pipeline/camera_state.hpp
   berth/pipeline/frame.hpp
-  berth/pipeline/frame_set.hpp
+  berth/pipeline/frame_pool.hpp
   berth/pipeline/observer.hpp
+  berth/pipeline/query.hpp
+  berth/pipeline/request.hpp
+  berth/pipeline/result.hpp
   berth/pipeline/robot.hpp
-  berth/pipeline/trajectory.hpp
-  berth/pipeline/view.hpp
+  berth/pipeline/mounted_camera.hpp
   berth/live/joint_intake.hpp
-  berth/live/live_asker.hpp
   berth/live/live_camera.hpp
   berth/live/raw_depth.hpp
   berth/separation/evasion.hpp
   berth/separation/monitor.hpp
-  berth/separation/separation.hpp
   berth/separation/settings.hpp
-  berth/opengl/gl_asker.hpp
-  berth/opengl/gl_context.hpp
-  berth/opengl/gl_evaluate.hpp
-  berth/opengl/gl_frame.hpp
-  berth/opengl/gl_observer.hpp
-  berth/opengl/gl_robot_renderer.hpp
-  berth/opengl/gl_self_filter.hpp
-  berth/scene/answer_result.hpp
-  berth/scene/backend.hpp
-  berth/scene/calibrate_scene.hpp
-  berth/scene/calibration_json.hpp
-  berth/scene/calibration_table.hpp
-  berth/scene/frame_result.hpp
+  berth/image_distance/image_query.hpp
+  berth/image_distance/opengl/gl_context.hpp
+  berth/image_distance/opengl/gl_image_query.hpp
+  berth/image_distance/opengl/gl_observer.hpp
+  berth/results/result_json.hpp
+  berth/results/result_text.hpp
   berth/scene/open_scene.hpp
   berth/scene/plausibility.hpp
-  berth/scene/result_json.hpp
-  berth/scene/result_table.hpp
   berth/scene/scene_file.hpp
-  berth/scene/scene_run.hpp
-  berth/scene/separation_text.hpp
-  berth/scene/teach_background.hpp)
+  berth/scene/scene_run.hpp)
 
 cmake_policy(VERSION 3.22)  # also where an install script includes this file
 

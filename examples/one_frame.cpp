@@ -2,8 +2,8 @@
 // Usage: one_frame robot.urdf
 #include <cstdio>
 
-#include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/observer.hpp"
+#include "berth/pipeline/query.hpp"
 
 int main(int argc, char** argv) {
   if (argc != 2) return std::fprintf(stderr, "usage: one_frame robot.urdf\n"), 2;
@@ -15,9 +15,8 @@ int main(int argc, char** argv) {
   // The camera stands 2 m before the robot, 0.5 m high, and looks back at it: z forward, x right, y down.
   mount.X_PC.linear() << 0, 0, -1, 1, 0, 0, 0, -1, 0;
   mount.X_PC.translation() << 2, 0, 0.5;
-  berth::ViewSettings settings;
-  settings.watch.min_at_robot = 0;  // a made-up image shows no robot, which would make it implausible
-  const auto view = std::make_shared<const berth::View>(robot, mount, settings);
+  // A real camera has berth::settings_of_real_camera(): an image that does not show the robot is not used then.
+  const auto view = std::make_shared<const berth::MountedCamera>(robot, mount);
 
   // What the driver of a real camera gives: metres, NaN where there is no reading. Here it is a wall.
   const berth::DepthImage depth_m(640, 480, 2.6F);
@@ -25,9 +24,8 @@ int main(int argc, char** argv) {
 
   berth::Frame frame;
   berth::Observer(view).observe(depth_m, at_exposure, frame);
-  berth::Asker asker(robot);
-  for (const berth::LinkDistance& link : asker.ask(frame).distances.links) {
-    if (link.status != berth::LinkStatus::ok) continue;
-    std::printf("%s: %.3f m\n", robot->model().evaluated_link_names()[link.id - 1].c_str(), link.distance_m);
+  berth::Query query(robot);
+  for (const berth::LinkResult& link : query.ask({.frames = frame}).links) {
+    if (link.has_distance()) std::printf("%s: %.3f m\n", link.link.c_str(), link.distance_m);
   }
 }

@@ -7,8 +7,8 @@
 #include <mutex>
 #include <thread>
 
-#include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/observer.hpp"
+#include "berth/pipeline/query.hpp"
 
 namespace {
 
@@ -20,7 +20,7 @@ double now_s() {
 void sleep_ms(int ms) { std::this_thread::sleep_for(std::chrono::milliseconds(ms)); }
 
 /// The newest frame. It is swapped as a whole: who asks the one before keeps it alive until the
-/// answer is there. GCC 12's std::atomic<std::shared_ptr> has a race between reading and swapping.
+/// result is there. GCC 12's std::atomic<std::shared_ptr> has a race between reading and swapping.
 class LatestFrame {
  public:
   void set(std::shared_ptr<const berth::Frame> frame) {
@@ -42,16 +42,16 @@ class LatestFrame {
 int main(int argc, char** argv) {
   if (argc != 2) return std::fprintf(stderr, "usage: two_clocks robot.urdf\n"), 2;
   berth::EvaluationSettings evaluation;
-  evaluation.time.max_joints_age_s = 0.1;  // this is no real-time system
+  evaluation.time.max_frame_age_s = 1;  // this is no real-time system
+  evaluation.time.max_joints_age_s = 0.1;
   const auto robot =
       std::make_shared<const berth::Robot>(berth::load_robot({.urdf = argv[1]}), evaluation);
   const berth::RobotModel& model = robot->model();
   berth::CameraMount mount{{640, 480, 525, 525, 319.5, 239.5}, model.links.front().name};
   mount.X_PC.linear() << 0, 0, -1, 1, 0, 0, 0, -1, 0;
   mount.X_PC.translation() << 2, 0, 0.5;
-  berth::ViewSettings settings;
-  settings.watch.min_at_robot = 0;  // a made-up image shows no robot, which would make it implausible
-  const auto view = std::make_shared<const berth::View>(robot, mount, settings);
+  // A real camera has berth::settings_of_real_camera(): an image that does not show the robot is not used then.
+  const auto view = std::make_shared<const berth::MountedCamera>(robot, mount);
   berth::JointBuffer joints(model, 500);
 
   LatestFrame latest;
@@ -71,16 +71,16 @@ int main(int argc, char** argv) {
       latest.set(std::move(frame));
     }
   });
-  berth::Asker asker(robot);
+  berth::Query query(robot);
   while (!latest.get()) sleep_ms(1);
   for (int i = 0; i < 100; ++i, sleep_ms(1)) {
     const std::shared_ptr<const berth::Frame> frame = latest.get();
-    const berth::Answer& answer = asker.ask(*frame, joints, now_s());
-    if (answer.time.status != berth::TimeStatus::ok) continue;  // a controller would slow down
+    const berth::Result& result = query.ask({.frames = *frame, .joints = joints, .now_s = now_s()});
+    if (result.status == berth::ResultStatus::stale) continue;  // a controller would slow down
     if (i % 20 == 0) {
       std::printf("image %.0f ms old, joints %.1f ms old, last link: %.3f m\n",
-                  1e3 * answer.time.frame_age_s, 1e3 * answer.time.joints_age_s,
-                  answer.distances.links.back().distance_m);
+                  1e3 * result.time.frame_age_s, 1e3 * result.time.joints_age_s,
+                  result.links.back().distance_m);
     }
   }
   stop = true;

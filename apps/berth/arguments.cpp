@@ -1,5 +1,6 @@
 #include "apps/berth/arguments.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -118,16 +119,18 @@ void add_setting(CLI::App& command, const Setting& setting, const auto& value,
 void add_evaluation(CLI::App& command, bool has_mesh, EvaluationArguments& arguments) {
   std::vector<std::string> methods;
   for (const Method method : kMethods) {
-    if (has_mesh || asks_images(method)) methods.emplace_back(name_of(method));
+    if (has_mesh || compares_images(method)) methods.emplace_back(name_of(method));
   }
   command
       .add_option("--method", arguments.method,
                   fmt::format("How to find the distances (default: {})", methods.front()))
       ->check(CLI::IsMember(methods));
-  const DistanceSettings defaults;
-  visit_settings(defaults, [&](const Setting& setting, const auto& value) {
+  const ImageDistanceSettings defaults;
+  const auto add = [&](const Setting& setting, const auto& value) {
     add_setting(command, setting, value, arguments);
-  });
+  };
+  visit_settings(static_cast<const DistanceSettings&>(defaults), add);
+  visit_settings(static_cast<const ImageSettings&>(defaults), add);
 }
 
 void add_visibility(CLI::App& command, EvaluationArguments& arguments) {
@@ -153,6 +156,11 @@ void add_format(CLI::App& command, const char* what, OutputFormat& format) {
 void add_output(CLI::App& command, CommonArguments& arguments) {
   add_format(command, "A table for people, or one JSON object per frame and line (default: table)",
              arguments.format);
+  command
+      .add_option("--schema", arguments.schema,
+                  "Of the JSON: 3, or 2 for one version more (default: 3)")
+      ->check(CLI::Range(kOldestSchema, kNewestSchema))
+      ->type_name("N");
   command.add_option("--out", arguments.out, "Write there instead of to standard output")
       ->type_name("FILE");
   add_threads(command, arguments.threads);
@@ -182,15 +190,17 @@ void require_method(const Setting& setting, Method used) {
 
 }  // namespace
 
-DistanceSettings EvaluationArguments::settings_over(DistanceSettings settings,
-                                                    Method method_used) const {
-  visit_settings(settings, [&](const Setting& setting, auto& value) {
+ImageDistanceSettings EvaluationArguments::settings_over(ImageDistanceSettings settings,
+                                                         Method method_used) const {
+  const auto take = [&](const Setting& setting, auto& value) {
     const auto text = given.find(setting.name);
     if (text == given.end()) return;
     require_method(setting, method_used);
     value = parse<typename ValueOf<std::remove_cvref_t<decltype(value)>>::Type>(setting,
                                                                                text->second);
-  });
+  };
+  visit_settings(static_cast<DistanceSettings&>(settings), take);
+  visit_settings(static_cast<ImageSettings&>(settings), take);
   validate(settings);
   return settings;
 }
@@ -199,10 +209,13 @@ Method EvaluationArguments::method_over(Method otherwise) const {
   return method ? method_from_name(*method).value() : otherwise;
 }
 
-EvaluationSettings EvaluationArguments::over(EvaluationSettings settings) const {
+SceneEvaluation EvaluationArguments::over(SceneEvaluation settings) const {
   settings.visibility = visibility.value_or(settings.visibility);
   settings.method = method_over(settings.method);
-  settings.distance = settings_over(settings.distance, settings.method);
+  const ImageDistanceSettings found =
+      settings_over({settings.distance, settings.images}, settings.method);
+  settings.distance = found;
+  settings.images = found;
   return settings;
 }
 
@@ -261,7 +274,7 @@ void add_calibrate_options(CLI::App& command, CalibrateArguments& arguments) {
                    "Keep what the cameras see where the robot is not, as a PNG beside NEW.yaml");
   add_format(command, "A table for people, or one JSON object (default: table)", arguments.format);
   add_threads(command, arguments.threads);
-  command.footer("Example:\n  berth calibrate scene.yaml --out taught_in.yaml --report report");
+  command.footer("Example:\n  berth calibrate scene.yaml --out calibrated.yaml --report report");
 }
 
 void add_evaluate_options(CLI::App& command, EvaluateArguments& arguments) {

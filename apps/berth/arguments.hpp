@@ -1,7 +1,6 @@
 // The command line of each command.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -9,34 +8,41 @@
 #include <string>
 
 #include "apps/support/backend_arguments.hpp"
-#include "berth/distance/evaluate.hpp"
-#include "berth/distance/settings.hpp"
-#include "berth/pipeline/robot.hpp"
+#include "berth/scene/scene_evaluation.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace berth::app {
 
 enum class OutputFormat { table, json };
 
+/// Of berth/result/N.
+inline constexpr int kNewestSchema = 3;
+inline constexpr int kOldestSchema = 2;
+
 /// What the command line says about the evaluation; what it does not say is left to the scene file
-/// or, without one, to DistanceSettings.
+/// or, without one, to the defaults.
 struct EvaluationArguments {
   std::optional<std::string> method;
   /// Of `run` alone: three images without meshes and fates cannot tell.
   std::optional<bool> visibility;
-  /// Settings of DistanceSettings by name, as they were written.
+  /// Settings of DistanceSettings and ImageSettings by name, as they were written.
   std::map<std::string, std::string, std::less<>> given;
 
-  /// Throws std::invalid_argument for values outside their domain, and for those that the method
+  /// All throw std::invalid_argument for values outside their domain, and for those that the method
   /// does not have.
-  DistanceSettings settings_over(DistanceSettings settings, Method method_used) const;
+  ImageDistanceSettings settings_over(ImageDistanceSettings settings, Method method_used) const;
   Method method_over(Method otherwise) const;
-  EvaluationSettings over(EvaluationSettings settings) const;
+  SceneEvaluation over(SceneEvaluation settings) const;
 };
 
 struct CommonArguments {
   EvaluationArguments evaluation;
   BackendChoice where;
   OutputFormat format = OutputFormat::table;
+  int schema = kNewestSchema;
   /// Nothing: standard output.
   std::filesystem::path out;
   /// 0: as many as there are processors.

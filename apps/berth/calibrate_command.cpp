@@ -1,4 +1,4 @@
-// calibrate: teach-in of a scene.
+// calibrate: calibration of a scene.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -10,10 +10,10 @@
 #include "apps/support/interrupt.hpp"
 #include "apps/support/progress_bar.hpp"
 #include "berth/scene/calibrate_scene.hpp"
-#include "berth/scene/calibration_json.hpp"
-#include "berth/scene/calibration_report.hpp"
-#include "berth/scene/calibration_table.hpp"
-#include "berth/scene/teach_background.hpp"
+#include "berth/reports/calibration_json.hpp"
+#include "berth/reports/calibration_report.hpp"
+#include "berth/reports/calibration_table.hpp"
+#include "berth/scene/calibrate_background.hpp"
 
 namespace berth::app {
 namespace {
@@ -34,8 +34,8 @@ void require_place_for(const fs::path& out, const fs::path& scene) {
                                        out.string()));
 }
 
-OpenScene open_for_teach_in(const fs::path& file) {
-  const SceneFile scene = read_scene_to_teach(file);
+OpenScene open_for_calibration_data(const fs::path& file) {
+  const SceneFile scene = read_scene_to_calibrate(file);
   std::size_t images = 0;
   for (const SceneCamera& camera : scene.cameras) images += camera.depth.size();
   ProgressBar progress("read images", images);
@@ -49,16 +49,16 @@ OpenScene open_for_teach_in(const fs::path& file) {
 
 void calibrate_command(const CalibrateArguments& arguments) {
   require_place_for(arguments.out, arguments.scene);
-  const OpenScene scene = open_for_teach_in(arguments.scene);
+  const OpenScene scene = open_for_calibration_data(arguments.scene);
   const std::vector<std::string> without_background =
       arguments.background ? require_backgrounds(scene, arguments.out) : older_backgrounds(scene);
-  const SceneTeachIn material = make_teach_in(scene);
+  const SceneCalibrationData material = make_calibration_data(scene);
   CalibrateSceneSettings settings;
   settings.fit.joint_zeros = arguments.joint_zeros;
   settings.correct_depth = arguments.correct_depth;
   SceneCalibration calibration;
   {
-    ProgressBar progress("teach in", 0);
+    ProgressBar progress("calibrate in", 0);
     settings.fit.pause = [&progress] {
       stop_if_interrupted();
       progress.step();
@@ -67,10 +67,10 @@ void calibrate_command(const CalibrateArguments& arguments) {
   }
   std::vector<std::string>& warnings = calibration.warnings;
   warnings.insert(warnings.end(), without_background.begin(), without_background.end());
-  std::vector<TaughtBackground> backgrounds;
+  std::vector<CalibratedBackground> backgrounds;
   if (arguments.background) {
     ProgressBar progress("learn background", 0);
-    backgrounds = teach_backgrounds(
+    backgrounds = calibrate_backgrounds(
         scene, arguments.out,
         [&progress] {
           stop_if_interrupted();
@@ -78,7 +78,7 @@ void calibrate_command(const CalibrateArguments& arguments) {
         },
         calibration.change);
   }
-  const CalibrationReport report{&material.teach_in, &calibration.found, calibration.filters,
+  const CalibrationReport report{&material.calibration_data, &calibration.found, calibration.filters,
                                  arguments.correct_depth, calibration.warnings};
   const std::string text = arguments.format == OutputFormat::json ? calibration_json(report) + "\n"
                                                                   : calibration_table(report);

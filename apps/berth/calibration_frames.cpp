@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "apps/berth/calibration_picture.hpp"
-#include "apps/berth/robot_webs.hpp"
+#include "apps/berth/flying_pixels_at_robot.hpp"
 #include "berth/files/file_bytes.hpp"
-#include "berth/scene/taught_robot.hpp"
+#include "berth/scene/calibrated_robot.hpp"
 
 namespace berth::app {
 namespace {
@@ -25,10 +25,10 @@ struct Side {
   DepthImage residual_m;
 };
 
-std::optional<Side> take(TaughtRobot& taught, std::size_t frame, TeachInSide side) {
-  const RobotImage* robot = taught.draw(frame, side);
+std::optional<Side> take(CalibratedRobot& calibrated, std::size_t frame, CalibrationSide side) {
+  const RobotImage* robot = calibrated.draw(frame, side);
   if (!robot) return std::nullopt;
-  return Side{*robot, taught.residual_m(frame, side, *robot)};
+  return Side{*robot, calibrated.residual_m(frame, side, *robot)};
 }
 
 /// Around `seen`, in the image.
@@ -45,12 +45,12 @@ PixelRect with_margin(const PixelRect& seen, int width, int height) {
 
 class FrameWriter {
  public:
-  FrameWriter(const std::filesystem::path& folder, std::size_t camera, const TaughtRobot& taught)
-      : folder_(folder), camera_(camera), taught_(taught) {}
+  FrameWriter(const std::filesystem::path& folder, std::size_t camera, const CalibratedRobot& calibrated)
+      : folder_(folder), camera_(camera), calibrated_(calibrated) {}
 
   FramePictures write(std::size_t frame, const std::optional<Side>& before,
                       const std::optional<Side>& after) const {
-    const TeachInFrame& source = taught_.source().frames[frame];
+    const CalibrationFrame& source = calibrated_.source().frames[frame];
     PixelRect seen;
     for (const auto* side : {&before, &after}) {
       if (*side) seen = united(seen, robot_rect((*side)->robot.link_id));
@@ -64,27 +64,27 @@ class FrameWriter {
   FramePicture write_side(std::size_t frame, const std::optional<Side>& side, const PixelRect& part,
                           const char* name) const {
     if (!side) return {};
-    const TeachInFrame& source = taught_.source().frames[frame];
-    const Image<std::uint8_t> webs = robot_webs(taught_.source(), frame, side->robot);
+    const CalibrationFrame& source = calibrated_.source().frames[frame];
+    const Image<std::uint8_t> flying = flying_pixels_at_robot(calibrated_.source(), frame, side->robot);
     // By place, since a camera's name may hold what a file's may not.
     FramePicture picture{
         fmt::format("camera_{}_frame_{:06}_{}.png", camera_ + 1, source.number, name),
-        std::accumulate(webs.pixels().begin(), webs.pixels().end(), 0)};
+        std::accumulate(flying.pixels().begin(), flying.pixels().end(), 0)};
     write_file_bytes(folder_ / picture.file,
                      calibration_picture_png({source.depth_m, depth_tone(source.depth_m),
-                                              &side->robot, side->residual_m, webs, part}));
+                                              &side->robot, side->residual_m, flying, part}));
     return picture;
   }
 
   const std::filesystem::path& folder_;
   std::size_t camera_;
-  const TaughtRobot& taught_;
+  const CalibratedRobot& calibrated_;
 };
 
 }  // namespace
 
-std::vector<std::size_t> frames_to_draw(const TeachInCamera& camera,
-                                        const TeachInCoverage& coverage) {
+std::vector<std::size_t> frames_to_draw(const CalibrationCamera& camera,
+                                        const CalibrationCoverage& coverage) {
   const std::size_t count = camera.frames.size();
   std::vector<std::size_t> chosen(std::min(count, kMostPictures));
   std::iota(chosen.begin(), chosen.end(), std::size_t{0});
@@ -96,7 +96,7 @@ std::vector<std::size_t> frames_to_draw(const TeachInCamera& camera,
   for (std::size_t i = 0; i < kMostPictures; ++i) chosen[i] = i * (count - 1) / (kMostPictures - 1);
   if (worst == coverage.frames.end()) return chosen;
   const auto at = std::find_if(camera.frames.begin(), camera.frames.end(),
-                               [&](const TeachInFrame& f) { return f.number == worst->number; });
+                               [&](const CalibrationFrame& f) { return f.number == worst->number; });
   const auto index = static_cast<std::size_t>(at - camera.frames.begin());
   // In the place of the nearest one, so that the others stay spread.
   auto nearest = std::lower_bound(chosen.begin(), chosen.end(), index);
@@ -107,18 +107,18 @@ std::vector<std::size_t> frames_to_draw(const TeachInCamera& camera,
 
 CalibrationFrames write_calibration_frames(const std::filesystem::path& folder,
                                            const CalibrationReport& report, std::size_t camera,
-                                           const TeachInCoverage& coverage) {
-  TaughtRobot taught(*report.teach_in, *report.result, camera);
-  const std::vector<std::size_t> drawn = frames_to_draw(taught.source(), coverage);
-  const FrameWriter writer(folder, camera, taught);
+                                           const CalibrationCoverage& coverage) {
+  CalibratedRobot calibrated(*report.calibration_data, *report.result, camera);
+  const std::vector<std::size_t> drawn = frames_to_draw(calibrated.source(), coverage);
+  const FrameWriter writer(folder, camera, calibrated);
   CalibrationFrames frames;
-  for (std::size_t k = 0; k < taught.source().frames.size(); ++k) {
-    const std::optional<Side> before = take(taught, k, TeachInSide::before);
-    const std::optional<Side> after = take(taught, k, TeachInSide::after);
+  for (std::size_t k = 0; k < calibrated.source().frames.size(); ++k) {
+    const std::optional<Side> before = take(calibrated, k, CalibrationSide::before);
+    const std::optional<Side> after = take(calibrated, k, CalibrationSide::after);
     if (before) frames.before.add(before->residual_m);
     if (after) frames.after.add(after->residual_m);
     if (std::find(drawn.begin(), drawn.end(), k) == drawn.end()) continue;
-    const bool has_moved = taught.found().refused.empty();
+    const bool has_moved = calibrated.found().refused.empty();
     frames.pictures.push_back(writer.write(k, before, has_moved ? after : std::nullopt));
   }
   return frames;

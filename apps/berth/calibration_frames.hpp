@@ -1,4 +1,4 @@
-// The frames of a teach-in as pictures, and their residuals as a histogram.
+// The frames of a calibration as pictures, and their residuals as a histogram.
 #pragma once
 
 #include <filesystem>
@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "apps/berth/residual_histogram.hpp"
-#include "berth/scene/calibration_report.hpp"
-#include "berth/scene/teach_in_coverage.hpp"
+#include "berth/reports/calibration_report.hpp"
+#include "berth/reports/calibration_coverage.hpp"
 
 namespace berth::app {
 
@@ -16,12 +16,12 @@ struct FramePicture {
   /// A file's name in the page's folder; empty: the joints are not known at the clock that was
   /// found, or the pose that was found is refused.
   std::string file;
-  /// Pixels beside the robot that are like it, see robot_webs().
-  int web_px = 0;
+  /// Pixels beside the robot that are like it, see flying_pixels_at_robot().
+  int flying_px = 0;
 };
 
 struct FramePictures {
-  /// TeachInFrame::number.
+  /// CalibrationFrame::number.
   int number = 0;
   FramePicture before;
   FramePicture after;
@@ -37,13 +37,13 @@ struct CalibrationFrames {
 inline constexpr std::size_t kMostPictures = 6;
 
 /// Which frames are drawn: spread over all, and the one that agrees worst. Increasing.
-std::vector<std::size_t> frames_to_draw(const TeachInCamera& camera,
-                                        const TeachInCoverage& coverage);
+std::vector<std::size_t> frames_to_draw(const CalibrationCamera& camera,
+                                        const CalibrationCoverage& coverage);
 
 /// Writes the pictures of one camera to `folder` as PNG files. Throws std::runtime_error where one
 /// cannot be drawn or written.
 CalibrationFrames write_calibration_frames(const std::filesystem::path& folder,
                                            const CalibrationReport& report, std::size_t camera,
-                                           const TeachInCoverage& coverage);
+                                           const CalibrationCoverage& coverage);
 
 }  // namespace berth::app

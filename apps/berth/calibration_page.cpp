@@ -20,7 +20,7 @@ void add_joint_offsets(const CalibrationReport& report, Html out) {
   fmt::format_to(out,
                  "<section><h2>Joint zeros</h2>\n<p>Added to what the joints tell.</p>\n<table>"
                  "<tr><th>joint</th><th>offset</th></tr>\n");
-  for (const MovableJoint& joint : report.teach_in->model->joints) {
+  for (const MovableJoint& joint : report.calibration_data->model->joints) {
     const auto offset = result.joint_offsets.find(joint.name);
     if (offset == result.joint_offsets.end()) continue;
     fmt::format_to(
@@ -41,7 +41,7 @@ std::string head(const std::string& title) {
       "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\"><head>"
       "<meta charset=\"utf-8\"/>"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>"
-      "<title>Teach-in of {0}</title><style>{1}</style></head>\n<body><main>\n<h1>Teach-in of "
+      "<title>Calibration of {0}</title><style>{1}</style></head>\n<body><main>\n<h1>Calibration of "
       "{0}</h1>\n",
       html_text(title), kCalibrationPageStyle);
 }

@@ -1,10 +1,10 @@
-// A teach-in as a page for a browser, with pictures of its frames before and after.
+// A calibration as a page for a browser, with pictures of its frames before and after.
 #pragma once
 
 #include <filesystem>
 #include <string>
 
-#include "berth/scene/calibration_report.hpp"
+#include "berth/reports/calibration_report.hpp"
 
 namespace berth::app {
 

@@ -9,8 +9,8 @@
 #include "apps/berth/calibration_frames.hpp"
 #include "apps/berth/calibration_page_frames.hpp"
 #include "apps/berth/html_text.hpp"
-#include "berth/scene/calibration_advice.hpp"
-#include "berth/scene/calibration_words.hpp"
+#include "berth/reports/calibration_advice.hpp"
+#include "berth/reports/calibration_words.hpp"
 
 namespace berth::app {
 namespace {
@@ -26,11 +26,11 @@ std::string quaternion_text(const Eigen::Quaterniond& q) {
 class CameraSection {
  public:
   CameraSection(const CalibrationReport& report, std::size_t camera,
-                const TeachInCoverage& coverage, const CalibrationFrames& frames)
+                const CalibrationCoverage& coverage, const CalibrationFrames& frames)
       : report_(report),
         camera_(camera),
         found_(report.result->cameras[camera]),
-        source_(*report.teach_in->cameras[camera]),
+        source_(*report.calibration_data->cameras[camera]),
         proposal_(report.proposals[camera]),
         coverage_(coverage),
         frames_(frames) {}
@@ -142,7 +142,7 @@ class CameraSection {
         out_,
         "<h3>Pose, clock and depth</h3>\n<div class=\"scroll\"><table><tr><th>the camera "
         "in <code>{}</code></th><th>scene</th><th>{}</th><th>sure to</th></tr>\n",
-        html_text(report_.teach_in->model->links[source_.parent].name),
+        html_text(report_.calibration_data->model->links[source_.parent].name),
         is_good ? "found" : "stays");
     for (int i = 0; i < 3; ++i) {
       fmt::format_to(out_, "<tr><td>{}</td><td>{:.4f} m</td><td>{:.4f} m</td><td>{}</td></tr>\n",
@@ -192,9 +192,9 @@ class CameraSection {
   const CalibrationReport& report_;
   const std::size_t camera_;
   const CameraCalibration& found_;
-  const TeachInCamera& source_;
+  const CalibrationCamera& source_;
   const FilterProposal& proposal_;
-  const TeachInCoverage& coverage_;
+  const CalibrationCoverage& coverage_;
   const CalibrationFrames& frames_;
   std::string html_;
   Html out_ = std::back_inserter(html_);
@@ -204,7 +204,7 @@ class CameraSection {
 
 std::string camera_section(const std::filesystem::path& folder, const CalibrationReport& report,
                            std::size_t camera) {
-  const TeachInCoverage coverage = coverage_of(report, camera);
+  const CalibrationCoverage coverage = coverage_of(report, camera);
   const CalibrationFrames frames = write_calibration_frames(folder, report, camera, coverage);
   return CameraSection(report, camera, coverage, frames).run();
 }

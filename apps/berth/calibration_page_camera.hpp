@@ -1,10 +1,10 @@
-// Inside the page of a teach-in only: what it says of one camera.
+// Inside the page of a calibration only: what it says of one camera.
 #pragma once
 
 #include <filesystem>
 #include <string>
 
-#include "berth/scene/calibration_report.hpp"
+#include "berth/reports/calibration_report.hpp"
 
 namespace berth::app {
 

@@ -42,7 +42,7 @@ std::string legend() {
       key(css(residual_color(0.02)), "farther"),
       key(striped(beyond_scale(-1)), "something more than 10 cm before the robot"),
       key(striped(beyond_scale(1)), "the camera sees through the model"),
-      key(css(kWebColor), "beside the model, like the robot, and not in most other images"),
+      key(css(kFlyingPixelColor), "beside the model, like the robot, and not in most other images"),
       key(css(kOutlineColor) + "; outline: 1px solid var(--line)",
           "outline of the model, light where there is no reading"));
 }
@@ -58,12 +58,12 @@ std::string figure(const FramePicture& picture, int number, const char* side) {
       "<figure><a href=\"{0}\"><img src=\"{0}\" alt=\"frame {1}, {2}\" loading=\"lazy\"/></a>"
       "<figcaption><strong>{2}</strong>: {3} px beside the model are like the "
       "robot</figcaption></figure>",
-      picture.file, number, side, picture.web_px);
+      picture.file, number, side, picture.flying_px);
 }
 
 }  // namespace
 
-std::string frames_html(const TeachInCamera& source, const CameraCalibration& found,
+std::string frames_html(const CalibrationCamera& source, const CameraCalibration& found,
                         const CalibrationFrames& frames) {
   std::string html = "<h3>The images</h3>\n";
   const auto out = std::back_inserter(html);

@@ -1,4 +1,4 @@
-// Inside the page of a teach-in only: the pictures and what their colours mean.
+// Inside the page of a calibration only: the pictures and what their colours mean.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 namespace berth::app {
 
 /// `found` tells whether there is an after.
-std::string frames_html(const TeachInCamera& source, const CameraCalibration& found,
+std::string frames_html(const CalibrationCamera& source, const CameraCalibration& found,
                         const CalibrationFrames& frames);
 
 }  // namespace berth::app

@@ -1,4 +1,4 @@
-// How the page of a teach-in looks: light and dark, from a tablet's width on.
+// How the page of a calibration looks: light and dark, from a tablet's width on.
 #pragma once
 
 namespace berth::app {

@@ -5,7 +5,7 @@
 
 #include "apps/berth/picture_canvas.hpp"
 #include "apps/berth/residual_colors.hpp"
-#include "berth/scene/taught_robot.hpp"
+#include "berth/scene/calibrated_robot.hpp"
 
 namespace berth::app {
 namespace {
@@ -39,7 +39,7 @@ Rgb color_at(const CalibrationPicture& picture, int u, int v, int x, int y) {
   const float depth_m = picture.sensor_depth_m(u, v);
   if (is_outline(picture, u, v)) return std::isnan(depth_m) ? kBlindOutlineColor : kOutlineColor;
   if (std::isnan(depth_m)) return hatch(x, y, kStripe_px);
-  if (picture.webs(u, v)) return kWebColor;
+  if (picture.flying(u, v)) return kFlyingPixelColor;
   const float residual_m = picture.residual_m(u, v);
   if (std::isnan(residual_m)) return mix(picture.tone(depth_m), kBlack, kDimmed);
   if (std::abs(residual_m) <= kResidualScale_m) return residual_color(residual_m);

@@ -1,4 +1,4 @@
-// One frame of a teach-in with the robot's model on it.
+// One frame of a calibration with the robot's model on it.
 #pragma once
 
 #include <string>
@@ -17,19 +17,19 @@ struct CalibrationPicture {
   const RobotImage* robot = nullptr;
   /// Reading - model.
   DepthView residual_m;
-  /// See robot_webs().
-  ImageView<std::uint8_t> webs;
+  /// See flying_pixels_at_robot().
+  ImageView<std::uint8_t> flying;
   /// What is shown.
   PixelRect part;
 };
 
-inline constexpr Rgb kWebColor{0xF0, 0xE4, 0x42};
+inline constexpr Rgb kFlyingPixelColor{0xF0, 0xE4, 0x42};
 inline constexpr Rgb kOutlineColor{0x10, 0x10, 0x10};
 /// Of the outline where there is no reading, which is dark.
 inline constexpr Rgb kBlindOutlineColor{0xC8, 0xC8, 0xC8};
 
 /// The bytes of a PNG: depth in dark grey, robot pixels in residual_color(), the model's outline,
-/// webs. Small images are enlarged by a whole factor. Throws std::runtime_error where it cannot be
+/// flying. Small images are enlarged by a whole factor. Throws std::runtime_error where it cannot be
 /// drawn.
 std::string calibration_picture_png(const CalibrationPicture& picture);
 

@@ -10,7 +10,8 @@
 #include "apps/berth/commands.hpp"
 #include "apps/support/interrupt.hpp"
 #include "apps/berth/output.hpp"
-#include "berth/distance/evaluate.hpp"
+#include "berth/image_distance/image_method.hpp"
+#include "berth/image_distance/image_result.hpp"
 #include "berth/files/camera_info.hpp"
 #include "berth/files/error.hpp"
 #include "berth/files/png.hpp"
@@ -62,44 +63,45 @@ ThreeImages read_images(const EvaluateArguments& arguments) {
   return images;
 }
 
-/// From three images in memory to the result, on the backend that the method runs on.
-class Evaluator {
- public:
-  Evaluator(Method method, const BackendChoice& where) : method_(method) {
-    if (runs_on_opengl(method)) gl_ = open_gl_backend(where.gl_device);
-  }
+/// The method, wherever it runs.
+struct Evaluator {
+  Evaluator(Method named, const BackendChoice& where)
+      : gl(runs_on_opengl(named) ? open_gl_backend(where.gl_device) : nullptr),
+        method(gl ? gl->make_method(named) : make_image_method(named)) {}
 
-  void evaluate(const ThreeImages& images, const DistanceSettings& settings, LinkDistances& out) {
-    if (gl_) {
-      gl_->evaluate(method_,
-                    {images.camera, images.robot, images.link_count,
-                     SearchableDepth(images.obstacle_depth_m), settings},
-                    out);
-      gl_->check("evaluate");
-      return;
-    }
-    obstacles_.build(images.obstacle_depth_m);
-    berth::evaluate(method_, {images.camera, images.robot, images.link_count, obstacles_, settings},
-                    workspace_, out);
-  }
-
-  std::string gl_renderer() const { return gl_ ? gl_->renderer() : ""; }
-
- private:
-  Method method_;
-  std::unique_ptr<GlBackend> gl_;
-  SearchableDepth obstacles_;
-  EvaluateWorkspace workspace_;
+  std::unique_ptr<GlBackend> gl;
+  std::unique_ptr<ImageMethod> method;
 };
+
+Result result_of(const ThreeImages& images, const LinkDistances& distances) {
+  Result result;
+  result.compares_images = true;
+  result.stamp_s = 0;
+  result.timing_name = "evaluate_us";
+  result.time.status = TimeStatus::ok;
+  CameraResult& camera = result.cameras.emplace_back();
+  camera.camera = "camera";
+  camera.CameraState::status = CameraStatus::ok;
+  for (int id = 1; id <= images.link_count; ++id) {
+    LinkResult& link = result.links.emplace_back();
+    link.id = static_cast<LinkId>(id);
+    link.link = fmt::format("link_{}", id);
+  }
+  // Three images do not tell where the camera is.
+  tell_image_distances(distances, unset_pose(), result);
+  result.status = ResultStatus::ok;
+  return result;
+}
 
 }  // namespace
 
 void evaluate_command(const EvaluateArguments& arguments) {
   const ThreeImages images = read_images(arguments);
   const Method method = arguments.evaluation.method_over(Method::exact);
-  const DistanceSettings settings = arguments.evaluation.settings_over({}, method);
-  Output output(arguments.format, arguments.out);
+  const ImageDistanceSettings settings = arguments.evaluation.settings_over({}, method);
+  Output output(arguments);
   Evaluator evaluator(method, arguments.where);
+  SearchableDepth obstacles;
   LinkDistances distances;
   std::vector<double> times_us;
   for (int i = 0; i < std::max(1, arguments.repeat); ++i) {
@@ -107,22 +109,23 @@ void evaluate_command(const EvaluateArguments& arguments) {
     // Each evaluation as if it were the first: exact would begin with the last answer.
     distances.links.clear();
     const auto start = std::chrono::steady_clock::now();
-    evaluator.evaluate(images, settings, distances);
+    if (evaluator.gl) {
+      obstacles = SearchableDepth(images.obstacle_depth_m);
+    } else {
+      obstacles.build(images.obstacle_depth_m);
+    }
+    evaluator.method->evaluate(
+        {images.camera, images.robot, images.link_count, obstacles, settings}, distances);
+    if (evaluator.gl) evaluator.gl->check("evaluate");
     const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
     times_us.push_back(took.count());
   }
 
-  FrameResult result;
-  CameraResult& camera = result.cameras.emplace_back();
-  camera.name = "camera";
-  camera.state.status = CameraStatus::ok;
+  Result result = result_of(images, distances);
   result.method = name_of(method);
-  result.gl_renderer = evaluator.gl_renderer();
+  if (evaluator.gl) result.gl_renderer = evaluator.gl->renderer();
   result.range_m = settings.range_m;
   result.has_bounds = settings.tolerance_m.value_or(0) > 0 || settings.deadline_us;
-  for (int id = 1; id <= images.link_count; ++id)
-    result.link_names.push_back(fmt::format("link_{}", id));
-  result.distances = &distances;
   if (arguments.repeat > 0) result.timing = timing_of(std::move(times_us));
   output.write(result);
   output.finish();

@@ -10,9 +10,8 @@
 
 #include "berth/files/error.hpp"
 #include "berth/files/file_bytes.hpp"
-#include "berth/scene/result_json.hpp"
-#include "berth/scene/result_table.hpp"
-#include "berth/scene/separation_text.hpp"
+#include "berth/results/result_json.hpp"
+#include "berth/results/result_text.hpp"
 
 namespace berth::app {
 namespace {
@@ -39,26 +38,21 @@ std::string trouble_text(const CameraState& state) {
 }
 
 /// Such as "camera left" or "cameras left, right (too_old)".
-std::string cameras_text(const FrameResult& result) {
+std::string cameras_text(const Result& result) {
   std::string text = result.cameras.size() == 1 ? "camera" : "cameras";
   const char* before = " ";
   for (const CameraResult& camera : result.cameras) {
-    text += before + camera.name;
+    text += before + camera.camera;
     before = ", ";
-    const bool is_said = camera.state.status == CameraStatus::moved ||
-                         camera.state.status == CameraStatus::implausible || !result.asks_images;
-    if (camera.state.status != CameraStatus::ok && is_said) {
-      text += fmt::format(" ({})", trouble_text(camera.state));
-    }
+    if (camera.status != CameraStatus::ok) text += fmt::format(" ({})", trouble_text(camera));
   }
   return text;
 }
 
-std::string text_of(const FrameResult& result, OutputFormat format) {
-  if (format == OutputFormat::json) return result_json(result) + "\n";
-  const bool timely = !result.time || result.time->status == TimeStatus::ok;
+std::string table_of(const Result& result) {
+  const bool timely = result.time.status == TimeStatus::ok;
   const std::string trouble =
-      timely ? "" : fmt::format(", no answer: {}", name_of(result.time->status));
+      timely ? "" : fmt::format(", no answer: {}", name_of(result.time.status));
   const std::string separation =
       result.separation ? fmt::format("speed: {}\n", separation_text(result)) : "";
   return fmt::format("frame {}, {:.3f} s, {}, method {}, range {} m{}\n{}{}\n", result.frame,
@@ -81,12 +75,16 @@ void require_place(const fs::path& file) {
 
 }  // namespace
 
-Output::Output(OutputFormat format, fs::path file) : format_(format), file_(std::move(file)) {
+Output::Output(const CommonArguments& arguments)
+    : format_(arguments.format), schema_(arguments.schema), file_(arguments.out) {
   require_place(file_);
 }
 
-void Output::write(const FrameResult& result) {
-  const std::string text = text_of(result, format_);
+void Output::write(const Result& result) {
+  const bool is_old = schema_ == kOldestSchema;
+  const std::string text = format_ == OutputFormat::table
+                               ? table_of(result)
+                               : (is_old ? result_json_2(result) : result_json(result)) + "\n";
   if (!file_.empty()) {
     kept_ += text;
     return;

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "apps/berth/arguments.hpp"
-#include "berth/scene/frame_result.hpp"
+#include "berth/pipeline/result.hpp"
 
 namespace berth::app {
 
@@ -13,14 +13,15 @@ class Output {
  public:
   /// Throws std::runtime_error where the file could not be written at the end, so that nobody waits
   /// for results in vain.
-  Output(OutputFormat format, std::filesystem::path file);
+  explicit Output(const CommonArguments& arguments);
 
   /// Throws std::runtime_error where it cannot be written.
-  void write(const FrameResult& result);
+  void write(const Result& result);
   void finish();
 
  private:
   OutputFormat format_;
+  int schema_;
   std::filesystem::path file_;
   std::string kept_;
 };

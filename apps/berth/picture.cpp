@@ -33,18 +33,15 @@ void check_pixel(Pixel p, const DepthView& sensor, LinkId id) {
 }
 
 void check_links(const PictureInput& input) {
-  const std::vector<LinkDistance>& links = input.distances->links;
+  const std::vector<LinkResult>& links = *input.links;
   for (std::size_t i = 0; i < links.size(); ++i) {
     if (links[i].id != i + 1)
       throw std::runtime_error(
           fmt::format("link {} of the answer has the id {}", i + 1, links[i].id));
     if (links[i].status != LinkStatus::ok) continue;
-    check_pixel(links[i].robot_pixel, input.sensor_depth_m, links[i].id);
+    check_pixel(links[i].image.robot_pixel, input.sensor_depth_m, links[i].id);
     check_pixel(links[i].obstacle_pixel, input.sensor_depth_m, links[i].id);
   }
-  if (input.link_names.size() < links.size())
-    throw std::runtime_error(
-        fmt::format("{} link names, expected {}", input.link_names.size(), links.size()));
   if (!(input.range_m > 0))
     throw std::runtime_error(fmt::format("the range is {} m, expected more than 0", input.range_m));
 }
@@ -58,7 +55,7 @@ void check(const PictureInput& input) {
     check_size(input.robot->link_id, sensor, "the link ID image");
   }
   if (input.obstacles) check_size(input.obstacles->fate, sensor, "the image of fates");
-  if (input.distances) check_links(input);
+  if (input.links) check_links(input);
 }
 
 std::string draw(const PictureInput& input) {
@@ -73,7 +70,7 @@ std::string draw(const PictureInput& input) {
               fit_text(canvas, input.title, title_font, layout.title.width), title_font, kInk);
   canvas.pixels({layout.image.x, layout.image.y},
                 paint_pixels(input, tone, layout.factor, line_px));
-  if (input.distances) draw_pairs(canvas, layout, input);
+  if (input.links) draw_pairs(canvas, layout, input);
   draw_legend(canvas, layout, input, tone);
   return canvas.png();
 }

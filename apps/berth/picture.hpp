@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "berth/pipeline/result.hpp"
 #include "berth/types/image.hpp"
-#include "berth/types/link_distance.hpp"
 #include "berth/types/obstacle_image.hpp"
 #include "berth/types/robot_image.hpp"
 
@@ -19,16 +19,11 @@ struct PictureInput {
   DepthView sensor_depth_m;
   const RobotImage* robot = nullptr;
   const ObstacleImage* obstacles = nullptr;
-  const LinkDistances* distances = nullptr;
-  /// link_names[i] is the name of the link with the id i + 1, UTF-8; at least one for each link in
-  /// distances.
-  std::vector<std::string> link_names;
+  /// links[i] has the id i + 1; the pixels of its pair are those of this image. Names are UTF-8.
+  const std::vector<LinkResult>* links = nullptr;
   /// Distances were looked for up to here.
   double range_m = 0;
   std::string title = {};
-  /// Whether a joint moves the link of this place in link_names; empty: all are moved. The others do
-  /// not lead.
-  std::vector<bool> link_is_moved = {};
 };
 
 /// Writes a PNG: the depth image with the robot, the filtered pixels and each link's closest pair

@@ -18,8 +18,8 @@ int enlargement(const DepthView& image) {
 double longest_name_em(const PictureInput& input) {
   const PictureCanvas measure(1, 1, kBlack);
   double longest = 0;
-  for (const std::string& name : input.link_names)
-    longest = std::max(longest, measure.text_width_px(name, {100, true}) / 100);
+  for (const LinkResult& link : input.links ? *input.links : std::vector<LinkResult>{})
+    longest = std::max(longest, measure.text_width_px(link.link, {100, true}) / 100);
   return std::clamp(longest + 0.3, 4.0, 11.0);
 }
 
@@ -28,14 +28,14 @@ double fixed_height_em(const PictureInput& input, int columns) {
   const auto fate_count = input.obstacles ? std::ssize(shown_fates(*input.obstacles)) : 0;
   const auto fate_rows = static_cast<double>((fate_count + columns - 1) / columns);
   const double fates = input.obstacles ? kHeadingEm + kFateRowEm * fate_rows : 0;
-  const double links = input.distances ? kCardEm + kHeadingEm + kKeyEm +
+  const double links = input.links ? kCardEm + kHeadingEm + kKeyEm +
                                              (has_hidden(input) ? kHiddenKeyEm : 0)
                                        : 0;
   return links + fates + kScaleEm;
 }
 
 TablePlan plan_table(const PictureInput& input, double height_em) {
-  const int links = input.distances ? static_cast<int>(input.distances->links.size()) : 0;
+  const int links = input.links ? static_cast<int>(input.links->size()) : 0;
   TablePlan plan;
   plan.name_em = longest_name_em(input);
   plan.column_em = std::max(plan.name_em + 10.4, 17.0);
@@ -57,9 +57,9 @@ TablePlan plan_table(const PictureInput& input, double height_em) {
 }  // namespace
 
 bool has_hidden(const PictureInput& input) {
-  if (!input.distances) return false;
-  return std::ranges::any_of(input.distances->links, [](const LinkDistance& link) {
-    return link.status == LinkStatus::ok && link.obstacle_kind == ObstacleKind::hidden;
+  if (!input.links) return false;
+  return std::ranges::any_of(*input.links, [](const LinkResult& link) {
+    return link.status == LinkStatus::ok && link.obstacle_is == ObstacleKind::unknown;
   });
 }
 
@@ -67,7 +67,7 @@ std::vector<PixelFate> shown_fates(const ObstacleImage& obstacles) {
   std::vector<PixelFate> fates;
   for (int i = 0; i < kPixelFateCount; ++i) {
     const auto fate = static_cast<PixelFate>(i);
-    if (fate <= PixelFate::island || obstacles.count_of(fate) > 0) fates.push_back(fate);
+    if (fate <= PixelFate::flying_patch || obstacles.count_of(fate) > 0) fates.push_back(fate);
   }
   return fates;
 }
@@ -87,7 +87,7 @@ PictureLayout layout_picture(const PictureInput& input) {
   layout.image.x = margin;
   layout.image.y = std::round(kTitleEm * em);
   const int columns = layout.table.columns;
-  const bool has_more = input.distances && layout.table.shown < std::ssize(input.distances->links);
+  const bool has_more = input.links && layout.table.shown < std::ssize(*input.links);
   const double legend_em = fixed_height_em(input, columns) +
                            layout.table.row_em * (layout.table.rows + (has_more ? 1 : 0));
   layout.legend = {layout.image.x + layout.image.width + 1.2 * margin, layout.image.y,

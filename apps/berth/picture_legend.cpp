@@ -30,16 +30,16 @@ struct Legend {
 
 int count_of(const PictureInput& input, LinkStatus status) {
   return static_cast<int>(
-      std::ranges::count(input.distances->links, status, &LinkDistance::status));
+      std::ranges::count(*input.links, status, &LinkResult::status));
 }
 
 /// Links with a distance, nearest first, then those with none in range, then those not visible.
 /// Links that stand where they stand come after those with a distance that move.
-std::vector<LinkDistance> by_nearness(const PictureInput& input) {
-  std::vector<LinkDistance> links = input.distances->links;
-  std::ranges::stable_sort(links, {}, [&](const LinkDistance& link) {
+std::vector<LinkResult> by_nearness(const PictureInput& input) {
+  std::vector<LinkResult> links = *input.links;
+  std::ranges::stable_sort(links, {}, [&](const LinkResult& link) {
     const bool ok = link.status == LinkStatus::ok;
-    return std::tuple{link.status, ok && !is_moved(input, link.id), ok ? link.distance_m : 0};
+    return std::tuple{link.status, ok && !link.is_moved, ok ? link.distance_m : 0};
   });
   return links;
 }
@@ -53,12 +53,11 @@ void heading(Legend& legend, const std::string& left, const std::string& right) 
 
 /// The message of the picture in two lines, and the colour that goes with it.
 std::tuple<std::string, std::string, Rgb> headline(const PictureInput& input) {
-  const std::vector<LinkDistance> links = by_nearness(input);
+  const std::vector<LinkResult> links = by_nearness(input);
   if (links.empty()) return {"no links", "nothing was evaluated", kFaintInk};
-  const LinkDistance& first = links.front();
+  const LinkResult& first = links.front();
   if (first.status == LinkStatus::ok) {
-    return {distance_text(first, input.range_m), input.link_names[first.id - 1],
-            link_color(first.id)};
+    return {distance_text(first, input.range_m), first.link, link_color(first.id)};
   }
   if (first.status == LinkStatus::none_in_range)
     return {"none within " + range_text(input.range_m), "of any visible link", kFaintInk};
@@ -81,20 +80,20 @@ void draw_card(Legend& legend) {
   const int hidden = count_of(legend.input, LinkStatus::not_visible);
   const std::string counts = fmt::format(
       "{} of {} links in range{}", count_of(legend.input, LinkStatus::ok),
-      legend.input.distances->links.size(), hidden ? fmt::format(", {} not visible", hidden) : "");
+      legend.input.links->size(), hidden ? fmt::format(", {} not visible", hidden) : "");
   legend.canvas.text({x, legend.y + 4.75 * em},
                      fit_text(legend.canvas, counts, {0.8 * em}, room_px), {0.8 * em}, kFaintInk);
   legend.y += kCardEm * em;
 }
 
-void draw_bar(Legend& legend, const LinkDistance& link, BoxPx box) {
+void draw_bar(Legend& legend, const LinkResult& link, BoxPx box) {
   legend.canvas.fill_box(box, kTrack, box.height / 2);
   const double share = std::clamp(link.distance_m / legend.input.range_m, 0.0, 1.0);
   box.width = std::max(box.height, share * box.width);
   legend.canvas.fill_box(box, link_color(link.id), box.height / 2);
 }
 
-void draw_link_row(Legend& legend, const LinkDistance& link, double x, double y, bool nearest) {
+void draw_link_row(Legend& legend, const LinkResult& link, double x, double y, bool nearest) {
   const TablePlan& plan = legend.layout.table;
   const double em = legend.em, row = plan.row_em * em, middle = y + row / 2;
   const double right = x + plan.column_em * em;
@@ -104,7 +103,7 @@ void draw_link_row(Legend& legend, const LinkDistance& link, double x, double y,
   legend.canvas.fill_box({x + 0.25 * em, middle - 0.38 * em, 0.76 * em, 0.76 * em},
                          link_color(link.id), 0.15 * em);
   const std::string name =
-      fit_text(legend.canvas, legend.input.link_names[link.id - 1], font, plan.name_em * em);
+      fit_text(legend.canvas, link.link, font, plan.name_em * em);
   const bool seen = link.status != LinkStatus::not_visible;
   legend.canvas.text({x + 1.4 * em, middle}, name, font, seen ? kInk : kFaintInk);
   legend.canvas.text({right - 0.3 * em, middle}, distance_text(link, legend.input.range_m), font,
@@ -133,13 +132,13 @@ void draw_key(Legend& legend) {
 
 void draw_table(Legend& legend) {
   const TablePlan& plan = legend.layout.table;
-  std::vector<LinkDistance> links = by_nearness(legend.input);
+  std::vector<LinkResult> links = by_nearness(legend.input);
   if (links.empty()) return;
   const LinkId nearest = links.front().status == LinkStatus::ok ? links.front().id : kNoLink;
   const std::size_t left_out = links.size() - plan.shown;
   links.resize(plan.shown);
   // The same place in every frame is easier to follow than a place that follows the distance.
-  std::ranges::sort(links, {}, &LinkDistance::id);
+  std::ranges::sort(links, {}, &LinkResult::id);
 
   heading(legend, "LINKS", "distance, up to " + range_text(legend.input.range_m));
   for (int i = 0; i < plan.shown; ++i) {
@@ -230,7 +229,7 @@ void draw_depth_scale(Legend& legend, const DepthTone& tone) {
 void draw_legend(PictureCanvas& canvas, const PictureLayout& layout, const PictureInput& input,
                  const DepthTone& tone) {
   Legend legend{canvas, layout, input, layout.em_px, layout.legend.y};
-  if (input.distances) {
+  if (input.links) {
     draw_card(legend);
     draw_table(legend);
   }

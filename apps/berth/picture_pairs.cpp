@@ -24,24 +24,24 @@ struct Pair {
   PointPx middle() const { return {(robot.x + obstacle.x) / 2, (robot.y + obstacle.y) / 2}; }
 };
 
-bool is_drawn(const LinkDistance& link) {
-  return link.status == LinkStatus::ok && link.robot_pixel != Pixel{} &&
+bool is_drawn(const LinkResult& link) {
+  return link.status == LinkStatus::ok && link.image.robot_pixel != Pixel{} &&
          link.obstacle_pixel != Pixel{};
 }
 
 std::vector<Pair> nearest_first(const PictureLayout& layout, const PictureInput& input) {
-  std::vector<LinkDistance> links;
-  for (const LinkDistance& link : input.distances->links)
+  std::vector<LinkResult> links;
+  for (const LinkResult& link : *input.links)
     if (is_drawn(link)) links.push_back(link);
   std::stable_sort(links.begin(), links.end(), [&](const auto& a, const auto& b) {
-    const bool a_stands = !is_moved(input, a.id), b_stands = !is_moved(input, b.id);
-    return std::pair(a_stands, a.distance_m) < std::pair(b_stands, b.distance_m);
+    // One that stands on its table does not lead.
+    return std::pair(!a.is_moved, a.distance_m) < std::pair(!b.is_moved, b.distance_m);
   });
   std::vector<Pair> pairs;
-  for (const LinkDistance& link : links) {
-    pairs.push_back({layout.centre(link.robot_pixel), layout.centre(link.obstacle_pixel),
+  for (const LinkResult& link : links) {
+    pairs.push_back({layout.centre(link.image.robot_pixel), layout.centre(link.obstacle_pixel),
                      link_color(link.id), distance_text(link, input.range_m), pairs.empty(),
-                     link.distance_m == 0, link.obstacle_kind == ObstacleKind::hidden});
+                     link.distance_m == 0, link.obstacle_is == ObstacleKind::unknown});
   }
   return pairs;
 }
@@ -104,10 +104,6 @@ void draw_label(PictureCanvas& canvas, const Pair& pair, const BoxPx& box, doubl
 }
 
 }  // namespace
-
-bool is_moved(const PictureInput& input, LinkId id) {
-  return input.link_is_moved.empty() || input.link_is_moved[id - 1];
-}
 
 void draw_pair_line(PictureCanvas& canvas, PointPx from, PointPx to, bool dashed, Rgb color,
                     double width_px, double alpha) {

@@ -24,9 +24,6 @@ std::vector<std::optional<BoxPx>> place_labels(const std::vector<LabelRequest>& 
                                                const BoxPx& bounds,
                                                const std::vector<PointPx>& avoid);
 
-/// Whether a joint moves the link; one that stands on its table does not lead.
-bool is_moved(const PictureInput& input, LinkId id);
-
 /// Dashed where no camera sees the obstacle's point.
 void draw_pair_line(PictureCanvas& canvas, PointPx from, PointPx to, bool dashed, Rgb color,
                     double width_px, double alpha);

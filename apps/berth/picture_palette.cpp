@@ -59,7 +59,7 @@ Rgb fate_color(PixelFate fate) {
       return {0x8A, 0x6A, 0x3C};
     case PixelFate::edge:
       return {0xC2, 0x4A, 0x4A};
-    case PixelFate::island:
+    case PixelFate::flying_patch:
       return {0x6C, 0xA8, 0x3C};
     case PixelFate::outside_region:
       return {0xB8, 0xA4, 0x3A};

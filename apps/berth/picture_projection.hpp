@@ -1,12 +1,12 @@
 #pragma once
 
 #include "berth/types/camera.hpp"
-#include "berth/types/link_distance.hpp"
+#include "berth/pipeline/result.hpp"
 
 namespace berth::app {
 
 /// The pixels of each pair in the image of the camera at X_BC, whichever camera saw the obstacle:
 /// what a picture of method `mesh` draws.
-void project_pairs(const Camera& camera, const Pose& X_BC, LinkDistances& distances);
+void project_pairs(const Camera& camera, const Pose& X_BC, std::vector<LinkResult>& links);
 
 }  // namespace berth::app

@@ -29,7 +29,7 @@ std::string range_text(double range_m) {
   return fmt::format("{:.{}f} m", range_m, is_whole_cm ? 2 : 3);
 }
 
-std::string distance_text(const LinkDistance& link, double range_m) {
+std::string distance_text(const LinkResult& link, double range_m) {
   switch (link.status) {
     case LinkStatus::ok:
       return link.distance_m == 0 ? "contact" : fmt::format("{:.3f} m", link.distance_m);
@@ -39,8 +39,8 @@ std::string distance_text(const LinkDistance& link, double range_m) {
       return "not visible";
     case LinkStatus::cut_short:
       return "not known in time";
-    case LinkStatus::untimely:
-      return "untimely";
+    case LinkStatus::stale:
+      return "stale";
     case LinkStatus::not_seen:
       return "not seen";
   }
@@ -63,8 +63,8 @@ std::string fate_text(PixelFate fate) {
       return "environment";
     case PixelFate::edge:
       return "mixed edge pixel";
-    case PixelFate::island:
-      return "island at the robot";
+    case PixelFate::flying_patch:
+      return "flying patch at the robot";
     case PixelFate::outside_region:
       return "ignored: outside region";
     case PixelFate::speckle:

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "apps/berth/picture_canvas.hpp"
-#include "berth/types/link_distance.hpp"
+#include "berth/pipeline/result.hpp"
 #include "berth/types/obstacle_image.hpp"
 
 namespace berth::app {
@@ -14,7 +14,7 @@ namespace berth::app {
 std::string range_text(double range_m);
 
 /// "0.137 m", or "contact" for exactly 0, or why there is no distance.
-std::string distance_text(const LinkDistance& link, double range_m);
+std::string distance_text(const LinkResult& link, double range_m);
 
 std::string fate_text(PixelFate fate);
 

@@ -9,7 +9,7 @@
 #include "apps/berth/picture.hpp"
 #include "apps/berth/picture_projection.hpp"
 #include "apps/support/progress_bar.hpp"
-#include "berth/scene/separation_text.hpp"
+#include "berth/results/result_text.hpp"
 
 namespace berth::app {
 namespace {
@@ -27,27 +27,25 @@ void make_folder(const fs::path& folder) {
 }
 
 /// Such as ", speed: reduced to 42 %".
-std::string speed_text(const FrameResult& result) {
+std::string speed_text(const Result& result) {
   if (!result.separation) return "";
   const std::string text = separation_text(result);
   return ", speed: " + text.substr(0, text.find(':'));
 }
 
 void draw(const fs::path& folder, const OpenScene& scene, SceneRun& run,
-          const FrameResult& result) {
+          const Result& result) {
   const std::string which =
       scene.cameras.size() > 1 ? fmt::format(", camera {}", run.camera().source.name) : "";
   const std::shared_ptr<const Frame> kept = run.frame();
   const Frame& frame = *kept;
-  LinkDistances distances = *result.distances;
-  if (!result.asks_images) project_pairs(run.camera().view->camera(), frame.X_BC, distances);
+  std::vector<LinkResult> links = result.links;
+  if (!result.compares_images) project_pairs(run.camera().view->camera(), frame.X_BC, links);
   write_picture(folder_of(scene, run.camera(), folder) /
                     fmt::format("frame_{:06}.png", run.frame_number()),
-                {run.sensor_depth_m(), &frame.robot, &frame.obstacles, &distances,
-                 result.link_names, result.range_m,
+                {run.sensor_depth_m(), &frame.robot, &frame.obstacles, &links, result.range_m,
                  fmt::format("{}{}, frame {}, {:.3f} s{}", scene.robot->model().name, which,
-                             run.frame_number(), frame.stamp_s, speed_text(result)),
-                 result.link_is_moved});
+                             run.frame_number(), frame.stamp_s, speed_text(result))});
 }
 
 void say(const OpenScene& scene, const std::string& text) {
@@ -62,13 +60,13 @@ class LateImplausible {
       if (camera.is_implausible) said_.insert(camera.camera);
     }
   }
-  void look(const OpenScene& scene, const FrameResult& result) {
+  void update(const OpenScene& scene, const Result& result) {
     for (const CameraResult& camera : result.cameras) {
-      if (camera.state.status != CameraStatus::implausible) continue;
-      if (!said_.insert(camera.name).second) continue;
+      if (camera.status != CameraStatus::implausible) continue;
+      if (!said_.insert(camera.camera).second) continue;
       say(scene, fmt::format("camera {}: from its image {} on the robot is not where it should be; "
                              "its images are not used",
-                             camera.name, camera.frame));
+                             camera.camera, camera.frame));
     }
   }
 
@@ -94,6 +92,7 @@ void make_folders(const OpenScene& scene, const fs::path& folder) {
 
 void each_frame(const OpenScene& scene, SceneRun& run, const char* doing,
                 const std::function<void()>& take) {
+  for (const std::string& warning : scene.warnings) fmt::print(stderr, "{}\n", warning);
   for (const CameraPlausibility& camera : run.plausibility()) say(scene, text_of(camera));
   ProgressBar progress(doing, scene.frame_count);
   while (run.next()) {
@@ -105,14 +104,14 @@ void each_frame(const OpenScene& scene, SceneRun& run, const char* doing,
 }
 
 void run_frames(const OpenScene& scene, const BackendChoice& where, const fs::path& picture_folder,
-                int repeat, const std::function<void(const FrameResult&)>& take) {
+                int repeat, const std::function<void(const Result&)>& take) {
   SceneRun run(scene, where, stop_if_interrupted);
   const bool draws = !picture_folder.empty();
   if (draws) make_folders(scene, picture_folder);
   LateImplausible late(run);
   each_frame(scene, run, "run", [&] {
-    const FrameResult result = run.ask(repeat);
-    late.look(scene, result);
+    const Result result = run.ask(repeat);
+    late.update(scene, result);
     if (draws) draw(picture_folder, scene, run, result);
     take(result);
   });

@@ -30,6 +30,6 @@ void each_frame(const OpenScene& scene, SceneRun& run, const char* doing,
 /// into picture_folder unless that is empty. Throws as SceneRun does, before anything is written.
 void run_frames(const OpenScene& scene, const BackendChoice& where,
                 const std::filesystem::path& picture_folder, int repeat,
-                const std::function<void(const FrameResult&)>& take);
+                const std::function<void(const Result&)>& take);
 
 }  // namespace berth::app

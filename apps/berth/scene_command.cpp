@@ -5,7 +5,7 @@
 #include "apps/berth/output.hpp"
 #include "apps/berth/run_frames.hpp"
 #include "berth/files/png.hpp"
-#include "berth/self_filter/scenery.hpp"
+#include "berth/self_filter/environment.hpp"
 
 namespace berth::app {
 namespace {
@@ -18,7 +18,7 @@ void write_images(const fs::path& folder, const SceneRun& run, const Frame& fram
   };
   const double depth_scale_m = run.camera().source.depth_scale_m;
   RobotImage links = frame.robot;
-  take_out_scenery(links);
+  take_out_environment(links);
   write_depth_png(file("robot_depth"), links.depth_m, depth_scale_m);
   write_link_ids_png(file("link_ids"), links.link_id);
   write_depth_png(file("obstacle_depth"), frame.obstacles.depth_m, depth_scale_m);
@@ -28,14 +28,14 @@ void write_images(const fs::path& folder, const SceneRun& run, const Frame& fram
 
 void run_command(const RunArguments& arguments) {
   const OpenScene scene = open_scene_over(arguments.scene, arguments.evaluation);
-  Output output(arguments.format, arguments.out);
+  Output output(arguments);
   run_frames(scene, arguments.where, arguments.picture_folder, arguments.repeat,
-             [&output](const FrameResult& result) { output.write(result); });
+             [&output](const Result& result) { output.write(result); });
   output.finish();
 }
 
 void filter_command(const FilterArguments& arguments) {
-  // Whatever the scene's method is, it is not asked.
+  // Whatever the scene's method is, it is not asked; one result an image.
   EvaluationArguments on_the_cpu;
   on_the_cpu.method = name_of(Method::exact);
   const OpenScene scene = open_scene_over(arguments.scene, on_the_cpu);

@@ -68,7 +68,7 @@ void view_command(const ViewArguments& arguments) {
   std::fflush(stdout);
   wait_for_interrupt();
   viewed.finish();
-  // A teach-in looks up every few seconds only, and nobody waits for what it would find.
+  // A calibration looks up every few seconds only, and nobody waits for what it would find.
   std::quick_exit(EXIT_SUCCESS);
 }
 

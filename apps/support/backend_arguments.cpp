@@ -1,5 +1,7 @@
 #include "apps/support/backend_arguments.hpp"
 
+#include <CLI/CLI.hpp>
+
 namespace berth::app {
 
 void add_gl_device(CLI::App& command, BackendChoice& arguments) {

@@ -1,10 +1,13 @@
 // Where a command computes.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
 #include "berth/scene/backend.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace berth::app {
 

@@ -1,5 +1,6 @@
 #include "apps/support/program.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 

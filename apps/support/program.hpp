@@ -1,9 +1,12 @@
 // What each program does around its work: the command line, and how it ends.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <optional>
+
+namespace CLI {
+class App;
+}
 
 namespace berth::app {
 

@@ -1,5 +1,7 @@
 #include "apps/support/threads_argument.hpp"
 
+#include <CLI/CLI.hpp>
+
 namespace berth::app {
 
 void add_threads(CLI::App& command, int& threads) {

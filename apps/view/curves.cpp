@@ -1,39 +1,27 @@
 #include "apps/view/curves.hpp"
 
 #include <cmath>
-#include <limits>
-
-#include "berth/scene/separation_text.hpp"
 
 namespace berth::app {
 namespace {
 
-using CurveJson = nlohmann::ordered_json;
+using Json = nlohmann::ordered_json;
 
-constexpr float kNoLength = std::numeric_limits<float>::quiet_NaN();
-
-CurveJson length_json(float length_m) {
+Json length_json(float length_m) {
   // To a tenth of a millimetre: a curve needs no more.
-  return std::isnan(length_m) ? CurveJson() : CurveJson(std::round(1e4 * length_m) / 1e4);
+  return std::isnan(length_m) ? Json() : Json(std::round(1e4 * length_m) / 1e4);
 }
 
 }  // namespace
 
-void Curves::add(const FrameResult& result) {
-  const std::vector<LinkDistance>& links = result.distances->links;
-  Column column{result.stamp_s, {}, {}};
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    const LinkDistance& link = links[i];
-    const bool has_distance =
-        link.status == LinkStatus::ok || (!result.asks_images && link.has_distance());
-    const bool is_doubtful = result.visibility && !result.visibility->empty() &&
-                             !std::isnan((*result.visibility)[i].doubtful_distance_m);
-    column.links.push_back({has_distance ? link.distance_m : kNoLength,
-                            link.reading.is_known() ? link.reading.distance_m : kNoLength,
-                            link.status, is_doubtful});
+void Curves::add(const Result& result) {
+  Column column{result.stamp_s, {}, result.nearest, {}};
+  for (const LinkResult& link : result.links) {
+    const bool is_rejected = !std::isnan(link.visibility.rejected_distance_m);
+    column.links.push_back({link.distance_m, link.status, is_rejected});
   }
   if (result.separation) {
-    column.speed = Speed{result.separation->speed_scale, separation_text(result)};
+    column.speed = Speed{result.separation->speed_scale, result.separation->state};
   }
   columns_.push_back(std::move(column));
   if (columns_.size() > most_) columns_.pop_front();
@@ -44,23 +32,22 @@ void Curves::warn(const std::string& text) {
 }
 
 PageMessage Curves::message(const std::string& error) const {
-  CurveJson stamps = CurveJson::array();
-  CurveJson links = {{"distance_m", CurveJson::array()},
-                     {"reading_m", CurveJson::array()},
-                     {"status", CurveJson::array()},
-                     {"is_doubtful", CurveJson::array()}};
-  CurveJson speed;
+  Json stamps = Json::array();
+  Json links = {
+      {"distance_m", Json::array()}, {"status", Json::array()}, {"is_rejected", Json::array()}};
+  Json nearest = Json::array();
+  Json speed;
   for (const Column& column : columns_) {
     stamps.push_back(column.stamp_s);
+    nearest.push_back(column.nearest < 0 ? Json() : Json(column.nearest));
     if (column.speed) {
       speed["scale"].push_back(column.speed->scale);
-      speed["text"].push_back(column.speed->text);
+      speed["state"].push_back(name_of(column.speed->state));
     }
     for (std::size_t i = 0; i < column.links.size(); ++i) {
       links["distance_m"][i].push_back(length_json(column.links[i].distance_m));
-      links["reading_m"][i].push_back(length_json(column.links[i].reading_m));
       links["status"][i].push_back(name_of(column.links[i].status));
-      links["is_doubtful"][i].push_back(column.links[i].is_doubtful);
+      links["is_rejected"][i].push_back(column.links[i].is_rejected);
     }
   }
   return json_message({{"type", "timeline"},
@@ -70,6 +57,7 @@ PageMessage Curves::message(const std::string& error) const {
                        {"warnings", warnings_},
                        {"stamps_s", stamps},
                        {"links", links},
+                       {"nearest", nearest},
                        {"speed", speed}});
 }
 

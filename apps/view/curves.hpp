@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "apps/view/page_message.hpp"
-#include "berth/scene/frame_result.hpp"
+#include "berth/pipeline/result.hpp"
 
 namespace berth::app {
 
@@ -18,7 +18,7 @@ class Curves {
   /// Of `most` results no more are kept; `total` is how many there will be, 0: nobody knows.
   Curves(std::size_t most, std::size_t total) : most_(most), total_(total) {}
 
-  void add(const FrameResult& result);
+  void add(const Result& result);
   /// A sentence for the user; nothing where it is empty.
   void warn(const std::string& text);
 
@@ -27,17 +27,18 @@ class Curves {
  private:
   struct LinkPoint {
     float distance_m;
-    float reading_m;
     LinkStatus status;
-    bool is_doubtful;
+    bool is_rejected;
   };
   struct Speed {
     double scale;
-    std::string text;
+    SeparationState state;
   };
   struct Column {
     double stamp_s;
     std::vector<LinkPoint> links;
+    /// Result::nearest.
+    int nearest;
     std::optional<Speed> speed;
   };
 

@@ -1,5 +1,6 @@
 #include "apps/view/live_page.hpp"
 
+#include "berth/pipeline/frame_space.hpp"
 #include <fmt/format.h>
 
 #include <chrono>
@@ -16,7 +17,7 @@ constexpr std::chrono::milliseconds kBetweenCurves{250};
 
 /// The camera's own image, where the frame has kept it.
 const DepthImage& sensor_depth_of(const Frame& frame) {
-  return frame.space.has_free_depth ? frame.space.sensor_depth_m : frame.obstacles.depth_m;
+  return frame.space->seen.has_free_depth ? frame.space->seen.sensor_depth_m : frame.obstacles.depth_m;
 }
 
 }  // namespace
@@ -27,7 +28,7 @@ struct LivePage::State {
   PageServer server;
   Curves curves{kMostLiveColumns, 0};
   std::chrono::steady_clock::time_point told = {};
-  LiveFrames shown = {};
+  std::vector<std::shared_ptr<const Frame>> shown = {};
 };
 
 LivePage::LivePage(std::shared_ptr<const Robot> robot, const std::vector<PageCamera>& cameras,
@@ -44,14 +45,14 @@ LivePage::~LivePage() = default;
 
 std::string LivePage::url() const { return state_->server.url(); }
 
-void LivePage::show(const FrameResult& result, const LiveFrames& frames) {
+void LivePage::show(const Result& result, const std::vector<std::shared_ptr<const Frame>>& frames) {
   if (frames.size() != state_->cameras) {
     throw std::invalid_argument(
         fmt::format("{} frames; expected {}, one for each camera", frames.size(), state_->cameras));
   }
   std::vector<const Frame*> pointers;
   for (const auto& frame : frames) pointers.push_back(frame.get());
-  state_->server.publish("shown", shown_message(state_->robot->model(), result, 0, pointers));
+  state_->server.publish("shown", shown_message(state_->robot->model(), result, pointers));
   for (std::size_t c = 0; c < frames.size(); ++c) {
     if (!frames[c] || frames[c] == state_->shown[c]) continue;
     state_->server.publish(fmt::format("image {}", c),

@@ -7,7 +7,6 @@
 #include "apps/view/page_files.hpp"
 #include "apps/view/page_server.hpp"
 #include "apps/view/scene_messages.hpp"
-#include "berth/live/live_asker.hpp"
 
 namespace berth::app {
 
@@ -24,10 +23,10 @@ class LivePage {
 
   std::string url() const;
 
-  /// Shows an answer and the frames that it is about: frames[k] is camera k's, or null. Waits for
-  /// no page: one that is slower than the answers misses some. Throws std::invalid_argument unless
+  /// Shows a result and the frames that it is about: frames[k] is camera k's, or null. Waits for
+  /// no page: one that is slower than the results misses some. Throws std::invalid_argument unless
   /// there is one for each camera.
-  void show(const FrameResult& result, const LiveFrames& frames);
+  void show(const Result& result, const std::vector<std::shared_ptr<const Frame>>& frames);
 
  private:
   struct State;

@@ -6,19 +6,19 @@
 #include <cmath>
 
 #include "apps/berth/picture_palette.hpp"
-#include "berth/scene/result_json.hpp"
+#include "berth/results/result_json.hpp"
 
 namespace berth::app {
 namespace {
 
-using SceneJson = nlohmann::ordered_json;
+using Json = nlohmann::ordered_json;
 
 std::string hex_of(Rgb color) {
   return fmt::format("#{:02x}{:02x}{:02x}", color.r, color.g, color.b);
 }
 
-SceneJson links_json(const RobotModel& model) {
-  SceneJson links = SceneJson::array();
+Json links_json(const RobotModel& model) {
+  Json links = Json::array();
   for (std::size_t i = 0; i < model.links.size(); ++i) {
     const Link& link = model.links[i];
     const bool is_evaluated = link.role == LinkRole::evaluated;
@@ -31,8 +31,8 @@ SceneJson links_json(const RobotModel& model) {
   return links;
 }
 
-SceneJson cameras_json(const std::vector<PageCamera>& all) {
-  SceneJson cameras = SceneJson::array();
+Json cameras_json(const std::vector<PageCamera>& all) {
+  Json cameras = Json::array();
   for (const auto& [name, camera] : all) {
     cameras.push_back({{"name", name},
                        {"width_px", camera.width_px},
@@ -45,14 +45,14 @@ SceneJson cameras_json(const std::vector<PageCamera>& all) {
   return cameras;
 }
 
-SceneJson steps_json(const std::vector<ImageStep>& steps) {
-  SceneJson json = SceneJson::array();
+Json steps_json(const std::vector<ImageStep>& steps) {
+  Json json = Json::array();
   for (const ImageStep& step : steps) json.push_back({step.camera, step.frame, step.stamp_s});
   return json;
 }
 
-SceneJson fates_json_of_page() {
-  SceneJson fates = SceneJson::array();
+Json fates_json() {
+  Json fates = Json::array();
   for (int i = 0; i < kPixelFateCount; ++i) {
     const auto fate = static_cast<PixelFate>(i);
     fates.push_back(
@@ -61,8 +61,8 @@ SceneJson fates_json_of_page() {
   return fates;
 }
 
-SceneJson rows_of(const Pose& X) {
-  SceneJson rows = SceneJson::array();
+Json rows_of(const Pose& X) {
+  Json rows = Json::array();
   for (int row = 0; row < 4; ++row) {
     for (int column = 0; column < 4; ++column) rows.push_back(X.matrix()(row, column));
   }
@@ -78,26 +78,28 @@ std::span<const std::byte> bytes_of_all(const std::vector<T>& values) {
 
 PageMessage scene_message(const std::string& name, const RobotModel& model,
                           const std::vector<PageCamera>& cameras,
-                          const std::vector<ImageStep>& steps) {
+                          const std::vector<ImageStep>& steps, const std::string& note) {
   return json_message({{"type", "scene"},
                        {"file", name},
+                       {"note", note},
                        {"robot", model.name},
                        {"links", links_json(model)},
                        {"cameras", cameras_json(cameras)},
                        {"steps", steps_json(steps)},
-                       {"fates", fates_json_of_page()}});
+                       {"fates", fates_json()}});
 }
 
-PageMessage scene_message(const OpenScene& scene, const std::vector<ImageStep>& steps) {
+PageMessage scene_message(const OpenScene& scene, const std::vector<ImageStep>& steps,
+                          const std::string& note) {
   std::vector<PageCamera> cameras;
   for (const OpenCamera& one : scene.cameras) {
     cameras.push_back({one.source.name, one.view->camera()});
   }
-  return scene_message(scene.file.string(), scene.robot->model(), cameras, steps);
+  return scene_message(scene.file.string(), scene.robot->model(), cameras, steps, note);
 }
 
 PageMessage mesh_message(const RobotModel& model) {
-  SceneJson header = {{"type", "mesh"}, {"corners", {}}, {"triangles", {}}};
+  Json header = {{"type", "mesh"}, {"corners", {}}, {"triangles", {}}};
   std::vector<float> corners_m;
   std::vector<std::uint32_t> triangles;
   for (const Link& link : model.links) {
@@ -113,9 +115,13 @@ PageMessage mesh_message(const RobotModel& model) {
   return binary_message(header, {bytes_of_all(corners_m), bytes_of_all(triangles)});
 }
 
-PageMessage shown_message(const RobotModel& model, const FrameResult& result, std::size_t step,
-                          const std::vector<const Frame*>& frames) {
-  SceneJson json = {{"type", "shown"}, {"step", step}, {"links", {}}, {"cameras", {}}};
+PageMessage shown_message(const RobotModel& model, const Result& result,
+                          const std::vector<const Frame*>& frames, const ShownStep& of) {
+  Json json = {{"type", "shown"},
+               {"step", of.step},
+               {"is_provisional", of.is_provisional},
+               {"links", {}},
+               {"cameras", {}}};
   const auto posed = [](const Frame* frame) {
     return frame && frame->time.status == TimeStatus::ok;
   };
@@ -123,12 +129,15 @@ PageMessage shown_message(const RobotModel& model, const FrameResult& result, st
   const Frame* newest = at == frames.end() ? nullptr : *at;
   for (const Frame* frame : frames) {
     if (posed(frame) && frame->stamp_s > newest->stamp_s) newest = frame;
-    json["cameras"].push_back(posed(frame) ? rows_of(frame->X_BC) : SceneJson());
+    json["cameras"].push_back(posed(frame) ? rows_of(frame->X_BC) : Json());
   }
-  for (std::size_t i = 0; newest && i < model.links.size(); ++i) {
-    json["links"].push_back(rows_of(newest->pose.X_BL[i]));
+  // A result that is stale has no pose, and the robot is to be seen all the same.
+  const bool has_pose = !result.pose.X_BL.empty();
+  const RobotPose* pose = has_pose ? &result.pose : newest ? &newest->pose : nullptr;
+  for (std::size_t i = 0; pose && i < model.links.size(); ++i) {
+    json["links"].push_back(rows_of(pose->X_BL[i]));
   }
-  json["result"] = SceneJson::parse(result_json(result));
+  json["result"] = Json::parse(result_json(result));
   return json_message(json);
 }
 
@@ -151,11 +160,11 @@ PageMessage image_message(std::size_t camera, std::size_t number, const DepthIma
     behind_mm[i] =
         static_cast<std::int16_t>(std::lround(std::clamp(1000 * behind_m, -kMost_mm, kMost_mm)));
   }
-  const SceneJson header = {{"type", "image"},
-                            {"camera", camera},
-                            {"frame", number},
-                            {"width_px", sensor_depth_m.width()},
-                            {"height_px", sensor_depth_m.height()}};
+  const Json header = {{"type", "image"},
+                       {"camera", camera},
+                       {"frame", number},
+                       {"width_px", sensor_depth_m.width()},
+                       {"height_px", sensor_depth_m.height()}};
   return binary_message(header, {bytes_of_all(depth_m), bytes_of_all(fates), bytes_of_all(links),
                                  bytes_of_all(behind_mm)});
 }

@@ -3,7 +3,7 @@
 
 #include "apps/view/page_message.hpp"
 #include "berth/pipeline/frame.hpp"
-#include "berth/scene/frame_result.hpp"
+#include "berth/pipeline/result.hpp"
 #include "berth/scene/open_scene.hpp"
 #include "berth/scene/scene_steps.hpp"
 
@@ -15,20 +15,28 @@ struct PageCamera {
 };
 
 /// What stays as it is: links, cameras, steps, and the colours of pictures. `name` is that of the
-/// scene's file; a running robot has no steps.
+/// scene's file; a running robot has no steps. `note` is what a user should know of what is shown.
 PageMessage scene_message(const std::string& name, const RobotModel& model,
                           const std::vector<PageCamera>& cameras,
-                          const std::vector<ImageStep>& steps);
-PageMessage scene_message(const OpenScene& scene, const std::vector<ImageStep>& steps);
+                          const std::vector<ImageStep>& steps, const std::string& note = "");
+PageMessage scene_message(const OpenScene& scene, const std::vector<ImageStep>& steps,
+                          const std::string& note);
 
 /// The triangles of each link in its own frame: three floats for each corner, all links one after
 /// another, then three whole numbers of 32 bits for each triangle, counted within the link.
 PageMessage mesh_message(const RobotModel& model);
 
+/// Which of a scene's steps a result is of.
+struct ShownStep {
+  std::size_t step = 0;
+  /// Nothing is known yet of what needs all steps before: the result is that of its frames alone.
+  bool is_provisional = false;
+};
+
 /// What is shown now: the result, and the poses of links and cameras in the root link's frame, each
 /// as the four rows of its matrix. frames[c] is that of camera c, or null.
-PageMessage shown_message(const RobotModel& model, const FrameResult& result, std::size_t step,
-                          const std::vector<const Frame*>& frames);
+PageMessage shown_message(const RobotModel& model, const Result& result,
+                          const std::vector<const Frame*>& frames, const ShownStep& of = {});
 
 /// One camera's image: of each pixel the depth that counts (float, NaN: none), the fate (8 bits),
 /// the link (16 bits) and how far its reading lies behind the robot's surface (16 bits, in mm;

@@ -10,7 +10,7 @@
 namespace berth::app {
 namespace {
 
-using SettingJson = nlohmann::ordered_json;
+using Json = nlohmann::ordered_json;
 
 /// The unit that the name ends in.
 std::string_view unit_of_setting(std::string_view name) {
@@ -34,35 +34,30 @@ struct BareType<std::optional<T>> {
 
 /// Null where there is none; text where it has no end.
 template <class T>
-SettingJson value_json(const T& value) {
+Json value_json(const T& value) {
   if constexpr (requires { value.has_value(); }) {
-    return value ? value_json(*value) : SettingJson();
+    return value ? value_json(*value) : Json();
   } else if constexpr (std::is_enum_v<T>) {
     return name_of(value);
   } else if constexpr (std::is_floating_point_v<T>) {
-    return std::isfinite(value) ? SettingJson(value) : SettingJson("no limit");
+    return std::isfinite(value) ? Json(value) : Json("no limit");
   } else {
     return value;
   }
 }
 
 template <class T>
-SettingJson kind_json(const Domain& domain) {
+Json kind_json(const Domain& domain) {
   if constexpr (std::is_same_v<T, bool>) {
     return {{"kind", "bool"}};
   } else if constexpr (std::is_enum_v<T>) {
-    SettingJson names = SettingJson::array();
-    for (const T one : all_of(T{})) {
-      if constexpr (std::is_same_v<T, Method>) {
-        if (runs_on_opengl(one)) continue;
-      }
-      names.push_back(name_of(one));
-    }
+    Json names = Json::array();
+    for (const T one : all_of(T{})) names.push_back(name_of(one));
     return {{"kind", "choice"}, {"choices", names}};
   } else {
-    SettingJson json = {{"kind", std::is_integral_v<T> ? "whole" : "number"},
-                        {"least", domain.has_off ? 0 : domain.least},
-                        {"domain", domain.text(std::is_integral_v<T>)}};
+    Json json = {{"kind", std::is_integral_v<T> ? "whole" : "number"},
+                 {"least", domain.has_off ? 0 : domain.least},
+                 {"domain", domain.text(std::is_integral_v<T>)}};
     if (std::isfinite(domain.most)) json["most"] = domain.most;
     return json;
   }
@@ -70,14 +65,13 @@ SettingJson kind_json(const Domain& domain) {
 
 /// One object for each setting of a list.
 template <class Settings>
-SettingJson described(const Settings& settings) {
-  SettingJson all = SettingJson::array();
+Json described(const Settings& settings) {
+  Json all = Json::array();
   visit_settings(settings, [&](const Setting& setting, const auto& value) {
     using T = typename BareType<std::remove_cvref_t<decltype(value)>>::Type;
-    SettingJson json = {{"name", setting.name},
-                        {"unit", unit_of_setting(setting.name)},
-                        {"sentence", setting.sentence},
-                        {"methods", setting.methods}};
+    Json json = {{"name", setting.name},
+                 {"unit", unit_of_setting(setting.name)},
+                 {"sentence", setting.sentence}};
     json.update(kind_json<T>(setting.domain));
     all.push_back(std::move(json));
   });
@@ -85,35 +79,35 @@ SettingJson described(const Settings& settings) {
 }
 
 template <class Settings>
-SettingJson values_of(const Settings& settings) {
-  SettingJson values = SettingJson::array();
+Json values_of(const Settings& settings) {
+  Json values = Json::array();
   visit_settings(settings,
                  [&](const Setting&, const auto& value) { values.push_back(value_json(value)); });
   return values;
 }
 
-SettingJson question_group(std::string_view name, const auto& now, const auto& original) {
+Json question_group(std::string_view name, const auto& now, const auto& original) {
   return {{"name", name},
           {"by_camera", false},
           {"settings", described(now)},
-          {"now", SettingJson::array({values_of(now)})},
-          {"file", SettingJson::array({values_of(original)})}};
+          {"now", Json::array({values_of(now)})},
+          {"file", Json::array({values_of(original)})}};
 }
 
 /// The values of one group of a camera's settings.
-SettingJson camera_values(const SceneCamera& camera, std::string_view group) {
-  SettingJson values;
+Json camera_values(const SceneCamera& camera, std::string_view group) {
+  Json values;
   visit_setting_groups(camera.settings, [&](std::string_view name, const auto& settings) {
     if (name == group) values = values_of(settings);
   });
   return values;
 }
 
-SettingJson camera_groups(const ChangedScene& scene) {
-  SettingJson groups = SettingJson::array();
-  const ViewSettings& first = scene.now().cameras.front().settings;
+Json camera_groups(const ChangedScene& scene) {
+  Json groups = Json::array();
+  const CameraSettings& first = scene.now().cameras.front().settings;
   visit_setting_groups(first, [&](std::string_view name, const auto& settings) {
-    SettingJson group = {{"name", name}, {"by_camera", true}, {"settings", described(settings)}};
+    Json group = {{"name", name}, {"by_camera", true}, {"settings", described(settings)}};
     for (std::size_t c = 0; c < scene.now().cameras.size(); ++c) {
       group["now"].push_back(camera_values(scene.now().cameras[c], name));
       group["file"].push_back(camera_values(scene.original().cameras[c], name));
@@ -123,15 +117,15 @@ SettingJson camera_groups(const ChangedScene& scene) {
   return groups;
 }
 
-SettingJson pose_json(const SceneCamera& camera) {
+Json pose_json(const SceneCamera& camera) {
   const Eigen::Vector3d xyz_m = camera.X_PC.translation();
   const Eigen::Vector3d rpy_rad = rpy_of(camera.X_PC.linear());
   return {{"xyz_m", {xyz_m.x(), xyz_m.y(), xyz_m.z()}},
           {"rpy_rad", {rpy_rad.x(), rpy_rad.y(), rpy_rad.z()}}};
 }
 
-SettingJson poses(const ChangedScene& scene) {
-  SettingJson all = SettingJson::array();
+Json poses(const ChangedScene& scene) {
+  Json all = Json::array();
   for (std::size_t c = 0; c < scene.now().cameras.size(); ++c) {
     all.push_back({{"camera", scene.now().cameras[c].name},
                    {"parent", scene.now().cameras[c].parent_link},
@@ -144,11 +138,12 @@ SettingJson poses(const ChangedScene& scene) {
 }  // namespace
 
 PageMessage settings_message(const ChangedScene& scene) {
-  SettingJson groups = camera_groups(scene);
-  groups.push_back(
-      question_group("evaluation", scene.now().evaluation, scene.original().evaluation));
-  groups.push_back(
-      question_group("time", scene.now().evaluation.time, scene.original().evaluation.time));
+  Json groups = camera_groups(scene);
+  // Without what only methods that compare images have.
+  const EvaluationSettings& now = scene.now().evaluation;
+  const EvaluationSettings& original = scene.original().evaluation;
+  groups.push_back(question_group("evaluation", now, original));
+  groups.push_back(question_group("time", now.time, original.time));
   if (scene.now().separation) {
     groups.push_back(question_group("separation", *scene.now().separation,
                                     scene.original().separation.value_or(SeparationSettings())));

@@ -1,4 +1,5 @@
 #include "apps/view/space_grid.hpp"
+#include "berth/pipeline/frame_set.hpp"
 
 #include <tbb/parallel_for.h>
 
@@ -9,18 +10,18 @@ namespace berth::app {
 namespace {
 
 /// Whether a camera measured a surface at this point.
-bool is_on_surface(const CarvingView& view, const Eigen::Vector3d& p_B) {
+bool is_on_surface(const FreeingCamera& view, const Eigen::Vector3d& p_B) {
   const Eigen::Vector3d p_C = view.X_CB * p_B;
   const auto pixel = pixel_of(view.space->camera, p_C);
   if (!pixel) return false;
   const double depth_m = view.space->obstacle_depth_m(pixel->u, pixel->v);
   const SpaceSettings& settings = view.space->settings;
-  return p_C.z() >= depth_m - settings.carve_margin_m && p_C.z() <= depth_m + settings.slab_m;
+  return p_C.z() >= depth_m - settings.free_space_margin_m && p_C.z() <= depth_m + settings.surface_thickness_m;
 }
 
-CellSight sight_at(const HiddenSpace& space, const Eigen::Vector3d& p_B) {
+CellSight sight_at(const UnknownSpace& space, const Eigen::Vector3d& p_B) {
   if (space.hiding_pixel(p_B)) return CellSight::hidden;
-  for (const CarvingView& view : space.views()) {
+  for (const FreeingCamera& view : space.views()) {
     if (is_seen_free(view, p_B) || is_on_surface(view, p_B)) return CellSight::seen;
   }
   return CellSight::unseen;

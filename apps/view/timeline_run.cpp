@@ -10,16 +10,30 @@
 namespace berth::app {
 namespace {
 
-using TimelineClock = std::chrono::steady_clock;
+using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kBetweenMessages{250};
 
 /// Thrown where the run is to end.
 struct RunStopped {};
 
+/// Null where no background was learned.
+std::shared_ptr<const OpenScene> with_backgrounds(const OpenScene& scene, const SceneRun& run) {
+  std::shared_ptr<OpenScene> learned;
+  for (std::size_t c = 0; c < scene.cameras.size(); ++c) {
+    if (scene.cameras[c].background_m) continue;
+    std::optional<DepthImage> background_m = run.background_m(c);
+    if (!background_m) continue;
+    if (!learned) learned = std::make_shared<OpenScene>(scene);
+    learned->cameras[c].background_m = std::move(background_m);
+  }
+  return learned;
+}
+
 }  // namespace
 
-TimelineRun::TimelineRun(Publish publish) : publish_(std::move(publish)) {
+TimelineRun::TimelineRun(Publish publish, std::function<void()> has_news)
+    : publish_(std::move(publish)), has_news_(std::move(has_news)) {
   thread_ = std::thread([this] { work(); });
 }
 
@@ -32,12 +46,35 @@ TimelineRun::~TimelineRun() {
   thread_.join();
 }
 
+void TimelineRun::stop() {
+  const std::scoped_lock lock(mutex_);
+  is_stopped_ = true;
+  next_.reset();
+  results_.clear();
+  learned_.reset();
+  has_failed_ = false;
+}
+
 void TimelineRun::start(std::shared_ptr<const OpenScene> scene) {
+  stop();
   {
     const std::scoped_lock lock(mutex_);
     next_ = std::move(scene);
   }
   wake_.notify_one();
+}
+
+StepFinding TimelineRun::find(std::size_t step) {
+  const std::scoped_lock lock(mutex_);
+  missed_.reset();
+  if (step < results_.size()) return {results_[step]};
+  if (!has_failed_) missed_ = step;
+  return {nullptr, has_failed_};
+}
+
+std::shared_ptr<const OpenScene> TimelineRun::learned() {
+  const std::scoped_lock lock(mutex_);
+  return learned_;
 }
 
 void TimelineRun::work() {
@@ -48,38 +85,52 @@ void TimelineRun::work() {
       wake_.wait(lock, [this] { return is_ending_ || next_; });
       if (is_ending_) return;
       scene = std::move(next_);
+      is_stopped_ = false;
     }
-    run(*scene);
+    try {
+      run(*scene);
+    } catch (const RunStopped&) {
+    }
   }
 }
 
-bool TimelineRun::has_news() {
+void TimelineRun::pause() {
   const std::scoped_lock lock(mutex_);
-  return is_ending_ || next_;
+  if (is_ending_ || is_stopped_) throw RunStopped{};
+}
+
+void TimelineRun::note(const std::function<void()>& change) {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (is_ending_ || is_stopped_) throw RunStopped{};
+    change();
+    if (!missed_ || (*missed_ >= results_.size() && !has_failed_)) return;
+    missed_.reset();
+  }
+  has_news_();
 }
 
 void TimelineRun::run(const OpenScene& scene) {
   Curves curves(scene.frame_count, scene.frame_count);
   publish_("timeline", curves.message());
-  const auto pause = [this] {
-    if (has_news()) throw RunStopped{};
-  };
   try {
-    SceneRun run(scene, {}, pause);
+    SceneRun run(scene, {}, [this] { pause(); });
+    note([&, learned = with_backgrounds(scene, run)] { learned_ = learned; });
     for (const CameraPlausibility& camera : run.plausibility()) curves.warn(text_of(camera));
-    auto told = TimelineClock::now();
+    auto told = Clock::now();
     while (run.next()) {
       pause();
-      curves.add(run.ask());
-      if (TimelineClock::now() - told < kBetweenMessages) continue;
+      auto result = std::make_shared<const Result>(run.ask());
+      curves.add(*result);
+      note([&] { results_.push_back(std::move(result)); });
+      if (Clock::now() - told < kBetweenMessages) continue;
       publish_("timeline", curves.message());
-      told = TimelineClock::now();
+      told = Clock::now();
     }
     publish_("timeline", curves.message());
-  } catch (const RunStopped&) {
-    return;
   } catch (const std::exception& error) {
     publish_("timeline", curves.message(error.what()));
+    note([&] { has_failed_ = true; });
   }
 }
 

@@ -13,25 +13,26 @@
 #include "apps/view/space_grid.hpp"
 #include "berth/scene/rpy.hpp"
 #include "berth/scene/settings_text.hpp"
+#include "berth/pipeline/frame_set.hpp"
 
 namespace berth::app {
 namespace {
 
 namespace fs = std::filesystem;
-using RequestJson = nlohmann::ordered_json;
+using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostRequests = 100;
 /// Notices that come at once are kept side by side.
 constexpr int kNoticeKinds = 8;
 
 /// Empty where it has none.
-std::string text_in(const RequestJson& request, const char* key) {
+std::string text_in(const Json& request, const char* key) {
   const auto at = request.find(key);
   return at != request.end() && at->is_string() ? at->get<std::string>() : "";
 }
 
 /// What a later request of the same key makes needless; empty where nothing does.
-std::string replaced_key(const RequestJson& request) {
+std::string replaced_key(const Json& request) {
   const std::string what = text_in(request, "do");
   const std::string camera = request.contains("camera") ? request["camera"].dump() : "";
   if (what == "show" || what == "space") return what;
@@ -41,7 +42,7 @@ std::string replaced_key(const RequestJson& request) {
 }
 
 /// A value as a scene file has it.
-std::optional<std::string> text_of_value(const RequestJson& value) {
+std::optional<std::string> text_of_value(const Json& value) {
   if (value.is_null()) return std::nullopt;
   if (value.is_number() || value.is_boolean()) return value.dump();
   const std::string text = value.is_string() ? value.get<std::string>() : "";
@@ -51,18 +52,39 @@ std::optional<std::string> text_of_value(const RequestJson& value) {
       fmt::format("{} is no value; expected a number, true, false or a name", value.dump()));
 }
 
-/// At which every camera has an image; the first one where the cameras come one after another.
-std::size_t first_step_of_all(const SceneFrames& frames) {
-  if (asks_images(frames.scene().robot->settings().method)) return 0;
-  std::set<std::size_t> cameras;
-  for (std::size_t step = 0; step < frames.steps().size(); ++step) {
-    cameras.insert(frames.steps()[step].camera);
-    if (cameras.size() == frames.scene().cameras.size()) return step;
+/// At which every camera has an image.
+std::size_t first_step_of_all(const std::vector<ImageStep>& steps, std::size_t cameras) {
+  std::set<std::size_t> found;
+  for (std::size_t step = 0; step < steps.size(); ++step) {
+    found.insert(steps[step].camera);
+    if (found.size() == cameras) return step;
   }
   return 0;
 }
 
-Eigen::Vector3d vector_of(const RequestJson& json) {
+SceneFile as_mesh(SceneFile scene) {
+  scene.evaluation.method = Method::mesh;
+  return scene;
+}
+
+std::string note_of(const SceneFile& scene) {
+  const Method method = scene.evaluation.method;
+  if (method == Method::mesh) return "";
+  return fmt::format("method mesh is shown; the file says {}", name_of(method));
+}
+
+/// What only methods that compare images have is no setting of the page.
+void require_shown(const std::string& group, const std::string& key) {
+  if (group != "evaluation") return;
+  std::vector<std::string_view> names;
+  const EvaluationSettings settings;
+  visit_settings(settings, [&](const Setting& one, const auto&) { names.push_back(one.name); });
+  if (std::ranges::find(names, key) != names.end()) return;
+  throw std::runtime_error(fmt::format(
+      "evaluation.{}: is no setting of the page; expected one of {}", key, fmt::join(names, ", ")));
+}
+
+Eigen::Vector3d vector_of(const Json& json) {
   const auto values = json.get<std::array<double, 3>>();
   return {values[0], values[1], values[2]};
 }
@@ -74,14 +96,24 @@ ViewedScene::ViewedScene(const fs::path& file, fs::path folder, Publish publish,
     : folder_(std::move(folder)),
       publish_(std::move(publish)),
       changed_(file),
-      scene_(std::make_shared<const OpenScene>(open_scene(changed_.original(), before_image))),
-      frames_(std::make_unique<SceneFrames>(scene_)),
-      timeline_(publish_),
-      teach_in_(publish_) {
-  publish_("scene", scene_message(*scene_, frames_->steps()));
+      scene_(std::make_shared<const OpenScene>(
+          open_scene(as_mesh(changed_.original()), before_image))),
+      shown_scene_(scene_),
+      shown_(std::make_unique<SceneRun>(*scene_, SceneRun::SingleSteps{})),
+      image_numbers_(scene_->cameras.size()),
+      timeline_(publish_,
+                [this] {
+                  {
+                    const std::scoped_lock lock(mutex_);
+                    has_news_ = true;
+                  }
+                  wake_.notify_one();
+                }),
+      data_(publish_) {
+  publish_("scene", scene_message(*scene_, shown_->steps(), note_of(changed_.original())));
   publish_("mesh", mesh_message(scene_->robot->model()));
   publish_("settings", settings_message(changed_));
-  show(first_step_of_all(*frames_));
+  show(first_step_of_all(shown_->steps(), scene_->cameras.size()));
   timeline_.start(scene_);
   thread_ = std::thread([this] { work(); });
 }
@@ -98,32 +130,40 @@ void ViewedScene::finish() {
 }
 
 void ViewedScene::receive(const std::string& text) {
-  RequestJson request = RequestJson::parse(text, nullptr, false);
+  Json request = Json::parse(text, nullptr, false);
   const bool is_request = request.is_object() && !text_in(request, "do").empty();
   {
     const std::scoped_lock lock(mutex_);
     const std::string key = is_request ? replaced_key(request) : "";
     if (!key.empty()) {
-      std::erase_if(requests_, [&](const RequestJson& one) { return replaced_key(one) == key; });
+      std::erase_if(requests_, [&](const Json& one) { return replaced_key(one) == key; });
     }
     if (requests_.size() >= kMostRequests) return;
-    requests_.push_back(is_request ? std::move(request) : RequestJson{{"do", "?"}});
+    requests_.push_back(is_request ? std::move(request) : Json{{"do", "?"}});
   }
   wake_.notify_one();
 }
 
 void ViewedScene::work() {
   while (true) {
-    RequestJson request;
+    std::optional<Json> request;
     {
       std::unique_lock lock(mutex_);
-      wake_.wait(lock, [this] { return is_ending_ || !requests_.empty(); });
+      wake_.wait(lock, [this] { return is_ending_ || has_news_ || !requests_.empty(); });
       if (is_ending_) return;
-      request = std::move(requests_.front());
-      requests_.pop_front();
+      if (!requests_.empty()) {
+        request = std::move(requests_.front());
+        requests_.pop_front();
+      } else {
+        has_news_ = false;
+      }
     }
     try {
-      carry_out(request);
+      if (request) {
+        carry_out(*request);
+      } else {
+        show(step_);
+      }
     } catch (const nlohmann::json::exception& error) {
       tell(true, fmt::format("not understood: {}", error.what()));
     } catch (const std::exception& error) {
@@ -139,10 +179,10 @@ void ViewedScene::carry_out(const Request& request) {
   if (what == "pose") return set_pose(request);
   if (what == "space") return show_space(request.at("on").get<bool>());
   if (what == "reset") return change([](ChangedScene& scene) { scene.reset(); });
-  if (what == "teach_in") return teach_in_.start(scene_);
-  if (what == "drop_teach_in") return teach_in_.drop();
-  if (what == "take_teach_in") {
-    if (const auto found = teach_in_.take()) {
+  if (what == "calibration_data") return data_.start(scene_);
+  if (what == "drop_calibration_data") return data_.drop();
+  if (what == "take_calibration_data") {
+    if (const auto found = data_.take()) {
       change([&](ChangedScene& scene) { scene.add(*found); });
     }
     return;
@@ -158,15 +198,14 @@ void ViewedScene::change(const std::function<void(ChangedScene&)>& change) {
   ChangedScene changed = changed_;
   try {
     change(changed);
-    auto scene = std::make_shared<const OpenScene>(reopen_scene(*scene_, changed.now()));
-    auto frames = std::make_unique<SceneFrames>(scene);
-    const bool has_same_steps = scene->robot->settings().method == scene_->robot->settings().method;
-    const std::size_t step = frames_->step();
+    auto scene = std::make_shared<const OpenScene>(reopen_scene(*scene_, as_mesh(changed.now())));
+    auto shown = std::make_unique<SceneRun>(*scene, SceneRun::SingleSteps{});
     changed_ = std::move(changed);
+    shown_ = std::move(shown);
+    shown_scene_ = scene;
     scene_ = std::move(scene);
-    frames_ = std::move(frames);
-    if (!has_same_steps) publish_("scene", scene_message(*scene_, frames_->steps()));
-    show(step);
+    timeline_.stop();
+    show(step_);
     timeline_.start(scene_);
   } catch (...) {
     // The page has shown what was asked for.
@@ -183,6 +222,7 @@ void ViewedScene::set(const Request& request) {
     throw std::runtime_error(
         fmt::format("group \"{}\": expected one of {}", group, fmt::join(kSettingGroups, ", ")));
   }
+  require_shown(group, key);
   std::optional<std::size_t> camera;
   if (request.contains("camera") && !request["camera"].is_null()) camera = camera_in(request);
   const std::optional<std::string> text = text_of_value(request.at("value"));
@@ -200,35 +240,45 @@ void ViewedScene::set_pose(const Request& request) {
 }
 
 void ViewedScene::show(std::size_t step) {
-  frames_->show(std::min(step, frames_->steps().size() - 1));
-  const FrameResult result = frames_->ask();
-  std::vector<const Frame*> frames;
-  for (std::size_t c = 0; c < scene_->cameras.size(); ++c) frames.push_back(frames_->frame(c));
-  publish_("shown", shown_message(scene_->robot->model(), result, frames_->step(), frames));
-  for (std::size_t c = 0; c < frames.size(); ++c) {
-    if (!frames[c]) continue;
-    publish_(fmt::format("image {}", c),
-             image_message(c, frames_->frame_number(c), frames_->sensor_depth_m(c), *frames[c]));
+  step_ = std::min(step, shown_->steps().size() - 1);
+  const StepFinding found = timeline_.find(step_);
+  if (const auto learned = timeline_.learned(); learned && learned != shown_scene_) {
+    shown_ = std::make_unique<SceneRun>(*learned, SceneRun::SingleSteps{});
+    shown_scene_ = learned;
   }
+  shown_->go_to(step_, found.result.get());
+  Result own = shown_->ask();
+  if (found.has_failed) withhold(own);
+  std::vector<const Frame*> frames;
+  for (std::size_t c = 0; c < scene_->cameras.size(); ++c) frames.push_back(shown_->frame(c).get());
+  const ShownStep of{step_, !found.result && !found.has_failed};
+  publish_("shown",
+           shown_message(scene_->robot->model(), found.result ? *found.result : own, frames, of));
+  publish_images();
   if (has_space_) publish_space();
 }
 
-void ViewedScene::show_space(bool is_on) {
-  if (is_on && scene_->robot->settings().method != Method::mesh) {
-    throw std::runtime_error(
-        "hidden space is known to method mesh alone; evaluation.method is "
-        "another one");
+void ViewedScene::publish_images() {
+  for (std::size_t c = 0; c < image_numbers_.size(); ++c) {
+    const std::shared_ptr<const Frame> frame = shown_->frame(c);
+    if (!frame || frame->number == image_numbers_[c]) continue;
+    image_numbers_[c] = frame->number;
+    publish_(fmt::format("image {}", c),
+             image_message(c, shown_->frame_number(c), shown_->sensor_depth_m(c), *frame));
   }
+}
+
+void ViewedScene::show_space(bool is_on) {
   has_space_ = is_on;
   publish_space();
 }
 
 void ViewedScene::publish_space() {
-  const Frame* newest = frames_->frame_set().newest();
+  const Frame* newest = shown_->frame_set().newest();
   SpaceGrid grid;
   if (has_space_ && newest) {
     const OpenScene& scene = *scene_;
-    grid = find_space_grid(frames_->frame_set(),
+    grid = find_space_grid(shown_->frame_set(),
                            box_around(scene.robot->model(), newest->pose,
                                       0.5 * scene.robot->settings().distance.range_m));
   }

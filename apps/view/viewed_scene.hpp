@@ -13,14 +13,18 @@
 
 #include "apps/view/changed_scene.hpp"
 #include "apps/view/page_message.hpp"
-#include "apps/view/scene_frames.hpp"
-#include "apps/view/teach_in_run.hpp"
+#include "apps/view/calibration_run.hpp"
 #include "apps/view/timeline_run.hpp"
+#include "berth/scene/scene_run.hpp"
 
 namespace berth::app {
 
 /// A scene, its settings as they were changed, and the frame that is shown: the same for all pages.
-/// A change shows on that frame first; the others follow in the background.
+/// A change shows on that frame first; the others follow in the background. What is said of the
+/// frame is provisional until the run in the background has come there; then it is what that run
+/// says, as in the curves.
+///
+/// Whatever method the scene names, it is shown with method mesh.
 ///
 /// A request is an object with `do`, and:
 ///
@@ -29,7 +33,7 @@ namespace berth::app {
 ///     {"do": "pose", "camera": 0, "xyz_m": [0, 0, 1], "rpy_rad": [0, 0, 0]}
 ///     {"do": "space", "on": true}
 ///     {"do": "save", "name": "mine.yaml"}
-///     {"do": "reset"}, {"do": "teach_in"}, {"do": "drop_teach_in"}, {"do": "take_teach_in"}
+///     {"do": "reset"}, {"do": "calibration_data"}, {"do": "drop_calibration_data"}, {"do": "take_calibration_data"}
 ///
 /// Without `camera` a setting is that of all cameras; null in place of a value or a pose is what
 /// the file says. What is refused is published (kind "notice") with the reason.
@@ -61,6 +65,8 @@ class ViewedScene {
   void set(const Request& request);
   void set_pose(const Request& request);
   void show(std::size_t step);
+  /// Publishes the images that the pages have not.
+  void publish_images();
   void show_space(bool is_on);
   void publish_space();
   std::size_t camera_in(const Request& request) const;
@@ -70,16 +76,23 @@ class ViewedScene {
   Publish publish_;
   ChangedScene changed_;
   std::shared_ptr<const OpenScene> scene_;
-  std::unique_ptr<SceneFrames> frames_;
+  /// The same with what was learned of it, and its step on show.
+  std::shared_ptr<const OpenScene> shown_scene_;
+  std::unique_ptr<SceneRun> shown_;
+  std::size_t step_ = 0;
+  /// Exposure::number of the images that the pages have.
+  std::vector<std::uint64_t> image_numbers_;
   bool has_space_ = false;
   int notices_ = 0;
-  TimelineRun timeline_;
-  TeachInRun teach_in_;
 
   std::mutex mutex_;
   std::condition_variable wake_;
   std::deque<Request> requests_;
+  /// More is known of the step on show.
+  bool has_news_ = false;
   bool is_ending_ = false;
+  TimelineRun timeline_;
+  CalibrationRun data_;
   std::thread thread_;
 };
 

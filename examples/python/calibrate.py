@@ -1,4 +1,4 @@
-"""Teach-in of a scene, and what it changes. Usage: calibrate.py scene.yaml new.yaml [residuals.png]"""
+"""Calibration of a scene, and what it changes. Usage: calibrate.py scene.yaml new.yaml [residuals.png]"""
 import sys
 
 import berth
@@ -10,7 +10,7 @@ for camera in found.cameras:
     print(f"{camera.camera}: moved by {1000 * camera.moved_m:.1f} mm, "
           f"residuals 90 % from {1000 * camera.before_m[1]:.1f} to {1000 * camera.after_m[1]:.1f} mm")
 for name in sys.argv[1:3]:
-    nearest = [step.answer.nearest for step in berth.open_scene(name)]
+    nearest = [step.result.nearest for step in berth.open_scene(name)]
     print(name, "least distance", np.min([link.distance_m for link in nearest if link]), "m")
 if len(sys.argv) > 3:
     import berth.plot

@@ -57,7 +57,7 @@ class CamerasNanoflann : public CamerasPeer {
 
   std::string name() const override { return "nanoflann KD-tree, samples 5 mm"; }
   std::string lacks() const override {
-    return "hidden space, pixel sizes, what lies between samples";
+    return "unknown space, pixel sizes, what lies between samples";
   }
 
   void build(const WholeRobotScene& scene) override {

@@ -7,7 +7,8 @@
 
 #include "lab/bench/cameras_peer.hpp"
 #include "lab/bench/cameras_points.hpp"
-#include "tests/support/mesh_distance.hpp"
+#include "sim/fcl_mesh.hpp"
+#include "sim/mesh_distance.hpp"
 
 namespace berth::lab {
 namespace {
@@ -16,13 +17,13 @@ class CamerasOctomap : public CamerasPeer {
  public:
   CamerasOctomap(const RobotModel& model, double resolution_m)
       : links_(model.evaluated_links),
-        link_trees_(testing::build_link_trees(model)),
+        link_trees_(sim::build_link_trees(model)),
         resolution_m_(resolution_m) {}
 
   std::string name() const override {
     return fmt::format("FCL, OctoMap {:.0f} cm", 100 * resolution_m_);
   }
-  std::string lacks() const override { return "hidden space; rounds to cells"; }
+  std::string lacks() const override { return "unknown space; rounds to cells"; }
 
   /// One ray for each cell that the readings end in, not for each reading: the faster way.
   void build(const WholeRobotScene& scene) override {
@@ -55,7 +56,7 @@ class CamerasOctomap : public CamerasPeer {
 
  private:
   std::vector<std::size_t> links_;
-  std::vector<testing::MeshTree> link_trees_;
+  std::vector<sim::MeshTree> link_trees_;
   double resolution_m_;
   octomap::Pointcloud cloud_;
   std::unique_ptr<fcl::OcTreed> octree_;

@@ -41,8 +41,8 @@ struct CamerasRecord {
   void take_link(const WholeLinkDistance& truth, std::optional<double> answer_m) {
     if (truth.nearest.is_known() && !answer_m) ++links_missed;
     if (!answer_m) return;
-    if (truth.reading.is_known()) {
-      const double mm = 1000 * (*answer_m - truth.reading.distance_m);
+    if (truth.occupied.is_known()) {
+      const double mm = 1000 * (*answer_m - truth.occupied.distance_m);
       error_mm.push_back(std::abs(mm));
       too_near_mm = std::max(too_near_mm, -mm);
       too_far_mm = std::max(too_far_mm, mm);
@@ -91,7 +91,7 @@ class CamerasComparison {
 
   void run(const WholeRobotScene& scene) {
     exact_ms_.push_back(exact_.ms(scene, links_));
-    run_mesh(scene, {.hidden = false}, readings_);
+    run_mesh(scene, {.unknown = false}, readings_);
     run_mesh(scene, kBoth, both_);
     for (auto& [peer, record] : peers_) {
       std::vector<std::optional<double>> answer_m;
@@ -107,7 +107,7 @@ class CamerasComparison {
     const double exact_ms = median(exact_ms_).value();
     std::vector<Table::Row> rows;
     rows.push_back(row_of("mesh, both", both_, exact_ms, ""));
-    rows.push_back(row_of("mesh, readings alone", readings_, exact_ms, "hidden space"));
+    rows.push_back(row_of("mesh, readings alone", readings_, exact_ms, "unknown space"));
     for (const auto& [peer, record] : peers_) {
       rows.push_back(row_of(peer->name(), record, exact_ms, peer->lacks()));
     }

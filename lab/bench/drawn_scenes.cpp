@@ -14,7 +14,7 @@ constexpr int kLinks = 8;
 
 constexpr double radians(double degrees) { return degrees * 3.14159265358979323846 / 180; }
 
-testing::ImagePair random_or_special(int i) {
+sim::ImagePair random_or_special(int i) {
   const auto seed = static_cast<std::uint32_t>(i);
   switch (i % 40) {
     case 9:
@@ -26,12 +26,12 @@ testing::ImagePair random_or_special(int i) {
     case 39:
       return checkerboard_images(1 + i / 40, kWidth, kHeight);
     default:
-      return testing::random_images(seed, kWidth, kHeight, kLinks);
+      return sim::random_images(seed, kWidth, kHeight, kLinks);
   }
 }
 
 /// Each kind comes early, for a run over the first few of them.
-testing::ImagePair hard_images(int i) {
+sim::ImagePair hard_images(int i) {
   switch (i) {
     case 0:
       return plate_images(radians(20), kWidth, kHeight);
@@ -48,7 +48,7 @@ testing::ImagePair hard_images(int i) {
 
 }  // namespace
 
-BenchScene scene_of(testing::ImagePair images) {
+BenchScene scene_of(sim::ImagePair images) {
   BenchScene scene;
   scene.shapes_L = visible_shapes_C(images.camera, images.robot, images.link_count);
   scene.X_CL.assign(images.link_count, Pose::Identity());

@@ -1,12 +1,12 @@
 #pragma once
 
 #include "lab/bench/bench_scene.hpp"
-#include "tests/support/random_images.hpp"
+#include "sim/random_images.hpp"
 
 namespace berth::lab {
 
 /// The images as a scene whose links have the shape that the camera sees.
-BenchScene scene_of(testing::ImagePair images);
+BenchScene scene_of(sim::ImagePair images);
 
 /// `count` scenes at 640 x 480, one in ten of them a contact, noise, plates or a checkerboard, the
 /// rest random; the same ones at every call.

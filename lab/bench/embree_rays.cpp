@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "berth/render/link_rect.hpp"
-#include "tests/support/embree_handles.hpp"
+#include "sim/embree_scene.hpp"
 
 namespace berth::lab {
 namespace {
@@ -20,25 +20,11 @@ constexpr int kPacketSide = 4;
 constexpr int kPacketRays = kPacketSide * kPacketSide;
 constexpr int kTileSide = 8;
 
-EmbreeScene build_scene(RTCDevice device, const TriangleMesh& mesh) {
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                               RTC_FORMAT_FLOAT3, 3 * sizeof(float),
-                                                               mesh.vertices_m.size()));
-  auto* indices = static_cast<std::uint32_t*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                              3 * sizeof(std::uint32_t), mesh.triangles.size()));
-  require_no_embree_error(device, "allocating a mesh");
-  for (const auto& p : mesh.vertices_m) vertices = std::copy(p.data(), p.data() + 3, vertices);
-  for (const auto& triangle : mesh.triangles)
-    indices = std::copy(triangle.begin(), triangle.end(), indices);
-  rtcCommitGeometry(geometry);
-  EmbreeScene scene(rtcNewScene(device));
+sim::EmbreeScene build_scene(RTCDevice device, const TriangleMesh& mesh) {
+  sim::EmbreeScene scene(rtcNewScene(device));
   rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_HIGH);
-  rtcAttachGeometry(scene.get(), geometry);
-  rtcReleaseGeometry(geometry);
-  rtcCommitScene(scene.get());
-  require_no_embree_error(device, "building a mesh");
+  sim::attach_mesh(device, scene.get(), 0, mesh);
+  sim::commit_scene(device, scene.get());
   return scene;
 }
 
@@ -47,7 +33,7 @@ struct LinkInstance {
   std::size_t link_index;
   LinkId id;
   Eigen::AlignedBox3f box_L_m;
-  EmbreeScene mesh;
+  sim::EmbreeScene mesh;
 };
 
 }  // namespace
@@ -55,9 +41,9 @@ struct LinkInstance {
 /// The scene's frame is the camera's optical frame C and rays are (x, y, 1) t: t is the depth.
 struct EmbreeRays::State {
   Camera camera;
-  EmbreeDevice device;
+  sim::EmbreeDevice device;
   std::vector<LinkInstance> links;
-  EmbreeScene scene;
+  sim::EmbreeScene scene;
   std::vector<float> ray_x;
   std::vector<float> ray_y;
   /// 1 where a link's rectangle reaches into the tile.
@@ -65,10 +51,9 @@ struct EmbreeRays::State {
 
   explicit State(const Camera& c)
       : camera(c),
-        device(rtcNewDevice(nullptr)),
+        device(sim::make_embree_device()),
         is_in_view((c.width_px + kTileSide - 1) / kTileSide,
                    (c.height_px + kTileSide - 1) / kTileSide) {
-    if (!device) require_no_embree_error(nullptr, "making a device");
     for (int u = 0; u < c.width_px; ++u)
       ray_x.push_back(static_cast<float>((u - c.cx_px) / c.fx_px));
     for (int v = 0; v < c.height_px; ++v)
@@ -89,7 +74,7 @@ struct EmbreeRays::State {
       rtcAttachGeometryByID(scene.get(), instance, static_cast<unsigned>(links.size() - 1));
       rtcReleaseGeometry(instance);
     }
-    require_no_embree_error(device.get(), "making the scene of a camera");
+    sim::require_no_embree_error(device.get(), "making the scene of a camera");
   }
 
   void move_links(const RobotPose& pose, const Pose& X_CB) {

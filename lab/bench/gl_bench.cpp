@@ -1,6 +1,6 @@
 #include "lab/bench/gl_bench.hpp"
 
-#include "berth/opengl/gl_context.hpp"
+#include "berth/image_distance/opengl/gl_context.hpp"
 #include "lab/bench/compare.hpp"
 #include "lab/bench/drawn_scenes.hpp"
 #include "lab/bench/gl_stages.hpp"

@@ -7,8 +7,9 @@
 
 #include "apps/support/interrupt.hpp"
 #include "apps/support/progress_bar.hpp"
-#include "berth/opengl/gl_evaluate.hpp"
-#include "berth/opengl/gl_observer.hpp"
+#include "berth/image_distance/image_result.hpp"
+#include "berth/image_distance/opengl/gl_evaluate.hpp"
+#include "berth/image_distance/opengl/gl_observer.hpp"
 #include "berth/robot/robot_region.hpp"
 #include "lab/bench/coarse_robot.hpp"
 #include "lab/bench/stage.hpp"
@@ -28,7 +29,7 @@ constexpr Method kGlMethods[] = {Method::gl_exact, Method::gl_lattice, Method::g
 /// A view's pipeline on the GPU, taken apart, and the whole of it.
 class GlStages {
  public:
-  explicit GlStages(const std::shared_ptr<const View>& view)
+  GlStages(const std::shared_ptr<const MountedCamera>& view, const ImageSettings& images)
       : view_(view),
         camera_(view->camera()),
         upload_(camera_.width_px, camera_.height_px),
@@ -37,7 +38,7 @@ class GlStages {
         frame_(camera_),
         renderer_(view->robot()->model(), camera_),
         observer_(view),
-        settings_(view->robot()->settings().distance) {
+        settings_(settings_of(*view->robot(), images)) {
     settings_.mean_direction = false;
     settings_.lattice.step_x = settings_.lattice.step_y = kLatticeStep;
     const double scale = view->settings().self_filter.robot_region_scale;
@@ -99,27 +100,27 @@ class GlStages {
   void render(const JointState& joints) {
     forward_kinematics(view_->robot()->model(), joints.position, frame_.pose);
     frame_.X_BC = view_->camera_pose(frame_.pose);
-    renderer_.render(frame_.pose, frame_.X_BC, frame_.robot);
+    renderer_.render(frame_.pose, frame_.X_BC, frame_.images->robot);
     if (region_renderer_) region_renderer_->render(frame_.pose, frame_.X_BC, region_);
   }
 
   void filter() {
     const SelfFilterSettings& settings = view_->settings().self_filter;
     if (region_renderer_) {
-      filter_.filter(camera_, sensor_depth_m_, frame_.robot, region_.link_id, settings,
-                     frame_.obstacles);
+      filter_.filter(camera_, sensor_depth_m_, frame_.images->robot, region_.link_id, settings,
+                     frame_.images->obstacles);
     } else {
-      filter_.filter(camera_, sensor_depth_m_, frame_.robot, settings, frame_.obstacles);
+      filter_.filter(camera_, sensor_depth_m_, frame_.images->robot, settings, frame_.images->obstacles);
     }
   }
 
   void evaluate(Method method) {
     answer_.links.clear();
-    evaluator_.evaluate(method, camera_, frame_.robot, frame_.obstacles.depth_m,
+    evaluator_.evaluate(method, camera_, frame_.images->robot, frame_.images->obstacles.depth_m,
                         view_->robot()->model().link_count(), settings_, answer_);
   }
 
-  std::shared_ptr<const View> view_;
+  std::shared_ptr<const MountedCamera> view_;
   Camera camera_;
   GlUpload upload_;
   GlTexture sensor_depth_m_;
@@ -131,7 +132,7 @@ class GlStages {
   GlObserver observer_;
   GlEvaluator evaluator_;
   GlFence done_;
-  DistanceSettings settings_;
+  ImageDistanceSettings settings_;
   LinkDistances answer_;
   Stage upload_stage_{"upload of the depth image"};
   Stage render_stage_{"render"};
@@ -142,8 +143,8 @@ class GlStages {
 };
 
 Table measure(const std::string& title, const Recording& recording,
-              const std::shared_ptr<const View>& view, int frames, int rounds) {
-  GlStages stages(view);
+              const std::shared_ptr<const MountedCamera>& view, int frames, int rounds) {
+  GlStages stages(view, recording.scene.image_settings);
   app::ProgressBar progress(title, frames);
   for (int i = 0; i < frames; ++i) {
     const std::size_t frame = recording.sampled_frame(i, frames);
@@ -180,7 +181,7 @@ Table measure_gl_stages_of_100_000(const std::filesystem::path& scene_file, int 
   const auto robot = std::make_shared<const Robot>(
       coarse_robot(read_scene(scene_file).robot, kCoarseParts), camera.view->robot()->settings());
   const auto view =
-      std::make_shared<const View>(robot, camera.view->mount(), camera.view->settings());
+      std::make_shared<const MountedCamera>(robot, camera.view->mount(), camera.view->settings());
   return measure("Stages on OpenGL, 100 000 triangles", *recording, view, 1, rounds);
 }
 

@@ -35,8 +35,8 @@ Table::Row measure(std::string name, const Size& size, int scenes, const RunLimi
   PeerDistances distances_m;
   for (int seed = 0; seed < scenes; ++seed) {
     app::stop_if_interrupted();
-    const BenchScene scene = scene_of(testing::random_images(static_cast<std::uint32_t>(seed),
-                                                             size.width, size.height, size.links));
+    const BenchScene scene = scene_of(
+        sim::random_images(static_cast<std::uint32_t>(seed), size.width, size.height, size.links));
     const PeerTime time = time_peer(*exact, scene, limits, distances_m);
     build_ms.push_back(time.build_ms);
     total_ms.push_back(time.total_ms);

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
+#include "berth/render/robot_renderer.hpp"
 #include "berth/scene/open_scene.hpp"
 #include "apps/support/interrupt.hpp"
 #include "apps/support/progress_bar.hpp"
-#include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "lab/bench/coarse_robot.hpp"
 #include "lab/bench/embree_rays.hpp"
@@ -13,6 +13,7 @@
 #include "lab/bench/stage.hpp"
 #include "lab/bench/statistics.hpp"
 #include "lab/bench/triangle_count.hpp"
+#include "lab/measure/method_query.hpp"
 
 namespace berth::lab {
 namespace {
@@ -21,14 +22,15 @@ constexpr int kThreads = 2;
 /// Of each edge.
 constexpr int kParts[] = {1, 2, 5, 8, 16};
 
-Table::Row measure(const OpenCamera& camera, const RobotModel& model, int rounds) {
-  const auto view = std::make_shared<const View>(
+Table::Row measure(const Recording& recording, const RobotModel& model, int rounds) {
+  const OpenCamera& camera = recording.camera();
+  const auto view = std::make_shared<const MountedCamera>(
       std::make_shared<const Robot>(model, camera.view->robot()->settings()), camera.view->mount(),
       camera.view->settings());
   const JointState& joints = camera.at_exposure.front();
   const DepthImage depth_m = camera.read_depth(0);
   Observer observer(view);
-  Asker asker(view->robot());
+  MethodQuery query(view->robot(), recording.scene.method, recording.scene.image_settings);
   RobotRenderer renderer(view->robot()->meshes(), view->camera());
   EmbreeRays rays(model, view->camera());
   RobotPose pose;
@@ -45,7 +47,7 @@ Table::Row measure(const OpenCamera& camera, const RobotModel& model, int rounds
     render.take([&] { renderer.render(pose, X_BC, image); });
     whole.take([&] {
       observer.observe(depth_m, joints, frame);
-      asker.ask(frame);
+      query.ask({.frames = frame});
     });
   }
   for (int round = 0; round < rounds; ++round) {
@@ -73,7 +75,7 @@ Table measure_growth_of_meshes(const std::filesystem::path& scene_file, int roun
               {}};
   app::ProgressBar progress(table.title, std::size(kParts));
   for (const int parts : kParts) {
-    table.rows.push_back(measure(recording->camera(), coarse_robot(robot, parts), rounds));
+    table.rows.push_back(measure(*recording, coarse_robot(robot, parts), rounds));
     progress.step();
   }
   return table;

@@ -7,9 +7,9 @@
 namespace berth::lab {
 namespace {
 
-using testing::empty_images;
-using testing::ImagePair;
-using testing::random_images;
+using sim::empty_images;
+using sim::ImagePair;
+using sim::random_images;
 
 constexpr int kHardLinks = 8;
 

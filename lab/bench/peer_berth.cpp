@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "berth/distance/evaluate.hpp"
+#include "berth/image_distance/evaluate.hpp"
 #include "lab/bench/peer.hpp"
 #include "lab/measure/instruction_set.hpp"
 
@@ -98,7 +98,7 @@ class BerthPeer : public Peer {
   };
 
   void ask(const BenchScene& scene, LinkDistances& answer) {
-    DistanceSettings settings;
+    ImageDistanceSettings settings;
     settings.range_m = scene.range_m;
     settings.mean_direction = false;
     settings.tolerance_m = variant_.tolerance_m;

@@ -5,7 +5,7 @@
 
 #include "lab/bench/peer.hpp"
 #include "lab/bench/points.hpp"
-#include "tests/support/embree_handles.hpp"
+#include "sim/embree_scene.hpp"
 
 namespace berth::lab {
 namespace {
@@ -80,8 +80,8 @@ class EmbreePeer : public Peer {
   }
 
   std::vector<Point> points_C_m_;
-  EmbreeDevice device_{rtcNewDevice(nullptr)};
-  EmbreeScene scene_;
+  sim::EmbreeDevice device_{rtcNewDevice(nullptr)};
+  sim::EmbreeScene scene_;
   std::vector<std::vector<Point>> robot_C_m_;
 };
 

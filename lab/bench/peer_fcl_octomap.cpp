@@ -9,7 +9,8 @@
 
 #include "lab/bench/peer.hpp"
 #include "lab/bench/points.hpp"
-#include "tests/support/mesh_distance.hpp"
+#include "sim/fcl_mesh.hpp"
+#include "sim/mesh_distance.hpp"
 
 namespace berth::lab {
 namespace {
@@ -27,8 +28,7 @@ class FclOctomapPeer : public Peer {
     if (scene.shapes_L == shapes_L_) return;
     shapes_L_ = scene.shapes_L;
     links_.clear();
-    for (const TriangleMesh& mesh_L : *shapes_L_)
-      links_.push_back(testing::build_mesh_tree(mesh_L));
+    for (const TriangleMesh& mesh_L : *shapes_L_) links_.push_back(sim::build_mesh_tree(mesh_L));
   }
 
   void prepare(const BenchScene& scene) override {
@@ -74,7 +74,7 @@ class FclOctomapPeer : public Peer {
 
   double resolution_m_;
   std::shared_ptr<const LinkShapes> shapes_L_;
-  std::vector<testing::MeshTree> links_;
+  std::vector<sim::MeshTree> links_;
   std::vector<Point> points_C_m_;
   std::vector<octomap::OcTreeKey> cells_;
   std::shared_ptr<fcl::OcTreed> octree_;

@@ -1,7 +1,7 @@
 // berth's methods on OpenGL.
 #include <optional>
 
-#include "berth/opengl/gl_evaluate.hpp"
+#include "berth/image_distance/opengl/gl_evaluate.hpp"
 #include "lab/bench/peer.hpp"
 
 namespace berth::lab {
@@ -26,7 +26,7 @@ class GlPeer : public Peer {
   }
 
   void evaluate(const BenchScene& scene, PeerDistances& distances_m) override {
-    DistanceSettings settings;
+    ImageDistanceSettings settings;
     settings.range_m = scene.range_m;
     settings.mean_direction = false;
     images_->upload.send(scene.robot, images_->robot);

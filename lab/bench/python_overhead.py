@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What Python adds to a question and to an image, as a table.
+"""What Python adds to a request and to an image, as a table.
 
     PYTHONPATH=build/release/python lab/bench/python_overhead.py build/release/berth data/bundled/one_camera.yaml
 """
@@ -26,6 +26,12 @@ def median_us(call):
     return statistics.median(times[20:])
 
 
+def ask_anew(query, frame):
+    """As `berth run --repeat` asks."""
+    query.forget()
+    return query.ask(frame)
+
+
 def ask_us(line):
     if "ask_us" in line:
         return line["ask_us"]["p50"]
@@ -33,25 +39,25 @@ def ask_us(line):
 
 
 def main(command, scene_file):
-    run = subprocess.run([command, "run", scene_file, "--format", "json", "--repeat", str(REPEAT)], check=True,
+    run = subprocess.run([command, "run", scene_file, "--method", "mesh", "--format", "json", "--repeat", str(REPEAT)], check=True,
                          capture_output=True, text=True)
     in_cpp = [ask_us(json.loads(line)) for line in run.stdout.splitlines()]
     scene = berth.open_scene(scene_file)
-    asker = berth.Asker(scene.robot)
+    query = berth.Query(scene.robot)
     steps = list(scene)
-    in_python = [median_us(lambda: asker.ask(step.frame)) for step in steps]
+    in_python = [median_us(lambda: ask_anew(query, step.frame)) for step in steps]
     step = steps[0]
-    answer = asker.ask(step.frame)
+    result = query.ask(step.frame)
     late_s = step.frame.stamp_s + 10
     observer = berth.Observer(scene.views[0])
     zeros = np.nan_to_num(step.depth_m)
     wide = np.asfortranarray(step.depth_m)
     rows = [
-        ("question, C++ (`berth run --repeat`), median over the frames", statistics.median(in_cpp)),
-        ("question, Python", statistics.median(in_python)),
+        ("request, C++ (`berth run --repeat`), median over the frames", statistics.median(in_cpp)),
+        ("request, Python", statistics.median(in_python)),
         ("Python's part: median of the differences, frame by frame", statistics.median(np.subtract(in_python, in_cpp))),
-        ("question that is answered without a search (too old)", median_us(lambda: asker.ask(step.frame, now_s=late_s))),
-        ("`answer.distance_m`", median_us(lambda: answer.distance_m)),
+        ("request without a search (too old)", median_us(lambda: query.ask(step.frame, now_s=late_s))),
+        ("`result.distance_m`", median_us(lambda: result.distance_m)),
         ("image to frame, float32 as it is", median_us(lambda: observer.observe(step.depth_m, step.joints))),
         ("image to frame, float32 with zeros: copied", median_us(lambda: observer.observe(zeros, step.joints))),
         ("image to frame, float32 by columns: copied", median_us(lambda: observer.observe(wide, step.joints))),

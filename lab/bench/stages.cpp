@@ -5,12 +5,18 @@
 
 #include "apps/support/interrupt.hpp"
 #include "apps/support/progress_bar.hpp"
-#include "berth/distance/mean_direction/mean_direction.hpp"
-#include "berth/pipeline/asker.hpp"
+#include "berth/render/robot_renderer.hpp"
+#include "berth/image_distance/image_visibility.hpp"
+#include "berth/image_distance/mean_direction/mean_direction.hpp"
 #include "berth/pipeline/observer.hpp"
+#include "berth/image_distance/image_method.hpp"
+#include "berth/self_filter/self_filter.hpp"
+#include "berth/sensor/sensor_rules.hpp"
+#include "berth/visibility/sample_points.hpp"
 #include "lab/bench/embree_rays.hpp"
 #include "lab/bench/stage.hpp"
 #include "lab/bench/triangle_count.hpp"
+#include "lab/measure/method_query.hpp"
 
 namespace berth::lab {
 namespace {
@@ -18,17 +24,17 @@ namespace {
 /// Questions between two images: a controller asks more often than a camera sees.
 constexpr std::size_t kQuestions = 5;
 
-/// The pipeline taken apart. Each run fills the frame as Observer and Asker do.
+/// The pipeline taken apart. Each run fills the frame as Observer and ImageQuery do.
 class Stages {
  public:
-  explicit Stages(const OpenCamera& camera)
-      : camera_(camera),
-        view_(camera.view),
+  explicit Stages(const Recording& recording)
+      : camera_(recording.camera()),
+        view_(camera_.view),
         renderer_(view_->robot()->meshes(), view_->camera()),
         rays_(view_->robot()->model(), view_->camera()),
         observer_(view_),
-        asker_(view_->robot()),
-        settings_(view_->robot()->settings().distance) {
+        query_(view_->robot(), recording.scene.method, recording.scene.image_settings),
+        settings_(settings_of(*view_->robot(), recording.scene.image_settings)) {
     settings_.mean_direction = false;
   }
 
@@ -37,11 +43,12 @@ class Stages {
     run_apart(depth_m, joints);
     whole_.take([&] {
       observer_.observe(depth_m, joints, frame_);
-      asker_.ask(frame_);
+      query_.ask({.frames = frame_});
     });
     const std::vector<JointState>& joints_of = camera_.at_exposure;
     for (std::size_t k = 1; k <= kQuestions; ++k) {
-      question_.take([&] { asker_.ask(frame_, joints_of[(frame_number + k) % joints_of.size()]); });
+      const JointState& next = joints_of[(frame_number + k) % joints_of.size()];
+      question_.take([&] { query_.ask({.frames = frame_, .joints = next}); });
     }
   }
 
@@ -55,8 +62,8 @@ class Stages {
   }
 
   std::vector<Stage*> all() {
-    return {&render_, &self_filter_, &both_,     &tree_,  &exact_,
-            &mean_,   &whole_,       &question_, &embree_};
+    return {&render_, &self_filter_, &both_,  &tree_,     &exact_,
+            &mean_,   &visibility_,  &whole_, &question_, &embree_};
   }
 
  private:
@@ -70,16 +77,24 @@ class Stages {
                   frame_.obstacles);
     });
     both_.times_ms.push_back(render_.times_ms.back() + self_filter_.times_ms.back());
-    tree_.take([&] { frame_.searchable.build(frame_.obstacles.depth_m); });
+    tree_.take([&] { searchable_.build(frame_.obstacles.depth_m); });
     distances_.links.clear();
     const Question question{view_->camera(), frame_.robot, view_->robot()->model().link_count(),
-                            frame_.searchable, settings_};
+                            searchable_, settings_};
     exact_.take([&] { evaluate(Method::exact, question, workspace_, distances_); });
     mean_.take([&] { fill_mean_directions(question, workspace_.directions, distances_); });
+    const RobotModel& model = view_->robot()->model();
+    const Pose X_BC = view_->camera_pose(pose_);
+    const SeenFrame seen{view_->camera(), frame_.robot, frame_.obstacles,
+                         tolerance_of(view_->settings().self_filter)};
+    visibility_.take([&] {
+      find_visibility(model, points_, seen, {pose_, X_BC, frame_.robot}, distances_,
+                      settings_.range_m, sight_, visible_);
+    });
   }
 
   const OpenCamera& camera_;
-  std::shared_ptr<const View> view_;
+  std::shared_ptr<const MountedCamera> view_;
   RobotRenderer renderer_;
   EmbreeRays rays_;
   RobotImage traced_;
@@ -88,15 +103,20 @@ class Stages {
   EvaluateWorkspace workspace_;
   LinkDistances distances_;
   Observer observer_;
-  Asker asker_;
+  MethodQuery query_;
   Frame frame_;
-  DistanceSettings settings_;
+  SearchableDepth searchable_;
+  ImageDistanceSettings settings_;
+  SamplePoints points_ = sample_points(view_->robot()->model());
+  VisibilityWorkspace sight_;
+  std::vector<LinkVisibility> visible_;
   Stage render_{"render"};
   Stage self_filter_{"self filter"};
   Stage both_{"render and self filter"};
   Stage tree_{"obstacle tree"};
   Stage exact_{"exact, cold"};
   Stage mean_{"mean direction, on top"};
+  Stage visibility_{"visibility, on top"};
   Stage whole_{"depth image to result"};
   Stage question_{"question at new joint angles"};
   Stage embree_{"Embree rays, same pixels"};
@@ -110,7 +130,7 @@ Table measure_stages(const Recording& recording, int threads, int rounds) {
   const std::size_t frames = camera.source.depth.size();
   const std::string title =
       fmt::format("Stages, {}, {} thread{}", recording.title, threads, threads == 1 ? "" : "s");
-  Stages stages(camera);
+  Stages stages(recording);
   app::ProgressBar progress(title, frames);
   // Frame by frame, since the images of all of them together are large.
   for (std::size_t i = 0; i < frames; ++i) {

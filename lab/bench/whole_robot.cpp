@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
-#include "berth/pipeline/asker.hpp"
+#include "berth/render/robot_renderer.hpp"
 #include "berth/pipeline/observer.hpp"
+#include "berth/pipeline/query.hpp"
 #include "berth/scene/scene_file.hpp"
 #include "berth/self_filter/self_filter.hpp"
 #include "lab/bench/coarse_robot.hpp"
@@ -17,7 +18,7 @@ namespace {
 
 /// So that neighbours on the machine count little.
 constexpr clockid_t kProcessorTime = CLOCK_THREAD_CPUTIME_ID;
-constexpr MeshQuestion kReadings{.hidden = false};
+constexpr MeshQuestion kReadings{.unknown = false};
 constexpr MeshQuestion kHasty{.deadline_us = 1000};
 /// A controller's questions between two images of a camera, one each millisecond. In this time all
 /// joints turn by up to WholeRobotScene::next_joints, 0.05 rad.
@@ -251,26 +252,26 @@ class WholeRobotGrowth {
 class LargeImages {
  public:
   explicit LargeImages(RobotModel model)
-      : robot_(std::make_shared<const Robot>(std::move(model), settings())), asker_(robot_) {}
+      : robot_(std::make_shared<const Robot>(std::move(model), settings())), query_(robot_) {}
 
   void run(const WholeRobotScene& scene) {
     const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
     const RobotModel& model = robot_->model();
     exact_row_.ms.push_back(exact_.ms(scene, model.link_count()));
     const CameraImages& images = scene.views.front();
-    const auto view = std::make_shared<const View>(
+    const auto view = std::make_shared<const MountedCamera>(
         robot_, CameraMount{scene.camera, model.links.front().name, images.X_BC});
     Frame frame;
     Observer(view).observe(images.depth_m, scene.joints, frame);
-    const Frame* const frames[] = {&frame};
     for (const JointState& next : scene.next_joints) {
       question_.ms.push_back(least_ms(
           kProcessorTime,
           [&] {
-            set_.assign(frames, {});
-            asker_.ask(set_);
+            // Another image, or what was found out about unknown space would be known already.
+            ++frame.number;
+            query_.ask({.frames = frame});
           },
-          [&] { asker_.ask(set_, next); }));
+          [&] { query_.ask({.frames = frame, .joints = next}); }));
     }
   }
 
@@ -285,8 +286,7 @@ class LargeImages {
 
   std::shared_ptr<const Robot> robot_;
   ExactYardstick exact_;
-  Asker asker_;
-  FrameSet set_;
+  Query query_;
   TimeRow exact_row_{"exact, 1 camera"};
   TimeRow question_{"mesh, 1 camera, question at new joint angles with visibility"};
 };

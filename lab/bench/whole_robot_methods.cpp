@@ -5,7 +5,7 @@ namespace berth::lab {
 double ExactYardstick::ms(const WholeRobotScene& scene, int links) {
   const CameraImages& view = scene.views.front();
   searchable_.build(view.obstacles.depth_m);
-  const DistanceSettings settings{.mean_direction = false};
+  const ImageDistanceSettings settings{{.mean_direction = false}, {}};
   return least_ms(
       CLOCK_THREAD_CPUTIME_ID, [&] { distances_.links.clear(); },
       [&] {
@@ -15,7 +15,7 @@ double ExactYardstick::ms(const WholeRobotScene& scene, int links) {
 
 void SceneSpaces::build_view(const WholeRobotScene& scene, int k) {
   const CameraImages& view = scene.views[k];
-  build_view_space(scene.camera, view.depth_m, view.obstacles, {}, spaces_[k]);
+  build_camera_space(scene.camera, view.depth_m, view.obstacles, {}, spaces_[k]);
 }
 
 void SceneSpaces::build_all(const WholeRobotScene& scene) {

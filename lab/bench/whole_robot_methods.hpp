@@ -8,8 +8,8 @@
 
 #include "apps/support/interrupt.hpp"
 #include "apps/support/progress_bar.hpp"
-#include "berth/distance/exact/exact.hpp"
-#include "berth/distance/mesh/mesh_distances.hpp"
+#include "berth/image_distance/exact/exact.hpp"
+#include "berth/distance/mesh_distances.hpp"
 #include "lab/bench/whole_robot_scene.hpp"
 #include "lab/measure/stopwatch.hpp"
 
@@ -49,12 +49,12 @@ class SceneSpaces {
   /// Begins with the first `cameras` views anew: nobody has asked them yet.
   void assign(const WholeRobotScene& scene, int cameras);
 
-  const HiddenSpace& hidden() const { return hidden_; }
+  const UnknownSpace& hidden() const { return hidden_; }
 
  private:
-  std::array<ViewSpace, kSceneCameras> spaces_;
-  std::vector<PosedView> posed_;
-  HiddenSpace hidden_;
+  std::array<CameraSpace, kSceneCameras> spaces_;
+  std::vector<PosedSpace> posed_;
+  UnknownSpace hidden_;
 };
 
 /// Questions of method `mesh`.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "berth/render/robot_renderer.hpp"
 #include "berth/self_filter/self_filter.hpp"
 
 namespace berth::lab {
@@ -37,13 +38,13 @@ void draw_over(const DepthImage& robot_m, DepthImage& depth_m) {
 
 WholeRobotScenes::WholeRobotScenes(RobotModel model, int width_px, int height_px)
     : model_(std::move(model)),
-      link_trees_(testing::build_link_trees(model_)),
+      link_trees_(sim::build_link_trees(model_)),
       settings_{.width_px = width_px, .height_px = height_px} {}
 
 WholeRobotScene WholeRobotScenes::draw(std::uint32_t seed) const {
-  const testing::DrawnScene drawn = testing::draw_scene(model_, link_trees_, settings_, seed);
+  const sim::DrawnScene drawn = sim::draw_scene(model_, link_trees_, settings_, seed);
   WholeRobotScene scene{drawn.camera, drawn.pose, drawn.joints, {}, {}, {}};
-  testing::Random random(seed + 1000);
+  sim::Random random(seed + 1000);
   const Eigen::Vector3d middle_B_m = middle_of(model_, drawn.pose);
   scene.views.push_back(see(drawn, drawn.X_BC));
   for (int k = 1; k < kSceneCameras; ++k) {
@@ -59,13 +60,13 @@ WholeRobotScene WholeRobotScenes::draw(std::uint32_t seed) const {
   return scene;
 }
 
-CameraImages WholeRobotScenes::see(const testing::DrawnScene& drawn, const Pose& X_BC) const {
-  const RobotModel things = testing::obstacle_model(drawn.obstacles);
+CameraImages WholeRobotScenes::see(const sim::DrawnScene& drawn, const Pose& X_BC) const {
+  const RobotModel things = sim::obstacle_model(drawn.obstacles);
   CameraImages images{X_BC, {}, {}, {}};
   RobotImage seen;
   RobotRenderer(build_link_meshes(model_), drawn.camera).render(drawn.pose, X_BC, images.robot);
   RobotRenderer(build_link_meshes(things), drawn.camera)
-      .render(testing::obstacle_pose(drawn.obstacles), X_BC, seen);
+      .render(sim::obstacle_pose(drawn.obstacles), X_BC, seen);
   images.depth_m = std::move(seen.depth_m);
   draw_over(images.robot.depth_m, images.depth_m);
   SelfFilterWorkspace workspace;

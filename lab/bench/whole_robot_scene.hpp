@@ -7,7 +7,7 @@
 #include "berth/render/robot_renderer.hpp"
 #include "berth/types/joint_state.hpp"
 #include "berth/types/obstacle_image.hpp"
-#include "tests/support/drawn_scene.hpp"
+#include "sim/drawn_scene.hpp"
 
 namespace berth::lab {
 
@@ -41,11 +41,11 @@ class WholeRobotScenes {
   WholeRobotScene draw(std::uint32_t seed) const;
 
  private:
-  CameraImages see(const testing::DrawnScene& drawn, const Pose& X_BC) const;
+  CameraImages see(const sim::DrawnScene& drawn, const Pose& X_BC) const;
 
   RobotModel model_;
-  std::vector<testing::MeshTree> link_trees_;
-  testing::DrawnSceneSettings settings_;
+  std::vector<sim::MeshTree> link_trees_;
+  sim::DrawnSceneSettings settings_;
 };
 
 }  // namespace berth::lab

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "lab/bundled_scene/mesh.hpp"
+#include "sim/shapes.hpp"
 
 namespace berth::lab {
 

@@ -70,12 +70,14 @@ void write_png(const std::filesystem::path& file, const Image<std::uint16_t>& im
   write_bytes(file, static_cast<const char*>(buffer.get()), size);
 }
 
-void write_stl(const std::filesystem::path& file, const DrawnMesh& mesh, const std::string& title) {
+void write_stl(const std::filesystem::path& file, const TriangleMesh& mesh,
+               const std::string& title) {
   std::string bytes = title;
   bytes.resize(80, ' ');
-  put(bytes, static_cast<std::uint32_t>(mesh.triangle.size()));
-  for (const auto& [ia, ib, ic] : mesh.triangle) {
-    const Eigen::Vector3f &a = mesh.vertex_m[ia], &b = mesh.vertex_m[ib], &c = mesh.vertex_m[ic];
+  put(bytes, static_cast<std::uint32_t>(mesh.triangles.size()));
+  for (const auto& [ia, ib, ic] : mesh.triangles) {
+    const Eigen::Vector3f &a = mesh.vertices_m[ia], &b = mesh.vertices_m[ib],
+                          &c = mesh.vertices_m[ic];
     const Eigen::Vector3f normal = (b - a).cross(c - a).normalized();
     for (const Eigen::Vector3f& v : {normal, a, b, c}) put(bytes, v);
     put(bytes, std::uint16_t{0});

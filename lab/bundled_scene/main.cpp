@@ -4,15 +4,14 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <filesystem>
-#include <random>
 #include <span>
 #include <vector>
 
-#include "lab/bundled_scene/bundled_camera.hpp"
 #include "lab/bundled_scene/output_files.hpp"
 #include "lab/bundled_scene/scene.hpp"
-#include "lab/bundled_scene/sensor.hpp"
 #include "lab/bundled_scene/truth.hpp"
+#include "sim/bundled_camera.hpp"
+#include "sim/structured_light.hpp"
 
 namespace berth::lab {
 namespace {
@@ -20,48 +19,51 @@ namespace {
 void write_robot(const std::filesystem::path& folder, const Scene& scene) {
   make_folder(folder / "meshes");
   write_text(folder / "arm.urdf", arm_urdf());
-  for (int i = 0; i < kArmLinks; ++i) {
-    const std::string name = arm_link_name(i);
+  for (int i = 0; i < sim::kArmLinks; ++i) {
+    const std::string name = sim::arm_link_name(i);
     write_stl(folder / "meshes" / (name + ".stl"), scene.arm[i], "berth " + name + ", metres");
   }
 }
 
 void write_depth(const std::filesystem::path& folder, const Scene& scene,
-                 const BundledCamera& camera) {
+                 const sim::BundledCamera& camera) {
   make_folder(folder / camera.depth_folder);
-  std::mt19937 random(camera.seed);
+  sim::Random random(camera.seed);
   for (int k = 0; k < std::ssize(camera.stamps_s); ++k) {
     const PosedScene posed = pose_scene(scene, camera.stamps_s[k]);
-    std::vector<PosedMesh> everything = posed.robot;
+    std::vector<sim::PosedMesh> everything = posed.robot;
     everything.insert(everything.end(), posed.obstacles.begin(), posed.obstacles.end());
-    const CleanView view = look(RayCaster(everything, camera.place.X_TC()), camera.camera);
-    write_png(folder / camera.depth_folder / fmt::format("{:06}.png", k), sense(view, random));
+    const sim::RayCaster rays(everything, camera.place.X_TC(), camera.camera,
+                              sim::EmbreeThreads::one);
+    write_png(folder / camera.depth_folder / fmt::format("{:06}.png", k),
+              sim::sense(sim::look(rays), random));
   }
 }
 
 // Of the frames of this camera.
 void write_truth(const std::filesystem::path& folder, const Scene& scene,
-                 const BundledCamera& camera) {
-  const TruthModels models = make_truth_models(scene);
+                 const sim::BundledCamera& camera) {
+  const TruthTrees trees = build_truth_trees(scene);
   std::vector<TruthRow> truth;
   for (int k = 0; k < std::ssize(camera.stamps_s); ++k) {
     const PosedScene posed = pose_scene(scene, camera.stamps_s[k]);
-    const Image<SensorHit> robot_alone =
-        RayCaster(posed.robot, camera.place.X_TC()).cast(camera.camera);
-    for (const TruthRow& row : measure_truth(k, posed, models, robot_alone)) truth.push_back(row);
+    const sim::RayCaster robot_alone(posed.robot, camera.place.X_TC(), camera.camera,
+                                     sim::EmbreeThreads::one);
+    for (const TruthRow& row : measure_truth(k, posed, trees, robot_alone.cast()))
+      truth.push_back(row);
   }
   write_text(folder / "truth.csv", truth_csv(truth));
 }
 
 void make_bundled_scene(const std::filesystem::path& folder) {
   const Scene scene = make_scene();
-  const std::vector<BundledCamera> cameras = bundled_cameras();
+  const std::vector<sim::BundledCamera> cameras = sim::bundled_cameras();
   write_robot(folder / "arm", scene);
   write_text(folder / "joints.csv", joints_csv(scene.rows));
   write_text(folder / "scene.yaml", scene_yaml(cameras, "range_m: 1.0"));
   write_text(folder / "one_camera.yaml",
              scene_yaml(std::span(cameras).first(1), "method: exact, range_m: 1.0"));
-  for (const BundledCamera& camera : cameras) {
+  for (const sim::BundledCamera& camera : cameras) {
     write_text(folder / camera.info_file, camera_info_yaml(camera));
     write_depth(folder, scene, camera);
   }

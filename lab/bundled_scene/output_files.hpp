@@ -9,10 +9,10 @@
 
 #include "berth/types/camera.hpp"
 #include "berth/types/image.hpp"
-#include "lab/bundled_scene/bundled_camera.hpp"
-#include "lab/bundled_scene/mesh.hpp"
-#include "lab/bundled_scene/motion.hpp"
 #include "lab/bundled_scene/truth.hpp"
+#include "sim/bundled_camera.hpp"
+#include "sim/motion.hpp"
+#include "sim/shapes.hpp"
 
 namespace berth::lab {
 
@@ -25,13 +25,14 @@ void write_text(const std::filesystem::path& file, const std::string& text);
 void write_png(const std::filesystem::path& file, const Image<std::uint16_t>& image);
 
 /// Binary STL, metres.
-void write_stl(const std::filesystem::path& file, const DrawnMesh& mesh, const std::string& title);
+void write_stl(const std::filesystem::path& file, const TriangleMesh& mesh,
+               const std::string& title);
 
 /// ROS camera_info.
-std::string camera_info_yaml(const BundledCamera& camera);
+std::string camera_info_yaml(const sim::BundledCamera& camera);
 /// `evaluation` is the text of the key's value.
-std::string scene_yaml(std::span<const BundledCamera> cameras, const std::string& evaluation);
-std::string joints_csv(const std::vector<JointRow>& rows);
+std::string scene_yaml(std::span<const sim::BundledCamera> cameras, const std::string& evaluation);
+std::string joints_csv(const std::vector<sim::JointRow>& rows);
 std::string truth_csv(const std::vector<TruthRow>& rows);
 
 /// The arm on its table; meshes as package://berth_arm/meshes/<link>.stl.

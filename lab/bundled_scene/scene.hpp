@@ -3,25 +3,25 @@
 
 #include <vector>
 
-#include "lab/bundled_scene/arm_meshes.hpp"
-#include "lab/bundled_scene/motion.hpp"
-#include "lab/bundled_scene/ray_caster.hpp"
+#include "sim/arm_meshes.hpp"
+#include "sim/motion.hpp"
+#include "sim/ray_caster.hpp"
 
 namespace berth::lab {
 
 struct Scene {
-  std::array<DrawnMesh, kArmLinks> arm;
-  std::vector<DrawnMesh> table;
-  std::vector<DrawnMesh> boxes;
-  std::vector<DrawnMesh> person;
-  std::vector<JointRow> rows;
+  std::array<TriangleMesh, sim::kArmLinks> arm;
+  std::vector<TriangleMesh> table;
+  std::vector<TriangleMesh> boxes;
+  std::vector<TriangleMesh> person;
+  std::vector<sim::JointRow> rows;
 };
 Scene make_scene();
 
 /// Points into the scene; all poses in the table's frame.
 struct PosedScene {
-  std::vector<PosedMesh> robot;  ///< the arm's links first, then the table
-  std::vector<PosedMesh> obstacles;
+  std::vector<sim::PosedMesh> robot;  ///< the arm's links first, then the table
+  std::vector<sim::PosedMesh> obstacles;
 };
 PosedScene pose_scene(const Scene& scene, double time_s);
 

@@ -8,7 +8,7 @@
 namespace berth::lab {
 namespace {
 
-std::string camera_entry(const BundledCamera& camera) {
+std::string camera_entry(const sim::BundledCamera& camera) {
   const Eigen::Vector3d& p = camera.place.xyz_T_m;
   const Eigen::Quaterniond& q = camera.place.rotation_TC;
   return fmt::format(R"(  - name: {}
@@ -21,13 +21,13 @@ std::string camera_entry(const BundledCamera& camera) {
     depth_scale: 0.001
     stamps: [{:.3f}]
 )",
-                     camera.name, camera.info_file, kTableLink, p.x(), p.y(), p.z(), q.x(), q.y(),
-                     q.z(), q.w(), camera.depth_folder, fmt::join(camera.stamps_s, ", "));
+                     camera.name, camera.info_file, sim::kTableLink, p.x(), p.y(), p.z(), q.x(),
+                     q.y(), q.z(), q.w(), camera.depth_folder, fmt::join(camera.stamps_s, ", "));
 }
 
 }  // namespace
 
-std::string camera_info_yaml(const BundledCamera& of) {
+std::string camera_info_yaml(const sim::BundledCamera& of) {
   const Camera& c = of.camera;
   return fmt::format(R"(image_width: {0}
 image_height: {1}
@@ -53,7 +53,7 @@ projection_matrix:
                      c.width_px, c.height_px, c.fx_px, c.cx_px, c.fy_px, c.cy_px, of.name);
 }
 
-std::string scene_yaml(std::span<const BundledCamera> cameras, const std::string& evaluation) {
+std::string scene_yaml(std::span<const sim::BundledCamera> cameras, const std::string& evaluation) {
   std::string text = fmt::format(R"(# Made by lab/bundled_scene; README.md says what it shows.
 robot:
   urdf: arm/arm.urdf
@@ -62,16 +62,16 @@ robot:
   environment_links: [{}]
 cameras:
 )",
-                                 kTableLink);
-  for (const BundledCamera& camera : cameras) text += camera_entry(camera);
+                                 sim::kTableLink);
+  for (const sim::BundledCamera& camera : cameras) text += camera_entry(camera);
   return text + fmt::format("joints: joints.csv\nevaluation: {{{}}}\n", evaluation);
 }
 
-std::string joints_csv(const std::vector<JointRow>& rows) {
+std::string joints_csv(const std::vector<sim::JointRow>& rows) {
   std::string text = "time";
-  for (int j = 0; j < kArmJoints; ++j) text += fmt::format(",{}", arm_joint_name(j));
+  for (int j = 0; j < sim::kArmJoints; ++j) text += fmt::format(",{}", sim::arm_joint_name(j));
   text += "\n";
-  for (const JointRow& row : rows)
+  for (const sim::JointRow& row : rows)
     text += fmt::format("{:.2f},{:.6f}\n", row.time_s, fmt::join(row.angle_rad, ","));
   return text;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
@@ -10,43 +11,57 @@ namespace {
 
 constexpr double kLeastClearance_m = 0.02;
 
-std::vector<DistanceModel> make_models(const std::vector<PosedMesh>& meshes) {
-  std::vector<DistanceModel> models;
-  for (const PosedMesh& posed : meshes) models.push_back(make_distance_model(*posed.mesh));
-  return models;
+std::vector<sim::MeshTree> build_trees(const std::vector<sim::PosedMesh>& meshes) {
+  std::vector<sim::MeshTree> trees;
+  for (const sim::PosedMesh& posed : meshes) trees.push_back(sim::build_mesh_tree(*posed.mesh));
+  return trees;
 }
 
-// Which of a link's triangles a pixel shows.
-std::vector<bool> seen_triangles(const Image<SensorHit>& hits, int link, std::size_t triangles) {
-  std::vector<bool> seen(triangles, false);
-  for (const SensorHit& hit : hits.pixels())
-    if (hit.mesh == static_cast<std::uint32_t>(link)) seen[hit.triangle] = true;
+// Those of a link's triangles that a pixel shows.
+TriangleMesh seen_part(const Image<sim::SurfaceHit>& hits, int link, const TriangleMesh& mesh) {
+  std::vector<bool> is_seen(mesh.triangles.size(), false);
+  for (const sim::SurfaceHit& hit : hits.pixels())
+    if (hit.mesh == static_cast<std::uint32_t>(link)) is_seen[hit.triangle] = true;
+  TriangleMesh seen{mesh.vertices_m, {}};
+  for (std::size_t i = 0; i < is_seen.size(); ++i)
+    if (is_seen[i]) seen.triangles.push_back(mesh.triangles[i]);
   return seen;
+}
+
+// Infinite for a tree that is null.
+double least_distance_m(const sim::MeshTree& link, const Pose& X_TL, const PosedScene& posed,
+                        const TruthTrees& trees) {
+  double least_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < trees.obstacles.size(); ++i) {
+    const double distance_m =
+        sim::closest_points(link, X_TL, trees.obstacles[i], posed.obstacles[i].X_WM, least_m)
+            .distance_m;
+    least_m = std::min(least_m, distance_m);
+  }
+  return least_m;
 }
 
 }  // namespace
 
-TruthModels make_truth_models(const Scene& scene) {
+TruthTrees build_truth_trees(const Scene& scene) {
   const PosedScene posed = pose_scene(scene, 0);
-  return {make_models(posed.robot), make_models(posed.obstacles)};
+  return {build_trees(posed.robot), build_trees(posed.obstacles)};
 }
 
-std::vector<TruthRow> measure_truth(int frame, const PosedScene& posed, const TruthModels& models,
-                                    const Image<SensorHit>& robot_alone) {
-  const DistanceObjects obstacles = place(models.obstacles, posed.obstacles);
+std::vector<TruthRow> measure_truth(int frame, const PosedScene& posed, const TruthTrees& trees,
+                                    const Image<sim::SurfaceHit>& robot_alone) {
   std::vector<TruthRow> rows;
-  for (int i = 0; i < kArmLinks; ++i) {
+  for (int i = 0; i < sim::kArmLinks; ++i) {
     const auto& [mesh, X_TL] = posed.robot[i];
-    const double whole_m = least_distance_m(models.links[i], X_TL, obstacles);
-    const DistanceModel seen =
-        make_distance_model(*mesh, seen_triangles(robot_alone, i, mesh->triangle.size()));
-    const double seen_m =
-        seen ? least_distance_m(seen, X_TL, obstacles) : std::numeric_limits<double>::quiet_NaN();
+    const double whole_m = least_distance_m(trees.links[i], X_TL, posed, trees);
+    const sim::MeshTree seen = sim::build_mesh_tree(seen_part(robot_alone, i, *mesh));
+    const double seen_m = seen ? least_distance_m(seen, X_TL, posed, trees)
+                               : std::numeric_limits<double>::quiet_NaN();
     if (whole_m < kLeastClearance_m)
       throw std::runtime_error(
           fmt::format("frame {}: {} is {:.3f} m from an obstacle, expected {} m or more", frame,
-                      arm_link_name(i), whole_m, kLeastClearance_m));
-    rows.push_back({frame, arm_link_name(i), whole_m, seen_m});
+                      sim::arm_link_name(i), whole_m, kLeastClearance_m));
+    rows.push_back({frame, sim::arm_link_name(i), whole_m, seen_m});
   }
   return rows;
 }

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "lab/bundled_scene/mesh_distance.hpp"
 #include "lab/bundled_scene/scene.hpp"
+#include "sim/mesh_distance.hpp"
 
 namespace berth::lab {
 
@@ -17,16 +17,16 @@ struct TruthRow {
   double seen_m;   ///< of its triangles that the camera sees; NaN where it sees none
 };
 
-struct TruthModels {
-  std::vector<DistanceModel> links;
-  std::vector<DistanceModel> obstacles;
+struct TruthTrees {
+  std::vector<sim::MeshTree> links;
+  std::vector<sim::MeshTree> obstacles;
 };
-TruthModels make_truth_models(const Scene& scene);
+TruthTrees build_truth_trees(const Scene& scene);
 
 /// `robot_alone` shows posed.robot without the obstacles: a link is seen where a pixel of it is in
 /// the robot depth image, whether an obstacle stands before it or not. Throws std::runtime_error
 /// where an obstacle is nearer than 2 cm: the scene is to stay free of contact.
-std::vector<TruthRow> measure_truth(int frame, const PosedScene& posed, const TruthModels& models,
-                                    const Image<SensorHit>& robot_alone);
+std::vector<TruthRow> measure_truth(int frame, const PosedScene& posed, const TruthTrees& trees,
+                                    const Image<sim::SurfaceHit>& robot_alone);
 
 }  // namespace berth::lab

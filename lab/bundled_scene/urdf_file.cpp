@@ -4,7 +4,7 @@
 
 #include "lab/bundled_scene/arm_collision.hpp"
 #include "lab/bundled_scene/output_files.hpp"
-#include "lab/bundled_scene/room.hpp"
+#include "sim/room.hpp"
 
 namespace berth::lab {
 namespace {
@@ -21,9 +21,9 @@ std::string origin(const Pose& X) {
 }
 
 std::string table_link() {
-  std::string text = fmt::format("  <link name=\"{}\">\n", kTableLink);
+  std::string text = fmt::format("  <link name=\"{}\">\n", sim::kTableLink);
   for (const std::string tag : {"visual", "collision"})
-    for (const Box& box : table_boxes())
+    for (const sim::Box& box : sim::table_boxes())
       text += fmt::format(
           R"(    <{0}>{1}<geometry><box size="{2}"/></geometry></{0}>
 )",
@@ -41,7 +41,7 @@ std::string collision(const CollisionShape& shape) {
 }
 
 std::string arm_link(int link) {
-  const std::string name = arm_link_name(link);
+  const std::string name = sim::arm_link_name(link);
   std::string text = fmt::format(R"(  <link name="{0}">
     <visual><geometry><mesh filename="package://berth_arm/meshes/{0}.stl"/></geometry></visual>
 )",
@@ -51,7 +51,7 @@ std::string arm_link(int link) {
 }
 
 std::string arm_joint(int index) {
-  const ArmJoint& joint = arm_joints()[index];
+  const sim::ArmJoint& joint = sim::arm_joints()[index];
   return fmt::format(R"(  <joint name="{}" type="revolute">
     <parent link="{}"/>
     <child link="{}"/>
@@ -60,7 +60,8 @@ std::string arm_joint(int index) {
     <limit lower="{:.6f}" upper="{:.6f}" effort="100" velocity="{:.6f}"/>
   </joint>
 )",
-                     arm_joint_name(index), arm_link_name(index), arm_link_name(index + 1),
+                     sim::arm_joint_name(index), sim::arm_link_name(index),
+                     sim::arm_link_name(index + 1),
                      origin(Pose(Eigen::Translation3d(joint.offset_m))), numbers(joint.axis),
                      -joint.limit_rad, joint.limit_rad, joint.velocity_rad_s);
 }
@@ -77,9 +78,9 @@ std::string arm_urdf() {
     <child link="{}"/>
   </joint>
 )",
-                      kTableLink, arm_link_name(0));
-  for (int link = 0; link < kArmLinks; ++link) text += arm_link(link);
-  for (int joint = 0; joint < kArmJoints; ++joint) text += arm_joint(joint);
+                      sim::kTableLink, sim::arm_link_name(0));
+  for (int link = 0; link < sim::kArmLinks; ++link) text += arm_link(link);
+  for (int joint = 0; joint < sim::kArmJoints; ++joint) text += arm_joint(joint);
   return text + "</robot>\n";
 }
 

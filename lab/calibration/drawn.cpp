@@ -10,13 +10,13 @@
 #include "berth/calibration/calibrate.hpp"
 #include "lab/calibration/robot_points.hpp"
 #include "lab/measure/stopwatch.hpp"
-#include "tests/support/sensor_model.hpp"
+#include "sim/sensor_model.hpp"
 
 namespace berth::lab {
 namespace {
 
 /// How far one result is from the truth.
-struct TeachInError {
+struct CalibrationError {
   double robot_m = 0;
   double clock_s = 0;
   double depth_share = 0;
@@ -28,15 +28,15 @@ struct TeachInError {
   double time_s = 0;
 };
 
-TeachInError error_of(const TrialRobot& robot, const DrawnTrials& trials, std::uint32_t seed) {
-  testing::DrawnTeachIn drawn =
-      testing::draw_teach_in(robot.model, robot.meshes, trials.drawn, seed);
+CalibrationError error_of(const TrialRobot& robot, const DrawnTrials& trials, std::uint32_t seed) {
+  sim::DrawnCalibrationData drawn =
+      sim::draw_calibration_data(robot.model, robot.meshes, trials.drawn, seed);
   drawn.camera->X_PC =
-      testing::miscalibrated(drawn.X_PC_true, trials.start.offset_m,
+      sim::miscalibrated(drawn.X_PC_true, trials.start.offset_m,
                              trials.start.angle_deg * std::numbers::pi / 180, seed + 100);
   const Stopwatch stopwatch;
-  const CalibrationResult found = calibrate(drawn.teach_in, {.joint_zeros = trials.joint_zeros});
-  TeachInError error;
+  const CalibrationResult found = calibrate(drawn.calibration_data, {.joint_zeros = trials.joint_zeros});
+  CalibrationError error;
   error.time_s = stopwatch.ms() / 1000;
   const CameraCalibration& camera = found.cameras[0];
   error.refused = camera.refused;
@@ -53,7 +53,7 @@ TeachInError error_of(const TrialRobot& robot, const DrawnTrials& trials, std::u
     joint_offsets[j] = offset->second;
     error.joint = std::fmax(error.joint, std::abs(offset->second - drawn.joint_shift[j]));
   }
-  const bool is_carried = trials.drawn.mount != testing::DrawnMount::root;
+  const bool is_carried = trials.drawn.mount != sim::DrawnMount::root;
   error.robot_m = (is_carried ? seen_points_apart_m : robot_points_apart_m)(drawn, camera.X_PC,
                                                                             joint_offsets);
   return error;
@@ -67,7 +67,7 @@ double median_of(std::vector<double> values) {
 }  // namespace
 
 const char* const kDrawnHeading =
-    "| what is wrong | teach-ins | refused | robot points, median mm | worst mm | clock, worst ms | "
+    "| what is wrong | calibrations | refused | robot points, median mm | worst mm | clock, worst ms | "
     "depth at 1.5 m, worst % | joints told | worst degrees | median s | worst s |\n"
     "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n";
 
@@ -76,7 +76,7 @@ void measure_drawn(const std::vector<TrialRobot>& robots, const DrawnTrials& tri
   int refused = 0;
   for (const TrialRobot& robot : robots) {
     for (int seed = 1; seed <= trials.seeds; ++seed) {
-      const TeachInError error = error_of(robot, trials, static_cast<std::uint32_t>(seed));
+      const CalibrationError error = error_of(robot, trials, static_cast<std::uint32_t>(seed));
       if (trials.prints_each) {
         fmt::print(stderr, "{} {}: {} robot {:.2f} mm (halves {:.2f}), clock {:.2f} ms, depth {:.3f} %, "
                    "joints {:.3f} deg, {:.1f} s\n",

@@ -4,12 +4,12 @@
 
 #include "lab/calibration/recordings.hpp"
 #include "lab/trust/trial_robots.hpp"
-#include "tests/support/drawn_teach_in.hpp"
+#include "sim/drawn_calibration_data.hpp"
 
 namespace berth::lab {
 
 struct DrawnTrials {
-  testing::DrawnTeachInSettings drawn;
+  sim::DrawnCalibrationSettings drawn;
   StartErrors start;
   /// Of each robot.
   int seeds = 5;
@@ -17,7 +17,7 @@ struct DrawnTrials {
   bool prints_each = false;
 };
 
-/// Prints how far what teach-in finds is from the truth: one row of a Markdown table.
+/// Prints how far what calibration finds is from the truth: one row of a Markdown table.
 void measure_drawn(const std::vector<TrialRobot>& robots, const DrawnTrials& trials);
 extern const char* const kDrawnHeading;
 

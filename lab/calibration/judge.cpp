@@ -5,15 +5,16 @@
 #include <cmath>
 
 #include "berth/files/png.hpp"
-#include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "berth/scene/open_scene.hpp"
+#include "berth/scene/scene_calibration.hpp"
 #include "lab/filter/expected_ranges.hpp"
+#include "lab/measure/method_query.hpp"
+#include "lab/measure/stopwatch.hpp"
 
 namespace berth::lab {
 namespace {
 
-constexpr double kFar_m = 0.01;
 constexpr int kNear_px = 10;
 constexpr float kLikeRobot_m = 0.10F;
 
@@ -57,14 +58,41 @@ void count_mask(const std::filesystem::path& file, const Camera& camera, const F
 
 }  // namespace
 
-SceneFile with_result(SceneFile scene, const CalibrationResult& found,
-                      const FilterProposal& proposal) {
+Calibrated calibration_data(const SceneFile& file) {
+  const OpenScene scene = open_scene(file);
+  const SceneCalibrationData material = make_calibration_data(scene);
+  Calibrated calibrated;
+  const Stopwatch stopwatch;
+  calibrated.found = calibrate(material.calibration_data);
+  calibrated.time_s = stopwatch.ms() / 1000;
+  const CameraSettings& settings = scene.cameras[0].view->settings();
+  calibrated.proposal = propose_filter(material.calibration_data, 0, calibrated.found, false,
+                                   settings.self_filter, settings.sensor);
+  return calibrated;
+}
+
+double apart_m(const Pose& X_PC, const Pose& X_PC_other, double depth_m) {
+  double sum_m = 0;
+  int count = 0;
+  const Pose X_CC = X_PC_other.inverse() * X_PC;
+  for (const double x : {-0.3, 0.0, 0.3}) {
+    for (const double y : {-0.3, 0.0, 0.3}) {
+      const Eigen::Vector3d p_C_m(x, y, depth_m);
+      sum_m += (X_CC * p_C_m - p_C_m).norm();
+      ++count;
+    }
+  }
+  return sum_m / count;
+}
+
+SceneFile with_result(SceneFile scene, const Calibrated& calibrated) {
+  const CalibrationResult& found = calibrated.found;
   SceneCamera& camera = scene.cameras[0];
   camera.X_PC = found.cameras[0].X_PC;
   camera.clock_offset_s = found.cameras[0].clock_offset_s;
   for (const auto& [joint, offset] : found.joint_offsets) scene.joint_offsets[joint] += offset;
-  set(proposal.self_filter, camera.settings.self_filter);
-  set(proposal.sensor, camera.settings.sensor);
+  set(calibrated.proposal.self_filter, camera.settings.self_filter);
+  set(calibrated.proposal.sensor, camera.settings.sensor);
   return scene;
 }
 
@@ -74,18 +102,18 @@ Judgement judge(const SceneFile& file, const std::filesystem::path& folder) {
   const ExpectedRanges ranges = read_expected_ranges(folder / "expected.tsv");
   const std::vector<std::string> names = scene.robot->model().evaluated_link_names();
   Observer observer(camera.view);
-  Asker asker(scene.robot);
+  MethodQuery query(scene.robot, scene.method, scene.image_settings);
   Frame frame;
   Judgement judgement;
   for (std::size_t i = 0; i < camera.source.depth.size(); ++i) {
     const DepthImage depth_m = camera.read_depth(i);
     observer.observe(depth_m, camera.at_exposure[i], frame);
-    for (const LinkDistance& link : asker.ask(frame).distances.links) {
+    for (const LinkResult& link : query.ask({.frames = frame}).links) {
       const ExpectedRange& range = ranges.at({static_cast<int>(i), names[link.id - 1]});
       const bool is_inside = link.distance_m >= range.min_m && link.distance_m <= range.max_m;
       (range.is_checked ? judgement.checked : judgement.estimates) += 1;
       (range.is_checked ? judgement.checked_in_range : judgement.estimates_in_range) += is_inside;
-      judgement.too_far += !(link.distance_m <= range.max_m + kFar_m);
+      judgement.too_far += !(link.distance_m <= range.max_m + kFarMargin_m);
     }
     count_mask(folder / fmt::format("reference/robot_mask_{:06}.png", i), camera.view->camera(), frame,
                depth_m, judgement);

@@ -1,4 +1,4 @@
-// What a teach-in is worth on a real recording whose distances and masks are known.
+// What a calibration is worth on a real recording whose distances and masks are known.
 #pragma once
 
 #include <filesystem>
@@ -10,9 +10,21 @@
 
 namespace berth::lab {
 
+/// What calibration makes of a scene, and the settings that it proposes for its first camera.
+struct Calibrated {
+  CalibrationResult found;
+  FilterProposal proposal;
+  /// Of the calibration alone.
+  double time_s = 0;
+};
+Calibrated calibration_data(const SceneFile& file);
+
 /// The scene with what was found of its first camera.
-SceneFile with_result(SceneFile scene, const CalibrationResult& found,
-                      const FilterProposal& proposal);
+SceneFile with_result(SceneFile scene, const Calibrated& calibrated);
+
+/// How far robot points so deep before the camera lie apart for two of its poses: in the mean over
+/// a square of 60 cm.
+double apart_m(const Pose& X_PC, const Pose& X_PC_other, double depth_m);
 
 /// Counts over all frames and links of a recording (expected.tsv, reference/robot_mask_*.png).
 struct Judgement {

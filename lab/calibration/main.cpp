@@ -1,4 +1,4 @@
-// measure_calibration: how near teach-in comes to the truth, on real recordings and drawn ones.
+// measure_calibration: how near calibration comes to the truth, on real recordings and drawn ones.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -8,10 +8,11 @@
 
 #include "lab/calibration/drawn.hpp"
 #include "lab/calibration/recordings.hpp"
+#include "sim/drawn_hand_camera.hpp"
 
 int main(int argc, char** argv) {
   namespace lab = berth::lab;
-  CLI::App app("Measures teach-in: recordings from random starts, drawn scenes with known truth");
+  CLI::App app("Measures calibration: recordings from random starts, drawn scenes with known truth");
   std::filesystem::path data;
   std::string robot;
   int starts = 0;
@@ -45,8 +46,8 @@ int main(int argc, char** argv) {
     if (trials.seeds == 0) return 0;
     trials.drawn.errors.joint_zero = zero_deg * std::numbers::pi / 180;
     trials.joint_zeros = zero_deg > 0;
-    if (is_on_hand) trials.drawn.mount = berth::testing::DrawnMount::hand;
-    if (is_on_upper_link) trials.drawn.mount = berth::testing::DrawnMount::upper_link;
+    if (is_on_hand) trials.drawn.mount = berth::sim::DrawnMount::hand;
+    if (is_on_upper_link) trials.drawn.mount = berth::sim::DrawnMount::upper_link;
     std::vector<lab::TrialRobot> robots = lab::load_trial_robots(data / "robots");
     std::erase_if(robots, [&](const lab::TrialRobot& one) {
       return one.name.find(robot) == std::string::npos;

@@ -5,57 +5,17 @@
 #include <algorithm>
 #include <numbers>
 
-#include "berth/scene/scene_teach_in.hpp"
 #include "lab/calibration/judge.hpp"
-#include "lab/measure/stopwatch.hpp"
-#include "tests/support/sensor_model.hpp"
+#include "sim/sensor_model.hpp"
 
 namespace berth::lab {
-namespace {
-
-/// What teach-in makes of the recording from one start.
-struct TaughtIn {
-  CalibrationResult found;
-  FilterProposal proposal;
-  double time_s = 0;
-};
-
-TaughtIn teach_in(const SceneFile& file) {
-  const OpenScene scene = open_scene(file);
-  const SceneTeachIn material = make_teach_in(scene);
-  TaughtIn taught;
-  const Stopwatch stopwatch;
-  taught.found = calibrate(material.teach_in);
-  taught.time_s = stopwatch.ms() / 1000;
-  const ViewSettings& settings = scene.cameras[0].view->settings();
-  taught.proposal = propose_filter(material.teach_in, 0, taught.found, false,
-                                   settings.self_filter, settings.sensor);
-  return taught;
-}
-
-/// How far robot points at about its middle lie apart: in the mean over a ball of 30 cm.
-double apart_m(const Pose& X_PC, const Pose& X_PC_other, const Eigen::Vector3d& middle_C_m) {
-  double sum_m = 0;
-  int count = 0;
-  const Pose X_CC = X_PC_other.inverse() * X_PC;
-  for (double x : {-0.3, 0.0, 0.3}) {
-    for (double y : {-0.3, 0.0, 0.3}) {
-      const Eigen::Vector3d p_C_m = middle_C_m + Eigen::Vector3d(x, y, 0);
-      sum_m += (X_CC * p_C_m - p_C_m).norm();
-      ++count;
-    }
-  }
-  return sum_m / count;
-}
-
-}  // namespace
 
 void measure_recording(const std::filesystem::path& folder, const StartErrors& errors, int starts) {
   const SceneFile given = read_scene(folder / "scene.yaml");
-  const TaughtIn reference = teach_in(given);
+  const Calibrated reference = calibration_data(given);
   const CameraCalibration& camera = reference.found.cameras[0];
   fmt::print("\n## {}\n\nas given: {}\n", folder.filename().string(), text_of(judge(given, folder)));
-  fmt::print("taught in from the given pose: robot moved {:.1f} mm, halves {:.1f} mm, agreement "
+  fmt::print("calibrated from the given pose: robot moved {:.1f} mm, halves {:.1f} mm, agreement "
              "{:.3f} -> {:.3f}, {:.2f} s\n",
              1000 * camera.moved_m, 1000 * camera.halves_m, camera.score_before,
              camera.score_after, reference.time_s);
@@ -72,25 +32,24 @@ void measure_recording(const std::filesystem::path& folder, const StartErrors& e
     fmt::print("at {} m: rod {:.0f} mm, finger {:.0f} mm\n", one.depth_m, 1000 * one.rod_width_m,
                1000 * one.finger_width_m);
   }
-  fmt::print("with these: {}\n", text_of(judge(with_result(given, reference.found, reference.proposal), folder)));
-  const Eigen::Vector3d middle_C_m(0, 0, errors.robot_depth_m);
+  fmt::print("with these: {}\n", text_of(judge(with_result(given, reference), folder)));
   int back = 0;
   double slowest_s = 0;
   double farthest_m = 0;
   for (int i = 1; i <= starts; ++i) {
     SceneFile off = given;
     Pose& X_PC = off.cameras[0].X_PC;
-    X_PC = testing::miscalibrated(X_PC, errors.offset_m, errors.angle_deg * std::numbers::pi / 180,
+    X_PC = sim::miscalibrated(X_PC, errors.offset_m, errors.angle_deg * std::numbers::pi / 180,
                                   static_cast<std::uint32_t>(i));
-    const TaughtIn taught = teach_in(off);
-    const double length_m = apart_m(taught.found.cameras[0].X_PC, camera.X_PC, middle_C_m);
+    const Calibrated calibrated = calibration_data(off);
+    const double length_m = apart_m(calibrated.found.cameras[0].X_PC, camera.X_PC, errors.robot_depth_m);
     const bool is_back = length_m < 0.005;
     back += is_back;
-    slowest_s = std::max(slowest_s, taught.time_s);
+    slowest_s = std::max(slowest_s, calibrated.time_s);
     farthest_m = std::max(farthest_m, length_m);
     if (!is_back || i <= errors.judged) {
       fmt::print("start {}: {:.1f} mm from the reference, {}\n", i, 1000 * length_m,
-                 text_of(judge(with_result(off, taught.found, taught.proposal), folder)));
+                 text_of(judge(with_result(off, calibrated), folder)));
     }
     std::fflush(stdout);
   }

@@ -14,7 +14,7 @@ struct StartErrors {
   double robot_depth_m = 1.2;
 };
 
-/// Prints what teach-in finds on a recording, from its own pose and from random starts.
+/// Prints what calibration finds on a recording, from its own pose and from random starts.
 void measure_recording(const std::filesystem::path& folder, const StartErrors& errors, int starts);
 
 }  // namespace berth::lab

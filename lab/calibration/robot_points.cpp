@@ -20,7 +20,7 @@ RobotPose pose_with(const RobotModel& model, std::vector<double> joints,
 /// Mean distance of points between where the truth and where the result has them.
 class Apart {
  public:
-  Apart(const testing::DrawnTeachIn& drawn, const Pose& X_PC_found,
+  Apart(const sim::DrawnCalibrationData& drawn, const Pose& X_PC_found,
         const std::vector<double>& joint_offsets)
       : drawn_(drawn), X_PC_found_(X_PC_found), joint_offsets_(joint_offsets) {}
 
@@ -44,12 +44,12 @@ class Apart {
     count_ += 1;
   }
 
-  const RobotModel& model() const { return *drawn_.teach_in.model; }
+  const RobotModel& model() const { return *drawn_.calibration_data.model; }
   const RobotPose& truth() const { return truth_; }
   const Pose& X_BC_true() const { return X_BC_true_; }
 
  private:
-  const testing::DrawnTeachIn& drawn_;
+  const sim::DrawnCalibrationData& drawn_;
   const Pose X_PC_found_;
   const std::vector<double>& joint_offsets_;
   RobotPose truth_;
@@ -62,7 +62,7 @@ class Apart {
 
 }  // namespace
 
-double robot_points_apart_m(const testing::DrawnTeachIn& drawn, const Pose& X_PC_found,
+double robot_points_apart_m(const sim::DrawnCalibrationData& drawn, const Pose& X_PC_found,
                             const std::vector<double>& joint_offsets) {
   Apart apart(drawn, X_PC_found, joint_offsets);
   return apart.mean_m([&] {
@@ -75,11 +75,11 @@ double robot_points_apart_m(const testing::DrawnTeachIn& drawn, const Pose& X_PC
   });
 }
 
-double seen_points_apart_m(const testing::DrawnTeachIn& drawn, const Pose& X_PC_found,
+double seen_points_apart_m(const sim::DrawnCalibrationData& drawn, const Pose& X_PC_found,
                            const std::vector<double>& joint_offsets) {
   Apart apart(drawn, X_PC_found, joint_offsets);
   const Camera& camera = drawn.camera->camera;
-  RobotRenderer renderer(drawn.teach_in.meshes, camera);
+  RobotRenderer renderer(drawn.calibration_data.meshes, camera);
   RobotImage seen;
   return apart.mean_m([&] {
     renderer.render(apart.truth(), apart.X_BC_true(), seen);

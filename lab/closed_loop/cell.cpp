@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "berth/files/read_file.hpp"
-#include "lab/bundled_scene/bundled_camera.hpp"
-#include "lab/bundled_scene/room.hpp"
+#include "sim/bundled_camera.hpp"
+#include "sim/room.hpp"
 
 namespace berth::lab {
 namespace {
@@ -16,7 +16,7 @@ std::string cell_urdf(const std::string& file) {
       "<link name=\"floor\"><visual><geometry><box size=\"8 8 0.1\"/></geometry></visual></link>\n"
       "<joint name=\"floor\" type=\"fixed\"><parent link=\"table\"/><child link=\"floor\"/>"
       "<origin xyz=\"0 0 {}\"/></joint>\n",
-      kFloorZ_m - 0.05);
+      sim::kFloorZ_m - 0.05);
   return urdf.insert(urdf.rfind("</robot>"), floor);
 }
 
@@ -39,7 +39,7 @@ RobotModel cell_model() {
 
 std::vector<CellCamera> cell_cameras() {
   std::vector<CellCamera> cameras;
-  for (const BundledCamera& camera : bundled_cameras()) {
+  for (const sim::BundledCamera& camera : sim::bundled_cameras()) {
     cameras.push_back({camera.name, halved(camera.camera), camera.place.X_TC()});
   }
   return cameras;
@@ -53,22 +53,23 @@ SeparationSettings cell_separation() {
   return settings;
 }
 
-std::shared_ptr<const Robot> cell_robot(Method method) {
+std::shared_ptr<const Robot> cell_robot() {
   EvaluationSettings settings;
-  settings.method = method;
   settings.distance.range_m = kCellRange_m;
   return std::make_shared<const Robot>(cell_model(), settings);
 }
 
-std::vector<std::shared_ptr<const View>> cell_views(const std::shared_ptr<const Robot>& robot,
+std::vector<std::shared_ptr<const MountedCamera>> cell_views(const std::shared_ptr<const Robot>& robot,
                                                     const std::vector<int>& cameras) {
   const std::vector<CellCamera> all = cell_cameras();
-  ViewSettings settings;
+  CameraSettings settings = settings_of_real_camera();
   settings.sensor.speckle_px = 8;
-  std::vector<std::shared_ptr<const View>> views;
+  std::vector<std::shared_ptr<const MountedCamera>> views;
   for (const int camera : cameras) {
-    views.push_back(std::make_shared<const View>(
-        robot, CameraMount{all[camera].camera, robot->model().links.front().name, all[camera].X_BC},
+    views.push_back(std::make_shared<const MountedCamera>(
+        robot,
+        CameraMount{all[camera].camera, robot->model().links.front().name, all[camera].X_BC,
+                    all[camera].name},
         settings));
   }
   return views;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "berth/pipeline/robot.hpp"
-#include "berth/pipeline/view.hpp"
+#include "berth/pipeline/mounted_camera.hpp"
 #include "berth/separation/settings.hpp"
 
 namespace berth::lab {
@@ -17,7 +17,7 @@ struct CellCamera {
   Pose X_BC;
 };
 
-/// Arm, table and floor; the latter two are scenery. People are all that is not in the URDF.
+/// Arm, table and floor; the latter two are environment. People are all that is not in the URDF.
 RobotModel cell_model();
 
 /// Those of the bundled scene, with half as many pixels in each direction.
@@ -34,12 +34,12 @@ SeparationSettings cell_separation();
 /// How far distances are looked for: above what the arm needs at full speed.
 inline constexpr double kCellRange_m = 2;
 
-/// With berth's default settings but for method and range.
-std::shared_ptr<const Robot> cell_robot(Method method);
+/// With berth's default settings but for the range.
+std::shared_ptr<const Robot> cell_robot();
 
 /// Of these cameras, by their place in cell_cameras(). Settings are the defaults, but for speckle:
 /// these cameras mix pixels at outlines.
-std::vector<std::shared_ptr<const View>> cell_views(const std::shared_ptr<const Robot>& robot,
+std::vector<std::shared_ptr<const MountedCamera>> cell_views(const std::shared_ptr<const Robot>& robot,
                                                     const std::vector<int>& cameras);
 
 }  // namespace berth::lab

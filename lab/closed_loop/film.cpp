@@ -39,13 +39,11 @@ class FilmedSupervisor : public MonitorSupervisor {
  private:
   void draw(double now_s) {
     const Frame& frame = *newest(0);
-    LinkDistances distances = answer().distances;
-    app::project_pairs(frame.view->camera(), frame.X_BC, distances);
-    const RobotModel& model = frame.view->robot()->model();
-    app::write_picture(
-        folder_ / fmt::format("film_{}.png", taken_),
-        {newest_depth_m_, &frame.robot, &frame.obstacles, &distances, model.evaluated_link_names(),
-         kCellRange_m, fmt::format("{:.2f} s, speed {:.0f} %", now_s, 100 * last().speed_scale)});
+    std::vector<LinkResult> links = result().links;
+    app::project_pairs(frame.view->camera(), frame.X_BC, links);
+    app::write_picture(folder_ / fmt::format("film_{}.png", taken_),
+                       {newest_depth_m_, &frame.robot, &frame.obstacles, &links, kCellRange_m,
+                        fmt::format("{:.2f} s, speed {:.0f} %", now_s, 100 * last().speed_scale)});
     ++taken_;
   }
 
@@ -58,15 +56,15 @@ class FilmedSupervisor : public MonitorSupervisor {
 }  // namespace
 
 void film_encounter(std::uint32_t seed, const std::filesystem::path& folder) {
-  FilmedSupervisor supervisor(Encounter(seed).duration_s(), folder);
-  std::vector<Moment> moments;
-  simulate(seed, supervisor, {}, &moments);
+  FilmedSupervisor supervisor(sim::Encounter(seed).duration_s(), folder);
+  std::vector<LoopSample> samples;
+  simulate(seed, supervisor, {}, &samples);
   std::string csv = "time_s,clearance_m,fastest_m_s,scale\n";
-  for (const Moment& m : moments) {
-    csv += fmt::format("{:.3f},{:.4f},{:.4f},{:.4f}\n", m.time_s, m.clearance_m, m.fastest_m_s,
-                       m.scale);
+  for (const LoopSample& s : samples) {
+    csv += fmt::format("{:.3f},{:.4f},{:.4f},{:.4f}\n", s.time_s, s.clearance_m, s.fastest_m_s,
+                       s.scale);
   }
-  write_file_bytes(folder / "moments.csv", csv);
+  write_file_bytes(folder / "samples.csv", csv);
 }
 
 }  // namespace berth::lab

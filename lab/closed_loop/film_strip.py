@@ -14,7 +14,7 @@ IMAGE = (960, 720)
 
 
 def main(folder, out):
-    with open(folder / "moments.csv", newline="") as file:
+    with open(folder / "samples.csv", newline="") as file:
         rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
     pictures = sorted(folder.glob("film_*.png"))
     figure = plt.figure(figsize=(12, 5.6), layout="constrained")

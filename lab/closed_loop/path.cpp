@@ -3,21 +3,21 @@
 #include <array>
 #include <cmath>
 
-#include "lab/bundled_scene/arm.hpp"
+#include "sim/arm.hpp"
 
 namespace berth::lab {
 namespace {
 
 struct Stop {
-  JointAngles position_rad;
+  sim::JointAngles position_rad;
   /// From here to the next one.
   double duration_s;
 };
 
-constexpr JointAngles kTakeLow{-0.9, 0.75, 0.0, -1.35, 0.0, 1.05, 0.4};
-constexpr JointAngles kTakeHigh{-0.9, 0.45, 0.0, -1.35, 0.0, 1.25, 0.4};
-constexpr JointAngles kPutHigh{0.9, 0.45, 0.0, -1.35, 0.0, 1.25, -0.4};
-constexpr JointAngles kPutLow{0.9, 0.75, 0.0, -1.35, 0.0, 1.05, -0.4};
+constexpr sim::JointAngles kTakeLow{-0.9, 0.75, 0.0, -1.35, 0.0, 1.05, 0.4};
+constexpr sim::JointAngles kTakeHigh{-0.9, 0.45, 0.0, -1.35, 0.0, 1.25, 0.4};
+constexpr sim::JointAngles kPutHigh{0.9, 0.45, 0.0, -1.35, 0.0, 1.25, -0.4};
+constexpr sim::JointAngles kPutLow{0.9, 0.75, 0.0, -1.35, 0.0, 1.05, -0.4};
 
 constexpr std::array<Stop, 6> kStops{{{kTakeLow, 0.6},
                                       {kTakeHigh, 1.5},
@@ -44,7 +44,7 @@ PathPoint path_at(double phase_s) {
   const double way = u * u * u * (10 + u * (6 * u - 15));
   const double slope = 30 * u * u * (1 + u * (u - 2)) / from.duration_s;
   PathPoint point;
-  for (int j = 0; j < kArmJoints; ++j) {
+  for (int j = 0; j < sim::kArmJoints; ++j) {
     const double step = to.position_rad[j] - from.position_rad[j];
     point.position_rad.push_back(from.position_rad[j] + way * step);
     point.velocity_rad_s.push_back(slope * step);

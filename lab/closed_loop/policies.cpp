@@ -23,13 +23,13 @@ std::unique_ptr<Supervisor> monitor(Method method, std::vector<int> cameras,
 
 SeparationSettings readings_alone() {
   SeparationSettings settings = cell_separation();
-  settings.hidden = UnknownPolicy::ignore;
+  settings.unknown = UnknownPolicy::ignore;
   return settings;
 }
 
-SeparationSettings doubts() {
+SeparationSettings rejected_readings() {
   SeparationSettings settings = cell_separation();
-  settings.doubtful = UnknownPolicy::assume_range;
+  settings.rejected = UnknownPolicy::assume_range;
   return settings;
 }
 
@@ -48,8 +48,8 @@ const std::vector<Policy>& all_policies() {
       {"three", "berth, three cameras, the defaults"},
       {"two", "berth, two cameras, the defaults"},
       {"one", "berth, one camera, the defaults"},
-      {"readings", "three cameras, hidden space ignored"},
-      {"doubtful", "three cameras, readings that were dropped as doubtful count too"},
+      {"readings", "three cameras, unknown space ignored"},
+      {"rejected", "three cameras, readings that were dropped as rejected count too"},
       {"directed", "three cameras, only the speed towards the closest obstacle"},
       {"evading", "three cameras, and the arm gives way to what comes near"},
       {"exact", "one camera, the visible side alone: method exact, what is not seen is ignored"}};
@@ -63,7 +63,7 @@ std::unique_ptr<Supervisor> make_supervisor(const std::string& name) {
   if (name == "two") return monitor(Method::mesh, {1, 2});
   if (name == "one") return monitor(Method::mesh, {0});
   if (name == "readings") return monitor(Method::mesh, {0, 1, 2}, readings_alone());
-  if (name == "doubtful") return monitor(Method::mesh, {0, 1, 2}, doubts());
+  if (name == "rejected") return monitor(Method::mesh, {0, 1, 2}, rejected_readings());
   if (name == "directed") return monitor(Method::mesh, {0, 1, 2}, directed());
   if (name == "evading") {
     return std::make_unique<EvadingSupervisor>(Method::mesh, std::vector{0, 1, 2},

@@ -5,8 +5,9 @@
 #include <deque>
 
 #include "lab/closed_loop/cell.hpp"
-#include "lab/closed_loop/eyes.hpp"
-#include "lab/closed_loop/judge.hpp"
+#include "lab/closed_loop/cell_sensors.hpp"
+#include "sim/contact_check.hpp"
+#include "sim/person.hpp"
 
 namespace berth::lab {
 namespace {
@@ -53,9 +54,9 @@ class Loop {
         names_(joint_names(model_)),
         encounter_(seed),
         arm_(model_, encounter_.first_phase()),
-        clearance_(model_, person_parts()),
-        judge_(clearance_),
-        eyes_(model_, seed),
+        clearance_(model_, sim::make_person_meshes()),
+        check_(clearance_),
+        sensors_(model_, seed),
         joints_(model_, 500),
         cameras_(supervisor.cameras()),
         next_image_s_(cameras_.size()) {
@@ -66,17 +67,17 @@ class Loop {
     result_.seed = seed;
   }
 
-  EncounterResult run(std::vector<Moment>* moments) {
+  EncounterResult run(std::vector<LoopSample>* samples) {
     const double end_s = std::min(settings_.most_s, encounter_.duration_s());
     const int steps = static_cast<int>(end_s / kStep_s);
     for (int i = 0; i < steps; ++i) {
       time_s_ = i * kStep_s;
-      step(moments);
+      step(samples);
     }
-    judge_.finish();
-    result_.least_moving_m = judge_.least_moving_m();
-    result_.contact_m_s = judge_.contact_m_s();
-    result_.has_touched = judge_.has_touched();
+    check_.finish();
+    result_.least_moving_m = check_.least_moving_m();
+    result_.contact_m_s = check_.contact_m_s();
+    result_.has_touched = check_.has_touched();
     result_.duration_s = steps * kStep_s;
     result_.phase_s = arm_.phase_s() - first_phase_s_;
     result_.stopped_share = stopped_steps_ / static_cast<double>(steps);
@@ -96,10 +97,10 @@ class Loop {
     return X_BP;
   }
 
-  void step(std::vector<Moment>* moments) {
+  void step(std::vector<LoopSample>* samples) {
     send_joints();
     send_images();
-    if (time_s_ >= next_question_s_) ask(moments);
+    if (time_s_ >= next_question_s_) ask(samples);
     while (!commands_.empty() && commands_.front().obeyed_s <= time_s_) {
       commanded_ = commands_.front();
       commands_.pop_front();
@@ -129,7 +130,7 @@ class Loop {
       if (c == 0 && is_faulty(Fault::no_images)) continue;
       Image image{c, time_s_, time_s_ + settings_.image_latency_s, {}};
       if (is_faulty(Fault::late_images)) image.arrives_s += 0.5;
-      image.depth_m = eyes_.look(cameras_[c], arm_.pose(), person());
+      image.depth_m = sensors_.take_image(cameras_[c], arm_.pose(), person());
       if (c == 0 && is_faulty(Fault::covered_camera)) {
         std::ranges::fill(image.depth_m.pixels(), std::numeric_limits<float>::quiet_NaN());
       }
@@ -142,7 +143,7 @@ class Loop {
     }
   }
 
-  void ask(std::vector<Moment>* moments) {
+  void ask(std::vector<LoopSample>* samples) {
     next_question_s_ += 1 / settings_.question_hz;
     const std::vector<Pose> X_BP = person();
     const double scale = supervisor_.scale({time_s_, joints_, arm_.plan(), range_of(X_BP)});
@@ -151,31 +152,31 @@ class Loop {
     if (is_after_fault && scale == 0 && std::isnan(result_.commanded_stop_s)) {
       result_.commanded_stop_s = time_s_ - settings_.fault_s;
     }
-    if (!moments) return;
-    moments->push_back({time_s_, clearance_.at(arm_.pose(), X_BP), arm_.fastest_m_s(), scale});
+    if (!samples) return;
+    samples->push_back({time_s_, clearance_.at(arm_.pose(), X_BP), arm_.fastest_m_s(), scale});
   }
 
   void look() {
     const double fastest_m_s = arm_.fastest_m_s();
-    if (fastest_m_s < kMoving_m_s) {
+    if (fastest_m_s < sim::kMoving_m_s) {
       ++stopped_steps_;
       const bool is_after_fault = !std::isnan(result_.commanded_stop_s);
       if (is_after_fault && std::isnan(result_.stopped_s)) {
         result_.stopped_s = time_s_ - settings_.fault_s;
       }
     }
-    if (judge_.wants(time_s_)) judge_.look({time_s_, arm_.pose(), person(), fastest_m_s});
+    if (check_.is_due(time_s_)) check_.add({time_s_, arm_.pose(), person(), fastest_m_s});
   }
 
   SimulationSettings settings_;
   Supervisor& supervisor_;
   RobotModel model_;
   std::vector<std::string> names_;
-  Encounter encounter_;
+  sim::Encounter encounter_;
   MovingArm arm_;
-  TrueClearance clearance_;
-  Judge judge_;
-  Eyes eyes_;
+  sim::TrueClearance clearance_;
+  sim::ContactCheck check_;
+  CellSensors sensors_;
   JointBuffer joints_;
   std::vector<int> cameras_;
   std::vector<double> next_image_s_;
@@ -194,8 +195,8 @@ class Loop {
 }  // namespace
 
 EncounterResult simulate(std::uint32_t seed, Supervisor& supervisor,
-                         const SimulationSettings& settings, std::vector<Moment>* moments) {
-  return Loop(seed, supervisor, settings).run(moments);
+                         const SimulationSettings& settings, std::vector<LoopSample>* samples) {
+  return Loop(seed, supervisor, settings).run(samples);
 }
 
 }  // namespace berth::lab

@@ -1,9 +1,9 @@
 // One encounter of arm and person, millisecond by millisecond.
 #pragma once
 
-#include "lab/closed_loop/encounter.hpp"
 #include "lab/closed_loop/moving_arm.hpp"
 #include "lab/closed_loop/supervisor.hpp"
+#include "sim/encounter.hpp"
 
 namespace berth::lab {
 
@@ -50,17 +50,17 @@ struct EncounterResult {
   double stopped_s = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// What is told of each question.
-struct Moment {
+/// What was so at one question.
+struct LoopSample {
   double time_s;
   double clearance_m;
   double fastest_m_s;
   double scale;
 };
 
-/// `moments` get what was told, unless they are null.
+/// `samples` get one for each question, unless they are null.
 EncounterResult simulate(std::uint32_t seed, Supervisor& supervisor,
                          const SimulationSettings& settings,
-                         std::vector<Moment>* moments = nullptr);
+                         std::vector<LoopSample>* samples = nullptr);
 
 }  // namespace berth::lab

@@ -10,10 +10,10 @@ void Supervisor::see(std::size_t, const DepthImage&, double, const JointBuffer&)
 
 MonitorSupervisor::MonitorSupervisor(Method method, std::vector<int> cameras,
                                      const SeparationSettings& settings)
-    : robot_(cell_robot(method)),
+    : robot_(cell_robot()),
       cameras_(std::move(cameras)),
       frames_(cameras_.size()),
-      asker_(robot_, cameras_.size()),
+      query_(robot_, method),
       monitor_(robot_, settings) {
   for (const auto& view : cell_views(robot_, cameras_)) {
     observers_.push_back(std::make_unique<Observer>(view));
@@ -28,11 +28,9 @@ void MonitorSupervisor::see(std::size_t which, const DepthImage& depth_m, double
 }
 
 double MonitorSupervisor::scale(const Situation& situation) {
-  answer_ = &asker_.ask(frames_, situation.joints, situation.now_s);
-  situation.joints.newest(newest_);
+  result_ = &query_.ask({.frames = frames_, .joints = situation.joints, .now_s = situation.now_s});
   const auto start = std::chrono::steady_clock::now();
-  last_ = &monitor_.look({*answer_, asker_.cameras(), asker_.frames(), newest_.position,
-                          situation.plan.velocity_rad_s, situation.now_s});
+  last_ = &monitor_.update(*result_, situation.plan.velocity_rad_s, situation.now_s);
   const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
   monitor_us_.push_back(took.count());
   return last_->speed_scale;
@@ -45,9 +43,7 @@ EvadingSupervisor::EvadingSupervisor(Method method, std::vector<int> cameras,
 double EvadingSupervisor::scale(const Situation& situation) {
   const double scale = MonitorSupervisor::scale(situation);
   evasion_.reset();
-  if (answer().time.status == TimeStatus::ok) {
-    evasion_ = evader_.look(answer(), newest_joints().position);
-  }
+  if (result().time.status == TimeStatus::ok) evasion_ = evader_.update(result());
   return scale;
 }
 

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "berth/live/live_asker.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "berth/separation/evasion.hpp"
 #include "berth/separation/monitor.hpp"
 #include "lab/closed_loop/path.hpp"
+#include "lab/measure/method_query.hpp"
 
 namespace berth::lab {
 
@@ -64,9 +64,8 @@ class MonitorSupervisor : public Supervisor {
   double scale(const Situation& situation) override;
   const Separation& last() const { return *last_; }
   const std::shared_ptr<const Robot>& robot() const { return robot_; }
-  const JointState& newest_joints() const { return newest_; }
-  const Answer& answer() const { return *answer_; }
-  /// How long the monitor took, of each question, without the answer itself.
+  const Result& result() const { return *result_; }
+  /// How long the monitor took, of each question, without the request itself.
   const std::vector<double>& monitor_us() const { return monitor_us_; }
   /// Null where it has none yet.
   const std::shared_ptr<const Frame>& newest(std::size_t which) const { return frames_[which]; }
@@ -75,12 +74,11 @@ class MonitorSupervisor : public Supervisor {
   std::shared_ptr<const Robot> robot_;
   std::vector<int> cameras_;
   std::vector<std::unique_ptr<Observer>> observers_;
-  LiveFrames frames_;
-  LiveAsker asker_;
+  std::vector<std::shared_ptr<const Frame>> frames_;
+  MethodQuery query_;
   SeparationMonitor monitor_;
-  JointState newest_;
   const Separation* last_ = nullptr;
-  const Answer* answer_ = nullptr;
+  const Result* result_ = nullptr;
   std::vector<double> monitor_us_;
 };
 

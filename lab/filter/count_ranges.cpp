@@ -4,7 +4,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include "berth/distance/evaluate.hpp"
+#include "berth/image_distance/evaluate.hpp"
 #include "berth/self_filter/self_filter.hpp"
 #include "berth/sensor/sensor_rules.hpp"
 #include "lab/trust/trial.hpp"
@@ -22,7 +22,7 @@ LinkDistances distances_of(const JudgedView& view, const DepthImage& obstacle_de
             view.robot,
             view.link_count,
             searchable,
-            {.range_m = kTrialRange_m, .mean_direction = false}},
+            {{.range_m = kTrialRange_m, .mean_direction = false}, {}}},
            workspace, distances);
   return distances;
 }
@@ -34,13 +34,13 @@ RecordingCount count_view(const JudgedView& view, const FilterChoice& choice) {
   self_filter(view.camera, view.depth_m, view.robot, choice.filter, workspace, obstacles);
   apply_sensor_rules(view.depth_m, view.robot, {}, choice.sensor, sensor, obstacles);
   const LinkDistances distances = distances_of(view, obstacles.depth_m);
-  const auto doubtful =
-      with_doubtful(view.camera, view.robot, view.depth_m, obstacles, distances);
+  const auto rejected =
+      with_rejected(view.camera, view.robot, view.depth_m, obstacles, distances);
   RecordingCount count;
   for (std::size_t i = 0; i < view.expected.size(); ++i) {
     const ExpectedRange& range = view.expected[i];
     (range.is_checked ? count.checked : count.estimated).add(distances.links[i].distance_m, range);
-    count.doubtful.add(doubtful[i].distance_m, range);
+    count.rejected.add(rejected[i].distance_m, range);
   }
   return count;
 }
@@ -83,18 +83,18 @@ RecordingCount count_ranges(const JudgedRecording& recording, const FilterChoice
   for (const RecordingCount& count : counts) {
     sum.checked += count.checked;
     sum.estimated += count.estimated;
-    sum.doubtful += count.doubtful;
+    sum.rejected += count.rejected;
   }
   return sum;
 }
 
 const char* const kCountHeading =
     "| checked in range | a bit far | too far | too near | estimates in range | a bit far | too "
-    "far | too near | too far, doubtful counted ";
+    "far | too near | too far, rejected counted ";
 
 std::string cells_of(const RecordingCount& count) {
   return cells_of(count.checked) + cells_of(count.estimated) +
-         fmt::format("| {} ", count.doubtful.too_far);
+         fmt::format("| {} ", count.rejected.too_far);
 }
 
 }  // namespace berth::lab

@@ -18,21 +18,18 @@ struct RangeCount {
   RangeCount& operator+=(const RangeCount& other);
 };
 
-/// As tests/pipeline/recordings_test.cpp: a range is an estimate, too.
-inline constexpr double kFarMargin_m = 0.01;
-
 struct RecordingCount {
   RangeCount checked;
   RangeCount estimated;
-  /// The same with the doubtful distance where there is one.
-  RangeCount doubtful;
+  /// The same with the rejected distance where there is one.
+  RangeCount rejected;
 };
 
 /// All views with these settings, on all threads that TBB gives.
 RecordingCount count_ranges(const JudgedRecording& recording, const FilterChoice& choice);
 
 /// Cells of a Markdown table: checked rows in range, a bit far, too far, too near; the same of the
-/// estimates; the rows too far by the smaller of distance and doubtful distance.
+/// estimates; the rows too far by the smaller of distance and rejected distance.
 extern const char* const kCountHeading;
 std::string cells_of(const RecordingCount& count);
 

@@ -16,6 +16,9 @@ struct ExpectedRange {
   bool is_checked = false;
 };
 
+/// A distance above max_m by more than this is too far: a range is an estimate, too.
+inline constexpr double kFarMargin_m = 0.01;
+
 /// By frame and link.
 using ExpectedRanges = std::map<std::pair<int, std::string>, ExpectedRange>;
 

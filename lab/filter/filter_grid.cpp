@@ -35,8 +35,8 @@ std::string FilterGrid::heading() const {
   name(padding_depth_m, "padding_depth_m", heading);
   name(dilation_px, "dilation_px", heading);
   name(edge_jump_m, "edge_jump_m", heading);
-  name(island_radius_m, "island_radius_m", heading);
-  name(island_jump_m, "island_jump_m", heading);
+  name(flying_patch_radius_m, "flying_patch_radius_m", heading);
+  name(flying_patch_jump_m, "flying_patch_jump_m", heading);
   name(speckle_px, "speckle_px", heading);
   return heading;
 }
@@ -51,8 +51,8 @@ std::vector<FilterChoice> FilterGrid::choices() const {
   cross(padding_depth_m, [](FilterChoice& c) -> auto& { return c.filter.padding_depth_m; }, all);
   cross(dilation_px, [](FilterChoice& c) -> auto& { return c.filter.dilation_px; }, all);
   cross(edge_jump_m, [](FilterChoice& c) -> auto& { return c.filter.edge_jump_m; }, all);
-  cross(island_radius_m, [](FilterChoice& c) -> auto& { return c.filter.island_radius_m; }, all);
-  cross(island_jump_m, [](FilterChoice& c) -> auto& { return c.filter.island_jump_m; }, all);
+  cross(flying_patch_radius_m, [](FilterChoice& c) -> auto& { return c.filter.flying_patch_radius_m; }, all);
+  cross(flying_patch_jump_m, [](FilterChoice& c) -> auto& { return c.filter.flying_patch_jump_m; }, all);
   cross(speckle_px, [](FilterChoice& c) -> auto& { return c.sensor.speckle_px; }, all);
   return all;
 }

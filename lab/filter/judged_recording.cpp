@@ -6,18 +6,18 @@
 
 #include "berth/scene/open_scene.hpp"
 #include "berth/render/robot_renderer.hpp"
-#include "tests/support/random.hpp"
+#include "sim/random.hpp"
 
 namespace berth::lab {
 namespace {
 
-Eigen::Vector3d random_direction(testing::Random& random) {
+Eigen::Vector3d random_direction(sim::Random& random) {
   Eigen::Vector3d direction{random.gaussian(), random.gaussian(), random.gaussian()};
   return direction.normalized();
 }
 
 /// What a calibration may be wrong by.
-Pose random_error(testing::Random& random) {
+Pose random_error(sim::Random& random) {
   const Eigen::Vector3d axis = random_direction(random);
   const double angle_rad = random(0.2, 0.5) * std::numbers::pi / 180;
   const Eigen::Vector3d offset_m = random(0.002, 0.005) * random_direction(random);
@@ -31,7 +31,7 @@ struct Draw {
 
   Draw(int seed, std::size_t joints) : joints_rad(joints, 0.0) {
     if (seed == 0) return;
-    testing::Random random(static_cast<std::uint32_t>(seed));
+    sim::Random random(static_cast<std::uint32_t>(seed));
     X_CC = random_error(random);
     for (double& joint_rad : joints_rad) joint_rad = random(-0.1, 0.1) * std::numbers::pi / 180;
   }
@@ -42,7 +42,7 @@ struct Draw {
 JudgedRecording load_recording(const std::filesystem::path& folder, int draws) {
   const OpenScene scene = open_scene(folder / "scene.yaml");
   const OpenCamera& camera = scene.cameras.front();
-  const View& view = *camera.view;
+  const MountedCamera& view = *camera.view;
   const RobotModel& model = view.robot()->model();
   const ExpectedRanges ranges = read_expected_ranges(folder / "expected.tsv");
   const std::vector<std::string> names = model.evaluated_link_names();

@@ -50,8 +50,8 @@ int main(int argc, char** argv) {
   app.add_option("--padding_depth_m", grid.padding_depth_m)->delimiter(',');
   app.add_option("--dilation_px", grid.dilation_px)->delimiter(',');
   app.add_option("--edge_jump_m", grid.edge_jump_m)->delimiter(',');
-  app.add_option("--island_radius_m", grid.island_radius_m)->delimiter(',');
-  app.add_option("--island_jump_m", grid.island_jump_m)->delimiter(',');
+  app.add_option("--flying_patch_radius_m", grid.flying_patch_radius_m)->delimiter(',');
+  app.add_option("--flying_patch_jump_m", grid.flying_patch_jump_m)->delimiter(',');
   app.add_option("--speckle_px", grid.speckle_px)->delimiter(',');
   CLI11_PARSE(app, argc, argv);
   try {

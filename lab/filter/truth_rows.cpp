@@ -35,7 +35,7 @@ std::vector<Condition> with_choices(const Condition& sensor,
     conditions.push_back(sensor);
     conditions.back().self_filter = choice.filter;
     conditions.push_back(conditions.back());
-    conditions.back().counts_doubtful = true;
+    conditions.back().counts_rejected = true;
   }
   return conditions;
 }
@@ -83,7 +83,7 @@ constexpr double kFar_m = 0.1;       ///< farther than what tolerance and paddin
 constexpr double kFalseZero_m = 0.02;  ///< a distance of 0 where nothing is nearer than this
 
 std::string row(const std::string& cells, const std::vector<Trial>& trials, std::size_t condition) {
-  Excess over, under, far, over_doubtful;
+  Excess over, under, far, over_rejected;
   int zeros = 0, lost = 0;
   const auto covered = [&](std::size_t i) {
     return filtered(samples_of(trials, i), [](const Sample& s) { return s.is_covered(); });
@@ -98,27 +98,27 @@ std::string row(const std::string& cells, const std::vector<Trial>& trials, std:
     zeros += sample.estimate->distance_m <= 0 && sample.truth->seen_C.distance_m > kFalseZero_m;
   }
   for (const Sample& sample : covered(condition + 1)) {
-    if (sample.is_ok()) over_doubtful.add(sample.over_seen_m());
+    if (sample.is_ok()) over_rejected.add(sample.over_seen_m());
   }
   return fmt::format("{}| {:.1f} | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {:.1f} | {:.0f} | {} | {} |\n",
                      cells, over.share_percent(), over.at_mm(0.99), over.at_mm(1), far.at_mm(1),
-                     over_doubtful.at_mm(0.99), over_doubtful.at_mm(1), under.share_percent(),
+                     over_rejected.at_mm(0.99), over_rejected.at_mm(1), under.share_percent(),
                      under.at_mm(0.5), zeros, lost);
 }
 
 /// Of links that are farther than with the ideal filter.
 struct RealRow {
-  Excess farther, farther_doubtful;
+  Excess farther, farther_rejected;
   int zeros = 0, lost = 0;
 
-  void add(const LinkDistance& ideal, const Estimate& estimate, const Estimate& doubtful) {
+  void add(const LinkDistance& ideal, const Estimate& estimate, const Estimate& rejected) {
     constexpr double kRounding_m = 1e-5;
     if (ideal.status != LinkStatus::ok) return;
     lost += estimate.status != LinkStatus::ok;
     if (estimate.status == LinkStatus::ok)
       farther.add(std::max(0.0, estimate.distance_m - ideal.distance_m - kRounding_m));
-    if (doubtful.status == LinkStatus::ok)
-      farther_doubtful.add(std::max(0.0, doubtful.distance_m - ideal.distance_m - kRounding_m));
+    if (rejected.status == LinkStatus::ok)
+      farther_rejected.add(std::max(0.0, rejected.distance_m - ideal.distance_m - kRounding_m));
     zeros += estimate.distance_m <= 0 && ideal.distance_m > kFalseZero_m;
   }
 };
@@ -130,7 +130,7 @@ void print_drawn_truth(const FilterGrid& grid, const std::vector<TrialRobot>& ro
   for (const Condition& sensor : sensors()) {
     const std::vector<Condition> conditions = with_choices(sensor, choices);
     const std::vector<Trial> trials = run_trials(robots, conditions, scenes);
-    fmt::print("\n## {} drawn scenes; {}\n{}| too large % | 99 % | greatest | beyond 10 cm | with doubtful: "
+    fmt::print("\n## {} drawn scenes; {}\n{}| too large % | 99 % | greatest | beyond 10 cm | with rejected: "
                "99 % | greatest | too small % | median | false 0 | lost |\n",
                scenes, sensor.table.substr(std::string(kSettingsTable).size()), grid.heading());
     for (std::size_t i = 0; i < choices.size(); ++i)
@@ -151,20 +151,20 @@ void print_real_images(const FilterGrid& grid, const std::vector<TrialRobot>& ro
     });
   });
   fmt::print("\n## Robots in real images, {} tries\n{}| links | farther % | median | 99 % | greatest | with "
-             "doubtful: 99 % | greatest | false 0 | lost |\n",
+             "rejected: 99 % | greatest | false 0 | lost |\n",
              scenes, grid.heading());
   std::vector<RealRow> rows(choices.size());
   tbb::parallel_for(std::size_t{0}, choices.size(), [&](std::size_t c) {
     tbb::this_task_arena::isolate([&] {
       const RealImageRules rules{"", choices[c].filter, choices[c].sensor};
-      RealImageRules doubtful_rules = rules;
-      doubtful_rules.counts_doubtful = true;
+      RealImageRules rejected_rules = rules;
+      rejected_rules.counts_rejected = true;
       for (const auto& scene : drawn) {
         if (!scene) continue;
         const auto estimates = estimate(*scene, rules);
-        const auto doubtful = estimate(*scene, doubtful_rules);
+        const auto rejected = estimate(*scene, rejected_rules);
         for (std::size_t link = 0; link < estimates.size(); ++link)
-          rows[c].add(scene->ideal.links[link], estimates[link], doubtful[link]);
+          rows[c].add(scene->ideal.links[link], estimates[link], rejected[link]);
       }
     });
   });
@@ -172,8 +172,8 @@ void print_real_images(const FilterGrid& grid, const std::vector<TrialRobot>& ro
     RealRow& r = rows[c];
     fmt::print("{}| {} | {:.1f} | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {} | {} |\n", choices[c].cells,
                r.farther.links, r.farther.share_percent(), r.farther.at_mm(0.5),
-               r.farther.at_mm(0.99), r.farther.at_mm(1), r.farther_doubtful.at_mm(0.99),
-               r.farther_doubtful.at_mm(1), r.zeros, r.lost);
+               r.farther.at_mm(0.99), r.farther.at_mm(1), r.farther_rejected.at_mm(0.99),
+               r.farther_rejected.at_mm(1), r.zeros, r.lost);
   }
 }
 

@@ -4,7 +4,7 @@
 
 namespace berth::lab {
 
-Measurement GlMeasurer::measure(const ParameterSet& set, const testing::ImagePair& images,
+Measurement GlMeasurer::measure(const ParameterSet& set, const sim::ImagePair& images,
                                 const LinkDistances& truth) {
   const Camera& camera = images.camera;
   if (!uploaded_ || !uploaded_->has_size(camera.width_px, camera.height_px))

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "berth/opengl/gl_context.hpp"
-#include "berth/opengl/gl_evaluate.hpp"
+#include "berth/image_distance/opengl/gl_context.hpp"
+#include "berth/image_distance/opengl/gl_evaluate.hpp"
 #include "lab/thesis/measurement.hpp"
 
 namespace berth::lab {
@@ -19,7 +19,7 @@ class GlMeasurer {
   /// least_ms() after one run to warm up, which compiles shaders where they are new. The robot
   /// image, which gl_hybrid needs in memory, is read back each time. Throws std::runtime_error
   /// where OpenGL reports an error.
-  Measurement measure(const ParameterSet& set, const testing::ImagePair& images,
+  Measurement measure(const ParameterSet& set, const sim::ImagePair& images,
                       const LinkDistances& truth);
 
  private:

@@ -19,7 +19,7 @@ std::string columns_of(const Spread& spread) {
   return fmt::format("{:.5g},{:.5g},{:.5g}", spread.mean(), spread.deviation(), spread.greatest);
 }
 
-double time_once_ms(const ParameterSet& set, const testing::ImagePair& images,
+double time_once_ms(const ParameterSet& set, const sim::ImagePair& images,
                     MeasureWorkspace& workspace) {
   workspace.answer.links.clear();
   const Stopwatch watch(CLOCK_THREAD_CPUTIME_ID);
@@ -58,7 +58,7 @@ double least_ms(const std::function<double()>& run_ms) {
   return time_ms;
 }
 
-Measurement measure(const ParameterSet& set, const testing::ImagePair& images,
+Measurement measure(const ParameterSet& set, const sim::ImagePair& images,
                     const LinkDistances& truth, MeasureWorkspace& workspace) {
   Measurement found;
   found.time_ms = least_ms([&] { return time_once_ms(set, images, workspace); });

@@ -5,10 +5,10 @@
 #include <string>
 #include <string_view>
 
-#include "berth/distance/evaluate.hpp"
+#include "berth/image_distance/evaluate.hpp"
 #include "lab/thesis/errors.hpp"
 #include "lab/thesis/parameter_sets.hpp"
-#include "tests/support/random_images.hpp"
+#include "sim/random_images.hpp"
 
 namespace berth::lab {
 
@@ -41,7 +41,7 @@ struct MeasureWorkspace {
 
 /// The time is processor time of the calling thread, from three images in memory to the answer,
 /// the tree of `exact` included: least_ms(). TBB is to be held to one thread.
-Measurement measure(const ParameterSet& set, const testing::ImagePair& images,
+Measurement measure(const ParameterSet& set, const sim::ImagePair& images,
                     const LinkDistances& truth, MeasureWorkspace& workspace);
 
 }  // namespace berth::lab

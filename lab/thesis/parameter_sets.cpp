@@ -8,8 +8,8 @@ namespace {
 /// Of the sets that vary all but 2L: berth's default range.
 constexpr double kUsualLength_m = 2.0;
 
-DistanceSettings settings_with(double length_m) {
-  DistanceSettings settings;
+ImageDistanceSettings settings_with(double length_m) {
+  ImageDistanceSettings settings;
   settings.range_m = length_m / 2;
   settings.mean_direction = false;
   return settings;
@@ -19,7 +19,7 @@ std::vector<ParameterSet> brute_force_sets(const SweepExtent& extent) {
   std::vector<ParameterSet> sets;
   for (const double length_m : extent.brute_force_lengths_m) {
     for (const SearchPattern pattern : kSearchPatterns) {
-      DistanceSettings settings = settings_with(length_m);
+      ImageDistanceSettings settings = settings_with(length_m);
       settings.surveillance = {SurveillanceRegion::cube_projection, DepthInterval::gray_area,
                                pattern, Shrinking::none};
       sets.push_back({Part::brute_force, Method::brute_force, settings});
@@ -28,7 +28,7 @@ std::vector<ParameterSet> brute_force_sets(const SweepExtent& extent) {
   return sets;
 }
 
-void add_radii(Part part, const DistanceSettings& settings, const std::vector<int>& initial_px,
+void add_radii(Part part, const ImageDistanceSettings& settings, const std::vector<int>& initial_px,
                const std::vector<int>& final_px, std::vector<ParameterSet>& sets) {
   for (const int first_px : initial_px) {
     for (const int last_px : final_px) {
@@ -45,7 +45,7 @@ std::vector<ParameterSet> surveillance_length_sets(const SweepExtent& extent) {
   for (const double length_m : extent.lengths_m) {
     for (const SearchPattern pattern : kSearchPatterns) {
       for (const int step : extent.equal_steps) {
-        DistanceSettings settings = settings_with(length_m);
+        ImageDistanceSettings settings = settings_with(length_m);
         settings.surveillance.search_pattern = pattern;
         settings.lattice.step_x = settings.lattice.step_y = step;
         add_radii(Part::surveillance_length, settings, extent.few_initial_radii_px,
@@ -62,7 +62,7 @@ std::vector<ParameterSet> step_and_radius_sets(Part part, const SweepExtent& ext
   for (const int step_x : extent.steps) {
     for (const int step_y : extent.steps) {
       if (step_y > step_x) continue;
-      DistanceSettings settings = settings_with(kUsualLength_m);
+      ImageDistanceSettings settings = settings_with(kUsualLength_m);
       settings.surveillance = surveillance;
       settings.lattice.step_x = step_x;
       settings.lattice.step_y = step_y;

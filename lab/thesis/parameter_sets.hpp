@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "berth/distance/evaluate.hpp"
+#include "berth/image_distance/evaluate.hpp"
 
 namespace berth::lab {
 
@@ -33,7 +33,7 @@ bool runs_on_opengl(Part part);
 struct ParameterSet {
   Part part;
   Method method;
-  DistanceSettings settings;
+  ImageDistanceSettings settings;
 };
 
 /// How many values each parameter takes.

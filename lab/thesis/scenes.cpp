@@ -6,12 +6,12 @@
 #include <cctype>
 
 #include "berth/pipeline/observer.hpp"
-#include "tests/support/drawn_scene.hpp"
+#include "sim/drawn_scene.hpp"
 
 namespace berth::lab {
 namespace {
 
-testing::ImagePair images_of(const Recording& recording, std::size_t frame_number) {
+sim::ImagePair images_of(const Recording& recording, std::size_t frame_number) {
   const OpenCamera& camera = recording.camera();
   Frame frame;
   Observer(camera.view)
@@ -28,9 +28,9 @@ std::string as_one_column(std::string name) {
   return name;
 }
 
-testing::ImagePair worst_case_images() {
+sim::ImagePair worst_case_images() {
   constexpr int kLinks = 8;
-  testing::ImagePair images = testing::empty_images(640, 480, kLinks);
+  sim::ImagePair images = sim::empty_images(640, 480, kLinks);
   images.robot.depth_m = DepthImage(640, 480, 1.5f);
   images.obstacle_depth_m = DepthImage(640, 480, 1.0f);
   for (int v = 0; v < 480; ++v) {
@@ -67,20 +67,20 @@ std::vector<StudyScene> drawn_scenes(const Recording& recording, std::uint32_t s
                                      int width_px, int height_px) {
   const auto model = std::make_shared<const RobotModel>(recording.camera().view->robot()->model());
   const auto trees =
-      std::make_shared<const std::vector<testing::MeshTree>>(testing::build_link_trees(*model));
-  testing::DrawnSceneSettings settings;
+      std::make_shared<const std::vector<sim::MeshTree>>(sim::build_link_trees(*model));
+  sim::DrawnSceneSettings settings;
   settings.width_px = width_px;
   settings.height_px = height_px;
   std::vector<StudyScene> scenes;
   for (int i = 0; i < count; ++i) {
     const std::uint32_t own_seed = seed + static_cast<std::uint32_t>(i);
-    scenes.push_back(
-        {fmt::format("Drawn scene {}", own_seed), SceneKind::drawn,
-         [model, trees, settings, own_seed] {
-           testing::DrawnScene drawn = testing::draw_scene(*model, *trees, settings, own_seed);
-           return testing::ImagePair{drawn.camera, std::move(drawn.robot),
-                                     std::move(drawn.obstacle_depth_m), model->link_count()};
-         }});
+    scenes.push_back({fmt::format("Drawn scene {}", own_seed), SceneKind::drawn,
+                      [model, trees, settings, own_seed] {
+                        sim::DrawnScene drawn = sim::draw_scene(*model, *trees, settings, own_seed);
+                        return sim::ImagePair{drawn.camera, std::move(drawn.robot),
+                                              std::move(drawn.obstacle_depth_m),
+                                              model->link_count()};
+                      }});
   }
   return scenes;
 }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "lab/measure/recording.hpp"
-#include "tests/support/random_images.hpp"
+#include "sim/random_images.hpp"
 
 namespace berth::lab {
 
@@ -27,7 +27,7 @@ std::string_view name_of(SceneKind kind);
 struct StudyScene {
   std::string name;
   SceneKind kind;
-  std::function<testing::ImagePair()> make;
+  std::function<sim::ImagePair()> make;
 };
 
 /// The recording's frame in the middle, after the self filter.

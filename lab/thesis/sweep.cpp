@@ -14,7 +14,7 @@
 
 #include "apps/support/interrupt.hpp"
 #include "apps/support/progress_bar.hpp"
-#include "berth/distance/brute_force.hpp"
+#include "berth/image_distance/brute_force.hpp"
 #include "lab/thesis/gl_measurement.hpp"
 
 namespace berth::lab {
@@ -49,7 +49,7 @@ void run_on_threads(int threads, std::size_t count,
 
 /// A scene's images and true distances.
 struct MadeScene {
-  testing::ImagePair images;
+  sim::ImagePair images;
   LinkDistances truth;
 };
 
@@ -65,7 +65,7 @@ MadeScene make_scene(const StudyScene& scene, double range_m) {
     made.truth.links.resize(made.images.link_count);
     return made;
   }
-  DistanceSettings settings;
+  ImageDistanceSettings settings;
   settings.range_m = range_m;
   // Leaves out only pairs that are farther than one that was found.
   settings.surveillance.region = SurveillanceRegion::cube_projection;

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "berth/opengl/gl_context.hpp"
+#include "berth/image_distance/opengl/gl_context.hpp"
 #include "lab/thesis/journal.hpp"
 #include "lab/thesis/parameter_sets.hpp"
 #include "lab/thesis/scenes.hpp"

@@ -10,7 +10,7 @@ namespace {
 
 struct NamedErrors {
   const char* name;
-  ImageErrors image = {};
+  sim::SensorErrors image = {};
   PoseErrors pose = {};
 };
 
@@ -32,30 +32,30 @@ const std::array kSingleErrors = {
 
 const std::array kSensors = {
     NamedErrors{"clean image"},
-    NamedErrors{"sensor", kKinectErrors},
-    NamedErrors{"sensor, 1 cm and 0.2° off, 10 ms", kKinectErrors, {0.01, 0.0035, 0.01}},
-    NamedErrors{"sensor, 3 cm and 0.5° off, 50 ms", kKinectErrors, {0.03, 0.0087, 0.05}},
+    NamedErrors{"sensor", sim::kKinectErrors},
+    NamedErrors{"sensor, 1 cm and 0.2° off, 10 ms", sim::kKinectErrors, {0.01, 0.0035, 0.01}},
+    NamedErrors{"sensor, 3 cm and 0.5° off, 50 ms", sim::kKinectErrors, {0.03, 0.0087, 0.05}},
 };
 
 struct NamedSettings {
   const char* name;
   SelfFilterSettings settings;
-  bool counts_doubtful = false;
+  bool counts_rejected = false;
 };
 
 std::vector<NamedSettings> filter_settings() {
   const auto make = [](double tolerance_m, double padding_m, double edge_jump_m,
-                       double island_radius_m) {
+                       double flying_patch_radius_m) {
     SelfFilterSettings settings;
     settings.tolerance_m = tolerance_m;
     settings.padding_m = padding_m;
     settings.edge_jump_m = edge_jump_m;
-    settings.island_radius_m = island_radius_m;
+    settings.flying_patch_radius_m = flying_patch_radius_m;
     return settings;
   };
-  return {{"defaults: 5 cm, 2 cm, edges, islands", {}},
-          {"defaults, the doubtful distance where there is one", {}, true},
-          {"no islands: 5 cm, 2 cm, edges", make(0.05, 0.02, 0.03, 0)},
+  return {{"defaults: 5 cm, 2 cm, edges, flying patches", {}},
+          {"defaults, the rejected distance where there is one", {}, true},
+          {"no flying patches: 5 cm, 2 cm, edges", make(0.05, 0.02, 0.03, 0)},
           {"5 cm, 2 cm", make(0.05, 0.02, 0, 0)},
           {"2 cm, 1 cm", make(0.02, 0.01, 0, 0)},
           {"1 cm, 0 cm", make(0.01, 0, 0, 0)},
@@ -93,7 +93,7 @@ std::vector<Condition> all_conditions() {
     for (const NamedSettings& settings : filter_settings()) {
       conditions.push_back({fmt::format("Settings of the self filter: {}", errors.name),
                             settings.name, errors.image, errors.pose, MeasuredFilter::berth,
-                            settings.settings, MeasuredMetric::hirt, settings.counts_doubtful});
+                            settings.settings, MeasuredMetric::hirt, settings.counts_rejected});
     }
   }
   return conditions;

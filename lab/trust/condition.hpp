@@ -5,25 +5,9 @@
 #include <vector>
 
 #include "berth/self_filter/settings.hpp"
+#include "sim/sensor_model.hpp"
 
 namespace berth::lab {
-
-/// What is wrong with the image; each 0 is off, tests/support/sensor_model.hpp says what they mean.
-struct ImageErrors {
-  double step_m_at_1m = 0;
-  double noise_m_at_1m = 0;
-  double dropout_share = 0;
-  double mixed_share = 0;
-  int outline_px = 0;
-  bool operator==(const ImageErrors&) const = default;
-};
-
-/// Like a Kinect's.
-inline constexpr ImageErrors kKinectErrors{.step_m_at_1m = 0.003,
-                                           .noise_m_at_1m = 0.0015,
-                                           .dropout_share = 0.02,
-                                           .mixed_share = 0.1,
-                                           .outline_px = 2};
 
 /// What is wrong with where berth believes that the robot is.
 struct PoseErrors {
@@ -33,7 +17,7 @@ struct PoseErrors {
   bool operator==(const PoseErrors&) const = default;
 };
 
-/// Joints move at random at up to this (testing::delayed).
+/// Joints move at random at up to this (sim::delayed).
 inline constexpr double kTrialJointSpeed_per_s = 1.0;
 
 enum class MeasuredFilter {
@@ -50,13 +34,13 @@ enum class MeasuredMetric {
 struct Condition {
   std::string table;
   std::string name;
-  ImageErrors image = {};
+  sim::SensorErrors image = {};
   PoseErrors pose = {};
   MeasuredFilter filter = MeasuredFilter::berth;
   SelfFilterSettings self_filter = {};
   MeasuredMetric metric = MeasuredMetric::hirt;
-  /// Whether the doubtful distance counts where there is one (LinkVisibility).
-  bool counts_doubtful = false;
+  /// Whether the rejected distance counts where there is one (LinkVisibility).
+  bool counts_rejected = false;
 };
 
 /// In the order of the report; those of one table follow each other.

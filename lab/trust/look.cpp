@@ -5,7 +5,7 @@
 #include <array>
 
 #include "apps/berth/picture.hpp"
-#include "berth/distance/evaluate.hpp"
+#include "berth/image_distance/image_result.hpp"
 #include "berth/self_filter/self_filter.hpp"
 #include "lab/trust/scene_images.hpp"
 
@@ -13,12 +13,12 @@ namespace berth::lab {
 namespace {
 
 std::vector<Condition> looked_at() {
-  SelfFilterSettings no_islands;
-  no_islands.island_radius_m = 0;
+  SelfFilterSettings no_flying_patches;
+  no_flying_patches.flying_patch_radius_m = 0;
   return {{"", "ideal filter", {}, {}, MeasuredFilter::ideal},
           {"", "default settings"},
-          {"", "doubtful", {}, {}, MeasuredFilter::berth, {}, MeasuredMetric::hirt, true},
-          {"", "no islands", {}, {}, MeasuredFilter::berth, no_islands}};
+          {"", "rejected", {}, {}, MeasuredFilter::berth, {}, MeasuredMetric::hirt, true},
+          {"", "no flying patches", {}, {}, MeasuredFilter::berth, no_flying_patches}};
 }
 
 std::string text_of(const Eigen::Vector3d& p) {
@@ -31,7 +31,7 @@ void print_links(const Trial& trial, const std::vector<Condition>& conditions) {
   fmt::print("\n| --- | --- | --- | --- | ---: | ---: | ---: | ---: | ---: |\n");
   constexpr std::array kSights = {"covered", "behind the robot", "outside"};
   for (std::size_t i = 0; i < trial.truth.size(); ++i) {
-    const testing::TrueDistance& truth = trial.truth[i];
+    const sim::TrueDistance& truth = trial.truth[i];
     fmt::print("| {} | {} | {} | {} | {:.1f} |", trial.robot->model.evaluated_link_names()[i],
                kSights[static_cast<std::size_t>(truth.sight)], text_of(truth.seen_C.a_m),
                text_of(truth.seen_C.b_m), 1e3 * truth.seen_C.distance_m);
@@ -42,36 +42,27 @@ void print_links(const Trial& trial, const std::vector<Condition>& conditions) {
   }
 }
 
-void draw(const TrialRobot& robot, const testing::DrawnScene& scene, std::uint32_t seed,
+void draw(const TrialRobot& robot, const sim::DrawnScene& scene, std::uint32_t seed,
           const std::filesystem::path& picture) {
   SceneImages images(robot.model, robot.meshes, scene, seed);
   const RobotImage& image = images.believed({});
   SelfFilterWorkspace workspace;
   ObstacleImage obstacles;
   self_filter(scene.camera, scene.depth_m, image, {}, workspace, obstacles);
-  SearchableDepth searchable;
-  searchable.build(obstacles.depth_m);
-  EvaluateWorkspace evaluating;
-  LinkDistances distances;
-  evaluate(Method::exact,
-           {scene.camera,
-            image,
-            robot.model.link_count(),
-            searchable,
-            {.range_m = kTrialRange_m, .mean_direction = false}},
-           evaluating, distances);
-  app::write_picture(picture,
-                {scene.depth_m, &image, &obstacles, &distances, robot.model.evaluated_link_names(),
-                      kTrialRange_m, fmt::format("{}, seed {}", robot.name, seed)});
+  Result result = empty_image_result(Robot(robot.model), Method::exact, {});
+  tell_image_distances(exact_distances(robot, scene.camera, image, obstacles.depth_m), scene.X_BC,
+                       result);
+  app::write_picture(picture, {scene.depth_m, &image, &obstacles, &result.links, kTrialRange_m,
+                               fmt::format("{}, seed {}", robot.name, seed)});
 }
 
 }  // namespace
 
-void look_at_scene(const TrialRobot& robot, const testing::DrawnSceneSettings& settings,
+void look_at_scene(const TrialRobot& robot, const sim::DrawnSceneSettings& settings,
                    std::uint32_t seed, const std::filesystem::path& picture) {
   const std::vector<Condition> conditions = looked_at();
   print_links(run_trial(robot, settings, seed, conditions), conditions);
-  draw(robot, testing::draw_scene(robot.model, robot.link_trees, settings, seed), seed, picture);
+  draw(robot, sim::draw_scene(robot.model, robot.link_trees, settings, seed), seed, picture);
 }
 
 }  // namespace berth::lab

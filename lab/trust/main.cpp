@@ -22,7 +22,7 @@ namespace {
 /// One of a scene's seeds in turn.
 constexpr std::array<std::pair<int, int>, 3> kSizes_px = {{{224, 172}, {320, 240}, {640, 480}}};
 
-testing::DrawnSceneSettings settings_of(int seed) {
+sim::DrawnSceneSettings settings_of(int seed) {
   const auto [width_px, height_px] = kSizes_px[seed % kSizes_px.size()];
   return {.width_px = width_px, .height_px = height_px};
 }

@@ -2,11 +2,12 @@
 
 #include <cmath>
 
-#include "berth/distance/evaluate.hpp"
+#include "berth/render/robot_renderer.hpp"
+#include "berth/image_distance/evaluate.hpp"
 #include "berth/files/png.hpp"
-#include "tests/support/drawn_obstacles.hpp"
-#include "tests/support/drawn_scene.hpp"
-#include "tests/support/sensor_model.hpp"
+#include "sim/drawn_obstacles.hpp"
+#include "sim/drawn_scene.hpp"
+#include "sim/sensor_model.hpp"
 
 namespace berth::lab {
 namespace {
@@ -30,7 +31,7 @@ constexpr double kLeastRobotShare = 0.01;
 constexpr double kRobotNoise_m_at_1m = 0.0015;
 
 /// One of the links at a random point before the camera, the robot turned at random.
-Pose draw_camera_pose(testing::Random& random, const Camera& camera, const TrialRobot& robot,
+Pose draw_camera_pose(sim::Random& random, const Camera& camera, const TrialRobot& robot,
                       const RobotPose& pose) {
   const int last = static_cast<int>(robot.model.evaluated_links.size()) - 1;
   const std::size_t link = robot.model.evaluated_links[random.whole(0, last)];
@@ -39,7 +40,7 @@ Pose draw_camera_pose(testing::Random& random, const Camera& camera, const Trial
   const Eigen::Vector3d p_C((u - camera.cx_px) * z_m / camera.fx_px,
                             (v - camera.cy_px) * z_m / camera.fy_px, z_m);
   Pose X_CB = Pose::Identity();
-  X_CB.linear() = testing::draw_rotation(random).toRotationMatrix();
+  X_CB.linear() = sim::draw_rotation(random).toRotationMatrix();
   X_CB.translation() = p_C - X_CB.linear() * pose.X_BL[link].translation();
   return X_CB.inverse();
 }
@@ -59,7 +60,7 @@ int compose(const DepthImage& scene_m, const DepthImage& robot_m, RealScene& out
 }
 
 /// It stands where it stands: anywhere in a real scene it would cut through things.
-void leave_out_scenery(RobotImage& robot) {
+void leave_out_environment(RobotImage& robot) {
   for (std::size_t i = 0; i < robot.link_id.pixels().size(); ++i) {
     if (robot.link_id.pixels()[i] != kEnvironmentLink) continue;
     robot.link_id.pixels()[i] = kNoLink;
@@ -88,15 +89,15 @@ std::vector<RealImage> load_real_images(const std::filesystem::path& folder) {
 
 std::optional<RealScene> draw_into(const RealImage& image, const TrialRobot& robot,
                                    std::uint32_t seed) {
-  testing::Random random(seed);
+  sim::Random random(seed);
   RobotPose pose;
-  forward_kinematics(robot.model, testing::draw_joints(random, robot.model).position, pose);
+  forward_kinematics(robot.model, sim::draw_joints(random, robot.model).position, pose);
   RealScene scene{&image, &robot, {}, {}, {}, {}};
   RobotRenderer(robot.meshes, image.camera)
       .render(pose, draw_camera_pose(random, image.camera, robot, pose), scene.robot_image);
-  leave_out_scenery(scene.robot_image);
+  leave_out_environment(scene.robot_image);
   DepthImage robot_m = scene.robot_image.depth_m;
-  testing::add_noise(kRobotNoise_m_at_1m, seed + 1, robot_m);
+  sim::add_noise(kRobotNoise_m_at_1m, seed + 1, robot_m);
   const int shown = compose(image.depth_m, robot_m, scene);
   if (shown < kLeastRobotShare * image.camera.width_px * image.camera.height_px) return {};
   scene.ideal = exact_distances(robot, image.camera, scene.robot_image, scene.obstacle_depth_m);

@@ -51,8 +51,8 @@ struct RealImageRules {
   std::string name;
   SelfFilterSettings self_filter = {};
   SensorSettings sensor = {};
-  /// Whether the doubtful distance counts where there is one (LinkVisibility).
-  bool counts_doubtful = false;
+  /// Whether the rejected distance counts where there is one (LinkVisibility).
+  bool counts_rejected = false;
 };
 /// In the order of the table.
 std::vector<RealImageRules> all_real_image_rules();

@@ -55,26 +55,26 @@ struct Row {
 }  // namespace
 
 std::vector<RealImageRules> all_real_image_rules() {
-  SelfFilterSettings no_islands, no_padding, narrow;
-  no_islands.island_radius_m = 0;
+  SelfFilterSettings no_flying_patches, no_padding, narrow;
+  no_flying_patches.flying_patch_radius_m = 0;
   no_padding.padding_m = 0;
   narrow.tolerance_m = 0.02;
   narrow.padding_m = 0.01;
-  narrow.edge_jump_m = narrow.island_radius_m = 0;
+  narrow.edge_jump_m = narrow.flying_patch_radius_m = 0;
   SensorSettings small_blobs, large_blobs, background;
   small_blobs.speckle_px = 20;
   large_blobs.speckle_px = 60;
   background.background_frames = 1;
   return {
       {"default self filter"},
-      {"default, doubtful distances counted", {}, {}, true},
-      {"no islands", no_islands},
+      {"default, rejected distances counted", {}, {}, true},
+      {"no flying patches", no_flying_patches},
       {"2 cm, 1 cm", narrow},
       {"no padding", no_padding},
-      {"no padding, doubtful distances counted", no_padding, {}, true},
+      {"no padding, rejected distances counted", no_padding, {}, true},
       {"no padding, `speckle_px: 20`", no_padding, small_blobs},
       {"no padding, `speckle_px: 60`", no_padding, large_blobs},
-      {"no padding, `speckle_px: 60`, doubtful distances counted", no_padding, large_blobs, true},
+      {"no padding, `speckle_px: 60`, rejected distances counted", no_padding, large_blobs, true},
       {"default, `background_frames: 1`", {}, background}};
 }
 
@@ -88,8 +88,8 @@ std::vector<Estimate> estimate(const RealScene& scene, const RealImageRules& rul
                      rules.sensor, sensor, obstacles);
   const LinkDistances distances =
       exact_distances(*scene.robot, camera, scene.robot_image, obstacles.depth_m);
-  return rules.counts_doubtful
-             ? with_doubtful(camera, scene.robot_image, scene.depth_m, obstacles, distances)
+  return rules.counts_rejected
+             ? with_rejected(camera, scene.robot_image, scene.depth_m, obstacles, distances)
              : to_estimates(distances);
 }
 

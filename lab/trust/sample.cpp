@@ -6,11 +6,10 @@
 namespace berth::lab {
 
 double Sample::over_px() const {
-  const double bound_m = testing::max_overestimate_m(trial->camera, *truth);
-  const double pixels_m =
-      testing::kMaxOverestimate_px * testing::pixel_size_m(trial->camera, *truth);
+  const double bound_m = sim::max_overestimate_m(trial->camera, *truth);
+  const double pixels_m = sim::kMaxOverestimate_px * sim::pixel_size_m(trial->camera, *truth);
   const double metric_m = bound_m - pixels_m;
-  return testing::kMaxOverestimate_px * (over_seen_m() - metric_m) / pixels_m;
+  return sim::kMaxOverestimate_px * (over_seen_m() - metric_m) / pixels_m;
 }
 
 std::vector<Sample> samples_of(const std::vector<Trial>& trials, std::size_t condition) {

@@ -10,11 +10,11 @@ namespace berth::lab {
 /// One link under one condition.
 struct Sample {
   const Trial* trial;
-  const testing::TrueDistance* truth;
+  const sim::TrueDistance* truth;
   const Estimate* estimate;
   int link;
 
-  bool is_covered() const { return truth->sight == testing::ObstacleSight::covered; }
+  bool is_covered() const { return truth->sight == sim::ObstacleSight::covered; }
   bool is_ok() const { return estimate->status == LinkStatus::ok; }
   /// Above 0: too large.
   double over_seen_m() const { return estimate->distance_m - truth->seen_C.distance_m; }

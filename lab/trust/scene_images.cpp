@@ -1,6 +1,7 @@
 #include "lab/trust/scene_images.hpp"
+#include "berth/render/robot_renderer.hpp"
 
-#include "tests/support/sensor_model.hpp"
+#include "sim/sensor_model.hpp"
 
 namespace berth::lab {
 namespace {
@@ -17,7 +18,7 @@ const Image& find_or_make(std::list<std::pair<Errors, Image>>& images, const Err
 
 }  // namespace
 
-const DepthImage& SceneImages::sensed(const ImageErrors& errors) {
+const DepthImage& SceneImages::sensed(const sim::SensorErrors& errors) {
   return find_or_make(sensed_, errors, [&] { return sense(errors); });
 }
 
@@ -26,22 +27,18 @@ const RobotImage& SceneImages::believed(const PoseErrors& errors) {
 }
 
 Pose SceneImages::believed_X_BC(const PoseErrors& errors) const {
-  return testing::miscalibrated(scene_.X_BC, errors.offset_m, errors.angle_rad, seed_ + 4);
+  return sim::miscalibrated(scene_.X_BC, errors.offset_m, errors.angle_rad, seed_ + 4);
 }
 
-DepthImage SceneImages::sense(const ImageErrors& errors) const {
+DepthImage SceneImages::sense(const sim::SensorErrors& errors) const {
   DepthImage depth_m = scene_.depth_m;
-  if (errors.outline_px > 0) testing::darken_outlines(errors.outline_px, depth_m);
-  if (errors.mixed_share > 0) testing::mix_edge_pixels(errors.mixed_share, seed_ + 1, depth_m);
-  if (errors.noise_m_at_1m > 0) testing::add_noise(errors.noise_m_at_1m, seed_ + 2, depth_m);
-  if (errors.step_m_at_1m > 0) testing::quantise(errors.step_m_at_1m, depth_m);
-  if (errors.dropout_share > 0) testing::drop_out(errors.dropout_share, seed_ + 3, depth_m);
+  sim::add_errors(errors, seed_, depth_m);
   return depth_m;
 }
 
 RobotImage SceneImages::render(const PoseErrors& errors) const {
   const JointState joints =
-      testing::delayed(model_, scene_.joints, errors.delay_s, kTrialJointSpeed_per_s, seed_ + 5);
+      sim::delayed(model_, scene_.joints, errors.delay_s, kTrialJointSpeed_per_s, seed_ + 5);
   RobotPose pose;
   forward_kinematics(model_, joints.position, pose);
   RobotImage image;

@@ -73,13 +73,13 @@ constexpr const char* kConditionHeading =
     "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | "
     "---: |\n";
 
-const char* name_of(testing::ObstacleSight sight) {
+const char* name_of(sim::ObstacleSight sight) {
   switch (sight) {
-    case testing::ObstacleSight::covered:
+    case sim::ObstacleSight::covered:
       return "seen, or behind an obstacle's reading";
-    case testing::ObstacleSight::behind_robot:
+    case sim::ObstacleSight::behind_robot:
       return "behind the robot";
-    case testing::ObstacleSight::outside:
+    case sim::ObstacleSight::outside:
       break;
   }
   return "outside of the image";
@@ -91,7 +91,7 @@ std::string bound_row(const std::string& name, const std::vector<Sample>& sample
   std::size_t above = 0;
   for (const Sample& sample : samples) {
     most_px = std::max(most_px, sample.over_px());
-    if (sample.over_px() > testing::kMaxOverestimate_px) ++above;
+    if (sample.over_px() > sim::kMaxOverestimate_px) ++above;
   }
   return fmt::format("| {} | {} | {} | {:.2f} | {} |\n", name, samples.size(), excess.text(),
                      most_px, above);
@@ -118,8 +118,8 @@ std::string sight_table(const std::vector<Trial>& trials, std::size_t condition)
     return s.estimate->status != LinkStatus::not_visible &&
            std::isfinite(s.truth->seen_C.distance_m);
   });
-  for (const auto sight : {testing::ObstacleSight::covered, testing::ObstacleSight::behind_robot,
-                           testing::ObstacleSight::outside}) {
+  for (const auto sight : {sim::ObstacleSight::covered, sim::ObstacleSight::behind_robot,
+                           sim::ObstacleSight::outside}) {
     const auto some = filtered(visible, [&](const Sample& s) { return s.truth->sight == sight; });
     const auto ok = filtered(some, [](const Sample& s) { return s.is_ok(); });
     text += fmt::format("| {} | {} | {} | {} |\n", name_of(sight), some.size(),
@@ -155,13 +155,13 @@ std::string worst_table(const std::vector<Trial>& trials, std::size_t condition,
   for (std::size_t i = 0; i < samples.size() && i < static_cast<std::size_t>(count); ++i) {
     const Sample& s = samples[i];
     const Eigen::Vector3d& ray = s.truth->seen_C.b_m;
-    text += fmt::format(
-        "| {} | {} | {} x {} | {} | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {:.0f}° |\n",
-        s.trial->robot->name, s.trial->seed, s.trial->camera.width_px, s.trial->camera.height_px,
-        s.trial->robot->model.evaluated_link_names()[s.link], 1e3 * s.estimate->distance_m,
-        1e3 * s.truth->seen_C.distance_m, 1e3 * s.over_seen_m(),
-        1e3 * testing::max_overestimate_m(s.trial->camera, *s.truth),
-        std::atan2(ray.head<2>().norm(), ray.z()) * 57.29578);
+    text +=
+        fmt::format("| {} | {} | {} x {} | {} | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {:.0f}° |\n",
+                    s.trial->robot->name, s.trial->seed, s.trial->camera.width_px,
+                    s.trial->camera.height_px, s.trial->robot->model.evaluated_link_names()[s.link],
+                    1e3 * s.estimate->distance_m, 1e3 * s.truth->seen_C.distance_m,
+                    1e3 * s.over_seen_m(), 1e3 * sim::max_overestimate_m(s.trial->camera, *s.truth),
+                    std::atan2(ray.head<2>().norm(), ray.z()) * 57.29578);
   }
   return text;
 }

@@ -15,7 +15,7 @@ std::string condition_tables(const std::vector<Trial>& trials,
 /// For one condition: how the camera sees the nearest point of the obstacles.
 std::string sight_table(const std::vector<Trial>& trials, std::size_t condition);
 
-/// For one condition: how near the distances come to testing::max_overestimate_m, by robot and by
+/// For one condition: how near the distances come to sim::max_overestimate_m, by robot and by
 /// resolution.
 std::string bound_table(const std::vector<Trial>& trials, std::size_t condition);
 

@@ -3,11 +3,12 @@
 #include <cmath>
 #include <limits>
 
-#include "berth/distance/evaluate.hpp"
+#include "berth/render/robot_renderer.hpp"
+#include "berth/image_distance/rejected_distances.hpp"
+#include "berth/image_distance/evaluate.hpp"
 #include "berth/self_filter/self_filter.hpp"
-#include "berth/visibility/doubtful.hpp"
 #include "lab/trust/scene_images.hpp"
-#include "tests/support/other_metric.hpp"
+#include "sim/other_metric.hpp"
 
 namespace berth::lab {
 
@@ -30,24 +31,26 @@ LinkDistances exact_distances(const TrialRobot& robot, const Camera& camera,
             image,
             robot.model.link_count(),
             searchable,
-            {.range_m = kTrialRange_m, .mean_direction = false}},
+            {{.range_m = kTrialRange_m, .mean_direction = false}, {}}},
            workspace, distances);
   return distances;
 }
 
-std::vector<Estimate> with_doubtful(const Camera& camera, const RobotImage& image,
+std::vector<Estimate> with_rejected(const Camera& camera, const RobotImage& image,
                                     DepthView sensed_m, const ObstacleImage& obstacles,
                                     const LinkDistances& distances) {
   std::vector<Estimate> estimates = to_estimates(distances);
-  DoubtfulImage doubtful;
-  DoubtfulWorkspace workspace;
+  RejectedImage rejected;
+  RejectedWorkspace workspace;
   std::vector<LinkVisibility> links(estimates.size());
-  find_doubtful(sensed_m, obstacles, doubtful);
-  doubtful.searchable.build(doubtful.depth_m);
-  find_doubtful_distances(camera, image, doubtful, distances, kTrialRange_m, workspace, links);
+  find_rejected(sensed_m, obstacles, rejected);
+  SearchableDepth searchable;
+  searchable.build(rejected.depth_m);
+  find_rejected_distances(camera, image, rejected, searchable, distances, kTrialRange_m, workspace,
+                          links);
   for (std::size_t i = 0; i < links.size(); ++i) {
-    if (std::isnan(links[i].doubtful_distance_m)) continue;
-    estimates[i] = {LinkStatus::ok, links[i].doubtful_distance_m};
+    if (std::isnan(links[i].rejected_distance_m)) continue;
+    estimates[i] = {LinkStatus::ok, links[i].rejected_distance_m};
   }
   return estimates;
 }
@@ -55,13 +58,13 @@ std::vector<Estimate> with_doubtful(const Camera& camera, const RobotImage& imag
 namespace {
 
 /// Removes what shows the robot in truth.
-void remove_robot(const testing::DrawnScene& scene, DepthImage& depth_m) {
+void remove_robot(const sim::DrawnScene& scene, DepthImage& depth_m) {
   for (std::size_t i = 0; i < depth_m.pixels().size(); ++i) {
     if (std::isnan(scene.obstacle_depth_m.pixels()[i])) depth_m.pixels()[i] = kNoDepth;
   }
 }
 
-std::vector<Estimate> evaluate_other(testing::OtherMetric metric, const TrialRobot& robot,
+std::vector<Estimate> evaluate_other(sim::OtherMetric metric, const TrialRobot& robot,
                                      const Camera& camera, const RobotImage& image,
                                      const DepthImage& obstacle_depth_m) {
   std::vector<bool> is_visible(robot.model.link_count() + 1, false);
@@ -69,8 +72,8 @@ std::vector<Estimate> evaluate_other(testing::OtherMetric metric, const TrialRob
     if (id != kEnvironmentLink) is_visible[id] = true;
   }
   std::vector<Estimate> estimates;
-  for (const auto& distance_m : testing::other_distances_m(
-           metric, camera, image, obstacle_depth_m, robot.model.link_count(), kTrialRange_m)) {
+  for (const auto& distance_m : sim::other_distances_m(metric, camera, image, obstacle_depth_m,
+                                                       robot.model.link_count(), kTrialRange_m)) {
     const bool seen = is_visible[estimates.size() + 1];
     const LinkStatus unset = seen ? LinkStatus::none_in_range : LinkStatus::not_visible;
     estimates.push_back({distance_m ? LinkStatus::ok : unset,
@@ -79,7 +82,7 @@ std::vector<Estimate> evaluate_other(testing::OtherMetric metric, const TrialRob
   return estimates;
 }
 
-std::vector<Estimate> estimate(const TrialRobot& robot, const testing::DrawnScene& scene,
+std::vector<Estimate> estimate(const TrialRobot& robot, const sim::DrawnScene& scene,
                                const Condition& condition, SceneImages& images) {
   const Camera& camera = scene.camera;
   const RobotImage& image = images.believed(condition.pose);
@@ -95,34 +98,30 @@ std::vector<Estimate> estimate(const TrialRobot& robot, const testing::DrawnScen
   const DepthImage& depth_m = obstacles.depth_m;
   switch (condition.metric) {
     case MeasuredMetric::reading:
-      return evaluate_other(testing::OtherMetric::reading, robot, camera, image, depth_m);
+      return evaluate_other(sim::OtherMetric::reading, robot, camera, image, depth_m);
     case MeasuredMetric::hidden_ray:
-      return evaluate_other(testing::OtherMetric::hidden_ray, robot, camera, image, depth_m);
+      return evaluate_other(sim::OtherMetric::hidden_ray, robot, camera, image, depth_m);
     case MeasuredMetric::hirt:
       break;
   }
   const LinkDistances distances = exact_distances(robot, camera, image, depth_m);
-  return condition.counts_doubtful ? with_doubtful(camera, image, sensed_m, obstacles, distances)
+  return condition.counts_rejected ? with_rejected(camera, image, sensed_m, obstacles, distances)
                                    : to_estimates(distances);
 }
 
 }  // namespace
 
 TrialRobot make_trial_robot(std::string name, RobotModel model) {
-  auto link_trees = testing::build_link_trees(model);
+  auto link_trees = sim::build_link_trees(model);
   auto meshes = build_link_meshes(model);
   return {std::move(name), std::move(model), std::move(link_trees), std::move(meshes)};
 }
 
-Trial run_trial(const TrialRobot& robot, const testing::DrawnSceneSettings& settings,
+Trial run_trial(const TrialRobot& robot, const sim::DrawnSceneSettings& settings,
                 std::uint32_t seed, const std::vector<Condition>& conditions) {
-  const testing::DrawnScene scene =
-      testing::draw_scene(robot.model, robot.link_trees, settings, seed);
-  Trial trial{&robot,
-              seed,
-              scene.camera,
-              testing::true_distances(robot.model, robot.link_trees, scene),
-              {}};
+  const sim::DrawnScene scene = sim::draw_scene(robot.model, robot.link_trees, settings, seed);
+  Trial trial{
+      &robot, seed, scene.camera, sim::true_distances(robot.model, robot.link_trees, scene), {}};
   SceneImages images(robot.model, robot.meshes, scene, seed);
   for (const Condition& condition : conditions) {
     trial.estimates.push_back(estimate(robot, scene, condition, images));

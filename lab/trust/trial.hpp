@@ -9,7 +9,7 @@
 #include "berth/types/link_distance.hpp"
 #include "berth/types/obstacle_image.hpp"
 #include "lab/trust/condition.hpp"
-#include "tests/support/true_distance.hpp"
+#include "sim/true_distance.hpp"
 
 namespace berth::lab {
 
@@ -17,7 +17,7 @@ namespace berth::lab {
 struct TrialRobot {
   std::string name;
   RobotModel model;
-  std::vector<testing::MeshTree> link_trees;
+  std::vector<sim::MeshTree> link_trees;
   std::shared_ptr<const LinkMeshes> meshes;
 };
 TrialRobot make_trial_robot(std::string name, RobotModel model);
@@ -35,7 +35,7 @@ struct Trial {
   const TrialRobot* robot = nullptr;
   std::uint32_t seed = 0;
   Camera camera;
-  std::vector<testing::TrueDistance> truth;
+  std::vector<sim::TrueDistance> truth;
   std::vector<std::vector<Estimate>> estimates;
 };
 
@@ -46,13 +46,13 @@ inline constexpr double kTrialRange_m = 1.0;
 LinkDistances exact_distances(const TrialRobot& robot, const Camera& camera,
                               const RobotImage& image, const DepthImage& obstacle_depth_m);
 std::vector<Estimate> to_estimates(const LinkDistances& distances);
-/// A link's doubtful distance in place of its distance, where there is one.
-std::vector<Estimate> with_doubtful(const Camera& camera, const RobotImage& image,
+/// A link's rejected distance in place of its distance, where there is one.
+std::vector<Estimate> with_rejected(const Camera& camera, const RobotImage& image,
                                     DepthView sensed_m, const ObstacleImage& obstacles,
                                     const LinkDistances& distances);
 
 /// Draws the scene and measures it under every condition. Depends on its arguments alone.
-Trial run_trial(const TrialRobot& robot, const testing::DrawnSceneSettings& settings,
+Trial run_trial(const TrialRobot& robot, const sim::DrawnSceneSettings& settings,
                 std::uint32_t seed, const std::vector<Condition>& conditions);
 
 }  // namespace berth::lab

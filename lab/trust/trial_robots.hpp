@@ -7,7 +7,7 @@
 
 namespace berth::lab {
 
-/// The bundled arm (its table is scenery).
+/// The bundled arm (its table is environment).
 TrialRobot load_bundled_robot();
 
 /// The bundled arm, then every URDF in a folder of `robots_folder` (robots/NAME/NAME.urdf), sorted;

@@ -21,10 +21,10 @@ constexpr const char* kHeading =
     "lost "
     "|\n| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n";
 
-constexpr std::array<std::pair<testing::ObstacleSight, const char*>, 3> kSights = {
-    {{testing::ObstacleSight::covered, "in an image"},
-     {testing::ObstacleSight::behind_robot, "behind the robot"},
-     {testing::ObstacleSight::outside, "outside of all images"}}};
+constexpr std::array<std::pair<sim::ObstacleSight, const char*>, 3> kSights = {
+    {{sim::ObstacleSight::covered, "in an image"},
+     {sim::ObstacleSight::behind_robot, "behind the robot"},
+     {sim::ObstacleSight::outside, "outside of all images"}}};
 
 std::string cameras(std::size_t count) {
   return fmt::format("{} camera{}", count, count > 1 ? "s" : "");
@@ -117,7 +117,7 @@ std::string whole_robot_table(const std::vector<WholeRobotTrial>& trials,
 std::string whole_robot_sight_table(const std::vector<WholeRobotTrial>& trials,
                                     std::size_t condition) {
   std::string text = kHeading;
-  const auto add = [&](const std::string& name, testing::ObstacleSight sight, std::size_t k,
+  const auto add = [&](const std::string& name, sim::ObstacleSight sight, std::size_t k,
                        const std::function<double(const WholeRobotTrial&, std::size_t)>& said_m) {
     text += row(name, compare(trials, [&](const WholeRobotTrial& t, std::size_t i) {
                   return t.truth[i].sight[k] == sight ? std::optional(said_m(t, i)) : std::nullopt;
@@ -128,7 +128,7 @@ std::string whole_robot_sight_table(const std::vector<WholeRobotTrial>& trials,
       add(fmt::format("{}, seen or hidden: {}", cameras(k + 1), name), sight, k,
           [&](const auto& t, std::size_t i) { return t.under[condition].mesh[k][i].nearest_m; });
     }
-    add(cameras(k + 1) + ", readings alone: in an image", testing::ObstacleSight::covered, k,
+    add(cameras(k + 1) + ", readings alone: in an image", sim::ObstacleSight::covered, k,
         [&](const auto& t, std::size_t i) { return t.under[condition].mesh[k][i].reading_m; });
   }
   return text;
@@ -144,7 +144,7 @@ std::string worst_whole_robot_table(const std::vector<WholeRobotTrial>& trials,
   std::string text =
       "| cameras | obstacle | robot | seed | link | berth | true | too large |\n"
       "| ---: | --- | --- | ---: | --- | ---: | ---: | ---: |\n";
-  const auto add = [&](std::size_t k, testing::ObstacleSight sight, const char* name) {
+  const auto add = [&](std::size_t k, sim::ObstacleSight sight, const char* name) {
     std::vector<Worst> worst;
     for (const WholeRobotTrial& trial : trials) {
       for (std::size_t i = 0; i < trial.truth.size(); ++i) {

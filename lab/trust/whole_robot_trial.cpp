@@ -4,12 +4,12 @@
 #include <array>
 #include <limits>
 
-#include "berth/distance/mesh/mesh_distances.hpp"
+#include "berth/distance/mesh_distances.hpp"
 #include "berth/self_filter/self_filter.hpp"
 #include "lab/trust/scene_images.hpp"
-#include "tests/support/drawn_obstacles.hpp"
-#include "tests/support/drawn_views.hpp"
-#include "tests/support/sensor_model.hpp"
+#include "sim/drawn_obstacles.hpp"
+#include "sim/drawn_views.hpp"
+#include "sim/sensor_model.hpp"
 
 namespace berth::lab {
 namespace {
@@ -22,32 +22,32 @@ SelfFilterSettings narrow_filter() {
 }
 
 /// [k] for the first k + 1 cameras; the sight that tells most counts.
-std::array<testing::ObstacleSight, kMostTrialCameras> sights_of(
-    const Eigen::Vector3d& p_B, const std::vector<testing::DrawnView>& views) {
-  std::array<testing::ObstacleSight, kMostTrialCameras> sights;
-  testing::ObstacleSight best = testing::ObstacleSight::outside;
+std::array<sim::ObstacleSight, kMostTrialCameras> sights_of(
+    const Eigen::Vector3d& p_B, const std::vector<sim::DrawnView>& views) {
+  std::array<sim::ObstacleSight, kMostTrialCameras> sights;
+  sim::ObstacleSight best = sim::ObstacleSight::outside;
   for (std::size_t k = 0; k < sights.size(); ++k) {
-    const testing::DrawnView& view = views[k];
+    const sim::DrawnView& view = views[k];
     const Eigen::Vector3d p_C = view.X_BC.inverse() * p_B;
-    best = std::min(best, testing::sight_of(p_C, view.camera, view.obstacles.depth_m));
+    best = std::min(best, sim::sight_of(p_C, view.camera, view.obstacles.depth_m));
     sights[k] = best;
   }
   return sights;
 }
 
-std::vector<WholeRobotTruth> truth_of(const TrialRobot& robot, const testing::DrawnViews& drawn) {
-  const testing::DrawnScene& scene = drawn.scene;
-  std::vector<testing::MeshTree> obstacles;
+std::vector<WholeRobotTruth> truth_of(const TrialRobot& robot, const sim::DrawnViews& drawn) {
+  const sim::DrawnScene& scene = drawn.scene;
+  std::vector<sim::MeshTree> obstacles;
   for (const auto& obstacle : scene.obstacles) {
-    obstacles.push_back(testing::build_mesh_tree(obstacle.mesh_O));
+    obstacles.push_back(sim::build_mesh_tree(obstacle.mesh_O));
   }
   std::vector<WholeRobotTruth> truth;
   for (const std::size_t link : robot.model.evaluated_links) {
-    testing::SurfacePair nearest;
+    sim::SurfacePair nearest;
     for (std::size_t i = 0; i < obstacles.size(); ++i) {
-      const testing::SurfacePair pair =
-          testing::closest_points(robot.link_trees[link], scene.pose.X_BL[link], obstacles[i],
-                                  scene.obstacles[i].X_BO, nearest.distance_m);
+      const sim::SurfacePair pair =
+          sim::closest_points(robot.link_trees[link], scene.pose.X_BL[link], obstacles[i],
+                              scene.obstacles[i].X_BO, nearest.distance_m);
       if (pair.distance_m < nearest.distance_m) nearest = pair;
     }
     truth.push_back({nearest.distance_m, sights_of(nearest.b_m, drawn.views)});
@@ -56,11 +56,11 @@ std::vector<WholeRobotTruth> truth_of(const TrialRobot& robot, const testing::Dr
 }
 
 /// Where the obstacles were; the first two are floor and wall.
-std::vector<testing::DrawnObstacle> moved_back(std::vector<testing::DrawnObstacle> obstacles,
-                                               double age_s, std::uint32_t seed) {
-  testing::Random random(seed);
+std::vector<sim::DrawnObstacle> moved_back(std::vector<sim::DrawnObstacle> obstacles, double age_s,
+                                           std::uint32_t seed) {
+  sim::Random random(seed);
   for (std::size_t i = 2; i < obstacles.size(); ++i) {
-    const Eigen::Vector3d direction = testing::draw_rotation(random) * Eigen::Vector3d::UnitX();
+    const Eigen::Vector3d direction = sim::draw_rotation(random) * Eigen::Vector3d::UnitX();
     obstacles[i].X_BO.translation() -= random(0, kTrialObstacleSpeed_m_s) * age_s * direction;
   }
   return obstacles;
@@ -79,7 +79,7 @@ struct SensedView {
 /// One drawn scene under one condition.
 class Measured {
  public:
-  Measured(const TrialRobot& robot, const testing::DrawnViews& drawn,
+  Measured(const TrialRobot& robot, const sim::DrawnViews& drawn,
            const WholeRobotCondition& condition, std::uint32_t seed)
       : robot_(robot), drawn_(drawn), condition_(condition), seed_(seed) {
     for (std::size_t k = 0; k < drawn.views.size(); ++k) views_.push_back(sense(k));
@@ -87,11 +87,11 @@ class Measured {
 
   WholeRobotTrial::UnderCondition estimates() const {
     WholeRobotTrial::UnderCondition under;
-    std::vector<ViewSpace> spaces(views_.size());
-    std::vector<PosedView> posed;
+    std::vector<CameraSpace> spaces(views_.size());
+    std::vector<PosedSpace> posed;
     for (std::size_t k = 0; k < views_.size(); ++k) {
       const SensedView& view = views_[k];
-      build_view_space(view.camera, view.sensed_m, view.obstacles, {}, spaces[k]);
+      build_camera_space(view.camera, view.sensed_m, view.obstacles, {}, spaces[k]);
       posed.push_back({&spaces[k], view.X_BC, condition_.knows_age ? view.age_s : 0});
       under.mesh.push_back(ask(posed));
     }
@@ -103,23 +103,22 @@ class Measured {
 
  private:
   /// What the camera saw `age_s` before the truth.
-  testing::DrawnView look_back(std::size_t k, double age_s, JointState& joints) const {
-    const testing::DrawnView& now = drawn_.views[k];
-    joints = testing::delayed(robot_.model, drawn_.scene.joints, age_s, kTrialJointSpeed_per_s,
-                              seed_ + static_cast<std::uint32_t>(k));
+  sim::DrawnView look_back(std::size_t k, double age_s, JointState& joints) const {
+    const sim::DrawnView& now = drawn_.views[k];
+    joints = sim::delayed(robot_.model, drawn_.scene.joints, age_s, kTrialJointSpeed_per_s,
+                          seed_ + static_cast<std::uint32_t>(k));
     RobotPose pose;
     forward_kinematics(robot_.model, joints.position, pose);
-    return testing::cast_view(robot_.model, pose,
-                              moved_back(drawn_.scene.obstacles, age_s, seed_ + 7), now.camera,
-                              now.X_BC);
+    return sim::cast_view(robot_.model, pose, moved_back(drawn_.scene.obstacles, age_s, seed_ + 7),
+                          now.camera, now.X_BC);
   }
 
   SensedView sense(std::size_t k) const {
     const std::uint32_t seed = 16 * seed_ + static_cast<std::uint32_t>(k);
-    testing::Random random(seed);
+    sim::Random random(seed);
     SensedView sensed;
-    testing::DrawnView view = drawn_.views[k];
-    testing::DrawnScene scene;
+    sim::DrawnView view = drawn_.views[k];
+    sim::DrawnScene scene;
     scene.camera = view.camera;
     scene.X_BC = view.X_BC;
     scene.joints = drawn_.scene.joints;
@@ -143,8 +142,8 @@ class Measured {
     return sensed;
   }
 
-  std::vector<WholeRobotEstimate> ask(const std::vector<PosedView>& posed) const {
-    HiddenSpace space;
+  std::vector<WholeRobotEstimate> ask(const std::vector<PosedSpace>& posed) const {
+    UnknownSpace space;
     space.assign(posed);
     MeshWorkspace workspace;
     std::vector<WholeLinkDistance> answers;
@@ -155,13 +154,13 @@ class Measured {
     };
     std::vector<WholeRobotEstimate> estimates;
     for (const WholeLinkDistance& answer : answers) {
-      estimates.push_back({length_m(answer.nearest), length_m(answer.reading)});
+      estimates.push_back({length_m(answer.nearest), length_m(answer.occupied)});
     }
     return estimates;
   }
 
   const TrialRobot& robot_;
-  const testing::DrawnViews& drawn_;
+  const sim::DrawnViews& drawn_;
   const WholeRobotCondition& condition_;
   const std::uint32_t seed_;
   std::vector<SensedView> views_;
@@ -178,21 +177,21 @@ std::vector<WholeRobotCondition> whole_robot_conditions() {
   };
   add("clean images, ideal filter", MeasuredFilter::ideal);
   add("clean images, default filter", MeasuredFilter::berth);
-  add("sensor, default filter", MeasuredFilter::berth).image = kKinectErrors;
-  // What teach-in finds with this sensor and drawn robots (docs/calibration.md): settings, and what
+  add("sensor, default filter", MeasuredFilter::berth).image = sim::kKinectErrors;
+  // What calibration finds with this sensor and drawn robots (docs/calibration.md): settings, and what
   // is left of the pose's error.
-  WholeRobotCondition& taught_in =
-      add("sensor, after teach-in: 1 mm and 0.05° off, filter 2 cm, 2 cm", MeasuredFilter::berth);
-  taught_in.image = kKinectErrors;
-  taught_in.pose = {.offset_m = 0.001, .angle_rad = 0.0009};
-  taught_in.self_filter = narrow_filter();
+  WholeRobotCondition& calibrated =
+      add("sensor, after calibration: 1 mm and 0.05° off, filter 2 cm, 2 cm", MeasuredFilter::berth);
+  calibrated.image = sim::kKinectErrors;
+  calibrated.pose = {.offset_m = 0.001, .angle_rad = 0.0009};
+  calibrated.self_filter = narrow_filter();
   WholeRobotCondition& narrow =
       add("each camera 1 cm and 0.3° off, filter 2 cm, 2 cm", MeasuredFilter::berth);
   narrow.pose = off;
   narrow.self_filter = narrow_filter();
   WholeRobotCondition& all =
       add("sensor, 1 cm and 0.3° off, default filter", MeasuredFilter::berth);
-  all.image = kKinectErrors;
+  all.image = sim::kKinectErrors;
   all.pose = off;
   add("0 to 50 ms out of step, ideal filter", MeasuredFilter::ideal).most_age_s = 0.05;
   WholeRobotCondition& untold = add("… and age not told", MeasuredFilter::ideal);
@@ -202,11 +201,10 @@ std::vector<WholeRobotCondition> whole_robot_conditions() {
 }
 
 WholeRobotTrial run_whole_robot_trial(const TrialRobot& robot,
-                                      const testing::DrawnSceneSettings& settings,
-                                      std::uint32_t seed,
+                                      const sim::DrawnSceneSettings& settings, std::uint32_t seed,
                                       const std::vector<WholeRobotCondition>& conditions) {
-  const testing::DrawnViews drawn =
-      testing::draw_views(robot.model, robot.link_trees, settings, seed, kMostTrialCameras);
+  const sim::DrawnViews drawn =
+      sim::draw_views(robot.model, robot.link_trees, settings, seed, kMostTrialCameras);
   WholeRobotTrial trial{&robot, seed, truth_of(robot, drawn), {}};
   for (const WholeRobotCondition& condition : conditions) {
     trial.under.push_back(Measured(robot, drawn, condition, seed).estimates());

@@ -18,7 +18,7 @@ struct WholeRobotCondition {
   /// The ideal one goes with clean images alone.
   MeasuredFilter filter = MeasuredFilter::ideal;
   SelfFilterSettings self_filter = {};
-  ImageErrors image = {};
+  sim::SensorErrors image = {};
   /// Of each camera by itself.
   PoseErrors pose = {};
   /// Each image but the first one is up to this old. Robot and obstacles have moved since.
@@ -40,7 +40,7 @@ struct WholeRobotTruth {
   double distance_m = 0;
   /// [k] says how the obstacle's nearest point shows in the clean images of the first k + 1
   /// cameras: covered in at least one, else behind the robot in at least one, else outside of all.
-  std::array<testing::ObstacleSight, kMostTrialCameras> sight;
+  std::array<sim::ObstacleSight, kMostTrialCameras> sight;
 };
 
 /// One scene. Inner indices are links, [i] that with the id i + 1.
@@ -68,8 +68,7 @@ inline constexpr double kTrialObstacleSpeed_m_s = 1.6;
 
 /// Draws the scene and measures it under every condition. Depends on its arguments alone.
 WholeRobotTrial run_whole_robot_trial(const TrialRobot& robot,
-                                      const testing::DrawnSceneSettings& settings,
-                                      std::uint32_t seed,
+                                      const sim::DrawnSceneSettings& settings, std::uint32_t seed,
                                       const std::vector<WholeRobotCondition>& conditions);
 
 }  // namespace berth::lab

@@ -1,9 +1,9 @@
 """Exact distances between a robot and what depth cameras see.
 
     robot = berth.Robot(berth.load_robot("arm.urdf"))
-    view = berth.View(robot, camera, "base_link", X_PC)
+    view = berth.MountedCamera(robot, camera, "base_link", X_PC)
     frame = berth.Observer(view).observe(depth, joints)
-    print(berth.Asker(robot).ask(frame).distance_m)
+    print(berth.Query(robot).ask(frame).distance_m)
 
 Metres, radians, seconds. A name carries its unit (`depth_m`) and its frame (`p_C`: a point in frame
 C; `X_BC`: the pose of C in B). Frames: B the robot's root link, P the link that a camera is fixed
@@ -21,12 +21,12 @@ def _frame_png(self: _berth.Frame) -> bytes:
     return plot.png(plot.frame(self))
 
 
-def _answer_png(self: _berth.Answer) -> bytes:
+def _result_png(self: _berth.Result) -> bytes:
     from berth import plot
 
     return plot.png(plot.links(self))
 
 
-# Notebooks show frames and answers as pictures.
+# Notebooks show frames and results as pictures.
 _berth.Frame._repr_png_ = _frame_png  # type: ignore[assignment]
-_berth.Answer._repr_png_ = _answer_png  # type: ignore[assignment]
+_berth.Result._repr_png_ = _result_png  # type: ignore[assignment]

@@ -1,4 +1,4 @@
-"""Pictures of frames, answers and calibrations; needs matplotlib (pip install berth[plot])."""
+"""Pictures of frames, results and calibrations; needs matplotlib (pip install berth[plot])."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ FATE_COLORS = {
     "padding": "#8E5FB8",
     "dilation": "#2F9CA6",
     "edge": "#C24A4A",
-    "island": "#6CA83C",
+    "flying_patch": "#6CA83C",
     "outside_region": "#B8A43A",
     "speckle": "#E0B020",
     "averaged": "#B0C8E0",
@@ -64,9 +64,9 @@ def _fate_image(shown: berth.Frame) -> Tuple[Array, List[str]]:
     return image, names
 
 
-def frame(shown: berth.Frame, answer: Optional[berth.Answer] = None, camera: Optional[berth.Camera] = None,
+def frame(shown: berth.Frame, result: Optional[berth.Result] = None, camera: Optional[berth.Camera] = None,
           ax: Optional[Axes] = None) -> Any:
-    """What became of each pixel of a frame. With an answer and the camera, the links' least distances too.
+    """What became of each pixel of a frame. With a result and the camera, the links' least distances too.
 
     Returns the axes.
     """
@@ -78,39 +78,39 @@ def frame(shown: berth.Frame, answer: Optional[berth.Answer] = None, camera: Opt
     axes.set(title=f"{shown.camera}, {shown.stamp_s:.3f} s", xticks=[], yticks=[])
     handles: List[Any] = [Patch(color="#A8A8A8", label="obstacle")]
     handles += [Patch(color=FATE_COLORS[name], label=name.replace("_", " ")) for name in names]
-    if answer is not None and camera is not None:
-        handles += _draw_pairs(axes, shown, answer, camera)
+    if result is not None and camera is not None:
+        handles += _draw_pairs(axes, shown, result, camera)
     axes.legend(handles=handles, loc="center left", bbox_to_anchor=(1, 0.5), frameon=False)
     return axes
 
 
-def _draw_pairs(axes: Any, shown: berth.Frame, answer: berth.Answer, camera: berth.Camera) -> List[Any]:
+def _draw_pairs(axes: Any, shown: berth.Frame, result: berth.Result, camera: berth.Camera) -> List[Any]:
     """A line from each link to what is nearest; returns their entries of the legend."""
     from matplotlib.lines import Line2D
 
     entries = []
     to_camera = np.linalg.inv(shown.X_BC)
-    for i, link in enumerate(answer.links):
-        points = np.stack([link.robot_point_B_m, link.obstacle_point_B_m]) @ to_camera[:3, :3].T + to_camera[:3, 3]
+    for i, link in enumerate(result.links):
+        points = np.stack([link.robot_point_base_m, link.obstacle_point_base_m]) @ to_camera[:3, :3].T + to_camera[:3, 3]
         if not (points[:, 2] > 0).all():
             continue
         u = camera.fx_px * points[:, 0] / points[:, 2] + camera.cx_px
         v = camera.fy_px * points[:, 1] / points[:, 2] + camera.cy_px
         color = LINK_COLORS[i % len(LINK_COLORS)]
         axes.plot(u, v, "o-", color=color, markersize=3, linewidth=1.5, scalex=False, scaley=False)
-        entries.append(Line2D([], [], color=color, marker="o", markersize=3, label=f"{link.name}: {link.distance_m:.3f} m"))
+        entries.append(Line2D([], [], color=color, marker="o", markersize=3, label=f"{link.link}: {link.distance_m:.3f} m"))
     return entries
 
 
-def distances(answers: Sequence[berth.Answer], moving_only: bool = True, ax: Optional[Axes] = None) -> Any:
+def distances(results: Sequence[berth.Result], moving_only: bool = True, ax: Optional[Axes] = None) -> Any:
     """The least distance of each link over the time of the exposures. Returns the axes."""
-    if not answers:
-        raise ValueError("answers: none; expected one at least")
+    if not results:
+        raise ValueError("results: none; expected one at least")
     axes = _axes(ax, (9, 4.5))
-    times_s = [answer.frame_stamp_s for answer in answers]
-    all_m = np.stack([answer.distance_m for answer in answers])
-    moved = answers[0].link_is_moved
-    for i, name in enumerate(answers[0].link_names):
+    times_s = [result.stamp_s for result in results]
+    all_m = np.stack([result.distance_m for result in results])
+    moved = results[0].link_is_moved
+    for i, name in enumerate(results[0].link_names):
         if moved[i] or not moving_only:
             style = "-" if i < len(LINK_COLORS) else "--"
             axes.plot(times_s, all_m[:, i], style, color=LINK_COLORS[i % len(LINK_COLORS)], label=name)
@@ -120,23 +120,23 @@ def distances(answers: Sequence[berth.Answer], moving_only: bool = True, ax: Opt
     return axes
 
 
-def links(answer: berth.Answer, ax: Optional[Axes] = None) -> Any:
+def links(result: berth.Result, ax: Optional[Axes] = None) -> Any:
     """The least distance of each link as a bar, and its lower bound as a mark. Returns the axes."""
-    names = answer.link_names
+    names = result.link_names
     axes = _axes(ax, (6, 0.6 + 0.3 * len(names)))
-    axes.barh(names, np.nan_to_num(answer.distance_m), color="#0072B2")
-    axes.plot(answer.lower_bound_m, names, "|", color="black", markersize=10)
-    for i, link in enumerate(answer.links):
+    axes.barh(names, np.nan_to_num(result.distance_m), color="#0072B2")
+    axes.plot(result.lower_bound_m, names, "|", color="black", markersize=10)
+    for i, link in enumerate(result.links):
         text = f" {link.distance_m:.3f} m" if np.isfinite(link.distance_m) else f" {link.status.name.replace('_', ' ')}"
         axes.text(np.nan_to_num(link.distance_m), i, text, va="center", fontsize=8)
     axes.margins(x=0.15)
     axes.invert_yaxis()
-    axes.set(xlabel="least distance, m", title=f"exposure at {answer.frame_stamp_s:.3f} s, {answer.time_status.name.replace('_', ' ')}")
+    axes.set(xlabel="least distance, m", title=f"exposure at {result.stamp_s:.3f} s, {result.time.status.name.replace('_', ' ')}")
     return axes
 
 
 def residuals(calibration: berth.Calibration, ax: Optional[Axes] = None) -> Any:
-    """How far readings lie from the model's surface before and after a teach-in. Returns the axes."""
+    """How far readings lie from the model's surface before and after a calibration. Returns the axes."""
     cameras = calibration.cameras
     axes = _axes(ax, (7, 1.4 + 0.8 * len(cameras)))
     for i, camera in enumerate(cameras):

@@ -1,4 +1,4 @@
-#include "berth/pipeline/view.hpp"
+#include "berth/pipeline/mounted_camera.hpp"
 #include "bindings.hpp"
 #include "settings.hpp"
 
@@ -9,11 +9,11 @@ void bind_all_settings(py::module_& m) {
                                     "How much of an image counts as the robot itself.");
   bind_settings<SensorSettings>(m, "SensorSettings", "sensor", "What is known of a camera's faults.");
   bind_settings<SpaceSettings>(m, "SpaceSettings", "space",
-                               "What a camera's readings say of free and hidden space.");
+                               "What a camera's readings say of free and unknown space.");
   bind_settings<WatchSettings>(m, "WatchSettings", "watch",
                                "When a camera counts as moved or implausible.");
   bind_settings<EvaluationSettings>(m, "EvaluationSettings", "evaluation",
-                                    "How questions are answered.");
+                                    "How distances are looked for.");
   bind_settings<TimeSettings>(m, "TimeSettings", "time", "How old is too old.");
 }
 

@@ -141,10 +141,17 @@ JointState joints_of(const RobotModel& model, const py::object& joints, double s
 
 std::vector<JointState> many_joints_of(const RobotModel& model, const py::object& joints) {
   std::vector<JointState> states;
+  if (joints.is_none()) return states;
   for (const py::handle row : joints) {
     states.push_back(joints_of(model, py::reinterpret_borrow<py::object>(row), 0));
   }
   return states;
+}
+
+py::dict dict_of(const FateCounts& counts) {
+  py::dict by_name;
+  for (int i = 0; i < kPixelFateCount; ++i) by_name[kPixelFateNames[i].data()] = counts[i];
+  return by_name;
 }
 
 }  // namespace berth::python

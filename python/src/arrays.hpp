@@ -11,6 +11,7 @@
 #include "berth/types/camera.hpp"
 #include "berth/types/image.hpp"
 #include "berth/types/joint_state.hpp"
+#include "berth/types/obstacle_image.hpp"
 
 namespace berth::python {
 
@@ -37,8 +38,12 @@ py::array_t<double> array_of(const Pose& pose);
 /// Positions by name, or in the robot's order. Throws std::invalid_argument where one is missing.
 JointState joints_of(const RobotModel& model, const py::object& joints, double stamp_s);
 
-/// Rows of joints, one for each of many poses.
+/// Rows of joints, one for each of many poses; none of None.
 std::vector<JointState> many_joints_of(const RobotModel& model, const py::object& joints);
+
+/// Pixels by PixelFate.
+using FateCounts = std::array<std::int64_t, kPixelFateCount>;
+py::dict dict_of(const FateCounts& counts);
 
 /// An array that looks into `data`, read only, and keeps `owner` alive. Strides in bytes.
 template <class T>
@@ -55,18 +60,6 @@ py::array array_of(const Image<T>& image, py::handle owner) {
   return read_only(reinterpret_cast<const Number*>(image.pixels().data()),
                    {image.height(), image.width()},
                    {static_cast<py::ssize_t>(sizeof(T)) * image.width(), sizeof(T)}, owner);
-}
-
-/// One number of each element of a vector of structs; `count` of them side by side.
-template <class Struct, class T>
-py::array column(const std::vector<Struct>& rows, const T* first, int count, py::handle owner) {
-  std::vector<py::ssize_t> shape = {static_cast<py::ssize_t>(rows.size())};
-  std::vector<py::ssize_t> strides = {sizeof(Struct)};
-  if (count > 1) {
-    shape.push_back(count);
-    strides.push_back(sizeof(T));
-  }
-  return read_only(first, shape, strides, owner);
 }
 
 }  // namespace berth::python

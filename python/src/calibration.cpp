@@ -3,22 +3,22 @@
 
 #include "arrays.hpp"
 #include "berth/scene/calibrate_scene.hpp"
-#include "berth/scene/calibration_json.hpp"
-#include "berth/scene/calibration_table.hpp"
+#include "berth/reports/calibration_json.hpp"
+#include "berth/reports/calibration_table.hpp"
 #include "bindings.hpp"
 
 namespace berth::python {
 namespace {
 
-/// A teach-in and all that it refers to.
+/// A calibration and all that it refers to.
 struct CalibrationHandle {
   OpenScene scene;
-  SceneTeachIn material;
+  SceneCalibrationData material;
   CalibrateSceneSettings settings;
   SceneCalibration calibration;
 
   CalibrationReport report() const {
-    return {&material.teach_in, &calibration.found, calibration.filters, settings.correct_depth,
+    return {&material.calibration_data, &calibration.found, calibration.filters, settings.correct_depth,
             calibration.warnings};
   }
 };
@@ -31,8 +31,8 @@ std::shared_ptr<CalibrationHandle> calibrate_file(const std::filesystem::path& f
   };
   const py::gil_scoped_release release;
   auto handle = std::make_shared<CalibrationHandle>();
-  handle->scene = open_scene(read_scene_to_teach(file), pause);
-  handle->material = make_teach_in(handle->scene);
+  handle->scene = open_scene(read_scene_to_calibrate(file), pause);
+  handle->material = make_calibration_data(handle->scene);
   handle->settings = {{joint_zeros, pause}, correct_depth};
   handle->calibration = calibrate_scene(handle->scene, handle->material, handle->settings);
   return handle;
@@ -51,7 +51,7 @@ py::array residuals(const ResidualSpread& spread) {
 
 void bind_calibration(py::module_& m) {
   using C = CameraCalibration;
-  py::class_<C>(m, "CameraCalibration", "What a teach-in found of one camera.")
+  py::class_<C>(m, "CameraCalibration", "What a calibration found of one camera.")
       .def_readonly("camera", &C::camera, "str: its name")
       .def_property_readonly(
           "X_PC", [](const C& c) { return array_of(c.X_PC); },
@@ -75,7 +75,7 @@ void bind_calibration(py::module_& m) {
       .def_readonly("refused", &C::refused,
                     "str: why the pose that was found is not to be used; empty: it is good");
   using H = CalibrationHandle;
-  py::class_<H, std::shared_ptr<H>>(m, "Calibration", "What a teach-in found.")
+  py::class_<H, std::shared_ptr<H>>(m, "Calibration", "What a calibration found.")
       .def_property_readonly(
           "cameras", [](const H& h) { return h.calibration.found.cameras; },
           "List[CameraCalibration]: one for each camera of the scene")
@@ -93,8 +93,8 @@ void bind_calibration(py::module_& m) {
            "As `berth calibrate` prints it.");
   m.def("calibrate", &calibrate_file, py::arg("scene_file"), py::arg("joint_zeros") = false,
         py::arg("correct_depth") = false,
-        "Teach-in of a scene file: its cameras' poses and clocks, and settings that fit them.\n"
-        "Raises ValueError where nothing can be taught, and says why.");
+        "Calibration of a scene file: its cameras' poses and clocks, and settings that fit them.\n"
+        "Raises ValueError where nothing can be calibrated, and says why.");
 }
 
 }  // namespace berth::python

@@ -2,7 +2,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "arrays.hpp"
-#include "berth/distance/evaluate.hpp"
+#include "berth/image_distance/evaluate.hpp"
 #include "berth/files/png.hpp"
 #include "berth/pipeline/robot.hpp"
 #include "berth/render/robot_renderer.hpp"
@@ -87,13 +87,22 @@ py::tuple filter(const py::object& depth, const py::object& robot_depth_m, const
   return py::make_tuple(owned(std::move(obstacles.depth_m)), owned(std::move(obstacles.fate)));
 }
 
+Method method_of(const std::string& name) {
+  for (const Method method : kCpuMethods) {
+    if (name_of(method) == name) return method;
+  }
+  throw std::invalid_argument(
+      fmt::format("method: \"{}\"; expected one of exact, brute_force, lattice", name));
+}
+
 py::list evaluate_images(const py::object& robot_depth_m, const py::object& link_id,
                          const py::object& obstacle_depth_m, const Camera& camera, int link_count,
-                         const EvaluationSettings& settings) {
-  validate(settings.distance);
-  if (!asks_images(settings.method)) {
-    throw std::invalid_argument("evaluation.method: mesh asks frames; expected exact, brute_force or lattice");
-  }
+                         const std::string& method, double range_m,
+                         std::optional<double> tolerance_m) {
+  const Method chosen = method_of(method);
+  ImageDistanceSettings settings;
+  settings.range_m = range_m;
+  settings.tolerance_m = tolerance_m;
   const RobotImage robot = robot_image(camera, robot_depth_m, link_id);
   for (const LinkId id : robot.link_id.pixels()) {
     if (id <= link_count || id == kEnvironmentLink) continue;
@@ -108,8 +117,7 @@ py::list evaluate_images(const py::object& robot_depth_m, const py::object& link
     SearchableDepth searchable;
     searchable.build(obstacles.view);
     EvaluateWorkspace workspace;
-    evaluate(settings.method, {camera, robot, link_count, searchable, settings.distance}, workspace,
-             distances);
+    evaluate(chosen, {camera, robot, link_count, searchable, settings}, workspace, distances);
   }
   py::list links;
   const auto point = [](const Eigen::Vector3f& p) {
@@ -163,9 +171,10 @@ void bind_images(py::module_& m) {
         "For berth.io.write_depth.");
   m.def("evaluate", &evaluate_images, py::arg("robot_depth_m"), py::arg("link_id"),
         py::arg("obstacle_depth_m"), py::arg("camera"), py::arg("link_count"),
-        py::arg("settings"),
-        "The distances between the links in one image and what is in another, by a method that\n"
-        "compares images (settings.method). One dict for each link, in frame C.");
+        py::arg("method") = "exact", py::arg("range_m") = 1.0, py::arg("tolerance_m") = std::nullopt,
+        "The distances between the links in one image and what is in another, up to range_m, by\n"
+        "a method that compares images: exact, brute_force or lattice. exact may stop once it\n"
+        "knows a distance to tolerance_m. One dict for each link, in frame C.");
 }
 
 }  // namespace berth::python

@@ -19,21 +19,20 @@ std::vector<std::filesystem::path> package_page_folders() {
 }
 
 std::unique_ptr<app::LivePage> make_page(const std::shared_ptr<Robot>& robot,
-                                         const std::vector<NamedView>& views, int port,
+                                         const std::vector<std::shared_ptr<MountedCamera>>& views, int port,
                                          const std::string& bind) {
   std::vector<app::PageCamera> cameras;
-  for (const NamedView& one : views) cameras.push_back({one.name, one.view->camera()});
+  for (const auto& view : views) cameras.push_back({view->mount().name, view->camera()});
   return std::make_unique<app::LivePage>(robot, cameras, app::PageAddress{bind, port},
                                          app::read_page_files(package_page_folders()));
 }
 
-void show(app::LivePage& page, const AnswerHandle& answer,
-          const std::vector<std::optional<FrameHandle>>& frames) {
-  LiveFrames pointers;
-  for (const auto& one : frames) pointers.push_back(one ? one->frame : nullptr);
+void show(app::LivePage& page, const Part<Result>& result,
+          const std::vector<std::optional<std::shared_ptr<Frame>>>& frames) {
+  std::vector<std::shared_ptr<const Frame>> pointers;
+  for (const auto& one : frames) pointers.push_back(one.value_or(nullptr));
   const py::gil_scoped_release release;
-  FrameResult result = answer.result();
-  page.show(result, pointers);
+  page.show(*result, pointers);
 }
 
 }  // namespace
@@ -41,8 +40,8 @@ void show(app::LivePage& page, const AnswerHandle& answer,
 void bind_page(py::module_& m) {
   py::class_<app::LivePage>(m, "Page", "A page that shows a running robot, while it lives.")
       .def_property_readonly("url", &app::LivePage::url, "str: where it is")
-      .def("show", &show, py::arg("answer"), py::arg("frames"),
-           "Shows an answer and the frames that it is about, one or None for each view. Waits for\n"
+      .def("show", &show, py::arg("result"), py::arg("frames"),
+           "Shows a result and the frames that it is about, one or None for each view. Waits for\n"
            "no browser: one that is slower misses some.");
   m.def("view", &make_page, py::arg("robot"), py::arg("views"), py::arg("port") = 8080, py::arg("bind") = "127.0.0.1",
         "Serves a page that shows the robot and what these views see. port 0 takes any that is\n"

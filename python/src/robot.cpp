@@ -113,17 +113,17 @@ void bind_robot(py::module_& m) {
         py::arg("package_paths") = std::map<std::string, std::filesystem::path>{},
         py::arg("geometry") = "visual", py::arg("environment_links") = std::vector<std::string>{},
         py::arg("ignore_links") = std::vector<std::string>{}, py::arg("urdf_text") = std::nullopt,
-        "Loads a URDF and its meshes. Links in environment_links are scenery: filtered out of the\n"
+        "Loads a URDF and its meshes. Links in environment_links are environment: filtered out of the\n"
         "images, not evaluated. geometry: visual or collision. Raises FileNotFoundError or\n"
         "ValueError that names file, place, value and what was expected.");
   py::class_<Robot, std::shared_ptr<Robot>>(
-      m, "Robot", "A robot, and how questions about it are answered. Constant; share it.")
+      m, "Robot", "A robot, and how requests about it are answered. Constant; share it.")
       .def(py::init(&make_robot), py::arg("model"), py::arg_v("evaluation", EvaluationSettings{}, "EvaluationSettings()"),
            py::arg_v("time", TimeSettings{}, "TimeSettings()"))
       .def_property_readonly("model", &Robot::model, py::return_value_policy::reference_internal,
                              "RobotModel: its links and joints")
       .def_property_readonly("evaluation", &Robot::settings,
-                             "EvaluationSettings: how questions are answered")
+                             "EvaluationSettings: how distances are looked for")
       .def_property_readonly(
           "time", [](const Robot& robot) { return robot.settings().time; },
           "TimeSettings: how old is too old");

@@ -20,30 +20,14 @@ struct SceneHandle {
   std::shared_ptr<const OpenScene> scene;
 };
 
-/// One image of a scene, and the answer after it.
+/// One image of a scene, and the result after it.
 struct SceneStep {
-  FrameHandle frame;
+  std::shared_ptr<Frame> frame;
   DepthImage depth_m;
   std::size_t number;
   std::vector<double> joints;
-  std::shared_ptr<AnswerHandle> answer;
+  Part<Result> result;
 };
-
-std::shared_ptr<AnswerHandle> answer_of(const std::shared_ptr<const Robot>& robot,
-                                        const FrameResult& result) {
-  auto handle = std::make_shared<AnswerHandle>();
-  handle->robot = robot;
-  handle->answer.distances = *result.distances;
-  if (result.visibility) handle->answer.visibility = *result.visibility;
-  if (result.time) handle->answer.time = *result.time;
-  for (const CameraResult& camera : result.cameras) handle->answer.cameras.push_back(camera.state);
-  handle->answer.frame_stamp_s = handle->answer.joints_stamp_s = result.stamp_s;
-  handle->cameras = result.cameras;
-  if (result.asks_images) fill_base_points(handle->cameras, handle->answer.distances);
-  handle->frame = result.frame;
-  handle->stamp_s = result.stamp_s;
-  return handle;
-}
 
 /// A run of a scene, one image after another.
 class SceneIterator {
@@ -57,14 +41,14 @@ class SceneIterator {
     if (!run_->next()) throw py::stop_iteration();
     const DepthView depth_m = run_->sensor_depth_m();
     auto step = std::make_shared<SceneStep>();
-    step->frame = {run_->frame(), run_->camera().source.name};
+    step->frame = std::const_pointer_cast<Frame>(run_->frame());
     step->depth_m.resize(depth_m.width, depth_m.height, kNoDepth);
     for (int v = 0; v < depth_m.height; ++v) {
       std::copy(depth_m.row(v), depth_m.row(v) + depth_m.width, step->depth_m.row(v));
     }
     step->number = run_->frame_number();
     step->joints = run_->camera().at_exposure[step->number].position;
-    step->answer = answer_of(scene_->robot, run_->ask());
+    step->result = owned(run_->ask());
     return step;
   }
 
@@ -79,9 +63,11 @@ SceneHandle open(const std::filesystem::path& file) {
   return {std::make_shared<OpenScene>(open_scene(read_scene(file), stop_if_interrupted))};
 }
 
-std::vector<NamedView> views(const SceneHandle& handle) {
-  std::vector<NamedView> all;
-  for (const OpenCamera& camera : handle.scene->cameras) all.push_back({camera.view, camera.source.name});
+std::vector<std::shared_ptr<MountedCamera>> views(const SceneHandle& handle) {
+  std::vector<std::shared_ptr<MountedCamera>> all;
+  for (const OpenCamera& camera : handle.scene->cameras) {
+    all.push_back(std::const_pointer_cast<MountedCamera>(camera.view));
+  }
   return all;
 }
 
@@ -89,7 +75,7 @@ std::vector<NamedView> views(const SceneHandle& handle) {
 
 void bind_scene(py::module_& m) {
   py::class_<SceneStep, std::shared_ptr<SceneStep>>(
-      m, "SceneStep", "One image of a scene, and the answer after it.")
+      m, "SceneStep", "One image of a scene, and the result after it.")
       .def_readonly("frame", &SceneStep::frame, "Frame: what the image tells")
       .def_property_readonly(
           "depth_m",
@@ -103,8 +89,9 @@ void bind_scene(py::module_& m) {
           },
           "numpy.ndarray: the joints at the exposure, in the robot's order")
       .def_property_readonly(
-          "answer", [](const SceneStep& s) { return s.answer; },
-          "Answer: of the robot as it stood then, against the newest image of each camera");
+          "result", [](const SceneStep& s) { return s.result; },
+          "Result: of the robot as it stood then, against the newest image of each camera, or\n"
+          "that one image where the scene's method compares images");
   py::class_<SceneIterator>(m, "SceneIterator", "A run of a scene.")
       .def("__iter__", [](SceneIterator& self) -> SceneIterator& { return self; },
            py::return_value_policy::reference)
@@ -117,7 +104,7 @@ void bind_scene(py::module_& m) {
       .def_property_readonly(
           "robot", [](const SceneHandle& h) { return std::const_pointer_cast<Robot>(h.scene->robot); },
           "Robot: with the scene's evaluation settings")
-      .def_property_readonly("views", &views, "List[View]: one for each camera")
+      .def_property_readonly("views", &views, "List[MountedCamera]: one for each camera")
       .def("__len__", [](const SceneHandle& h) { return h.scene->frame_count; })
       .def("__iter__", [](const SceneHandle& h) { return std::make_unique<SceneIterator>(h); });
   m.def("open_scene", &open, py::arg("file"),

@@ -132,8 +132,7 @@ void bind_settings(py::module_& m, const char* name, const std::string& group, c
                fmt::format("__init__({}) -> None", arguments).c_str());
   visit_settings(defaults, [&](const Setting& setting, const auto& value) {
     const std::string key(setting.name);
-    std::string text = fmt::format("{}: {}", type_of(value), setting.sentence);
-    if (!setting.methods.empty()) text += fmt::format(" (methods: {})", setting.methods);
+    const std::string text = fmt::format("{}: {}", type_of(value), setting.sentence);
     settings.def_property(
         key.c_str(), [key](const Settings& own) { return get_setting(own, key); },
         [key, group](Settings& own, const py::object& to) { set_setting(group, key, to, own); },

@@ -1,8 +1,9 @@
 #include <string>
 
 #include "berth/types/camera_status.hpp"
-#include "berth/types/link_distance.hpp"
+#include "berth/types/result_status.hpp"
 #include "berth/types/obstacle_image.hpp"
+#include "berth/types/space_pair.hpp"
 #include "berth/types/time_status.hpp"
 #include "bindings.hpp"
 
@@ -24,13 +25,14 @@ void bind_enum(py::module_& m, const char* name, const std::array<std::string_vi
 }  // namespace
 
 void bind_statuses(py::module_& m) {
+  bind_enum<ResultStatus>(m, "ResultStatus", kResultStatusNames, "How good a whole result is.");
   bind_enum<LinkStatus>(m, "LinkStatus", kLinkStatusNames, "What is known of a link's distance.");
   bind_enum<TimeStatus>(m, "TimeStatus", kTimeStatusNames,
-                        "Whether stamps, joints and cameras allow an answer.");
+                        "Whether stamps, joints and cameras allow a result.");
   bind_enum<CameraStatus>(m, "CameraStatus", kCameraStatusNames,
-                          "What became of a camera in a question.");
+                          "What became of a camera in a request.");
   bind_enum<ObstacleKind>(m, "ObstacleKind", kObstacleKindNames,
-                          "Whether an obstacle's point was measured, or is hidden behind one.");
+                          "Whether an obstacle's point is occupied, or unknown.");
   bind_enum<PixelFate>(m, "PixelFate", kPixelFateNames,
                        "What became of a pixel: the numbers in Frame.fate.");
 }

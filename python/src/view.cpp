@@ -12,24 +12,24 @@
 namespace berth::python {
 namespace {
 
-NamedView make_view(std::shared_ptr<Robot> robot, const Camera& camera,
-                    const std::string& parent_link, const py::object& X_PC,
-                    const SelfFilterSettings& self_filter, const SensorSettings& sensor,
-                    const SpaceSettings& space, const WatchSettings& watch,
-                    const std::map<std::string, double>& link_padding_m, const std::string& name) {
-  ViewSettings settings{self_filter, link_padding_m, sensor, space, watch};
-  CameraMount mount{camera, parent_link, pose_of(X_PC, "X_PC")};
-  return {std::make_shared<const View>(std::move(robot), std::move(mount), std::move(settings)),
-          name};
+std::shared_ptr<MountedCamera> make_view(std::shared_ptr<Robot> robot, const Camera& camera,
+                                const std::string& parent_link, const py::object& X_PC,
+                                const SelfFilterSettings& self_filter, const SensorSettings& sensor,
+                                const SpaceSettings& space, const WatchSettings& watch,
+                                const std::map<std::string, double>& link_padding_m,
+                                const std::string& name) {
+  CameraSettings settings{self_filter, link_padding_m, sensor, space, watch};
+  CameraMount mount{camera, parent_link, pose_of(X_PC, "X_PC"), name};
+  return std::make_shared<MountedCamera>(std::move(robot), std::move(mount), std::move(settings));
 }
 
 /// An observer that several threads may call, one after another.
 class SharedObserver {
  public:
-  explicit SharedObserver(const NamedView& view) : view_(view), observer_(view.view) {}
+  explicit SharedObserver(const std::shared_ptr<MountedCamera>& view) : view_(view), observer_(view) {}
 
-  FrameHandle observe(const py::object& depth, const py::object& joints, double stamp_s,
-                      std::optional<double> depth_scale, double clock_offset_s) {
+  std::shared_ptr<Frame> observe(const py::object& depth, const py::object& joints, double stamp_s,
+                                 std::optional<double> depth_scale, double clock_offset_s) {
     const DepthInput input = depth_of(depth, depth_scale);
     if (is_buffer(joints)) {
       const JointBuffer& buffer = buffer_of(joints);
@@ -37,47 +37,39 @@ class SharedObserver {
         observer_.observe(input.view, stamp_s, buffer, frame, clock_offset_s);
       });
     }
-    const JointState state = joints_of(view_.view->robot()->model(), joints, stamp_s);
+    const JointState state = joints_of(view_->robot()->model(), joints, stamp_s);
     return locked([&](Frame& frame) { observer_.observe(input.view, state, frame); });
   }
 
-  void learn_background(const py::object& depth, const FrameHandle& frame,
+  void learn_background(const py::object& depth, const Frame& frame,
                         std::optional<double> depth_scale) {
     const DepthInput input = depth_of(depth, depth_scale);
     const py::gil_scoped_release release;
     const std::lock_guard lock(mutex_);
-    observer_.learn_background(input.view, *frame.frame);
+    observer_.learn_background(input.view, frame);
   }
 
  private:
   template <class Observe>
-  FrameHandle locked(const Observe& observe) {
+  std::shared_ptr<Frame> locked(const Observe& observe) {
     const py::gil_scoped_release release;
     const std::lock_guard lock(mutex_);
     const std::shared_ptr<Frame> frame = pool_.take();
     observe(*frame);
-    return {frame, view_.name};
+    return frame;
   }
 
-  NamedView view_;
+  std::shared_ptr<const MountedCamera> view_;
   std::mutex mutex_;
   Observer observer_;
   FramePool pool_;
 };
 
-py::dict fate_count(const FrameHandle& handle) {
-  py::dict counts;
-  for (int i = 0; i < kPixelFateCount; ++i) {
-    counts[py::str(std::string(kPixelFateNames[i]))] = handle.frame->obstacles.count[i];
-  }
-  return counts;
-}
-
 /// An array that looks into an image of a frame and keeps the frame.
 template <class Get>
 auto image_of(const Get& get) {
   return [get](const py::object& self) {
-    return array_of(get(*self.cast<const FrameHandle&>().frame), self);
+    return array_of(get(self.cast<const Frame&>()), self);
   };
 }
 
@@ -106,34 +98,36 @@ void bind_camera(py::module_& m) {
 }
 
 void bind_frame(py::module_& m) {
-  py::class_<FrameHandle>(m, "Frame",
-                          "What one depth image tells. Its arrays are views, read only, and keep\n"
-                          "the frame alive.")
-      .def_readonly("camera", &FrameHandle::camera, "str: the camera's name")
+  py::class_<Frame, std::shared_ptr<Frame>>(
+      m, "Frame",
+      "What one depth image tells. Its arrays are views, read only, and keep the frame alive.")
       .def_property_readonly(
-          "stamp_s", [](const FrameHandle& h) { return h.frame->stamp_s; }, "float: the exposure")
+          "camera", [](const Frame& f) { return f.view->mount().name; }, "str: the camera's name")
       .def_property_readonly(
-          "time_status", [](const FrameHandle& h) { return h.frame->time.status; },
+          "stamp_s", [](const Frame& f) { return f.stamp_s; }, "float: the exposure")
+      .def_property_readonly(
+          "time_status", [](const Frame& f) { return f.time.status; },
           "TimeStatus: unless it is ok the images are empty")
       .def_property_readonly(
-          "X_BC", [](const FrameHandle& h) { return array_of(h.frame->X_BC); },
+          "X_BC", [](const Frame& f) { return array_of(f.X_BC); },
           "numpy.ndarray: the camera's pose in the robot's root frame, 4 x 4")
       .def_property_readonly("robot_depth_m",
                              image_of([](const Frame& f) -> auto& { return f.robot.depth_m; }),
                              "numpy.ndarray: the robot's surface, rows x columns, float32; NaN elsewhere")
       .def_property_readonly("link_id",
                              image_of([](const Frame& f) -> auto& { return f.robot.link_id; }),
-                             "numpy.ndarray: i + 1 where link_names[i] is seen, 65535 for scenery, else 0")
+                             "numpy.ndarray: i + 1 where link_names[i] is seen, 65535 for environment, else 0")
       .def_property_readonly("obstacle_depth_m",
                              image_of([](const Frame& f) -> auto& { return f.obstacles.depth_m; }),
                              "numpy.ndarray: what is left without the robot, float32; NaN elsewhere")
       .def_property_readonly("fate",
                              image_of([](const Frame& f) -> auto& { return f.obstacles.fate; }),
                              "numpy.ndarray: what became of each pixel, numbers of PixelFate")
-      .def_property_readonly("fate_count", &fate_count,
-                             "Dict[str, int]: pixels of each PixelFate")
       .def_property_readonly(
-          "is_blind", [](const FrameHandle& h) { return h.frame->is_blind; },
+          "fate_count", [](const Frame& f) { return dict_of(f.obstacles.count); },
+          "Dict[str, int]: pixels of each PixelFate")
+      .def_property_readonly(
+          "is_blind", [](const Frame& f) { return f.is_blind; },
           "bool: hardly a pixel has a reading");
 }
 
@@ -141,32 +135,32 @@ void bind_frame(py::module_& m) {
 
 void bind_view(py::module_& m) {
   bind_camera(m);
-  py::class_<NamedView>(m, "View", "One camera that sees the robot. Constant; share it.")
+  py::class_<MountedCamera, std::shared_ptr<MountedCamera>>(m, "MountedCamera", "One camera that sees the robot. Constant; share it.")
       .def(py::init(&make_view), py::arg("robot"), py::arg("camera"), py::arg("parent_link"),
            py::arg("X_PC"), py::arg_v("self_filter", SelfFilterSettings{}, "SelfFilterSettings()"),
            py::arg_v("sensor", SensorSettings{}, "SensorSettings()"), py::arg_v("space", SpaceSettings{}, "SpaceSettings()"),
-           py::arg_v("watch", WatchSettings{}, "WatchSettings()"),
+           py::arg_v("watch", CameraSettings{}.watch, "WatchSettings(tell_only=True)"),
            py::arg("link_padding_m") = std::map<std::string, double>{}, py::arg("name") = "camera",
            "X_PC is the pose, 4 x 4, of the camera's optical frame C in the frame P of\n"
            "parent_link, the link that it is fixed to.")
-      .def_readonly("name", &NamedView::name, "str: the camera's name")
       .def_property_readonly(
-          "camera", [](const NamedView& v) { return v.view->camera(); }, "Camera: its intrinsics")
+          "name", [](const MountedCamera& v) { return v.mount().name; }, "str: the camera's name")
+      .def_property_readonly("camera", &MountedCamera::camera, "Camera: its intrinsics")
       .def_property_readonly(
-          "parent_link", [](const NamedView& v) { return v.view->mount().parent_link; },
+          "parent_link", [](const MountedCamera& v) { return v.mount().parent_link; },
           "str: the link that it is fixed to")
       .def_property_readonly(
-          "X_PC", [](const NamedView& v) { return array_of(v.view->mount().X_PC); },
+          "X_PC", [](const MountedCamera& v) { return array_of(v.mount().X_PC); },
           "numpy.ndarray: its pose in that link's frame, 4 x 4")
       .def_property_readonly(
-          "self_filter", [](const NamedView& v) { return v.view->settings().self_filter; },
+          "self_filter", [](const MountedCamera& v) { return v.settings().self_filter; },
           "SelfFilterSettings: what counts as the robot")
       .def_property_readonly(
-          "sensor", [](const NamedView& v) { return v.view->settings().sensor; },
+          "sensor", [](const MountedCamera& v) { return v.settings().sensor; },
           "SensorSettings: the camera's faults");
   bind_frame(m);
   py::class_<SharedObserver>(m, "Observer", "Makes frames of one camera's depth images.")
-      .def(py::init<const NamedView&>(), py::arg("view"))
+      .def(py::init<const std::shared_ptr<MountedCamera>&>(), py::arg("view"))
       .def("observe", &SharedObserver::observe, py::arg("depth"), py::arg("joints"),
            py::arg("stamp_s") = 0.0, py::arg("depth_scale") = std::nullopt,
            py::arg("clock_offset_s") = 0.0,

@@ -8,7 +8,7 @@
 
 #include "berth/files/file_bytes.hpp"
 #include "tests/support/error_message.hpp"
-#include "tests/support/small_teach_in.hpp"
+#include "tests/support/small_calibration_data.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace berth::app {
@@ -67,9 +67,9 @@ class Page {
 using Texts = std::vector<std::string>;
 
 TEST(CalibrationPage, HasAllItsPicturesAndSaysTheHeadline) {
-  const testing::SmallTeachIn small(3);
+  const testing::SmallCalibrationData small(3);
   const Page page(small.report());
-  EXPECT_EQ(page.texts("//h1"), Texts{"Teach-in of scene.yaml"});
+  EXPECT_EQ(page.texts("//h1"), Texts{"Calibration of scene.yaml"});
   EXPECT_EQ(page.texts("//p[@class='lead']"),
             Texts{"This camera's view of the robot was off by 20.0 mm; now it is sure to ± 1.5 mm "
                   "(3 frames)."});
@@ -82,7 +82,7 @@ TEST(CalibrationPage, HasAllItsPicturesAndSaysTheHeadline) {
 }
 
 TEST(CalibrationPage, TablesHoldWhatWasFound) {
-  const testing::SmallTeachIn small;
+  const testing::SmallCalibrationData small;
   const Page page(small.report());
   EXPECT_TRUE(page.has("<tr><td>half of them within</td><td>20.0 mm</td><td>0.0 mm</td></tr>"));
   EXPECT_TRUE(page.has("<td>1.25 of 2</td><td>1.75 of 2</td>"));
@@ -95,14 +95,14 @@ TEST(CalibrationPage, TablesHoldWhatWasFound) {
 }
 
 TEST(CalibrationPage, AtMostSixFramesAreShown) {
-  const testing::SmallTeachIn small(9, 0.1);
+  const testing::SmallCalibrationData small(9, 0.1);
   const Page page(small.report());
   EXPECT_EQ(page.pictures().size(), 12);
   EXPECT_TRUE(page.has("6 of the 9 that were used"));
 }
 
 TEST(CalibrationPage, NamesAreShownAsTheyAreAndMakeNoFiles) {
-  testing::SmallTeachIn small;
+  testing::SmallCalibrationData small;
   const std::string name = "../<b>left</b> & \"right\" 'up'";
   small.found().camera = name;
   small.proposal.self_filter[0].why = "a < b & c";
@@ -110,13 +110,13 @@ TEST(CalibrationPage, NamesAreShownAsTheyAreAndMakeNoFiles) {
   report.warnings = {"<script>warning</script>"};
   const Page page(report, "a&b <scene>.yaml");
   EXPECT_EQ(page.texts("//h2"), Texts{name});
-  EXPECT_EQ(page.texts("//h1"), Texts{"Teach-in of a&b <scene>.yaml"});
+  EXPECT_EQ(page.texts("//h1"), Texts{"Calibration of a&b <scene>.yaml"});
   EXPECT_EQ(page.texts("//p[@class='warning']"), Texts{"<script>warning</script>"});
   EXPECT_TRUE(page.has("a &lt; b &amp; c"));
 }
 
 TEST(CalibrationPage, ARefusedPoseProposesNothing) {
-  testing::SmallTeachIn small;
+  testing::SmallCalibrationData small;
   small.found().refused = "the images agree by 0.20 of 2";
   small.found().X_PC = small.camera.X_PC;
   small.found().halves_m = std::nan("");
@@ -133,13 +133,13 @@ TEST(CalibrationPage, ARefusedPoseProposesNothing) {
 }
 
 TEST(CalibrationPage, FramesWithoutReadingsOrRobotAreShown) {
-  testing::SmallTeachIn small(3);
+  testing::SmallCalibrationData small(3);
   small.camera.frames[0].depth_m = DepthImage(160, 120, kNoDepth);
   const Page no_readings(small.report());
   EXPECT_EQ(no_readings.pictures().size(), 6);
   EXPECT_TRUE(no_readings.has("In frame 0 only 0 % of the robot has readings"));
 
-  for (TeachInFrame& frame : small.camera.frames) frame.depth_m = DepthImage(160, 120, kNoDepth);
+  for (CalibrationFrame& frame : small.camera.frames) frame.depth_m = DepthImage(160, 120, kNoDepth);
   small.found().X_PC.translation().x() = 50;
   small.found().before = small.found().after = {std::nan(""), std::nan(""), std::nan("")};
   const Page no_robot(small.report());
@@ -149,7 +149,7 @@ TEST(CalibrationPage, FramesWithoutReadingsOrRobotAreShown) {
 }
 
 TEST(CalibrationPage, FramesWhoseJointsAreNotKnownSaySo) {
-  testing::SmallTeachIn small(3);
+  testing::SmallCalibrationData small(3);
   small.found().clock_offset_s = -0.15;
   const Page page(small.report());
   EXPECT_EQ(page.pictures().size(), 4);
@@ -157,8 +157,8 @@ TEST(CalibrationPage, FramesWhoseJointsAreNotKnownSaySo) {
 }
 
 TEST(CalibrationPage, AllCamerasAndJointZerosAreTold) {
-  testing::SmallTeachIn small(2);
-  small.teach_in.cameras.push_back(&small.camera);
+  testing::SmallCalibrationData small(2);
+  small.calibration_data.cameras.push_back(&small.camera);
   small.result.cameras.push_back(small.found());
   small.result.cameras[1].camera = "second";
   small.result.joint_offsets = {{"joint_2", 0.0175}};
@@ -175,7 +175,7 @@ TEST(CalibrationPage, AllCamerasAndJointZerosAreTold) {
 TEST(CalibrationPage, AFolderThatCannotBeMadeIsNamed) {
   const TemporaryFolder folder;
   folder.write("taken", "");
-  const testing::SmallTeachIn small(1);
+  const testing::SmallCalibrationData small(1);
   const std::string message =
       error_message([&] { write_calibration_page(folder / "taken", "scene", small.report()); });
   EXPECT_NE(message.find("taken"), std::string::npos) << message;

@@ -7,7 +7,7 @@
 
 #include "apps/berth/calibration_frames.hpp"
 #include "apps/berth/residual_colors.hpp"
-#include "apps/berth/robot_webs.hpp"
+#include "apps/berth/flying_pixels_at_robot.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace berth::app {
@@ -33,7 +33,7 @@ Image<Rgb> read_png(const std::filesystem::path& file) {
 /// A robot of 20 x 20 pixels at 1 m in the middle, before a wall.
 struct OneSquare {
   static constexpr int kWidth = 60, kHeight = 50;
-  TeachInCamera camera;
+  CalibrationCamera camera;
   RobotImage robot{DepthImage(kWidth, kHeight, kNoDepth), Image<LinkId>(kWidth, kHeight, kNoLink)};
 
   explicit OneSquare(int frames = 1) {
@@ -60,10 +60,10 @@ struct OneSquare {
   Image<Rgb> drawn(const PixelRect& part = {0, 0, kWidth, kHeight}) {
     const TemporaryFolder folder;
     const DepthImage off_m = residual_m();
-    const Image<std::uint8_t> webs = robot_webs(camera, 0, robot);
+    const Image<std::uint8_t> flying = flying_pixels_at_robot(camera, 0, robot);
     const Image<Rgb> large = read_png(folder.write(
         "one.png",
-        calibration_picture_png({depth_m(), depth_tone(depth_m()), &robot, off_m, webs, part})));
+        calibration_picture_png({depth_m(), depth_tone(depth_m()), &robot, off_m, flying, part})));
     Image<Rgb> small(large.width() / 4, large.height() / 4);
     for (int v = 0; v < small.height(); ++v) {
       for (int u = 0; u < small.width(); ++u) small(u, v) = large(4 * u + 2, 4 * v + 2);
@@ -114,30 +114,30 @@ TEST(CalibrationPicture, ShowsThePartAskedFor) {
   EXPECT_TRUE(robot_rect(Image<LinkId>(5, 5, kEnvironmentLink)).empty());
 }
 
-TEST(RobotWebs, AreBesideTheRobotAndLikeIt) {
+TEST(FlyingPixelsAtRobot, AreBesideTheRobotAndLikeIt) {
   OneSquare one(5);
   one.depth_m()(42, 25) = 1.03F;  // beside it and like it
   one.depth_m()(43, 25) = 1.2F;   // behind it
   one.depth_m()(46, 25) = 1;      // 7 px, 7 cm away
   one.robot.link_id(41, 20) = kEnvironmentLink;
   one.depth_m()(41, 20) = 1;
-  const Image<std::uint8_t> webs = robot_webs(one.camera, 0, one.robot);
-  EXPECT_EQ(std::count(webs.pixels().begin(), webs.pixels().end(), 1), 1);
-  EXPECT_EQ(webs(42, 25), 1);
-  EXPECT_EQ(one.drawn()(42, 25), kWebColor);
+  const Image<std::uint8_t> flying = flying_pixels_at_robot(one.camera, 0, one.robot);
+  EXPECT_EQ(std::count(flying.pixels().begin(), flying.pixels().end(), 1), 1);
+  EXPECT_EQ(flying(42, 25), 1);
+  EXPECT_EQ(one.drawn()(42, 25), kFlyingPixelColor);
 }
 
-TEST(RobotWebs, WhatMostOtherFramesShowIsScenery) {
+TEST(FlyingPixelsAtRobot, WhatMostOtherFramesShowIsEnvironment) {
   OneSquare one(5);
   for (int k = 0; k < 3; ++k) one.camera.frames[k].depth_m(42, 25) = 1.02F;
-  EXPECT_EQ(robot_webs(one.camera, 0, one.robot)(42, 25), 0);
+  EXPECT_EQ(flying_pixels_at_robot(one.camera, 0, one.robot)(42, 25), 0);
   one.camera.frames[2].depth_m(42, 25) = 2;
-  EXPECT_EQ(robot_webs(one.camera, 0, one.robot)(42, 25), 1);
+  EXPECT_EQ(flying_pixels_at_robot(one.camera, 0, one.robot)(42, 25), 1);
 }
 
 TEST(FramesToDraw, AreAllOrSpreadWithTheWorst) {
-  TeachInCamera camera;
-  TeachInCoverage coverage;
+  CalibrationCamera camera;
+  CalibrationCoverage coverage;
   for (int k = 0; k < 30; ++k) {
     camera.frames.push_back({100 + k, {}, {}});
     coverage.frames.push_back({100 + k, 1, 1, 1, k == 7 ? 0.02 : 0.01});

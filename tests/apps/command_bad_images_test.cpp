@@ -1,7 +1,6 @@
 // `berth evaluate` refuses images that do not fit together.
 #include <gtest/gtest.h>
 
-#include "berth/files/file_bytes.hpp"
 #include "berth/files/png.hpp"
 #include "tests/apps/refusal.hpp"
 
@@ -49,29 +48,6 @@ TEST_F(BadImages, EachOfThemMissing) {
     expect_refusal({file, "No such file", "expected"});
     fs::rename(scene / "aside", scene / file);
   }
-}
-
-TEST_F(BadImages, EachOfThemCutOrOfAnotherSize) {
-  for (const std::string file :
-       {"f/robot_depth_000000.png", "f/link_ids_000000.png", "f/obstacle_depth_000000.png"}) {
-    const std::string bytes = read_file_bytes(scene / file);
-    scene.write(file, bytes.substr(0, bytes.size() - 20));
-    expect_refusal({file, "expected a complete"});
-    write_depth_png(scene / file, DepthImage(48, 64, 2), 0.001);
-    expect_refusal({file, "48 x 64", "expected the camera's 64 x 48"});
-    scene.write(file, bytes);
-  }
-}
-
-TEST_F(BadImages, DepthOf8Bits) {
-  fs::copy_file(scene / "f/link_ids_000000.png", scene / "f/obstacle_depth_000000.png",
-                fs::copy_options::overwrite_existing);
-  expect_refusal({"f/obstacle_depth_000000.png", "8-bit", "expected 16-bit grayscale"});
-}
-
-TEST_F(BadImages, CameraMatrixOfZeros) {
-  scene.write("camera_info.yaml", camera_info_text("[0, 0, 0, 0, 0, 0, 0, 0, 0]"));
-  expect_refusal({"camera_info.yaml:3: camera_matrix.data", "0; expected"});
 }
 
 TEST_F(BadImages, ResultFileCannotBeMade) {

@@ -20,27 +20,6 @@ std::int64_t pairs(const std::vector<Json>& frames) {
   return sum;
 }
 
-TEST(Methods, LatticeIsNeverCloserThanExact) {
-  const CommandScene scene;
-  const std::vector<Json> exact = scene.json(run_with({}));
-  const std::vector<Json> lattice = scene.json(
-      run_with({"--method", "lattice", "--step-x", "2", "--step-y", "3", "--search-pattern",
-                "spiral", "--initial-grid-radius-px", "20", "--final-grid-radius-px", "3"}));
-  int found = 0;
-  for (std::size_t i = 0; i < exact.size(); ++i) {
-    EXPECT_EQ(lattice[i]["method"], "lattice");
-    for (std::size_t k = 0; k < exact[i]["links"].size(); ++k) {
-      const Json& link = lattice[i]["links"][k];
-      EXPECT_EQ(link["robot_pixels"], exact[i]["links"][k]["robot_pixels"]);
-      if (link["status"] != "ok") continue;
-      ++found;
-      EXPECT_GE(link["distance_m"].get<double>(),
-                exact[i]["links"][k]["distance_m"].get<double>() - 1e-6);
-    }
-  }
-  EXPECT_GT(found, 6);
-}
-
 TEST(Methods, EachOptionOfLatticeChangesTheSearch) {
   const CommandScene scene;
   const auto pairs_with = [&](Words more) {
@@ -56,20 +35,6 @@ TEST(Methods, EachOptionOfLatticeChangesTheSearch) {
   EXPECT_GT(pairs_with({"--region", "image"}), without);
   EXPECT_NE(pairs_with({"--depth-interval", "cube"}), without);
   EXPECT_GT(pairs_with({"--shrinking", "none"}), without);
-}
-
-TEST(Methods, BruteForceWithARegionGivesWhatItGivesWithout) {
-  const CommandScene scene;
-  const std::vector<Json> all = scene.json(run_with({"--method", "brute_force"}));
-  const std::vector<Json> region =
-      scene.json(run_with({"--method", "brute_force", "--region", "cube_projection",
-                           "--search-pattern", "oscillating"}));
-  EXPECT_LT(pairs(region), pairs(all));
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    for (std::size_t k = 0; k < all[i]["links"].size(); ++k) {
-      EXPECT_EQ(region[i]["links"][k]["distance_m"], all[i]["links"][k]["distance_m"]);
-    }
-  }
 }
 
 TEST(Methods, OptionsAreRefusedForAMethodThatDoesNotHaveThem) {
@@ -106,17 +71,6 @@ TEST(Methods, OptionsAreRefusedForAMethodThatDoesNotHaveThem) {
         std::string::npos)
         << outcome.err;
   }
-}
-
-TEST(Methods, AFinalRadiusAboveTheInitialOneIsRefused) {
-  const CommandScene scene;
-  const Outcome outcome = scene.berth(run_with(
-      {"--method", "lattice", "--initial-grid-radius-px", "10", "--final-grid-radius-px", "11"}));
-  EXPECT_EQ(outcome.exit_status, 1);
-  EXPECT_EQ(outcome.out, "");
-  EXPECT_NE(outcome.err.find("evaluation.final_grid_radius_px: 11; expected a whole number from 1 to 10"),
-            std::string::npos)
-      << outcome.err;
 }
 
 }  // namespace

@@ -14,10 +14,12 @@ TEST(RunTime, AFrameThatTheJointsDoNotReachHasAStatusAndNoDistance) {
   for (const int i : {0, 2}) {
     EXPECT_EQ(frames[i]["time"]["status"], "extrapolated_too_far");
     EXPECT_EQ(frames[i]["stamp_s"], i == 0 ? -0.5 : 2.25);
+    EXPECT_EQ(frames[i]["status"], "stale");
+    EXPECT_TRUE(frames[i]["nearest"].is_null());
     EXPECT_EQ(frames[i]["pairs"], 0);
     EXPECT_EQ(frames[i]["links"].size(), frames[1]["links"].size());
     for (const Json& link : frames[i]["links"]) {
-      EXPECT_EQ(link["status"], "untimely");
+      EXPECT_EQ(link["status"], "stale");
       EXPECT_TRUE(link["distance_m"].is_null());
       EXPECT_TRUE(link["robot_point_base_m"].is_null());
     }

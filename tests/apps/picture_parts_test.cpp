@@ -23,10 +23,10 @@ bool inside(const BoxPx& a, const BoxPx& b) {
 PictureLayout layout_of(int width_px, int height_px, int links) {
   const DepthImage depth_m(width_px, height_px, 1.0F);
   const ObstacleImage obstacles{depth_m, Image<PixelFate>(width_px, height_px), {}};
-  LinkDistances distances;
-  distances.links.resize(links);
-  const std::vector<std::string> names(links, "a_name_of_usual_length");
-  return layout_picture({depth_m, nullptr, &obstacles, &distances, names, 1.0, ""});
+  LinkResult link;
+  link.link = "a_name_of_usual_length";
+  const std::vector<LinkResult> all(links, link);
+  return layout_picture({depth_m, nullptr, &obstacles, &all, 1.0, ""});
 }
 
 TEST(PictureLayout, SmallImagesGrowByAWholeFactor) {
@@ -110,7 +110,7 @@ TEST(PictureLabels, GoBesideWhatTheyShouldNotHide) {
 }
 
 TEST(PictureText, DistanceOrReason) {
-  LinkDistance link;
+  LinkResult link;
   link.status = LinkStatus::ok;
   link.distance_m = 0.1374F;
   EXPECT_EQ(distance_text(link, 1), "0.137 m");

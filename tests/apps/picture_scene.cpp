@@ -158,7 +158,7 @@ PixelFate fate_of(const DepthImage& room, const DepthImage& sensor, const RobotI
   if (near_robot(robot, u, v, pad_px)) return PixelFate::padding;
   if (near_robot(robot, u, v, 2 * pad_px)) return PixelFate::dilation;
   const Place p = place(room, u, v);
-  if (std::hypot(p.x - 0.07, p.y - 0.70) < 0.022) return PixelFate::island;
+  if (std::hypot(p.x - 0.07, p.y - 0.70) < 0.022) return PixelFate::flying_patch;
   const bool at_edge =
       u > 0 && v > 0 &&
       (std::abs(room(u, v) - room(u - 1, v)) > 0.3 || std::abs(room(u, v) - room(u, v - 1)) > 0.3);
@@ -180,14 +180,14 @@ ObstacleImage make_obstacles(const DepthImage& room, const DepthImage& sensor,
 }
 
 /// About what a search would find; every step-th pixel is enough for a picture.
-LinkDistance closest_pair(const RobotImage& robot, const DepthImage& obstacles, LinkId id) {
+LinkResult closest_pair(const RobotImage& robot, const DepthImage& obstacles, LinkId id) {
   const int step = std::max(1, obstacles.height() / 60);
-  LinkDistance best;
+  LinkResult best;
   best.id = id;
   for (int v = 0; v < obstacles.height(); v += step) {
     for (int u = 0; u < obstacles.width(); u += step) {
       if (robot.link_id(u, v) != id) continue;
-      if (best.robot_pixels++ == 0) best.status = LinkStatus::none_in_range;
+      if (best.image.robot_pixels++ == 0) best.status = LinkStatus::none_in_range;
       const double z = robot.depth_m(u, v), m_per_px = z / (0.9 * obstacles.width());
       for (int v2 = 0; v2 < obstacles.height(); v2 += step) {
         for (int u2 = 0; u2 < obstacles.width(); u2 += step) {
@@ -197,7 +197,7 @@ LinkDistance closest_pair(const RobotImage& robot, const DepthImage& obstacles, 
           if (!(d <= kRange_m) || std::isnan(obstacles(u2, v2)) || best.distance_m <= d) continue;
           best.distance_m = d;
           best.status = LinkStatus::ok;
-          best.robot_pixel = {u, v};
+          best.image.robot_pixel = {u, v};
           best.obstacle_pixel = {u2, v2};
         }
       }
@@ -212,8 +212,7 @@ PictureInput PictureScene::input() const {
   return {sensor_depth_m,
           &robot,
           &obstacles,
-          &distances,
-          link_names,
+          &links,
           kRange_m,
           "A made-up frame: an arm, a person, two boxes"};
 }
@@ -225,16 +224,16 @@ PictureScene make_picture_scene(int width_px, int height_px, int links) {
   scene.sensor_depth_m = make_sensor_depth(room, scene.robot);
   scene.obstacles = make_obstacles(room, scene.sensor_depth_m, scene.robot);
   for (int id = 1; id <= links; ++id) {
-    scene.distances.links.push_back(
+    scene.links.push_back(
         closest_pair(scene.robot, scene.obstacles.depth_m, static_cast<LinkId>(id)));
-    scene.link_names.push_back(links > 16 ? fmt::format("segment_{}_of_the_snake_link", id)
-                                          : fmt::format("link_{}", id));
+    scene.links.back().link = links > 16 ? fmt::format("segment_{}_of_the_snake_link", id)
+                                         : fmt::format("link_{}", id);
   }
-  LinkDistance& far = scene.distances.links.front();
-  const LinkId far_id = far.id;
-  far = LinkDistance();
-  far.id = far_id;
+  LinkResult far;
+  far.id = scene.links.front().id;
+  far.link = scene.links.front().link;
   far.status = LinkStatus::none_in_range;
+  scene.links.front() = far;
   return scene;
 }
 

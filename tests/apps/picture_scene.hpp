@@ -9,8 +9,7 @@ struct PictureScene {
   DepthImage sensor_depth_m;
   RobotImage robot;
   ObstacleImage obstacles;
-  LinkDistances distances;
-  std::vector<std::string> link_names;
+  std::vector<LinkResult> links;
 
   /// With pointers into this scene.
   PictureInput input() const;

@@ -69,22 +69,22 @@ bool all_neighbours(const Image<LinkId>& ids, int u, int v, LinkId id) {
 /// One link before a wall; its closest pair is 20 pixels long.
 struct OneLink {
   DepthImage sensor_depth_m{160, 120, 1.5F};
-  LinkDistances distances;
+  std::vector<LinkResult> links;
 
   OneLink() {
-    LinkDistance link;
+    LinkResult& link = links.emplace_back();
     link.id = 1;
+    link.link = "hand";
     link.status = LinkStatus::ok;
     link.distance_m = 0.25F;
-    link.robot_pixel = {60, 60};
+    link.image.robot_pixel = {60, 60};
     link.obstacle_pixel = {80, 60};
-    distances.links = {link};
   }
   PictureInput input() const {
-    return {sensor_depth_m, nullptr, nullptr, &distances, {"hand"}, 1.0, ""};
+    return {sensor_depth_m, nullptr, nullptr, &links, 1.0, ""};
   }
   PictureInput without_distances() const {
-    return {sensor_depth_m, nullptr, nullptr, nullptr, {}, 1.0, ""};
+    return {sensor_depth_m, nullptr, nullptr, nullptr, 1.0, ""};
   }
 };
 
@@ -105,7 +105,7 @@ std::string message_of(const std::filesystem::path& path, const PictureInput& in
 TEST(Picture, FileHasTheSizeOfItsLayout) {
   for (const auto& [width, height] : {std::pair{320, 240}, {640, 480}, {1280, 720}, {1920, 1080}}) {
     const DepthImage depth_m(width, height, 1.0F);
-    const Drawn drawn({depth_m, nullptr, nullptr, nullptr, {}, 1.0, "size"});
+    const Drawn drawn({depth_m, nullptr, nullptr, nullptr, 1.0, "size"});
     EXPECT_EQ(drawn.pixels().width(), drawn.layout().width_px);
     EXPECT_EQ(drawn.pixels().height(), drawn.layout().height_px);
     EXPECT_EQ(drawn.layout().image.width, width * drawn.layout().factor);
@@ -115,7 +115,7 @@ TEST(Picture, FileHasTheSizeOfItsLayout) {
 TEST(Picture, EveryPixelOfALinkHasThatLinksHue) {
   const PictureScene scene = make_picture_scene(320, 240, 7);
   PictureInput input = scene.input();
-  input.distances = nullptr;
+  input.links = nullptr;
   const Drawn drawn(input);
   std::vector<int> seen(8);
   for (int v = 1; v < 239; ++v) {
@@ -138,7 +138,7 @@ TEST(Picture, EachFateHasItsTintAndWhatIsKeptStaysGrey) {
     for (int u = 0; u < depth_m.width(); ++u)
       obstacles.fate(u, v) = static_cast<PixelFate>(u / kSide);
   }
-  const Drawn drawn({depth_m, nullptr, &obstacles, nullptr, {}, 1.0, ""});
+  const Drawn drawn({depth_m, nullptr, &obstacles, nullptr, 1.0, ""});
   const auto color = [&](PixelFate fate) {
     return drawn.at(static_cast<int>(fate) * kSide + kSide / 2, 30);
   };
@@ -157,15 +157,15 @@ TEST(Picture, AnObstacleBeforeTheRobotCoversIt) {
   const RobotImage robot{DepthImage(80, 60, 2.0F), Image<LinkId>(80, 60, 1)};
   const ObstacleImage kept{depth_m, Image<PixelFate>(80, 60, PixelFate::obstacle), {}};
   const ObstacleImage removed{depth_m, Image<PixelFate>(80, 60, PixelFate::robot), {}};
-  const Rgb before = Drawn({depth_m, &robot, &kept, nullptr, {}, 1.0, ""}).at(40, 30);
-  const Rgb robot_color = Drawn({depth_m, &robot, &removed, nullptr, {}, 1.0, ""}).at(40, 30);
+  const Rgb before = Drawn({depth_m, &robot, &kept, nullptr, 1.0, ""}).at(40, 30);
+  const Rgb robot_color = Drawn({depth_m, &robot, &removed, nullptr, 1.0, ""}).at(40, 30);
   EXPECT_EQ(robot_color, link_color(1));
   EXPECT_GT(before.b, robot_color.b + 80);
 }
 
 TEST(Picture, WithoutRobotAndObstaclesIsGreyDepth) {
   const PictureScene scene = make_picture_scene(320, 240, 7);
-  const Drawn drawn({scene.sensor_depth_m, nullptr, nullptr, nullptr, {}, 1.0, "depth only"});
+  const Drawn drawn({scene.sensor_depth_m, nullptr, nullptr, nullptr, 1.0, "depth only"});
   for (int v = 0; v < 240; ++v) {
     for (int u = 0; u < 320; ++u) {
       const bool reading = !std::isnan(scene.sensor_depth_m(u, v));
@@ -187,7 +187,7 @@ TEST(Picture, LineRunsFromTheRobotPixelToTheObstaclePixel) {
 TEST(Picture, LinksWithoutDistanceDrawNothingOnTheImage) {
   for (const LinkStatus status : {LinkStatus::none_in_range, LinkStatus::not_visible}) {
     OneLink one;
-    one.distances.links[0].status = status;
+    one.links[0].status = status;
     EXPECT_TRUE(
         changed(Drawn(one.input()), Drawn(one.without_distances()), one.sensor_depth_m).empty());
   }
@@ -195,8 +195,8 @@ TEST(Picture, LinksWithoutDistanceDrawNothingOnTheImage) {
 
 TEST(Picture, ContactStandsOut) {
   OneLink one;
-  one.distances.links[0].distance_m = 0;
-  one.distances.links[0].obstacle_pixel = one.distances.links[0].robot_pixel;
+  one.links[0].distance_m = 0;
+  one.links[0].obstacle_pixel = one.links[0].image.robot_pixel;
   const Drawn drawn(one.input()), bare(one.without_distances());
   // A ring around the place, beside the two ends.
   const PointPx centre = drawn.layout().centre({60, 60});
@@ -212,7 +212,7 @@ TEST(Picture, ContactStandsOut) {
 TEST(Picture, ImagesWithoutReadingsOrWithoutDepthOfFieldCanBeDrawn) {
   for (const float depth_m : {kNoDepth, 1.0F}) {
     const DepthImage image(64, 48, depth_m);
-    const Drawn drawn({image, nullptr, nullptr, nullptr, {}, 1.0, ""});
+    const Drawn drawn({image, nullptr, nullptr, nullptr, 1.0, ""});
     EXPECT_EQ(is_dark(drawn.at(32, 24)), std::isnan(depth_m));
   }
 }
@@ -265,14 +265,11 @@ TEST(PictureErrors, InputsThatDoNotFitTogetherAreRefused) {
   input.robot = &robot;
   refuses(input, "80x60, expected the sensor's 160x120");
   input = one.input();
-  input.link_names.clear();
-  refuses(input, "0 link names, expected 1");
-  input = one.input();
   input.range_m = 0;
   refuses(input, "range");
-  one.distances.links[0].obstacle_pixel = {160, 0};
+  one.links[0].obstacle_pixel = {160, 0};
   refuses(one.input(), "(160, 0)");
-  one.distances.links[0].id = 3;
+  one.links[0].id = 3;
   refuses(one.input(), "id 3");
   EXPECT_TRUE(folder.names().empty());
 }

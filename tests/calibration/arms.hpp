@@ -1,10 +1,11 @@
-// Robots that teach-in is tested with.
+// Robots that calibration is tested with.
 #pragma once
 
 #include <filesystem>
 
+#include "berth/render/robot_renderer.hpp"
 #include "berth/calibration/calibrate.hpp"
-#include "tests/support/drawn_teach_in.hpp"
+#include "sim/drawn_calibration_data.hpp"
 
 namespace berth {
 
@@ -15,9 +16,8 @@ struct Arm {
   explicit Arm(const RobotSettings& settings)
       : model(load_robot(settings)), meshes(build_link_meshes(model)) {}
 
-  testing::DrawnTeachIn draw(const testing::DrawnTeachInSettings& settings,
-                             std::uint32_t seed) const {
-    return testing::draw_teach_in(model, meshes, settings, seed);
+  sim::DrawnCalibrationData draw(const sim::DrawnCalibrationSettings& settings, std::uint32_t seed) const {
+    return sim::draw_calibration_data(model, meshes, settings, seed);
   }
 };
 
@@ -30,8 +30,8 @@ inline const Arm& bundled_arm() {
   return arm;
 }
 
-/// As teach-in would find it, were it perfect.
-inline CalibrationResult true_result(const testing::DrawnTeachIn& drawn) {
+/// As calibration would find it, were it perfect.
+inline CalibrationResult true_result(const sim::DrawnCalibrationData& drawn) {
   CalibrationResult result;
   CameraCalibration& camera = result.cameras.emplace_back();
   camera.camera = drawn.camera->name;

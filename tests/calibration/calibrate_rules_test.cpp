@@ -1,4 +1,4 @@
-// What holds of every teach-in, whatever the images: it repeats, stops, and refuses.
+// What holds of every calibration, whatever the images: it repeats, stops, and refuses.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -12,10 +12,10 @@
 namespace berth {
 namespace {
 
-using testing::DrawnTeachIn;
+using sim::DrawnCalibrationData;
 
 /// Small images, so that it is quick.
-DrawnTeachIn draw_small(std::uint32_t seed, int poses = 5) {
+DrawnCalibrationData draw_small(std::uint32_t seed, int poses = 5) {
   return bundled_arm().draw({.width_px = 320, .height_px = 240, .poses = poses}, seed);
 }
 
@@ -37,45 +37,45 @@ void expect_same(const CameraCalibration& a, const CameraCalibration& b) {
 }
 
 TEST(CalibrateRules, OneThreadFindsTheSameBits) {
-  DrawnTeachIn drawn = draw_small(1);
+  DrawnCalibrationData drawn = draw_small(1);
   disturb(drawn, 0.05, 5 * kDegree, 1);
-  const CalibrationResult many = calibrate(drawn.teach_in, {.joint_zeros = true});
+  const CalibrationResult many = calibrate(drawn.calibration_data, {.joint_zeros = true});
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-  const CalibrationResult one = calibrate(drawn.teach_in, {.joint_zeros = true});
+  const CalibrationResult one = calibrate(drawn.calibration_data, {.joint_zeros = true});
   expect_same(many.cameras[0], one.cameras[0]);
   EXPECT_EQ(many.joint_offsets, one.joint_offsets);
   EXPECT_EQ(many.joints_not_determined, one.joints_not_determined);
 }
 
 TEST(CalibrateRules, ACameraIsFoundBesideOthersAsItIsAlone) {
-  DrawnTeachIn left = draw_small(1);
-  DrawnTeachIn right = draw_small(2);
+  DrawnCalibrationData left = draw_small(1);
+  DrawnCalibrationData right = draw_small(2);
   disturb(left, 0.05, 5 * kDegree, 1);
   disturb(right, 0.05, 5 * kDegree, 2);
   right.camera->name = "right";
-  TeachIn both = left.teach_in;
+  CalibrationData both = left.calibration_data;
   both.joints = nullptr;
   both.cameras = {left.camera.get(), right.camera.get()};
   const CalibrationResult found = calibrate(both);
   ASSERT_EQ(found.cameras.size(), 2U);
   EXPECT_EQ(found.cameras[1].camera, "right");
-  expect_same(found.cameras[0], calibrate(left.teach_in).cameras[0]);
-  expect_same(found.cameras[1], calibrate(right.teach_in).cameras[0]);
+  expect_same(found.cameras[0], calibrate(left.calibration_data).cameras[0]);
+  expect_same(found.cameras[1], calibrate(right.calibration_data).cameras[0]);
 }
 
 TEST(CalibrateRules, APauseThatThrowsStopsIt) {
-  const DrawnTeachIn drawn = draw_small(1);
+  const DrawnCalibrationData drawn = draw_small(1);
   int pauses = 0;
   const auto stop = [&pauses] {
     if (++pauses == 3) throw std::runtime_error("stopped");
   };
-  EXPECT_THROW(calibrate(drawn.teach_in, {.pause = stop}), std::runtime_error);
+  EXPECT_THROW(calibrate(drawn.calibration_data, {.pause = stop}), std::runtime_error);
   EXPECT_EQ(pauses, 3);
 }
 
 /// No pose explains the images; the start's is told. Gives the sentence.
-std::string expect_refused(const DrawnTeachIn& drawn) {
-  const CameraCalibration found = calibrate(drawn.teach_in).cameras[0];
+std::string expect_refused(const DrawnCalibrationData& drawn) {
+  const CameraCalibration found = calibrate(drawn.calibration_data).cameras[0];
   EXPECT_FALSE(found.is_found);
   EXPECT_NE(found.refused.find("no pose was found that explains the images: the best agrees by "),
             std::string::npos)
@@ -88,13 +88,13 @@ std::string expect_refused(const DrawnTeachIn& drawn) {
 
 TEST(CalibrateRules, ACameraThatSeesNoRobotIsRefused) {
   // The room alone, from where there are readings.
-  DrawnTeachIn drawn = draw_small(1, 3);
-  for (TeachInFrame& frame : drawn.camera->frames) {
+  DrawnCalibrationData drawn = draw_small(1, 3);
+  for (CalibrationFrame& frame : drawn.camera->frames) {
     std::fill(frame.depth_m.pixels().begin(), frame.depth_m.pixels().end(), 3.5F);
   }
   expect_refused(drawn);
   // And one that looks away, so that the robot is never in the image.
-  DrawnTeachIn away = draw_small(1, 3);
+  DrawnCalibrationData away = draw_small(1, 3);
   away.camera->X_PC = away.camera->X_PC * Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitY());
   EXPECT_TRUE(expect_refused(away).starts_with(
       "nothing of the robot is seen where the scene has the camera, in any of its 3 frames, and no "
@@ -102,26 +102,26 @@ TEST(CalibrateRules, ACameraThatSeesNoRobotIsRefused) {
 }
 
 TEST(CalibrateRules, ImagesOfNoiseAreRefused) {
-  DrawnTeachIn drawn = draw_small(1, 3);
-  testing::Random random(5);
-  for (TeachInFrame& frame : drawn.camera->frames) {
+  DrawnCalibrationData drawn = draw_small(1, 3);
+  sim::Random random(5);
+  for (CalibrationFrame& frame : drawn.camera->frames) {
     for (float& z_m : frame.depth_m.pixels()) z_m = static_cast<float>(random(0.3, 4));
   }
   expect_refused(drawn);
 }
 
 TEST(CalibrateRules, ImagesWithoutAReadingAreRefused) {
-  DrawnTeachIn drawn = draw_small(1, 3);
-  for (TeachInFrame& frame : drawn.camera->frames) {
+  DrawnCalibrationData drawn = draw_small(1, 3);
+  for (CalibrationFrame& frame : drawn.camera->frames) {
     frame.depth_m.resize(320, 240, kNoDepth);
   }
   expect_refused(drawn);
 }
 
 TEST(CalibrateRules, OneFrameIsFittedButNothingChecksIt) {
-  DrawnTeachIn drawn = draw_small(3, 1);
+  DrawnCalibrationData drawn = draw_small(3, 1);
   disturb(drawn, 0.02, 2 * kDegree, 1);
-  const CameraCalibration found = calibrate(drawn.teach_in).cameras[0];
+  const CameraCalibration found = calibrate(drawn.calibration_data).cameras[0];
   EXPECT_TRUE(found.is_found);
   EXPECT_TRUE(std::isnan(found.halves_m));
   EXPECT_GT(found.score_after, found.score_before);
@@ -129,24 +129,24 @@ TEST(CalibrateRules, OneFrameIsFittedButNothingChecksIt) {
 
 TEST(CalibrateRules, ACameraThatALinkCarriesIsFound) {
   // It looks at the arm from beside the first link that turns, and turns with it.
-  DrawnTeachIn drawn = draw_small(2);
+  DrawnCalibrationData drawn = draw_small(2);
   const RobotModel& model = bundled_arm().model;
-  TeachInCamera& camera = *drawn.camera;
+  CalibrationCamera& camera = *drawn.camera;
   camera.parent = *model.find_link("arm_link_1");
   RobotPose pose;
   forward_kinematics(model, camera.frames[0].joints.position, pose);
   drawn.X_PC_true = pose.X_BL[camera.parent].inverse() * drawn.X_PC_true;
   RobotRenderer renderer(bundled_arm().meshes, camera.camera);
   RobotImage robot;
-  for (TeachInFrame& frame : camera.frames) {
+  for (CalibrationFrame& frame : camera.frames) {
     forward_kinematics(model, frame.joints.position, pose);
     renderer.render(pose, pose.X_BL[camera.parent] * drawn.X_PC_true, robot);
     frame.depth_m = robot.depth_m;
     for (float& z_m : frame.depth_m.pixels()) z_m = std::fmin(z_m, 5.0F);
-    testing::add_noise(0.0015, 1, frame.depth_m);
+    sim::add_noise(0.0015, 1, frame.depth_m);
   }
   disturb(drawn, 0.05, 5 * kDegree, 1);
-  const CalibrationResult found = calibrate(drawn.teach_in);
+  const CalibrationResult found = calibrate(drawn.calibration_data);
   EXPECT_EQ(found.cameras[0].refused, "");
   // Its points as the camera sees them, at the first pose; at the others they are carried along.
   const Pose X_CC = found.cameras[0].X_PC.inverse() * drawn.X_PC_true;
@@ -176,13 +176,13 @@ DepthImage room_m(const Camera& camera, const Pose& X_BC) {
   return depth_m;
 }
 
-DrawnTeachIn draw_carried(testing::DrawnMount mount, std::uint32_t seed) {
+DrawnCalibrationData draw_carried(sim::DrawnMount mount, std::uint32_t seed) {
   return bundled_arm().draw(
       {.width_px = 320, .height_px = 240, .poses = 5, .moves = true, .mount = mount}, seed);
 }
 
 /// The same way, and nothing of the robot in the images.
-void empty_images(DrawnTeachIn& drawn) {
+void empty_images(DrawnCalibrationData& drawn) {
   RobotPose pose;
   for (std::size_t k = 0; k < drawn.camera->frames.size(); ++k) {
     forward_kinematics(bundled_arm().model, drawn.joints_at_exposure[k], pose);
@@ -192,11 +192,11 @@ void empty_images(DrawnTeachIn& drawn) {
 }
 
 TEST(CalibrateRules, ACameraOnTheHandIsFoundByTheRestOfTheArm) {
-  for (const auto mount : {testing::DrawnMount::hand, testing::DrawnMount::upper_link}) {
-    DrawnTeachIn drawn = draw_carried(mount, 1);
+  for (const auto mount : {sim::DrawnMount::hand, sim::DrawnMount::upper_link}) {
+    DrawnCalibrationData drawn = draw_carried(mount, 1);
     ASSERT_NE(drawn.camera->parent, 0U);
     disturb(drawn, 0.05, 5 * kDegree, 1);
-    const CameraCalibration found = calibrate(drawn.teach_in).cameras[0];
+    const CameraCalibration found = calibrate(drawn.calibration_data).cameras[0];
     EXPECT_EQ(found.refused, "");
     EXPECT_LT(lab::seen_points_apart_m(drawn, found.X_PC, drawn.joint_shift), 0.003);
     EXPECT_NEAR(found.clock_offset_s, 0, 0.003);
@@ -205,7 +205,7 @@ TEST(CalibrateRules, ACameraOnTheHandIsFoundByTheRestOfTheArm) {
 
 TEST(CalibrateRules, ACameraOnTheHandThatSeesNothingOfTheRobotIsRefused) {
   // Where the scene has it, the robot should be in view.
-  DrawnTeachIn drawn = draw_carried(testing::DrawnMount::hand, 1);
+  DrawnCalibrationData drawn = draw_carried(sim::DrawnMount::hand, 1);
   empty_images(drawn);
   expect_refused(drawn);
 }

@@ -12,15 +12,15 @@
 namespace berth {
 namespace {
 
-using testing::DrawnTeachIn;
+using sim::DrawnCalibrationData;
 
 TEST(Calibrate, ThePoseComesBackFromFiveCentimetresAndDegrees) {
   std::vector<double> errors_m;
   for (std::uint32_t seed = 1; seed <= 3; ++seed) {
     SCOPED_TRACE(seed);
-    DrawnTeachIn drawn = bundled_arm().draw({}, seed);
+    DrawnCalibrationData drawn = bundled_arm().draw({}, seed);
     disturb(drawn, 0.05, 5 * kDegree, seed + 100);
-    const CalibrationResult found = calibrate(drawn.teach_in);
+    const CalibrationResult found = calibrate(drawn.calibration_data);
     expect_found(drawn, found);
     errors_m.push_back(robot_error_m(drawn, found));
     const CameraCalibration& camera = found.cameras[0];
@@ -40,9 +40,9 @@ TEST(Calibrate, ThePoseComesBackFromFiveCentimetresAndDegrees) {
 }
 
 TEST(Calibrate, ThePoseComesBackFromTwentyCentimetresAndFifteenDegrees) {
-  DrawnTeachIn drawn = bundled_arm().draw({}, 1);
+  DrawnCalibrationData drawn = bundled_arm().draw({}, 1);
   disturb(drawn, 0.20, 15 * kDegree, 201);
-  expect_found(drawn, calibrate(drawn.teach_in));
+  expect_found(drawn, calibrate(drawn.calibration_data));
 }
 
 TEST(Calibrate, RealRobotsComeBackToo) {
@@ -51,15 +51,15 @@ TEST(Calibrate, RealRobotsComeBackToo) {
   for (const char* urdf : {"xarm7/xarm7.urdf", "kuka_lbr_med7/lbr_med7.urdf"}) {
     SCOPED_TRACE(urdf);
     const Arm arm({.urdf = robots / urdf});
-    DrawnTeachIn drawn = arm.draw({}, 3);
+    DrawnCalibrationData drawn = arm.draw({}, 3);
     disturb(drawn, 0.05, 5 * kDegree, 300);
-    expect_found(drawn, calibrate(drawn.teach_in));
+    expect_found(drawn, calibrate(drawn.calibration_data));
   }
 }
 
 TEST(Calibrate, AStartThatIsRightIsKept) {
-  DrawnTeachIn drawn = bundled_arm().draw({}, 2);
-  const CalibrationResult found = calibrate(drawn.teach_in);
+  DrawnCalibrationData drawn = bundled_arm().draw({}, 2);
+  const CalibrationResult found = calibrate(drawn.calibration_data);
   EXPECT_LT(robot_error_m(drawn, found), 0.0025);
   EXPECT_LT(found.cameras[0].moved_m, 0.0025);
   EXPECT_GE(found.cameras[0].score_after, found.cameras[0].score_before);
@@ -67,8 +67,8 @@ TEST(Calibrate, AStartThatIsRightIsKept) {
 
 TEST(Calibrate, AStartThatIsNotBetteredIsKeptAndSaysSo) {
   // An ideal sensor: nothing agrees better with the images than the truth.
-  DrawnTeachIn drawn = bundled_arm().draw({.has_sensor_errors = false}, 4);
-  const CameraCalibration found = calibrate(drawn.teach_in).cameras[0];
+  DrawnCalibrationData drawn = bundled_arm().draw({.has_sensor_errors = false}, 4);
+  const CameraCalibration found = calibrate(drawn.calibration_data).cameras[0];
   EXPECT_TRUE(found.is_found);
   if (found.refused.empty()) {
     EXPECT_GE(found.score_after, found.score_before);
@@ -87,10 +87,10 @@ TEST(Calibrate, AStartThatIsNotBetteredIsKeptAndSaysSo) {
 TEST(Calibrate, TheClocksOffsetIsFound) {
   for (const double offset_s : {0.050, -0.030}) {
     SCOPED_TRACE(offset_s);
-    DrawnTeachIn drawn =
+    DrawnCalibrationData drawn =
         bundled_arm().draw({.moves = true, .errors = {.clock_offset_s = offset_s}}, 1);
     disturb(drawn, 0.03, 3 * kDegree, 400);
-    const CalibrationResult found = calibrate(drawn.teach_in);
+    const CalibrationResult found = calibrate(drawn.calibration_data);
     expect_found(drawn, found);
     EXPECT_NEAR(found.cameras[0].clock_offset_s, offset_s, 0.002);
     EXPECT_LT(found.cameras[0].sigma_clock_s, 0.005);
@@ -101,25 +101,25 @@ TEST(Calibrate, TheClocksOffsetIsFound) {
 }
 
 TEST(Calibrate, AnOffsetThatTheSceneHasIsBuiltUpon) {
-  DrawnTeachIn drawn = bundled_arm().draw({.moves = true, .errors = {.clock_offset_s = 0.045}}, 2);
+  DrawnCalibrationData drawn = bundled_arm().draw({.moves = true, .errors = {.clock_offset_s = 0.045}}, 2);
   // The stamps stay; what is believed of the joints goes with the offset.
   drawn.camera->clock_offset_s = 0.030;
-  for (TeachInFrame& frame : drawn.camera->frames) {
+  for (CalibrationFrame& frame : drawn.camera->frames) {
     const double stamp_s = frame.joints.stamp_s;
     drawn.joints->at(stamp_s + 0.030, kOnlyBetweenSamples, frame.joints);
     frame.joints.stamp_s = stamp_s;
   }
-  const CalibrationResult found = calibrate(drawn.teach_in);
+  const CalibrationResult found = calibrate(drawn.calibration_data);
   expect_found(drawn, found);
   EXPECT_NEAR(found.cameras[0].clock_offset_s, 0.045, 0.002);
 }
 
 TEST(Calibrate, AnArmThatStandsTellsNoClock) {
-  DrawnTeachIn drawn = bundled_arm().draw({}, 3);
+  DrawnCalibrationData drawn = bundled_arm().draw({}, 3);
   drawn.camera->has_stamps = true;
   drawn.camera->clock_offset_s = 0.010;
   disturb(drawn, 0.03, 3 * kDegree, 500);
-  const CalibrationResult found = calibrate(drawn.teach_in);
+  const CalibrationResult found = calibrate(drawn.calibration_data);
   expect_found(drawn, found);
   EXPECT_EQ(found.cameras[0].clock_offset_s, 0.010) << "it stays";
   EXPECT_EQ(std::count(found.cameras[0].not_determined.begin(),
@@ -129,9 +129,9 @@ TEST(Calibrate, AnArmThatStandsTellsNoClock) {
 
 TEST(Calibrate, ADepthErrorOfAPercentIsFound) {
   constexpr double kShare = 0.01;
-  DrawnTeachIn drawn = bundled_arm().draw({.errors = {.depth_share = kShare}}, 2);
+  DrawnCalibrationData drawn = bundled_arm().draw({.errors = {.depth_share = kShare}}, 2);
   disturb(drawn, 0.05, 5 * kDegree, 600);
-  const CalibrationResult found = calibrate(drawn.teach_in);
+  const CalibrationResult found = calibrate(drawn.calibration_data);
   expect_found(drawn, found);
   // Offset and scale stand for each other: what they make of a reading is what counts.
   const DepthError& depth = found.cameras[0].depth;

@@ -8,7 +8,7 @@
 #include "berth/render/robot_renderer.hpp"
 #include "berth/robot/kinematics.hpp"
 #include "tests/calibration/arms.hpp"
-#include "tests/support/sensor_model.hpp"
+#include "sim/sensor_model.hpp"
 
 namespace berth {
 namespace {
@@ -26,23 +26,23 @@ class FilterProposalOf : public ::testing::Test {
  protected:
   FilterProposalOf() {
     RobotRenderer renderer(bundled_arm().meshes, camera().camera);
-    for (const TeachInFrame& frame : camera().frames) {
+    for (const CalibrationFrame& frame : camera().frames) {
       RobotPose pose;
       forward_kinematics(bundled_arm().model, frame.joints.position, pose);
       renderer.render(pose, drawn_.X_PC_true, robots_.emplace_back());
     }
   }
 
-  TeachInCamera& camera() { return *drawn_.camera; }
+  CalibrationCamera& camera() { return *drawn_.camera; }
 
   FilterProposal propose(const SensorSettings& sensor = {}, bool corrects_depth = false) {
-    return propose_filter(drawn_.teach_in, 0, found_, corrects_depth, {}, sensor);
+    return propose_filter(drawn_.calibration_data, 0, found_, corrects_depth, {}, sensor);
   }
 
   static bool is_arm(LinkId id) { return id != kNoLink && id != kEnvironmentLink; }
 
   /// The camera sees the arm wider than it is, by this on each side.
-  void draw_webs(int width_px) {
+  void draw_flying_pixels(int width_px) {
     for (std::size_t f = 0; f < robots_.size(); ++f) {
       const RobotImage& robot = robots_[f];
       DepthImage& depth_m = camera().frames[f].depth_m;
@@ -82,7 +82,7 @@ class FilterProposalOf : public ::testing::Test {
     FAIL() << "no room";
   }
 
-  testing::DrawnTeachIn drawn_ =
+  sim::DrawnCalibrationData drawn_ =
       bundled_arm().draw({.poses = 3, .has_sensor_errors = false}, 2);
   CalibrationResult found_ = true_result(drawn_);
   std::vector<RobotImage> robots_;
@@ -106,7 +106,7 @@ TEST_F(FilterProposalOf, AnIdealCameraNeedsTheLeast) {
 TEST_F(FilterProposalOf, TheToleranceGrowsWithTheNoise) {
   double before_m = value_of(propose().self_filter, "tolerance_m");
   for (const double deviation_m : {0.01, 0.01}) {
-    for (TeachInFrame& frame : camera().frames) testing::add_noise(deviation_m, 1, frame.depth_m);
+    for (CalibrationFrame& frame : camera().frames) sim::add_noise(deviation_m, 1, frame.depth_m);
     const double now_m = value_of(propose().self_filter, "tolerance_m");
     EXPECT_GT(now_m, before_m);
     EXPECT_LT(now_m, 0.11);
@@ -115,10 +115,10 @@ TEST_F(FilterProposalOf, TheToleranceGrowsWithTheNoise) {
   }
 }
 
-TEST_F(FilterProposalOf, ThePaddingGrowsWithTheWebs) {
+TEST_F(FilterProposalOf, ThePaddingGrowsWithTheFlyingPixels) {
   double before_m = value_of(propose().self_filter, "padding_m");
   for (const int width_px : {8, 14}) {
-    draw_webs(width_px);
+    draw_flying_pixels(width_px);
     const double now_m = value_of(propose().self_filter, "padding_m");
     EXPECT_GT(now_m, before_m);
     EXPECT_LE(now_m, 0.10);
@@ -127,7 +127,7 @@ TEST_F(FilterProposalOf, ThePaddingGrowsWithTheWebs) {
 }
 
 TEST_F(FilterProposalOf, ABiasIsToldUnlessItIsCorrected) {
-  for (TeachInFrame& frame : camera().frames) {
+  for (CalibrationFrame& frame : camera().frames) {
     for (float& z_m : frame.depth_m.pixels()) z_m += 0.015F;
   }
   found_.cameras[0].depth.offset_m = -0.015;

@@ -16,10 +16,10 @@ TEST(JointZeros, ToldOnesAreRightAndTheFirstAndTheLastAreNeverTold) {
   std::size_t told = 0;
   for (const std::uint32_t seed : {1U}) {
     SCOPED_TRACE(seed);
-    testing::DrawnTeachIn drawn =
+    sim::DrawnCalibrationData drawn =
         bundled_arm().draw({.poses = 10, .errors = {.joint_zero = 1 * kDegree}}, seed);
     disturb(drawn, 0.03, 3 * kDegree, seed);
-    const CalibrationResult found = calibrate(drawn.teach_in, {.joint_zeros = true});
+    const CalibrationResult found = calibrate(drawn.calibration_data, {.joint_zeros = true});
     EXPECT_EQ(found.cameras[0].refused, "");
     EXPECT_TRUE(holds(found.joints_not_determined, joints.front().name));
     EXPECT_TRUE(holds(found.joints_not_determined, joints.back().name));
@@ -36,8 +36,8 @@ TEST(JointZeros, ToldOnesAreRightAndTheFirstAndTheLastAreNeverTold) {
 }
 
 TEST(JointZeros, WhereTheyAreRightWhatIsToldIsNothing) {
-  testing::DrawnTeachIn drawn = bundled_arm().draw({.width_px = 320, .height_px = 240, .poses = 10}, 3);
-  const CalibrationResult found = calibrate(drawn.teach_in, {.joint_zeros = true});
+  sim::DrawnCalibrationData drawn = bundled_arm().draw({.width_px = 320, .height_px = 240, .poses = 10}, 3);
+  const CalibrationResult found = calibrate(drawn.calibration_data, {.joint_zeros = true});
   for (const auto& [joint, offset] : found.joint_offsets) {
     EXPECT_NEAR(offset, 0, 0.3 * kDegree) << joint;
   }
@@ -45,9 +45,9 @@ TEST(JointZeros, WhereTheyAreRightWhatIsToldIsNothing) {
 }
 
 TEST(JointZeros, TheyAreNotLookedForUnasked) {
-  const testing::DrawnTeachIn drawn =
+  const sim::DrawnCalibrationData drawn =
       bundled_arm().draw({.width_px = 320, .height_px = 240, .poses = 3}, 1);
-  const CalibrationResult found = calibrate(drawn.teach_in);
+  const CalibrationResult found = calibrate(drawn.calibration_data);
   EXPECT_TRUE(found.joint_offsets.empty());
   EXPECT_TRUE(found.joints_not_determined.empty());
 }

@@ -11,10 +11,10 @@ class MovedEnvironment : public ::testing::Test {
  protected:
   MovedEnvironment() {
     // Numbers that are not places: frames may have been left out.
-    for (TeachInFrame& frame : drawn_.camera->frames) frame.number = 10 + 3 * frame.number;
+    for (CalibrationFrame& frame : drawn_.camera->frames) frame.number = 10 + 3 * frame.number;
   }
   std::vector<EnvironmentChange> look() const {
-    return moved_environment(drawn_.teach_in, true_result(drawn_));
+    return moved_environment(drawn_.calibration_data, true_result(drawn_));
   }
 
   /// As if something stood there that reaches over this share of the image.
@@ -25,7 +25,7 @@ class MovedEnvironment : public ::testing::Test {
     }
   }
 
-  testing::DrawnTeachIn drawn_ = bundled_arm().draw({}, 2);
+  sim::DrawnCalibrationData drawn_ = bundled_arm().draw({}, 2);
 };
 
 TEST_F(MovedEnvironment, TheArmAloneIsNoChange) { EXPECT_TRUE(look().empty()); }

@@ -1,7 +1,6 @@
-// Teach-in on two real recordings, thinned; all of it: build/release/lab/measure_calibration.
+// Calibration on two real recordings, thinned; all of it: build/release/lab/measure_calibration.
 #include <gtest/gtest.h>
 
-#include "berth/scene/scene_teach_in.hpp"
 #include "lab/calibration/judge.hpp"
 #include "tests/calibration/found_error.hpp"
 #include "tests/support/data_folder.hpp"
@@ -9,33 +8,8 @@
 namespace berth {
 namespace {
 
-struct Taught {
-  CalibrationResult found;
-  FilterProposal proposal;
-};
-
-Taught teach(const SceneFile& file) {
-  const OpenScene scene = open_scene(file);
-  const SceneTeachIn material = make_teach_in(scene);
-  Taught taught{calibrate(material.teach_in), {}};
-  const ViewSettings& settings = scene.cameras[0].view->settings();
-  taught.proposal = propose_filter(material.teach_in, 0, taught.found, false, settings.self_filter,
-                                   settings.sensor);
-  return taught;
-}
-
-/// The mean over points about the robot's middle, which is 1.2 m before these cameras.
-double apart_m(const Pose& a, const Pose& b) {
-  const Pose X_CC = b.inverse() * a;
-  double sum_m = 0;
-  for (const double x : {-0.3, 0.0, 0.3}) {
-    for (const double y : {-0.3, 0.0, 0.3}) {
-      const Eigen::Vector3d p_C_m(x, y, 1.2);
-      sum_m += (X_CC * p_C_m - p_C_m).norm();
-    }
-  }
-  return sum_m / 9;
-}
+/// Of the robot's middle before these cameras.
+constexpr double kRobotDepth_m = 1.2;
 
 class Recording : public ::testing::TestWithParam<const char*> {
  protected:
@@ -45,9 +19,9 @@ class Recording : public ::testing::TestWithParam<const char*> {
     scene_ = read_scene(folder_ / "scene.yaml");
   }
 
-  void expect_good(const SceneFile& start, const Taught& taught) const {
+  void expect_good(const SceneFile& start, const lab::Calibrated& calibrated) const {
     const lab::Judgement judged =
-        lab::judge(lab::with_result(start, taught.found, taught.proposal), folder_);
+        lab::judge(lab::with_result(start, calibrated), folder_);
     SCOPED_TRACE(lab::text_of(judged));
     EXPECT_EQ(judged.too_far, 0);
     EXPECT_GT(judged.checked + judged.estimates, 15);
@@ -63,7 +37,7 @@ class Recording : public ::testing::TestWithParam<const char*> {
 };
 
 TEST_P(Recording, StartsThatAreOffComeBackAndTheirSettingsAreGood) {
-  const Taught reference = teach(scene_);
+  const lab::Calibrated reference = lab::calibration_data(scene_);
   expect_good(scene_, reference);
   struct Start {
     double offset_m;
@@ -74,11 +48,13 @@ TEST_P(Recording, StartsThatAreOffComeBackAndTheirSettingsAreGood) {
     SCOPED_TRACE(start.seed);
     SceneFile off = scene_;
     Pose& X_PC = off.cameras[0].X_PC;
-    X_PC = testing::miscalibrated(X_PC, start.offset_m, start.angle_deg * kDegree, start.seed);
-    const Taught taught = teach(off);
-    EXPECT_EQ(taught.found.cameras[0].refused, "");
-    EXPECT_LT(apart_m(taught.found.cameras[0].X_PC, reference.found.cameras[0].X_PC), 0.005);
-    expect_good(off, taught);
+    X_PC = sim::miscalibrated(X_PC, start.offset_m, start.angle_deg * kDegree, start.seed);
+    const lab::Calibrated calibrated = lab::calibration_data(off);
+    EXPECT_EQ(calibrated.found.cameras[0].refused, "");
+    EXPECT_LT(lab::apart_m(calibrated.found.cameras[0].X_PC, reference.found.cameras[0].X_PC,
+                           kRobotDepth_m),
+              0.005);
+    expect_good(off, calibrated);
   }
 }
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "tests/calibration/hand_made_image.hpp"
+#include "tests/fit/hand_made_image.hpp"
 
 namespace berth {
 namespace {
@@ -18,7 +18,7 @@ class Swallowed : public ::testing::Test {
     image_.camera = kCamera;
     image_.robot = {DepthImage(640, 480, kNoDepth), Image<LinkId>(640, 480, kNoLink)};
   }
-  std::vector<FilteredView> views() {
+  std::vector<FilteredCamera> views() {
     depth_m_ = sensed(image_.robot);
     return {{&kCamera, depth_m_, &image_.robot, &self_filter_, &sensor_}};
   }

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "berth/calibration/estimate.hpp"
+#include "berth/fit/estimate.hpp"
 
 namespace berth {
 namespace {

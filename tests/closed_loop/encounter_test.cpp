@@ -1,23 +1,24 @@
-// The simulation itself: people, arm and judge are what they say.
-#include "lab/closed_loop/encounter.hpp"
+// The simulation itself: people, arm and contact check are what they say.
+#include "sim/encounter.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "lab/closed_loop/cell.hpp"
-#include "lab/closed_loop/judge.hpp"
 #include "lab/closed_loop/moving_arm.hpp"
 #include "lab/closed_loop/policies.hpp"
 #include "lab/closed_loop/simulation.hpp"
+#include "sim/contact_check.hpp"
+#include "sim/person.hpp"
 
 namespace berth::lab {
 namespace {
 
 TEST(ClosedLoop, NobodyIsFasterThanTheySay) {
-  const std::vector<TriangleMesh> parts = person_parts();
+  const std::vector<TriangleMesh> parts = sim::make_person_meshes();
   for (const std::uint32_t seed : {0U, 1U, 2U}) {
-    const Encounter encounter(seed);
+    const sim::Encounter encounter(seed);
     EXPECT_LE(encounter.speed_m_s(), 1.6);
     double fastest_m_s = 0;
     constexpr double kStep_s = 0.005;
@@ -56,24 +57,24 @@ TEST(ClosedLoop, TheArmsSpeedChangesNoFasterThanItsMotorsAllow) {
   EXPECT_GT(fastest_m_s, 0.8);
 }
 
-TEST(ClosedLoop, TheJudgeFindsWhatFclFindsAtEachStep) {
+TEST(ClosedLoop, TheContactCheckFindsWhatFclFindsAtEachStep) {
   const RobotModel model = cell_model();
-  const TrueClearance clearance(model, person_parts());
-  const Encounter encounter(2);
+  const sim::TrueClearance clearance(model, sim::make_person_meshes());
+  const sim::Encounter encounter(2);
   MovingArm arm(model, encounter.first_phase());
-  Judge judge(clearance);
+  sim::ContactCheck check(clearance);
   double least_m = std::numeric_limits<double>::infinity();
   const double middle_s = encounter.duration_s() / 2;
   for (double t = middle_s - 0.6; t < middle_s + 0.6; t += 0.02) {
     for (int i = 0; i < 20; ++i) arm.step(1, 0.001);
-    const Meeting meeting{t, arm.pose(), encounter.pose_at(t), arm.fastest_m_s()};
-    if (judge.wants(t)) judge.look(meeting);
-    const double now_m = clearance.at(meeting.pose, meeting.X_BP);
-    EXPECT_LE(clearance.at_least(meeting.pose, meeting.X_BP), now_m + 1e-6);
-    if (meeting.fastest_m_s >= kMoving_m_s) least_m = std::min(least_m, now_m);
+    const sim::ContactSample sample{t, arm.pose(), encounter.pose_at(t), arm.fastest_m_s()};
+    if (check.is_due(t)) check.add(sample);
+    const double now_m = clearance.at(sample.pose, sample.X_BP);
+    EXPECT_LE(clearance.at_least(sample.pose, sample.X_BP), now_m + 1e-6);
+    if (sample.fastest_m_s >= sim::kMoving_m_s) least_m = std::min(least_m, now_m);
   }
-  judge.finish();
-  EXPECT_NEAR(judge.least_moving_m(), least_m, 1e-9);
+  check.finish();
+  EXPECT_NEAR(check.least_moving_m(), least_m, 1e-9);
 }
 
 TEST(ClosedLoop, WithoutAMonitorSomebodyIsHit) {
@@ -87,16 +88,16 @@ TEST(ClosedLoop, WithoutAMonitorSomebodyIsHit) {
 
 TEST(ClosedLoop, TheMonitorStopsTheArmBeforeAnybodyIsThere) {
   const auto monitor = make_supervisor("three");
-  std::vector<Moment> moments;
+  std::vector<LoopSample> samples;
   SimulationSettings settings;
   settings.most_s = 5;
-  const EncounterResult result = simulate(2, *monitor, settings, &moments);
+  const EncounterResult result = simulate(2, *monitor, settings, &samples);
   EXPECT_EQ(result.contact_m_s, 0);
   EXPECT_GT(result.least_moving_m, 0.2);
   EXPECT_GT(result.phase_s, 0.5) << "it moved, where nobody was near";
-  const auto slows = [](const Moment& moment) { return moment.scale > 0 && moment.scale < 1; };
-  EXPECT_TRUE(std::ranges::any_of(moments, slows));
-  EXPECT_EQ(std::ranges::min_element(moments, {}, &Moment::clearance_m)->fastest_m_s, 0);
+  const auto slows = [](const LoopSample& sample) { return sample.scale > 0 && sample.scale < 1; };
+  EXPECT_TRUE(std::ranges::any_of(samples, slows));
+  EXPECT_EQ(std::ranges::min_element(samples, {}, &LoopSample::clearance_m)->fastest_m_s, 0);
 }
 
 TEST(ClosedLoop, UnknownPoliciesAreRefused) {

@@ -1,28 +1,40 @@
 // A program of its own, because allocation_count replaces the global operator new.
-#include "tests/distance/answer.hpp"
+#include <gtest/gtest.h>
+
 #include "tests/support/allocation_count.hpp"
+#include "tests/distance/mesh_world.hpp"
 
 namespace berth::testing {
 namespace {
 
-class SteadyState : public ::testing::TestWithParam<Method> {};
-INSTANTIATE_TEST_SUITE_P(Methods, SteadyState, ::testing::Values(Method::exact, Method::lattice),
-                         method_test_name);
-
-TEST_P(SteadyState, NothingIsAllocatedOnceTheSceneWasSeen) {
-  const ImagePair images[] = {random_images(1, 160, 120, 8), random_images(2, 160, 120, 8)};
-  SearchableDepth obstacles;
-  EvaluateWorkspace workspace;
-  LinkDistances out;
-  const auto answer_both = [&] {
-    for (const ImagePair& pair : images) {
-      obstacles.build(pair.obstacle_depth_m);
-      evaluate(GetParam(), {pair.camera, pair.robot, 8, obstacles, {1.0, true}}, workspace, out);
+TEST(MeshSteadyState, NothingIsAllocatedOnceTheSceneWasSeen) {
+  MeshWorldSettings settings;
+  settings.views = 3;
+  MeshWorld world = draw_mesh_world(settings, 9);
+  world.views[0].age_s = 0.01;
+  const auto robot = build_robot_patches(world.model);
+  std::vector<CameraSpace> spaces(3);
+  std::vector<PosedSpace> posed(3);
+  UnknownSpace space;
+  MeshWorkspace workspace;
+  std::vector<WholeLinkDistance> out;
+  const auto frame_and_questions = [&] {
+    for (int k = 0; k < 3; ++k) {
+      const MeshWorldView& view = world.views[k];
+      build_camera_space(view.camera, view.sensor_depth_m, view.obstacles, world.settings, spaces[k]);
+      posed[k] = {&spaces[k], view.X_BC, view.age_s};
     }
+    space.assign(posed);
+    for (const bool hidden : {true, false}) {
+      mesh_distances(*robot, world.pose, space, {1.0, 1e-3, std::nullopt, hidden}, workspace, out);
+    }
+    space.assign(std::span(posed).first(1));
+    mesh_distances(*robot, world.pose, space, {}, workspace, out);
   };
-  answer_both();
+  frame_and_questions();
+  frame_and_questions();
   const std::size_t before = allocation_count();
-  answer_both();
+  frame_and_questions();
   EXPECT_EQ(allocation_count(), before);
   EXPECT_GT(before, 0u);
 }

@@ -14,6 +14,8 @@ int main() {
 @body@}
 ")
 berth_program(readme_snippet SOURCES ${CMAKE_CURRENT_BINARY_DIR}/readme_snippet.cpp DEPENDS berth::berth)
+# It has to say itself what it includes.
+set_target_properties(readme_snippet PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)
 # It loads robot.urdf; package://berth_arm/ is a folder of that name beside it.
 file(COPY ${PROJECT_SOURCE_DIR}/data/bundled/arm/ DESTINATION ${CMAKE_CURRENT_BINARY_DIR}/snippet/berth_arm)
 file(COPY_FILE ${PROJECT_SOURCE_DIR}/data/bundled/arm/arm.urdf ${CMAKE_CURRENT_BINARY_DIR}/snippet/robot.urdf ONLY_IF_DIFFERENT)

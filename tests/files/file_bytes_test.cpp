@@ -50,6 +50,19 @@ TEST(FileBytes, MissingFileOrFolderIsNamed) {
                {"no/x.txt: cannot be written: No such file or directory; expected"});
 }
 
+TEST(FileBytes, WhatHasNoEndIsRefusedAndNotWaitedFor) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  std::filesystem::create_symlink("/dev/zero", folder / "zero");
+  for (const char* name : {"pipe", "zero"}) {
+    expect_parts(error_message([&] { read_file_bytes(folder / name); }),
+                 {std::string(name) + ": is a pipe or device; expected a regular file"});
+  }
+  std::filesystem::create_symlink("loop", folder / "loop");
+  expect_parts(error_message([&] { read_file_bytes(folder / "loop"); }),
+               {"loop: Too many levels of symbolic links; expected a readable file"});
+}
+
 TEST(FileBytes, FailedWriteKeepsTheOldFileAndLeavesNoOther) {
   const TemporaryFolder folder;
   write_file_bytes(folder / "old.txt", "old");

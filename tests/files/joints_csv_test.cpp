@@ -44,6 +44,7 @@ TEST(JointsCsv, RefusesABadFileAndSaysWhere) {
   const std::vector<BadText> table = {
       {"", {"joints.csv: is empty; expected a header: time"}},
       {"\r\n \n", {"joints.csv: is empty"}},
+      {std::string("t\0i\0m\0e\0", 8), {"joints.csv: holds a zero byte; expected UTF-8 text"}},
       {"a,time\n1,2\n", {"joints.csv:1: the first column is 'a'; expected time"}},
       {"0,1\n1,2\n", {"joints.csv:1: the first column is '0'; expected time"}},
       {"time;a\n0;1\n", {"joints.csv:1: the first column is 'time;a'; expected time"}},

@@ -4,12 +4,12 @@
 #include <regex>
 
 #include "berth/files/yaml_edit.hpp"
-#include "tests/support/random.hpp"
+#include "sim/random.hpp"
 
 namespace berth {
 namespace {
 
-using testing::Random;
+using sim::Random;
 
 /// Draws a map of maps, lists and scalars as text, with a comment of its own number wherever one
 /// may stand, and notes where its scalars and its maps are.

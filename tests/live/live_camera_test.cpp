@@ -67,7 +67,7 @@ TEST_F(Live, AnImageThatWaitedTooLongSaysSo) {
   push(1);
   ASSERT_TRUE(observed(2));
   EXPECT_EQ(camera_->newest()->time.status, TimeStatus::extrapolated_too_far);
-  EXPECT_EQ(camera_->counts().untimely, 2);
+  EXPECT_EQ(camera_->counts().stale, 2);
   push_joints_until(stamp_s(3));
   push(2);
   ASSERT_TRUE(observed(3));
@@ -81,7 +81,7 @@ TEST_F(Live, OfImagesThatWaitTheOldestAreDropped) {
   push_joints_until(10);
   ASSERT_TRUE(observed(kMostWaitingImages));
   EXPECT_EQ(camera_->newest()->stamp_s, stamp_s(kMostWaitingImages + 1));
-  EXPECT_EQ(camera_->counts().untimely, 0);
+  EXPECT_EQ(camera_->counts().stale, 0);
 }
 
 TEST_F(Live, AnImageThatComesTwiceAndOneFromBeforeAreNoNewFrames) {

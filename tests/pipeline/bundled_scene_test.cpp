@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "berth/scene/open_scene.hpp"
-#include "berth/distance/brute_force.hpp"
-#include "berth/pipeline/asker.hpp"
+#include "berth/image_distance/brute_force.hpp"
+#include "berth/image_distance/image_query.hpp"
 #include "berth/pipeline/observer.hpp"
 
 namespace berth {
@@ -52,14 +52,14 @@ TEST(BundledScene, NoDistanceIsAboveTheTrueOneByMoreThanTheNamedBound) {
   const OpenCamera& camera = scene.cameras.front();
   const std::vector<std::string> names = camera.view->robot()->model().evaluated_link_names();
   Observer observer(camera.view);
-  Asker asker(camera.view->robot());
+  ImageQuery query(scene.robot, scene.method, scene.image_settings);
   Frame frame;
   std::map<std::string, std::pair<double, double>>
       over_m;  // least and greatest, against what is seen
   ASSERT_GE(camera.source.depth.size(), 30U);
   for (std::size_t i = 0; i < camera.source.depth.size(); ++i) {
     observer.observe(camera.read_depth(i), camera.at_exposure[i], frame);
-    for (const LinkDistance& link : asker.ask(frame).distances.links) {
+    for (const LinkResult& link : query.ask(frame).links) {
       const std::string& name = names[link.id - 1];
       const Truth& row = truth.at({static_cast<int>(i), name});
       ASSERT_EQ(link.status, LinkStatus::ok) << "frame " << i << ", " << name;
@@ -82,20 +82,21 @@ TEST(BundledScene, BruteForceGivesTheSameDistances) {
   const OpenScene scene = open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml");
   const OpenCamera& camera = scene.cameras.front();
   Observer observer(camera.view);
-  Asker asker(camera.view->robot());
+  ImageQuery query(scene.robot, scene.method, scene.image_settings);
   Frame frame;
   const std::size_t closest_approach = 19;
   observer.observe(camera.read_depth(closest_approach), camera.at_exposure[closest_approach],
                    frame);
-  const Answer exact = asker.ask(frame);
+  const Result exact = query.ask(frame);
+  const SearchableDepth obstacles(frame.obstacles.depth_m);
   LinkDistances brute;
   brute_force({camera.view->camera(), frame.robot, camera.view->robot()->model().link_count(),
-               frame.searchable, {}},
+               obstacles, {}},
               brute);
-  ASSERT_EQ(brute.links.size(), exact.distances.links.size());
+  ASSERT_EQ(brute.links.size(), exact.links.size());
   for (std::size_t i = 0; i < brute.links.size(); ++i) {
-    EXPECT_EQ(brute.links[i].status, exact.distances.links[i].status);
-    EXPECT_NEAR(brute.links[i].distance_m, exact.distances.links[i].distance_m, 1e-5);
+    EXPECT_EQ(brute.links[i].status, exact.links[i].status);
+    EXPECT_NEAR(brute.links[i].distance_m, exact.links[i].distance_m, 1e-5);
   }
 }
 

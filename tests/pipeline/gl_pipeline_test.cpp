@@ -1,10 +1,11 @@
 // The two clocks on OpenGL, against those of the CPU.
 #include "berth/scene/open_scene.hpp"
-#include "berth/pipeline/asker.hpp"
-#include "berth/opengl/gl_asker.hpp"
-#include "berth/opengl/gl_observer.hpp"
+#include "berth/image_distance/image_query.hpp"
+#include "berth/image_distance/opengl/gl_image_query.hpp"
+#include "berth/image_distance/opengl/gl_observer.hpp"
 #include "berth/pipeline/observer.hpp"
-#include "tests/pipeline/web.hpp"
+#include "berth/image_distance/image_method.hpp"
+#include "tests/pipeline/flying_pixels.hpp"
 #include "tests/support/error_message.hpp"
 #include "tests/support/gl_test.hpp"
 #include "tests/support/view_with.hpp"
@@ -21,12 +22,10 @@ class GlPipeline : public testing::GlTest {
       : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml")),
         camera_(scene_.cameras.front()) {}
 
-  std::shared_ptr<const View> view_with(Method method, const SensorSettings& sensor = {}) const {
-    EvaluationSettings evaluation = camera_.view->robot()->settings();
-    evaluation.method = method;
-    ViewSettings settings = camera_.view->settings();
+  std::shared_ptr<const MountedCamera> view_with(const SensorSettings& sensor) const {
+    CameraSettings settings = camera_.view->settings();
     settings.sensor = sensor;
-    return testing::view_with(*camera_.view, evaluation, settings);
+    return testing::view_with(*camera_.view, settings);
   }
 
   Frame observe_on_cpu(std::size_t i) const { return observe_on_cpu(i, camera_.read_depth(i)); }
@@ -36,19 +35,25 @@ class GlPipeline : public testing::GlTest {
     return frame;
   }
 
-  static void expect_near(const Answer& cpu, const Answer& gl) {
-    EXPECT_EQ(gl.frame_stamp_s, cpu.frame_stamp_s);
+  /// Images of this program's memory are uploaded for each request.
+  ImageQuery on_gl() const {
+    return {scene_.robot, Method::gl_exact, {}, make_gl_method(Method::gl_exact)};
+  }
+
+  static void expect_near(const Result& cpu, const Result& gl) {
+    EXPECT_EQ(gl.stamp_s, cpu.stamp_s);
     EXPECT_EQ(gl.joints_stamp_s, cpu.joints_stamp_s);
-    ASSERT_EQ(gl.distances.links.size(), cpu.distances.links.size());
-    for (std::size_t i = 0; i < cpu.distances.links.size(); ++i) {
+    ASSERT_EQ(gl.links.size(), cpu.links.size());
+    for (std::size_t i = 0; i < cpu.links.size(); ++i) {
       SCOPED_TRACE("link " + std::to_string(i + 1));
-      const LinkDistance& a = cpu.distances.links[i];
-      const LinkDistance& b = gl.distances.links[i];
+      const LinkResult& a = cpu.links[i];
+      const LinkResult& b = gl.links[i];
       ASSERT_EQ(b.status, a.status);
       if (a.status == LinkStatus::ok) {
         EXPECT_NEAR(b.distance_m, a.distance_m, kDistanceError_m);
+        EXPECT_NEAR((b.obstacle_point_B_m - b.robot_point_B_m).norm(), b.distance_m, 1e-5);
       }
-      EXPECT_NEAR(gl.visibility[i].surface.seen, cpu.visibility[i].surface.seen, 0.02);
+      EXPECT_NEAR(b.visibility.surface.seen, a.visibility.surface.seen, 0.02);
     }
   }
 
@@ -57,18 +62,18 @@ class GlPipeline : public testing::GlTest {
 };
 
 TEST_F(GlPipeline, AnswersAreThoseOfTheCpu) {
-  const auto gl_view = view_with(Method::gl_exact);
+  const auto& gl_view = camera_.view;
   GlObserver observer(gl_view);
-  GlAsker gl_asker(gl_view->robot());
-  Asker asker(camera_.view->robot());
+  GlImageQuery gl_query(scene_.robot, Method::gl_exact);
+  ImageQuery query(scene_.robot, Method::exact);
   GlFrame gl_frame(gl_view->camera());
   for (const std::size_t i : {3, 29}) {
     SCOPED_TRACE(i);
     const Frame frame = observe_on_cpu(i);
     observer.observe(camera_.read_depth(i), camera_.at_exposure[i], gl_frame);
-    expect_near(asker.ask(frame), gl_asker.ask(gl_frame));
+    expect_near(query.ask(frame), gl_query.ask(gl_frame));
     const JointState& next = camera_.at_exposure[i + 4];
-    expect_near(asker.ask(frame, next), gl_asker.ask(gl_frame, next));
+    expect_near(query.ask(frame, next), gl_query.ask(gl_frame, next));
 
     std::int64_t differing = 0;
     for (int fate = 0; fate < kPixelFateCount; ++fate) {
@@ -78,46 +83,45 @@ TEST_F(GlPipeline, AnswersAreThoseOfTheCpu) {
   }
 }
 
-TEST_F(GlPipeline, WhatIsDoubtfulIsThatOfTheCpu) {
-  const auto gl_view = view_with(Method::gl_exact);
+TEST_F(GlPipeline, WhatIsRejectedIsThatOfTheCpu) {
+  const auto& gl_view = camera_.view;
   DepthImage depth_m = camera_.read_depth(3);
-  draw_web(observe_on_cpu(3).robot, depth_m);
+  draw_flying_pixels(observe_on_cpu(3).robot, depth_m);
   const Frame frame = observe_on_cpu(3, depth_m);
   GlObserver observer(gl_view);
   GlFrame gl_frame(gl_view->camera());
   observer.observe(depth_m, camera_.at_exposure[3], gl_frame);
-  const Answer expected = Asker(camera_.view->robot()).ask(frame);
-  GlAsker gl_asker(gl_view->robot());
-  int doubts = 0;
-  const auto expect_doubts = [&](const Answer& found) {
-    for (std::size_t i = 0; i < expected.visibility.size(); ++i) {
-      const float expected_m = expected.visibility[i].doubtful_distance_m;
-      const float found_m = found.visibility[i].doubtful_distance_m;
+  const Result expected = ImageQuery(scene_.robot, Method::exact).ask(frame);
+  GlImageQuery gl_query(scene_.robot, Method::gl_exact);
+  int rejected_readings = 0;
+  const auto expect_rejected = [&](const Result& found) {
+    for (std::size_t i = 0; i < expected.links.size(); ++i) {
+      const float expected_m = expected.links[i].visibility.rejected_distance_m;
+      const float found_m = found.links[i].visibility.rejected_distance_m;
       ASSERT_EQ(std::isnan(found_m), std::isnan(expected_m)) << "link " << i + 1;
       if (std::isnan(expected_m)) continue;
       EXPECT_NEAR(found_m, expected_m, kDistanceError_m) << "link " << i + 1;
-      ++doubts;
+      ++rejected_readings;
     }
   };
-  expect_doubts(gl_asker.ask(gl_frame));
-  expect_doubts(gl_asker.ask(frame));
-  EXPECT_EQ(doubts % 2, 0) << "both frames tell the same links";
-  EXPECT_GT(doubts, 0);
+  expect_rejected(gl_query.ask(gl_frame));
+  expect_rejected(on_gl().ask(frame));
+  EXPECT_EQ(rejected_readings % 2, 0) << "both frames tell the same links";
+  EXPECT_GT(rejected_readings, 0);
 }
 
 TEST_F(GlPipeline, AFrameOfTheCpuIsUploadedForTheQuestion) {
-  const auto gl_view = view_with(Method::gl_exact);
-  GlAsker gl_asker(gl_view->robot());
+  ImageQuery gl_query = on_gl();
   const Frame frame = observe_on_cpu(12);
-  const Answer& found = gl_asker.ask(frame);
-  const Answer expected = Asker(camera_.view->robot()).ask(frame);
-  for (std::size_t i = 0; i < found.distances.links.size(); ++i) {
-    EXPECT_NEAR(found.distances.links[i].distance_m, expected.distances.links[i].distance_m, 2e-5);
+  const Result& found = gl_query.ask(frame);
+  const Result expected = ImageQuery(scene_.robot, Method::exact).ask(frame);
+  for (std::size_t i = 0; i < found.links.size(); ++i) {
+    EXPECT_NEAR(found.links[i].distance_m, expected.links[i].distance_m, 2e-5);
   }
 }
 
 TEST_F(GlPipeline, AFrameReadBackIsWhatWasAsked) {
-  const auto gl_view = view_with(Method::gl_exact);
+  const auto& gl_view = camera_.view;
   GlObserver observer(gl_view);
   GlFrame gl_frame(gl_view->camera());
   observer.observe(camera_.read_depth(5), camera_.at_exposure[5], gl_frame);
@@ -125,25 +129,25 @@ TEST_F(GlPipeline, AFrameReadBackIsWhatWasAsked) {
   read_back(gl_frame, frame);
   EXPECT_EQ(frame.stamp_s, camera_.at_exposure[5].stamp_s);
   EXPECT_EQ(frame.obstacles.count, observer.fate_counts());
-  const auto from_gpu = GlAsker(gl_view->robot()).ask(gl_frame).distances.links;
-  const auto from_cpu = Asker(camera_.view->robot()).ask(frame).distances.links;
+  const auto from_gpu = GlImageQuery(scene_.robot, Method::gl_exact).ask(gl_frame).links;
+  const auto from_cpu = ImageQuery(scene_.robot, Method::exact).ask(frame).links;
   for (std::size_t i = 0; i < from_cpu.size(); ++i) {
     EXPECT_NEAR(from_gpu[i].distance_m, from_cpu[i].distance_m, 2e-5);
   }
 }
 
-TEST_F(GlPipeline, AnUntimelyFrameHasNoAnswerAndNoImages) {
-  const auto gl_view = view_with(Method::gl_exact);
+TEST_F(GlPipeline, AStaleFrameHasNoAnswerAndNoImages) {
+  const auto& gl_view = camera_.view;
   GlObserver observer(gl_view);
-  GlAsker asker(gl_view->robot());
+  GlImageQuery query(scene_.robot, Method::gl_exact);
   GlFrame gl_frame(gl_view->camera());
   observer.observe(camera_.read_depth(5), camera_.at_exposure[5], gl_frame);
-  asker.ask(gl_frame);
+  query.ask(gl_frame);
   FrameTime late;
   late.status = TimeStatus::missing_joint;
   observer.observe(camera_.read_depth(5), camera_.at_exposure[6], gl_frame, late);
-  for (const LinkDistance& link : asker.ask(gl_frame).distances.links) {
-    EXPECT_EQ(link.status, LinkStatus::untimely);
+  for (const LinkResult& link : query.ask(gl_frame).links) {
+    EXPECT_EQ(link.status, LinkStatus::stale);
     EXPECT_TRUE(std::isnan(link.distance_m));
   }
   Frame frame;
@@ -154,16 +158,17 @@ TEST_F(GlPipeline, AnUntimelyFrameHasNoAnswerAndNoImages) {
 }
 
 TEST_F(GlPipeline, AMethodOfTheOtherBackendIsRefused) {
-  const auto gl_view = view_with(Method::gl_exact);
-  EXPECT_EQ(error_message<std::invalid_argument>([&] { Asker asker(gl_view->robot()); }),
+  const auto refusal = [](auto make) { return error_message<std::invalid_argument>(make); };
+  EXPECT_EQ(refusal([&] { ImageQuery query(scene_.robot, Method::gl_exact); }),
             "method gl_exact runs on OpenGL; expected one that does not");
-  EXPECT_EQ(error_message<std::invalid_argument>([&] { GlAsker asker(camera_.view->robot()); }),
-            "method exact does not run on OpenGL; expected one that does");
+  const std::string of_gl = "method exact does not run on OpenGL; expected one that does";
+  EXPECT_EQ(refusal([&] { GlImageQuery query(scene_.robot, Method::exact); }), of_gl);
+  EXPECT_EQ(refusal([] { make_gl_method(Method::exact); }), of_gl);
 }
 
 TEST_F(GlPipeline, ASensorRuleIsRefusedByName) {
   const auto refusal = [&](const SensorSettings& sensor) {
-    const auto view = view_with(Method::gl_exact, sensor);
+    const auto view = view_with(sensor);
     return error_message<std::invalid_argument>([&] { GlObserver observer(view); });
   };
   const std::string rest = ": runs on the CPU alone; expected it off on OpenGL";
@@ -177,7 +182,7 @@ TEST_F(GlPipeline, ASensorRuleIsRefusedByName) {
 TEST_F(GlPipeline, AWatchIsRefusedByName) {
   for (const WatchSettings& watch :
        {WatchSettings{.max_seen_through = 0.03}, WatchSettings{.max_displacement_m = 0.02}}) {
-    ViewSettings settings = camera_.view->settings();
+    CameraSettings settings = camera_.view->settings();
     settings.watch = watch;
     const auto view = testing::view_with(*camera_.view, settings);
     EXPECT_EQ(error_message<std::invalid_argument>([&] { GlObserver observer(view); }),
@@ -187,7 +192,7 @@ TEST_F(GlPipeline, AWatchIsRefusedByName) {
 }
 
 TEST_F(GlPipeline, AnImageOfAnotherSizeIsRefused) {
-  const auto gl_view = view_with(Method::gl_exact);
+  const auto& gl_view = camera_.view;
   GlObserver observer(gl_view);
   GlFrame frame(gl_view->camera());
   EXPECT_EQ(error_message<std::invalid_argument>(

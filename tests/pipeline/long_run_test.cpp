@@ -16,12 +16,11 @@
 #include <string_view>
 #include <thread>
 
-#include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/observer.hpp"
+#include "tests/pipeline/any_query.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/thinned.hpp"
-#include "tests/support/view_with.hpp"
 
 namespace berth {
 namespace {
@@ -47,14 +46,14 @@ RobotModel make_robot() {
       {.urdf = folder.write("robot.urdf", "<robot name=\"chain\">" + links + "</robot>")});
 }
 
-std::shared_ptr<const View> make_view() {
+std::shared_ptr<const MountedCamera> make_view() {
   CameraMount mount{{64, 48, 50, 50, 31.5, 23.5}, "l0"};
   mount.X_PC.linear() << 0, 0, -1, 1, 0, 0, 0, -1, 0;
   mount.X_PC.translation() << 2, 0, 0.5;
-  ViewSettings settings;
+  CameraSettings settings;
   settings.watch.min_at_robot = 0;  // the images show no robot
-  return std::make_shared<const View>(
-      std::make_shared<const Robot>(make_robot(), testing::exact_evaluation()), mount, settings);
+  return std::make_shared<const MountedCamera>(
+      std::make_shared<const Robot>(make_robot()), mount, settings);
 }
 
 JointState joints_of(int pose) {
@@ -77,17 +76,23 @@ bool same_bits(const T& a, const T& b) {
   return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-bool same_bits(const LinkDistance& a, const LinkDistance& b) {
-  return a.id == b.id && a.status == b.status && same_bits(a.distance_m, b.distance_m) &&
-         same_bits(a.lower_bound_m, b.lower_bound_m) && a.robot_pixel == b.robot_pixel &&
-         a.obstacle_pixel == b.obstacle_pixel && same_bits(a.robot_point_C_m, b.robot_point_C_m) &&
-         same_bits(a.obstacle_point_C_m, b.obstacle_point_C_m) &&
-         same_bits(a.mean_direction_C, b.mean_direction_C) && a.mean_count == b.mean_count &&
-         a.robot_pixels == b.robot_pixels;
+bool same_bits(const SpacePair& a, const SpacePair& b) {
+  return same_bits(a.distance_m, b.distance_m) && same_bits(a.lower_bound_m, b.lower_bound_m) &&
+         same_bits(a.robot_point_B_m, b.robot_point_B_m) &&
+         same_bits(a.obstacle_point_B_m, b.obstacle_point_B_m) && a.obstacle_is == b.obstacle_is &&
+         a.camera == b.camera && a.obstacle_pixel == b.obstacle_pixel;
 }
 
-/// Not `pairs`: a search that begins at the answer before has less to do.
-bool same_bits(const LinkDistances& a, const LinkDistances& b) {
+bool same_bits(const LinkResult& a, const LinkResult& b) {
+  return same_bits(static_cast<const SpacePair&>(a), static_cast<const SpacePair&>(b)) &&
+         same_bits(a.occupied, b.occupied) && a.id == b.id && a.status == b.status &&
+         same_bits(a.robot_point_C_m, b.robot_point_C_m) &&
+         same_bits(a.obstacle_point_C_m, b.obstacle_point_C_m) &&
+         same_bits(a.mean_direction_B, b.mean_direction_B) && a.mean_count == b.mean_count &&
+         a.image.robot_pixel == b.image.robot_pixel && a.image.robot_pixels == b.image.robot_pixels;
+}
+
+bool same_bits(const Result& a, const Result& b) {
   for (std::size_t i = 0; i < a.links.size(); ++i) {
     if (!same_bits(a.links[i], b.links[i])) return false;
   }
@@ -102,15 +107,15 @@ double resident_mb() {
 }
 
 /// Does each step once for every pose, then `count` of them: nothing allocates, no memory is taken,
-/// and each answer has the bits of the first one of its pose.
+/// and each result has the bits of the first one of its pose.
 template <typename Step>
 void run_long(const char* what, int count, Step step) {
   // A second worker of TBB may come at any time, and allocates then.
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-  std::vector<LinkDistances> first;
+  std::vector<Result> first;
   for (int pose = 0; pose < kPoses; ++pose) first.push_back(step(pose));
   int distances = 0;
-  for (const LinkDistance& link : first[0].links) distances += link.status == LinkStatus::ok;
+  for (const LinkResult& link : first[0].links) distances += link.status == LinkStatus::ok;
   ASSERT_GE(distances, 3) << "a run without distances shows nothing";
   EXPECT_FALSE(same_bits(first[0], first[5]));
   for (int i = 0; i < 4 * kPoses; ++i) step(i % kPoses);
@@ -129,37 +134,38 @@ void run_long(const char* what, int count, Step step) {
              count, what, took.count(), allocations, before_mb, after_mb);
 }
 
-TEST(LongRun, QuestionsTakeNoMemoryAndTheirAnswersStayTheSame) {
-  const auto view = make_view();
-  Observer observer(view);
-  Asker asker(view->robot());
-  Frame frame;
-  observer.observe(image_of(3), joints_of(3), frame);
+class LongRun : public ::testing::TestWithParam<Method> {
+ protected:
+  std::shared_ptr<const MountedCamera> view_ = make_view();
+  testing::AnyQuery query_{view_->robot(), GetParam()};
+  Observer observer_{view_};
+  Frame frame_;
+};
+INSTANTIATE_TEST_SUITE_P(Methods, LongRun, ::testing::Values(Method::mesh, Method::exact),
+                         [](const auto& test) { return std::string(name_of(test.param)); });
+
+TEST_P(LongRun, QuestionsTakeNoMemoryAndTheirAnswersStayTheSame) {
+  observer_.observe(image_of(3), joints_of(3), frame_);
   std::vector<JointState> joints;
   for (int pose = 0; pose < kPoses; ++pose) joints.push_back(joints_of(pose));
-  run_long(
-      "questions", is_full() ? 1'000'000 : thinned(2'000),
-      [&](int pose) -> const LinkDistances& { return asker.ask(frame, joints[pose]).distances; });
+  run_long("questions", is_full() ? 1'000'000 : thinned(2'000),
+           [&](int pose) -> const Result& { return query_.ask(frame_, joints[pose]); });
 }
 
-TEST(LongRun, FramesTakeNoMemoryAndTheirAnswersStayTheSame) {
-  const auto view = make_view();
-  Observer observer(view);
-  Asker asker(view->robot());
-  Frame frame;
+TEST_P(LongRun, FramesTakeNoMemoryAndTheirAnswersStayTheSame) {
   std::vector<JointState> joints;
   std::vector<DepthImage> images;
   for (int pose = 0; pose < kPoses; ++pose) {
     joints.push_back(joints_of(pose));
     images.push_back(image_of(pose));
   }
-  run_long("frames", is_full() ? 100'000 : thinned(1'000), [&](int pose) -> const LinkDistances& {
-    observer.observe(images[pose], joints[pose], frame);
-    return asker.ask(frame).distances;
+  run_long("frames", is_full() ? 100'000 : thinned(1'000), [&](int pose) -> const Result& {
+    observer_.observe(images[pose], joints[pose], frame_);
+    return query_.ask(frame_);
   });
 }
 
-/// The newest frame of a camera, for any number of askers: it is swapped as a whole, and who asks
+/// The newest frame of a camera, for any number of queries: it is swapped as a whole, and who asks
 /// the one before keeps it until the answer is there.
 class LatestFrame {
  public:
@@ -177,15 +183,14 @@ class LatestFrame {
   std::shared_ptr<const Frame> frame_;
 };
 
-TEST(LongRun, AFrameThatIsReplacedWhileTwoThreadsAskGivesTheAnswersOfOneFrameEach) {
-  const auto view = make_view();
+TEST_P(LongRun, AFrameThatIsReplacedWhileTwoThreadsAskGivesTheAnswersOfOneFrameEach) {
   const int frames = is_full() ? 20'000 : thinned(300);
   const JointState asked = joints_of(1);
-  LinkDistances expected[2];
+  Result expected[2];
   for (int i = 0; i < 2; ++i) {
     Frame frame;
-    Observer(view).observe(image_of(5 * i), joints_of(5 * i), frame);
-    expected[i] = Asker(view->robot()).ask(frame, asked).distances;
+    Observer(view_).observe(image_of(5 * i), joints_of(5 * i), frame);
+    expected[i] = query_.ask(frame, asked);
   }
   ASSERT_FALSE(same_bits(expected[0], expected[1]));
   LatestFrame latest;
@@ -198,20 +203,19 @@ TEST(LongRun, AFrameThatIsReplacedWhileTwoThreadsAskGivesTheAnswersOfOneFrameEac
     observer.observe(image_of(5 * (i % 2)), joints, *frame);
     latest.set(std::move(frame));
   };
-  Observer observer(view);
-  observe(observer, 0);
+  observe(observer_, 0);
   const auto ask = [&] {
-    Asker asker(view->robot());
+    testing::AnyQuery query(view_->robot(), GetParam());
     while (!stop) {
       const std::shared_ptr<const Frame> frame = latest.get();
-      const Answer& answer = asker.ask(*frame, asked);
-      const int which = static_cast<int>(answer.frame_stamp_s) % 2;
-      wrong += !same_bits(answer.distances, expected[which]);
+      const Result& result = query.ask(*frame, asked);
+      const int which = static_cast<int>(result.stamp_s) % 2;
+      wrong += !same_bits(result, expected[which]);
       ++answers;
     }
   };
   std::thread askers[2] = {std::thread(ask), std::thread(ask)};
-  for (int i = 1; i < frames; ++i) observe(observer, i);
+  for (int i = 1; i < frames; ++i) observe(observer_, i);
   while (answers < 100) std::this_thread::yield();
   stop = true;
   for (std::thread& asker : askers) asker.join();

@@ -3,9 +3,10 @@
 
 #include <cmath>
 
-#include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "berth/scene/open_scene.hpp"
+#include "berth/pipeline/frame_set.hpp"
+#include "tests/pipeline/any_query.hpp"
 #include "tests/support/error_message.hpp"
 #include "tests/support/view_with.hpp"
 
@@ -19,32 +20,29 @@ class MovedCamera : public ::testing::Test {
   MovedCamera()
       : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml")),
         camera_(scene_.cameras.front()),
+        robot_(std::make_shared<const Robot>(scene_.robot->model())),
         depth_m_(camera_.read_depth(kFrame)) {}
 
   /// As the bundled camera, but believed to be turned by so much.
-  std::shared_ptr<const View> view_of(const std::shared_ptr<const Robot>& robot, double turn_rad,
+  std::shared_ptr<const MountedCamera> view_of(double turn_rad,
                                       const WatchSettings& watch = kEachFrame) const {
     CameraMount mount = camera_.view->mount();
     mount.X_PC.rotate(Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitY()));
-    ViewSettings settings;
+    CameraSettings settings;
     settings.watch = watch;
-    return std::make_shared<const View>(robot, mount, settings);
-  }
-  std::shared_ptr<const Robot> robot_with(Method method) const {
-    EvaluationSettings settings;
-    settings.method = method;
-    return std::make_shared<const Robot>(camera_.view->robot()->model(), settings);
+    return std::make_shared<const MountedCamera>(robot_, mount, settings);
   }
   Frame& observe(Observer& observer, Frame& frame, FrameTime time = {}) const {
     observer.observe(depth_m_, camera_.at_exposure[kFrame], frame, time);
     return frame;
   }
-  static void expect_withheld(const Answer& answer,
+  static void expect_withheld(const Result& result,
                               TimeStatus status = TimeStatus::camera_moved) {
-    EXPECT_EQ(answer.time.status, status) << name_of(answer.time.status);
-    ASSERT_FALSE(answer.distances.links.empty());
-    for (const LinkDistance& link : answer.distances.links) {
-      EXPECT_EQ(link.status, LinkStatus::untimely);
+    EXPECT_EQ(result.status, ResultStatus::stale);
+    EXPECT_EQ(result.time.status, status) << name_of(result.time.status);
+    ASSERT_FALSE(result.links.empty());
+    for (const LinkResult& link : result.links) {
+      EXPECT_EQ(link.status, LinkStatus::stale);
       EXPECT_TRUE(std::isnan(link.distance_m));
     }
   }
@@ -55,49 +53,47 @@ class MovedCamera : public ::testing::Test {
 
   OpenScene scene_;
   const OpenCamera& camera_;
+  std::shared_ptr<const Robot> robot_;
   DepthImage depth_m_;
 };
 
 TEST_F(MovedCamera, NoMethodAnswersFromItsFrame) {
   for (const Method method : {Method::mesh, Method::exact, Method::brute_force, Method::lattice}) {
-    const auto robot = robot_with(method);
-    Observer observer(view_of(robot, kTurn_rad));
+    Observer observer(view_of(kTurn_rad));
     Frame frame;
     observe(observer, frame);
     EXPECT_TRUE(frame.watch.has_moved);
     EXPECT_GT(frame.watch.seen_through, 0.1);
-    Asker asker(robot);
-    expect_withheld(asker.ask(frame));
-    expect_withheld(asker.ask(frame, frame.stamp_s + 0.01));
-    expect_withheld(asker.ask(frame, frame.stamp_s + 10));
-    expect_withheld(asker.ask(frame, camera_.at_exposure[3]));
+    testing::AnyQuery query(robot_, method);
+    expect_withheld(query.ask(frame));
+    expect_withheld(query.ask(frame, {}, frame.stamp_s + 0.01));
+    expect_withheld(query.ask(frame, {}, frame.stamp_s + 10));
+    expect_withheld(query.ask(frame, camera_.at_exposure[3]));
   }
 }
 
 TEST_F(MovedCamera, NorFromOneThatIsImplausible) {
   for (const Method method : {Method::mesh, Method::exact}) {
-    const auto robot = robot_with(method);
     // Without a limit that somebody set.
-    Observer observer(view_of(robot, 1.2, {}));
+    Observer observer(view_of(1.2, {}));
     Frame frame;
     DepthImage far_m = depth_m_;
     for (float& z_m : far_m.pixels()) z_m *= 10;
     observer.observe(far_m, camera_.at_exposure[kFrame], frame);
     EXPECT_FALSE(frame.watch.is_implausible) << "no robot in the image, no verdict";
-    Observer other(view_of(robot, 0, {}));
+    Observer other(view_of(0, {}));
     other.observe(far_m, camera_.at_exposure[kFrame], frame);
     EXPECT_TRUE(frame.watch.is_implausible);
-    Asker asker(robot);
-    expect_withheld(asker.ask(frame), TimeStatus::camera_implausible);
-    expect_withheld(asker.ask(frame, frame.stamp_s + 0.01), TimeStatus::camera_implausible);
+    testing::AnyQuery query(robot_, method);
+    expect_withheld(query.ask(frame), TimeStatus::camera_implausible);
+    expect_withheld(query.ask(frame, {}, frame.stamp_s + 0.01), TimeStatus::camera_implausible);
     EXPECT_EQ(camera_state(&frame, frame.stamp_s, {}).status, CameraStatus::implausible);
   }
 }
 
 TEST_F(MovedCamera, OneThatStandsAsItShouldAnswersAsIfNobodyWatched) {
   for (const Method method : {Method::mesh, Method::exact}) {
-    const auto robot = robot_with(method);
-    Observer watched(view_of(robot, 0)), plain(view_of(robot, 0, {}));
+    Observer watched(view_of(0)), plain(view_of(0, {}));
     Frame frame, plain_frame;
     observe(watched, frame);
     observe(plain, plain_frame);
@@ -105,9 +101,9 @@ TEST_F(MovedCamera, OneThatStandsAsItShouldAnswersAsIfNobodyWatched) {
     EXPECT_FALSE(frame.watch.has_moved);
     EXPECT_LT(frame.watch.seen_through, 0.02);
     EXPECT_FALSE(plain_frame.watch.is_on);
-    Asker one(robot), other(robot);
-    const LinkDistances& a = one.ask(frame).distances;
-    const LinkDistances& b = other.ask(plain_frame).distances;
+    testing::AnyQuery one(robot_, method), other(robot_, method);
+    const Result& a = one.ask(frame);
+    const Result& b = other.ask(plain_frame);
     for (std::size_t i = 0; i < a.links.size(); ++i) {
       EXPECT_EQ(a.links[i].distance_m, b.links[i].distance_m);
     }
@@ -115,36 +111,30 @@ TEST_F(MovedCamera, OneThatStandsAsItShouldAnswersAsIfNobodyWatched) {
 }
 
 TEST_F(MovedCamera, TheOthersAnswerStands) {
-  const auto robot = robot_with(Method::mesh);
-  Observer good(view_of(robot, 0)), bumped(view_of(robot, kTurn_rad));
+  Observer good(view_of(0)), bumped(view_of(kTurn_rad));
   Frame left, right;
   observe(good, left);
   observe(bumped, right);
-  const Frame* both[] = {&right, &left};
-  const Frame* alone[] = {&left};
-  FrameSet with_both, with_one;
-  with_both.assign(both, {}, left.stamp_s);
-  with_one.assign(alone, {}, left.stamp_s);
-  EXPECT_EQ(with_both.cameras()[0].status, CameraStatus::moved);
-  EXPECT_GT(with_both.cameras()[0].watch.seen_through, 0.1);
-  EXPECT_EQ(with_both.cameras()[1].status, CameraStatus::ok);
-  EXPECT_EQ(with_both.used(), std::vector{1});
-  Asker a(robot), b(robot);
-  const Answer& answer = a.ask(with_both);
-  const Answer& expected = b.ask(with_one);
-  EXPECT_EQ(answer.time.status, TimeStatus::ok);
-  for (std::size_t i = 0; i < answer.distances.links.size(); ++i) {
-    EXPECT_EQ(answer.distances.links[i].distance_m, expected.distances.links[i].distance_m);
+  const std::vector<const Frame*> both = {&right, &left};
+  Query a(robot_), b(robot_);
+  const Result& result = a.ask({.frames = both, .now_s = left.stamp_s});
+  const Result& expected = b.ask({.frames = left, .now_s = left.stamp_s});
+  EXPECT_EQ(result.cameras[0].status, CameraStatus::moved);
+  EXPECT_GT(result.cameras[0].watch.seen_through, 0.1);
+  EXPECT_EQ(result.cameras[1].status, CameraStatus::ok);
+  EXPECT_EQ(a.frames().used(), std::vector{1});
+  EXPECT_EQ(result.status, ResultStatus::degraded);
+  EXPECT_EQ(result.time.status, TimeStatus::ok);
+  for (std::size_t i = 0; i < result.links.size(); ++i) {
+    EXPECT_EQ(result.links[i].distance_m, expected.links[i].distance_m);
+    EXPECT_EQ(result.links[i].camera, 1) << "by its place among the cameras of the request";
   }
-  const Frame* moved[] = {&right, nullptr};
-  FrameSet none;
-  none.assign(moved, {}, right.stamp_s);
-  expect_withheld(a.ask(none));
+  const std::vector<const Frame*> moved = {&right, nullptr};
+  expect_withheld(a.ask({.frames = moved, .now_s = right.stamp_s}));
 }
 
-TEST_F(MovedCamera, AnUntimelyFrameSaysWhatIsWrongWithItsTime) {
-  const auto robot = robot_with(Method::mesh);
-  Observer observer(view_of(robot, kTurn_rad));
+TEST_F(MovedCamera, AStaleFrameSaysWhatIsWrongWithItsTime) {
+  Observer observer(view_of(kTurn_rad));
   Frame frame;
   observe(observer, frame);
   FrameTime skewed;
@@ -153,17 +143,16 @@ TEST_F(MovedCamera, AnUntimelyFrameSaysWhatIsWrongWithItsTime) {
   EXPECT_TRUE(frame.watch.has_moved) << "no frame cleared it";
   EXPECT_TRUE(std::isnan(frame.watch.seen_through));
   const CameraState state = camera_state(&frame, frame.stamp_s, {});
-  EXPECT_EQ(state.status, CameraStatus::untimely);
+  EXPECT_EQ(state.status, CameraStatus::stale);
   EXPECT_EQ(state.time, TimeStatus::skewed);
-  Asker asker(robot);
-  EXPECT_EQ(asker.ask(frame).time.status, TimeStatus::skewed);
+  Query query(robot_);
+  EXPECT_EQ(query.ask({frame}).time.status, TimeStatus::skewed);
 }
 
 TEST_F(MovedCamera, TheDisplacementIsToldOnceItIsFinished) {
-  const auto robot = robot_with(Method::exact);
   const WatchSettings settings{.max_displacement_m = 0.02, .check_every_s = 0};
   double measured_m = 0.05;
-  Observer observer(view_of(robot, 0, settings),
+  Observer observer(view_of(0, settings),
                     [&](DepthView depth_m, const JointState& at_exposure, std::stop_token) {
                       EXPECT_EQ(depth_m.width, 640);
                       EXPECT_EQ(at_exposure.stamp_s, camera_.at_exposure[kFrame].stamp_s);
@@ -176,8 +165,8 @@ TEST_F(MovedCamera, TheDisplacementIsToldOnceItIsFinished) {
     EXPECT_EQ(frame.watch.has_moved, has_moved);
     EXPECT_EQ(frame.watch.displacement_m, 0.05);
   }
-  Asker asker(robot);
-  expect_withheld(asker.ask(frame));
+  testing::AnyQuery query(robot_, Method::exact);
+  expect_withheld(query.ask(frame));
   measured_m = 0.001;
   for (const bool has_moved : {true, false}) {
     observe(observer, frame);
@@ -187,10 +176,9 @@ TEST_F(MovedCamera, TheDisplacementIsToldOnceItIsFinished) {
 }
 
 TEST_F(MovedCamera, NothingIsLearnedFromIt) {
-  const auto robot = robot_with(Method::exact);
   for (const double turn_rad : {0.0, kTurn_rad}) {
-    const auto view = view_of(robot, turn_rad);
-    ViewSettings settings = view->settings();
+    const auto view = view_of(turn_rad);
+    CameraSettings settings = view->settings();
     settings.sensor.background_frames = 1;
     Observer observer(testing::view_with(*view, settings));
     Frame frame;
@@ -203,10 +191,9 @@ TEST_F(MovedCamera, NothingIsLearnedFromIt) {
 }
 
 TEST_F(MovedCamera, BadSettingsAreRefusedByTheView) {
-  const auto robot = robot_with(Method::exact);
   const auto refusal = [&](const WatchSettings& watch) {
     return error_message<std::invalid_argument>(
-        [&] { Observer observer(view_of(robot, 0, watch)); });
+        [&] { Observer observer(view_of(0, watch)); });
   };
   expect_parts(refusal({.max_seen_through = 2}), {"watch.max_seen_through: 2"});
   expect_parts(refusal({.max_displacement_m = -0.02}), {"watch.max_displacement_m: -0.02"});

@@ -4,15 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <iostream>
-#include <map>
-#include <sstream>
 
 #include "berth/scene/open_scene.hpp"
 #include "berth/files/png.hpp"
-#include "berth/pipeline/asker.hpp"
+#include "berth/image_distance/image_query.hpp"
 #include "berth/pipeline/observer.hpp"
+#include "berth/pipeline/query.hpp"
+#include "lab/filter/expected_ranges.hpp"
 #include "tests/support/view_with.hpp"
 #include "tests/support/data_folder.hpp"
 
@@ -20,31 +18,6 @@ namespace berth {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// One line of expected.tsv.
-struct Range {
-  double min_m;
-  double max_m;
-  bool is_checked;
-};
-using Ranges = std::map<std::pair<int, std::string>, Range>;
-
-Ranges read_ranges(const fs::path& file) {
-  std::ifstream stream(file);
-  std::string line;
-  std::getline(stream, line);
-  Ranges ranges;
-  while (std::getline(stream, line)) {
-    std::istringstream fields(line);
-    int frame = 0;
-    std::string link;
-    Range range{};
-    fields >> frame >> link >> range.min_m >> range.max_m;
-    range.is_checked = line.find("[checked") != std::string::npos;
-    ranges[{frame, link}] = range;
-  }
-  return ranges;
-}
 
 /// The share of the mask's pixels with a reading that were filtered out.
 double filtered_share(const Image<LinkId>& mask, const ObstacleImage& obstacles) {
@@ -87,17 +60,17 @@ TEST_P(Recording, AtLeast99PercentOfTheRobotIsFiltered) {
 TEST_P(Recording, NoLinkIsTooFarAndMostAreInTheirRange) {
   const OpenScene scene = open_scene(folder_ / "scene.yaml");
   const OpenCamera& camera = scene.cameras.front();
-  const Ranges ranges = read_ranges(folder_ / "expected.tsv");
+  const lab::ExpectedRanges ranges = lab::read_expected_ranges(folder_ / "expected.tsv");
   const std::vector<std::string> names = camera.view->robot()->model().evaluated_link_names();
   Observer observer(camera.view);
-  Asker asker(camera.view->robot());
+  ImageQuery query(scene.robot, scene.method, scene.image_settings);
   Frame frame;
   int checked = 0;
   int inside = 0;
   int free_links_at_contact = 0;
   for (std::size_t i = 0; i < camera.source.depth.size(); ++i) {
     observer.observe(camera.read_depth(i), camera.at_exposure[i], frame);
-    for (const LinkDistance& link : asker.ask(frame).distances.links) {
+    for (const LinkResult& link : query.ask(frame).links) {
       const auto range = ranges.find({static_cast<int>(i), names[link.id - 1]});
       ASSERT_NE(range, ranges.end()) << names[link.id - 1];
       const auto& [min_m, max_m, is_checked] = range->second;
@@ -106,7 +79,7 @@ TEST_P(Recording, NoLinkIsTooFarAndMostAreInTheirRange) {
                  names[link.id - 1], link.distance_m, min_m, max_m,
                  is_checked ? "checked" : "estimate", is_inside ? "" : "  <- outside");
       EXPECT_EQ(link.status, LinkStatus::ok) << "frame " << i << ", " << names[link.id - 1];
-      EXPECT_LE(link.distance_m, max_m + 0.01) << "frame " << i << ", " << names[link.id - 1];
+      EXPECT_LE(link.distance_m, max_m + lab::kFarMargin_m) << "frame " << i << ", " << names[link.id - 1];
       free_links_at_contact += min_m >= 0.05 && link.distance_m < 0.03;
       checked += is_checked;
       inside += is_checked && is_inside;
@@ -121,19 +94,19 @@ TEST_P(Recording, NoLinkIsTooFarFromReadingsAsAWhole) {
   file.evaluation.method = Method::mesh;
   const OpenScene scene = open_scene(file);
   const OpenCamera& camera = scene.cameras.front();
-  const Ranges ranges = read_ranges(folder_ / "expected.tsv");
+  const lab::ExpectedRanges ranges = lab::read_expected_ranges(folder_ / "expected.tsv");
   const std::vector<std::string> names = scene.robot->model().evaluated_link_names();
   Observer observer(camera.view);
-  Asker asker(scene.robot);
+  Query query(scene.robot);
   Frame frame;
   int rows = 0;
   int inside = 0;
   for (std::size_t i = 0; i < camera.source.depth.size(); ++i) {
     observer.observe(camera.read_depth(i), camera.at_exposure[i], frame);
-    for (const LinkDistance& link : asker.ask(frame).distances.links) {
-      const Range& range = ranges.at({static_cast<int>(i), names[link.id - 1]});
-      const float distance_m = link.reading.distance_m;
-      EXPECT_LE(distance_m, range.max_m + 0.01) << "frame " << i << ", " << names[link.id - 1];
+    for (const LinkResult& link : query.ask({frame}).links) {
+      const lab::ExpectedRange& range = ranges.at({static_cast<int>(i), names[link.id - 1]});
+      const float distance_m = link.occupied.distance_m;
+      EXPECT_LE(distance_m, range.max_m + lab::kFarMargin_m) << "frame " << i << ", " << names[link.id - 1];
       EXPECT_LE(link.distance_m, distance_m);
       ++rows;
       inside += distance_m >= range.min_m && distance_m <= range.max_m;
@@ -144,8 +117,8 @@ TEST_P(Recording, NoLinkIsTooFarFromReadingsAsAWhole) {
 }
 
 /// The camera again, its view with these rules.
-std::shared_ptr<const View> with_rules(const OpenCamera& camera, const SensorSettings& rules) {
-  ViewSettings settings = camera.view->settings();
+std::shared_ptr<const MountedCamera> with_rules(const OpenCamera& camera, const SensorSettings& rules) {
+  CameraSettings settings = camera.view->settings();
   settings.sensor = rules;
   return testing::view_with(*camera.view, settings);
 }
@@ -158,7 +131,8 @@ TEST_P(Recording, SpeckleAndBackgroundMakeNoDistanceLarger) {
   rules.background_frames = 2;
   const auto ruled = with_rules(camera, rules);
   Observer observer(camera.view), ruled_observer(ruled);
-  Asker asker(camera.view->robot()), ruled_asker(ruled->robot());
+  ImageQuery query(scene.robot, scene.method, scene.image_settings);
+  ImageQuery ruled_query(scene.robot, scene.method, scene.image_settings);
   Frame frame;
   for (std::size_t i = 0; i < camera.source.depth.size(); ++i) {
     const DepthImage depth_m = camera.read_depth(i);
@@ -168,10 +142,10 @@ TEST_P(Recording, SpeckleAndBackgroundMakeNoDistanceLarger) {
   for (std::size_t i = 0; i < camera.source.depth.size(); ++i) {
     const DepthImage depth_m = camera.read_depth(i);
     observer.observe(depth_m, camera.at_exposure[i], frame);
-    const LinkDistances before = asker.ask(frame).distances;
+    const Result before = query.ask(frame);
     ruled_observer.observe(depth_m, camera.at_exposure[i], frame);
     EXPECT_GT(frame.obstacles.count_of(PixelFate::speckle), 0);
-    const LinkDistances& after = ruled_asker.ask(frame).distances;
+    const Result& after = ruled_query.ask(frame);
     for (std::size_t k = 0; k < before.links.size(); ++k)
       EXPECT_LE(after.links[k].distance_m, before.links[k].distance_m) << i << ", link " << k + 1;
   }

@@ -1,8 +1,9 @@
 // The robot-shaped region of surveillance in the pipeline.
 #include <gtest/gtest.h>
 
+#include "berth/render/robot_renderer.hpp"
 #include "berth/scene/open_scene.hpp"
-#include "berth/pipeline/asker.hpp"
+#include "berth/image_distance/image_query.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "tests/support/view_with.hpp"
 
@@ -16,13 +17,13 @@ class RobotRegion : public ::testing::Test {
         camera_(scene_.cameras.front()) {}
 
   /// The bundled scene with a region.
-  std::shared_ptr<const View> view_with(double scale) const {
-    ViewSettings settings = camera_.view->settings();
+  std::shared_ptr<const MountedCamera> view_with(double scale) const {
+    CameraSettings settings = camera_.view->settings();
     settings.self_filter.robot_region_scale = scale;
     return testing::view_with(*camera_.view, settings);
   }
 
-  Frame observe(const std::shared_ptr<const View>& view, std::size_t i) const {
+  Frame observe(const std::shared_ptr<const MountedCamera>& view, std::size_t i) const {
     Frame frame;
     Observer observer(view);
     // Twice, so that the second has the memory of the first.
@@ -57,10 +58,10 @@ TEST_F(RobotRegion, NeverMakesADistanceSmaller) {
   const auto view = view_with(2);
   const Frame all = observe(camera_.view, 19);
   const Frame some = observe(view, 19);
-  Asker everything(camera_.view->robot());
-  Asker ignoring(view->robot());
-  const auto& larger = ignoring.ask(some).distances.links;
-  const auto& least = everything.ask(all).distances.links;
+  ImageQuery everything(camera_.view->robot(), Method::exact);
+  ImageQuery ignoring(view->robot(), Method::exact);
+  const auto& larger = ignoring.ask(some).links;
+  const auto& least = everything.ask(all).links;
   for (std::size_t i = 0; i < least.size(); ++i) {
     if (larger[i].status == LinkStatus::none_in_range) continue;
     EXPECT_GE(larger[i].distance_m, least[i].distance_m);

@@ -3,39 +3,46 @@
 #include <tbb/global_control.h>
 
 #include "berth/scene/open_scene.hpp"
-#include "berth/pipeline/asker.hpp"
+#include "berth/image_distance/image_query.hpp"
 #include "berth/pipeline/observer.hpp"
-#include "tests/pipeline/web.hpp"
+#include "berth/pipeline/query.hpp"
+#include "berth/pipeline/frame_set.hpp"
+#include "tests/pipeline/flying_pixels.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/view_with.hpp"
 
 namespace berth {
 namespace {
 
-/// From the depth image to the answer, and the answer at other joint angles.
+/// From the depth image to the result, and the result at other joint angles.
 TEST(SteadyState, TheWholeWayAllocatesNothingOnceItHasSeenTheImages) {
   const OpenScene scene = open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml");
   const OpenCamera& camera = scene.cameras.front();
   DepthImage images[] = {camera.read_depth(3), camera.read_depth(17), camera.read_depth(30)};
   const std::size_t numbers[] = {3, 17, 30};
-  ViewSettings with_region = camera.view->settings();
+  CameraSettings with_region = camera.view->settings();
   with_region.self_filter.robot_region_scale = 3;
   const auto region_view = testing::view_with(*camera.view, with_region);
   for (const int threads : {1, 2}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     Observer observer(camera.view);
-    Asker asker(camera.view->robot());
+    Query query(scene.robot);
+    ImageQuery image_query(scene.robot, Method::exact);
     Observer region_observer(region_view);
     Frame frame;
     observer.observe(images[0], camera.at_exposure[numbers[0]], frame);
-    draw_web(frame.robot, images[0]);
+    draw_flying_pixels(frame.robot, images[0]);
     const auto go_through = [&] {
       for (int i = 0; i < 3; ++i) {
         region_observer.observe(images[i], camera.at_exposure[numbers[i]], frame);
         observer.observe(images[i], camera.at_exposure[numbers[i]], frame);
-        EXPECT_EQ(frame.obstacles.count_of(PixelFate::island) > 0, i == 0);
-        asker.ask(frame);
-        for (const std::size_t other : numbers) asker.ask(frame, camera.at_exposure[other]);
+        EXPECT_EQ(frame.obstacles.count_of(PixelFate::flying_patch) > 0, i == 0);
+        query.ask({frame});
+        image_query.ask(frame);
+        for (const std::size_t other : numbers) {
+          query.ask({frame, camera.at_exposure[other]});
+          image_query.ask(frame, camera.at_exposure[other]);
+        }
       }
     };
     go_through();
@@ -45,7 +52,32 @@ TEST(SteadyState, TheWholeWayAllocatesNothingOnceItHasSeenTheImages) {
   }
 }
 
-/// Joints pushed and looked up, frames that are refused, answers that are withheld.
+/// What frames left of space is kept while they are the same.
+TEST(SteadyState, TheSameFramesAskedAgainAreNotAssembledAnew) {
+  const OpenScene scene = open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml");
+  std::vector<Frame> observed(scene.cameras.size());
+  std::vector<const Frame*> frames;
+  for (std::size_t c = 0; c < observed.size(); ++c) {
+    const OpenCamera& camera = scene.cameras[c];
+    Observer(camera.view).observe(camera.read_depth(0), camera.at_exposure[0], observed[c]);
+    frames.push_back(&observed[c]);
+  }
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+  Query query(scene.robot);
+  query.ask({frames});
+  query.ask({frames});
+  const std::uint64_t assembled = query.frames().space().serial_number();
+  const std::size_t before = allocation_count();
+  for (int round = 0; round < 20; ++round) query.ask({frames});
+  EXPECT_EQ(allocation_count(), before);
+  EXPECT_EQ(query.frames().space().serial_number(), assembled);
+  const OpenCamera& camera = scene.cameras[0];
+  Observer(camera.view).observe(camera.read_depth(1), camera.at_exposure[1], observed[0]);
+  query.ask({frames});
+  EXPECT_NE(query.frames().space().serial_number(), assembled);
+}
+
+/// Joints pushed and looked up, frames that are refused, results that are withheld.
 TEST(SteadyState, TheRunningRobotsWayAllocatesNothingOnceItsBufferIsFull) {
   const OpenScene scene = open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml");
   const OpenCamera& camera = scene.cameras.front();
@@ -54,7 +86,8 @@ TEST(SteadyState, TheRunningRobotsWayAllocatesNothingOnceItsBufferIsFull) {
   for (const MovableJoint& joint : camera.view->robot()->model().joints) names.push_back(joint.name);
   JointBuffer joints(camera.view->robot()->model(), 50);
   Observer observer(camera.view);
-  Asker asker(camera.view->robot());
+  Query query(scene.robot);
+  ImageQuery image_query(scene.robot, Method::exact);
   Frame frame;
   int ms = 0;
   const auto run_100_ms = [&] {
@@ -64,10 +97,14 @@ TEST(SteadyState, TheRunningRobotsWayAllocatesNothingOnceItsBufferIsFull) {
     const double exposure_s = 1e-3 * (ms - 10);
     observer.observe(depth_m, exposure_s, joints, frame);
     EXPECT_EQ(frame.time.status, TimeStatus::ok);
-    EXPECT_EQ(asker.ask(frame, joints, 1e-3 * ms).time.status, TimeStatus::ok);
-    EXPECT_EQ(asker.ask(frame, 1e-3 * ms + 1).time.status, TimeStatus::stale_frame);
+    const double now_s = 1e-3 * ms;
+    EXPECT_EQ(query.ask({frame, joints, now_s}).time.status, TimeStatus::ok);
+    EXPECT_EQ(image_query.ask(frame, joints, now_s).time.status, TimeStatus::ok);
+    EXPECT_EQ(query.ask({frame, {}, now_s + 1}).time.status, TimeStatus::stale_frame);
+    EXPECT_EQ(image_query.ask(frame, {}, now_s + 1).time.status, TimeStatus::stale_frame);
     observer.observe(depth_m, exposure_s, joints, frame);
-    EXPECT_EQ(asker.ask(frame).time.status, TimeStatus::stamp_went_back);
+    EXPECT_EQ(query.ask({frame}).time.status, TimeStatus::stamp_went_back);
+    EXPECT_EQ(image_query.ask(frame).time.status, TimeStatus::stamp_went_back);
   };
   for (int round = 0; round < 3; ++round) run_100_ms();
   const std::size_t before = allocation_count();

@@ -1,4 +1,4 @@
-// Answers in time, and those that are withheld: the clock is the test's own.
+// Results in time, and those that are withheld: the clock is the test's own.
 #include "berth/pipeline/timeliness.hpp"
 
 #include <gtest/gtest.h>
@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "berth/scene/open_scene.hpp"
-#include "berth/pipeline/asker.hpp"
 #include "berth/pipeline/observer.hpp"
+#include "tests/pipeline/any_query.hpp"
 #include "tests/support/view_with.hpp"
 
 namespace berth {
@@ -23,13 +23,13 @@ std::vector<std::string> joint_names(const RobotModel& model) {
 }
 
 /// A camera of 30 Hz and joints of 100 Hz that begin at 10 s.
-class RunningRobot : public ::testing::Test {
+class RunningRobot : public ::testing::TestWithParam<Method> {
  protected:
   RunningRobot()
       : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml")),
         camera_(scene_.cameras.front()),
         depth_m_(camera_.read_depth(3)),
-        view_(testing::view_with(*camera_.view, testing::exact_evaluation(), {})),
+        view_(testing::view_with(*camera_.view, EvaluationSettings(), {})),
         names_(joint_names(view_->robot()->model())) {
     push_until(10.5);
   }
@@ -48,40 +48,48 @@ class RunningRobot : public ::testing::Test {
   OpenScene scene_;
   const OpenCamera& camera_;
   DepthImage depth_m_;
-  std::shared_ptr<const View> view_;
+  std::shared_ptr<const MountedCamera> view_;
   std::vector<std::string> names_;
   double next_s_ = 10;
   JointBuffer buffer_{view_->robot()->model(), 100};
   Observer observer_{view_};
-  Asker asker_{view_->robot()};
+  testing::AnyQuery query_{view_->robot(), GetParam()};
   Frame frame_;
 };
 
-bool all_ok(const Answer& answer) {
-  for (const LinkDistance& link : answer.distances.links) {
+INSTANTIATE_TEST_SUITE_P(Methods, RunningRobot, ::testing::Values(Method::mesh, Method::exact),
+                         [](const auto& test) { return std::string(name_of(test.param)); });
+
+bool all_ok(const Result& result) {
+  for (const LinkResult& link : result.links) {
     if (link.status != LinkStatus::ok) return false;
   }
-  return !answer.distances.links.empty();
+  return result.status == ResultStatus::ok && !result.links.empty();
 }
 
-void expect_withheld(const Answer& answer, TimeStatus status, int link_count) {
-  EXPECT_EQ(answer.time.status, status);
-  EXPECT_EQ(answer.distances.pairs, 0);
-  ASSERT_EQ(answer.distances.links.size(), static_cast<std::size_t>(link_count));
+void expect_withheld(const Result& result, TimeStatus status, int link_count) {
+  EXPECT_EQ(result.status, ResultStatus::stale);
+  EXPECT_EQ(result.time.status, status);
+  EXPECT_EQ(result.pairs, 0);
+  EXPECT_EQ(result.nearest, -1);
+  EXPECT_TRUE(result.pose.X_BL.empty());
+  ASSERT_EQ(result.links.size(), static_cast<std::size_t>(link_count));
   for (int i = 0; i < link_count; ++i) {
-    const LinkDistance& link = answer.distances.links[i];
+    const LinkResult& link = result.links[i];
     EXPECT_EQ(link.id, i + 1);
-    EXPECT_EQ(link.status, LinkStatus::untimely);
+    EXPECT_EQ(link.status, LinkStatus::stale);
     EXPECT_TRUE(std::isnan(link.distance_m) && std::isnan(link.lower_bound_m));
     EXPECT_TRUE(link.robot_point_C_m.hasNaN() && link.obstacle_point_C_m.hasNaN());
-    EXPECT_EQ(link.robot_pixel, Pixel());
+    EXPECT_TRUE(link.robot_point_B_m.hasNaN() && link.obstacle_point_B_m.hasNaN());
+    EXPECT_FALSE(link.occupied.is_known());
+    EXPECT_EQ(link.image.robot_pixel, Pixel());
   }
 }
 
-TEST_F(RunningRobot, AnAnswerInTimeHasItsAgesAndSkew) {
+TEST_P(RunningRobot, AnAnswerInTimeHasItsAgesAndSkew) {
   ASSERT_EQ(observe(10.303), TimeStatus::ok);
-  const Answer& fresh =
-      asker_.ask(frame_, JointState{10.4, camera_.at_exposure[3].position}, 10.41);
+  const Result& fresh =
+      query_.ask(frame_, JointState{10.4, camera_.at_exposure[3].position}, 10.41);
   EXPECT_EQ(fresh.time.status, TimeStatus::ok);
   EXPECT_NEAR(fresh.time.frame_age_s, 0.107, 1e-9);
   EXPECT_NEAR(fresh.time.joints_age_s, 0.01, 1e-9);
@@ -89,58 +97,58 @@ TEST_F(RunningRobot, AnAnswerInTimeHasItsAgesAndSkew) {
   EXPECT_TRUE(all_ok(fresh));
 }
 
-TEST_F(RunningRobot, TheAnswerIsThatOfTheSameJointsWithoutAnyClock) {
+TEST_P(RunningRobot, TheAnswerIsThatOfTheSameJointsWithoutAnyClock) {
   ASSERT_EQ(observe(10.303), TimeStatus::ok);
-  const Answer timed = asker_.ask(frame_, 10.35);
+  const Result timed = query_.ask(frame_, {}, 10.35);
   Frame plain;
   Observer(view_).observe(depth_m_, camera_.at_exposure[3], plain);
-  const Answer& untimed = asker_.ask(plain);
+  const Result& untimed = query_.ask(plain);
   EXPECT_TRUE(std::isnan(untimed.time.frame_age_s));
   EXPECT_EQ(untimed.time.status, TimeStatus::ok);
-  for (std::size_t i = 0; i < timed.distances.links.size(); ++i) {
-    EXPECT_FLOAT_EQ(timed.distances.links[i].distance_m, untimed.distances.links[i].distance_m);
+  for (std::size_t i = 0; i < timed.links.size(); ++i) {
+    EXPECT_FLOAT_EQ(timed.links[i].distance_m, untimed.links[i].distance_m);
   }
 }
 
-TEST_F(RunningRobot, AStaleFrameGivesNoAnswerHoweverOftenItIsAsked) {
+TEST_P(RunningRobot, AStaleFrameGivesNoAnswerHoweverOftenItIsAsked) {
   ASSERT_EQ(observe(10.2), TimeStatus::ok);
-  EXPECT_TRUE(all_ok(asker_.ask(frame_, 10.349)));
+  EXPECT_TRUE(all_ok(query_.ask(frame_, {}, 10.349)));
   for (const double now_s : {10.351, 11.0, 1e9, kNaN}) {
-    expect_withheld(asker_.ask(frame_, now_s), TimeStatus::stale_frame, view_->robot()->model().link_count());
+    expect_withheld(query_.ask(frame_, {}, now_s), TimeStatus::stale_frame, view_->robot()->model().link_count());
   }
-  expect_withheld(asker_.ask(frame_, 10.194), TimeStatus::frame_in_future,
+  expect_withheld(query_.ask(frame_, {}, 10.194), TimeStatus::frame_in_future,
                   view_->robot()->model().link_count());
-  EXPECT_TRUE(all_ok(asker_.ask(frame_, 10.349))) << "an earlier refusal leaves nothing behind";
+  EXPECT_TRUE(all_ok(query_.ask(frame_, {}, 10.349))) << "an earlier refusal leaves nothing behind";
 }
 
-TEST_F(RunningRobot, StaleJointsGiveNoAnswerAndPlannedOnesDo) {
+TEST_P(RunningRobot, StaleJointsGiveNoAnswerAndPlannedOnesDo) {
   ASSERT_EQ(observe(10.4), TimeStatus::ok);
-  EXPECT_TRUE(all_ok(asker_.ask(frame_, buffer_, 10.51)));
-  expect_withheld(asker_.ask(frame_, buffer_, 10.53), TimeStatus::stale_joints,
+  EXPECT_TRUE(all_ok(query_.ask(frame_, buffer_, 10.51)));
+  expect_withheld(query_.ask(frame_, buffer_, 10.53), TimeStatus::stale_joints,
                   view_->robot()->model().link_count());
   const JointState planned{10.9, camera_.at_exposure[3].position};
-  const Answer& answer = asker_.ask(frame_, planned, 10.45);
+  const Result& answer = query_.ask(frame_, planned, 10.45);
   EXPECT_NEAR(answer.time.joints_age_s, -0.45, 1e-9);
   EXPECT_TRUE(all_ok(answer));
 }
 
-TEST_F(RunningRobot, AnExposureThatTheJointsDoNotReachLeavesNothingOfTheFrameBefore) {
+TEST_P(RunningRobot, AnExposureThatTheJointsDoNotReachLeavesNothingOfTheFrameBefore) {
   ASSERT_EQ(observe(10.4), TimeStatus::ok);
-  ASSERT_TRUE(all_ok(asker_.ask(frame_)));
+  ASSERT_TRUE(all_ok(query_.ask(frame_)));
   EXPECT_EQ(observe(10.52), TimeStatus::extrapolated_too_far);
-  expect_withheld(asker_.ask(frame_), TimeStatus::extrapolated_too_far, view_->robot()->model().link_count());
-  expect_withheld(asker_.ask(frame_, camera_.at_exposure[3]), TimeStatus::extrapolated_too_far,
+  expect_withheld(query_.ask(frame_), TimeStatus::extrapolated_too_far, view_->robot()->model().link_count());
+  expect_withheld(query_.ask(frame_, camera_.at_exposure[3]), TimeStatus::extrapolated_too_far,
                   view_->robot()->model().link_count());
-  EXPECT_EQ(asker_.ask(frame_).frame_stamp_s, 10.52);
+  EXPECT_EQ(query_.ask(frame_).cameras[0].stamp_s, 10.52);
   for (const float z_m : frame_.obstacles.depth_m.pixels()) ASSERT_TRUE(std::isnan(z_m));
   for (const LinkId id : frame_.robot.link_id.pixels()) ASSERT_EQ(id, kNoLink);
   EXPECT_TRUE(frame_.X_BC.matrix().hasNaN());
   push_until(10.6);
   EXPECT_EQ(observe(10.55), TimeStatus::ok);
-  EXPECT_TRUE(all_ok(asker_.ask(frame_))) << "the next frame is whole again";
+  EXPECT_TRUE(all_ok(query_.ask(frame_))) << "the next frame is whole again";
 }
 
-TEST_F(RunningRobot, AGapInTheJointsIsSkew) {
+TEST_P(RunningRobot, AGapInTheJointsIsSkew) {
   next_s_ = 10.6;
   push_until(10.7);
   EXPECT_EQ(observe(10.51), TimeStatus::ok);
@@ -148,13 +156,13 @@ TEST_F(RunningRobot, AGapInTheJointsIsSkew) {
   EXPECT_NEAR(frame_.time.skew_s, 0.05, 0.011);
 }
 
-TEST_F(RunningRobot, StampsThatGoBackRepeatOrJumpCostTheirFrame) {
+TEST_P(RunningRobot, StampsThatGoBackRepeatOrJumpCostTheirFrame) {
   next_s_ = 10.51;
   push_until(10.9);
   EXPECT_EQ(observe(10.3), TimeStatus::ok);
   EXPECT_EQ(observe(10.3), TimeStatus::stamp_went_back) << "the same image again";
   EXPECT_EQ(observe(10.2), TimeStatus::stamp_went_back);
-  expect_withheld(asker_.ask(frame_), TimeStatus::stamp_went_back, view_->robot()->model().link_count());
+  expect_withheld(query_.ask(frame_), TimeStatus::stamp_went_back, view_->robot()->model().link_count());
   EXPECT_EQ(observe(10.2 + kPeriod_s), TimeStatus::ok) << "judged by the frame before alone";
   EXPECT_EQ(observe(1e9), TimeStatus::stamp_jumped);
   EXPECT_EQ(observe(10.4), TimeStatus::stamp_went_back);
@@ -162,17 +170,17 @@ TEST_F(RunningRobot, StampsThatGoBackRepeatOrJumpCostTheirFrame) {
   EXPECT_EQ(observe(-1e9), TimeStatus::stamp_went_back);
 }
 
-TEST_F(RunningRobot, AMissingJointIsTheStatusOfFramesAndQuestions) {
+TEST_P(RunningRobot, AMissingJointIsTheStatusOfFramesAndQuestions) {
   ASSERT_EQ(observe(10.4), TimeStatus::ok);
   const std::vector<std::string> fewer(names_.begin() + 1, names_.end());
   buffer_.push(10.52, fewer, std::vector<double>(fewer.size(), 0.0));
   EXPECT_EQ(buffer_.missing_joint(), names_.front());
-  expect_withheld(asker_.ask(frame_, buffer_, 10.45), TimeStatus::missing_joint,
+  expect_withheld(query_.ask(frame_, buffer_, 10.45), TimeStatus::missing_joint,
                   view_->robot()->model().link_count());
   EXPECT_EQ(observe(10.52), TimeStatus::missing_joint);
-  expect_withheld(asker_.ask(frame_, 10.53), TimeStatus::missing_joint, view_->robot()->model().link_count());
+  expect_withheld(query_.ask(frame_, {}, 10.53), TimeStatus::missing_joint, view_->robot()->model().link_count());
   const JointBuffer empty(view_->robot()->model(), 2);
-  expect_withheld(asker_.ask(frame_, empty, 10.45), TimeStatus::no_joints,
+  expect_withheld(query_.ask(frame_, empty, 10.45), TimeStatus::no_joints,
                   view_->robot()->model().link_count());
 }
 

@@ -3,23 +3,21 @@
 
 #include <thread>
 
+#include "berth/render/robot_renderer.hpp"
 #include "berth/scene/open_scene.hpp"
-#include "berth/pipeline/asker.hpp"
+#include "berth/image_distance/evaluate.hpp"
 #include "berth/pipeline/observer.hpp"
+#include "tests/pipeline/any_query.hpp"
 #include "tests/support/view_with.hpp"
 
 namespace berth {
 namespace {
 
-std::vector<float> distances_of(const Answer& answer) {
-  std::vector<float> distances;
-  for (const LinkDistance& link : answer.distances.links) distances.push_back(link.distance_m);
-  return distances;
-}
+using testing::distances_of;
 
-class TwoClocks : public ::testing::Test {
+class TwoClocksOnImages : public ::testing::Test {
  protected:
-  TwoClocks()
+  TwoClocksOnImages()
       : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml")),
         camera_(scene_.cameras.front()) {}
 
@@ -34,55 +32,67 @@ class TwoClocks : public ::testing::Test {
   const OpenCamera& camera_;
 };
 
-TEST_F(TwoClocks, TheJointsOfTheExposureGiveTheAnswerOfTheExposure) {
+class TwoClocks : public TwoClocksOnImages, public ::testing::WithParamInterface<Method> {};
+INSTANTIATE_TEST_SUITE_P(Methods, TwoClocks, ::testing::Values(Method::mesh, Method::exact),
+                         [](const auto& test) { return std::string(name_of(test.param)); });
+
+TEST_P(TwoClocks, TheJointsOfTheExposureGiveTheAnswerOfTheExposure) {
   const Frame frame = observe(3);
-  Asker asker(camera_.view->robot());
-  const auto at_exposure = distances_of(asker.ask(frame));
-  EXPECT_EQ(distances_of(asker.ask(frame, camera_.at_exposure[3])), at_exposure);
+  testing::AnyQuery query(scene_.robot, GetParam());
+  const auto at_exposure = distances_of(query.ask(frame));
+  EXPECT_EQ(distances_of(query.ask(frame, camera_.at_exposure[3])), at_exposure);
 }
 
-TEST_F(TwoClocks, OtherJointsGiveTheRobotOfThatPoseAgainstWhatTheFrameSaw) {
+TEST_P(TwoClocks, OtherJointsGiveTheRobotOfThatPoseAgainstWhatTheFrameSaw) {
   const Frame frame = observe(3);
-  Asker asker(camera_.view->robot());
+  testing::AnyQuery query(scene_.robot, GetParam());
   JointState next = camera_.at_exposure[20];
-  const Answer answer = asker.ask(frame, next);
-  EXPECT_EQ(answer.frame_stamp_s, camera_.at_exposure[3].stamp_s);
-  EXPECT_EQ(answer.joints_stamp_s, next.stamp_s);
-  EXPECT_NE(distances_of(answer), distances_of(asker.ask(frame)));
+  const Result result = query.ask(frame, next);
+  EXPECT_EQ(result.stamp_s, camera_.at_exposure[3].stamp_s);
+  EXPECT_EQ(result.joints_stamp_s, next.stamp_s);
+  EXPECT_NE(distances_of(result), distances_of(query.ask(frame)));
+}
 
+TEST_F(TwoClocksOnImages, OtherJointsGiveTheImageOfThatPoseAgainstWhatTheFrameSaw) {
+  const Frame frame = observe(3);
+  const JointState next = camera_.at_exposure[20];
+  ImageQuery query(scene_.robot, Method::exact);
+  const Result& result = query.ask(frame, next);
+  const RobotModel& model = scene_.robot->model();
   RobotPose pose;
-  forward_kinematics(camera_.view->robot()->model(), next.position, pose);
+  forward_kinematics(model, next.position, pose);
   RobotImage robot;
-  RobotRenderer(camera_.view->robot()->meshes(), camera_.view->camera()).render(pose, frame.X_BC, robot);
+  RobotRenderer(scene_.robot->meshes(), camera_.view->camera()).render(pose, frame.X_BC, robot);
+  SearchableDepth obstacles;
+  obstacles.build(frame.obstacles.depth_m);
   EvaluateWorkspace workspace;
   LinkDistances expected;
-  evaluate(Method::exact,
-           {camera_.view->camera(), robot, camera_.view->robot()->model().link_count(), frame.searchable, {}},
+  evaluate(Method::exact, {camera_.view->camera(), robot, model.link_count(), obstacles, {}},
            workspace, expected);
   for (std::size_t i = 0; i < expected.links.size(); ++i) {
-    EXPECT_EQ(answer.distances.links[i].distance_m, expected.links[i].distance_m);
+    EXPECT_EQ(result.links[i].distance_m, expected.links[i].distance_m);
   }
 }
 
-TEST_F(TwoClocks, FramesAndAskersCarryNothingOver) {
+TEST_P(TwoClocks, FramesAndQueriesCarryNothingOver) {
   Observer observer(camera_.view);
-  Asker asker(camera_.view->robot());
+  testing::AnyQuery query(scene_.robot, GetParam());
   Frame frame;
   const auto run = [&](std::size_t i) {
     observer.observe(camera_.read_depth(i), camera_.at_exposure[i], frame);
-    return distances_of(asker.ask(frame));
+    return distances_of(query.ask(frame));
   };
   const auto first = run(5);
   run(25);
   EXPECT_EQ(run(5), first);
 }
 
-TEST_F(TwoClocks, TwoThreadsAskOneFrame) {
+TEST_P(TwoClocks, TwoThreadsAskOneFrame) {
   const Frame frame = observe(7);
   std::vector<float> answers[2];
   const auto ask = [&](std::vector<float>& out) {
-    Asker asker(camera_.view->robot());
-    for (int i = 0; i < 20; ++i) out = distances_of(asker.ask(frame, camera_.at_exposure[8]));
+    testing::AnyQuery query(scene_.robot, GetParam());
+    for (int i = 0; i < 20; ++i) out = distances_of(query.ask(frame, camera_.at_exposure[8]));
   };
   std::thread other(ask, std::ref(answers[0]));
   ask(answers[1]);
@@ -91,24 +101,24 @@ TEST_F(TwoClocks, TwoThreadsAskOneFrame) {
   EXPECT_FALSE(answers[0].empty());
 }
 
-TEST_F(TwoClocks, WrongSizesAndJointsAreRefused) {
+TEST_P(TwoClocks, WrongSizesAndJointsAreRefused) {
   Observer observer(camera_.view);
-  Asker asker(camera_.view->robot());
+  testing::AnyQuery query(scene_.robot, GetParam());
   Frame frame = observe(0);
   EXPECT_THROW(observer.observe(DepthImage(10, 10, 1.0F), camera_.at_exposure[0], frame),
                std::invalid_argument);
-  EXPECT_THROW(asker.ask(frame, JointState{0, {1, 2}}), std::invalid_argument);
+  EXPECT_THROW(query.ask(frame, JointState{0, {1, 2}}), std::invalid_argument);
   JointState bad = camera_.at_exposure[0];
   bad.position[2] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(asker.ask(frame, bad), std::invalid_argument);
+  EXPECT_THROW(query.ask(frame, bad), std::invalid_argument);
 }
 
-TEST_F(TwoClocks, ABackgroundIsLearnedOnlyWhereItIsAskedForAndFromImagesOfTheCamerasSize) {
+TEST_P(TwoClocks, ABackgroundIsLearnedOnlyWhereItIsAskedForAndFromImagesOfTheCamerasSize) {
   const Frame frame = observe(0);
   const DepthImage depth_m = camera_.read_depth(0);
   EXPECT_THROW(Observer(camera_.view).learn_background(depth_m, frame), std::invalid_argument);
 
-  ViewSettings settings;
+  CameraSettings settings;
   settings.sensor.background_frames = 1;
   Observer observer(testing::view_with(*camera_.view, settings));
   EXPECT_THROW(observer.learn_background(DepthImage(10, 10, 1.0F), frame), std::invalid_argument);

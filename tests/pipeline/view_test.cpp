@@ -1,5 +1,5 @@
-// What a View refuses, by name and value.
-#include "berth/pipeline/view.hpp"
+// What a MountedCamera refuses, by name and value.
+#include "berth/pipeline/mounted_camera.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,12 +25,12 @@ std::shared_ptr<const Robot> make_robot() {
 std::string refusal(const Camera& camera, const Eigen::Matrix3d& rotation) {
   CameraMount mount{camera, "base", Pose::Identity()};
   mount.X_PC.linear() = rotation;
-  return error_message<std::invalid_argument>([&] { View(make_robot(), mount); });
+  return error_message<std::invalid_argument>([&] { MountedCamera(make_robot(), mount); });
 }
 
 constexpr Camera kCamera{64, 48, 50, 50, 31.5, 23.5};
 
-TEST(View, ARotationThatIsNoneIsRefused) {
+TEST(MountedCamera, ARotationThatIsNoneIsRefused) {
   const Eigen::Matrix3d turned =
       Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   EXPECT_EQ(refusal(kCamera, turned), "");
@@ -48,14 +48,14 @@ TEST(View, ARotationThatIsNoneIsRefused) {
   EXPECT_EQ(refusal(kCamera, rounded), "");
 }
 
-TEST(View, APoseThatNobodySetIsRefused) {
+TEST(MountedCamera, APoseThatNobodySetIsRefused) {
   EXPECT_EQ(error_message<std::invalid_argument>([] {
-              View(make_robot(), CameraMount{kCamera, "base"});
+              MountedCamera(make_robot(), CameraMount{kCamera, "base"});
             }),
             "camera: the pose X_PC is not set; expected finite numbers");
 }
 
-TEST(View, ACameraWithoutSizeOrFocusIsRefused) {
+TEST(MountedCamera, ACameraWithoutSizeOrFocusIsRefused) {
   const Eigen::Matrix3d straight = Eigen::Matrix3d::Identity();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const Camera& wrong : {Camera{}, Camera{0, 48, 50, 50, 31.5, 23.5},

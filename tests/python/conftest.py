@@ -47,5 +47,5 @@ def observer(one_camera):
 
 
 @pytest.fixture
-def asker(one_camera):
-    return berth.Asker(one_camera.robot)
+def query(one_camera):
+    return berth.Query(one_camera.robot)

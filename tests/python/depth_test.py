@@ -119,8 +119,8 @@ def test_fates_are_counted(step):
 
 
 def test_threads_observe_and_ask_side_by_side(one_camera, step):
-    """Each thread sees the answers of one alone; one asker shared by all gives them too."""
-    shared = berth.Asker(one_camera.robot)
+    """Each thread sees the results of one alone; one query shared by all gives them too."""
+    shared = berth.Query(one_camera.robot)
     expected = shared.ask(step.frame).distance_m.copy()
     wrong = []
 
@@ -128,11 +128,11 @@ def test_threads_observe_and_ask_side_by_side(one_camera, step):
         observer = berth.Observer(one_camera.views[0])
         for _ in range(10):
             frame = observer.observe(step.depth_m, step.joints)
-            for asker in (shared, own):
-                if not np.allclose(asker.ask(frame).distance_m, expected, atol=2e-3, equal_nan=True):
+            for query in (shared, own):
+                if not np.allclose(query.ask(frame).distance_m, expected, atol=2e-3, equal_nan=True):
                     wrong.append(threading.get_ident())
 
-    threads = [threading.Thread(target=work, args=(berth.Asker(one_camera.robot),)) for _ in range(4)]
+    threads = [threading.Thread(target=work, args=(berth.Query(one_camera.robot),)) for _ in range(4)]
     for thread in threads:
         thread.start()
     for thread in threads:

@@ -14,4 +14,4 @@ def test_the_pages_lines_run(tmp_path):
     (tmp_path / "copied.py").write_text("\n".join(blocks))
     run = subprocess.run([sys.executable, "copied.py"], cwd=tmp_path, capture_output=True, text=True)
     assert run.returncode == 0, run.stderr
-    assert "LinkDistance(arm, ok" in run.stdout and "SelfFilterSettings(tolerance_m=0.03" in run.stdout
+    assert "LinkResult(arm, ok" in run.stdout and "SelfFilterSettings(tolerance_m=0.03" in run.stdout

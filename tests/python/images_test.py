@@ -18,33 +18,35 @@ def test_the_parts_make_the_frame(one_camera, step):
 
 def test_methods_on_images_agree(one_camera, step):
     camera, frame = one_camera.views[0].camera, step.frame
-    answers = {
-        method: berth.evaluate(frame.robot_depth_m, frame.link_id, frame.obstacle_depth_m, camera, 8,
-                               berth.EvaluationSettings(method=method, range_m=0.4))
-        for method in ("exact", "brute_force")
+    found = {
+        method: berth.evaluate(frame.robot_depth_m, frame.link_id, frame.obstacle_depth_m, camera, 8, method, range_m=0.4)
+        for method in ("exact", "brute_force", "lattice")
     }
-    for exact, brute in zip(*answers.values()):
+    for exact, brute, lattice in zip(*found.values()):
+        assert not lattice["distance_m"] < exact["distance_m"] - 1e-6
         assert exact["status"] == brute["status"]
         assert exact["distance_m"] == pytest.approx(brute["distance_m"], nan_ok=True)
-    assert any(np.isfinite(link["distance_m"]) for link in answers["exact"])
+    assert any(np.isfinite(link["distance_m"]) for link in found["exact"])
 
 
 def test_images_that_do_not_go_together_are_named(one_camera, step):
     camera, frame = one_camera.views[0].camera, step.frame
-    exact = berth.EvaluationSettings(method="exact")
     with pytest.raises(ValueError, match="link_id: 640 x 240 pixels"):
-        berth.evaluate(frame.robot_depth_m, frame.link_id[::2], frame.obstacle_depth_m, camera, 8, exact)
+        berth.evaluate(frame.robot_depth_m, frame.link_id[::2], frame.obstacle_depth_m, camera, 8)
     with pytest.raises(ValueError, match="expected 0 exactly where there is no depth"):
-        berth.evaluate(frame.robot_depth_m, np.ones_like(frame.link_id), frame.obstacle_depth_m, camera, 8, exact)
+        berth.evaluate(frame.robot_depth_m, np.ones_like(frame.link_id), frame.obstacle_depth_m, camera, 8)
     with pytest.raises(ValueError, match="link_count, which is 3"):
-        berth.evaluate(frame.robot_depth_m, frame.link_id, frame.obstacle_depth_m, camera, 3, exact)
-    with pytest.raises(ValueError, match="mesh asks frames"):
-        berth.evaluate(frame.robot_depth_m, frame.link_id, frame.obstacle_depth_m, camera, 8, berth.EvaluationSettings())
+        berth.evaluate(frame.robot_depth_m, frame.link_id, frame.obstacle_depth_m, camera, 3)
+    for method in ("mesh", "fast"):
+        with pytest.raises(ValueError, match=f'method: "{method}"; expected one of exact, brute_force, lattice'):
+            berth.evaluate(frame.robot_depth_m, frame.link_id, frame.obstacle_depth_m, camera, 8, method)
+    with pytest.raises(ValueError, match="range_m: -1"):
+        berth.evaluate(frame.robot_depth_m, frame.link_id, frame.obstacle_depth_m, camera, 8, range_m=-1)
 
 
 def test_a_background_is_learned_where_it_is_asked_for(one_camera, step):
     view = one_camera.views[0]
-    learning = berth.View(one_camera.robot, view.camera, view.parent_link, view.X_PC, sensor=berth.SensorSettings(background_frames=2))
+    learning = berth.MountedCamera(one_camera.robot, view.camera, view.parent_link, view.X_PC, sensor=berth.SensorSettings(background_frames=2))
     observer = berth.Observer(learning)
     for _ in range(3):
         frame = observer.observe(step.depth_m, step.joints)

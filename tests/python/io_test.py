@@ -1,4 +1,4 @@
-"""Scene folders, bags without their packages, plots, and a teach-in."""
+"""Scene folders, bags without their packages, plots, and a calibration."""
 import json
 import os
 import subprocess
@@ -20,7 +20,7 @@ def record_of(scene, steps, stamps_s=(0.0, 0.1)):
     return berth.io.CameraRecord("front", view.camera, view.parent_link, view.X_PC, [s.depth_m for s in steps], stamps_s)
 
 
-def test_a_scene_that_was_written_gives_the_same_answers(tmp_path, one_mesh_camera):
+def test_a_scene_that_was_written_gives_the_same_results(tmp_path, one_mesh_camera):
     steps = [s for i, s in enumerate(one_mesh_camera) if i < 2]
     names = one_mesh_camera.robot.model.joint_names
     joints = {name: [s.joints[i] for s in steps] for i, name in enumerate(names)}
@@ -29,7 +29,7 @@ def test_a_scene_that_was_written_gives_the_same_answers(tmp_path, one_mesh_came
     for was, now in zip(steps, berth.open_scene(file)):
         np.testing.assert_allclose(now.depth_m, was.depth_m, atol=1e-6)
         np.testing.assert_allclose(now.frame.X_BC, was.frame.X_BC, atol=1e-9)
-        np.testing.assert_allclose(now.answer.distance_m, was.answer.distance_m, atol=2e-3)
+        np.testing.assert_allclose(now.result.distance_m, was.result.distance_m, atol=2e-3)
     with pytest.raises(ValueError, match="is there already"):
         berth.io.write_scene(str(tmp_path / "scene"), str(URDF), [], [0.0], {})
 
@@ -57,7 +57,7 @@ def test_a_package_that_is_missing_is_named(tmp_path, monkeypatch, bag, package)
         berth.io.import_bag(str(tmp_path / bag), str(tmp_path / "out"))
 
 
-def test_a_teach_in_finds_the_pose_and_writes_the_scene(tmp_path):
+def test_a_calibration_data_finds_the_pose_and_writes_the_scene(tmp_path):
     scene = yaml.safe_load((SOURCE / "data/bundled/one_camera.yaml").read_text())
     camera = scene["cameras"][0]
     folder = SOURCE / "data/bundled"
@@ -82,15 +82,15 @@ def test_a_teach_in_finds_the_pose_and_writes_the_scene(tmp_path):
 def test_pictures(one_camera, step):
     plot = pytest.importorskip("berth.plot")
     pytest.importorskip("matplotlib")
-    answers = [s.answer for i, s in enumerate(one_camera) if i < 5]
-    axes = plot.distances(answers)
-    assert [text.get_text() for text in axes.get_legend().get_texts()] == answers[0].link_names[1:]
-    np.testing.assert_allclose(axes.lines[0].get_ydata(), [a.distance_m[1] for a in answers])
-    drawn = plot.frame(step.frame, step.answer, one_camera.views[0].camera)
+    results = [s.result for i, s in enumerate(one_camera) if i < 5]
+    axes = plot.distances(results)
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == results[0].link_names[1:]
+    np.testing.assert_allclose(axes.lines[0].get_ydata(), [a.distance_m[1] for a in results])
+    drawn = plot.frame(step.frame, step.result, one_camera.views[0].camera)
     assert drawn.lines and drawn.images[0].get_array().shape == (480, 640, 3)
-    for picture in (step.frame._repr_png_(), step.answer._repr_png_(), plot.png(axes)):
+    for picture in (step.frame._repr_png_(), step.result._repr_png_(), plot.png(axes)):
         assert picture.startswith(b"\x89PNG") and len(picture) > 5000
-    with pytest.raises(ValueError, match="answers: none"):
+    with pytest.raises(ValueError, match="results: none"):
         plot.distances([])
 
 

@@ -13,6 +13,11 @@ GROUPS = {
 }
 
 
+# What only scenes have that compare images.
+OF_IMAGES = {"method", "region", "depth_interval", "search_pattern", "shrinking", "step_x", "step_y", "initial_grid_radius_px",
+             "final_grid_radius_px", "tile_px"}
+
+
 @pytest.mark.parametrize("group", GROUPS)
 def test_all_settings_of_the_scene_file_are_here(group):
     text = (SOURCE / "docs/scene.md").read_text()
@@ -21,7 +26,7 @@ def test_all_settings_of_the_scene_file_are_here(group):
     settings = GROUPS[group]().as_dict()
     assert tables, "docs/scene.md has tables of settings"
     if group in tables and tables[group]:
-        assert tables[group] - {"link_padding_m"} <= set(settings)
+        assert tables[group] - {"link_padding_m"} - OF_IMAGES <= set(settings)
     for name, value in settings.items():
         prop = getattr(GROUPS[group], name)
         assert len(prop.__doc__) > 10, name
@@ -33,7 +38,7 @@ def test_they_can_be_given_set_and_shown():
     settings.padding_m = 0.01
     assert (settings.tolerance_m, settings.dilation_px, settings.padding_m) == (0.03, 2, 0.01)
     assert "tolerance_m=0.03" in repr(settings)
-    assert berth.EvaluationSettings(method="exact").method == "exact"
+    assert berth.SpaceSettings(no_reading="free").no_reading == "free"
     assert berth.EvaluationSettings(deadline_us=None).deadline_us is None
 
 
@@ -56,9 +61,13 @@ def test_a_wrong_value_changes_nothing():
     assert settings.tolerance_m == berth.SelfFilterSettings().tolerance_m
 
 
-def test_a_wrong_name_of_a_method_is_named():
-    with pytest.raises(ValueError, match='evaluation.method: "fast"; expected one of mesh, exact'):
-        berth.EvaluationSettings(method="fast")
+def test_a_wrong_name_is_named():
+    with pytest.raises(ValueError, match='space.no_reading: "fast"; expected one of '):
+        berth.SpaceSettings(no_reading="fast")
+
+
+def test_the_whole_robot_is_asked_without_a_method():
+    assert not OF_IMAGES & set(berth.EvaluationSettings().as_dict())
 
 
 @pytest.mark.parametrize("pose, said", [
@@ -67,12 +76,12 @@ def test_a_wrong_name_of_a_method_is_named():
 ])
 def test_what_is_no_pose_is_named(one_camera, pose, said):
     with pytest.raises(ValueError, match=said):
-        berth.View(one_camera.robot, one_camera.views[0].camera, "table", pose)
+        berth.MountedCamera(one_camera.robot, one_camera.views[0].camera, "table", pose)
 
 
 def test_a_link_that_there_is_not_is_named(one_camera):
     with pytest.raises(ValueError, match="desk"):
-        berth.View(one_camera.robot, one_camera.views[0].camera, "desk", np.eye(4))
+        berth.MountedCamera(one_camera.robot, one_camera.views[0].camera, "desk", np.eye(4))
 
 
 def test_files_that_are_missing_or_bad_are_named(tmp_path):
@@ -89,6 +98,6 @@ def test_files_that_are_missing_or_bad_are_named(tmp_path):
 
 def test_a_view_is_what_it_was_made_of(one_camera):
     view = one_camera.views[0]
-    again = berth.View(one_camera.robot, view.camera, view.parent_link, view.X_PC, self_filter=view.self_filter, name="again")
+    again = berth.MountedCamera(one_camera.robot, view.camera, view.parent_link, view.X_PC, self_filter=view.self_filter, name="again")
     np.testing.assert_array_equal(again.X_PC, view.X_PC)
     assert again.name == "again" and again.self_filter.as_dict() == view.self_filter.as_dict()

@@ -9,19 +9,19 @@ constexpr double kDepthTolerance = 1e-4;
 constexpr double kTieTolerance = 1e-6;
 constexpr double kEdge_px = 0.01;
 
-bool same_depth(const RayHit& a, const RayHit& b, double tolerance) {
+bool same_depth(const sim::RayHit& a, const sim::RayHit& b, double tolerance) {
   return std::abs(a.depth_m - b.depth_m) <= tolerance * a.depth_m;
 }
 
-bool same(const RayHit& a, const RayHit& b, double tolerance) {
+bool same(const sim::RayHit& a, const sim::RayHit& b, double tolerance) {
   return a.id == b.id && (a.id == kNoLink || same_depth(a, b, tolerance));
 }
 
-bool is_tie(const RayHit& a, const RayHit& b) {
+bool is_tie(const sim::RayHit& a, const sim::RayHit& b) {
   return a.id != kNoLink && b.id != kNoLink && same_depth(a, b, kTieTolerance);
 }
 
-bool is_edge(const CastRay& twin, const RayHit& centre, int u, int v) {
+bool is_edge(const CastRay& twin, const sim::RayHit& centre, int u, int v) {
   for (const auto& [du, dv] : {std::pair{kEdge_px, kEdge_px},
                                {kEdge_px, -kEdge_px},
                                {-kEdge_px, kEdge_px},
@@ -37,8 +37,8 @@ Comparison compare(const RobotImage& image, const CastRay& twin) {
   Comparison result;
   for (int v = 0; v < image.depth_m.height(); ++v) {
     for (int u = 0; u < image.depth_m.width(); ++u) {
-      const RayHit expected = twin(u, v);
-      const RayHit found{image.link_id(u, v), image.depth_m(u, v)};
+      const sim::RayHit expected = twin(u, v);
+      const sim::RayHit found{image.link_id(u, v), image.depth_m(u, v)};
       ++result.pixels;
       if (expected.id != kNoLink) ++result.robot_pixels;
       if (std::isnan(found.depth_m) != (found.id == kNoLink)) {

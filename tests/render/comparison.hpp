@@ -4,12 +4,12 @@
 #include <functional>
 #include <vector>
 
-#include "tests/support/ray_hit.hpp"
+#include "sim/ray_hit.hpp"
 
 namespace berth {
 
 /// What the ray through (u, v), in pixels, meets first.
-using CastRay = std::function<RayHit(double u, double v)>;
+using CastRay = std::function<sim::RayHit(double u, double v)>;
 
 /// How an image differs from the twin's.
 struct Comparison {

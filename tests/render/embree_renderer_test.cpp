@@ -1,5 +1,5 @@
 // RobotRenderer against Embree, on robots with many triangles.
-#include "tests/support/embree_renderer.hpp"
+#include "sim/embree_renderer.hpp"
 
 #include <gtest/gtest.h>
 
@@ -46,7 +46,7 @@ void expect_agreement(const RobotModel& model, std::uint32_t seed) {
     const Pose X_BC = looking_at(box.center(), distance_in_sizes * box.diagonal().norm(), random);
     RobotImage image;
     RobotRenderer(build_link_meshes(model), kCamera).render(pose, X_BC, image);
-    const EmbreeRenderer twin(model, pose, X_BC, kCamera);
+    const sim::EmbreeRenderer twin(model, pose, X_BC, kCamera);
     const Comparison result = compare(image, [&](double u, double v) { return twin.hit(u, v); });
     EXPECT_TRUE(result.wrong.empty()) << result.wrong.size() << " pixels at " << distance_in_sizes;
     sum.robot_pixels += result.robot_pixels;

@@ -66,7 +66,7 @@ TEST(RobotRegion, GrowsWithItsScaleAndHoldsConvexLinks) {
   }
 }
 
-TEST(RobotRegion, LeavesSceneryOut) {
+TEST(RobotRegion, LeavesEnvironmentOut) {
   ShapeScene scene(3);
   set_last_role(scene.model, LinkRole::environment);
   const RobotImage region = render(robot_region(scene.model, 2), scene.pose);

@@ -7,7 +7,7 @@
 #include "berth/robot/kinematics.hpp"
 #include "berth/robot/robot_model.hpp"
 #include "berth/types/camera.hpp"
-#include "tests/support/ray_hit.hpp"
+#include "sim/ray_hit.hpp"
 
 namespace berth {
 
@@ -17,7 +17,7 @@ class SlowRenderer {
                const Camera& camera);
 
   /// What the ray through (u, v), in pixels, meets first.
-  RayHit hit(double u, double v) const;
+  sim::RayHit hit(double u, double v) const;
 
  private:
   struct Triangle {

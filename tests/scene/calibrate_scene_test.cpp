@@ -15,20 +15,20 @@ using testing::CellLines;
 using testing::DrawnCell;
 
 const std::string kArm = BERTH_SOURCE_DIR "/data/bundled/arm";
-constexpr testing::DrawnTeachInSettings kSmall{.width_px = 320, .height_px = 240, .poses = 4};
+constexpr sim::DrawnCalibrationSettings kSmall{.width_px = 320, .height_px = 240, .poses = 4};
 
-/// A cell with what teach-in says of it.
-struct Taught {
+/// A cell with what calibration says of it.
+struct Calibrated {
   DrawnCell cell;
   OpenScene scene;
-  SceneTeachIn material;
+  SceneCalibrationData material;
   SceneCalibration calibration;
 
-  Taught(const testing::DrawnTeachInSettings& drawn, std::uint32_t seed, const CellLines& lines,
+  Calibrated(const sim::DrawnCalibrationSettings& drawn, std::uint32_t seed, const CellLines& lines,
          const CalibrateSceneSettings& settings = {})
       : cell(kArm, drawn, seed, lines),
         scene(open_scene(cell.scene())),
-        material(make_teach_in(scene)),
+        material(make_calibration_data(scene)),
         calibration(calibrate_scene(scene, material, settings)) {}
 
   SceneFile rewritten() const {
@@ -39,18 +39,18 @@ struct Taught {
 };
 
 TEST(CalibrateScene, TheNewSceneHasPoseSettingsAndWatch) {
-  const Taught taught(kSmall, 2, {});
-  const CameraCalibration& found = taught.calibration.found.cameras[0];
+  const Calibrated calibrated(kSmall, 2, {});
+  const CameraCalibration& found = calibrated.calibration.found.cameras[0];
   ASSERT_EQ(found.refused, "");
-  EXPECT_LT((found.X_PC.translation() - taught.cell.drawn.X_PC_true.translation()).norm(), 0.02);
-  const SceneFile scene = taught.rewritten();
+  EXPECT_LT((found.X_PC.translation() - calibrated.cell.drawn.X_PC_true.translation()).norm(), 0.02);
+  const SceneFile scene = calibrated.rewritten();
   const SceneCamera& camera = scene.cameras[0];
   EXPECT_TRUE(camera.X_PC.isApprox(found.X_PC, 1e-8));
   EXPECT_EQ(camera.depth_scale_m, 0.001) << "nobody asked for a correction";
   EXPECT_EQ(camera.depth_offset_m, 0);
   EXPECT_EQ(camera.clock_offset_s, 0);
   EXPECT_TRUE(scene.joint_offsets.empty());
-  const FilterProposal& filter = taught.calibration.filters.at(0);
+  const FilterProposal& filter = calibrated.calibration.filters.at(0);
   ASSERT_EQ(filter.self_filter.size(), 2U);
   EXPECT_EQ(camera.settings.self_filter.tolerance_m, filter.self_filter[0].value);
   EXPECT_EQ(camera.settings.self_filter.padding_m, filter.self_filter[1].value);
@@ -62,23 +62,23 @@ TEST(CalibrateScene, TheNewSceneHasPoseSettingsAndWatch) {
   EXPECT_LT(watch.max_displacement_m, 0.05);
   EXPECT_NEAR(watch.bias_m, filter.bias_m, 5e-4);
   EXPECT_NO_THROW(open_scene(scene));
-  EXPECT_EQ(taught.calibration.warnings,
+  EXPECT_EQ(calibrated.calibration.warnings,
             std::vector<std::string>{
                 "camera camera: 4 different poses of the arm; five or more are better"});
 }
 
 TEST(CalibrateScene, JointOffsetsAreAddedToOldOnes) {
   constexpr double kOld = 0.02;
-  testing::DrawnTeachInSettings settings = kSmall;
+  sim::DrawnCalibrationSettings settings = kSmall;
   settings.poses = 8;
   settings.width_px = 640;
   settings.height_px = 480;
   // joints.csv is right, so that the offset is wrong.
-  Taught taught(settings, 1, {.offset_m = 0.01, .angle_rad = 0.01,
+  Calibrated calibrated(settings, 1, {.offset_m = 0.01, .angle_rad = 0.01,
                               .more = "joint_offsets: {arm_joint_2: 0.02, arm_joint_1: 0.0}\n"},
                 {.fit = {.joint_zeros = true}});
-  const auto& found = taught.calibration.found.joint_offsets;
-  const auto& changed = taught.calibration.change.joint_offsets;
+  const auto& found = calibrated.calibration.found.joint_offsets;
+  const auto& changed = calibrated.calibration.change.joint_offsets;
   EXPECT_EQ(changed.size(), found.size());
   for (const auto& [joint, offset] : found) {
     const double old = joint == "arm_joint_2" ? kOld : 0;
@@ -86,22 +86,22 @@ TEST(CalibrateScene, JointOffsetsAreAddedToOldOnes) {
   }
   ASSERT_EQ(found.count("arm_joint_2"), 1U);
   EXPECT_NEAR(found.at("arm_joint_2"), -kOld, 0.005);
-  const SceneFile scene = taught.rewritten();
+  const SceneFile scene = calibrated.rewritten();
   EXPECT_NEAR(scene.joint_offsets.at("arm_joint_2"), 0, 0.005);
   EXPECT_EQ(scene.joint_offsets.count("arm_joint_1"), 1U) << "it was not told, and stays";
   EXPECT_EQ(scene.joint_offsets.at("arm_joint_1"), 0);
 }
 
 TEST(CalibrateScene, ACorrectedDepthIsWhatTheNewSceneReads) {
-  testing::DrawnTeachInSettings settings = kSmall;
+  sim::DrawnCalibrationSettings settings = kSmall;
   settings.errors.depth_share = 0.02;
-  const Taught taught(settings, 2, {.depth_scale_m = 0.0005, .depth_offset_m = 0.1},
+  const Calibrated calibrated(settings, 2, {.depth_scale_m = 0.0005, .depth_offset_m = 0.1},
                       {.fit = {}, .correct_depth = true});
-  const CameraCalibration& found = taught.calibration.found.cameras[0];
+  const CameraCalibration& found = calibrated.calibration.found.cameras[0];
   ASSERT_EQ(found.refused, "");
   ASSERT_NE(found.depth.scale, 1);
-  const OpenScene corrected = open_scene(taught.rewritten());
-  const DepthImage before = taught.scene.cameras[0].read_depth(1);
+  const OpenScene corrected = open_scene(calibrated.rewritten());
+  const DepthImage before = calibrated.scene.cameras[0].read_depth(1);
   const DepthImage after = corrected.cameras[0].read_depth(1);
   double farthest_m = 0;
   double share_sum = 0;
@@ -119,7 +119,7 @@ TEST(CalibrateScene, ACorrectedDepthIsWhatTheNewSceneReads) {
   ASSERT_GT(count, 1000);
   EXPECT_NEAR(share_sum / count, 1 / 1.02, 0.01) << "the truth";
   // The watch and the filter are those of corrected readings.
-  EXPECT_LT(std::abs(taught.calibration.filters[0].bias_m), 0.005);
+  EXPECT_LT(std::abs(calibrated.calibration.filters[0].bias_m), 0.005);
 }
 
 TEST(CalibrateScene, WhatMovedBesideTheRobotIsSaid) {
@@ -130,7 +130,7 @@ TEST(CalibrateScene, WhatMovedBesideTheRobotIsSaid) {
   }
   write_depth_png(cell / "cell/depth/000003.png", depth_m, 0.001);
   const OpenScene scene = open_scene(cell.scene());
-  const SceneTeachIn material = make_teach_in(scene);
+  const SceneCalibrationData material = make_calibration_data(scene);
   const SceneCalibration calibration = calibrate_scene(scene, material, {});
   ASSERT_EQ(calibration.warnings.size(), 1U);
   expect_parts(calibration.warnings[0],
@@ -148,7 +148,7 @@ TEST(CalibrateScene, ACameraWhoseImagesNoPoseExplainsIsRefused) {
                     0.001);
   }
   const OpenScene scene = open_scene(cell.scene());
-  const SceneTeachIn material = make_teach_in(scene);
+  const SceneCalibrationData material = make_calibration_data(scene);
   expect_parts(error_message([&] { calibrate_scene(scene, material, {}); }),
                {cell.scene().string() + ": camera camera: no pose was found that explains the "
                                         "images: the best agrees by ",
@@ -158,7 +158,7 @@ TEST(CalibrateScene, ACameraWhoseImagesNoPoseExplainsIsRefused) {
 TEST(CalibrateScene, APauseThatThrowsStopsIt) {
   const DrawnCell cell(kArm, {.width_px = 160, .height_px = 120, .poses = 3}, 2, {});
   const OpenScene scene = open_scene(cell.scene());
-  const SceneTeachIn material = make_teach_in(scene);
+  const SceneCalibrationData material = make_calibration_data(scene);
   CalibrateSceneSettings settings;
   settings.fit.pause = [] { throw std::runtime_error("stopped"); };
   EXPECT_EQ(error_message([&] { calibrate_scene(scene, material, settings); }), "stopped");

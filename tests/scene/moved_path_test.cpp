@@ -21,11 +21,11 @@ TEST_F(MovedPath, LeadsToTheSameFilesFromAnotherFolder) {
       "  - {name: a, info: 'c d.yaml', depth: ../data/*.png, pose: {parent: p, xyz: [0, 0, 0], "
       "rpy: [0, 0, 0]}}\n"
       "joints: a/../j.csv\n";
-  fs::create_directories(folder_ / "cell/taught/deep");
+  fs::create_directories(folder_ / "cell/calibrated/deep");
   const auto rewritten_for = [&](const std::string& name) {
     return rewritten_scene(write(text), {}, folder_ / name);
   };
-  EXPECT_EQ(rewritten_for("cell/taught/deep/new.yaml"),
+  EXPECT_EQ(rewritten_for("cell/calibrated/deep/new.yaml"),
             "robot: {urdf: ../../r.urdf, package_paths: {x: ../../, y: ../../../y/, z: /z}}\n"
             "cameras:\n"
             "  - {name: a, info: '../../c d.yaml', depth: ../../../data/*.png, pose: {parent: p, "
@@ -81,7 +81,7 @@ TEST_F(MovedPath, TakesPathsThatBeginInTheWorkingFolder) {
   const std::string expected = rewritten_scene(file, {}, new_file());
   const WorkingFolder in_cell(folder_ / "cell");
   EXPECT_EQ(rewritten_scene("scene.yaml", {}, "new.yaml"), text);
-  EXPECT_EQ(rewritten_scene("scene.yaml", {}, "../taught/new.yaml"), expected);
+  EXPECT_EQ(rewritten_scene("scene.yaml", {}, "../calibrated/new.yaml"), expected);
   EXPECT_EQ(rewritten_scene("./scene.yaml", {}, new_file()), expected);
 }
 

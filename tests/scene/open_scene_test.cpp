@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/support/error_message.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -64,6 +66,32 @@ TEST(SceneJoints, AJointThatIsMissingTwiceOrUnknownIsNamed) {
                {"scene.yaml:8: fixed_joints.arm_joint_7: .nan; expected a finite number"});
   expect_parts(message(kFiveColumns, "joint_offsets: {arm_joint_7: 0.7}"),
                {"scene.yaml: joint_offsets.arm_joint_7: ", "joints.csv has no such joint"});
+}
+
+TEST(SceneCameras, ReadTheirImagesInTheirUnitsAndWithinTheirLimits) {
+  const auto pixels_of = [](double unit_m, double near_m, double far_m) {
+    SceneFile file = read_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml");
+    file.cameras[0].depth_scale_m = unit_m;
+    file.cameras[0].near_m = near_m;
+    file.cameras[0].far_m = far_m;
+    return open_scene(file).cameras[0].read_depth(0).pixels();
+  };
+  const std::vector<float> all_m = pixels_of(0.001, 0, 1000);
+  const std::vector<float> limited_m = pixels_of(0.0005, 0.6, 1);
+  int kept = 0, dropped = 0;
+  for (std::size_t i = 0; i < all_m.size(); ++i) {
+    const double half_m = 0.5 * all_m[i];
+    if (std::isnan(limited_m[i])) {
+      EXPECT_FALSE(half_m > 0.6001 && half_m < 0.9999) << half_m;
+      dropped += !std::isnan(half_m);
+    } else {
+      EXPECT_NEAR(limited_m[i], half_m, 1e-6);
+      EXPECT_TRUE(half_m > 0.5999 && half_m < 1.0001) << half_m;
+      ++kept;
+    }
+  }
+  EXPECT_GT(kept, 1000);
+  EXPECT_GT(dropped, 1000);
 }
 
 SceneFile bundled_file() { return read_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml"); }

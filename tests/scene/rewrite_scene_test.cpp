@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "berth/files/read_file.hpp"
+#include "sim/random.hpp"
 #include "tests/scene/rewritten_cell.hpp"
-#include "tests/support/random.hpp"
 
 namespace berth {
 namespace {
@@ -160,7 +160,7 @@ TEST_F(RewrittenScene, WritesOtherValuesAtTheirPlaces) {
 
 /// Also where the angles about x and z are not told apart.
 TEST_F(RewrittenScene, WritesPosesInTheUsersKindOfRotation) {
-  testing::Random random(1);
+  sim::Random random(1);
   const std::string text = scene_of(kBlockCamera + kFlowCamera);
   const double right_angle = std::numbers::pi / 2;
   for (int i = 0; i < 60; ++i) {
@@ -169,8 +169,8 @@ TEST_F(RewrittenScene, WritesPosesInTheUsersKindOfRotation) {
         i % 3 == 0 ? Eigen::Vector3d(random(-3, 3),
                                      random.chance(0.5) ? near_right_angle : -near_right_angle,
                                      i % 2 == 0 ? 0 : random(-3, 3))
-                   : testing::draw_point(random, 4);
-    const Pose X_PC = Eigen::Translation3d(testing::draw_point(random, 3)) *
+                   : sim::draw_point(random, 4);
+    const Pose X_PC = Eigen::Translation3d(sim::draw_point(random, 3)) *
                       Eigen::AngleAxisd(rpy[2], Eigen::Vector3d::UnitZ()) *
                       Eigen::AngleAxisd(rpy[1], Eigen::Vector3d::UnitY()) *
                       Eigen::AngleAxisd(rpy[0], Eigen::Vector3d::UnitX());
@@ -249,7 +249,7 @@ TEST_F(RewrittenScene, NeverOverwritesItsScene) {
   fs::create_symlink(file, folder_ / "cell/symbolic.yaml");
   fs::create_hard_link(file, folder_ / "cell/hard.yaml");
   for (const char* same :
-       {"cell/scene.yaml", "taught/../cell/scene.yaml", "cell/symbolic.yaml", "cell/hard.yaml"}) {
+       {"cell/scene.yaml", "calibrated/../cell/scene.yaml", "cell/symbolic.yaml", "cell/hard.yaml"}) {
     expect_parts(
         error_message([&] { write_rewritten_scene(file, change, folder_ / same); }),
         {(folder_ / same).string() + ": is the same file as " + file.string() + "; expected"});
@@ -266,11 +266,11 @@ TEST_F(RewrittenScene, WritesAWholeFileOrNone) {
   SceneChange wrong = change;
   wrong.cameras[0].depth_offset_m = kNan;
   EXPECT_THROW(write_rewritten_scene(file, wrong, new_file()), std::runtime_error);
-  EXPECT_TRUE(fs::is_empty(folder_ / "taught"));
+  EXPECT_TRUE(fs::is_empty(folder_ / "calibrated"));
   for (int i = 0; i < 2; ++i) {
     write_rewritten_scene(file, change, new_file());
     EXPECT_EQ(read_file_bytes(new_file()), rewritten_scene(file, change, new_file()));
-    EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "taught"), {}), 1);
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "calibrated"), {}), 1);
   }
   EXPECT_EQ(read_scene(new_file()).cameras[0].depth_offset_m, 0.004);
 }

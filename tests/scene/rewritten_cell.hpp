@@ -65,10 +65,10 @@ class RewrittenScene : public ::testing::Test {
       folder_.write(std::string("cell/depth/") + image, "");
       folder_.write(std::string("data/") + image, "");
     }
-    std::filesystem::create_directories(folder_ / "taught");
+    std::filesystem::create_directories(folder_ / "calibrated");
   }
 
-  std::filesystem::path new_file() const { return folder_ / "taught/new.yaml"; }
+  std::filesystem::path new_file() const { return folder_ / "calibrated/new.yaml"; }
 
   std::filesystem::path write(const std::string& text) const {
     return folder_.write("cell/scene.yaml", text);

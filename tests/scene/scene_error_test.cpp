@@ -62,6 +62,9 @@ TEST(SceneErrors, RefusesABadValueAndSaysWhere) {
        "pose: {parent: b, xyz: [1, .nan, 2], rpy: [0, 0, 0]}",
        {"cameras[0].pose.xyz[1]: .nan; expected a finite number"}},
       {&S::pose,
+       "pose: {parent: b, xyz: [1, 1e300, 2], rpy: [0, 0, 0]}",
+       {"cameras[0].pose.xyz[1]: 1e300; expected metres, 100 km at"}},
+      {&S::pose,
        "pose: {parent: b, xyz: [1, 1, 2]}",
        {"cameras[0].pose: has no rotation; expected either quaternion_xyzw or rpy"}},
       {&S::pose,
@@ -102,6 +105,9 @@ TEST(SceneErrors, RefusesABadValueAndSaysWhere) {
       {&S::more_camera,
        "depth_scale: -0.001",
        {"cameras[0].depth_scale: -0.001; expected a number above 0"}},
+      {&S::more_camera,
+       "depth_scale: 1000",
+       {"cameras[0].depth_scale: 1000; expected metres per unit from 1e-6"}},
       {&S::more_camera,
        "depth_scale: 1mm",
        {"cameras[0].depth_scale: 1mm; expected a finite number"}},
@@ -154,6 +160,12 @@ TEST(SceneErrors, RefusesABadValueAndSaysWhere) {
        "joints: j\nself_filter: {dilation_px: 1.5}",
        {"self_filter.dilation_px: 1.5; expected a whole number"}},
       {&S::end,
+       "joints: j\ntime: {max_skew_s: -1}",
+       {"scene.yaml:9: time.max_skew_s: -1; expected a number, 0 or more"}},
+      {&S::end,
+       "joints: j\ntime: {max_skew: 1}",
+       {"scene.yaml:9: time.max_skew: unknown key; expected max_skew_s"}},
+      {&S::end,
        "joints: j\nsensor: {hole: free}",
        {"scene.yaml:9: sensor.hole: unknown key; expected holes (the nearest)"}},
       {&S::end,
@@ -174,7 +186,7 @@ TEST(SceneErrors, RefusesABadValueAndSaysWhere) {
 TEST(SceneErrors, RefusesEveryNegativeNumberOfTheSelfFilter) {
   for (const std::string key :
        {"tolerance_m", "tolerance_per_m", "tolerance_per_m2", "padding_m", "padding_depth_m",
-        "edge_jump_m", "island_radius_m", "island_jump_m", "robot_region_scale"}) {
+        "edge_jump_m", "flying_patch_radius_m", "flying_patch_jump_m", "robot_region_scale"}) {
     for (const std::string value : {"-0.01", ".nan", "wide"}) {
       const SceneText scene =
           with(&SceneText::end, "joints: j\nself_filter: {" + key + ": " + value + "}");

@@ -49,8 +49,8 @@ self_filter:
   padding_depth_m: 0.4
   dilation_px: 6
   edge_jump_m: 0.07
-  island_radius_m: 0.08
-  island_jump_m: 0.09
+  flying_patch_radius_m: 0.08
+  flying_patch_jump_m: 0.09
   robot_region_scale: 6.5
 sensor:
   noise_m: 0.011
@@ -99,8 +99,8 @@ time: {max_skew_s: 0.01, max_extrapolation_s: 0.02}
   EXPECT_EQ(filter.dilation_px, 6);
   EXPECT_EQ(filter.padding_depth_m, 0.4);
   EXPECT_EQ(filter.edge_jump_m, 0.07);
-  EXPECT_EQ(filter.island_radius_m, 0.08);
-  EXPECT_EQ(filter.island_jump_m, 0.09);
+  EXPECT_EQ(filter.flying_patch_radius_m, 0.08);
+  EXPECT_EQ(filter.flying_patch_jump_m, 0.09);
   EXPECT_EQ(filter.robot_region_scale, 6.5);
   const SensorSettings& sensor = scene.cameras[0].settings.sensor;
   EXPECT_EQ(sensor.noise_m, 0.011);
@@ -127,15 +127,16 @@ TEST(Scene, LeavesDefaultsToThoseWhoOwnThem) {
   EXPECT_TRUE(scene.cameras[0].stamps_s.empty());
   EXPECT_EQ(scene.cameras[0].near_m, 0);
   EXPECT_EQ(scene.cameras[0].far_m, std::numeric_limits<double>::infinity());
-  const ViewSettings usual;
-  const EvaluationSettings evaluation;
+  const CameraSettings usual;
+  const SceneEvaluation evaluation;
   EXPECT_EQ(scene.cameras[0].settings.self_filter.tolerance_m, usual.self_filter.tolerance_m);
   EXPECT_EQ(scene.cameras[0].settings.self_filter.dilation_px, usual.self_filter.dilation_px);
   EXPECT_TRUE(scene.cameras[0].settings.link_padding_m.empty());
   EXPECT_EQ(scene.cameras[0].settings.sensor.noise_m, usual.sensor.noise_m);
   EXPECT_EQ(scene.cameras[0].settings.sensor.speckle_px, usual.sensor.speckle_px);
   EXPECT_EQ(scene.cameras[0].settings.sensor.holes, usual.sensor.holes);
-  EXPECT_EQ(scene.evaluation.method, evaluation.method);
+  EXPECT_EQ(scene.evaluation.method, Method::mesh);
+  EXPECT_EQ(scene.evaluation.images, evaluation.images);
   EXPECT_EQ(scene.evaluation.distance.range_m, evaluation.distance.range_m);
   EXPECT_EQ(scene.evaluation.distance.mean_direction, evaluation.distance.mean_direction);
   EXPECT_EQ(scene.evaluation.visibility, evaluation.visibility);

@@ -3,10 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "berth/scene/result_json.hpp"
-#include "berth/scene/result_table.hpp"
+#include "berth/results/result_json.hpp"
+#include "berth/results/result_text.hpp"
 #include "berth/scene/scene_run.hpp"
-#include "berth/scene/separation_text.hpp"
 #include "tests/scene/scene_text.hpp"
 #include "tests/support/error_message.hpp"
 
@@ -32,7 +31,7 @@ TEST(SeparationInScenes, HasEveryKeyAndTheTable) {
       "{human_speed_m_s: 2, reaction_time_s: 0.2, deceleration_m_s2: 3, acceleration_m_s2: 4, "
       "intrusion_m: 0.1, camera_uncertainty_m: 0.05, robot_uncertainty_m: 0.02, "
       "directed_speed: true, release_m: 0.06, hold_s: 0.4, least_scale: 0.1, least_seen: 0.3, "
-      "not_seen: assume_range, camera: ignore, doubtful: stop, hidden: ignore, "
+      "not_seen: assume_range, camera: ignore, rejected: stop, unknown: ignore, "
       "assumed_range_m: 0.5, stopping: [{speed_m_s: 0.5, time_s: 0.2, distance_m: 0.05}, "
       "{speed_m_s: 1, time_s: 0.3, distance_m: 0.2}]}");
   EXPECT_EQ(settings.human_speed_m_s, 2);
@@ -40,8 +39,8 @@ TEST(SeparationInScenes, HasEveryKeyAndTheTable) {
   EXPECT_TRUE(settings.directed_speed);
   EXPECT_EQ(settings.not_seen, UnknownPolicy::assume_range);
   EXPECT_EQ(settings.camera, UnknownPolicy::ignore);
-  EXPECT_EQ(settings.doubtful, UnknownPolicy::stop);
-  EXPECT_EQ(settings.hidden, UnknownPolicy::ignore);
+  EXPECT_EQ(settings.rejected, UnknownPolicy::stop);
+  EXPECT_EQ(settings.unknown, UnknownPolicy::ignore);
   ASSERT_EQ(settings.stopping.size(), 2U);
   EXPECT_EQ(settings.stopping[1].speed_m_s, 1);
   EXPECT_EQ(settings.stopping[1].time_s, 0.3);
@@ -85,7 +84,7 @@ TEST(SeparationInScenes, IsInEachLineOfJson) {
   SceneRun run(scene);
   int reduced = 0;
   while (run.next()) {
-    const FrameResult result = run.ask();
+    const Result result = run.ask();
     const Json line = Json::parse(result_json(result));
     const Json& separation = line["separation"];
     ASSERT_EQ(separation.size(), 7U);
@@ -136,7 +135,7 @@ TEST(SeparationInScenes, WithoutItNothingIsAdded) {
   const OpenScene scene = open_scene(file);
   SceneRun run(scene);
   ASSERT_TRUE(run.next());
-  const FrameResult result = run.ask();
+  const Result result = run.ask();
   EXPECT_FALSE(Json::parse(result_json(result)).contains("separation"));
   EXPECT_EQ(result_table(result).find("may go"), std::string::npos);
 }
@@ -154,15 +153,17 @@ TEST(SeparationInScenes, BadSettingsNameTheFile) {
 
 /// A result of two links with this in it.
 struct Told {
-  Separation separation;
-  LinkDistances distances;
-  std::vector<LinkVisibility> visibility;
-  FrameResult result;
+  Result result;
 
   Told(SeparationState state, SeparationReason reason, double scale = 0) {
-    distances.links.resize(2);
-    visibility.resize(2);
-    visibility[1].surface.seen = 0.59F;
+    result.links.resize(2);
+    result.links[0].link = "base";
+    result.links[1].link = "hand";
+    result.links[1].visibility.surface.seen = 0.59F;
+    result.cameras.resize(1);
+    result.cameras[0].camera = "left";
+    result.cameras[0].status = CameraStatus::too_old;
+    Separation& separation = result.separation.emplace();
     separation.state = state;
     separation.reason = reason;
     separation.speed_scale = scale;
@@ -170,13 +171,6 @@ struct Told {
     separation.camera = 0;
     separation.links.resize(2);
     separation.links[1] = {2, true, 0.614, 0.3107, 0.5231, -0.2124, scale, reason};
-    result.link_names = {"base", "hand"};
-    result.cameras.resize(1);
-    result.cameras[0].name = "left";
-    result.cameras[0].state.status = CameraStatus::too_old;
-    result.distances = &distances;
-    result.visibility = &visibility;
-    result.separation = &separation;
   }
   std::string text() const { return separation_text(result); }
 };
@@ -186,20 +180,20 @@ TEST(SeparationText, SaysWhatAndWhy) {
   using R = SeparationReason;
   EXPECT_EQ(Told(clear, R::none, 1).text(), "clear");
   EXPECT_EQ(
-      Told(reduced, R::reading, 0.429).text(),
+      Told(reduced, R::occupied, 0.429).text(),
       "reduced to 42 %: hand is 0.310 m from what a camera sees; at 0.61 m/s it needs 0.523 m");
-  EXPECT_EQ(Told(stop, R::hidden).text(),
+  EXPECT_EQ(Told(stop, R::unknown).text(),
             "stop: hand is 0.310 m from space that no camera sees; at 0.61 m/s it needs 0.523 m");
-  EXPECT_NE(Told(stop, R::doubtful).text().find("dropped as doubtful"), std::string::npos);
+  EXPECT_NE(Told(stop, R::rejected).text().find("dropped as rejected"), std::string::npos);
   EXPECT_NE(Told(reduced, R::range).text().find("the end of the range"), std::string::npos);
   EXPECT_NE(Told(reduced, R::cut_short).text().find("the deadline"), std::string::npos);
   EXPECT_EQ(Told(stop, R::not_seen).text(), "stop: hand is 41 % unseen");
   EXPECT_EQ(Told(stop, R::camera).text(), "stop: camera left cannot be relied on (too_old)");
-  EXPECT_EQ(Told(stop, R::untimely).text(), "stop: there is no answer in time");
+  EXPECT_EQ(Told(stop, R::stale).text(), "stop: there is no answer in time");
   EXPECT_EQ(Told(stop, R::velocity).text(), "stop: the robot's velocity is not known");
   EXPECT_EQ(Told(stop, R::hold).text(), "stop: there has not been room for long enough");
   Told unknown(stop, R::not_seen);
-  unknown.visibility[1].surface.seen = std::numeric_limits<float>::quiet_NaN();
+  unknown.result.links[1].visibility.surface.seen = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(unknown.text(), "stop: hand is not seen");
 }
 

@@ -72,7 +72,7 @@ TEST(Definition, OfTheRegionHolds) {
     ObstacleImage expected;
     filter_scene(scene, workspace, expected);
     const RobotImage region =
-        testing::random_images(seed + 1000, scene.camera.width_px, scene.camera.height_px, 3).robot;
+        sim::random_images(seed + 1000, scene.camera.width_px, scene.camera.height_px, 3).robot;
     for (int v = 0; v < scene.camera.height_px; ++v) {
       for (int u = 0; u < scene.camera.width_px; ++u) {
         if (expected.fate(u, v) != PixelFate::obstacle || region.link_id(u, v) != kNoLink) continue;

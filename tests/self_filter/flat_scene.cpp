@@ -33,7 +33,7 @@ SelfFilterSettings no_rules() {
   settings.padding_m = 0;
   settings.padding_depth_m = 100;
   settings.edge_jump_m = 0;
-  settings.island_radius_m = 0;
+  settings.flying_patch_radius_m = 0;
   return settings;
 }
 

@@ -20,7 +20,7 @@ class PlainFilter {
 
   ObstacleImage run() {
     for_each([&](int u, int v) { fate_(u, v) = fate_alone(u, v); });
-    if (settings_.island_radius_m > 0) drop_islands();
+    if (settings_.flying_patch_radius_m > 0) drop_flying_patches();
     ObstacleImage out;
     out.fate = fate_;
     out.depth_m = DepthImage(camera_.width_px, camera_.height_px, kNoDepth);
@@ -85,7 +85,7 @@ class PlainFilter {
   }
 
   bool is_outline(int u, int v) const {
-    if (robot_.link_id(u, v) == kEnvironmentLink) return is_outline_of_scenery(u, v);
+    if (robot_.link_id(u, v) == kEnvironmentLink) return is_outline_of_environment(u, v);
     if (!is_link(u, v)) return false;
     const auto pixel_rad = static_cast<float>(1 / std::max(camera_.fx_px, camera_.fy_px));
     const auto ends_at = [&](int nu, int nv) {
@@ -95,8 +95,8 @@ class PlainFilter {
     return ends_at(u - 1, v) || ends_at(u + 1, v) || ends_at(u, v - 1) || ends_at(u, v + 1);
   }
 
-  /// Where a reading on the scenery, seen one pixel beside it, would be left over.
-  bool is_outline_of_scenery(int u, int v) const {
+  /// Where a reading on the environment, seen one pixel beside it, would be left over.
+  bool is_outline_of_environment(int u, int v) const {
     const int neighbours[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     return std::any_of(std::begin(neighbours), std::end(neighbours), [&](const int* n) {
       if (!is_inside(u + n[0], v + n[1])) return false;
@@ -152,11 +152,11 @@ class PlainFilter {
 
   bool is_near(int u, int v) const {
     return std::any_of(outline_.begin(), outline_.end(), [&](const Pixel& p) {
-      return is_link(p.u, p.v) && is_beside(u, v, p, settings_.island_radius_m);
+      return is_link(p.u, p.v) && is_beside(u, v, p, settings_.flying_patch_radius_m);
     });
   }
 
-  void drop_islands() {
+  void drop_flying_patches() {
     const Image<PixelFate> before = fate_;
     Image<std::uint8_t> walked(camera_.width_px, camera_.height_px, 0);
     const Image<std::uint8_t> reached = reached_from_robot(before);
@@ -166,7 +166,7 @@ class PlainFilter {
       const bool stays = std::all_of(piece.begin(), piece.end(),
                                      [&](const Pixel& p) { return is_near(p.u, p.v); });
       if (!stays || !hangs(piece, reached)) return;
-      for (const Pixel& p : piece) fate_(p.u, p.v) = PixelFate::island;
+      for (const Pixel& p : piece) fate_(p.u, p.v) = PixelFate::flying_patch;
     });
   }
 
@@ -174,7 +174,7 @@ class PlainFilter {
     if (!is_inside(u + du, v + dv)) return false;
     const float a = sensor_(u, v);
     const float b = sensor_(u + du, v + dv);
-    const float jump = static_cast<float>(settings_.island_jump_m);
+    const float jump = static_cast<float>(settings_.flying_patch_jump_m);
     return std::abs(a - b) <= jump * std::max(1.0F, std::min(a * a, b * b));
   }
 

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/support/random.hpp"
+#include "sim/random.hpp"
 
 namespace berth {
 namespace {
 
-using testing::Random;
+using sim::Random;
 
 /// 0 now and then.
 double random_setting(Random& random, double low, double high) {
@@ -28,12 +28,12 @@ SelfFilterSettings random_settings(Random& random) {
   }
   settings.dilation_px = random.chance(0.4) ? random.whole(1, 7) : 0;
   settings.edge_jump_m = random_setting(random, 0.01, 0.1);
-  settings.island_radius_m = random_setting(random, 0.02, 0.4);
-  settings.island_jump_m = random_setting(random, 0.01, 0.1);
+  settings.flying_patch_radius_m = random_setting(random, 0.02, 0.4);
+  settings.flying_patch_jump_m = random_setting(random, 0.01, 0.1);
   return settings;
 }
 
-void add_scenery(Random& random, RobotImage& robot) {
+void add_environment(Random& random, RobotImage& robot) {
   const int width = robot.depth_m.width();
   const int height = robot.depth_m.height();
   const auto depth_m = static_cast<float>(random(0.5, 2.5));
@@ -70,9 +70,9 @@ void add_patches(Random& random, const RobotImage& robot, DepthImage& sensor_dep
   for (int i = random.whole(0, 45); i > 0; --i) {
     const int u0 = random.whole(0, sensor_depth_m.width() - 1);
     const int v0 = random.whole(0, sensor_depth_m.height() - 1);
-    const bool is_web = random.chance(0.5);
-    const double farthest_m = is_web ? 0.02 : 0.15;
-    const int longest_px = is_web ? 20 : 8;
+    const bool is_flying = random.chance(0.5);
+    const double farthest_m = is_flying ? 0.02 : 0.15;
+    const int longest_px = is_flying ? 20 : 8;
     const float z = robot.depth_m(u0, v0) + static_cast<float>(random(-farthest_m, farthest_m));
     const bool is_hole = random.chance(0.3);
     const int u_begin = std::max(0, u0 - random.whole(0, longest_px));
@@ -104,9 +104,9 @@ RandomScene random_scene(std::uint32_t seed) {
   Random random(seed);
   const int width = random.whole(1, 150);
   const int height = random.whole(1, 110);
-  testing::ImagePair images = testing::random_images(seed, width, height, random.whole(1, 5));
+  sim::ImagePair images = sim::random_images(seed, width, height, random.whole(1, 5));
   RandomScene scene{images.camera, images.robot, images.obstacle_depth_m, random_settings(random)};
-  if (random.chance(0.4)) add_scenery(random, scene.robot);
+  if (random.chance(0.4)) add_environment(random, scene.robot);
   if (random.chance(0.05)) {
     scene.robot.depth_m = DepthImage(width, height, kNoDepth);
     scene.robot.link_id = Image<LinkId>(width, height, kNoLink);

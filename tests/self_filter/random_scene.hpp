@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "berth/self_filter/settings.hpp"
-#include "tests/support/random_images.hpp"
+#include "sim/random_images.hpp"
 
 namespace berth {
 
@@ -16,8 +16,8 @@ struct RandomScene {
 };
 
 /// Depends on the seed alone: the scene of random_images with the sensor's own view of the robot
-/// put back, a little displaced, with noise; webs, mixed pixels and holes beside it; now and then
-/// scenery, a robot that touches the image's border, a tight extent or none. Every setting varies,
+/// put back, a little displaced, with noise; flying, mixed pixels and holes beside it; now and then
+/// environment, a robot that touches the image's border, a tight extent or none. Every setting varies,
 /// and is off now and then.
 RandomScene random_scene(std::uint32_t seed);
 

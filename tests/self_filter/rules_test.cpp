@@ -81,7 +81,7 @@ TEST(SelfFilter, ToleranceGrowsWithDepthAsAskedFor) {
   EXPECT_EQ(at_two_metres(1.79F, settings), PixelFate::obstacle);
 }
 
-TEST(SelfFilter, SceneryIsFilteredAndGrownLikeALink) {
+TEST(SelfFilter, EnvironmentIsFilteredAndGrownLikeALink) {
   EXPECT_EQ(fate_of_reading(1.0F, kEnvironmentLink, {}), PixelFate::environment);
   EXPECT_EQ(fate_of_reading(0.9F, kEnvironmentLink, {}), PixelFate::obstacle);
   FlatScene scene;
@@ -97,7 +97,7 @@ TEST(SelfFilter, SceneryIsFilteredAndGrownLikeALink) {
   EXPECT_EQ(filter(scene, settings).fate(14, 30), PixelFate::obstacle);
 }
 
-TEST(SelfFilter, SceneryHasAPaddingOfItsOwn) {
+TEST(SelfFilter, EnvironmentHasAPaddingOfItsOwn) {
   FlatScene scene;
   scene.add_link(kEnvironmentLink, {5, 20, 20, 40}, 2.0F);
   scene.add_link(1, {40, 20, 55, 40}, 2.0F);
@@ -127,7 +127,7 @@ FlatScene thing_on_board(LinkId board) {
   return scene;
 }
 
-TEST(SelfFilter, WhatStandsOnSceneryIsNotPadded) {
+TEST(SelfFilter, WhatStandsOnEnvironmentIsNotPadded) {
   SelfFilterSettings settings = no_rules();
   settings.tolerance_m = 0.05;
   settings.padding_m = 0.05;
@@ -138,7 +138,7 @@ TEST(SelfFilter, WhatStandsOnSceneryIsNotPadded) {
   EXPECT_EQ(filter(thing_on_board(1), settings).fate(30, 31), PixelFate::padding);
 }
 
-TEST(SelfFilter, SceneryEndsAtADeeperPart) {
+TEST(SelfFilter, EnvironmentEndsAtADeeperPart) {
   FlatScene scene;
   scene.add_link(kEnvironmentLink, {10, 10, 30, 50}, 1.0F);
   scene.add_link(kEnvironmentLink, {30, 10, 50, 50}, 1.2F);

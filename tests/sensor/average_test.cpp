@@ -78,7 +78,7 @@ float plain_average_m(const std::vector<DepthImage>& frames, std::size_t i, std:
 }
 
 TEST(Average, AgreesWithItsDefinitionAndStaysWithinTheNoise) {
-  testing::Random random(2);
+  sim::Random random(2);
   int moved = 0;
   for (int run = 0; run < 20; ++run) {
     SensorSettings settings;

@@ -109,7 +109,7 @@ TEST(Background, IsNotLearnedFromWhatTheSelfFilterDropped) {
   Place place;
   Image<PixelFate> fates(kSide_px, kSide_px, PixelFate::obstacle);
   fates(5, 5) = PixelFate::environment;
-  fates(6, 5) = PixelFate::island;
+  fates(6, 5) = PixelFate::flying_patch;
   fates(7, 5) = PixelFate::averaged;
   for (int i = 0; i < 2; ++i)
     place.background.learn(camera(), wall(), no_robot(), fates, place.settings);
@@ -118,7 +118,7 @@ TEST(Background, IsNotLearnedFromWhatTheSelfFilterDropped) {
   EXPECT_EQ(place.at(7, 5), kWall_m);
 }
 
-TEST(Background, WhatStandsOnSceneryIsLearned) {
+TEST(Background, WhatStandsOnEnvironmentIsLearned) {
   Place place;
   DepthImage depth_m = wall();
   fill(depth_m, {20, 20, 30, 30}, 0.8F);
@@ -159,7 +159,7 @@ TEST(Background, IsPutBehindTheRobotAndInItsPaddingAndWhereThereIsNoReading) {
   EXPECT_EQ(image.fate(5, 5), PixelFate::obstacle);
 }
 
-TEST(Background, RestoresAThingBesideTheArmThatTheIslandRuleDrops) {
+TEST(Background, RestoresAThingBesideTheArmThatTheFlyingPatchRuleDrops) {
   Place place;
   DepthImage peg = wall();
   fill(peg, {33, 24, 36, 27}, 1.03F);
@@ -169,7 +169,7 @@ TEST(Background, RestoresAThingBesideTheArmThatTheIslandRuleDrops) {
   DepthImage depth_m = wall_and_robot(robot);
   // Joined to the arm, through its padding too.
   fill(depth_m, {30, 24, 36, 27}, 1.015F);
-  EXPECT_EQ(completed(Place(), depth_m, robot).fate(34, 25), PixelFate::island);
+  EXPECT_EQ(completed(Place(), depth_m, robot).fate(34, 25), PixelFate::flying_patch);
   const ObstacleImage image = completed(place, depth_m, robot);
   EXPECT_EQ(image.fate(34, 25), PixelFate::background);
   EXPECT_EQ(image.depth_m(34, 25), 1.03F);
@@ -198,7 +198,7 @@ TEST(Background, IsNotPutWhereAReadingComesFromBehindIt) {
   EXPECT_TRUE(std::isnan(image.depth_m(25, 25)));
 }
 
-TEST(Background, IsNotPutOntoScenery) {
+TEST(Background, IsNotPutOntoEnvironment) {
   const RobotImage robot = robot_at(20, 20, kEnvironmentLink);
   const ObstacleImage image = completed(KnownPlace(), wall_and_robot(robot), robot);
   EXPECT_EQ(image.fate(25, 25), PixelFate::environment);

@@ -13,7 +13,7 @@ ObstacleImage kept_image(const DepthImage& depth_m) {
   return image;
 }
 
-DepthImage patchy_image(testing::Random& random) {
+DepthImage patchy_image(sim::Random& random) {
   DepthImage depth_m(random.whole(1, 40), random.whole(1, 30), kNoDepth);
   const double share = random(0, 1);
   for (float& z : depth_m.pixels()) {

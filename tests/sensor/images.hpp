@@ -2,7 +2,7 @@
 #pragma once
 
 #include "berth/types/obstacle_image.hpp"
-#include "tests/support/random.hpp"
+#include "sim/random.hpp"
 
 namespace berth {
 
@@ -10,6 +10,6 @@ namespace berth {
 ObstacleImage kept_image(const DepthImage& depth_m);
 
 /// Up to 40 x 30 pixels of a few depths, some of them without reading.
-DepthImage patchy_image(testing::Random& random);
+DepthImage patchy_image(sim::Random& random);
 
 }  // namespace berth

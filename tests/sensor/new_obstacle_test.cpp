@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "berth/distance/evaluate.hpp"
+#include "berth/image_distance/evaluate.hpp"
 #include "berth/sensor/sensor_rules.hpp"
 #include "tests/self_filter/random_scene.hpp"
 #include "tests/sensor/images.hpp"
@@ -18,7 +18,7 @@ namespace berth {
 namespace {
 
 /// A box, a rod or a finger that faces the camera, near a random pixel and the robot's depth there.
-void add_new_thing(testing::Random& random, const RandomScene& scene, DepthImage& depth_m) {
+void add_new_thing(sim::Random& random, const RandomScene& scene, DepthImage& depth_m) {
   const int width = depth_m.width();
   const int height = depth_m.height();
   const int u0 = random.whole(0, width - 1);
@@ -37,7 +37,7 @@ void add_new_thing(testing::Random& random, const RandomScene& scene, DepthImage
 }
 
 /// All rules but speckle, as strong as they get.
-SensorSettings random_rules(testing::Random& random) {
+SensorSettings random_rules(sim::Random& random) {
   SensorSettings settings;
   settings.noise_m = random(0, 0.1);
   settings.average_frames = random.chance(0.5) ? random.whole(2, 5) : 0;
@@ -51,7 +51,7 @@ class NewObstacle {
  public:
   explicit NewObstacle(std::uint32_t seed)
       : random_(seed), scene_(random_scene(seed)), settings_(random_rules(random_)) {
-    // Learned from images with all of the robot and its webs in them, which no filter took out.
+    // Learned from images with all of the robot and its flying pixels in them, which no filter took out.
     const RobotImage no_robot{
         DepthImage(scene_.camera.width_px, scene_.camera.height_px, kNoDepth),
         Image<LinkId>(scene_.camera.width_px, scene_.camera.height_px, kNoLink)};
@@ -103,7 +103,7 @@ class NewObstacle {
     constexpr int kMostLinks = 5;
     SearchableDepth searchable;
     searchable.build(image.depth_m);
-    DistanceSettings settings;
+    ImageDistanceSettings settings;
     settings.mean_direction = false;
     EvaluateWorkspace workspace;
     LinkDistances out;
@@ -124,7 +124,7 @@ class NewObstacle {
     return settings_.noise_m * std::max(1.0, z * z) * ray + 1e-6;
   }
 
-  testing::Random random_;
+  sim::Random random_;
   RandomScene scene_;
   SensorSettings settings_;
   Background background_;

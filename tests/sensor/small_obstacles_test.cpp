@@ -8,13 +8,13 @@
 #include <numbers>
 #include <optional>
 
-#include "berth/distance/evaluate.hpp"
+#include "berth/image_distance/evaluate.hpp"
 #include "berth/render/robot_renderer.hpp"
 #include "berth/robot/primitives.hpp"
 #include "berth/sensor/sensor_rules.hpp"
-#include "tests/support/drawn_obstacles.hpp"
-#include "tests/support/drawn_scene.hpp"
-#include "tests/support/sensor_model.hpp"
+#include "sim/drawn_obstacles.hpp"
+#include "sim/drawn_scene.hpp"
+#include "sim/sensor_model.hpp"
 
 namespace berth::testing {
 namespace {
@@ -24,7 +24,7 @@ constexpr int kMostSpeckle_px = 60;
 constexpr int kFrames = 3;
 /// A distance to what is left of the thing may be larger by this much.
 constexpr double kBound_m = 0.005;
-/// What is nearer to the robot's visible surface than this may be an island of the self filter.
+/// What is nearer to the robot's visible surface than this may be a flying patch of the self filter.
 constexpr double kClearance_m = 0.1;
 
 struct Shape {
@@ -44,11 +44,11 @@ SensorSettings strongest_rules() {
 }
 
 DepthImage spoiled(DepthImage depth_m, std::uint32_t seed) {
-  mix_edge_pixels(0.5, seed, depth_m);
-  darken_outlines(2, depth_m);
-  add_noise(0.002, seed + 1, depth_m);
-  quantise(0.001, depth_m);
-  drop_out(0.02, seed + 2, depth_m);
+  sim::mix_edge_pixels(0.5, seed, depth_m);
+  sim::darken_outlines(2, depth_m);
+  sim::add_noise(0.002, seed + 1, depth_m);
+  sim::quantise(0.001, depth_m);
+  sim::drop_out(0.02, seed + 2, depth_m);
   return depth_m;
 }
 
@@ -66,13 +66,13 @@ class SmallObstacles : public ::testing::TestWithParam<Shape> {
  protected:
   /// A thing near a random pixel of the robot; nothing where it would be too near to the robot,
   /// where less than two thirds of it can be seen, or where the image's border cuts it.
-  std::optional<Thing> place(const DrawnScene& scene, Random& random) const {
+  std::optional<Thing> place(const sim::DrawnScene& scene, sim::Random& random) const {
     const Camera& camera = scene.camera;
     const int u = random.whole(0, camera.width_px - 1);
     const int v = random.whole(0, camera.height_px - 1);
     if (scene.robot.link_id(u, v) == kNoLink || scene.robot.link_id(u, v) == kEnvironmentLink)
       return {};
-    Eigen::Vector3d offset = draw_rotation(random) * Eigen::Vector3d::UnitX();
+    Eigen::Vector3d offset = sim::draw_rotation(random) * Eigen::Vector3d::UnitX();
     offset.z() = -std::abs(offset.z());
     const Eigen::Vector3d p_C =
         point_C(camera, u, v, scene.robot.depth_m(u, v)) + random(0.1, 0.35) * offset;
@@ -88,10 +88,11 @@ class SmallObstacles : public ::testing::TestWithParam<Shape> {
                 {make_cylinder(scale * GetParam().diameter_m / 2, length_m), scene.X_BC * X_CO});
   }
 
-  static std::optional<Thing> seen(const DrawnScene& scene, const DrawnObstacle& obstacle) {
+  static std::optional<Thing> seen(const sim::DrawnScene& scene,
+                                   const sim::DrawnObstacle& obstacle) {
     RobotImage image;
-    RobotRenderer(build_link_meshes(obstacle_model({obstacle})), scene.camera)
-        .render(obstacle_pose({obstacle}), scene.X_BC, image);
+    RobotRenderer(build_link_meshes(sim::obstacle_model({obstacle})), scene.camera)
+        .render(sim::obstacle_pose({obstacle}), scene.X_BC, image);
     if (touches_border(image)) return {};
     Thing thing{image.depth_m, 0};
     int drawn = 0;
@@ -118,7 +119,7 @@ class SmallObstacles : public ::testing::TestWithParam<Shape> {
     return false;
   }
 
-  static double distance_to_robot_m(const DrawnScene& scene, const Eigen::Vector3d& p_C) {
+  static double distance_to_robot_m(const sim::DrawnScene& scene, const Eigen::Vector3d& p_C) {
     double least_m = std::numeric_limits<double>::infinity();
     for (int v = 0; v < scene.camera.height_px; v += 4) {
       for (int u = 0; u < scene.camera.width_px; u += 4) {
@@ -130,11 +131,11 @@ class SmallObstacles : public ::testing::TestWithParam<Shape> {
     return least_m;
   }
 
-  std::vector<LinkDistance> distances(const DrawnScene& scene,
+  std::vector<LinkDistance> distances(const sim::DrawnScene& scene,
                                       const DepthImage& obstacles_m) const {
     SearchableDepth searchable;
     searchable.build(obstacles_m);
-    DistanceSettings settings;
+    ImageDistanceSettings settings;
     settings.mean_direction = false;
     EvaluateWorkspace workspace;
     LinkDistances out;
@@ -144,7 +145,7 @@ class SmallObstacles : public ::testing::TestWithParam<Shape> {
   }
 
   /// What is left of the thing, by its own readings, after all rules.
-  static DepthImage left_of(const DrawnScene& scene, const Thing& thing, std::uint32_t seed) {
+  static DepthImage left_of(const sim::DrawnScene& scene, const Thing& thing, std::uint32_t seed) {
     DepthImage depth_m = scene.depth_m;
     for (std::size_t i = 0; i < depth_m.pixels().size(); ++i) {
       if (!std::isnan(thing.visible_m.pixels()[i]))
@@ -177,7 +178,7 @@ class SmallObstacles : public ::testing::TestWithParam<Shape> {
   const RobotModel model_ = load_robot({.urdf = BERTH_BUNDLED_ARM "/arm.urdf",
                                         .package_paths = {{"berth_arm", BERTH_BUNDLED_ARM}},
                                         .environment_links = {"table"}});
-  const std::vector<MeshTree> trees_ = build_link_trees(model_);
+  const std::vector<sim::MeshTree> trees_ = sim::build_link_trees(model_);
 };
 
 TEST_P(SmallObstacles, KeepTheirDistanceUnderTheStrongestRules) {
@@ -186,8 +187,8 @@ TEST_P(SmallObstacles, KeepTheirDistanceUnderTheStrongestRules) {
   double largest_m = 0;
   int least_px = std::numeric_limits<int>::max();
   for (std::uint32_t seed = 0; seed < 4; ++seed) {
-    const DrawnScene scene = draw_scene(model_, trees_, {.most_obstacles = 4}, seed);
-    Random random(seed);
+    const sim::DrawnScene scene = sim::draw_scene(model_, trees_, {.most_obstacles = 4}, seed);
+    sim::Random random(seed);
     for (int attempt = 0, in_scene = 0; attempt < 3000 && in_scene < 5; ++attempt) {
       const std::optional<Thing> thing = place(scene, random);
       if (!thing) continue;

@@ -82,7 +82,7 @@ std::size_t plain_blob_size(const DepthImage& depth_m, Pixel start, float jump_a
 }
 
 TEST(Speckle, AgreesWithItsDefinitionOnPatchyImages) {
-  testing::Random random(1);
+  sim::Random random(1);
   int dropped = 0;
   for (int i = 0; i < 60; ++i) {
     SCOPED_TRACE(i);

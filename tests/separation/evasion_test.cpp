@@ -25,8 +25,10 @@ class Evading : public ::testing::Test {
  protected:
   Evading() : robot_(bundled_robot()), evader_(robot_, "arm_link_7", settings_) {
     forward_kinematics(robot_->model(), kPosition, pose_);
+    result_.status = ResultStatus::ok;
+    result_.pose = pose_;
     for (int id = 1; id <= robot_->model().link_count(); ++id) {
-      LinkDistance& link = answer_.distances.links.emplace_back();
+      LinkResult& link = result_.links.emplace_back();
       link.id = static_cast<LinkId>(id);
       link.status = LinkStatus::none_in_range;
     }
@@ -34,18 +36,18 @@ class Evading : public ::testing::Test {
 
   /// Something at this distance of the link's origin, in this direction.
   void put(LinkId id, const Eigen::Vector3d& direction_B, double distance_m) {
-    LinkDistance& link = answer_.distances.links[id - 1];
+    LinkResult& link = result_.links[id - 1];
     link.status = LinkStatus::ok;
     link.distance_m = static_cast<float>(distance_m);
     const Eigen::Vector3d p_B = pose_.X_BL[robot_->model().evaluated_links[id - 1]].translation();
     link.robot_point_B_m = p_B.cast<float>();
     link.obstacle_point_B_m = (p_B + distance_m * direction_B.normalized()).cast<float>();
   }
-  const Evasion& look() { return evader_.look(answer_, kPosition); }
+  const Evasion& update() { return evader_.update(result_); }
 
   /// How fast the link's point goes towards its obstacle with these joint velocities.
   double approach_m_s(LinkId id, const std::vector<double>& velocity) {
-    const LinkDistance& link = answer_.distances.links[id - 1];
+    const LinkResult& link = result_.links[id - 1];
     Eigen::Matrix3Xd jacobian;
     point_jacobian(robot_->model(), pose_, robot_->model().evaluated_links[id - 1],
                    link.robot_point_B_m.cast<double>(), jacobian);
@@ -60,25 +62,25 @@ class Evading : public ::testing::Test {
   std::shared_ptr<const Robot> robot_;
   Evader evader_;
   RobotPose pose_;
-  Answer answer_;
+  Result result_;
 };
 
 TEST_F(Evading, WhereNothingIsNearThePlanStands) {
-  const Evasion& evasion = look();
+  const Evasion& evasion = update();
   for (std::size_t j = 0; j < kPosition.size(); ++j) {
     EXPECT_EQ(evasion.velocity[j], 0);
     EXPECT_EQ(evasion.forward[j], 1);
     EXPECT_EQ(evasion.backward[j], 1);
   }
   put(8, {1, 0, 0}, 0.7);
-  EXPECT_EQ(look().velocity[0], 0) << "out of reach";
+  EXPECT_EQ(update().velocity[0], 0) << "out of reach";
 }
 
 TEST_F(Evading, TheEndEffectorGoesAwayFromWhatIsNear) {
   for (const Eigen::Vector3d& direction_B :
        {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(-1, 1, 1)}) {
     put(8, direction_B, 0.1);
-    EXPECT_LT(approach_m_s(8, look().velocity), -0.2);
+    EXPECT_LT(approach_m_s(8, update().velocity), -0.2);
   }
 }
 
@@ -86,7 +88,7 @@ TEST_F(Evading, TheNearerTheFaster) {
   double before_m_s = 0;
   for (const double distance_m : {0.59, 0.4, 0.3, 0.2, 0.1, 0.01}) {
     put(8, {1, 0, 0}, distance_m);
-    const double speed_m_s = -approach_m_s(8, look().velocity);
+    const double speed_m_s = -approach_m_s(8, update().velocity);
     EXPECT_GT(speed_m_s, before_m_s);
     before_m_s = speed_m_s;
   }
@@ -95,17 +97,17 @@ TEST_F(Evading, TheNearerTheFaster) {
 
 TEST_F(Evading, TheMeanDirectionCountsWhereItIsKnown) {
   put(8, {1, 0, 0}, 0.1);
-  LinkDistance& link = answer_.distances.links[7];
+  LinkResult& link = result_.links[7];
   link.mean_direction_B = {0, 0.9F, 0};
   link.mean_count = 100;
-  const std::vector<double> velocity = look().velocity;
+  const std::vector<double> velocity = update().velocity;
   put(8, {0, 1, 0}, 0.1);
   EXPECT_LT(approach_m_s(8, velocity), -0.2);
 }
 
 TEST_F(Evading, TheBodyHoldsBackWhatWouldBringItNearer) {
   put(5, {0, 1, 0}, 0.05);
-  const Evasion& evasion = look();
+  const Evasion& evasion = update();
   int held = 0;
   for (std::size_t j = 0; j < kPosition.size(); ++j) {
     std::vector<double> alone(kPosition.size(), 0);
@@ -122,15 +124,15 @@ TEST_F(Evading, TheBodyHoldsBackWhatWouldBringItNearer) {
 
 TEST_F(Evading, TwoThatTouchHaveNoDirection) {
   put(8, {1, 0, 0}, 0);
-  for (const double v : look().velocity) EXPECT_EQ(v, 0);
+  for (const double v : update().velocity) EXPECT_EQ(v, 0);
 }
 
 TEST_F(Evading, AllocatesNothing) {
   put(8, {1, 0, 0}, 0.1);
   put(5, {0, 1, 0}, 0.05);
-  look();
+  update();
   const std::size_t before = allocation_count();
-  look();
+  update();
   EXPECT_EQ(allocation_count(), before);
 }
 

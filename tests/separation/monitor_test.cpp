@@ -7,10 +7,14 @@
 #include <cmath>
 #include <limits>
 
-#include "berth/pipeline/asker.hpp"
-#include "berth/pipeline/frame_set.hpp"
+#include "berth/image_distance/image_query.hpp"
 #include "berth/pipeline/observer.hpp"
+#include "berth/pipeline/query.hpp"
 #include "berth/scene/open_scene.hpp"
+#include "berth/separation/link_speed.hpp"
+#include "berth/separation/protective_distance.hpp"
+#include "berth/robot/link_twists.hpp"
+#include "berth/separation/camera_uncertainty.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/error_message.hpp"
 
@@ -26,14 +30,14 @@ SeparationSettings plain_settings() {
   SeparationSettings settings;
   settings.hold_s = settings.release_m = settings.acceleration_m_s2 = 0;
   settings.least_seen = 0;
-  settings.not_seen = settings.hidden = settings.doubtful = UnknownPolicy::ignore;
+  settings.not_seen = settings.unknown = settings.rejected = UnknownPolicy::ignore;
   return settings;
 }
 
 class Monitor : public ::testing::Test {
  protected:
   Monitor()
-      : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml")), asker_(scene_.robot) {
+      : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml")), query_(scene_.robot) {
     for (std::size_t c = 0; c < scene_.cameras.size(); ++c) {
       const OpenCamera& camera = scene_.cameras[c];
       Observer observer(camera.view);
@@ -47,35 +51,28 @@ class Monitor : public ::testing::Test {
 
   /// At now_s_, with the joints of that time.
   void ask() {
-    std::vector<const Frame*> pointers;
-    for (const auto& frame : frames_) pointers.push_back(frame.get());
-    set_.assign(pointers, scene_.robot->settings().time, now_s_);
     scene_.joints->at(now_s_, kOnlyBetweenSamples, joints_);
     scene_.joints->velocity(now_s_, velocity_);
-    answer_ = asker_.ask(set_, joints_, now_s_);
+    result_ = query_.ask({frames_, joints_, now_s_});
   }
 
-  SeparationQuestion question() const {
-    return {answer_, set_.cameras(), frames_, joints_.position, velocity_, now_s_};
-  }
   /// Of a monitor that has just been made: with hold_s 0 nothing is held.
-  Separation look(const SeparationSettings& settings) const {
-    return SeparationMonitor(scene_.robot, settings).look(question());
+  Separation update(const SeparationSettings& settings) const {
+    return SeparationMonitor(scene_.robot, settings).update(result_, velocity_, now_s_);
   }
 
   OpenScene scene_;
-  Asker asker_;
+  Query query_;
   std::vector<std::shared_ptr<const Frame>> frames_;
-  FrameSet set_;
   double now_s_ = 0;
   JointState joints_;
   std::vector<double> velocity_;
-  Answer answer_;
+  Result result_;
 };
 
 TEST_F(Monitor, EachLinkHasTheRoomThatItsFormulaSays) {
   const SeparationSettings settings = plain_settings();
-  const Separation separation = look(settings);
+  const Separation separation = update(settings);
   ASSERT_EQ(separation.links.size(), 8U);
   EXPECT_NEAR(separation.reaction_time_s, settings.reaction_time_s + now_s_ - frames_[0]->stamp_s,
               1e-9)
@@ -93,14 +90,14 @@ TEST_F(Monitor, EachLinkHasTheRoomThatItsFormulaSays) {
     EXPECT_NEAR(link.speed_m_s, speed_m_s, 1e-9);
     EXPECT_GT(link.speed_m_s, 0);
     EXPECT_NEAR(link.margin_m, link.distance_m - link.required_m, 1e-12);
-    EXPECT_GE(link.distance_m, answer_.distances.links[link.id - 1].lower_bound_m);
+    EXPECT_GE(link.distance_m, result_.links[link.id - 1].lower_bound_m);
     least = std::min(least, link.speed_scale);
   }
   EXPECT_EQ(separation.speed_scale, least < settings.least_scale ? 0 : least);
 }
 
 TEST_F(Monitor, ALinkThatNoJointMovesNeedsNoRoom) {
-  const Separation separation = look(plain_settings());
+  const Separation separation = update(plain_settings());
   EXPECT_FALSE(separation.links[0].is_moved);
   EXPECT_EQ(separation.links[0].speed_scale, 1);
   EXPECT_TRUE(std::isnan(separation.links[0].margin_m));
@@ -112,7 +109,7 @@ TEST_F(Monitor, SlowPeopleAndASmallReachLeaveTheRobotItsSpeed) {
   settings.camera_uncertainty_m = settings.robot_uncertainty_m = 0;
   settings.reaction_time_s = 0;
   settings.deceleration_m_s2 = 100;
-  const Separation separation = look(settings);
+  const Separation separation = update(settings);
   EXPECT_EQ(name_of(separation.state), "clear");
   EXPECT_EQ(separation.speed_scale, 1);
   EXPECT_EQ(name_of(separation.reason), "none");
@@ -120,7 +117,7 @@ TEST_F(Monitor, SlowPeopleAndASmallReachLeaveTheRobotItsSpeed) {
 }
 
 TEST_F(Monitor, TheDefaultsStopBesideSomethingNear) {
-  const Separation separation = look(SeparationSettings());
+  const Separation separation = update(SeparationSettings());
   EXPECT_EQ(name_of(separation.state), "stop");
   EXPECT_EQ(separation.speed_scale, 0);
   EXPECT_NE(separation.link, kNoLink);
@@ -137,33 +134,33 @@ SeparationSettings reduced_settings() {
 }
 
 TEST_F(Monitor, TheScaleLeavesEachLinkItsRoom) {
-  const Separation before = look(reduced_settings());
+  const Separation before = update(reduced_settings());
   ASSERT_EQ(name_of(before.state), "reduced") << before.speed_scale;
   for (double& v : velocity_) v *= before.speed_scale;
-  const Separation after = look(reduced_settings());
+  const Separation after = update(reduced_settings());
   EXPECT_GT(after.speed_scale, 0.999);
   for (const LinkSeparation& link : after.links) {
     if (!link.is_moved) continue;
     EXPECT_GE(link.margin_m, -1e-5);
   }
   for (double& v : velocity_) v *= 1.05;
-  EXPECT_LT(look(reduced_settings()).speed_scale, 1);
+  EXPECT_LT(update(reduced_settings()).speed_scale, 1);
 }
 
 TEST_F(Monitor, WhatTheRobotMayGainInSpeedCounts) {
   SeparationSettings settings = reduced_settings();
-  const Separation before = look(settings);
+  const Separation before = update(settings);
   settings.acceleration_m_s2 = 1;
-  const Separation after = look(settings);
+  const Separation after = update(settings);
   EXPECT_NEAR(after.links[7].speed_m_s, before.links[7].speed_m_s + settings.reaction_time_s, 1e-9);
   EXPECT_LT(after.speed_scale, before.speed_scale);
 }
 
 TEST_F(Monitor, TheDirectedSpeedIsAtMostTheSpeed) {
   SeparationSettings settings = reduced_settings();
-  const Separation all = look(settings);
+  const Separation all = update(settings);
   settings.directed_speed = true;
-  const Separation directed = look(settings);
+  const Separation directed = update(settings);
   bool is_less = false;
   for (std::size_t i = 1; i < all.links.size(); ++i) {
     EXPECT_LE(directed.links[i].speed_m_s, all.links[i].speed_m_s + 1e-9);
@@ -172,11 +169,29 @@ TEST_F(Monitor, TheDirectedSpeedIsAtMostTheSpeed) {
   EXPECT_TRUE(is_less);
 }
 
+/// A pair of images has its points in the base frame, too.
+TEST_F(Monitor, TheDirectedSpeedIsThatOfOneCamerasImagesAsWell) {
+  ImageQuery images(scene_.robot, Method::exact);
+  result_ = images.ask(*frames_[0], joints_, now_s_);
+  SeparationSettings settings = reduced_settings();
+  const Separation all = update(settings);
+  settings.directed_speed = true;
+  const Separation directed = update(settings);
+  int less = 0;
+  for (std::size_t i = 1; i < all.links.size(); ++i) {
+    if (!result_.links[i].has_distance()) continue;
+    EXPECT_TRUE(result_.links[i].obstacle_point_B_m.allFinite());
+    EXPECT_LE(directed.links[i].speed_m_s, all.links[i].speed_m_s + 1e-9);
+    less += directed.links[i].speed_m_s < 0.9 * all.links[i].speed_m_s;
+  }
+  EXPECT_GT(less, 0);
+}
+
 TEST_F(Monitor, TheUncertaintyComesFromTheCamerasInUse) {
   SeparationSettings settings = plain_settings();
-  const Separation automatic = look(settings);
+  const Separation automatic = update(settings);
   settings.camera_uncertainty_m = 0;
-  const Separation none = look(settings);
+  const Separation none = update(settings);
   for (std::size_t i = 1; i < none.links.size(); ++i) {
     // Tolerance 5 cm, noise 2 cm at 1 m and 20 cm at 3 m.
     const double z_d_m = automatic.links[i].required_m - none.links[i].required_m;
@@ -185,12 +200,12 @@ TEST_F(Monitor, TheUncertaintyComesFromTheCamerasInUse) {
   }
 }
 
-TEST_F(Monitor, AnOldAnswerStops) {
+TEST_F(Monitor, AnOldResultStops) {
   now_s_ += 0.2;
   ask();
-  const Separation separation = look(plain_settings());
+  const Separation separation = update(plain_settings());
   EXPECT_EQ(name_of(separation.state), "stop");
-  EXPECT_EQ(name_of(separation.reason), "untimely");
+  EXPECT_EQ(name_of(separation.reason), "stale");
   EXPECT_TRUE(std::isnan(separation.reaction_time_s));
   for (const LinkSeparation& link : separation.links) {
     EXPECT_EQ(link.speed_scale, link.is_moved ? 0 : 1);
@@ -203,17 +218,20 @@ TEST_F(Monitor, AVelocityThatIsNotKnownStops) {
   for (const double bad : {kNaN, std::numeric_limits<double>::infinity()}) {
     const std::vector<double> good = velocity_;
     velocity_[3] = bad;
-    EXPECT_EQ(name_of(look(settings).reason), "velocity");
-    EXPECT_EQ(name_of(look(settings).state), "stop");
+    EXPECT_EQ(name_of(update(settings).reason), "velocity");
+    EXPECT_EQ(name_of(update(settings).state), "stop");
     velocity_ = good;
   }
   velocity_.pop_back();
-  EXPECT_EQ(name_of(look(settings).reason), "velocity") << "one is missing";
+  EXPECT_EQ(name_of(update(settings).reason), "velocity") << "one is missing";
 }
 
 TEST_F(Monitor, APositionThatIsNotKnownStops) {
-  joints_.position[2] = kNaN;
-  EXPECT_EQ(name_of(look(plain_settings()).reason), "velocity");
+  JointBuffer joints(scene_.robot->model(), 2);
+  result_ = query_.ask({frames_, joints, now_s_});
+  EXPECT_EQ(result_.time.status, TimeStatus::no_joints);
+  EXPECT_EQ(name_of(update(plain_settings()).state), "stop");
+  EXPECT_EQ(name_of(update(plain_settings()).reason), "stale");
 }
 
 TEST_F(Monitor, ALostCameraGoesByItsPolicy) {
@@ -221,15 +239,15 @@ TEST_F(Monitor, ALostCameraGoesByItsPolicy) {
   ask();
   SeparationSettings settings = reduced_settings();
   settings.camera = UnknownPolicy::ignore;
-  EXPECT_GT(look(settings).speed_scale, 0);
+  EXPECT_GT(update(settings).speed_scale, 0);
   settings.camera = UnknownPolicy::stop;
-  const Separation stopped = look(settings);
+  const Separation stopped = update(settings);
   EXPECT_EQ(name_of(stopped.state), "stop");
   EXPECT_EQ(name_of(stopped.reason), "camera");
   EXPECT_EQ(stopped.camera, 1);
   settings.camera = UnknownPolicy::assume_range;
   settings.assumed_range_m = 0.1;
-  const Separation assumed = look(settings);
+  const Separation assumed = update(settings);
   EXPECT_GT(assumed.speed_scale, 0);
   EXPECT_LE(assumed.speed_scale, stopped.speed_scale + 1);
   for (const LinkSeparation& link : assumed.links) {
@@ -246,30 +264,30 @@ TEST_F(Monitor, ACoveredCameraIsALostOne) {
   Observer(camera.view).observe(dark, camera.at_exposure[kImages[2]], *covered);
   frames_[2] = covered;
   ask();
-  ASSERT_EQ(set_.cameras()[2].status, CameraStatus::blind);
-  EXPECT_EQ(name_of(look(plain_settings()).reason), "camera");
+  ASSERT_EQ(result_.cameras[2].status, CameraStatus::blind);
+  EXPECT_EQ(name_of(update(plain_settings()).reason), "camera");
 }
 
 TEST_F(Monitor, ItBeginsWithAStopAndGoesOnAfterAWhile) {
   SeparationSettings settings = reduced_settings();
   settings.hold_s = 0.05;
   SeparationMonitor monitor(scene_.robot, settings);
-  const Separation first = monitor.look(question());
+  const Separation first = monitor.update(result_, velocity_, now_s_);
   EXPECT_EQ(name_of(first.state), "stop");
   EXPECT_EQ(name_of(first.reason), "hold");
   now_s_ += 0.06;
-  const Separation later = monitor.look(question());
+  const Separation later = monitor.update(result_, velocity_, now_s_);
   EXPECT_EQ(name_of(later.state), "reduced");
 }
 
 TEST_F(Monitor, AllocatesNothing) {
   SeparationMonitor monitor(scene_.robot, SeparationSettings());
   const std::size_t before = allocation_count();
-  for (int i = 0; i < 3; ++i) monitor.look(question());
+  for (int i = 0; i < 3; ++i) monitor.update(result_, velocity_, now_s_);
   EXPECT_EQ(allocation_count(), before);
 }
 
-TEST_F(Monitor, NeedsARobotWhoseAnswersTellWhatIsSeen) {
+TEST_F(Monitor, NeedsARobotWhoseResultsTellWhatIsSeen) {
   EvaluationSettings evaluation;
   evaluation.visibility = false;
   const auto robot = std::make_shared<const Robot>(scene_.robot->model(), evaluation);

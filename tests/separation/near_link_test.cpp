@@ -3,19 +3,21 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace berth {
 namespace {
 
 constexpr double kRange_m = 2;
 using enum UnknownPolicy;
 
-LinkDistance near_reading_at(float distance_m) {
-  LinkDistance link;
+LinkResult near_thing_at(float distance_m) {
+  LinkResult link;
   link.id = 1;
   link.status = LinkStatus::ok;
-  link.distance_m = link.reading.distance_m = distance_m;
-  link.lower_bound_m = link.reading.lower_bound_m = distance_m - 0.001F;
-  link.reading.view = 0;
+  link.distance_m = link.occupied.distance_m = distance_m;
+  link.lower_bound_m = link.occupied.lower_bound_m = distance_m - 0.001F;
+  link.camera = link.occupied.camera = 0;
   return link;
 }
 
@@ -25,9 +27,10 @@ LinkVisibility seen(float share) {
   return visibility;
 }
 
-NearLink near_of(const LinkDistance& link, const SeparationSettings& settings = {},
+NearLink near_of(LinkResult link, const SeparationSettings& settings = {},
                  const LinkVisibility& visibility = seen(0.8F)) {
-  return near_link(settings, link, visibility, kRange_m);
+  link.visibility = visibility;
+  return near_link(settings, link, kRange_m);
 }
 
 void expect_near(const NearLink& near, double distance_m, SeparationReason reason) {
@@ -36,67 +39,68 @@ void expect_near(const NearLink& near, double distance_m, SeparationReason reaso
 }
 
 TEST(NearLink, WhatIsCertifiedCounts) {
-  expect_near(near_of(near_reading_at(0.5F)), 0.499, SeparationReason::reading);
+  expect_near(near_of(near_thing_at(0.5F)), 0.499, SeparationReason::occupied);
 }
 
 TEST(NearLink, WhereNothingIsInRangeTheRangeCounts) {
-  LinkDistance link;
+  LinkResult link;
   link.status = LinkStatus::none_in_range;
   link.lower_bound_m = kRange_m;
   expect_near(near_of(link), kRange_m, SeparationReason::range);
 }
 
 TEST(NearLink, WhatADeadlineCutCountsByItsBound) {
-  LinkDistance link = near_reading_at(0.9F);
+  LinkResult link = near_thing_at(0.9F);
   link.status = LinkStatus::cut_short;
   link.lower_bound_m = 0.2F;
   expect_near(near_of(link), 0.2, SeparationReason::cut_short);
 }
 
-TEST(NearLink, AnUntimelyOneStops) {
-  LinkDistance link;
-  link.status = LinkStatus::untimely;
+TEST(NearLink, AStaleOneStops) {
+  LinkResult link;
+  link.status = LinkStatus::stale;
   SeparationSettings all_ignored;
-  all_ignored.not_seen = all_ignored.hidden = all_ignored.doubtful = all_ignored.camera = ignore;
-  expect_near(near_of(link, all_ignored), 0, SeparationReason::untimely);
+  all_ignored.not_seen = all_ignored.unknown = all_ignored.rejected = all_ignored.camera = ignore;
+  expect_near(near_of(link, all_ignored), 0, SeparationReason::stale);
 }
 
-TEST(NearLink, HiddenSpaceGoesByItsPolicy) {
-  LinkDistance link = near_reading_at(0.8F);
-  link.obstacle_kind = ObstacleKind::hidden;
+TEST(NearLink, UnknownSpaceGoesByItsPolicy) {
+  LinkResult link = near_thing_at(0.8F);
+  link.obstacle_is = ObstacleKind::unknown;
   link.distance_m = 0.3F;
   link.lower_bound_m = 0.299F;
   SeparationSettings settings;
-  expect_near(near_of(link, settings), 0.299, SeparationReason::hidden);
-  settings.hidden = stop;
-  expect_near(near_of(link, settings), 0, SeparationReason::hidden);
-  settings.hidden = ignore;
-  expect_near(near_of(link, settings), 0.799, SeparationReason::reading);
-  link.reading = {};
-  link.reading.lower_bound_m = kRange_m;
+  expect_near(near_of(link, settings), 0.299, SeparationReason::unknown);
+  settings.unknown = stop;
+  expect_near(near_of(link, settings), 0, SeparationReason::unknown);
+  settings.unknown = ignore;
+  expect_near(near_of(link, settings), 0.799, SeparationReason::occupied);
+  link.occupied = {};
+  link.occupied.lower_bound_m = kRange_m;
   expect_near(near_of(link, settings), kRange_m, SeparationReason::range);
 }
 
 TEST(NearLink, ALinkThatIsNotSeenEnoughGoesByItsPolicy) {
-  LinkDistance not_seen = near_reading_at(0.8F);
+  LinkResult not_seen = near_thing_at(0.8F);
   not_seen.status = LinkStatus::not_seen;
   for (const auto& [link, visibility] :
-       {std::pair{not_seen, seen(0.01F)}, std::pair{near_reading_at(0.8F), seen(0.1F)}}) {
+       {std::pair{not_seen, seen(0.01F)}, std::pair{near_thing_at(0.8F), seen(0.1F)}}) {
     SeparationSettings settings;
     expect_near(near_of(link, settings, visibility), 0, SeparationReason::not_seen);
     settings.not_seen = assume_range;
     settings.assumed_range_m = 0.4;
     expect_near(near_of(link, settings, visibility), 0.4, SeparationReason::not_seen);
     settings.assumed_range_m = 1;
-    expect_near(near_of(link, settings, visibility), 0.799, SeparationReason::reading);
+    expect_near(near_of(link, settings, visibility), 0.799, SeparationReason::occupied);
     settings.not_seen = ignore;
-    expect_near(near_of(link, settings, visibility), 0.799, SeparationReason::reading);
+    expect_near(near_of(link, settings, visibility), 0.799, SeparationReason::occupied);
   }
 }
 
 TEST(NearLink, ALinkWithoutABoundIsFreeOnlyWhereThatIsIgnored) {
-  LinkDistance link;
+  LinkResult link;
   link.status = LinkStatus::not_visible;
+  link.lower_bound_m = link.occupied.lower_bound_m = std::numeric_limits<float>::quiet_NaN();
   SeparationSettings settings;
   expect_near(near_of(link, settings, LinkVisibility()), 0, SeparationReason::not_seen);
   settings.not_seen = ignore;
@@ -106,24 +110,24 @@ TEST(NearLink, ALinkWithoutABoundIsFreeOnlyWhereThatIsIgnored) {
 TEST(NearLink, LeastSeenIsASetting) {
   SeparationSettings settings;
   settings.least_seen = 0.9;
-  expect_near(near_of(near_reading_at(0.8F), settings), 0, SeparationReason::not_seen);
+  expect_near(near_of(near_thing_at(0.8F), settings), 0, SeparationReason::not_seen);
 }
 
-TEST(NearLink, DoubtfulReadingsGoByTheirPolicy) {
+TEST(NearLink, RejectedReadingsGoByTheirPolicy) {
   LinkVisibility visibility = seen(0.8F);
-  visibility.doubtful_distance_m = 0.1F;
+  visibility.rejected_distance_m = 0.1F;
   SeparationSettings settings;
-  const LinkDistance link = near_reading_at(0.8F);
-  expect_near(near_of(link, settings, visibility), 0.799, SeparationReason::reading);
-  settings.doubtful = assume_range;
-  expect_near(near_of(link, settings, visibility), 0.1, SeparationReason::doubtful);
-  settings.doubtful = stop;
-  expect_near(near_of(link, settings, visibility), 0, SeparationReason::doubtful);
-  settings.doubtful = ignore;
-  expect_near(near_of(link, settings, visibility), 0.799, SeparationReason::reading);
-  visibility.doubtful_distance_m = 0.9F;
-  settings.doubtful = stop;
-  expect_near(near_of(link, settings, visibility), 0.799, SeparationReason::reading);
+  const LinkResult link = near_thing_at(0.8F);
+  expect_near(near_of(link, settings, visibility), 0.799, SeparationReason::occupied);
+  settings.rejected = assume_range;
+  expect_near(near_of(link, settings, visibility), 0.1, SeparationReason::rejected);
+  settings.rejected = stop;
+  expect_near(near_of(link, settings, visibility), 0, SeparationReason::rejected);
+  settings.rejected = ignore;
+  expect_near(near_of(link, settings, visibility), 0.799, SeparationReason::occupied);
+  visibility.rejected_distance_m = 0.9F;
+  settings.rejected = stop;
+  expect_near(near_of(link, settings, visibility), 0.799, SeparationReason::occupied);
 }
 
 }  // namespace

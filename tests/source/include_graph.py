@@ -2,7 +2,8 @@
 """include_graph.py: finds includes that go up.
 
 src/berth/CMakeLists.txt names its folders in order: each may include itself and those before it, and nothing
-of berth/berth.hpp, apps, lab and tests. apps may include src and itself. The status is 1 where any goes up.
+of berth/berth.hpp, apps, sim, lab and tests. apps may include src and itself, sim and lab those before them as well, and none
+of them tests. The status is 1 where any goes up.
 """
 import re
 import sys
@@ -13,8 +14,8 @@ FOLDER = re.compile(r"^\s*add_subdirectory\(([\w/]+)\)", re.M)
 
 
 def ranks(cmake_text):
-    """Folder -> its place, 0 for the one that may include itself alone; apps comes last."""
-    folders = [f"berth/{name}" for name in FOLDER.findall(cmake_text)] + ["apps"]
+    """Folder -> its place, 0 for the one that may include itself alone; apps, sim and lab come last."""
+    folders = [f"berth/{name}" for name in FOLDER.findall(cmake_text)] + ["apps", "sim", "lab"]
     return {folder: place for place, folder in enumerate(folders)}
 
 
@@ -30,8 +31,8 @@ def going_up(texts, ranks_of):
         own = folder_of(file, ranks_of)
         for included in INCLUDE.findall(text):
             other = folder_of(included, ranks_of)
-            # Above all is what has no place: berth.hpp, lab, tests.
-            ours = Path(included).parts[0] in ("berth", "apps", "lab", "tests")
+            # Above all is what has no place: berth.hpp, tests.
+            ours = Path(included).parts[0] in ("berth", "apps", "sim", "lab", "tests")
             if own and ours and (other is None or ranks_of[other] > ranks_of[own]):
                 found.append((file, included))
     return found
@@ -40,7 +41,7 @@ def going_up(texts, ranks_of):
 def main():
     ranks_of = ranks(Path("src/berth/CMakeLists.txt").read_text(encoding="utf-8"))
     texts = {str(file.relative_to(root)): file.read_text(encoding="utf-8")
-             for root, folder in (("src", "berth"), (".", "apps"))
+             for root, folder in (("src", "berth"), (".", "apps"), (".", "sim"), (".", "lab"))
              for file in sorted(Path(root, folder).rglob("*.[ch]pp"))}
     if not texts or len(ranks_of) < 2:
         sys.exit("no sources, or no folders in src/berth/CMakeLists.txt")

@@ -18,7 +18,7 @@ std::vector<StudyScene> small_scenes() {
   std::vector<StudyScene> scenes;
   for (const std::uint32_t seed : {3, 4}) {
     scenes.push_back({"scene " + std::to_string(seed), SceneKind::drawn,
-                      [seed] { return testing::random_images(seed, 80, 60, 4); }});
+                      [seed] { return sim::random_images(seed, 80, 60, 4); }});
   }
   return scenes;
 }
@@ -97,7 +97,7 @@ TEST_F(Sweep, CallsNoSceneThatHasNothingLeft) {
   std::vector<Task> tasks = small_tasks();
   std::erase_if(tasks, [](const Task& task) { return task.scene == 1; });
   std::vector<StudyScene> scenes = small_scenes();
-  scenes[1].make = []() -> testing::ImagePair { throw std::logic_error("was made"); };
+  scenes[1].make = []() -> sim::ImagePair { throw std::logic_error("was made"); };
   Journal journal(folder.path(), {}, journal_header(), journal_key_columns());
   EXPECT_NO_THROW(sweep(scenes, tasks, 2, 1, journal));
   EXPECT_THROW(sweep(scenes, small_tasks(), 2, 1, journal), std::logic_error);
@@ -131,7 +131,7 @@ TEST_F(GlSweep, MeasuresWhatRunsOnOpenGlOnceAndExactWithoutError) {
 }
 
 TEST(Scenes, TheWorstCaseIsAllObstacleBeforeAllRobot) {
-  const testing::ImagePair images = worst_case_scene().make();
+  const sim::ImagePair images = worst_case_scene().make();
   for (std::size_t i = 0; i < images.robot.link_id.pixels().size(); ++i) {
     ASSERT_NE(images.robot.link_id.pixels()[i], kNoLink);
     ASSERT_LT(images.obstacle_depth_m.pixels()[i], images.robot.depth_m.pixels()[i]);

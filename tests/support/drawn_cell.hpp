@@ -6,9 +6,10 @@
 #include <Eigen/Geometry>
 #include <string>
 
+#include "berth/render/robot_renderer.hpp"
 #include "berth/files/png.hpp"
-#include "tests/support/drawn_teach_in.hpp"
-#include "tests/support/sensor_model.hpp"
+#include "sim/drawn_calibration_data.hpp"
+#include "sim/sensor_model.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace berth::testing {
@@ -28,12 +29,12 @@ struct CellLines {
 class DrawnCell {
  public:
   /// `arm_folder` holds the bundled arm.
-  DrawnCell(const std::filesystem::path& arm_folder, const DrawnTeachInSettings& settings,
+  DrawnCell(const std::filesystem::path& arm_folder, const sim::DrawnCalibrationSettings& settings,
             std::uint32_t seed, const CellLines& lines = {})
       : model(load_robot({.urdf = arm_folder / "arm.urdf",
                           .package_paths = {{"berth_arm", arm_folder}},
                           .environment_links = {"table"}})),
-        drawn(draw_teach_in(model, build_link_meshes(model), settings, seed)) {
+        drawn(sim::draw_calibration_data(model, build_link_meshes(model), settings, seed)) {
     folder_.write("cell/camera_info.yaml", info_text());
     folder_.write("cell/joints.csv", joints_text());
     std::filesystem::create_directories(folder_ / "cell/depth");
@@ -53,7 +54,7 @@ class DrawnCell {
   }
 
   RobotModel model;
-  DrawnTeachIn drawn;
+  sim::DrawnCalibrationData drawn;
 
  private:
   std::string info_text() const {
@@ -70,7 +71,7 @@ class DrawnCell {
     std::string text = "time";
     for (const MovableJoint& joint : model.joints) text += "," + joint.name;
     text += "\n";
-    for (const TeachInFrame& frame : drawn.camera->frames) {
+    for (const CalibrationFrame& frame : drawn.camera->frames) {
       text += fmt::format("{}", frame.number);
       for (const double position : frame.joints.position) text += fmt::format(",{}", position);
       text += "\n";
@@ -80,7 +81,7 @@ class DrawnCell {
 
   std::string scene_text(const std::filesystem::path& arm_folder, const CellLines& lines,
                          std::uint32_t seed) const {
-    const Pose X_PC = miscalibrated(drawn.X_PC_true, lines.offset_m, lines.angle_rad, seed);
+    const Pose X_PC = sim::miscalibrated(drawn.X_PC_true, lines.offset_m, lines.angle_rad, seed);
     const Eigen::Vector3d p = X_PC.translation();
     const Eigen::Quaterniond q(X_PC.linear());
     return fmt::format(

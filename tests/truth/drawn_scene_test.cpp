@@ -1,4 +1,4 @@
-#include "tests/support/drawn_scene.hpp"
+#include "sim/drawn_scene.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "berth/render/robot_renderer.hpp"
 #include "tests/support/same_bits.hpp"
 
-namespace berth::testing {
+namespace berth::sim {
 namespace {
 
 constexpr DrawnSceneSettings kSmall{.width_px = 160, .height_px = 120};
@@ -95,4 +95,4 @@ TEST_F(DrawnScenes, ShowTheRobotAndItsObstacles) {
 }
 
 }  // namespace
-}  // namespace berth::testing
+}  // namespace berth::sim

@@ -1,4 +1,4 @@
-#include "tests/support/drawn_views.hpp"
+#include "sim/drawn_views.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "tests/support/same_bits.hpp"
 
-namespace berth::testing {
+namespace berth::sim {
 namespace {
 
 constexpr DrawnSceneSettings kSmallViews{.width_px = 160, .height_px = 120};
@@ -54,4 +54,4 @@ TEST_F(DrawnViewsTest, EachSeesTheRobotAndTellsTheFateOfEachPixel) {
 }
 
 }  // namespace
-}  // namespace berth::testing
+}  // namespace berth::sim

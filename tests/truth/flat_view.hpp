@@ -1,9 +1,9 @@
 // Views made by hand: a camera at its frame's origin, and what it sees as a function of the pixel.
 #pragma once
 
-#include "tests/support/whole_robot_points.hpp"
+#include "sim/whole_robot_points.hpp"
 
-namespace berth::testing {
+namespace berth::sim {
 
 /// 41 x 31 pixels, the middle one on the axis, 40 px of focal length.
 inline constexpr Camera kFlatCamera{41, 31, 40, 40, 20, 15};
@@ -44,4 +44,4 @@ inline Pose from_the_left(double away_m) {
   return X_BC;
 }
 
-}  // namespace berth::testing
+}  // namespace berth::sim

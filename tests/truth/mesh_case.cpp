@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "tests/support/sensor_model.hpp"
+#include "sim/sensor_model.hpp"
 
-namespace berth::testing {
+namespace berth::sim {
 namespace {
 
 constexpr std::array<std::pair<int, int>, 3> kSizes_px = {{{160, 120}, {240, 160}, {320, 240}}};
@@ -40,7 +40,7 @@ PixelFate draw_fate(Random& random, bool has_reading) {
     return kFates[random.whole(0, 2)];
   }
   constexpr std::array kFates = {PixelFate::obstacle,       PixelFate::robot,   PixelFate::padding,
-                                 PixelFate::dilation,       PixelFate::edge,    PixelFate::island,
+                                 PixelFate::dilation,       PixelFate::edge,    PixelFate::flying_patch,
                                  PixelFate::outside_region, PixelFate::speckle, PixelFate::averaged,
                                  PixelFate::background};
   return kFates[random.whole(0, 9)];
@@ -84,8 +84,8 @@ void disturb_sensor(Random& random, std::uint32_t seed, DrawnView& view) {
 
 SpaceSettings draw_settings(Random& random) {
   SpaceSettings settings;
-  settings.slab_m = std::pow(10, random(-3, -0.5));
-  settings.carve_margin_m = random.chance(0.2) ? 0 : random(0, 0.1);
+  settings.surface_thickness_m = std::pow(10, random(-3, -0.5));
+  settings.free_space_margin_m = random.chance(0.2) ? 0 : random(0, 0.1);
   settings.behind_robot_m = random.chance(0.2) ? 0 : random(0, 0.6);
   if (random.chance(0.3)) settings.no_reading = NoReading::free;
   settings.obstacle_speed_m_s = random(0, 3);
@@ -120,4 +120,4 @@ MeshCase draw_mesh_case(const RobotModel& model, const std::vector<MeshTree>& li
   return drawn_case;
 }
 
-}  // namespace berth::testing
+}  // namespace berth::sim

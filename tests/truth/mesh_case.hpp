@@ -3,9 +3,9 @@
 #pragma once
 
 #include "berth/robot/kinematics.hpp"
-#include "tests/support/drawn_views.hpp"
+#include "sim/drawn_views.hpp"
 
-namespace berth::testing {
+namespace berth::sim {
 
 struct MeshCase {
   std::vector<DrawnView> views;
@@ -22,4 +22,4 @@ MeshCase draw_mesh_case(const RobotModel& model, const std::vector<MeshTree>& li
 /// The same views, unchanged, with the default settings.
 MeshCase plain_mesh_case(const DrawnViews& drawn);
 
-}  // namespace berth::testing
+}  // namespace berth::sim

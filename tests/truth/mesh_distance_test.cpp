@@ -1,11 +1,11 @@
-#include "tests/support/mesh_distance.hpp"
+#include "sim/mesh_distance.hpp"
 
 #include <gtest/gtest.h>
 
 #include "berth/robot/primitives.hpp"
-#include "tests/support/drawn_obstacles.hpp"
+#include "sim/drawn_obstacles.hpp"
 
-namespace berth::testing {
+namespace berth::sim {
 namespace {
 
 Pose at(const Eigen::Vector3d& p_m, const Eigen::Quaterniond& rotation) {
@@ -41,4 +41,4 @@ TEST(MeshDistance, IsInfiniteBeyondWhatIsAskedForAndWithoutASurface) {
 }
 
 }  // namespace
-}  // namespace berth::testing
+}  // namespace berth::sim

@@ -1,6 +1,6 @@
 // The method `mesh` against its slow twin, link by link: a sample of links and questions.
 // BERTH_MESH_TWIN=full in the environment makes it ten thousand links, and every question.
-#include "berth/distance/mesh/mesh_distances.hpp"
+#include "berth/distance/mesh_distances.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -9,12 +9,12 @@
 #include <string_view>
 
 #include "mesh_case.hpp"
+#include "sim/odd_views.hpp"
+#include "sim/whole_robot_twin.hpp"
 #include "tests/support/data_folder.hpp"
-#include "tests/support/odd_views.hpp"
 #include "tests/support/thinned.hpp"
-#include "tests/support/whole_robot_twin.hpp"
 
-namespace berth::testing {
+namespace berth::sim {
 namespace {
 
 /// What floats may lose: positions of a few metres in single precision, added up.
@@ -66,16 +66,16 @@ class Judge {
     for (std::size_t i = 0; i < answers.size(); ++i) {
       SCOPED_TRACE(fmt::format("link {}, tolerance {} m", i + 1, question.tolerance_m));
       EXPECT_EQ(answers[i].id, i + 1);
-      const auto& wanted = question.hidden ? twin_[i].nearest : twin_[i].reading;
+      const auto& wanted = question.unknown ? twin_[i].nearest : twin_[i].reading;
       {
         SCOPED_TRACE("nearest");
         judge_pair(answers[i].nearest, wanted, i, question);
       }
       SCOPED_TRACE("reading");
-      judge_pair(answers[i].reading, twin_[i].reading, i, question);
-      EXPECT_FALSE(answers[i].reading.is_known() &&
-                   answers[i].reading.kind != ObstacleKind::reading);
-      EXPECT_FALSE(answers[i].reading.distance_m < answers[i].nearest.distance_m);
+      judge_pair(answers[i].occupied, twin_[i].reading, i, question);
+      EXPECT_FALSE(answers[i].occupied.is_known() &&
+                   answers[i].occupied.obstacle_is != ObstacleKind::occupied);
+      EXPECT_FALSE(answers[i].occupied.distance_m < answers[i].nearest.distance_m);
     }
   }
 
@@ -101,7 +101,7 @@ class Judge {
     ++pairs;
     if (pair.is_known()) {
       const double undecided_m =
-          pair.kind == ObstacleKind::hidden && question.tolerance_m < 0.001 ? kUndecided_m : 0;
+          pair.obstacle_is == ObstacleKind::unknown && question.tolerance_m < 0.001 ? kUndecided_m : 0;
       const double tolerance_m = std::max(question.tolerance_m, 20e-6) + kRounding_m + undecided_m;
       wide += pair.distance_m - pair.lower_bound_m > tolerance_m;
     } else {
@@ -116,16 +116,16 @@ class Judge {
     EXPECT_NEAR((robot_B - obstacle_B).norm(), pair.distance_m, kRounding_m);
     const std::size_t link = model_.evaluated_links[i];
     EXPECT_LE(meshes_L_[i](pose_.X_BL[link].inverse() * robot_B).distance_m, kRounding_m);
-    ASSERT_LT(pair.view, static_cast<int>(space_.views().size()));
+    ASSERT_LT(pair.camera, static_cast<int>(space_.views().size()));
     EXPECT_TRUE(is_in_pixel(pair, obstacle_B)) << "not in its pixel";
-    if (pair.kind == ObstacleKind::reading) {
-      EXPECT_TRUE(is_in_depths(pair, obstacle_B, 0, space_.settings().slab_m)) << "not in its slab";
+    if (pair.obstacle_is == ObstacleKind::occupied) {
+      EXPECT_TRUE(is_in_depths(pair, obstacle_B, 0, space_.settings().surface_thickness_m)) << "not in its surface layer";
     } else {
-      EXPECT_TRUE(is_in_depths(pair, obstacle_B, space_.settings().slab_m,
+      EXPECT_TRUE(is_in_depths(pair, obstacle_B, space_.settings().surface_thickness_m,
                                std::numeric_limits<double>::infinity()))
-          << "not behind its slab";
+          << "not behind its surface layer";
       for (std::size_t j = 0; j < space_.views().size(); ++j) {
-        if (static_cast<int>(j) == pair.view) continue;
+        if (static_cast<int>(j) == pair.camera) continue;
         EXPECT_FALSE(is_surely_free(j, obstacle_B)) << "seen free by view " << j;
       }
     }
@@ -145,7 +145,7 @@ class Judge {
   }
 
   bool is_in_pixel(const SpacePair& pair, const Eigen::Vector3d& p_B) const {
-    const Projection at = project(pair.view, p_B);
+    const Projection at = project(pair.camera, p_B);
     return std::abs(at.u - pair.obstacle_pixel.u) <= 0.5 + at.slack_px &&
            std::abs(at.v - pair.obstacle_pixel.v) <= 0.5 + at.slack_px;
   }
@@ -154,8 +154,8 @@ class Judge {
   bool is_in_depths(const SpacePair& pair, const Eigen::Vector3d& p_B, double from_m,
                     double to_m) const {
     const double front_m =
-        space_.views()[pair.view].obstacle_depth_m(pair.obstacle_pixel.u, pair.obstacle_pixel.v);
-    const double behind_m = project(pair.view, p_B).z_m - front_m;
+        space_.views()[pair.camera].obstacle_depth_m(pair.obstacle_pixel.u, pair.obstacle_pixel.v);
+    const double behind_m = project(pair.camera, p_B).z_m - front_m;
     return behind_m >= from_m - kRounding_m && behind_m <= to_m + kRounding_m;
   }
 
@@ -181,10 +181,10 @@ class Asked {
   Asked(const RobotModel& model, const MeshCase& mesh_case)
       : patches_(build_robot_patches(model)), pose_(mesh_case.pose) {
     spaces_.resize(mesh_case.views.size());
-    std::vector<PosedView> posed;
+    std::vector<PosedSpace> posed;
     for (std::size_t k = 0; k < spaces_.size(); ++k) {
       const DrawnView& view = mesh_case.views[k];
-      build_view_space(view.camera, view.depth_m, view.obstacles, mesh_case.settings, spaces_[k]);
+      build_camera_space(view.camera, view.depth_m, view.obstacles, mesh_case.settings, spaces_[k]);
       posed.push_back({&spaces_[k], view.X_BC, view.age_s});
     }
     hidden_.assign(posed);
@@ -204,8 +204,8 @@ class Asked {
  private:
   std::shared_ptr<const RobotPatches> patches_;
   const RobotPose& pose_;
-  std::vector<ViewSpace> spaces_;
-  HiddenSpace hidden_;
+  std::vector<CameraSpace> spaces_;
+  UnknownSpace hidden_;
   MeshWorkspace workspace_;
 };
 
@@ -240,7 +240,7 @@ void judge_case(const RobotModel& model, const MeshCase& mesh_case, Tally& tally
     asked.ask_again(question, answers);
     judge.judge(answers, question);
   }
-  const MeshQuestion seen_alone{.hidden = false};
+  const MeshQuestion seen_alone{.unknown = false};
   judge.judge(asked.ask(seen_alone), seen_alone);
   for (const double deadline_us : deadlines_us()) {
     const MeshQuestion question{.tolerance_m = 0.0001, .deadline_us = deadline_us};
@@ -290,4 +290,4 @@ TEST(MeshDistances, OfOddScenesLieInTheTwinsIntervals) {
 }
 
 }  // namespace
-}  // namespace berth::testing
+}  // namespace berth::sim

@@ -1,15 +1,16 @@
-#include "tests/support/other_metric.hpp"
+#include "sim/other_metric.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "berth/distance/brute_force.hpp"
-#include "tests/support/random.hpp"
-#include "tests/support/random_images.hpp"
+#include "berth/image_distance/brute_force.hpp"
+#include "tests/support/image_settings.hpp"
+#include "sim/random.hpp"
+#include "sim/random_images.hpp"
 
-namespace berth::testing {
+namespace berth::sim {
 namespace {
 
 /// Every pair.
@@ -63,7 +64,7 @@ TEST(OtherMetric, TheHiddenRayIsNeverFartherThanItsReadingNorThanHirtsPoint) {
     const auto ray_m = distances_m(OtherMetric::hidden_ray);
     LinkDistances hirt;
     brute_force(
-        {images.camera, images.robot, 3, SearchableDepth(images.obstacle_depth_m), {.range_m = 9}},
+        {images.camera, images.robot, 3, SearchableDepth(images.obstacle_depth_m), testing::image_settings(9)},
         hirt);
     for (int i = 0; i < 3; ++i) {
       if (hirt.links[i].status != LinkStatus::ok) continue;
@@ -93,4 +94,4 @@ TEST(OtherMetric, HirtsPointIsNoFartherThanTheWholeRayDividedByTheCosine) {
 }
 
 }  // namespace
-}  // namespace berth::testing
+}  // namespace berth::sim

@@ -1,11 +1,11 @@
-#include "tests/support/sensor_model.hpp"
+#include "sim/sensor_model.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace berth::testing {
+namespace berth::sim {
 namespace {
 
 constexpr int kWidth = 200;
@@ -141,4 +141,4 @@ TEST(SensorModel, DelayedJointsLagByAtMostTheirSpeedAndKeepTheirLimits) {
 }
 
 }  // namespace
-}  // namespace berth::testing
+}  // namespace berth::sim

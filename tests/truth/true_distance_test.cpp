@@ -1,4 +1,4 @@
-#include "tests/support/true_distance.hpp"
+#include "sim/true_distance.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "berth/robot/primitives.hpp"
-#include "tests/support/embree_renderer.hpp"
-#include "tests/support/seen_surface.hpp"
+#include "sim/embree_renderer.hpp"
+#include "sim/seen_surface.hpp"
 
-namespace berth::testing {
+namespace berth::sim {
 namespace {
 
 /// A robot of one cube with sides of 0.4 m, 2 m before a camera that stands at its root and looks
@@ -110,4 +110,4 @@ TEST(TrueDistances, AreInfiniteForALinkThatIsNotSeen) {
 }
 
 }  // namespace
-}  // namespace berth::testing
+}  // namespace berth::sim

@@ -12,7 +12,7 @@
 namespace berth::lab {
 namespace {
 
-constexpr testing::DrawnSceneSettings kImage{.width_px = 320, .height_px = 240};
+constexpr sim::DrawnSceneSettings kImage{.width_px = 320, .height_px = 240};
 const Condition kDistanceAlone{"test", "clean", {}, {}, MeasuredFilter::ideal};
 
 /// Seeds 0 to scenes - 1 of each robot.
@@ -30,11 +30,10 @@ void expect_within_bound(const std::vector<Trial>& trials) {
   int checked = 0;
   for (const Trial& trial : trials) {
     for (std::size_t i = 0; i < trial.truth.size(); ++i) {
-      const testing::TrueDistance& truth = trial.truth[i];
+      const sim::TrueDistance& truth = trial.truth[i];
       const Estimate& estimate = trial.estimates[0][i];
-      if (truth.sight != testing::ObstacleSight::covered) continue;
-      const double most_m =
-          truth.seen_C.distance_m + testing::max_overestimate_m(trial.camera, truth);
+      if (truth.sight != sim::ObstacleSight::covered) continue;
+      const double most_m = truth.seen_C.distance_m + sim::max_overestimate_m(trial.camera, truth);
       if (most_m > kTrialRange_m) continue;
       EXPECT_EQ(estimate.status, LinkStatus::ok)
           << trial.robot->name << ", seed " << trial.seed << ", link " << i + 1;
@@ -68,21 +67,21 @@ struct RimScene {
   int height_px;
 };
 
-/// The island rule keeps the distances that there are without it.
+/// The rule for flying patches keeps the distances that there are without it.
 void expect_rims_kept(const std::vector<TrialRobot>& robots, const std::vector<RimScene>& scenes) {
   Condition defaults{"test", "defaults"};
-  Condition no_islands = defaults;
-  no_islands.self_filter.island_radius_m = 0;
+  Condition no_flying_patches = defaults;
+  no_flying_patches.self_filter.flying_patch_radius_m = 0;
   for (const RimScene& scene : scenes) {
     const auto robot = std::find_if(robots.begin(), robots.end(),
                                     [&](const TrialRobot& r) { return r.name == scene.robot; });
     ASSERT_NE(robot, robots.end()) << scene.robot;
     const Trial trial =
         run_trial(*robot, {.width_px = scene.width_px, .height_px = scene.height_px}, scene.seed,
-                  {defaults, no_islands});
+                  {defaults, no_flying_patches});
     int checked = 0;
     for (std::size_t i = 0; i < trial.truth.size(); ++i) {
-      if (trial.truth[i].sight != testing::ObstacleSight::covered) continue;
+      if (trial.truth[i].sight != sim::ObstacleSight::covered) continue;
       EXPECT_LE(trial.estimates[0][i].distance_m, trial.estimates[1][i].distance_m + 0.001)
           << scene.robot << ", seed " << scene.seed << ", link " << i + 1;
       ++checked;
@@ -106,8 +105,8 @@ TEST(Trust, ARimBesideARealRobotKeepsItsDistance) {
 }
 
 /// Nothing is hidden in silence: what a rule drops beside the arm, where there is no padding, is
-/// told as doubtful, or was dropped for a mixed pixel.
-TEST(Trust, InRealDepthImagesTheDoubtfulDistanceLosesNothing) {
+/// told as rejected, or was dropped for a mixed pixel.
+TEST(Trust, InRealDepthImagesTheRejectedDistanceLosesNothing) {
   const std::filesystem::path data = data_folder();
   if (!std::filesystem::is_directory(data / "depth")) GTEST_SKIP() << "no images in " << data;
   const std::vector<RealImage> images = load_real_images(data / "depth");
@@ -115,9 +114,9 @@ TEST(Trust, InRealDepthImagesTheDoubtfulDistanceLosesNothing) {
   RealImageRules rules;
   rules.self_filter.padding_m = rules.self_filter.edge_jump_m = 0;
   rules.sensor.speckle_px = 60;
-  rules.counts_doubtful = true;
+  rules.counts_rejected = true;
   RealImageRules in_silence = rules;
-  in_silence.counts_doubtful = false;
+  in_silence.counts_rejected = false;
   int checked = 0, farther_in_silence = 0;
   for (int i = 0; i < 120; ++i) {
     const RealImage& image = images[i % images.size()];
@@ -146,7 +145,7 @@ TEST(Trust, EveryConditionIsMeasuredOnceInItsTable) {
     EXPECT_TRUE(names.insert(condition.table + condition.name).second) << condition.name;
   }
   const std::size_t first = first_of_pipeline(all_conditions());
-  EXPECT_EQ(all_conditions()[first].image, ImageErrors{});
+  EXPECT_EQ(all_conditions()[first].image, sim::SensorErrors{});
   EXPECT_EQ(all_conditions()[first].filter, MeasuredFilter::berth);
 }
 
@@ -154,7 +153,7 @@ TEST(Trust, ATrialDependsOnItsSeedAloneAndItsErrorsReachTheImage) {
   const TrialRobot robot = load_bundled_robot();
   const Condition noisy{"test", "noise", {.noise_m_at_1m = 0.005}, {}, MeasuredFilter::ideal};
   const Condition late{"test", "late", {}, {.delay_s = 0.05}, MeasuredFilter::ideal};
-  const testing::DrawnSceneSettings small{.width_px = 160, .height_px = 120};
+  const sim::DrawnSceneSettings small{.width_px = 160, .height_px = 120};
   const auto distances = [&](const Trial& trial, std::size_t condition) {
     std::vector<double> distances_m;
     for (const Estimate& e : trial.estimates[condition]) {
@@ -171,10 +170,10 @@ TEST(Trust, ATrialDependsOnItsSeedAloneAndItsErrorsReachTheImage) {
 
 /// One link whose nearest obstacle is truly at true_m, and what berth says.
 Trial made_up_trial(const TrialRobot& robot, double true_m, Estimate estimate) {
-  testing::TrueDistance truth;
+  sim::TrueDistance truth;
   truth.seen_C = {true_m, {0, 0, 1}, {true_m, 0, 1}};
   truth.whole_m = true_m;
-  truth.sight = testing::ObstacleSight::covered;
+  truth.sight = sim::ObstacleSight::covered;
   return {&robot, 7, {640, 480, 500, 500, 319.5, 239.5}, {truth}, {{estimate}}};
 }
 

@@ -1,11 +1,11 @@
 // The definition of the whole robot's distances, on images whose answers are known.
-#include "tests/support/whole_robot_points.hpp"
+#include "sim/whole_robot_points.hpp"
 
 #include <gtest/gtest.h>
 
 #include "flat_view.hpp"
 
-namespace berth::testing {
+namespace berth::sim {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -14,8 +14,8 @@ double free_at(const PointView& view, int u, int v, const SpaceSettings& setting
   return free_depth_m(view, settings)(u, v);
 }
 
-TEST(WholeRobotPoints, AWallIsASlabAndHidesWhatIsBehindIt) {
-  const PointSpace space({wall_at(1)}, {.slab_m = 0.03});
+TEST(WholeRobotPoints, AWallIsASurfaceAndHidesWhatIsBehindIt) {
+  const PointSpace space({wall_at(1)}, {.surface_thickness_m = 0.03});
   EXPECT_FALSE(space.is_obstacle({0, 0, 0.999}));
   EXPECT_TRUE(space.is_reading({0, 0, 1}));
   EXPECT_TRUE(space.is_reading({0.1, 0.1, 1.029}));
@@ -44,7 +44,7 @@ TEST(WholeRobotPoints, NoCameraFreesWhatItHidesItself) {
 }
 
 TEST(WholeRobotPoints, EachFateFreesWhatItShould) {
-  const SpaceSettings settings{.carve_margin_m = 0.02, .behind_robot_m = 0.3};
+  const SpaceSettings settings{.free_space_margin_m = 0.02, .behind_robot_m = 0.3};
   for (const PixelFate fate :
        {PixelFate::robot, PixelFate::environment, PixelFate::padding, PixelFate::dilation}) {
     PointView view = wall_at(1);
@@ -55,7 +55,7 @@ TEST(WholeRobotPoints, EachFateFreesWhatItShould) {
     EXPECT_NEAR(free_at(view, 4, 6, settings), 0.98, 1e-6) << "the least of 3 x 3";
   }
   for (const PixelFate fate :
-       {PixelFate::edge, PixelFate::island, PixelFate::speckle, PixelFate::outside_region}) {
+       {PixelFate::edge, PixelFate::flying_patch, PixelFate::speckle, PixelFate::outside_region}) {
     PointView view = wall_at(1);
     view.sensor_depth_m(6, 6) = 0.5F;
     drop(view, 6, 6, fate);
@@ -103,7 +103,7 @@ TEST(WholeRobotPoints, AgeMovesReadingsNearerAndSideways) {
   PointView view = wall_at(2);
   view.sensor_depth_m(20, 15) = view.obstacle_depth_m(20, 15) = 1;
   view.age_s = 0.1;
-  const SpaceSettings settings{.carve_margin_m = 0.02, .obstacle_speed_m_s = 1};
+  const SpaceSettings settings{.free_space_margin_m = 0.02, .obstacle_speed_m_s = 1};
   // 40 px * 0.1 m / 1 m: 4 px, and one of the 3 x 3.
   EXPECT_NEAR(free_at(view, 25, 15, settings), 0.88, 1e-6);
   EXPECT_NEAR(free_at(view, 26, 15, settings), 1.88, 1e-6);
@@ -115,4 +115,4 @@ TEST(WholeRobotPoints, AgeMovesReadingsNearerAndSideways) {
 }
 
 }  // namespace
-}  // namespace berth::testing
+}  // namespace berth::sim

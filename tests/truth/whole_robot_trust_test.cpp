@@ -11,7 +11,7 @@
 namespace berth::lab {
 namespace {
 
-constexpr testing::DrawnSceneSettings kViewImages{.width_px = 224, .height_px = 172};
+constexpr sim::DrawnSceneSettings kViewImages{.width_px = 224, .height_px = 172};
 constexpr std::size_t kThreeCameras = 2;
 
 /// Seeds 0 to scenes - 1, on clean images. What no image shows is not judged: no camera can tell
@@ -23,7 +23,7 @@ int expect_within_bound(const TrialRobot& robot, int scenes) {
     const WholeRobotTrial trial =
         run_whole_robot_trial(robot, kViewImages, static_cast<std::uint32_t>(seed), clean);
     for (std::size_t i = 0; i < trial.truth.size(); ++i) {
-      if (trial.truth[i].sight[kThreeCameras] != testing::ObstacleSight::covered) continue;
+      if (trial.truth[i].sight[kThreeCameras] != sim::ObstacleSight::covered) continue;
       const double most_m = trial.truth[i].distance_m + kMaxWholeRobotOverestimate_m;
       if (most_m > kTrialRange_m) continue;
       EXPECT_LE(trial.under[0].mesh[kThreeCameras][i].nearest_m, most_m)
@@ -52,8 +52,8 @@ TEST(WholeRobotTrust, WithThreeCamerasNoDistanceOfARealRobotIsAboveTheTrueOneByM
 /// One link, and what is said of it with one to four cameras.
 WholeRobotTrial made_up_trial(const TrialRobot& robot, double true_m, double nearest_m) {
   const std::vector<WholeRobotEstimate> said = {{nearest_m, nearest_m}};
-  constexpr auto kCovered = testing::ObstacleSight::covered;
-  constexpr auto kOutside = testing::ObstacleSight::outside;
+  constexpr auto kCovered = sim::ObstacleSight::covered;
+  constexpr auto kOutside = sim::ObstacleSight::outside;
   return {&robot,
           7,
           {{true_m, {kOutside, kOutside, kCovered, kCovered}}},

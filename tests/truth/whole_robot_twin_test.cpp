@@ -1,5 +1,5 @@
 // The slow twin by itself: against points that it has to keep apart, and against answers on paper.
-#include "tests/support/whole_robot_twin.hpp"
+#include "sim/whole_robot_twin.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,12 +8,12 @@
 
 #include "berth/robot/primitives.hpp"
 #include "flat_view.hpp"
-#include "tests/support/cube_content.hpp"
-#include "tests/support/drawn_obstacles.hpp"
-#include "tests/support/odd_views.hpp"
+#include "sim/cube_content.hpp"
+#include "sim/drawn_obstacles.hpp"
+#include "sim/odd_views.hpp"
 #include "tests/support/thinned.hpp"
 
-namespace berth::testing {
+namespace berth::sim {
 namespace {
 
 constexpr DrawnSceneSettings kSmall{.width_px = 160, .height_px = 120};
@@ -164,7 +164,7 @@ TEST(WholeRobotTwinOnPaper, ABoxBeforeAWall) {
 }
 
 TEST(WholeRobotTwinOnPaper, ABoxBehindAWallIsHidden) {
-  const TwinDistance twin = distance_of_box(0, 1, PointSpace({wall_at(0.7)}, {.slab_m = 0.05}));
+  const TwinDistance twin = distance_of_box(0, 1, PointSpace({wall_at(0.7)}, {.surface_thickness_m = 0.05}));
   expect_near(twin.nearest, 0);
   EXPECT_LE(twin.reading.lower_m, 0.15);
   EXPECT_GE(twin.reading.upper_m, 0.15);
@@ -182,11 +182,11 @@ TEST(WholeRobotTwinOnPaper, ABoxBesideAShadow) {
   EXPECT_LE(twin.nearest.lower_m, (0.2 + 0.9 / 80) / tilt);
   EXPECT_GE(twin.nearest.upper_m, (0.2 + 0.9 / 80) / tilt);
   EXPECT_LE(twin.nearest.upper_m - twin.nearest.lower_m, 0.002) << "the edge is parallel";
-  // The plate's far edge in the slab.
+  // The plate's far edge in the surface layer.
   expect_near(twin.reading, std::hypot(0.2 + 0.53 / 80, 0.9 - 0.53));
 }
 
-TEST(WholeRobotTwinOnPaper, AnotherCameraCarvesTheShadow) {
+TEST(WholeRobotTwinOnPaper, AnotherCameraSeesTheShadowFree) {
   const PointSpace space({flat_view(half_plate), wall_at(4, from_the_left(2))}, {});
   const TwinDistance twin = distance_of_box(0.3, 1, space);
   expect_near(twin.nearest, std::hypot(0.2 + 0.53 / 80, 0.9 - 0.53));
@@ -270,4 +270,4 @@ TEST(NearestOnMesh, AgreesWithFcl) {
 }
 
 }  // namespace
-}  // namespace berth::testing
+}  // namespace berth::sim

@@ -77,7 +77,7 @@ TEST_F(ChangedSceneTest, MovesACamera) {
   EXPECT_TRUE(scene_.now().cameras[2].X_PC.isApprox(scene_.original().cameras[2].X_PC, 0));
 }
 
-TEST_F(ChangedSceneTest, TakesWhatATeachInFound) {
+TEST_F(ChangedSceneTest, TakesWhatACalibrationFound) {
   SceneChange found;
   found.cameras.emplace_back().camera = "right";
   found.cameras.back().clock_offset_s = 0.01;

@@ -27,7 +27,7 @@ TEST(LivePage, ShowsAnswersAsTheyCome) {
   // The mesh's numbers hold any bytes.
   client.next();
   ASSERT_TRUE(run.next());
-  const FrameResult result = run.ask();
+  const Result result = run.ask();
   expect_parts(error_message<std::invalid_argument>([&] { page.show(result, {}); }),
                {"0 frames; expected 1"});
   page.show(result, {run.frame()});

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <optional>
 
 #include "apps/view/space_grid.hpp"
 #include "berth/files/file_bytes.hpp"
@@ -16,15 +17,15 @@ namespace berth::app {
 namespace {
 
 namespace fs = std::filesystem;
-using PageJson = nlohmann::json;
+using Json = nlohmann::json;
 using std::chrono::steady_clock;
 
 /// The JSON of a message, of either kind.
-PageJson json_of_message(const PageMessage& message) {
-  if (!message.is_binary) return PageJson::parse(message.bytes);
+Json json_of_message(const PageMessage& message) {
+  if (!message.is_binary) return Json::parse(message.bytes);
   std::uint32_t length = 0;
   std::memcpy(&length, message.bytes.data(), sizeof length);
-  return PageJson::parse(message.bytes.substr(sizeof length, length));
+  return Json::parse(message.bytes.substr(sizeof length, length));
 }
 
 /// What pages would have: the newest message of each kind.
@@ -40,18 +41,27 @@ class Messages {
     const std::scoped_lock lock(mutex_);
     return newest_.at(kind);
   }
-  PageJson json(const std::string& kind) { return json_of_message(newest(kind)); }
+  Json json(const std::string& kind) { return json_of_message(newest(kind)); }
   int count(const std::string& kind) {
     const std::scoped_lock lock(mutex_);
     return count_[kind];
   }
   /// Waits until there are more of this kind than before.
-  PageJson after(const std::string& kind, int before) {
+  Json after(const std::string& kind, int before) {
     std::unique_lock lock(mutex_);
     if (!changed_.wait_for(lock, std::chrono::seconds(60), [&] { return count_[kind] > before; })) {
       throw std::runtime_error("no " + kind);
     }
     return json_of_message(newest_[kind]);
+  }
+  /// Waits until what is shown is what the run in the background says, of this step or of any.
+  Json shown_for_good(std::optional<std::size_t> step = {}) {
+    while (true) {
+      const int before = count("shown");
+      Json shown = json("shown");
+      if (!shown["is_provisional"] && (!step || shown["step"] == *step)) return shown;
+      after("shown", before);
+    }
   }
 
  private:
@@ -64,21 +74,21 @@ class Messages {
 class ViewedSceneTest : public ::testing::Test {
  protected:
   /// Does it, and waits for the next message of this kind.
-  PageJson ask(const PageJson& request, const std::string& kind) {
+  Json ask(const Json& request, const std::string& kind) {
     const int before = messages_.count(kind);
     viewed_.receive(request.dump());
     return messages_.after(kind, before);
   }
   /// The next notice, whichever place it has.
-  PageJson refused(const std::string& request) {
+  Json refused(const std::string& request) {
     const std::string kind = "notice " + std::to_string(number_++ % 8);
     const int before = messages_.count(kind);
     viewed_.receive(request);
     return messages_.after(kind, before);
   }
   /// Of a run that began after so many messages.
-  PageJson finished_timeline(int before) {
-    PageJson timeline = messages_.after("timeline", before);
+  Json finished_timeline(int before) {
+    Json timeline = messages_.after("timeline", before);
     while (timeline["done"] != timeline["total"] && timeline["error"] == "") {
       timeline = messages_.after("timeline", messages_.count("timeline"));
     }
@@ -94,24 +104,24 @@ class ViewedSceneTest : public ::testing::Test {
                       }};
 };
 
-PageJson set_request(const char* group, const char* key, const PageJson& value) {
+Json set_request(const char* group, const char* key, const Json& value) {
   return {{"do", "set"}, {"group", group}, {"key", key}, {"value", value}};
 }
 
 TEST_F(ViewedSceneTest, TellsAllThatAPageShows) {
-  const PageJson scene = messages_.json("scene");
+  const Json scene = messages_.json("scene");
   EXPECT_EQ(scene["steps"].size(), 101u);
   EXPECT_EQ(scene["cameras"][2]["name"], "right");
   EXPECT_EQ(scene["fates"].size(), static_cast<std::size_t>(kPixelFateCount));
-  const PageJson mesh = messages_.json("mesh");
+  const Json mesh = messages_.json("mesh");
   EXPECT_EQ(mesh["corners"].size(), scene["links"].size());
-  const PageJson shown = messages_.json("shown");
+  const Json shown = messages_.json("shown");
   EXPECT_EQ(shown["links"].size(), scene["links"].size());
   // The first at which every camera has an image.
   EXPECT_EQ(shown["step"], 2);
   for (int c = 0; c < 3; ++c) {
     const PageMessage image = messages_.newest("image " + std::to_string(c));
-    const PageJson header = json_of_message(image);
+    const Json header = json_of_message(image);
     EXPECT_EQ(header["camera"], c);
     EXPECT_GT(image.bytes.size(),
               header["width_px"].get<std::size_t>() * header["height_px"].get<std::size_t>() * 9);
@@ -119,8 +129,8 @@ TEST_F(ViewedSceneTest, TellsAllThatAPageShows) {
 }
 
 TEST_F(ViewedSceneTest, SettingsComeFromTheListsAndTellWhatChanged) {
-  const auto padding = [&](const PageJson& settings) {
-    const PageJson& group = settings["groups"][0];
+  const auto padding = [&](const Json& settings) {
+    const Json& group = settings["groups"][0];
     EXPECT_EQ(group["name"], "self_filter");
     for (std::size_t i = 0; i < group["settings"].size(); ++i) {
       if (group["settings"][i]["name"] != "padding_m") continue;
@@ -131,7 +141,7 @@ TEST_F(ViewedSceneTest, SettingsComeFromTheListsAndTellWhatChanged) {
     return std::pair(0.0, 0.0);
   };
   EXPECT_EQ(padding(messages_.json("settings")), std::pair(0.02, 0.02));
-  PageJson request = set_request("self_filter", "padding_m", 0.04);
+  Json request = set_request("self_filter", "padding_m", 0.04);
   request["camera"] = 1;
   EXPECT_EQ(padding(ask(request, "settings")), std::pair(0.04, 0.02));
   EXPECT_EQ(padding(ask({{"do", "reset"}}, "settings")), std::pair(0.02, 0.02));
@@ -140,11 +150,41 @@ TEST_F(ViewedSceneTest, SettingsComeFromTheListsAndTellWhatChanged) {
 TEST_F(ViewedSceneTest, AKnobShowsOnTheFrameBeforeTheRestFollows) {
   finished_timeline(0);
   const int before = messages_.count("timeline");
-  const PageJson shown = ask(set_request("evaluation", "range_m", 0.25), "shown");
+  const Json shown = ask(set_request("evaluation", "range_m", 0.25), "shown");
   EXPECT_EQ(shown["result"]["range_m"], 0.25);
-  const PageJson timeline = finished_timeline(before);
+  const Json timeline = finished_timeline(before);
   EXPECT_EQ(timeline["links"]["status"][0].size(), 101u);
   EXPECT_TRUE(timeline["speed"].is_null()) << "nothing monitors it";
+}
+
+TEST_F(ViewedSceneTest, FrameAndCurvesSayTheSame) {
+  const Json timeline = finished_timeline(0);
+  for (const std::size_t step : {0, 2, 31, 49, 100}) {
+    viewed_.receive(Json({{"do", "show"}, {"step", step}}).dump());
+    const Json shown = messages_.shown_for_good(step);
+    const Json& links = shown["result"]["links"];
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      const Json& curve_m = timeline["links"]["distance_m"][i][step];
+      EXPECT_EQ(links[i]["status"], timeline["links"]["status"][i][step]);
+      ASSERT_EQ(links[i]["distance_m"].is_null(), curve_m.is_null());
+      if (curve_m.is_null()) continue;
+      EXPECT_NEAR(links[i]["distance_m"].get<double>(), curve_m.get<double>(), 0.51e-4);
+    }
+    const Json& nearest = timeline["nearest"][step];
+    const Json name = nearest.is_null() ? Json() : links[nearest.get<std::size_t>()]["link"];
+    EXPECT_EQ(shown["result"]["nearest"], name);
+  }
+}
+
+TEST_F(ViewedSceneTest, TheFrameIsToldAnewOnceTheRunHasComeThere) {
+  finished_timeline(0);
+  // The last one: the run comes there last.
+  viewed_.receive(R"({"do": "show", "step": 100})");
+  messages_.shown_for_good(100);
+  EXPECT_TRUE(ask(set_request("evaluation", "range_m", 0.5), "shown")["is_provisional"]);
+  const Json shown = messages_.shown_for_good();
+  EXPECT_EQ(shown["step"], 100);
+  EXPECT_EQ(shown["result"]["range_m"], 0.5);
 }
 
 TEST_F(ViewedSceneTest, AChangeShowsWithinATenthOfASecond) {
@@ -172,20 +212,20 @@ TEST_F(ViewedSceneTest, ShowsTheStepThatIsAskedForLast) {
 }
 
 TEST_F(ViewedSceneTest, ACameraIsMoved) {
-  const PageJson shown = ask(
+  const Json shown = ask(
       {{"do", "pose"}, {"camera", 0}, {"xyz_m", {0, 0, 3}}, {"rpy_rad", {3.14, 0, 0}}}, "settings");
-  EXPECT_EQ(shown["poses"][0]["now"]["xyz_m"], PageJson({0.0, 0.0, 3.0}));
-  EXPECT_NE(shown["poses"][0]["file"]["xyz_m"], PageJson({0.0, 0.0, 3.0}));
-  const PageJson back = ask({{"do", "pose"}, {"camera", 0}, {"xyz_m", nullptr}}, "settings");
+  EXPECT_EQ(shown["poses"][0]["now"]["xyz_m"], Json({0.0, 0.0, 3.0}));
+  EXPECT_NE(shown["poses"][0]["file"]["xyz_m"], Json({0.0, 0.0, 3.0}));
+  const Json back = ask({{"do", "pose"}, {"camera", 0}, {"xyz_m", nullptr}}, "settings");
   EXPECT_EQ(back["poses"][0]["now"], back["poses"][0]["file"]);
 }
 
-TEST_F(ViewedSceneTest, HiddenSpaceIsFoundOnRequest) {
+TEST_F(ViewedSceneTest, UnknownSpaceIsFoundOnRequest) {
   const PageMessage message = [&] {
     ask({{"do", "space"}, {"on", true}}, "space");
     return messages_.newest("space");
   }();
-  const PageJson header = json_of_message(message);
+  const Json header = json_of_message(message);
   const std::size_t cells = header["cells"][0].get<std::size_t>() *
                             header["cells"][1].get<std::size_t>() *
                             header["cells"][2].get<std::size_t>();
@@ -195,24 +235,32 @@ TEST_F(ViewedSceneTest, HiddenSpaceIsFoundOnRequest) {
     EXPECT_GT(std::ranges::count(sight, kind), static_cast<std::ptrdiff_t>(cells / 200))
         << int{kind};
   }
-  EXPECT_EQ(ask({{"do", "space"}, {"on", false}}, "space")["cells"], PageJson({0, 0, 0}));
-  ask(set_request("evaluation", "method", "exact"), "settings");
-  const PageJson notice = refused(R"({"do": "space", "on": true})");
-  EXPECT_TRUE(notice["is_refused"]);
+  EXPECT_EQ(ask({{"do", "space"}, {"on", false}}, "space")["cells"], Json({0, 0, 0}));
 }
 
 TEST_F(ViewedSceneTest, RefusesWhatNoPageAsks) {
   for (const char* request :
-       {"", "no json", "[]", "7", "{}", R"({"do": 7})", R"({"do": "fly"})", R"({"do": "show"})",
-        R"({"do": "show", "step": "x"})", R"({"do": "set"})",
+       {"",
+        "no json",
+        "[]",
+        "7",
+        "{}",
+        R"({"do": 7})",
+        R"({"do": "fly"})",
+        R"({"do": "show"})",
+        R"({"do": "show", "step": "x"})",
+        R"({"do": "set"})",
         R"({"do": "set", "group": "robot", "key": "urdf", "value": "x"})",
         R"({"do": "set", "group": "self_filter", "key": "padding_m", "value": [1]})",
         R"({"do": "set", "group": "sensor", "key": "holes", "value": "free\nrobot: x"})",
         R"({"do": "set", "group": "sensor", "key": "holes", "value": "free", "camera": 9})",
         R"({"do": "set", "group": 7, "key": {}, "value": 1})",
+        R"({"do": "set", "group": "evaluation", "key": "method", "value": "exact"})",
+        R"({"do": "set", "group": "evaluation", "key": "tile_px", "value": 8})",
         R"({"do": "pose", "camera": 0, "xyz_m": [1e9, 0, 0], "rpy_rad": [0, 0, 0]})",
         R"({"do": "pose", "camera": -1, "xyz_m": [0, 0, 0], "rpy_rad": [0, 0, 0]})",
-        R"({"do": "save", "name": "../x.yaml"})", R"({"do": "save", "name": 7})"}) {
+        R"({"do": "save", "name": "../x.yaml"})",
+        R"({"do": "save", "name": 7})"}) {
     EXPECT_TRUE(refused(request)["is_refused"]) << request;
   }
   EXPECT_TRUE(folder_.names().empty());
@@ -220,12 +268,12 @@ TEST_F(ViewedSceneTest, RefusesWhatNoPageAsks) {
 }
 
 TEST_F(ViewedSceneTest, SavesIntoItsFolder) {
-  const PageJson notice = refused(R"({"do": "save", "name": "new.yaml"})");
+  const Json notice = refused(R"({"do": "save", "name": "new.yaml"})");
   EXPECT_FALSE(notice["is_refused"]) << notice;
   EXPECT_EQ(folder_.names(), std::vector<std::string>{"new.yaml"});
 }
 
-TEST(TeachInOfViewedScene, IsStartedAndStopped) {
+TEST(CalibrationOfViewedScene, IsStartedAndStopped) {
   Messages messages;
   const TemporaryFolder folder;
   ViewedScene viewed(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml", folder.path(),
@@ -237,30 +285,30 @@ TEST(TeachInOfViewedScene, IsStartedAndStopped) {
     viewed.receive(request);
     return messages.after(kind, before);
   };
-  EXPECT_EQ(ask(R"({"do": "teach_in"})", "teach_in")["state"], "runs");
+  EXPECT_EQ(ask(R"({"do": "calibration_data"})", "calibration_data")["state"], "runs");
   // It answers meanwhile.
   EXPECT_EQ(ask(R"({"do": "show", "step": 7})", "shown")["step"], 7);
-  EXPECT_EQ(ask(R"({"do": "drop_teach_in"})", "teach_in")["state"], "none");
+  EXPECT_EQ(ask(R"({"do": "drop_calibration_data"})", "calibration_data")["state"], "none");
   // Nothing was found that could be taken.
-  const PageJson before = messages.json("settings");
-  viewed.receive(R"({"do": "take_teach_in"})");
+  const Json before = messages.json("settings");
+  viewed.receive(R"({"do": "take_calibration_data"})");
   EXPECT_EQ(ask(R"({"do": "show", "step": 8})", "shown")["step"], 8);
   EXPECT_EQ(messages.json("settings"), before);
 }
 
-TEST(TeachInOfViewedScene, IsFoundAndTaken) {
+TEST(CalibrationOfViewedScene, IsFoundAndTaken) {
   Messages messages;
   const TemporaryFolder folder;
   ViewedScene viewed(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml", folder.path(),
                      [&](const std::string& kind, PageMessage message) {
                        messages.take(kind, std::move(message));
                      });
-  const auto ask = [&](const PageJson& request, const std::string& kind) {
+  const auto ask = [&](const Json& request, const std::string& kind) {
     const int before = messages.count(kind);
     viewed.receive(request.dump());
     return messages.after(kind, before);
   };
-  const auto from_truth_m = [&](const PageJson& pose) {
+  const auto from_truth_m = [&](const Json& pose) {
     double square_m2 = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const double difference_m =
@@ -269,18 +317,18 @@ TEST(TeachInOfViewedScene, IsFoundAndTaken) {
     }
     return std::sqrt(square_m2);
   };
-  PageJson file = messages.json("settings")["poses"][0]["file"];
+  Json file = messages.json("settings")["poses"][0]["file"];
   file["xyz_m"][0] = file["xyz_m"][0].get<double>() + 0.03;
-  const PageJson moved =
+  const Json moved =
       ask({{"do", "pose"}, {"camera", 0}, {"xyz_m", file["xyz_m"]}, {"rpy_rad", file["rpy_rad"]}},
           "settings");
   EXPECT_NEAR(from_truth_m(moved["poses"][0]), 0.03, 1e-6);
-  EXPECT_EQ(ask({{"do", "teach_in"}}, "teach_in")["state"], "runs");
-  const PageJson found = messages.after("teach_in", messages.count("teach_in"));
+  EXPECT_EQ(ask({{"do", "calibration_data"}}, "calibration_data")["state"], "runs");
+  const Json found = messages.after("calibration_data", messages.count("calibration_data"));
   ASSERT_EQ(found["state"], "found") << found;
   EXPECT_LT(found["cameras"][0]["after"]["median_m"], found["cameras"][0]["before"]["median_m"]);
   const int before = messages.count("settings");
-  EXPECT_EQ(ask({{"do", "take_teach_in"}}, "teach_in")["state"], "taken");
+  EXPECT_EQ(ask({{"do", "take_calibration_data"}}, "calibration_data")["state"], "taken");
   EXPECT_LT(from_truth_m(messages.after("settings", before)["poses"][0]), 0.01);
 }
 
@@ -297,16 +345,19 @@ TEST(MonitoredScene, TellsHowFastTheRobotMayGoAtEachStep) {
                      [&](const std::string& kind, PageMessage message) {
                        messages.take(kind, std::move(message));
                      });
-  PageJson timeline = messages.after("timeline", 0);
+  Json timeline = messages.after("timeline", 0);
   while (timeline["done"] != timeline["total"]) {
     timeline = messages.after("timeline", messages.count("timeline"));
   }
-  const PageJson& scale = timeline["speed"]["scale"];
-  const PageJson& text = timeline["speed"]["text"];
+  const Json& scale = timeline["speed"]["scale"];
+  const Json& state = timeline["speed"]["state"];
   ASSERT_EQ(scale.size(), timeline["stamps_s"].size());
   int clear = 0, reduced = 0, stop = 0;
   for (std::size_t i = 0; i < scale.size(); ++i) {
-    const auto said = text[i].get<std::string>();
+    viewed.receive(Json({{"do", "show"}, {"step", i}}).dump());
+    const Json separation = messages.shown_for_good(i)["result"]["separation"];
+    EXPECT_EQ(separation["state"], state[i]);
+    const auto said = separation["text"].get<std::string>();
     EXPECT_EQ(said.starts_with("clear"), scale[i] == 1) << said;
     EXPECT_EQ(said.starts_with("stop"), scale[i] == 0) << said;
     ++(scale[i] == 1 ? clear : scale[i] == 0 ? stop : reduced);
@@ -314,8 +365,50 @@ TEST(MonitoredScene, TellsHowFastTheRobotMayGoAtEachStep) {
   EXPECT_GT(clear, 0);
   EXPECT_GT(reduced, 0);
   EXPECT_GT(stop, 0);
-  const PageJson groups = messages.json("settings")["groups"];
+  const Json groups = messages.json("settings")["groups"];
   EXPECT_EQ(groups.back()["name"], "separation");
+}
+
+TEST(SceneOfAnotherMethod, IsShownWithMethodMeshAndSaysSo) {
+  for (const std::string method : {"exact", "gl_exact"}) {
+    const TemporaryFolder folder;
+    fs::copy(BERTH_SOURCE_DIR "/data/bundled", folder.path(), fs::copy_options::recursive);
+    std::string text = read_file_bytes(folder / "one_camera.yaml");
+    text.replace(text.find("method: exact"), 13, "method: " + method);
+    folder.write("one_camera.yaml", text);
+    Messages messages;
+    ViewedScene viewed(folder / "one_camera.yaml", folder.path(),
+                       [&](const std::string& kind, PageMessage message) {
+                         messages.take(kind, std::move(message));
+                       });
+    EXPECT_EQ(messages.json("scene")["note"], "method mesh is shown; the file says " + method);
+    EXPECT_EQ(messages.json("shown")["result"]["method"], "mesh");
+    for (const Json& group : messages.json("settings")["groups"]) {
+      for (const Json& setting : group["settings"]) {
+        EXPECT_NE(setting["name"], "method");
+        EXPECT_NE(setting["name"], "tile_px");
+      }
+    }
+  }
+}
+
+TEST(ImplausibleScene, HasNoDistanceOnceThatIsKnown) {
+  const TemporaryFolder folder;
+  fs::copy(BERTH_SOURCE_DIR "/data/bundled", folder.path(), fs::copy_options::recursive);
+  std::string text = read_file_bytes(folder / "one_camera.yaml");
+  text.replace(text.find("depth_scale: 0.001"), 18, "depth_scale: 0.01");
+  folder.write("one_camera.yaml", text);
+  Messages messages;
+  ViewedScene viewed(folder / "one_camera.yaml", folder.path(),
+                     [&](const std::string& kind, PageMessage message) {
+                       messages.take(kind, std::move(message));
+                     });
+  const Json shown = messages.shown_for_good();
+  EXPECT_EQ(shown["result"]["status"], "stale");
+  for (const Json& link : shown["result"]["links"]) EXPECT_TRUE(link["distance_m"].is_null());
+  EXPECT_NE(messages.json("timeline")["error"], "");
+  // The robot is to be seen all the same.
+  EXPECT_FALSE(shown["links"].empty());
 }
 
 }  // namespace

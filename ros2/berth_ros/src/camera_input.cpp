@@ -74,7 +74,7 @@ CameraInput::CameraInput(rclcpp::Node& node, CameraSettings settings, StampClock
 
 void CameraInput::use(std::shared_ptr<const berth::Robot> robot,
                       std::shared_ptr<const berth::JointIntake> joints,
-                      const berth::ViewSettings& view) {
+                      const berth::CameraSettings& view) {
   // Its thread ends once the mutex is free: it may be in on_frame_, which asks for frames.
   std::unique_ptr<berth::LiveCamera> before;
   const std::lock_guard lock(mutex_);
@@ -172,7 +172,8 @@ bool CameraInput::make_ready(const ImageMessage& image) {
   if (live_) return true;
   berth::CameraMount mount = *mount_;
   mount.camera = *camera_;
-  const auto view = std::make_shared<const berth::View>(robot_, mount, settings_.view);
+  mount.name = settings_.name;
+  const auto view = std::make_shared<const berth::MountedCamera>(robot_, mount, settings_.view);
   live_ = std::make_unique<berth::LiveCamera>(
       view, *joints_, settings_.live,
       [this, kept = joints_](const berth::Frame& frame, berth::DepthView,

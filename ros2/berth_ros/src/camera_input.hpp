@@ -47,7 +47,7 @@ class CameraInput {
 
   /// From now on frames are of this robot, whose joints these are; null: there is none.
   void use(std::shared_ptr<const berth::Robot> robot, std::shared_ptr<const berth::JointIntake> joints,
-           const berth::ViewSettings& view);
+           const berth::CameraSettings& view);
   void joints_came();
   /// Null where there is none of this robot.
   std::shared_ptr<const berth::Frame> newest(const berth::Robot* robot) const;

@@ -4,7 +4,7 @@
 #include <string>
 #include <tf2_ros/buffer.h>
 
-#include "berth/pipeline/view.hpp"
+#include "berth/pipeline/mounted_camera.hpp"
 #include "berth/robot/robot_model.hpp"
 
 namespace berth_ros {

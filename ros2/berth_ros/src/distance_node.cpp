@@ -8,11 +8,12 @@
 #include <std_msgs/msg/float64.hpp>
 #include <visualization_msgs/msg/marker_array.hpp>
 
-#include "answer_messages.hpp"
+#include "berth/pipeline/query.hpp"
 #include "live_node.hpp"
 #include "markers.hpp"
 #include "nodes.hpp"
 #include "question_times.hpp"
+#include "result_messages.hpp"
 #include "speed_monitor.hpp"
 
 namespace berth_ros {
@@ -72,6 +73,8 @@ class DistanceNode : public LiveNode {
   ~DistanceNode() override { stop(); }
 
  private:
+  using LinkDistances = berth_msgs::msg::LinkDistances;
+
   template <class Call>
   rclcpp::TimerBase::SharedPtr timer(double hz, Call call) {
     return rclcpp::create_timer(this, get_clock(), rclcpp::Duration::from_seconds(1 / hz), call,
@@ -83,9 +86,9 @@ class DistanceNode : public LiveNode {
   }
   void on_robot() override {
     const LiveRobot now = live();
-    const std::lock_guard lock(asker_mutex_);
-    asker_.reset();
-    exposure_asker_.reset();
+    const std::lock_guard lock(query_mutex_);
+    query_.reset();
+    exposure_query_.reset();
     robot_ = now;
     recent_.assign(camera_names().size(), {});
     monitor_.reset();
@@ -94,26 +97,26 @@ class DistanceNode : public LiveNode {
     is_monitored_ = separation.has_value();
     if (!now.robot) return;
     if (separation) monitor_.emplace(now.robot, *separation, velocity_window_s_);
-    asker_.emplace(now.robot, camera_names().size());
-    exposure_asker_.emplace(now.robot, camera_names().size());
+    query_.emplace(now.robot, camera_names());
+    exposure_query_.emplace(now.robot, camera_names());
   }
 
   void ask() {
     const auto begin = std::chrono::steady_clock::now();
-    auto message = std::make_unique<berth_msgs::msg::LinkDistances>();
+    auto message = std::make_unique<LinkDistances>();
     bool is_told = false;
     {
-      const std::lock_guard lock(asker_mutex_);
-      const berth::LiveFrames frames = robot_.robot ? this->frames(*robot_.robot) : berth::LiveFrames();
+      const std::lock_guard lock(query_mutex_);
+      const LiveFrames frames = robot_.robot ? this->frames(*robot_.robot) : LiveFrames();
       // Later than any image and any joint state that it asks about.
       const rclcpp::Time now = this->now();
-      if (asker_) {
-        const berth::Answer& answer =
-            asker_->ask(frames, robot_.joints->buffer(), clock_.seconds(now));
-        const AnswerContext context = this->context(*asker_, now);
-        to_message(answer, context, *message);
+      if (query_) {
+        const berth::JointBuffer& joints = robot_.joints->buffer();
+        const double now_s = clock_.seconds(now);
+        result_ = query_->ask({.frames = frames, .joints = joints, .now_s = now_s});
+        to_message(result_, base_frame(), now, clock_, *message);
         if (monitor_) {
-          monitor_->look(answer, context, robot_.joints->buffer(), planned_, separation_message_);
+          monitor_->update(result_, joints, planned_, now_s, separation_message_);
         } else {
           say_unmonitored(separation_message_);
         }
@@ -128,6 +131,7 @@ class DistanceNode : public LiveNode {
       to_message(*message, separation_message_);
       is_told = is_monitored_;
       last_status_ = message->status;
+      last_time_status_ = message->time_status;
       if (marker_timer_) last_ = *message;
     }
     distances_->publish(std::move(message));
@@ -142,20 +146,21 @@ class DistanceNode : public LiveNode {
   }
 
   void on_plan(const sensor_msgs::msg::JointState& message) {
-    const std::lock_guard lock(asker_mutex_);
+    const std::lock_guard lock(query_mutex_);
     if (robot_.robot) planned_.take(message, robot_.robot->model(), clock_.seconds(this->now()));
   }
 
   void on_frame(std::size_t camera, const berth::Frame& frame,
                 const std::shared_ptr<const sensor_msgs::msg::Image>&) override {
     if (at_exposure_->get_subscription_count() == 0) return;
-    auto message = std::make_unique<berth_msgs::msg::LinkDistances>();
+    auto message = std::make_unique<LinkDistances>();
     {
-      const std::lock_guard lock(asker_mutex_);
-      if (!exposure_asker_) return;
+      const std::lock_guard lock(query_mutex_);
+      if (!exposure_query_) return;
       keep_recent(camera);
-      const berth::Answer& answer = exposure_asker_->ask_at_exposure(frames_at(frame.stamp_s));
-      to_message(answer, context(*exposure_asker_, this->now()), *message);
+      const LiveFrames frames = frames_at(frame.stamp_s);
+      to_message(exposure_query_->ask({.frames = frames}), base_frame(), this->now(), clock_,
+                 *message);
     }
     at_exposure_->publish(std::move(message));
   }
@@ -165,8 +170,8 @@ class DistanceNode : public LiveNode {
     recent.push_back(frames(*robot_.robot)[camera]);
   }
   /// Each camera's newest frame of that time: another camera's thread may be ahead.
-  berth::LiveFrames frames_at(double stamp_s) const {
-    berth::LiveFrames frames(recent_.size());
+  LiveFrames frames_at(double stamp_s) const {
+    LiveFrames frames(recent_.size());
     for (std::size_t c = 0; c < frames.size(); ++c) {
       for (const auto& frame : recent_[c]) {
         if (frame && frame->stamp_s <= stamp_s) frames[c] = frame;
@@ -179,40 +184,42 @@ class DistanceNode : public LiveNode {
     if (markers_->get_subscription_count() == 0) return;
     visualization_msgs::msg::MarkerArray array;
     {
-      const std::lock_guard lock(asker_mutex_);
+      const std::lock_guard lock(query_mutex_);
       array = markers_of(last_);
     }
     markers_->publish(array);
   }
 
-  AnswerContext context(const berth::LiveAsker& asker, const rclcpp::Time& now) {
-    return {*robot_.robot, camera_names(), asker.cameras(), asker.frames(), clock_, now};
-  }
+  /// The robot's root link, in which results tell points.
+  const std::string& base_frame() const { return robot_.robot->model().links.front().name; }
 
   void report_questions(diagnostic_updater::DiagnosticStatusWrapper& status) {
     using diagnostic_msgs::msg::DiagnosticStatus;
-    const std::optional<berth::AnswerTiming> times = times_.take();
+    const std::optional<berth::RequestTiming> times = times_.take();
     if (!times) return status.summary(DiagnosticStatus::WARN, "none was asked");
     status.add("questions since the last report", times->repeat);
     status.add("median, us", times->p50_us);
     status.add("99 %, us", times->p99_us);
     status.add("greatest, us", times->max_us);
-    std::uint8_t answer = 0;
+    std::uint8_t result = 0;
+    std::uint8_t time = 0;
     {
-      const std::lock_guard lock(asker_mutex_);
-      answer = last_status_;
+      const std::lock_guard lock(query_mutex_);
+      result = last_status_;
+      time = last_time_status_;
     }
-    if (answer == berth_msgs::msg::LinkDistances::OK) {
-      return status.summary(DiagnosticStatus::OK, "answered");
+    if (result == LinkDistances::OK) return status.summary(DiagnosticStatus::OK, "answered");
+    if (result == LinkDistances::DEGRADED) {
+      return status.summary(DiagnosticStatus::WARN, "answered without a camera");
     }
-    const std::string why = answer < berth::kTimeStatusCount
-                                ? std::string(berth::kTimeStatusNames[answer])
+    const std::string why = time < berth::kTimeStatusCount
+                                ? std::string(berth::kTimeStatusNames[time])
                                 : "no robot model";
     status.summary(DiagnosticStatus::ERROR, "no distances: " + why);
   }
 
-  rclcpp::Publisher<berth_msgs::msg::LinkDistances>::SharedPtr distances_;
-  rclcpp::Publisher<berth_msgs::msg::LinkDistances>::SharedPtr at_exposure_;
+  rclcpp::Publisher<LinkDistances>::SharedPtr distances_;
+  rclcpp::Publisher<LinkDistances>::SharedPtr at_exposure_;
   rclcpp::Publisher<berth_msgs::msg::Separation>::SharedPtr separation_;
   rclcpp::Publisher<std_msgs::msg::Float64>::SharedPtr speed_scale_;
   rclcpp::Subscription<sensor_msgs::msg::JointState>::SharedPtr planned_subscription_;
@@ -221,13 +228,16 @@ class DistanceNode : public LiveNode {
   /// Of each camera, for distances_at_exposure.
   std::vector<std::deque<std::shared_ptr<const berth::Frame>>> recent_;
   bool asks_on_joints_ = false;
-  std::mutex asker_mutex_;
+  std::mutex query_mutex_;
   LiveRobot robot_;
-  std::optional<berth::LiveAsker> asker_;
-  std::optional<berth::LiveAsker> exposure_asker_;
+  std::optional<berth::Query> query_;
+  std::optional<berth::Query> exposure_query_;
+  /// The newest, with its separation.
+  berth::Result result_;
   /// For markers, where there are any.
-  berth_msgs::msg::LinkDistances last_;
-  std::uint8_t last_status_ = berth_msgs::msg::LinkDistances::NO_ROBOT;
+  LinkDistances last_;
+  std::uint8_t last_status_ = LinkDistances::STALE;
+  std::uint8_t last_time_status_ = LinkDistances::TIME_NO_ROBOT;
   berth_msgs::msg::Separation separation_message_;
   double velocity_window_s_ = 0;
   bool is_monitored_ = false;

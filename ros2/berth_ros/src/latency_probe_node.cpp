@@ -1,5 +1,5 @@
 // How long distance_node takes: plays a scene's images and joints at the rates asked for, and times
-// how soon an answer knows of each. Prints a table and ends.
+// how soon a result knows of each. Prints a table and ends.
 #include <algorithm>
 #include <cstdio>
 #include <map>
@@ -11,7 +11,7 @@
 
 #include <berth_msgs/msg/link_distances.hpp>
 
-#include "berth/scene/frame_result.hpp"
+#include "berth/pipeline/result.hpp"
 #include "berth/scene/open_scene.hpp"
 #include "nodes.hpp"
 #include "scene_messages.hpp"
@@ -20,7 +20,7 @@ namespace berth_ros {
 namespace {
 
 std::string row_of(const std::string& name, const std::vector<double>& times_us) {
-  const berth::AnswerTiming timing = berth::timing_of(times_us);
+  const berth::RequestTiming timing = berth::timing_of(times_us);
   char text[160];
   std::snprintf(text, sizeof text, "| %s | %d | %.2f | %.2f | %.2f |\n", name.c_str(), timing.repeat,
                 timing.p50_us / 1e3, timing.p99_us / 1e3, timing.max_us / 1e3);
@@ -41,7 +41,7 @@ class LatencyProbeNode : public rclcpp::Node {
         warm_up_s_(declare_parameter("warm_up_s", 5.0)) {
     distances_ = create_subscription<berth_msgs::msg::LinkDistances>(
         "distances", rclcpp::QoS(100),
-        [this](const berth_msgs::msg::LinkDistances& answer) { on_distances(answer); });
+        [this](const berth_msgs::msg::LinkDistances& result) { on_distances(result); });
     begin_ = now();
     player_ = std::jthread([this](const std::stop_token& stop) { play(stop); });
   }
@@ -80,12 +80,12 @@ class LatencyProbeNode : public rclcpp::Node {
     finish();
   }
 
-  void on_distances(const berth_msgs::msg::LinkDistances& answer) {
+  void on_distances(const berth_msgs::msg::LinkDistances& result) {
     const rclcpp::Time heard = now();
     const std::lock_guard lock(mutex_);
     const bool counts = (heard - begin_).seconds() > warm_up_s_;
-    answers_ += counts;
-    ok_ += counts && answer.status == berth_msgs::msg::LinkDistances::OK;
+    results_ += counts;
+    stale_ += counts && result.status == berth_msgs::msg::LinkDistances::STALE;
     const auto take = [&](const std::string& name, const builtin_interfaces::msg::Time& stamp) {
       const rclcpp::Time at(stamp);
       rclcpp::Time& last = last_.try_emplace(name, 0, 0, at.get_clock_type()).first->second;
@@ -93,14 +93,14 @@ class LatencyProbeNode : public rclcpp::Node {
       last = at;
       if (counts) times_us_[name].push_back((heard.nanoseconds() - at.nanoseconds()) * 1e-3);
     };
-    for (const auto& camera : answer.cameras) take("image of " + camera.camera, camera.stamp);
-    take("joint state", answer.joints_stamp);
+    for (const auto& camera : result.cameras) take("image of " + camera.camera, camera.stamp);
+    take("joint state", result.joints_stamp);
   }
 
   void finish() {
     const std::lock_guard lock(mutex_);
-    std::printf("%ld answers, %ld ok\n| in | new ones | median, ms | 99 %% | greatest |\n"
-                "| --- | ---: | ---: | ---: | ---: |\n", answers_, ok_);
+    std::printf("%ld results, %ld stale\n| in | new ones | median, ms | 99 %% | greatest |\n"
+                "| --- | ---: | ---: | ---: | ---: |\n", results_, stale_);
     for (const auto& [name, times_us] : times_us_) std::fputs(row_of(name, times_us).c_str(), stdout);
     std::fflush(stdout);
     rclcpp::shutdown();
@@ -115,10 +115,10 @@ class LatencyProbeNode : public rclcpp::Node {
   berth::JointState joints_;
   std::mutex mutex_;
   std::map<std::string, rclcpp::Time> last_;
-  /// What came in, and how long after it an answer knew of it.
+  /// What came in, and how long after it a result knew of it.
   std::map<std::string, std::vector<double>> times_us_;
-  long answers_ = 0;
-  long ok_ = 0;
+  long results_ = 0;
+  long stale_ = 0;
   rclcpp::Time begin_;
   rclcpp::Subscription<berth_msgs::msg::LinkDistances>::SharedPtr distances_;
   std::jthread player_;

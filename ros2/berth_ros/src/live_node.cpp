@@ -1,5 +1,6 @@
 #include "live_node.hpp"
 
+#include "berth/pipeline/camera_state.hpp"
 #include "berth/scene/open_scene.hpp"
 #include "robot_description.hpp"
 
@@ -100,8 +101,8 @@ LiveRobot LiveNode::live() const {
   return live_;
 }
 
-berth::LiveFrames LiveNode::frames(const berth::Robot& robot) const {
-  berth::LiveFrames frames;
+LiveFrames LiveNode::frames(const berth::Robot& robot) const {
+  LiveFrames frames;
   for (const auto& input : inputs_) frames.push_back(input->newest(&robot));
   return frames;
 }
@@ -222,7 +223,7 @@ void LiveNode::report_camera(std::size_t camera, DiagnosticStatusWrapper& status
              rate_since(report.counts.images, now, reported_images_[camera], reported_images_at_[camera]));
   status.add("dropped", report.counts.dropped);
   status.add("refused", report.refused);
-  status.add("untimely", report.counts.untimely);
+  status.add("stale", report.counts.stale);
   status.add("waited for joints, ms", 1e3 * report.counts.last_wait_s);
   status.add("longest wait, ms", 1e3 * report.counts.longest_wait_s);
   status.add("observed in, ms", 1e3 * report.counts.last_observe_s);
@@ -252,8 +253,11 @@ void LiveNode::report_camera(std::size_t camera, DiagnosticStatusWrapper& status
   if (state.status == berth::CameraStatus::hidden) {
     return status.summary(DiagnosticStatus::WARN, "the robot is hidden");
   }
+  if (state.status == berth::CameraStatus::unconfirmed) {
+    return status.summary(DiagnosticStatus::WARN, "the robot is not where it should be in the images");
+  }
   if (state.status == berth::CameraStatus::ok) return status.summary(DiagnosticStatus::OK, "ok");
-  const std::string_view why = state.status == berth::CameraStatus::untimely
+  const std::string_view why = state.status == berth::CameraStatus::stale
                                    ? name_of(state.time)
                                    : name_of(state.status);
   status.summary(DiagnosticStatus::ERROR, "not used: " + std::string(why));

@@ -7,15 +7,19 @@
 #include <rclcpp/rclcpp.hpp>
 #include <sensor_msgs/msg/joint_state.hpp>
 #include <std_msgs/msg/string.hpp>
+#include <string>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
+#include <vector>
 
-#include "berth/live/live_asker.hpp"
 #include "camera_input.hpp"
 #include "node_settings.hpp"
 #include "stamp_clock.hpp"
 
 namespace berth_ros {
+
+/// The newest frame of each camera, or null where it has none yet.
+using LiveFrames = std::vector<std::shared_ptr<const berth::Frame>>;
 
 /// The robot and its joints, as they are used at the moment.
 struct LiveRobot {
@@ -47,7 +51,7 @@ class LiveNode : public rclcpp::Node {
     return settings_.separation();
   }
   /// The newest of each camera of this robot.
-  berth::LiveFrames frames(const berth::Robot& robot) const;
+  LiveFrames frames(const berth::Robot& robot) const;
   const std::vector<std::string>& camera_names() const { return camera_names_; }
   /// Of a node with one camera.
   const CameraSettings& camera_settings() const { return inputs_.front()->settings(); }

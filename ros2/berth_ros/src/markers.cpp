@@ -15,7 +15,7 @@ std_msgs::msg::ColorRGBA color_of(const LinkDistance& link, double range_m) {
   std_msgs::msg::ColorRGBA color;
   color.r = static_cast<float>(std::min(1.0, 3 * near));
   color.g = static_cast<float>(std::min(1.0, 1.5 * (1 - near)));
-  color.a = link.obstacle_is == LinkDistance::HIDDEN ? 0.5F : 1.0F;
+  color.a = link.obstacle_is == LinkDistance::UNKNOWN ? 0.5F : 1.0F;
   return color;
 }
 
@@ -31,9 +31,9 @@ Marker marker(const std_msgs::msg::Header& header, const std::string& space, int
 
 geometry_msgs::msg::Point middle_of(const LinkDistance& link) {
   geometry_msgs::msg::Point middle;
-  middle.x = (link.robot_point.x + link.obstacle_point.x) / 2;
-  middle.y = (link.robot_point.y + link.obstacle_point.y) / 2;
-  middle.z = (link.robot_point.z + link.obstacle_point.z) / 2;
+  middle.x = (link.robot_point_base_m.x + link.obstacle_point_base_m.x) / 2;
+  middle.y = (link.robot_point_base_m.y + link.obstacle_point_base_m.y) / 2;
+  middle.z = (link.robot_point_base_m.z + link.obstacle_point_base_m.z) / 2;
   return middle;
 }
 
@@ -41,9 +41,9 @@ void add_link(const LinkDistance& link, const std_msgs::msg::Header& header, dou
               std::vector<Marker>& out) {
   const auto color = color_of(link, range_m);
   Marker line = marker(header, "lines", link.id, Marker::LINE_LIST);
-  line.scale.x = link.obstacle_is == LinkDistance::HIDDEN ? 0.002 : 0.005;
+  line.scale.x = link.obstacle_is == LinkDistance::UNKNOWN ? 0.002 : 0.005;
   line.color = color;
-  line.points = {link.robot_point, link.obstacle_point};
+  line.points = {link.robot_point_base_m, link.obstacle_point_base_m};
   Marker ends = marker(header, "ends", link.id, Marker::SPHERE_LIST);
   ends.scale.x = ends.scale.y = ends.scale.z = 0.02;
   ends.color = color;

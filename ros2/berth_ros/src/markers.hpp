@@ -6,7 +6,7 @@
 namespace berth_ros {
 
 /// For rviz: for each link a line between its closest points, their ends, and the length; red at 0,
-/// yellow at a third of the range, green at the range. Hidden obstacles have a thinner, paler line.
+/// yellow at a third of the range, green at the range. What is unknown has a thinner, paler line.
 visualization_msgs::msg::MarkerArray markers_of(const berth_msgs::msg::LinkDistances& distances);
 
 }  // namespace berth_ros

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "berth/files/camera_info.hpp"
+#include "berth/pipeline/request.hpp"
 
 namespace berth_ros {
 namespace {
@@ -34,6 +34,22 @@ std::map<std::string, double> declare_numbers(rclcpp::Node& node, const std::str
   return numbers;
 }
 
+/// Throws for what was given below `prefix` and is no parameter: a setting that has another name
+/// now, or one of a method that compares images, would go unheard. A node without this group lets
+/// it pass, for files that several nodes share.
+void require_declared(rclcpp::Node& node, const std::string& group, const std::string& prefix) {
+  std::string known;
+  for (const std::string& name : node.list_parameters({group}, 0).names) {
+    known += (known.empty() ? "" : ", ") + name;
+  }
+  if (known.empty()) return;
+  const auto& overrides = node.get_node_parameters_interface()->get_parameter_overrides();
+  for (const auto& [name, value] : overrides) {
+    if (name.rfind(prefix + ".", 0) != 0 || node.has_parameter(name)) continue;
+    throw std::invalid_argument(name + ": there is no such parameter; expected one of " + known);
+  }
+}
+
 PoseSource pose_source_of(const std::string& text) {
   if (text == "auto") return PoseSource::automatic;
   if (text == "tf") return PoseSource::tf;
@@ -48,12 +64,31 @@ NodeSettings::NodeSettings(rclcpp::Node& node, bool has_one_camera) {
       "scene", "", described("a scene file: robot, cameras and settings; parameters go over it. "
                              "Its time: is about its recording and not heeded"));
   if (!scene.empty()) scene_ = berth::read_scene(scene);
+  if (scene_) judge_scene(node);
   declare_robot(node);
   declare_joints(node);
   declare_evaluation(node);
   declare_cameras(node, has_one_camera);
   if (!has_one_camera) declare_separation(node);
+  for (const std::string group : kGroups) {
+    require_declared(node, group, group);
+    if (has_one_camera) continue;
+    for (const CameraSettings& camera : cameras_) {
+      require_declared(node, group, camera.name + "." + group);
+    }
+  }
   check({});
+}
+
+void NodeSettings::judge_scene(const rclcpp::Node& node) const {
+  for (const std::string& warning : scene_->warnings) {
+    RCLCPP_WARN(node.get_logger(), "%s", warning.c_str());
+  }
+  const berth::Method method = scene_->evaluation.method;
+  if (method == berth::Method::mesh) return;
+  throw std::invalid_argument(scene_->file.string() + ": evaluation.method: " +
+                              std::string(name_of(method)) +
+                              "; expected mesh, the only method of the nodes");
 }
 
 void NodeSettings::declare_robot(rclcpp::Node& node) {
@@ -72,7 +107,7 @@ void NodeSettings::declare_robot(rclcpp::Node& node) {
       geometry == "visual" ? berth::GeometryKind::visual : berth::GeometryKind::collision;
   robot_.environment_links = node.declare_parameter(
       "environment_links", robot_.environment_links,
-      described("links that are scenery: taken out of the images, not evaluated"));
+      described("links that are environment: taken out of the images, not evaluated"));
   robot_.ignore_links = node.declare_parameter(
       "ignore_links", robot_.ignore_links, described("links that are neither taken out nor evaluated"));
 }
@@ -96,12 +131,17 @@ void NodeSettings::declare_joints(rclcpp::Node& node) {
   }
 }
 
+berth::EvaluationSettings NodeSettings::scene_evaluation() const {
+  berth::EvaluationSettings settings;
+  if (scene_) settings = scene_->evaluation;
+  return settings;
+}
+
 void NodeSettings::declare_evaluation(rclcpp::Node& node) {
-  const berth::EvaluationSettings defaults = scene_ ? scene_->evaluation : berth::EvaluationSettings{};
-  declare_settings(node, "evaluation", defaults, false, given_);
+  declare_settings(node, "evaluation", scene_evaluation(), false, given_);
   declare_settings(node, "time", berth::TimeSettings{}, false, given_);
-  const berth::ViewSettings view =
-      scene_ ? scene_->cameras.front().settings : berth::ViewSettings{};
+  const berth::CameraSettings view =
+      scene_ ? scene_->cameras.front().settings : berth::settings_of_real_camera();
   visit_setting_groups(view, [&](const std::string& group, const auto& settings) {
     declare_settings(node, group, settings, false, given_);
   });
@@ -120,7 +160,11 @@ void NodeSettings::declare_cameras(rclcpp::Node& node, bool has_one_camera) {
   }
   names = node.declare_parameter(
       "cameras", names, described("names of the cameras: NAME/depth_image, NAME/camera_info"));
-  if (names.empty()) throw std::invalid_argument("cameras: none; expected one name at least");
+  if (names.empty() || names.size() > berth::kMostCameras) {
+    throw std::invalid_argument("cameras: " + std::to_string(names.size()) +
+                                "; expected 1 to " + std::to_string(berth::kMostCameras) +
+                                " names");
+  }
   for (const std::string& name : names) declare_camera(node, name, false);
 }
 
@@ -197,8 +241,7 @@ std::optional<berth::SeparationSettings> NodeSettings::separation_of(
 }
 
 berth::EvaluationSettings NodeSettings::evaluation_of(const GivenParameters& given) const {
-  berth::EvaluationSettings evaluation =
-      scene_ ? scene_->evaluation : berth::EvaluationSettings{};
+  berth::EvaluationSettings evaluation = scene_evaluation();
   evaluation.time = {};
   apply_given(given, "evaluation", evaluation);
   apply_given(given, "time", evaluation.time);
@@ -244,14 +287,6 @@ void NodeSettings::check(const std::vector<rclcpp::Parameter>& changes) const {
   const berth::EvaluationSettings evaluation = evaluation_of(given);
   berth::validate(evaluation.distance);
   berth::validate(evaluation.time);
-  if (berth::runs_on_opengl(evaluation.method)) {
-    throw std::invalid_argument("evaluation.method: " + std::string(name_of(evaluation.method)) +
-                                " runs on OpenGL; expected mesh, exact, brute_force or lattice");
-  }
-  if (evaluation.method != berth::Method::mesh && cameras_.size() > 1) {
-    throw std::invalid_argument("evaluation.method: " + std::string(name_of(evaluation.method)) +
-                                " looks at one camera; expected mesh for several");
-  }
   if (const auto separation = separation_of(given)) {
     berth::validate(*separation);
     if (!evaluation.visibility) {

@@ -11,7 +11,7 @@
 #include "berth/files/depth_units.hpp"
 #include "berth/live/joint_intake.hpp"
 #include "berth/live/live_camera.hpp"
-#include "berth/pipeline/view.hpp"
+#include "berth/pipeline/mounted_camera.hpp"
 #include "berth/scene/scene_file.hpp"
 #include "berth/separation/settings.hpp"
 #include "setting_parameters.hpp"
@@ -37,7 +37,7 @@ struct CameraSettings {
   bool is_filtered = false;
   berth::DepthUnits units;
   berth::LiveCameraSettings live;
-  berth::ViewSettings view;
+  berth::CameraSettings view = berth::settings_of_real_camera();
   PoseSource pose_source = PoseSource::automatic;
   /// Of the scene file.
   std::optional<berth::CameraMount> scene_mount;
@@ -68,6 +68,8 @@ class NodeSettings {
   bool take(const std::vector<rclcpp::Parameter>& changes);
 
  private:
+  /// Tells what it warns of. Throws where its distances are not found by method mesh.
+  void judge_scene(const rclcpp::Node& node) const;
   void declare_robot(rclcpp::Node& node);
   void declare_joints(rclcpp::Node& node);
   void declare_evaluation(rclcpp::Node& node);
@@ -76,6 +78,8 @@ class NodeSettings {
   void declare_camera(rclcpp::Node& node, const std::string& name, bool has_one_camera);
   bool is_setting(const std::string& name) const;
   GivenParameters with(const std::vector<rclcpp::Parameter>& changes) const;
+  /// The scene file's, else the defaults.
+  berth::EvaluationSettings scene_evaluation() const;
   berth::EvaluationSettings evaluation_of(const GivenParameters& given) const;
   std::optional<berth::SeparationSettings> separation_of(const GivenParameters& given) const;
   std::vector<CameraSettings> cameras_of(const GivenParameters& given) const;

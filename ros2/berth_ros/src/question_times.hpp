@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "berth/scene/frame_result.hpp"
+#include "berth/pipeline/result.hpp"
 
 namespace berth_ros {
 
@@ -18,7 +18,7 @@ class QuestionTimes {
     times_us_.push_back(us);
   }
   /// And begins anew. None where there was no question.
-  std::optional<berth::AnswerTiming> take() {
+  std::optional<berth::RequestTiming> take() {
     std::vector<double> times_us;
     {
       const std::lock_guard lock(mutex_);

@@ -53,7 +53,7 @@ class SelfFilterNode : public LiveNode {
     return out;
   }
 
-  /// 255 where a reading was taken for the robot, its scenery, or what padding takes beside it.
+  /// 255 where a reading was taken for the robot, its environment, or what padding takes beside it.
   static std::unique_ptr<Image> mask_of(const berth::Frame& frame, const Image& image) {
     auto out = empty_like(image, sensor_msgs::image_encodings::MONO8, 1);
     const auto& fate = frame.obstacles.fate.pixels();

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "berth/scene/answer_result.hpp"
-#include "berth/scene/separation_text.hpp"
+#include "berth/results/result_text.hpp"
 
 namespace berth_ros {
 namespace {
@@ -12,33 +11,16 @@ namespace {
 using berth_msgs::msg::Separation;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-// The constants of the message are the enumerators.
-static_assert(static_cast<int>(berth::SeparationState::clear) == Separation::CLEAR);
-static_assert(static_cast<int>(berth::SeparationState::reduced) == Separation::REDUCED);
-static_assert(static_cast<int>(berth::SeparationState::stop) == Separation::STOP);
-
-std::string text_of(const berth::Separation& separation, const berth::Answer& answer,
-                    const AnswerContext& context) {
-  berth::FrameResult result = berth::result_of(context.robot, answer);
-  for (std::size_t c = 0; c < context.cameras.size(); ++c) {
-    result.cameras.emplace_back();
-    result.cameras.back().name = context.camera_names[c];
-    result.cameras.back().state = context.cameras[c];
-  }
-  result.separation = &separation;
-  return berth::separation_text(result);
-}
-
-void add_links(const berth::Separation& separation, const berth::RobotModel& model,
-               Separation& out) {
+void copy_links(const berth::Result& result, Separation& out) {
   out.links.clear();
-  for (const berth::LinkSeparation& link : separation.links) {
+  for (const berth::LinkSeparation& link : result.separation->links) {
     if (!link.is_moved) continue;
     auto& message = out.links.emplace_back();
-    message.link = model.links[model.evaluated_links[link.id - 1]].name;
+    message.link = result.links[link.id - 1].link;
     message.speed_m_s = link.speed_m_s;
     message.distance_m = link.distance_m;
     message.required_m = link.required_m;
+    message.margin_m = link.margin_m;
     message.speed_scale = link.speed_scale;
     message.reason = name_of(link.reason);
   }
@@ -68,23 +50,20 @@ SpeedMonitor::SpeedMonitor(std::shared_ptr<const berth::Robot> robot,
                            const berth::SeparationSettings& settings, double velocity_window_s)
     : robot_(std::move(robot)), monitor_(robot_, settings), velocity_window_s_(velocity_window_s) {}
 
-void SpeedMonitor::look(const berth::Answer& answer, const AnswerContext& context,
-                        const berth::JointBuffer& joints, PlannedVelocity& planned,
-                        Separation& out) {
-  const double now_s = context.clock.seconds(context.now);
-  joints.newest(newest_);
+void SpeedMonitor::update(berth::Result& result, const berth::JointBuffer& joints,
+                          PlannedVelocity& planned, double now_s, Separation& out) {
   joints.velocity(velocity_window_s_, velocity_);
   out.is_planned = planned.is_there();
   const std::vector<double>& velocity =
       out.is_planned ? planned.at(now_s, robot_->settings().time.max_frame_age_s) : velocity_;
-  const berth::Separation& separation = monitor_.look(
-      {answer, context.cameras, context.frames, newest_.position, velocity, now_s});
+  result.separation = monitor_.update(result, velocity, now_s);
+  const berth::Separation& separation = *result.separation;
   out.state = static_cast<std::uint8_t>(separation.state);
   out.speed_scale = separation.speed_scale;
   out.reason = name_of(separation.reason);
-  out.text = text_of(separation, answer, context);
+  out.text = berth::separation_text(result);
   out.reaction_time_s = separation.reaction_time_s;
-  add_links(separation, robot_->model(), out);
+  copy_links(result, out);
 }
 
 void say_unmonitored(Separation& out) {
@@ -100,7 +79,7 @@ void say_stop(const std::string& text, Separation& out) {
   say_unmonitored(out);
   out.state = Separation::STOP;
   out.speed_scale = 0;
-  out.reason = "untimely";
+  out.reason = name_of(berth::SeparationReason::stale);
   out.text = "stop: " + text;
 }
 

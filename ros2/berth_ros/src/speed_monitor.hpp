@@ -1,11 +1,13 @@
-// How fast the robot may go on, from each answer.
+// How fast the robot may go on, after each result.
 #pragma once
 
 #include <berth_msgs/msg/separation.hpp>
 #include <optional>
 #include <sensor_msgs/msg/joint_state.hpp>
+#include <string>
+#include <vector>
 
-#include "answer_messages.hpp"
+#include "berth/robot/joint_buffer.hpp"
 #include "berth/separation/monitor.hpp"
 
 namespace berth_ros {
@@ -33,17 +35,15 @@ class SpeedMonitor {
   SpeedMonitor(std::shared_ptr<const berth::Robot> robot,
                const berth::SeparationSettings& settings, double velocity_window_s);
 
-  /// Of the robot whose joints `joints` are. Velocities are those of `planned` where any came, else
-  /// those of the joints. Fills what is about speeds in `out`.
-  void look(const berth::Answer& answer, const AnswerContext& context,
-            const berth::JointBuffer& joints, PlannedVelocity& planned,
-            berth_msgs::msg::Separation& out);
+  /// Sets Result::separation, and what is about speeds in `out`. Velocities are those of `planned`
+  /// where any came, else those of the joints.
+  void update(berth::Result& result, const berth::JointBuffer& joints, PlannedVelocity& planned,
+              double now_s, berth_msgs::msg::Separation& out);
 
  private:
   std::shared_ptr<const berth::Robot> robot_;
   berth::SeparationMonitor monitor_;
   double velocity_window_s_;
-  berth::JointState newest_;
   std::vector<double> velocity_;
 };
 

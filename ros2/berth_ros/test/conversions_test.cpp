@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "answer_messages.hpp"
 #include "camera_input.hpp"
 #include "camera_pose.hpp"
 #include "markers.hpp"
+#include "result_messages.hpp"
 #include "setting_parameters.hpp"
 #include "speed_monitor.hpp"
 
@@ -58,12 +58,12 @@ TEST(Parameters, EachSettingComesBack) {
 }
 
 TEST(Parameters, AnUnknownNameIsRefusedWithThoseThatThereAre) {
-  berth::Method method{};
+  berth::UnknownPolicy policy{};
   const std::string why = error_of([&] {
-    assign_parameter("evaluation.method", rclcpp::ParameterValue("exakt"), method);
+    assign_parameter("separation.camera", rclcpp::ParameterValue("stopp"), policy);
   });
-  EXPECT_NE(why.find("exakt"), std::string::npos);
-  EXPECT_NE(why.find("exact"), std::string::npos);
+  EXPECT_NE(why.find("stopp"), std::string::npos);
+  EXPECT_NE(why.find("one of stop, assume_range, ignore"), std::string::npos);
 }
 
 sensor_msgs::msg::CameraInfo info() {
@@ -116,6 +116,102 @@ TEST(CameraPose, ATenthOfAMillimetreIsTheSamePlace) {
   EXPECT_FALSE(is_same_mount(a, b));
 }
 
+berth::Result result() {
+  berth::Result result;
+  result.status = berth::ResultStatus::degraded;
+  result.time.frame_age_s = 0.04;
+  result.stamp_s = 2;
+  result.joints_stamp_s = 2.5;
+  result.range_m = 1;
+  result.cameras.resize(2);
+  result.cameras[0].camera = "left";
+  result.cameras[1].camera = "right";
+  result.cameras[1].status = berth::CameraStatus::ok;
+  result.cameras[1].stamp_s = 2;
+  berth::LinkResult& link = result.links.emplace_back();
+  link.id = 1;
+  link.link = "arm";
+  link.status = berth::LinkStatus::ok;
+  link.distance_m = 0.3F;
+  link.lower_bound_m = 0.29F;
+  link.robot_point_B_m = {1, 2, 3};
+  link.obstacle_point_B_m = {1, 2, 3.3F};
+  link.obstacle_is = berth::ObstacleKind::unknown;
+  link.camera = 1;
+  link.obstacle_pixel = {7, 8};
+  link.occupied = link;
+  link.occupied.distance_m = 0.5F;
+  link.occupied.camera = 0;
+  link.mean_direction_B = {0, 0, 0.9F};
+  link.mean_count = 12;
+  link.visibility.surface.seen = 0.6F;
+  link.visibility.rejected_pixel = {3, 4};
+  result.links.emplace_back().link = "hand";
+  find_nearest(result);
+  return result;
+}
+
+TEST(Result, EachFieldIsCopied) {
+  StampClock clock;
+  const rclcpp::Time first(100, 0);
+  clock.seconds(first);
+  LinkDistances out;
+  to_message(result(), "table", rclcpp::Time(103, 0), clock, out);
+  EXPECT_EQ(out.header.frame_id, "table");
+  EXPECT_EQ(out.header.stamp.sec, 102);
+  EXPECT_EQ(out.question_stamp.sec, 103);
+  EXPECT_EQ(rclcpp::Time(out.joints_stamp).nanoseconds(), 102'500'000'000);
+  EXPECT_EQ(out.status, LinkDistances::DEGRADED);
+  EXPECT_EQ(out.time_status, LinkDistances::TIME_OK);
+  EXPECT_EQ(out.frame_age_s, 0.04);
+  EXPECT_EQ(out.nearest, "arm");
+  ASSERT_EQ(out.cameras.size(), 2U);
+  EXPECT_EQ(out.cameras[0].status, berth_msgs::msg::CameraState::NO_FRAME);
+  EXPECT_EQ(out.cameras[0].stamp.sec, 0);
+  EXPECT_EQ(out.cameras[1].stamp.sec, 102);
+  ASSERT_EQ(out.links.size(), 2U);
+  const LinkDistance& link = out.links[0];
+  EXPECT_EQ(link.status, LinkDistance::OK);
+  EXPECT_EQ(link.distance_m, 0.3F);
+  EXPECT_EQ(link.lower_bound_m, 0.29F);
+  EXPECT_EQ(link.robot_point_base_m.z, 3);
+  EXPECT_EQ(link.obstacle_point_base_m.z, 3.3F);
+  EXPECT_EQ(link.camera, "right");
+  EXPECT_EQ(link.obstacle_pixel[1], 8);
+  EXPECT_EQ(link.obstacle_is, LinkDistance::UNKNOWN);
+  EXPECT_EQ(link.occupied.distance_m, 0.5F);
+  EXPECT_EQ(link.occupied.camera, "left");
+  EXPECT_EQ(link.mean_direction_base.z, 0.9F);
+  EXPECT_EQ(link.mean_count, 12);
+  EXPECT_EQ(link.visibility.surface.seen, 0.6F);
+  EXPECT_EQ(link.visibility.rejected_pixel[0], 3);
+  EXPECT_EQ(out.links[1].status, LinkDistance::STALE);
+  EXPECT_EQ(out.links[1].camera, "");
+  EXPECT_TRUE(std::isnan(out.links[1].distance_m));
+  EXPECT_TRUE(std::isnan(out.links[1].robot_point_base_m.x));
+}
+
+TEST(Result, OfNoImageHasTheStampOfItsQuestion) {
+  berth::Result none = result();
+  none.stamp_s = none.joints_stamp_s = std::nan("");
+  none.nearest = -1;
+  LinkDistances out;
+  to_message(none, "table", rclcpp::Time(103, 0), StampClock(), out);
+  EXPECT_EQ(out.header.stamp.sec, 103);
+  EXPECT_EQ(out.joints_stamp.sec, 0);
+  EXPECT_EQ(out.nearest, "");
+}
+
+TEST(Result, OfNoRobotIsStale) {
+  LinkDistances out;
+  say_no_robot({"left", "right"}, rclcpp::Time(103, 0), out);
+  EXPECT_EQ(out.status, LinkDistances::STALE);
+  EXPECT_EQ(out.time_status, LinkDistances::TIME_NO_ROBOT);
+  ASSERT_EQ(out.cameras.size(), 2U);
+  EXPECT_EQ(out.cameras[1].camera, "right");
+  EXPECT_EQ(out.header.stamp.sec, 103);
+}
+
 LinkDistance link(const std::string& name, std::uint8_t status, float distance_m, bool is_moved = true) {
   LinkDistance link;
   link.link = name;
@@ -126,9 +222,11 @@ LinkDistance link(const std::string& name, std::uint8_t status, float distance_m
   return link;
 }
 
-berth_msgs::msg::Separation separation_of(const std::vector<LinkDistance>& links) {
+berth_msgs::msg::Separation separation_of(const std::vector<LinkDistance>& links,
+                                          const std::string& nearest = "") {
   LinkDistances distances;
   distances.links = links;
+  distances.nearest = nearest;
   berth_msgs::msg::Separation out;
   to_message(distances, out);
   return out;
@@ -138,15 +236,25 @@ TEST(Separation, IsTheLeastBoundOfTheLinksThatMove) {
   const auto out = separation_of({link("base", LinkDistance::OK, 0.0F, false),
                                   link("arm", LinkDistance::OK, 0.4F),
                                   link("hand", LinkDistance::OK, 0.3F),
-                                  link("tool", LinkDistance::NONE_IN_RANGE, 1.0F)});
+                                  link("tool", LinkDistance::NONE_IN_RANGE, 1.0F)},
+                                 "hand");
   EXPECT_TRUE(out.has_distance);
   EXPECT_FLOAT_EQ(out.distance_m, 0.3F);
   EXPECT_EQ(out.link, "hand");
 }
 
+TEST(Separation, HasTheRangeWhereNoLinkIsNearAnything) {
+  const auto out = separation_of({link("base", LinkDistance::OK, 0.0F, false),
+                                  link("arm", LinkDistance::NONE_IN_RANGE, 1.0F)});
+  EXPECT_TRUE(out.has_distance);
+  EXPECT_EQ(out.distance_m, 1.0F);
+  EXPECT_EQ(out.link, "");
+  EXPECT_EQ(out.link_status, LinkDistance::NONE_IN_RANGE);
+}
+
 TEST(Separation, WhatIsNotKnownIsNeverFar) {
   for (const std::uint8_t status : {LinkDistance::NOT_VISIBLE, LinkDistance::CUT_SHORT,
-                                    LinkDistance::UNTIMELY, LinkDistance::NOT_SEEN}) {
+                                    LinkDistance::STALE, LinkDistance::NOT_SEEN}) {
     const auto out = separation_of({link("arm", LinkDistance::OK, 0.4F), link("hand", status, 0.5F)});
     EXPECT_FALSE(out.has_distance) << int{status};
     EXPECT_TRUE(std::isnan(out.distance_m));
@@ -190,13 +298,14 @@ TEST(Separation, IsSaidToBeUnmonitoredOrAStop) {
   say_stop("there is no robot model", out);
   EXPECT_EQ(out.state, berth_msgs::msg::Separation::STOP);
   EXPECT_EQ(out.speed_scale, 0);
+  EXPECT_EQ(out.reason, "stale");
   EXPECT_EQ(out.text, "stop: there is no robot model");
 }
 
 TEST(Markers, EachDistanceHasALineItsEndsAndItsLength) {
   LinkDistances distances;
   distances.range_m = 1;
-  distances.links = {link("near", LinkDistance::OK, 0.0F), link("none", LinkDistance::UNTIMELY, 0),
+  distances.links = {link("near", LinkDistance::OK, 0.0F), link("none", LinkDistance::STALE, 0),
                      link("far", LinkDistance::OK, 1.0F)};
   const auto markers = markers_of(distances).markers;
   ASSERT_EQ(markers.size(), 1U + 2 * 3);

@@ -132,8 +132,8 @@ class Faults(unittest.TestCase):
                 return True
         return False
 
-    def status_is(self, status):
-        return lambda: self.newest is not None and self.newest.status == status
+    def time_status_is(self, status):
+        return lambda: self.newest is not None and self.newest.time_status == status
 
     def answers(self):
         return self.newest.status == LinkDistances.OK and any(math.isfinite(x.distance_m) for x in self.newest.links)
@@ -143,18 +143,18 @@ class Faults(unittest.TestCase):
         self.assertTrue(said, f"{name}: {self.message(name)!r}; expected {parts}")
 
     def test_01_no_robot_is_a_status(self):
-        self.assertTrue(self.until(self.status_is(LinkDistances.NO_ROBOT)))
+        self.assertTrue(self.until(self.time_status_is(LinkDistances.TIME_NO_ROBOT)))
         self.expect_said("robot", "no robot_description")
 
     def test_02_a_description_that_is_no_urdf_is_said(self):
         self.description.publish(String(data="this is no robot"))
         self.expect_said("robot", "robot_description")
-        self.assertTrue(self.until(self.status_is(LinkDistances.NO_ROBOT)))
+        self.assertTrue(self.until(self.time_status_is(LinkDistances.TIME_NO_ROBOT)))
 
     def test_03_then_a_good_one_and_no_transform(self):
         self.description.publish(String(data=URDF))
         self.expect_said("camera front", "no transform", "front_optical_frame")
-        self.assertTrue(self.until(self.status_is(LinkDistances.NO_FRAME)))
+        self.assertTrue(self.until(self.time_status_is(LinkDistances.TIME_NO_FRAME)))
 
     def test_04_with_the_transform_there_are_distances(self):
         transform = TransformStamped()
@@ -181,8 +181,8 @@ class Faults(unittest.TestCase):
             self.assertTrue(self.until(self.answers), "it goes on")
 
     def test_06_joint_states_that_stop_are_stale(self):
-        self.assertTrue(self.until(
-            lambda: self.newest.status in (LinkDistances.STALE_JOINTS, LinkDistances.EXTRAPOLATED_TOO_FAR), joints=False))
+        stopped = (LinkDistances.TIME_STALE_JOINTS, LinkDistances.TIME_EXTRAPOLATED_TOO_FAR)
+        self.assertTrue(self.until(lambda: self.newest.time_status in stopped, joints=False))
         self.assertTrue(all(math.isnan(link.distance_m) for link in self.newest.links))
         self.expect_said("joint states", "no new joint states", joints=False)
         self.assertTrue(self.until(self.answers))
@@ -194,13 +194,13 @@ class Faults(unittest.TestCase):
     def test_08_an_image_that_comes_twice_is_no_new_one(self):
         twice = self.image()
         self.images.publish(twice)
-        seen = self.until(lambda: any(c.time_status == LinkDistances.STAMP_WENT_BACK for c in self.newest.cameras),
+        seen = self.until(lambda: any(c.time_status == LinkDistances.TIME_STAMP_WENT_BACK for c in self.newest.cameras),
                           image=twice)
         self.assertTrue(seen)
         self.assertTrue(self.until(self.answers))
 
     def test_09_images_that_stop_are_stale(self):
-        self.assertTrue(self.until(self.status_is(LinkDistances.STALE_FRAME), image=None))
+        self.assertTrue(self.until(self.time_status_is(LinkDistances.TIME_STALE_FRAME), image=None))
         self.assertTrue(self.until(self.answers))
 
     def test_10_a_clock_that_is_set_back_is_a_new_beginning(self):
@@ -220,7 +220,8 @@ class Faults(unittest.TestCase):
         refused = set_parameter("evaluation.range_m", -1.0)
         self.assertFalse(refused.successful)
         self.assertIn("range_m", refused.reason)
-        self.assertFalse(set_parameter("evaluation.method", "fast").successful)
+        self.assertFalse(set_parameter("evaluation.method", "exact").successful, "no parameter of the node")
+        self.assertFalse(set_parameter("sensor.holes", "fast").successful)
         self.assertFalse(set_parameter("cameras", ["left"]).successful)
         self.assertTrue(set_parameter("evaluation.range_m", 1.0).successful)
         self.assertTrue(self.until(self.answers))

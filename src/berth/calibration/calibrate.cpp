@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "berth/calibration/compare_estimates.hpp"
+#include "berth/fit/compare_estimates.hpp"
 #include "berth/calibration/fit_camera.hpp"
-#include "berth/calibration/score.hpp"
+#include "berth/fit/score.hpp"
 #include "berth/calibration/uncertainty.hpp"
 
 namespace berth {
@@ -26,30 +26,30 @@ constexpr double kCertainRobot_m = 0.01;
 constexpr double kLeastScore = 0.8;
 constexpr ScoreSettings kLastScore{1, 0.03, 10};
 
-FitPriors priors_of(const TeachInCamera& camera) {
+FitPriors priors_of(const CalibrationCamera& camera) {
   FitPriors priors;
   if (camera.has_stamps) priors.clock_s = kClockPrior_s;
   return priors;
 }
 
-/// The teach-in of one of its cameras alone.
-TeachIn alone(const TeachIn& teach_in, std::size_t camera) {
-  TeachIn one = teach_in;
-  one.cameras = {teach_in.cameras[camera]};
+/// The calibration of one of its cameras alone.
+CalibrationData alone(const CalibrationData& calibration_data, std::size_t camera) {
+  CalibrationData one = calibration_data;
+  one.cameras = {calibration_data.cameras[camera]};
   return one;
 }
 
 /// Joint zeros, with all cameras at once. Starts from and writes `estimate`.
-void find_joint_zeros(const TeachIn& teach_in, FitPriors priors, CalibrationEstimate& estimate,
+void find_joint_zeros(const CalibrationData& calibration_data, FitPriors priors, CalibrationEstimate& estimate,
                       CalibrationResult& result) {
-  FrameDrawer drawer(teach_in, {2, 1});
-  const std::size_t joints = teach_in.model->joints.size();
+  FrameDrawer drawer(calibration_data, {2, 1});
+  const std::size_t joints = calibration_data.model->joints.size();
   priors.joints.assign(joints, kJointPrior);
   const FitResult all = refine(drawer, estimate, priors);
   const std::vector<bool> determined = determined_joints(all);
   estimate = all.estimate;
   for (std::size_t j = 0; j < joints; ++j) {
-    const std::string& name = teach_in.model->joints[j].name;
+    const std::string& name = calibration_data.model->joints[j].name;
     if (determined[j]) {
       result.joint_offsets[name] = estimate.joint_shift[j];
     } else {
@@ -65,9 +65,9 @@ void find_joint_zeros(const TeachIn& teach_in, FitPriors priors, CalibrationEsti
 /// Tells of one camera what the estimate of all says.
 class CameraReport {
  public:
-  CameraReport(const TeachIn& teach_in, std::size_t camera, const CalibrationEstimate& estimate)
-      : one_(alone(teach_in, camera)),
-        source_(*teach_in.cameras[camera]),
+  CameraReport(const CalibrationData& calibration_data, std::size_t camera, const CalibrationEstimate& estimate)
+      : one_(alone(calibration_data, camera)),
+        source_(*calibration_data.cameras[camera]),
         drawer_(one_, {2, 1}),
         start_(start_of(one_)) {
     estimate_.cameras = {estimate.cameras[camera]};
@@ -76,7 +76,7 @@ class CameraReport {
 
   CameraCalibration run() {
     out_.camera = source_.name;
-    for (const TeachInFrame& frame : source_.frames) out_.frames.push_back(frame.number);
+    for (const CalibrationFrame& frame : source_.frames) out_.frames.push_back(frame.number);
     out_.score_before = score(drawer_, start_, kLastScore).value;
     out_.score_after = score(drawer_, estimate_, kLastScore).value;
     out_.before = residuals(drawer_, start_)[0];
@@ -151,8 +151,8 @@ class CameraReport {
     if (deviation.depth_scale > kCertainDepthScale) out_.not_determined.push_back("depth.scale");
   }
 
-  const TeachIn one_;
-  const TeachInCamera& source_;
+  const CalibrationData one_;
+  const CalibrationCamera& source_;
   FrameDrawer drawer_;
   const CalibrationEstimate start_;
   CalibrationEstimate estimate_;
@@ -167,21 +167,21 @@ DepthImage corrected(const DepthImage& depth_m, const DepthError& error) {
   return out;
 }
 
-CalibrationResult calibrate(const TeachIn& teach_in, const CalibrationSettings& settings) {
-  CalibrationEstimate estimate = start_of(teach_in);
+CalibrationResult calibrate(const CalibrationData& calibration_data, const CalibrationSettings& settings) {
+  CalibrationEstimate estimate = start_of(calibration_data);
   FitPriors priors;
-  for (std::size_t c = 0; c < teach_in.cameras.size(); ++c) {
-    const TeachIn one = alone(teach_in, c);
-    FrameDrawer drawer(one, camera_steps(teach_in.cameras[c]->camera.width_px));
-    const FitPriors of_camera = priors_of(*teach_in.cameras[c]);
+  for (std::size_t c = 0; c < calibration_data.cameras.size(); ++c) {
+    const CalibrationData one = alone(calibration_data, c);
+    FrameDrawer drawer(one, camera_steps(calibration_data.cameras[c]->camera.width_px));
+    const FitPriors of_camera = priors_of(*calibration_data.cameras[c]);
     estimate.cameras[c] = fit_camera(drawer, of_camera, settings.pause).estimate.cameras[0];
     priors.clock_s = std::max(priors.clock_s, of_camera.clock_s);
   }
   CalibrationResult result;
-  if (settings.joint_zeros) find_joint_zeros(teach_in, priors, estimate, result);
-  for (std::size_t c = 0; c < teach_in.cameras.size(); ++c) {
+  if (settings.joint_zeros) find_joint_zeros(calibration_data, priors, estimate, result);
+  for (std::size_t c = 0; c < calibration_data.cameras.size(); ++c) {
     settings.pause();
-    result.cameras.push_back(CameraReport(teach_in, c, estimate).run());
+    result.cameras.push_back(CameraReport(calibration_data, c, estimate).run());
   }
   return result;
 }

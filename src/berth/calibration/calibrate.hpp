@@ -1,4 +1,4 @@
-// Teach-in: from images of a moving arm to the cameras' poses, clocks and depth errors.
+// Calibration: from images of a moving arm to the cameras' poses, clocks and depth errors.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,17 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "berth/calibration/teach_in.hpp"
+#include "berth/fit/residual_spread.hpp"
+#include "berth/fit/calibration_data.hpp"
 
 namespace berth {
-
-/// How far readings lie from the model's surface, along the optical axis, where they are the
-/// robot's (within 10 cm). NaN where there is none.
-struct ResidualSpread {
-  double median_m = 0;
-  double p90_m = 0;
-  double p99_m = 0;
-};
 
 /// A reading z shows a surface at offset_m + scale z.
 struct DepthError {
@@ -68,7 +61,7 @@ struct CameraCalibration {
 
 /// What was found of all cameras and of the joints.
 struct CalibrationResult {
-  /// In the order of TeachIn::cameras.
+  /// In the order of CalibrationData::cameras.
   std::vector<CameraCalibration> cameras;
   /// Found with joint_zeros: to be added to what is believed of each joint, rad or m, by name.
   std::map<std::string, double> joint_offsets;
@@ -83,8 +76,8 @@ struct CalibrationSettings {
   std::function<void()> pause = [] {};
 };
 
-/// Fits all cameras of the teach-in, on all threads that TBB gives. Each camera needs one frame at
+/// Fits all cameras of the calibration, on all threads that TBB gives. Each camera needs one frame at
 /// least. The result depends neither on threads nor on time.
-CalibrationResult calibrate(const TeachIn& teach_in, const CalibrationSettings& settings = {});
+CalibrationResult calibrate(const CalibrationData& calibration_data, const CalibrationSettings& settings = {});
 
 }  // namespace berth

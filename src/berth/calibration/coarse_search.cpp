@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <random>
 
-#include "berth/calibration/score.hpp"
+#include "berth/fit/score.hpp"
 
 namespace berth {
 namespace {

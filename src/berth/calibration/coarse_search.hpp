@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "berth/calibration/fit.hpp"
-#include "berth/calibration/score.hpp"
+#include "berth/fit/fit.hpp"
+#include "berth/fit/score.hpp"
 
 namespace berth {
 

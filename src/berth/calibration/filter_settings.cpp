@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "berth/calibration/found_estimate.hpp"
-#include "berth/calibration/frame_drawer.hpp"
-#include "berth/calibration/outline_rows.hpp"
-#include "berth/calibration/robot_pixels.hpp"
+#include "berth/fit/frame_drawer.hpp"
+#include "berth/fit/outline_rows.hpp"
+#include "berth/fit/robot_pixels.hpp"
 #include "berth/calibration/swallowed.hpp"
 #include "berth/self_filter/self_filter.hpp"
 #include "berth/sensor/sensor_rules.hpp"
@@ -32,7 +32,7 @@ constexpr std::size_t kDrawnInto = 3;
 double rounded_up(double length_m) { return std::ceil(length_m * 100 - 1e-6) / 100; }
 
 /// One frame's images at the pose that was found.
-struct ProposedView {
+struct ProposedCamera {
   DepthImage depth_m;
   RobotImage robot;
   ObstacleImage filtered;
@@ -94,7 +94,7 @@ class Proposer {
 
   void filter_all() {
     SelfFilterWorkspace workspace;
-    for (ProposedView& view : views_) {
+    for (ProposedCamera& view : views_) {
       self_filter(camera_, view.depth_m, view.robot, self_filter_, workspace, view.filtered);
     }
   }
@@ -111,7 +111,7 @@ class Proposer {
   }
 
   /// Whether the robot is within 10 cm, in the image and in depth.
-  bool is_near_robot(const ProposedView& view, int u, int v) const {
+  bool is_near_robot(const ProposedCamera& view, int u, int v) const {
     const float z_m = view.depth_m(u, v);
     const int reach_px = static_cast<int>(camera_.fx_px * kRobotLike_m / z_m);
     const PixelRect near = clip({u - reach_px, v - reach_px, u + reach_px + 1, v + reach_px + 1},
@@ -183,7 +183,7 @@ class Proposer {
   }
 
   void draw_things() {
-    std::vector<FilteredView> views;
+    std::vector<FilteredCamera> views;
     const std::size_t step = std::max<std::size_t>(1, views_.size() / kDrawnInto);
     for (std::size_t f = 0; f < views_.size() && views.size() < kDrawnInto; f += step) {
       views.push_back({&camera_, views_[f].depth_m, &views_[f].robot, &self_filter_, &sensor_});
@@ -197,7 +197,7 @@ class Proposer {
   const Camera& camera_;
   SelfFilterSettings self_filter_;
   SensorSettings sensor_;
-  std::vector<ProposedView> views_;
+  std::vector<ProposedCamera> views_;
   std::vector<float> behind_m_;
   std::vector<float> overshoot_m_;
   FilterProposal out_;
@@ -205,11 +205,11 @@ class Proposer {
 
 }  // namespace
 
-FilterProposal propose_filter(const TeachIn& teach_in, std::size_t camera_index,
+FilterProposal propose_filter(const CalibrationData& calibration_data, std::size_t camera_index,
                               const CalibrationResult& found, bool corrects_depth,
                               const SelfFilterSettings& self_filter, const SensorSettings& sensor) {
-  TeachIn one = teach_in;
-  one.cameras = {teach_in.cameras[camera_index]};
+  CalibrationData one = calibration_data;
+  one.cameras = {calibration_data.cameras[camera_index]};
   const CameraCalibration& camera = found.cameras[camera_index];
   std::vector<RobotImage> robots(one.cameras[0]->frames.size());
   FrameDrawer(one, {1}).draw(

@@ -1,17 +1,17 @@
-// The self filter's settings for one camera, from what a teach-in left unexplained.
+// The self filter's settings for one camera, from what a calibration left unexplained.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "berth/calibration/calibrate.hpp"
-#include "berth/calibration/teach_in.hpp"
+#include "berth/fit/calibration_data.hpp"
 #include "berth/self_filter/settings.hpp"
 #include "berth/sensor/settings.hpp"
 
 namespace berth {
 
-/// One setting that teach-in proposes.
+/// One setting that calibration proposes.
 struct ProposedSetting {
   /// A key of SelfFilterSettings or SensorSettings.
   std::string key;
@@ -46,10 +46,10 @@ struct FilterProposal {
   double rod_gap_m = 0;
 };
 
-/// For camera number `camera` of the teach-in, at the pose, clock and joints of `found`.
+/// For camera number `camera` of the calibration, at the pose, clock and joints of `found`.
 /// `self_filter` and `sensor` are its present settings: what is not proposed stays as it is there.
 /// With `corrects_depth` readings are taken as `found` corrects them.
-FilterProposal propose_filter(const TeachIn& teach_in, std::size_t camera,
+FilterProposal propose_filter(const CalibrationData& calibration_data, std::size_t camera,
                               const CalibrationResult& found, bool corrects_depth,
                               const SelfFilterSettings& self_filter, const SensorSettings& sensor);
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "berth/calibration/coarse_search.hpp"
-#include "berth/calibration/score.hpp"
+#include "berth/fit/score.hpp"
 
 namespace berth {
 namespace {
@@ -36,7 +36,7 @@ class PlaceSearch {
  public:
   PlaceSearch(FrameDrawer& drawer, const FitPriors& priors, const std::vector<int>& steps,
               const std::function<void()>& pause)
-      : drawer_(drawer), near_(priors), steps_(steps), pause_(pause), start_(start_of(drawer.teach_in())) {
+      : drawer_(drawer), near_(priors), steps_(steps), pause_(pause), start_(start_of(drawer.calibration_data())) {
     // Sensor faults of a few millimetres must not explain decimetres.
     near_.depth_offset_m = 0;
     near_.depth_scale = 0;
@@ -80,7 +80,7 @@ std::vector<int> camera_steps(int width_px) {
 
 FitResult fit_camera(FrameDrawer& drawer, const FitPriors& priors,
                      const std::function<void()>& pause) {
-  const std::vector<int> steps = camera_steps(drawer.teach_in().cameras[0]->camera.width_px);
+  const std::vector<int> steps = camera_steps(drawer.calibration_data().cameras[0]->camera.width_px);
   PlaceSearch search(drawer, priors, steps, pause);
   Place place = search.run({});
   if (place.score < kGoodScore) {

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "berth/calibration/fit.hpp"
+#include "berth/fit/fit.hpp"
 
 namespace berth {
 

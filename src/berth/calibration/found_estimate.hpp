@@ -2,13 +2,13 @@
 #pragma once
 
 #include "berth/calibration/calibrate.hpp"
-#include "berth/calibration/estimate.hpp"
+#include "berth/fit/estimate.hpp"
 
 namespace berth {
 
-/// What was found of one camera, about where its teach-in started. `one` has that camera alone. The
+/// What was found of one camera, about where its calibration started. `one` has that camera alone. The
 /// depth's error is left out, since it is not taken out of the images by itself.
-inline CalibrationEstimate found_estimate(const TeachIn& one, const CameraCalibration& found,
+inline CalibrationEstimate found_estimate(const CalibrationData& one, const CameraCalibration& found,
                                           const CalibrationResult& all) {
   CalibrationEstimate estimate;
   CameraEstimate& camera = estimate.cameras.emplace_back();

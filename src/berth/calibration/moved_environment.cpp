@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "berth/calibration/found_estimate.hpp"
-#include "berth/calibration/frame_drawer.hpp"
+#include "berth/fit/frame_drawer.hpp"
 
 namespace berth {
 namespace {
@@ -50,14 +50,14 @@ double changed_share(const DepthImage& a, const DepthImage& b) {
 
 }  // namespace
 
-std::vector<EnvironmentChange> moved_environment(const TeachIn& teach_in,
+std::vector<EnvironmentChange> moved_environment(const CalibrationData& calibration_data,
                                                  const CalibrationResult& found) {
   std::vector<EnvironmentChange> changes;
-  for (std::size_t c = 0; c < teach_in.cameras.size(); ++c) {
-    TeachIn one = teach_in;
-    one.cameras = {teach_in.cameras[c]};
-    if (teach_in.model->is_moved(one.cameras[0]->parent)) continue;
-    const std::vector<TeachInFrame>& frames = one.cameras[0]->frames;
+  for (std::size_t c = 0; c < calibration_data.cameras.size(); ++c) {
+    CalibrationData one = calibration_data;
+    one.cameras = {calibration_data.cameras[c]};
+    if (calibration_data.model->is_moved(one.cameras[0]->parent)) continue;
+    const std::vector<CalibrationFrame>& frames = one.cameras[0]->frames;
     std::vector<DepthImage> beside(frames.size());
     FrameDrawer(one, {kStep}).draw(
         kStep, found_estimate(one, found.cameras[c], found), {}, FrameChoice::all,

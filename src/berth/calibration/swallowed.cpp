@@ -63,7 +63,7 @@ bool is_inside(const Camera& camera, const PixelRect& rect) {
 }
 
 /// Whether the thing would stand before what the camera sees there, or before nothing.
-bool has_background(const FilteredView& view, const Thing& thing) {
+bool has_background(const FilteredCamera& view, const Thing& thing) {
   return all_pixels(thing.pixels, [&](int u, int v) {
     return !(view.depth_m(u, v) < thing.depth_m + kFreeBehind_m);
   });
@@ -72,7 +72,7 @@ bool has_background(const FilteredView& view, const Thing& thing) {
 /// How many of the things the filter keeps, drawn into the image all at once.
 class Filter {
  public:
-  std::vector<bool> kept(const FilteredView& view, const std::vector<Thing>& things) {
+  std::vector<bool> kept(const FilteredCamera& view, const std::vector<Thing>& things) {
     depth_m_.resize(view.depth_m.width, view.depth_m.height, kNoDepth);
     for (int v = 0; v < view.depth_m.height; ++v) {
       std::copy_n(view.depth_m.row(v), view.depth_m.width, depth_m_.row(v));
@@ -113,7 +113,7 @@ class Filter {
 };
 
 /// In rows and columns over the whole image, where nothing of the robot is near.
-std::vector<Thing> spread(const FilteredView& view, double width_m, double length_m,
+std::vector<Thing> spread(const FilteredCamera& view, double width_m, double length_m,
                           double depth_m) {
   const Camera& camera = *view.camera;
   const int room_px = static_cast<int>(camera.fx_px * kRoom_m / depth_m);
@@ -147,11 +147,11 @@ struct KeptCount {
   }
 };
 
-double least_width_m(const std::vector<FilteredView>& views, double length_m, double depth_m) {
+double least_width_m(const std::vector<FilteredCamera>& views, double length_m, double depth_m) {
   Filter filter;
   for (const double width_m : kWidths_m) {
     KeptCount count;
-    for (const FilteredView& view : views) {
+    for (const FilteredCamera& view : views) {
       count.add(filter.kept(view, spread(view, width_m, length_m, depth_m)));
     }
     if (count.is_enough()) return width_m;
@@ -160,7 +160,7 @@ double least_width_m(const std::vector<FilteredView>& views, double length_m, do
 }
 
 /// Rods to the left and right of the robot, at its depth, each so far from its outline.
-std::vector<Thing> beside(const FilteredView& view, double gap_m) {
+std::vector<Thing> beside(const FilteredCamera& view, double gap_m) {
   const Camera& camera = *view.camera;
   std::vector<Thing> things;
   const auto is_apart = [&things](const PixelRect& near) {
@@ -194,16 +194,16 @@ std::vector<Thing> beside(const FilteredView& view, double gap_m) {
 
 }  // namespace
 
-SmallestObstacle smallest_obstacle(const std::vector<FilteredView>& views, double depth_m) {
+SmallestObstacle smallest_obstacle(const std::vector<FilteredCamera>& views, double depth_m) {
   return {depth_m, least_width_m(views, kRodLength_m, depth_m),
           least_width_m(views, kFingerLength_m, depth_m)};
 }
 
-double least_rod_gap_m(const std::vector<FilteredView>& views) {
+double least_rod_gap_m(const std::vector<FilteredCamera>& views) {
   Filter filter;
   for (const double gap_m : kGaps_m) {
     KeptCount count;
-    for (const FilteredView& view : views) {
+    for (const FilteredCamera& view : views) {
       count.add(filter.kept(view, beside(view, gap_m)));
     }
     if (count.is_enough()) return gap_m;

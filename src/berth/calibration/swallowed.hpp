@@ -10,7 +10,7 @@
 namespace berth {
 
 /// One image with the robot in it, and how it is filtered.
-struct FilteredView {
+struct FilteredCamera {
   const Camera* camera = nullptr;
   DepthView depth_m;
   const RobotImage* robot = nullptr;
@@ -19,9 +19,9 @@ struct FilteredView {
 };
 
 /// See SmallestObstacle. Over all views.
-SmallestObstacle smallest_obstacle(const std::vector<FilteredView>& views, double depth_m);
+SmallestObstacle smallest_obstacle(const std::vector<FilteredCamera>& views, double depth_m);
 
 /// See FilterProposal::rod_gap_m.
-double least_rod_gap_m(const std::vector<FilteredView>& views);
+double least_rod_gap_m(const std::vector<FilteredCamera>& views);
 
 }  // namespace berth

@@ -1,7 +1,7 @@
 // Inside calibration/ only.
 #pragma once
 
-#include "berth/calibration/fit.hpp"
+#include "berth/fit/fit.hpp"
 
 namespace berth {
 

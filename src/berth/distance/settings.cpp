@@ -1,16 +1,16 @@
 #include "berth/distance/settings.hpp"
 
-#include <string>
-
 namespace berth {
 
 void validate(const DistanceSettings& settings) {
   visit_settings(settings, SettingCheck{"evaluation"});
-  const LatticeSettings& lattice = settings.lattice;
-  if (lattice.final_grid_radius_px <= lattice.initial_grid_radius_px) return;
-  throw_bad_setting("evaluation", "final_grid_radius_px", lattice.final_grid_radius_px,
-                    "a whole number from 1 to " + std::to_string(lattice.initial_grid_radius_px) +
-                        ", the initial_grid_radius_px");
+}
+
+void validate(const MeshQuestion& question) {
+  const SettingCheck check{"evaluation"};
+  check({"range_m", kAboveZero, ""}, question.range_m);
+  check({"tolerance_m", kNotNegative, ""}, question.tolerance_m);
+  check({"deadline_us", {.may_be_infinite = true}, ""}, question.deadline_us);
 }
 
 }  // namespace berth

@@ -34,6 +34,7 @@ class YamlValue {
   std::vector<std::string> texts() const;
 
   bool is_list() const { return node_.IsSequence(); }
+  bool is_map() const { return node_.IsMap(); }
   std::vector<YamlValue> list() const;
   /// Keys and values of a map in the file's order; a key that stands there twice is refused.
   std::vector<std::pair<std::string, YamlValue>> entries() const;

@@ -31,7 +31,7 @@ void validate(const LiveCameraSettings& settings) {
 
 }  // namespace
 
-LiveCamera::LiveCamera(std::shared_ptr<const View> view, const JointIntake& joints,
+LiveCamera::LiveCamera(std::shared_ptr<const MountedCamera> view, const JointIntake& joints,
                        LiveCameraSettings settings, OnFrame on_frame)
     : view_(std::move(view)),
       joints_(joints),
@@ -111,7 +111,7 @@ void LiveCamera::keep(const Waiting& image, const std::shared_ptr<Frame>& frame,
   const std::lock_guard lock(mutex_);
   newest_ = frame;
   ++counts_.images;
-  counts_.untimely += frame->time.status != TimeStatus::ok;
+  counts_.stale += frame->time.status != TimeStatus::ok;
   counts_.last_wait_s = begin_s - image.since_s;
   counts_.longest_wait_s = std::max(counts_.longest_wait_s, counts_.last_wait_s);
   counts_.last_observe_s = steady_now_s() - begin_s;

@@ -13,7 +13,7 @@
 #include "berth/live/joint_intake.hpp"
 #include "berth/pipeline/frame.hpp"
 #include "berth/pipeline/frame_pool.hpp"
-#include "berth/pipeline/view.hpp"
+#include "berth/pipeline/mounted_camera.hpp"
 
 namespace berth {
 
@@ -33,7 +33,7 @@ inline constexpr std::size_t kMostWaitingImages = 3;
 struct LiveCameraCounts {
   std::int64_t images = 0;    ///< that were observed
   std::int64_t dropped = 0;   ///< that were not, since newer ones had come
-  std::int64_t untimely = 0;  ///< whose time was not ok
+  std::int64_t stale = 0;  ///< whose time was not ok
   double last_wait_s = 0;     ///< of the newest image, for its joints
   double longest_wait_s = 0;
   double last_observe_s = 0;  ///< how long it took to observe the newest image
@@ -49,7 +49,7 @@ class LiveCamera {
 
   /// `joints` outlives it. `on_frame` is called in the camera's thread, after newest() has the
   /// frame; it must not throw. Throws std::invalid_argument for a setting outside of its domain.
-  LiveCamera(std::shared_ptr<const View> view, const JointIntake& joints,
+  LiveCamera(std::shared_ptr<const MountedCamera> view, const JointIntake& joints,
              LiveCameraSettings settings = {}, OnFrame on_frame = {});
   /// Ends the thread; images that wait are dropped.
   ~LiveCamera();
@@ -64,7 +64,7 @@ class LiveCamera {
   /// To be called after each JointIntake::push: an image may wait for it.
   void joints_came();
 
-  const std::shared_ptr<const View>& view() const { return view_; }
+  const std::shared_ptr<const MountedCamera>& view() const { return view_; }
   /// Null before the first one. Constant, and kept for who holds it.
   std::shared_ptr<const Frame> newest() const;
   LiveCameraCounts counts() const;
@@ -85,7 +85,7 @@ class LiveCamera {
   bool is_ready(const Waiting& image) const;
   bool has_joints(const Waiting& image) const;
 
-  std::shared_ptr<const View> view_;
+  std::shared_ptr<const MountedCamera> view_;
   const JointIntake& joints_;
   LiveCameraSettings settings_;
   OnFrame on_frame_;

@@ -5,11 +5,11 @@
 #include <atomic>
 #include <stdexcept>
 
-#include "berth/pipeline/view.hpp"
+#include "berth/pipeline/mounted_camera.hpp"
 
 namespace berth {
 
-bool begin_exposure(const std::shared_ptr<const View>& view, DepthView depth_m,
+bool begin_exposure(const std::shared_ptr<const MountedCamera>& view, DepthView depth_m,
                     const JointState& at_exposure, FrameTime time, Exposure& out) {
   require_size(view->camera(), depth_m);
   static std::atomic<std::uint64_t> exposures{0};

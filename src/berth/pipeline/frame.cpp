@@ -1,6 +1,13 @@
 #include "berth/pipeline/frame.hpp"
 
+#include "berth/pipeline/frame_space.hpp"
+
 namespace berth {
+
+Frame::Frame() : space(std::make_unique<FrameSpace>()) {}
+Frame::~Frame() = default;
+Frame::Frame(Frame&&) noexcept = default;
+Frame& Frame::operator=(Frame&&) noexcept = default;
 
 void clear_images(const Camera& camera, Frame& frame) {
   const int width = camera.width_px, height = camera.height_px;
@@ -11,10 +18,9 @@ void clear_images(const Camera& camera, Frame& frame) {
   frame.obstacles.fate.resize(width, height, PixelFate::no_reading);
   frame.obstacles.count = {};
   frame.obstacles.count[static_cast<std::size_t>(PixelFate::no_reading)] = width * height;
-  frame.searchable.build(frame.obstacles.depth_m);
-  clear_doubtful(width, height, frame.doubtful);
-  frame.space.obstacle_depth_m = {};
-  frame.has_doubtful_space = false;
+  clear_rejected(width, height, frame.space->rejected);
+  frame.space->seen.obstacle_depth_m = {};
+  frame.space->has_rejected_space = false;
 }
 
 }  // namespace berth

@@ -1,40 +1,34 @@
 #pragma once
 
-#include "berth/distance/mesh/mean_directions.hpp"
-#include "berth/distance/mesh/view_space.hpp"
-#include "berth/distance/searchable_depth.hpp"
+#include <memory>
+
 #include "berth/pipeline/exposure.hpp"
 #include "berth/types/obstacle_image.hpp"
 #include "berth/types/robot_image.hpp"
-#include "berth/visibility/doubtful.hpp"
 
 namespace berth {
 
+struct FrameSpace;
+
 /// What one depth image tells, ready for any number of questions; constant while it is asked.
 struct Frame : Exposure {
+  Frame();
+  ~Frame();
+  Frame(Frame&&) noexcept;
+  Frame& operator=(Frame&&) noexcept;
+
   /// The robot at that time.
   RobotImage robot;
   ObstacleImage obstacles;
-  /// Of obstacles.depth_m; its tree is there unless the method is `mesh`.
-  SearchableDepth searchable;
-  /// Empty unless EvaluationSettings::visibility is set.
-  DoubtfulImage doubtful;
-
-  // For method `mesh` alone:
-
-  /// What the image says of the space before the camera.
-  ViewSpace space;
-  /// For mean directions, where the settings ask for them.
-  ReadingTiles reading_tiles;
-  /// The readings that are doubtful; only where there are any.
-  ViewSpace doubtful_space;
-  bool has_doubtful_space = false;
-  /// Whether a smaller share than kLeastReadings of the sensor's pixels has a reading: a camera
+  /// Never null but in a frame that was moved from.
+  std::unique_ptr<FrameSpace> space;
+  /// Whether a smaller share than kLeastReadOfImage of the sensor's pixels has a reading: a camera
   /// that is covered, or failed.
   bool is_blind = false;
 };
 
-inline constexpr double kLeastReadings = 0.01;
+/// Of an image's pixels. One whose range is short, or who stands outdoors, still reads many more.
+inline constexpr double kLeastReadOfImage = 0.01;
 
 /// Empties the images of a frame whose time is not ok, so that no older image stays under the new
 /// stamp.

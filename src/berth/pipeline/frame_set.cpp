@@ -1,9 +1,10 @@
 #include "berth/pipeline/frame_set.hpp"
 
+#include "berth/pipeline/frame_space.hpp"
 #include <algorithm>
 #include <cassert>
 
-#include "berth/pipeline/view.hpp"
+#include "berth/pipeline/mounted_camera.hpp"
 
 namespace berth {
 
@@ -15,7 +16,7 @@ CameraState camera_state(const Exposure& exposure, double now_s, const TimeSetti
   state.time = exposure.time.status;
   state.watch = exposure.watch;
   if (state.time != TimeStatus::ok) {
-    state.status = CameraStatus::untimely;
+    state.status = CameraStatus::stale;
   } else if (exposure.watch.is_implausible) {
     state.status = CameraStatus::implausible;
     state.time = TimeStatus::camera_implausible;
@@ -23,12 +24,14 @@ CameraState camera_state(const Exposure& exposure, double now_s, const TimeSetti
     state.status = CameraStatus::moved;
     state.time = TimeStatus::camera_moved;
   } else if (state.age_s < -settings.max_clock_offset_s) {
-    state.status = CameraStatus::untimely;
+    state.status = CameraStatus::stale;
     state.time = TimeStatus::frame_in_future;
   } else if (!(state.age_s <= settings.max_frame_age_s)) {
     state.status = CameraStatus::too_old;
   } else {
-    state.status = exposure.watch.is_hidden ? CameraStatus::hidden : CameraStatus::ok;
+    state.status = exposure.watch.is_hidden        ? CameraStatus::hidden
+                   : exposure.watch.is_unconfirmed ? CameraStatus::unconfirmed
+                                                   : CameraStatus::ok;
   }
   return state;
 }
@@ -46,7 +49,7 @@ void FrameSet::assign(std::span<const Frame* const> frames, const TimeSettings& 
   cameras_.clear();
   used_.clear();
   posed_.clear();
-  posed_doubtful_.clear();
+  posed_rejected_.clear();
   newest_ = nullptr;
   double newest_s = -std::numeric_limits<double>::infinity();
   for (const Frame* frame : frames_) {
@@ -60,16 +63,16 @@ void FrameSet::assign(std::span<const Frame* const> frames, const TimeSettings& 
   }
   for (const int k : used_) {
     const Frame& frame = *frames_[k];
-    assert(!frame.space.is_empty() && "the robot's method is mesh");
+    assert(!frame.space->seen.is_empty());
     // Of age without end: its readings count, and it frees nothing.
     const double age_s = cameras_[k].status == CameraStatus::blind
                              ? std::numeric_limits<double>::infinity()
                              : newest_->stamp_s - frame.stamp_s;
-    posed_.push_back({&frame.space, frame.X_BC, age_s});
-    if (frame.has_doubtful_space) posed_doubtful_.push_back({&frame.doubtful_space, frame.X_BC, 0});
+    posed_.push_back({&frame.space->seen, frame.X_BC, age_s});
+    if (frame.space->has_rejected_space) posed_rejected_.push_back({&frame.space->rejected_space, frame.X_BC, 0});
   }
   space_.assign(posed_);
-  doubtful_.assign(posed_doubtful_);
+  rejected_.assign(posed_rejected_);
 }
 
 Timeliness timeliness_of(const FrameSet& frames, std::optional<double> now_s,

@@ -4,26 +4,21 @@
 #include <span>
 #include <vector>
 
-#include "berth/distance/mesh/hidden_space.hpp"
+#include "berth/space/unknown_space.hpp"
+#include "berth/pipeline/camera_state.hpp"
 #include "berth/pipeline/frame.hpp"
 #include "berth/pipeline/timeliness.hpp"
 #include "berth/types/camera_status.hpp"
 
 namespace berth {
 
-/// What becomes of one camera at `now_s`, but for whether it is blind.
-CameraState camera_state(const Exposure& exposure, double now_s, const TimeSettings& settings);
-
-/// The same. `frame` is its newest one, or null where it has none yet.
-CameraState camera_state(const Frame* frame, double now_s, const TimeSettings& settings);
-
 /// The newest frame of each camera, as questions with method `mesh` see them: which of them are
 /// used, and the space that they leave. Assigned at the cameras' clock; then any number of askers
-/// may ask it, and what one of them finds out about hidden space is kept for all.
+/// may ask it, and what one of them finds out about unknown space is kept for all.
 class FrameSet {
  public:
-  /// Camera k's newest frame, or null where it has none yet. Each belongs to another View of one
-  /// robot, whose method is `mesh`, and has to outlive the questions. A frame that is untimely, of
+  /// Camera k's newest frame, or null where it has none yet. Each belongs to another MountedCamera of one
+  /// robot, whose method is `mesh`, and has to outlive the questions. A frame that is stale, of
   /// a camera that moved or is implausible, or too old at `now_s`, is left out: its readings are not known any more, and what it would have
   /// seen free is hidden again. Without now_s the newest stamp is taken for now. Nobody may ask
   /// meanwhile. Reuses its memory.
@@ -36,20 +31,20 @@ class FrameSet {
   /// Of all that are used; null where none is.
   const Frame* newest() const { return newest_; }
   /// Its view i is frames()[used()[i]].
-  const HiddenSpace& space() const { return space_; }
+  const UnknownSpace& space() const { return space_; }
   const std::vector<int>& used() const { return used_; }
-  /// What was dropped as doubtful, as a space of its own; without views where nothing was.
-  const HiddenSpace& doubtful() const { return doubtful_; }
+  /// What was dropped as rejected, as a space of its own; without views where nothing was.
+  const UnknownSpace& rejected() const { return rejected_; }
 
  private:
   std::vector<const Frame*> frames_;
   std::vector<CameraState> cameras_;
   std::vector<int> used_;
-  std::vector<PosedView> posed_;
-  std::vector<PosedView> posed_doubtful_;
+  std::vector<PosedSpace> posed_;
+  std::vector<PosedSpace> posed_rejected_;
   const Frame* newest_ = nullptr;
-  HiddenSpace space_;
-  HiddenSpace doubtful_;
+  UnknownSpace space_;
+  UnknownSpace rejected_;
 };
 
 /// How an answer stands at `now_s` for the joints of the newest frame that is used. Where none is,

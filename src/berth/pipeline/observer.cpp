@@ -1,15 +1,21 @@
 #include "berth/pipeline/observer.hpp"
 
+#include <optional>
 #include <stdexcept>
 
-#include "berth/calibration/frame_displacement.hpp"
 #include "berth/pipeline/prepare_frame.hpp"
+#include "berth/pipeline/timeliness.hpp"
+#include "berth/render/robot_renderer.hpp"
+#include "berth/self_filter/self_filter.hpp"
+#include "berth/sensor/sensor_rules.hpp"
+#include "berth/watch/frame_displacement.hpp"
+#include "berth/watch/pose_watch.hpp"
 
 namespace berth {
 namespace {
 
 /// Where nobody gave another way, and the view's settings ask for one.
-MeasureDisplacement displacement_of(const View& view, MeasureDisplacement given) {
+MeasureDisplacement displacement_of(const MountedCamera& view, MeasureDisplacement given) {
   if (given || !(view.settings().watch.max_displacement_m > 0)) return given;
   const RobotModel& model = view.robot()->model();
   const FrameDisplacement displacement(model, view.robot()->meshes(), view.camera(),
@@ -22,73 +28,98 @@ MeasureDisplacement displacement_of(const View& view, MeasureDisplacement given)
 
 }  // namespace
 
-Observer::Observer(std::shared_ptr<const View> view, MeasureDisplacement measure)
-    : view_(std::move(view)),
-      renderer_(view_->robot()->meshes(), view_->camera()),
-      watch_(view_->settings().watch, displacement_of(*view_, std::move(measure))) {
-  if (view_->region_meshes()) region_renderer_.emplace(view_->region_meshes(), view_->camera());
-}
+/// Scratch memory, and what is remembered from image to image.
+struct Observer::Parts {
+  Parts(std::shared_ptr<const MountedCamera> of, MeasureDisplacement measure)
+      : view(std::move(of)),
+        renderer(view->robot()->meshes(), view->camera()),
+        watch(view->settings().watch, displacement_of(*view, std::move(measure))) {
+    if (view->region_meshes()) region_renderer.emplace(view->region_meshes(), view->camera());
+  }
+
+  void filter(DepthView depth_m, Frame& frame);
+  const SensorSettings& background_settings() const;
+
+  std::shared_ptr<const MountedCamera> view;
+  RobotRenderer renderer;
+  /// Of the robot-shaped region, where there is one.
+  std::optional<RobotRenderer> region_renderer;
+  RobotImage region;
+  SelfFilterWorkspace workspace;
+  SensorWorkspace sensor;
+  Background background;
+  FrameClock clock;
+  PoseWatch watch;
+  JointState at_exposure;
+};
+
+Observer::Observer(std::shared_ptr<const MountedCamera> view, MeasureDisplacement measure)
+    : parts_(std::make_unique<Parts>(std::move(view), std::move(measure))) {}
+
+Observer::~Observer() = default;
+Observer::Observer(Observer&&) noexcept = default;
+Observer& Observer::operator=(Observer&&) noexcept = default;
 
 void Observer::observe(DepthView depth_m, const JointState& at_exposure, Frame& frame,
                        FrameTime time) {
-  const Camera& camera = view_->camera();
-  if (!begin_exposure(view_, depth_m, at_exposure, time, frame)) {
-    frame.watch = watch_.pass_over();
+  const Camera& camera = parts_->view->camera();
+  if (!begin_exposure(parts_->view, depth_m, at_exposure, time, frame)) {
+    frame.watch = parts_->watch.pass_over();
     return clear_images(camera, frame);
   }
-  renderer_.render(frame.pose, frame.X_BC, frame.robot);
-  frame.watch = watch_.look(depth_m, frame.robot, at_exposure);
-  filter(depth_m, frame);
-  apply_sensor_rules(depth_m, frame.robot, background_, view_->settings().sensor, sensor_,
+  parts_->renderer.render(frame.pose, frame.X_BC, frame.robot);
+  frame.watch = parts_->watch.look(depth_m, frame.robot, at_exposure);
+  parts_->filter(depth_m, frame);
+  apply_sensor_rules(depth_m, frame.robot, parts_->background, parts_->view->settings().sensor, parts_->sensor,
                      frame.obstacles);
   prepare_frame(depth_m, frame);
 }
 
-void Observer::filter(DepthView depth_m, Frame& frame) {
-  const SelfFilterSettings& settings = view_->settings().self_filter;
-  if (!region_renderer_) {
-    self_filter(view_->camera(), depth_m, frame.robot, settings, workspace_, frame.obstacles);
+void Observer::Parts::filter(DepthView depth_m, Frame& frame) {
+  const SelfFilterSettings& settings = view->settings().self_filter;
+  if (!region_renderer) {
+    self_filter(view->camera(), depth_m, frame.robot, settings, workspace, frame.obstacles);
     return;
   }
-  region_renderer_->render(frame.pose, frame.X_BC, region_);
-  self_filter(view_->camera(), depth_m, frame.robot, region_, settings, workspace_,
+  region_renderer->render(frame.pose, frame.X_BC, region);
+  self_filter(view->camera(), depth_m, frame.robot, region, settings, workspace,
               frame.obstacles);
 }
 
 void Observer::observe(DepthView depth_m, double stamp_s, const JointBuffer& joints, Frame& frame,
                        double clock_offset_s) {
-  const TimeSettings& settings = view_->robot()->settings().time;
-  const TimeStatus stamp = clock_.next(stamp_s, settings);
-  FrameTime time = joints.at(stamp_s + clock_offset_s, settings.joints, at_exposure_);
-  at_exposure_.stamp_s = stamp_s;
+  const TimeSettings& settings = parts_->view->robot()->settings().time;
+  const TimeStatus stamp = parts_->clock.next(stamp_s, settings);
+  FrameTime time = joints.at(stamp_s + clock_offset_s, settings.joints, parts_->at_exposure);
+  parts_->at_exposure.stamp_s = stamp_s;
   if (stamp != TimeStatus::ok) time.status = stamp;
-  observe(depth_m, at_exposure_, frame, time);
+  observe(depth_m, parts_->at_exposure, frame, time);
 }
 
-void Observer::finish_watch(Frame& frame) { frame.watch = watch_.wait(); }
+void Observer::finish_watch(Frame& frame) { frame.watch = parts_->watch.wait(); }
 
-const SensorSettings& Observer::background_settings() const {
-  const SensorSettings& settings = view_->settings().sensor;
+const SensorSettings& Observer::Parts::background_settings() const {
+  const SensorSettings& settings = view->settings().sensor;
   if (settings.has_background()) return settings;
   throw std::invalid_argument(
       "sensor.background_frames: 0; expected 1 or more, to learn a background");
 }
 
 void Observer::learn_background(DepthView depth_m, const Frame& frame) {
-  require_size(view_->camera(), depth_m);
-  const SensorSettings& settings = background_settings();
+  require_size(parts_->view->camera(), depth_m);
+  const SensorSettings& settings = parts_->background_settings();
   // Without its robot, or with the robot elsewhere, the image would give the arm for a background.
   if (frame.time.status != TimeStatus::ok || !frame.watch.is_trusted()) return;
-  background_.learn(view_->camera(), depth_m, frame.robot, frame.obstacles.fate, settings);
+  parts_->background.learn(parts_->view->camera(), depth_m, frame.robot, frame.obstacles.fate, settings);
 }
 
 DepthImage Observer::background_m() const {
-  return background_.learned_m(view_->camera(), background_settings());
+  return parts_->background.learned_m(parts_->view->camera(), parts_->background_settings());
 }
 
 void Observer::set_background(DepthView depth_m) {
-  require_size(view_->camera(), depth_m);
-  background_.assign(depth_m, background_settings());
+  require_size(parts_->view->camera(), depth_m);
+  parts_->background.assign(depth_m, parts_->background_settings());
 }
 
 }  // namespace berth

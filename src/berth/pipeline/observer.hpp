@@ -1,15 +1,12 @@
 #pragma once
 
-#include <optional>
+#include <memory>
 
-#include "berth/calibration/pose_watch.hpp"
 #include "berth/pipeline/frame.hpp"
-#include "berth/pipeline/timeliness.hpp"
-#include "berth/pipeline/view.hpp"
+#include "berth/pipeline/mounted_camera.hpp"
 #include "berth/robot/joint_buffer.hpp"
-#include "berth/self_filter/self_filter.hpp"
-#include "berth/sensor/sensor_rules.hpp"
 #include "berth/types/joint_state.hpp"
+#include "berth/watch/measure_displacement.hpp"
 
 namespace berth {
 
@@ -18,7 +15,10 @@ class Observer {
  public:
   /// `measure` is how the view's WatchSettings::max_displacement_m is watched; without it, as
   /// FrameDisplacement does.
-  explicit Observer(std::shared_ptr<const View> view, MeasureDisplacement measure = {});
+  explicit Observer(std::shared_ptr<const MountedCamera> view, MeasureDisplacement measure = {});
+  ~Observer();
+  Observer(Observer&&) noexcept;
+  Observer& operator=(Observer&&) noexcept;
 
   /// Renders the robot at the joint angles of the exposure, removes it from the image, and writes
   /// all of `frame`, whose memory it reuses. `depth_m` is as large as the camera's image, NaN where
@@ -53,20 +53,8 @@ class Observer {
   void set_background(DepthView depth_m);
 
  private:
-  void filter(DepthView depth_m, Frame& frame);
-  const SensorSettings& background_settings() const;
-
-  std::shared_ptr<const View> view_;
-  RobotRenderer renderer_;
-  /// Of the robot-shaped region, where there is one.
-  std::optional<RobotRenderer> region_renderer_;
-  RobotImage region_;
-  SelfFilterWorkspace workspace_;
-  SensorWorkspace sensor_;
-  Background background_;
-  FrameClock clock_;
-  PoseWatch watch_;
-  JointState at_exposure_;
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
 };
 
 }  // namespace berth

@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "berth/distance/robot_patches.hpp"
+#include "berth/render/robot_renderer.hpp"
+#include "berth/visibility/sample_points.hpp"
+
 namespace berth {
 namespace {
 
@@ -28,9 +32,8 @@ Robot::Robot(RobotModel model, EvaluationSettings settings, std::vector<Attachme
       meshes_(build_link_meshes(model_)) {
   validate(settings_.distance);
   validate(settings_.time);
-  const bool has_mesh = settings_.method == Method::mesh;
-  if (has_mesh) patches_ = build_robot_patches(model_);
-  if (settings_.visibility || has_mesh) sample_points_ = berth::sample_points(model_);
+  patches_ = build_robot_patches(model_);
+  sample_points_ = std::make_shared<const SamplePoints>(berth::sample_points(model_));
 }
 
 std::shared_ptr<const Robot> attach(const Robot& robot, const Attachment& attachment) {

@@ -4,36 +4,40 @@
 #include <string>
 #include <vector>
 
-#include "berth/distance/evaluate.hpp"
-#include "berth/distance/mesh/robot_patches.hpp"
+#include "berth/distance/settings.hpp"
 #include "berth/pipeline/timeliness.hpp"
-#include "berth/render/robot_renderer.hpp"
 #include "berth/robot/attachment.hpp"
 #include "berth/robot/robot_model.hpp"
-#include "berth/visibility/sample_points.hpp"
 
 namespace berth {
 
-/// How questions about a robot are answered, whichever cameras see it.
+class LinkMeshes;
+struct RobotPatches;
+struct SamplePoints;
+
+/// How requests about a robot are answered, whichever cameras see it.
 struct EvaluationSettings {
-  Method method = Method::mesh;
   DistanceSettings distance;
-  /// Whether answers tell what the cameras cannot know (Answer::visibility).
+  /// Whether results tell what the cameras cannot know (LinkResult::visibility).
   bool visibility = true;
   TimeSettings time;
 
   bool operator==(const EvaluationSettings&) const = default;
 };
 
-/// The list of these settings but `time`, which has a list of its own.
-template <SettingsOf<EvaluationSettings> Settings, class Visitor>
-void visit_settings(Settings& s, Visitor&& visit) {
-  visit({"method", {}, "how the distances are found"}, s.method);
-  visit_settings(s.distance, visit);
+template <class Settings, class Visitor>
+void visit_visibility(Settings& s, Visitor&& visit) {
   visit({"visibility",
          {},
          "whether to tell how much of each link and of the space around its answer the cameras see"},
         s.visibility);
+}
+
+/// The list of these settings but `time`, which has a list of its own.
+template <SettingsOf<EvaluationSettings> Settings, class Visitor>
+void visit_settings(Settings& s, Visitor&& visit) {
+  visit_settings(s.distance, visit);
+  visit_visibility(s, visit);
 }
 
 /// A robot and what is asked about it: constant once made, shared by all views, observers and
@@ -49,10 +53,9 @@ class Robot {
   const std::vector<Attachment>& attached() const { return attached_; }
   const EvaluationSettings& settings() const { return settings_; }
   const std::shared_ptr<const LinkMeshes>& meshes() const { return meshes_; }
-  /// Of method `mesh`; null with the others.
   const std::shared_ptr<const RobotPatches>& patches() const { return patches_; }
-  /// Where find_visibility() looks; none unless settings or method ask for it.
-  const SamplePoints& sample_points() const { return sample_points_; }
+  /// Where it is looked for what the cameras see of the robot.
+  const SamplePoints& sample_points() const { return *sample_points_; }
 
  private:
   /// Without what is attached.
@@ -62,7 +65,7 @@ class Robot {
   EvaluationSettings settings_;
   std::shared_ptr<const LinkMeshes> meshes_;
   std::shared_ptr<const RobotPatches> patches_;
-  SamplePoints sample_points_;
+  std::shared_ptr<const SamplePoints> sample_points_;
 
   friend std::shared_ptr<const Robot> attach(const Robot& robot, const Attachment& attachment);
   friend std::shared_ptr<const Robot> detach(const Robot& robot, const std::string& name);

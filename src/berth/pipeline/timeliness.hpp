@@ -8,7 +8,7 @@
 
 namespace berth {
 
-/// How old is too old. An answer that is not in time has no distance (LinkStatus::untimely): a
+/// How old is too old. An answer that is not in time has no distance (LinkStatus::stale): a
 /// controller that forgets to look at ages must not take an old free space for a new one. To judge
 /// an age yourself, set its limit to infinity and read Answer::time.
 struct TimeSettings {

@@ -44,7 +44,7 @@ HWY_INLINE void draw_waiting(PixelKey id, Canvas& canvas) {
 }
 
 /// Slow and right for every triangle.
-void draw_exactly(const TriangleBlock& block, int lane, const LinkView& view, Canvas& canvas) {
+void draw_exactly(const TriangleBlock& block, int lane, const LinkInImage& view, Canvas& canvas) {
   std::array<Eigen::Vector3d, 3> corners;
   for (int corner = 0; corner < 3; ++corner) {
     const Eigen::Vector4d p_L(block.corner_L_m[corner][0][lane], block.corner_L_m[corner][1][lane],
@@ -55,7 +55,7 @@ void draw_exactly(const TriangleBlock& block, int lane, const LinkView& view, Ca
   RowFiller(canvas.planes, 0, id_part(view.id)).fill(canvas.keys);
 }
 
-void draw(std::span<const TriangleBlock> blocks, const LinkView& view, Canvas& canvas) {
+void draw(std::span<const TriangleBlock> blocks, const LinkInImage& view, Canvas& canvas) {
   const Projection projection(view);
   const PixelKey id = id_part(view.id);
   canvas.used = true;
@@ -80,7 +80,7 @@ namespace berth {
 
 HWY_EXPORT(draw);
 
-void draw_triangles(std::span<const TriangleBlock> blocks, const LinkView& view, Canvas& canvas) {
+void draw_triangles(std::span<const TriangleBlock> blocks, const LinkInImage& view, Canvas& canvas) {
   HWY_DYNAMIC_DISPATCH(draw)(blocks, view, canvas);
 }
 

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "berth/render/key_image.hpp"
-#include "berth/render/link_view.hpp"
+#include "berth/render/link_in_image.hpp"
 #include "berth/render/triangle_block.hpp"
 #include "berth/render/triangle_planes.hpp"
 
@@ -36,6 +36,6 @@ struct Canvas {
 };
 
 /// Raises the keys of the pixels whose centres lie in the triangles, whatever their winding.
-void draw_triangles(std::span<const TriangleBlock> blocks, const LinkView& view, Canvas& canvas);
+void draw_triangles(std::span<const TriangleBlock> blocks, const LinkInImage& view, Canvas& canvas);
 
 }  // namespace berth

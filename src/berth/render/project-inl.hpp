@@ -26,7 +26,7 @@ HWY_INLINE FloatVector greatest(const FloatVector (&x)[3]) {
   return hn::Max(hn::Max(x[0], x[1]), x[2]);
 }
 
-/// LinkView in single precision.
+/// LinkInImage in single precision.
 struct Projection {
   float to_pixel_L[3][4];
   float u_first;
@@ -35,7 +35,7 @@ struct Projection {
   float v_last;
   float least_depth_m;
 
-  explicit Projection(const LinkView& view)
+  explicit Projection(const LinkInImage& view)
       : u_first(static_cast<float>(view.rect.u_begin)),
         v_first(static_cast<float>(view.rect.v_begin)),
         u_last(static_cast<float>(view.rect.u_end - 1)),

@@ -63,7 +63,7 @@ struct RobotRenderer::State {
   std::shared_ptr<const LinkMeshes> meshes;
   Camera camera;
   std::vector<Chunk> chunks;
-  std::vector<LinkView> views;
+  std::vector<LinkInImage> views;
   /// One for each thread; the first of them have been drawn on.
   std::vector<Canvas> canvases;
 
@@ -103,7 +103,7 @@ struct RobotRenderer::State {
     std::atomic<std::size_t> next = 0;
     const auto draw_on = [&](Canvas& canvas) {
       for (std::size_t i = next++; i < chunks.size(); i = next++) {
-        const LinkView& view = views[chunks[i].link];
+        const LinkInImage& view = views[chunks[i].link];
         if (!view.rect.empty()) draw_triangles(chunks[i].blocks, view, canvas);
       }
     };

@@ -26,7 +26,7 @@ enum class JointType { fixed, revolute, continuous, prismatic };
 
 enum class LinkRole {
   evaluated,    ///< filtered out of the image, and its distance is asked for
-  environment,  ///< scenery: filtered out, not evaluated
+  environment,  ///< environment: filtered out, not evaluated
   ignored,      ///< neither
 };
 
@@ -44,14 +44,14 @@ struct Joint {
   double offset = 0;
 };
 
-/// A rigid part of the robot, or scenery that stands around it.
+/// A rigid part of the robot, or environment that stands around it.
 struct Link {
   std::string name;
   /// Index into RobotModel::links, always smaller than the link's own; none for the root.
   std::optional<std::size_t> parent;
   Joint joint;
   LinkRole role = LinkRole::ignored;
-  /// 1, 2, ... for evaluated links, kEnvironmentLink for scenery, else kNoLink.
+  /// 1, 2, ... for evaluated links, kEnvironmentLink for environment, else kNoLink.
   LinkId id = kNoLink;
   /// All of the link's shapes in its own frame L; empty for a link without geometry.
   TriangleMesh mesh_L;
@@ -100,7 +100,7 @@ struct RobotSettings {
   std::optional<std::string> urdf_text = {};
 };
 
-/// Loads a URDF and its meshes. Evaluated are the links that have geometry and are neither scenery
+/// Loads a URDF and its meshes. Evaluated are the links that have geometry and are neither environment
 /// nor ignored; their ids follow the tree, parents first. Throws std::runtime_error that names the
 /// file, the link or joint, the value and what was expected: URDF missing, invalid, with a loop,
 /// without a root or with two, a joint type other than fixed, revolute, continuous and prismatic, a

@@ -15,23 +15,11 @@ struct TriangleMesh {
 
   bool empty() const { return triangles.empty(); }
 
-  Eigen::AlignedBox3f bounding_box_m() const {
-    Eigen::AlignedBox3f box;
-    for (const auto& vertex : vertices_m) box.extend(vertex);
-    return box;
-  }
+  // In a source, since most of berth includes this, and Eigen's part of them takes half a second to compile.
+  Eigen::AlignedBox3f bounding_box_m() const;
 
   /// Appends `other`, each of its vertices moved by `X`, which may scale.
-  void append(const TriangleMesh& other, const Eigen::Affine3d& X) {
-    const auto first = static_cast<std::uint32_t>(vertices_m.size());
-    for (const auto& vertex : other.vertices_m) {
-      vertices_m.push_back((X * vertex.cast<double>()).cast<float>());
-    }
-    const bool mirrors = X.linear().determinant() < 0;
-    for (const auto& [a, b, c] : other.triangles) {
-      triangles.push_back({first + a, first + (mirrors ? c : b), first + (mirrors ? b : c)});
-    }
-  }
+  void append(const TriangleMesh& other, const Eigen::Affine3d& X);
 };
 
 }  // namespace berth

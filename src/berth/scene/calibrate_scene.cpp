@@ -7,11 +7,11 @@
 #include <limits>
 #include <stdexcept>
 
-#include "berth/calibration/frame_displacement.hpp"
+#include "berth/watch/frame_displacement.hpp"
 #include "berth/calibration/moved_environment.hpp"
-#include "berth/calibration/seen_through.hpp"
+#include "berth/watch/seen_through.hpp"
 #include "berth/scene/plausibility.hpp"
-#include "berth/scene/taught_robot.hpp"
+#include "berth/scene/calibrated_robot.hpp"
 
 namespace berth {
 namespace {
@@ -38,25 +38,25 @@ bool is_told(const CameraCalibration& camera, std::string_view key) {
 }
 
 /// T and D of the frames that were used, with the camera where it was found.
-WatchSettings normal_range(const TeachIn& teach_in, std::size_t camera,
+WatchSettings normal_range(const CalibrationData& calibration_data, std::size_t camera,
                            const CalibrationResult& result, const CalibrateSceneSettings& settings,
                            double bias_m) {
-  TaughtRobot taught(teach_in, result, camera);
-  const TeachInCamera& source = taught.source();
-  const FrameDisplacement displacement(*teach_in.model, teach_in.meshes, source.camera,
-                                       source.parent, taught.found().X_PC, bias_m);
+  CalibratedRobot calibrated(calibration_data, result, camera);
+  const CalibrationCamera& source = calibrated.source();
+  const FrameDisplacement displacement(*calibration_data.model, calibration_data.meshes, source.camera,
+                                       source.parent, calibrated.found().X_PC, bias_m);
   std::vector<double> seen_through;
   std::vector<double> displacement_m;
   for (std::size_t k = 0; k < source.frames.size(); ++k) {
     settings.fit.pause();
-    const RobotImage* robot = taught.draw(k, TeachInSide::after);
+    const RobotImage* robot = calibrated.draw(k, CalibrationSide::after);
     if (!robot) continue;
     DepthImage depth_m = source.frames[k].depth_m;
-    if (settings.correct_depth) depth_m = corrected(depth_m, taught.found().depth);
+    if (settings.correct_depth) depth_m = corrected(depth_m, calibrated.found().depth);
     seen_through.push_back(read_robot(depth_m, *robot, bias_m).seen_through());
     if (displacement_m.size() >= kMostDisplacements) continue;
     displacement_m.push_back(
-        displacement.measure(depth_m, *taught.joints(k, TeachInSide::after))
+        displacement.measure(depth_m, *calibrated.joints(k, CalibrationSide::after))
             .value_or(std::numeric_limits<double>::quiet_NaN()));
   }
   WatchSettings watch = learned_limits(seen_through, displacement_m);
@@ -112,9 +112,9 @@ void warn_of_changes(const std::vector<EnvironmentChange>& changes, const std::s
       camera, greatest->before, greatest->after, 100 * greatest->share));
 }
 
-std::vector<std::string> warnings_of(const SceneTeachIn& material, const CalibrationResult& found) {
+std::vector<std::string> warnings_of(const SceneCalibrationData& material, const CalibrationResult& found) {
   std::vector<std::string> warnings = material.warnings;
-  const std::vector<EnvironmentChange> changes = moved_environment(material.teach_in, found);
+  const std::vector<EnvironmentChange> changes = moved_environment(material.calibration_data, found);
   for (const CameraCalibration& camera : found.cameras) {
     warn_of_changes(changes, camera.camera, warnings);
   }
@@ -123,22 +123,22 @@ std::vector<std::string> warnings_of(const SceneTeachIn& material, const Calibra
 
 }  // namespace
 
-SceneCalibration calibrate_scene(const OpenScene& scene, const SceneTeachIn& material,
+SceneCalibration calibrate_scene(const OpenScene& scene, const SceneCalibrationData& material,
                                  const CalibrateSceneSettings& settings) {
-  const TeachIn& teach_in = material.teach_in;
+  const CalibrationData& calibration_data = material.calibration_data;
   SceneCalibration calibration;
-  calibration.found = calibrate(teach_in, settings.fit);
+  calibration.found = calibrate(calibration_data, settings.fit);
   const CalibrationResult& found = calibration.found;
   require_poses(scene, found);
   calibration.warnings = warnings_of(material, found);
   for (std::size_t c = 0; c < scene.cameras.size(); ++c) {
     settings.fit.pause();
-    const ViewSettings& present = scene.cameras[c].view->settings();
+    const CameraSettings& present = scene.cameras[c].view->settings();
     const bool corrects = settings.correct_depth && found.cameras[c].refused.empty();
     calibration.filters.push_back(
-        propose_filter(teach_in, c, found, corrects, present.self_filter, present.sensor));
+        propose_filter(calibration_data, c, found, corrects, present.self_filter, present.sensor));
     calibration.watches.push_back(
-        normal_range(teach_in, c, found, settings, calibration.filters[c].bias_m));
+        normal_range(calibration_data, c, found, settings, calibration.filters[c].bias_m));
     calibration.change.cameras.push_back(change_of(scene.cameras[c].source, found.cameras[c],
                                                    calibration.filters[c], calibration.watches[c],
                                                    corrects));

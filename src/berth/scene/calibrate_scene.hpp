@@ -1,24 +1,24 @@
-// Teach-in of a scene: all of it, as the command, and whoever else calibrates, does it.
+// Calibration of a scene: all of it, as the command, and whoever else calibrates, does it.
 #pragma once
 
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "berth/calibration/watch_settings.hpp"
+#include "berth/watch/watch_settings.hpp"
 #include "berth/scene/rewrite_scene.hpp"
-#include "berth/scene/scene_teach_in.hpp"
+#include "berth/scene/scene_calibration.hpp"
 
 namespace berth {
 
-/// What teach-in is to find, and to change.
+/// What calibration is to find, and to change.
 struct CalibrateSceneSettings {
   CalibrationSettings fit;
   /// Whether the depth error that was found is taken out of the readings from now on.
   bool correct_depth = false;
 };
 
-/// What teach-in found of a scene.
+/// What calibration found of a scene.
 struct SceneCalibration {
   CalibrationResult found;
   /// One for each camera, as below.
@@ -32,8 +32,8 @@ struct SceneCalibration {
 };
 
 /// Throws std::runtime_error that names file, camera and what was expected where nothing can be
-/// taught: an arm that never moves, a camera whose images no pose explains.
-SceneCalibration calibrate_scene(const OpenScene& scene, const SceneTeachIn& material,
+/// calibrated: an arm that never moves, a camera whose images no pose explains.
+SceneCalibration calibrate_scene(const OpenScene& scene, const SceneCalibrationData& material,
                                  const CalibrateSceneSettings& settings);
 
 }  // namespace berth

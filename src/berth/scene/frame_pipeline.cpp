@@ -2,20 +2,22 @@
 
 #include <optional>
 
-#include "berth/pipeline/asker.hpp"
+#include "berth/image_distance/image_query.hpp"
 #include "berth/pipeline/frame_pool.hpp"
+#include "berth/pipeline/observer.hpp"
+#include "berth/image_distance/image_method.hpp"
 
 namespace berth {
 namespace {
 
 class CpuPipeline : public FramePipeline {
  public:
-  CpuPipeline(const std::shared_ptr<const View>& view, GlBackend* gl) : observer_(view) {
-    if (runs_on_opengl(view->robot()->settings().method)) {
-      gl_asker_ = gl->make_asker(view->robot());
-    } else {
-      asker_.emplace(view->robot());
-    }
+  CpuPipeline(const OpenScene& scene, const OpenCamera& camera, GlBackend* gl)
+      : observer_(camera.view),
+        has_background_(camera.view->settings().sensor.has_background()) {
+    if (scene.joins_cameras()) return;
+    query_.emplace(scene.robot, scene.method, scene.image_settings,
+                   gl ? gl->make_method(scene.method) : make_image_method(scene.method));
   }
 
   void observe(DepthView depth_m, const JointState& at_exposure, FrameTime time) override {
@@ -23,10 +25,15 @@ class CpuPipeline : public FramePipeline {
     frame_.reset();
     frame_ = pool_.take();
     observer_.observe(depth_m, at_exposure, *frame_, time);
-    observer_.finish_watch(*frame_);
+    if (!is_told()) observer_.finish_watch(*frame_);
     mark(*frame_);
+    if (query_) query_->prepare(*frame_);
   }
-  const Answer& ask() override { return asker_ ? asker_->ask(*frame_) : gl_asker_->ask(*frame_); }
+  void tell_watch(const CameraWatch* found) override {
+    FramePipeline::tell_watch(found);
+    if (frame_) put_watch(*frame_);
+  }
+  const Result& ask() override { return query_->ask(*frame_); }
   const Exposure& exposure() const override { return *frame_; }
   std::array<std::int64_t, kPixelFateCount> fate_counts() override {
     return frame_->obstacles.count;
@@ -36,20 +43,23 @@ class CpuPipeline : public FramePipeline {
     observer_.learn_background(depth_m, frame);
   }
   void set_background(DepthView depth_m) override { observer_.set_background(depth_m); }
+  std::optional<DepthImage> background_m() const override {
+    return has_background_ ? std::optional(observer_.background_m()) : std::nullopt;
+  }
 
  private:
   Observer observer_;
-  std::optional<Asker> asker_;
-  std::unique_ptr<FrameAsker> gl_asker_;
+  bool has_background_;
+  std::optional<ImageQuery> query_;
   FramePool pool_;
   std::shared_ptr<Frame> frame_;
 };
 
 }  // namespace
 
-std::unique_ptr<FramePipeline> make_cpu_pipeline(const std::shared_ptr<const View>& view,
+std::unique_ptr<FramePipeline> make_cpu_pipeline(const OpenScene& scene, const OpenCamera& camera,
                                                  GlBackend* gl) {
-  return std::make_unique<CpuPipeline>(view, gl);
+  return std::make_unique<CpuPipeline>(scene, camera, gl);
 }
 
 }  // namespace berth

@@ -3,24 +3,30 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 
-#include "berth/pipeline/answer.hpp"
 #include "berth/pipeline/frame.hpp"
-#include "berth/pipeline/observer.hpp"
-#include "berth/pipeline/view.hpp"
+#include "berth/pipeline/result.hpp"
 #include "berth/scene/gl_backend.hpp"
 
 namespace berth {
 
-/// One camera's frames from depth image to answer, whatever they are computed on.
+/// One camera's frames, whatever they are computed on.
 class FramePipeline {
  public:
   virtual ~FramePipeline() = default;
 
   virtual void observe(DepthView depth_m, const JointState& at_exposure, FrameTime time) = 0;
-  /// The rest is about the last image. At the joint angles of its exposure:
-  virtual const Answer& ask() = 0;
+  /// The rest is about the last image. Where the scene's method compares images, its result at the
+  /// joint angles of its exposure:
+  virtual const Result& ask() = 0;
   virtual const Exposure& exposure() const = 0;
+  /// Tells in the last frame and those after it what somebody else found out of whether the camera
+  /// stands where it should; null: it does. Nothing waits for the pipeline's own watch from then on.
+  virtual void tell_watch(const CameraWatch* found) {
+    is_told_ = true;
+    found_ = found ? std::optional(*found) : std::nullopt;
+  }
   /// Whatever its frames say from now on, the camera is implausible.
   void distrust() { is_distrusted_ = true; }
   virtual std::array<std::int64_t, kPixelFateCount> fate_counts() = 0;
@@ -31,17 +37,32 @@ class FramePipeline {
   virtual void learn_background(DepthView, const Frame&) {}
   /// Begins with this one.
   virtual void set_background(DepthView) {}
+  /// What was learned; none where there is nothing to learn.
+  virtual std::optional<DepthImage> background_m() const { return {}; }
 
  protected:
   /// For each frame, once it is observed.
-  void mark(Exposure& exposure) const { exposure.watch.is_implausible |= is_distrusted_; }
+  void mark(Exposure& exposure) {
+    own_ = exposure.watch;
+    put_watch(exposure);
+  }
+  /// The same after tell_watch().
+  void put_watch(Exposure& exposure) const {
+    exposure.watch = found_.value_or(own_);
+    if (is_told_ && !found_) exposure.watch.has_moved = exposure.watch.is_implausible = false;
+    exposure.watch.is_implausible |= is_distrusted_;
+  }
+  bool is_told() const { return is_told_; }
 
  private:
+  CameraWatch own_;
+  std::optional<CameraWatch> found_;
+  bool is_told_ = false;
   bool is_distrusted_ = false;
 };
 
-/// Observes on the CPU; asks on `gl` if the robot's method runs there.
-std::unique_ptr<FramePipeline> make_cpu_pipeline(const std::shared_ptr<const View>& view,
+/// Observes on the CPU; asks on `gl` if the scene's method runs there.
+std::unique_ptr<FramePipeline> make_cpu_pipeline(const OpenScene& scene, const OpenCamera& camera,
                                                  GlBackend* gl);
 
 }  // namespace berth

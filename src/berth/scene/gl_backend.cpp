@@ -2,11 +2,10 @@
 
 #include <optional>
 
-#include "berth/opengl/gl_asker.hpp"
-#include "berth/opengl/gl_context.hpp"
-#include "berth/opengl/gl_evaluate.hpp"
-#include "berth/opengl/gl_observer.hpp"
-#include "berth/pipeline/asker.hpp"
+#include "berth/image_distance/image_query.hpp"
+#include "berth/image_distance/opengl/gl_context.hpp"
+#include "berth/image_distance/opengl/gl_image_query.hpp"
+#include "berth/image_distance/opengl/gl_observer.hpp"
 #include "berth/pipeline/frame_pool.hpp"
 #include "berth/scene/frame_pipeline.hpp"
 
@@ -15,21 +14,23 @@ namespace {
 
 class GlPipeline : public FramePipeline {
  public:
-  explicit GlPipeline(const std::shared_ptr<const View>& view)
-      : observer_(view), gl_frame_(view->camera()) {
-    if (runs_on_opengl(view->robot()->settings().method)) {
-      gl_asker_.emplace(view->robot());
+  GlPipeline(const OpenScene& scene, const OpenCamera& camera)
+      : observer_(camera.view), gl_frame_(camera.view->camera()) {
+    if (scene.joins_cameras()) return;
+    if (runs_on_opengl(scene.method)) {
+      gl_query_.emplace(scene.robot, scene.method, scene.image_settings);
     } else {
-      asker_.emplace(view->robot());
+      query_.emplace(scene.robot, scene.method, scene.image_settings);
     }
   }
 
   void observe(DepthView depth_m, const JointState& at_exposure, FrameTime time) override {
     observer_.observe(depth_m, at_exposure, gl_frame_, time);
     mark(gl_frame_);
+    if (query_) query_->prepare(*frame());
   }
-  const Answer& ask() override {
-    return gl_asker_ ? gl_asker_->ask(gl_frame_) : asker_->ask(*frame());
+  const Result& ask() override {
+    return gl_query_ ? gl_query_->ask(gl_frame_) : query_->ask(*frame_);
   }
   const Exposure& exposure() const override { return gl_frame_; }
   std::array<std::int64_t, kPixelFateCount> fate_counts() override {
@@ -44,20 +45,11 @@ class GlPipeline : public FramePipeline {
 
  private:
   GlObserver observer_;
-  std::optional<Asker> asker_;
-  std::optional<GlAsker> gl_asker_;
+  std::optional<ImageQuery> query_;
+  std::optional<GlImageQuery> gl_query_;
   GlFrame gl_frame_;
   FramePool pool_;
   std::shared_ptr<Frame> frame_;
-};
-
-class FrameAskerOnGl : public FrameAsker {
- public:
-  explicit FrameAskerOnGl(const std::shared_ptr<const Robot>& robot) : asker_(robot) {}
-  const Answer& ask(const Frame& frame) override { return asker_.ask(frame); }
-
- private:
-  GlAsker asker_;
 };
 
 class OpenGl : public GlBackend {
@@ -66,20 +58,16 @@ class OpenGl : public GlBackend {
 
   std::string renderer() const override { return context_.renderer(); }
   void check(const std::string& what) override { context_.check(what); }
-  std::unique_ptr<FramePipeline> make_pipeline(const std::shared_ptr<const View>& view) override {
-    return std::make_unique<GlPipeline>(view);
+  std::unique_ptr<FramePipeline> make_pipeline(const OpenScene& scene,
+                                               const OpenCamera& camera) override {
+    return std::make_unique<GlPipeline>(scene, camera);
   }
-  std::unique_ptr<FrameAsker> make_asker(const std::shared_ptr<const Robot>& robot) override {
-    return std::make_unique<FrameAskerOnGl>(robot);
-  }
-  void evaluate(Method method, const Question& question, LinkDistances& out) override {
-    if (!evaluator_) evaluator_.emplace();
-    evaluator_->evaluate(method, question, out);
+  std::unique_ptr<ImageMethod> make_method(Method method) override {
+    return make_gl_method(method);
   }
 
  private:
   GlContext context_;
-  std::optional<GlEvaluator> evaluator_;
 };
 
 }  // namespace

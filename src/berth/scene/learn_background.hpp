@@ -1,4 +1,4 @@
-// Inside scene/ only: what all images of a camera teach of the place.
+// Inside scene/ only: what all images of a camera show of the place.
 #pragma once
 
 #include <functional>

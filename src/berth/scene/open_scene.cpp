@@ -134,14 +134,20 @@ OpenCamera& add_camera(const SceneFile& source, const Camera& pinhole, OpenScene
   const SceneCamera& from = source.cameras[scene.cameras.size()];
   OpenCamera& camera = scene.cameras.emplace_back();
   camera.source = from;
-  const CameraMount mount{pinhole, from.parent_link, from.X_PC};
+  const CameraMount mount{pinhole, from.parent_link, from.X_PC, from.name};
   camera.view = with_file_named(
-      source, [&] { return std::make_shared<const View>(scene.robot, mount, from.settings); });
+      source, [&] { return std::make_shared<const MountedCamera>(scene.robot, mount, from.settings); });
   find_joints(*scene.joints, camera);
   if (from.background) {
     camera.background_m = read_depth_png(*from.background, pinhole, kBackgroundScale_m);
   }
   return camera;
+}
+
+void take_method(const SceneFile& source, OpenScene& scene) {
+  scene.method = source.evaluation.method;
+  scene.image_settings = source.evaluation.images;
+  with_file_named(source, [&] { validate(scene.image_settings); });
 }
 
 }  // namespace
@@ -165,6 +171,7 @@ std::vector<Attachment> attachments_of(const SceneFile& scene) {
 OpenScene open_scene(const SceneFile& source, const std::function<void()>& before_image) {
   OpenScene scene;
   scene.file = source.file;
+  scene.warnings = source.warnings;
   scene.joint_offsets = source.joint_offsets;
   RobotModel model = load_robot(source.robot);
   scene.joints = std::make_shared<const JointTrajectory>(read_trajectory(model, source));
@@ -172,6 +179,7 @@ OpenScene open_scene(const SceneFile& source, const std::function<void()>& befor
     return std::make_shared<const Robot>(std::move(model), source.evaluation,
                                          attachments_of(source));
   });
+  take_method(source, scene);
   scene.separation = checked_separation(source);
   std::size_t kept_bytes = 0;
   for (const SceneCamera& from : source.cameras) {
@@ -194,6 +202,7 @@ OpenScene open_scene(const std::filesystem::path& file) { return open_scene(read
 OpenScene reopen_scene(const OpenScene& before, const SceneFile& changed) {
   OpenScene scene;
   scene.file = changed.file;
+  scene.warnings = changed.warnings;
   scene.joint_offsets = changed.joint_offsets;
   scene.joints = changed.joint_offsets == before.joint_offsets
                      ? before.joints
@@ -201,6 +210,7 @@ OpenScene reopen_scene(const OpenScene& before, const SceneFile& changed) {
                            read_trajectory(before.robot->model(), changed));
   scene.robot = with_file_named(
       changed, [&] { return with_settings(before.robot, changed.evaluation); });
+  take_method(changed, scene);
   scene.separation = checked_separation(changed);
   scene.frame_count = before.frame_count;
   for (const OpenCamera& from : before.cameras) {

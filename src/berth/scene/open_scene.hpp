@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "berth/pipeline/view.hpp"
+#include "berth/pipeline/mounted_camera.hpp"
 #include "berth/robot/joint_trajectory.hpp"
 #include "berth/scene/scene_file.hpp"
 #include "berth/types/joint_state.hpp"
@@ -18,7 +18,7 @@ namespace berth {
 /// A camera of a scene: its view of the robot, its images and the robot's joints in each of them.
 struct OpenCamera {
   SceneCamera source;
-  std::shared_ptr<const View> view;
+  std::shared_ptr<const MountedCamera> view;
   /// The joint angles when each image was exposed.
   std::vector<JointState> at_exposure;
   /// And how they were found: all NaN where this is not ok.
@@ -35,7 +35,12 @@ struct OpenCamera {
 /// A scene whose files were all read and checked.
 struct OpenScene {
   std::filesystem::path file;
+  /// SceneFile::warnings.
+  std::vector<std::string> warnings;
   std::shared_ptr<const Robot> robot;
+  /// How its frames are asked, and with what settings where images are compared.
+  Method method = Method::mesh;
+  ImageSettings image_settings;
   /// With the file's offsets in them.
   std::shared_ptr<const JointTrajectory> joints;
   std::map<std::string, double> joint_offsets;
@@ -43,6 +48,9 @@ struct OpenScene {
   std::size_t frame_count = 0;  ///< of all cameras
   /// None: nothing is monitored.
   std::optional<SeparationSettings> separation;
+
+  /// Whether one result is that of all cameras; else it is that of one image.
+  bool joins_cameras() const { return !compares_images(method); }
 };
 
 /// What the scene's `attached:` describes, with its meshes. Throws std::runtime_error as

@@ -78,7 +78,7 @@ bool does_robot_move(const CameraBelief& given) {
 std::string dead_text(RobotInImages& images, const RobotReadings& robot) {
   if (with_reading(robot) + robot.none < kLeastJudgedPixels) return {};
   const ReadingRange range = reading_range(images);
-  if (static_cast<double>(range.readings) < kLeastReadings * static_cast<double>(range.pixels)) {
+  if (static_cast<double>(range.readings) < kLeastReadOfImage * static_cast<double>(range.pixels)) {
     return "hardly a pixel of its images has a reading";
   }
   if (range.least_m == range.most_m) {

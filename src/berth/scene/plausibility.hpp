@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "berth/calibration/seen_through.hpp"
+#include "berth/watch/seen_through.hpp"
 #include "berth/scene/open_scene.hpp"
 
 namespace berth {

@@ -1,4 +1,4 @@
-// A user's scene file with what teach-in found written into it.
+// A user's scene file with what calibration found written into it.
 #pragma once
 
 #include <filesystem>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "berth/render/robot_renderer.hpp"
 #include "berth/files/png.hpp"
 #include "berth/robot/kinematics.hpp"
 
@@ -64,7 +65,7 @@ const DepthImage& RobotInImages::depth_m(std::size_t camera, std::size_t frame) 
 }
 
 RobotReadings RobotInImages::readings(const CameraBelief& belief) {
-  const View view(scene_.robot, belief.mount);
+  const MountedCamera view(scene_.robot, belief.mount);
   RobotRenderer renderer(scene_.robot->meshes(), belief.mount.camera);
   RobotReadings sum;
   for (std::size_t i = 0; i < frames_.size(); ++i) add(readings(belief, view, renderer, i), sum);
@@ -72,12 +73,12 @@ RobotReadings RobotInImages::readings(const CameraBelief& belief) {
 }
 
 RobotReadings RobotInImages::readings(const CameraBelief& belief, std::size_t i) {
-  const View view(scene_.robot, belief.mount);
+  const MountedCamera view(scene_.robot, belief.mount);
   RobotRenderer renderer(scene_.robot->meshes(), belief.mount.camera);
   return readings(belief, view, renderer, i);
 }
 
-RobotReadings RobotInImages::readings(const CameraBelief& belief, const View& view,
+RobotReadings RobotInImages::readings(const CameraBelief& belief, const MountedCamera& view,
                                       RobotRenderer& renderer, std::size_t i) {
   const DepthImage& read_m = depth_m(belief.images_of, frames_[i]);
   if (read_m.pixels().empty()) return {};

@@ -4,7 +4,7 @@
 #include <map>
 #include <vector>
 
-#include "berth/calibration/seen_through.hpp"
+#include "berth/watch/seen_through.hpp"
 #include "berth/render/robot_renderer.hpp"
 #include "berth/scene/open_scene.hpp"
 
@@ -51,7 +51,7 @@ class RobotInImages {
   const DepthImage& depth_m(std::size_t camera, std::size_t frame);
 
  private:
-  RobotReadings readings(const CameraBelief& belief, const View& view, RobotRenderer& renderer,
+  RobotReadings readings(const CameraBelief& belief, const MountedCamera& view, RobotRenderer& renderer,
                          std::size_t i);
 
   const OpenScene& scene_;

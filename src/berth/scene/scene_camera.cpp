@@ -86,7 +86,7 @@ Pose read_pose(const YamlMap& pose) {
          (quaternion ? read_quaternion(*quaternion) : rotation_of_rpy(read_rpy(*rpy)));
 }
 
-SceneCamera read_scene_camera(const YamlValue& value, const ViewSettings& settings) {
+SceneCamera read_scene_camera(const YamlValue& value, const CameraSettings& settings) {
   const YamlMap map(value,
                     {"name", "info", "pose", "depth", "depth_scale", "depth_offset_m", "stamps", "near_m", "far_m", "clock_offset_s", "background",
                      "self_filter",

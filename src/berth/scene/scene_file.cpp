@@ -6,6 +6,7 @@
 
 #include "berth/files/read_file.hpp"
 #include "berth/files/yaml_value.hpp"
+#include "berth/scene/former_settings.hpp"
 #include "berth/scene/scene_camera.hpp"
 #include "berth/scene/settings_yaml.hpp"
 
@@ -30,7 +31,7 @@ RobotSettings read_robot(const YamlValue& value) {
   return robot;
 }
 
-std::vector<SceneCamera> read_cameras(const YamlValue& value, const ViewSettings& settings) {
+std::vector<SceneCamera> read_cameras(const YamlValue& value, const CameraSettings& settings) {
   std::vector<SceneCamera> cameras;
   for (const YamlValue& item : value.list()) {
     SceneCamera camera = read_scene_camera(item, settings);
@@ -115,7 +116,7 @@ SeparationSettings read_separation(const YamlValue& value) {
 
 }  // namespace
 
-void read_view_settings(const YamlMap& map, ViewSettings& settings) {
+void read_view_settings(const YamlMap& map, CameraSettings& settings) {
   if (const auto filter = map.find("self_filter")) {
     const YamlMap keys = read_settings(*filter, settings.self_filter, {"link_padding_m"});
     if (const auto paddings = keys.find("link_padding_m")) {
@@ -134,14 +135,16 @@ SceneFile read_scene(const std::filesystem::path& file) {
 }
 
 SceneFile parse_scene(const std::filesystem::path& file, const std::string& text) {
+  const YamlValue document = parse_yaml(file, text);
   const YamlMap map(
-      parse_yaml(file, text),
+      document,
       {"robot", "cameras", "attached", "joints", "joint_offsets", "fixed_joints", "self_filter",
        "sensor", "space", "watch", "evaluation", "time", "separation"});
   SceneFile scene;
   scene.file = file;
+  scene.warnings = former_names_in(document);
   scene.robot = read_robot(map.at("robot"));
-  ViewSettings settings;
+  CameraSettings settings = settings_of_real_camera();
   read_view_settings(map, settings);
   scene.cameras = read_cameras(map.at("cameras"), settings);
   if (const auto attached = map.find("attached")) scene.attached = read_attached(*attached);

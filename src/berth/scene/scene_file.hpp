@@ -8,8 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "berth/pipeline/view.hpp"
+#include "berth/pipeline/mounted_camera.hpp"
 #include "berth/robot/robot_model.hpp"
+#include "berth/scene/scene_evaluation.hpp"
 #include "berth/separation/settings.hpp"
 #include "berth/types/camera.hpp"
 
@@ -37,7 +38,7 @@ struct SceneCamera {
   /// The background to begin with, in place of one that is learned from `depth`.
   std::optional<std::filesystem::path> background;
   /// Those of the scene, with the camera's own over them.
-  ViewSettings settings;
+  CameraSettings settings = settings_of_real_camera();
 };
 
 /// The unit of a background's PNG, whatever that of the camera's images is.
@@ -61,6 +62,8 @@ struct SceneAttachment {
 /// A scene as its file describes it.
 struct SceneFile {
   std::filesystem::path file;
+  /// What the file says in words that will not be read for long; for people.
+  std::vector<std::string> warnings;
   RobotSettings robot;
   std::vector<SceneCamera> cameras;
   std::vector<SceneAttachment> attached;
@@ -71,7 +74,7 @@ struct SceneFile {
   std::map<std::string, double> fixed_joints;
   /// Defaults where the file says nothing; the limits between joint samples and images are then
   /// kOnlyBetweenSamples.
-  EvaluationSettings evaluation;
+  SceneEvaluation evaluation;
   /// None: nothing is monitored.
   std::optional<SeparationSettings> separation;
 };

@@ -6,8 +6,8 @@
 #include <chrono>
 #include <stdexcept>
 
-#include "berth/scene/answer_result.hpp"
 #include "berth/scene/frame_pipeline.hpp"
+#include "berth/scene/gl_backend.hpp"
 #include "berth/scene/learn_background.hpp"
 
 namespace berth {
@@ -28,42 +28,61 @@ std::vector<CameraPlausibility> plausible_cameras(const OpenScene& scene) {
 
 SceneRun::SceneRun(const OpenScene& scene, const BackendChoice& where,
                    const std::function<void()>& before_image)
-    : scene_(scene),
-      plausibility_(plausible_cameras(scene)),
-      newest_(scene.cameras.size()),
-      kept_(scene.cameras.size()),
-      frames_(scene.cameras.size()) {
-  const bool on_gl = where.backend == Backend::opengl;
-  if (on_gl || runs_on_opengl(scene.robot->settings().method)) {
-    gl_ = open_gl_backend(where.gl_device);
-  }
+    : SceneRun(scene, where, plausible_cameras(scene)) {
   for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
-    const auto& view = scene.cameras[i].view;
-    try {
-      pipelines_.push_back(on_gl ? gl_->make_pipeline(view) : make_cpu_pipeline(view, gl_.get()));
-    } catch (const std::invalid_argument& error) {
-      throw std::runtime_error(fmt::format("{}: {}", scene.file.string(), error.what()));
-    }
-    if (plausibility_[i].is_implausible) {
-      pipelines_[i]->distrust();
-    } else {
-      begin_background(i, before_image);
-    }
+    if (!plausibility_[i].is_implausible) begin_background(i, before_image);
   }
-  if (has_mesh()) asker_.emplace(scene.robot);
   make_monitors();
-  steps_ = scene_steps(scene);
+}
+
+SceneRun::SceneRun(const OpenScene& scene, SingleSteps)
+    : SceneRun(scene, BackendChoice{}, std::vector<CameraPlausibility>(scene.cameras.size())) {
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+    pipelines_[i]->tell_watch(nullptr);
+    if (!scene.cameras[i].view->settings().sensor.has_background()) continue;
+    if (scene.cameras[i].background_m) pipelines_[i]->set_background(*scene.cameras[i].background_m);
+  }
+}
+
+SceneRun::SceneRun(const OpenScene& scene, const BackendChoice& where,
+                   std::vector<CameraPlausibility> known)
+    : scene_(scene),
+      plausibility_(std::move(known)),
+      newest_(scene.cameras.size()),
+      steps_(scene_steps(scene)),
+      kept_(scene.cameras.size()) {
+  make_pipelines(where);
+  if (!scene.joins_cameras()) return;
+  std::vector<std::string> names;
+  for (const OpenCamera& camera : scene.cameras) names.push_back(camera.source.name);
+  query_.emplace(scene.robot, std::move(names));
 }
 
 SceneRun::~SceneRun() = default;
 
-bool SceneRun::has_mesh() const { return scene_.robot->settings().method == Method::mesh; }
+void SceneRun::make_pipelines(const BackendChoice& where) {
+  const bool on_gl = where.backend == Backend::opengl;
+  const bool asks_gl = runs_on_opengl(scene_.method);
+  if (on_gl || asks_gl) gl_ = open_gl_backend(where.gl_device);
+  for (std::size_t i = 0; i < scene_.cameras.size(); ++i) {
+    const OpenCamera& camera = scene_.cameras[i];
+    try {
+      pipelines_.push_back(on_gl
+                               ? gl_->make_pipeline(scene_, camera)
+                               : make_cpu_pipeline(scene_, camera, asks_gl ? gl_.get() : nullptr));
+    } catch (const std::invalid_argument& error) {
+      throw std::runtime_error(fmt::format("{}: {}", scene_.file.string(), error.what()));
+    }
+    if (plausibility_[i].is_implausible) pipelines_[i]->distrust();
+  }
+}
 
 void SceneRun::make_monitors() {
   if (!scene_.separation) return;
   try {
-    const SeparationMonitor monitor(scene_.robot, *scene_.separation);
-    monitors_.assign(has_mesh() ? 1 : scene_.cameras.size(), monitor);
+    for (std::size_t i = 0; i < (query_ ? 1 : scene_.cameras.size()); ++i) {
+      monitors_.emplace_back(scene_.robot, *scene_.separation);
+    }
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(fmt::format("{}: {}", scene_.file.string(), error.what()));
   }
@@ -87,6 +106,16 @@ void SceneRun::observe(const ImageStep& step) {
                                    camera.exposure_time[step.frame]);
 }
 
+void SceneRun::observe_alone(const ImageStep& step) {
+  const std::optional<std::size_t> before = newest_[step.camera].number;
+  if (before == step.frame) return;
+  const SensorSettings& sensor = scene_.cameras[step.camera].view->settings().sensor;
+  const auto memory = static_cast<std::size_t>(std::max(1, sensor.average_frames));
+  const bool goes_on = before && *before + 1 == step.frame;
+  std::size_t first = goes_on ? step.frame : step.frame + 1 - std::min(memory, step.frame + 1);
+  for (; first <= step.frame; ++first) observe({step.camera, first, step.stamp_s});
+}
+
 bool SceneRun::next() {
   if (step_ > 0 && gl_) gl_->check(camera().source.name);
   if (step_ == steps_.size()) return false;
@@ -94,80 +123,76 @@ bool SceneRun::next() {
   if (observed_ >= step_) return true;
   const std::size_t known = steps_known_at(scene_, steps_, step_ - 1);
   while (observed_ < known) observe(steps_[observed_++]);
-  if (has_mesh()) assign_frames();
+  keep_frames();
   return true;
 }
 
-void SceneRun::assign_frames() {
-  for (std::size_t c = 0; c < frames_.size(); ++c) {
-    if (newest_[c].number) kept_[c] = pipelines_[c]->frame();
-    frames_[c] = kept_[c].get();
+std::optional<DepthImage> SceneRun::background_m(std::size_t camera) const {
+  return pipelines_[camera]->background_m();
+}
+
+void SceneRun::go_to(std::size_t step, const Result* found) {
+  step_ = step + 1;
+  observed_ = steps_known_at(scene_, steps_, step);
+  std::vector<bool> has_image(scene_.cameras.size());
+  for (std::size_t i = observed_; i-- > 0;) {
+    const ImageStep& at = steps_[i];
+    if (has_image[at.camera]) continue;
+    if (!query_ && at.camera != steps_[step].camera) break;
+    has_image[at.camera] = true;
+    observe_alone(at);
   }
-  // One camera's frame is new whenever it is asked.
-  const std::optional<double> now_s =
-      frames_.size() > 1 ? std::optional(step().stamp_s) : std::nullopt;
-  frame_set_.assign(frames_, scene_.robot->settings().time, now_s);
+  for (std::size_t c = 0; c < has_image.size(); ++c) {
+    if (!has_image[c]) newest_[c].number.reset();
+    pipelines_[c]->tell_watch(found && query_ ? &found->cameras[c].watch : nullptr);
+  }
+  keep_frames();
+}
+
+void SceneRun::keep_frames() {
+  if (!query_ && gl_) return;
+  for (std::size_t c = 0; c < kept_.size(); ++c) {
+    kept_[c] = newest_[c].number ? pipelines_[c]->frame() : nullptr;
+  }
 }
 
 std::shared_ptr<const Frame> SceneRun::frame() { return pipelines_[step().camera]->frame(); }
 
-FrameResult SceneRun::ask(int repeat) {
+Result SceneRun::ask(int repeat) {
   std::vector<double> times_us;
-  const Answer* answer = nullptr;
+  const Result* result = nullptr;
   for (int i = 0; i < std::max(1, repeat); ++i) {
-    if (i > 0 && asker_) asker_->forget();
+    if (i > 0 && query_) query_->forget();
     const auto start = std::chrono::steady_clock::now();
-    answer = asker_ ? &asker_->ask(frame_set_) : &pipelines_[step().camera]->ask();
+    result = query_ ? &query_->ask({.frames = kept_}) : &pipelines_[step().camera]->ask();
     const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
     times_us.push_back(took.count());
   }
-  FrameResult result = result_of(*answer);
-  if (repeat > 0) result.timing = timing_of(std::move(times_us));
-  result.timing_name = "ask_us";
-  if (!monitors_.empty()) result.separation = &look(*answer, result);
-  return result;
+  Result told = *result;
+  if (repeat > 0) told.timing = timing_of(std::move(times_us));
+  tell_scene(told);
+  monitor(told);
+  return told;
 }
 
-const Separation& SceneRun::look(const Answer& answer, const FrameResult& result) {
-  scene_.joints->at(answer.joints_stamp_s, scene_.robot->settings().time.joints, joints_);
-  scene_.joints->velocity(answer.joints_stamp_s, velocity_);
-  std::vector<CameraState> states;
-  for (const CameraResult& camera : result.cameras) states.push_back(camera.state);
-  if (has_mesh()) {
-    return monitors_.front().look(
-        {answer, states, kept_, joints_.position, velocity_, result.stamp_s});
-  }
-  const std::shared_ptr<const Frame> shown = frame();
-  return monitors_[step().camera].look(
-      {answer, states, {&shown, 1}, joints_.position, velocity_, result.stamp_s});
-}
-
-FrameResult SceneRun::result_of(const Answer& answer) {
-  FrameResult result = berth::result_of(*scene_.robot, answer);
-  // Lines are counted where all cameras answer together.
-  result.frame = static_cast<int>(has_mesh() ? step_ - 1 : step().frame);
+void SceneRun::tell_scene(Result& result) {
+  // Lines are counted where all cameras are asked together.
+  result.frame = static_cast<int>(query_ ? step_ - 1 : step().frame);
   result.stamp_s = step().stamp_s;
   if (gl_) result.gl_renderer = gl_->renderer();
-  for (std::size_t c = 0; c < scene_.cameras.size(); ++c) {
-    if (has_mesh() || c == step().camera) result.cameras.push_back(camera_result(c, answer));
+  for (std::size_t i = 0; i < result.cameras.size(); ++i) {
+    const std::size_t c = query_ ? i : step().camera;
+    if (!newest_[c].number) continue;
+    result.cameras[i].frame = static_cast<int>(*newest_[c].number);
+    result.cameras[i].self_filter = pipelines_[c]->fate_counts();
   }
-  return result;
 }
 
-CameraResult SceneRun::camera_result(std::size_t c, const Answer& answer) {
-  CameraResult camera;
-  camera.name = scene_.cameras[c].source.name;
-  if (!newest_[c].number) return camera;
-  camera.frame = static_cast<int>(*newest_[c].number);
-  const Exposure& exposure = pipelines_[c]->exposure();
-  camera.X_BC = exposure.X_BC;
-  camera.self_filter = pipelines_[c]->fate_counts();
-  if (has_mesh()) {
-    camera.state = answer.cameras[c];
-  } else {
-    camera.state = camera_state(exposure, exposure.stamp_s, scene_.robot->settings().time);
-  }
-  return camera;
+void SceneRun::monitor(Result& result) {
+  if (monitors_.empty()) return;
+  scene_.joints->velocity(result.joints_stamp_s, velocity_);
+  SeparationMonitor& own = monitors_[query_ ? 0 : step().camera];
+  result.separation = own.update(result, velocity_, result.stamp_s);
 }
 
 }  // namespace berth

@@ -6,11 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "berth/pipeline/asker.hpp"
-#include "berth/pipeline/frame.hpp"
+#include "berth/pipeline/query.hpp"
 #include "berth/scene/backend.hpp"
-#include "berth/scene/frame_result.hpp"
-#include "berth/scene/gl_backend.hpp"
 #include "berth/scene/open_scene.hpp"
 #include "berth/scene/plausibility.hpp"
 #include "berth/scene/scene_steps.hpp"
@@ -19,6 +16,7 @@
 namespace berth {
 
 class FramePipeline;
+class GlBackend;
 
 /// The images of a scene, one after another, through the whole pipeline: what the command, and
 /// whoever else runs scenes, stands on.
@@ -26,9 +24,9 @@ class FramePipeline;
 ///     SceneRun run(scene);
 ///     while (run.next()) use(run.ask());
 ///
-/// With method `mesh` the images of all cameras come in the order of their stamps, and each answer
+/// With method `mesh` the images of all cameras come in the order of their stamps, and each result
 /// is that of the newest image of every camera; with a method that compares images they come camera
-/// by camera, and each answer is that of one image.
+/// by camera, and each result is that of one image.
 ///
 /// No image of a camera that is implausible (find_implausible) is used.
 class SceneRun {
@@ -41,6 +39,10 @@ class SceneRun {
   explicit SceneRun(
       const OpenScene& scene, const BackendChoice& where = {},
       const std::function<void()>& before_image = [] {});
+  /// For go_to() alone, without delay: no implausible camera is looked for, no background is
+  /// learned, no watch is waited for, and nothing is monitored.
+  struct SingleSteps {};
+  SceneRun(const OpenScene& scene, SingleSteps);
   ~SceneRun();
   SceneRun(const SceneRun&) = delete;
   SceneRun& operator=(const SceneRun&) = delete;
@@ -49,12 +51,21 @@ class SceneRun {
   /// none.
   bool next();
 
+  /// Observes what is known at this step, whatever was observed before: the newest image of each
+  /// camera, and those before it that its means are taken over. What needs all images before is
+  /// what `found` says of the cameras' watch, which is a run's result of this step; without it every
+  /// camera is taken to stand where it should. After this a run goes on by go_to() alone.
+  void go_to(std::size_t step, const Result* found = nullptr);
+  const std::vector<ImageStep>& steps() const { return steps_; }
+
   /// What was found of each camera before the first image.
   const std::vector<CameraPlausibility>& plausibility() const { return plausibility_; }
+  /// The background that this camera began with; none where its settings ask for none.
+  std::optional<DepthImage> background_m(std::size_t camera) const;
 
-  /// The rest is about that image. The answer, asked so often, with the times of the questions
-  /// where that is more than once; valid until the next image.
-  FrameResult ask(int repeat = 0);
+  /// The rest is about that image. The result, asked so often, with the times of the requests where
+  /// that is more than once.
+  Result ask(int repeat = 0);
   const OpenCamera& camera() const { return scene_.cameras[step().camera]; }
   std::size_t camera_number() const { return step().camera; }
   /// Its number among the images of its camera.
@@ -63,8 +74,19 @@ class SceneRun {
   /// The images in this program's memory; read back from the GPU at each call. It stays as it is
   /// for who holds it.
   std::shared_ptr<const Frame> frame();
+  /// The newest image of any camera; null where it has none yet, and with methods that compare
+  /// images those of the others.
+  std::shared_ptr<const Frame> frame(std::size_t camera) const { return kept_[camera]; }
+  /// Its number among the images of its camera.
+  std::size_t frame_number(std::size_t camera) const { return *newest_[camera].number; }
+  const DepthImage& sensor_depth_m(std::size_t camera) const { return newest_[camera].depth_m; }
+  /// What the images leave of space; only where one result is that of all cameras.
+  const FrameSet& frame_set() const { return query_->frames(); }
 
  private:
+  SceneRun(const OpenScene& scene, const BackendChoice& where,
+           std::vector<CameraPlausibility> known);
+
   /// One camera's newest image.
   struct Newest {
     std::optional<std::size_t> number;
@@ -72,14 +94,15 @@ class SceneRun {
   };
 
   const ImageStep& step() const { return steps_[step_ - 1]; }
-  bool has_mesh() const;
+  void make_pipelines(const BackendChoice& where);
   void make_monitors();
   void begin_background(std::size_t camera, const std::function<void()>& before_image);
   void observe(const ImageStep& step);
-  void assign_frames();
-  FrameResult result_of(const Answer& answer);
-  CameraResult camera_result(std::size_t camera, const Answer& answer);
-  const Separation& look(const Answer& answer, const FrameResult& result);
+  /// As if all images before it had been observed.
+  void observe_alone(const ImageStep& step);
+  void keep_frames();
+  void tell_scene(Result& result);
+  void monitor(Result& result);
 
   const OpenScene& scene_;
   std::vector<CameraPlausibility> plausibility_;
@@ -92,12 +115,10 @@ class SceneRun {
   std::size_t step_ = 0;
   std::size_t observed_ = 0;
   std::vector<std::shared_ptr<const Frame>> kept_;
-  std::vector<const Frame*> frames_;
-  FrameSet frame_set_;
-  std::optional<Asker> asker_;
-  /// Where the scene asks for them: one, or with methods that compare images one for each camera.
+  /// Only where one result is that of all cameras.
+  std::optional<Query> query_;
+  /// Where the scene asks for them: one, or one for each camera where each image has its result.
   std::vector<SeparationMonitor> monitors_;
-  JointState joints_;
   std::vector<double> velocity_;
 };
 

@@ -3,13 +3,6 @@
 #include <algorithm>
 
 namespace berth {
-namespace {
-
-bool answers_together(const OpenScene& scene) {
-  return scene.robot->settings().method == Method::mesh;
-}
-
-}  // namespace
 
 std::vector<ImageStep> scene_steps(const OpenScene& scene) {
   std::vector<ImageStep> steps;
@@ -19,7 +12,7 @@ std::vector<ImageStep> scene_steps(const OpenScene& scene) {
       steps.push_back({c, k, camera.at_exposure[k].stamp_s});
     }
   }
-  if (!answers_together(scene)) return steps;
+  if (!scene.joins_cameras()) return steps;
   std::stable_sort(steps.begin(), steps.end(),
                    [](const ImageStep& a, const ImageStep& b) { return a.stamp_s < b.stamp_s; });
   return steps;
@@ -28,7 +21,7 @@ std::vector<ImageStep> scene_steps(const OpenScene& scene) {
 std::size_t steps_known_at(const OpenScene& scene, const std::vector<ImageStep>& steps,
                            std::size_t step) {
   std::size_t known = step + 1;
-  while (answers_together(scene) && known < steps.size() &&
+  while (scene.joins_cameras() && known < steps.size() &&
          steps[known].stamp_s == steps[step].stamp_s) {
     ++known;
   }

@@ -10,8 +10,9 @@
 #include <type_traits>
 #include <vector>
 
-#include "berth/pipeline/view.hpp"
+#include "berth/pipeline/mounted_camera.hpp"
 #include "berth/robot/joints_at_time.hpp"
+#include "berth/scene/scene_evaluation.hpp"
 #include "berth/separation/settings.hpp"
 
 namespace berth {
@@ -96,7 +97,7 @@ std::string settings_table(std::string_view group) {
   const TableWriter write{table};
   bool is_known = true;
   if (group == "evaluation") {
-    const EvaluationSettings settings;
+    const SceneEvaluation settings;
     visit_settings(settings, write);
   } else if (group == "time") {
     // What read_scene() begins with.
@@ -108,7 +109,7 @@ std::string settings_table(std::string_view group) {
     visit_settings(settings, write);
   } else {
     is_known = false;
-    const ViewSettings view;
+    const CameraSettings view = settings_of_real_camera();
     visit_setting_groups(view, [&](std::string_view name, const auto& settings) {
       if (name != group) return;
       is_known = true;

@@ -13,11 +13,11 @@ namespace berth {
 
 /// The robot's silhouettes, grown: where a link ends against the background, or against a part of
 /// the robot that lies deeper, a disc around each outline pixel takes what lies not in front of it.
-/// Scenery grows too, but not for islands (outline.hpp).
+/// Environment grows too, but not for flying patches (outline.hpp).
 class GrownRobot {
  public:
   /// `grown` is PixelFate::padding (a disc has the link's padding for a radius, as large in the
-  /// image as that is at the pixel's depth), PixelFate::island (island_radius_m in its place) or
+  /// image as that is at the pixel's depth), PixelFate::flying_patch (flying_patch_radius_m in its place) or
   /// PixelFate::dilation (dilation_px pixels). All have to outlive the growth.
   void begin(const Camera& camera, const RobotImage& robot, const SelfFilterSettings& settings,
              const Outline& outline, PixelFate grown);

@@ -4,7 +4,7 @@ namespace berth {
 
 void Neighbourhood::begin(const Camera& camera, const RobotImage& robot,
                           const SelfFilterSettings& settings, const Outline& outline) {
-  grown_.begin(camera, robot, settings, outline, PixelFate::island);
+  grown_.begin(camera, robot, settings, outline, PixelFate::flying_patch);
   outline_ = &outline;
   grid_ = tiles_of(camera);
   has_discs_ = false;

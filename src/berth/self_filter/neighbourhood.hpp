@@ -8,7 +8,7 @@
 
 namespace berth {
 
-/// Where padding of island_radius_m would reach. Found tile by tile, when it is asked for: few
+/// Where padding of flying_patch_radius_m would reach. Found tile by tile, when it is asked for: few
 /// tiles have obstacles that hang on the robot.
 class Neighbourhood {
  public:

@@ -35,17 +35,17 @@ HWY_INLINE std::uint64_t outline_bits(D d, const OutlineRow& row, int u, int lef
   const auto is_robot = hn::Eq(z, z);
   if (hn::AllFalse(d, is_robot)) return 0;
   const auto most = hn::Mul(z, hn::Set(d, deeper));
-  const auto own_scenery = hn::And(is_robot, is_scenery(d, row.link_id[1] + u));
-  const bool has_scenery = !hn::AllFalse(d, own_scenery);
-  const bool has_links = !hn::AllFalse(d, hn::AndNot(own_scenery, is_robot));
+  const auto own_environment = hn::And(is_robot, is_environment(d, row.link_id[1] + u));
+  const bool has_environment = !hn::AllFalse(d, own_environment);
+  const bool has_links = !hn::AllFalse(d, hn::AndNot(own_environment, is_robot));
   const auto goes_on = [&](int i, int step) HWY_ATTR {
     const auto next_m = hn::LoadU(d, row.depth_m[i] + u + step);
-    auto scenery_goes_on = own_scenery;
-    if (has_scenery) scenery_goes_on = hn::And(own_scenery, belongs_to(d, z, next_m, tolerance));
-    if (!has_links) return scenery_goes_on;
-    const auto next_scenery = is_scenery(d, row.link_id[i] + u + step);
-    const auto link_goes_on = hn::AndNot(next_scenery, hn::Le(next_m, most));
-    return hn::Or(scenery_goes_on, hn::AndNot(own_scenery, link_goes_on));
+    auto environment_goes_on = own_environment;
+    if (has_environment) environment_goes_on = hn::And(own_environment, belongs_to(d, z, next_m, tolerance));
+    if (!has_links) return environment_goes_on;
+    const auto next_environment = is_environment(d, row.link_id[i] + u + step);
+    const auto link_goes_on = hn::AndNot(next_environment, hn::Le(next_m, most));
+    return hn::Or(environment_goes_on, hn::AndNot(own_environment, link_goes_on));
   };
   const auto goes_on_all_around =
       hn::And(hn::And(goes_on(1, left), goes_on(1, right)), hn::And(goes_on(0, 0), goes_on(2, 0)));

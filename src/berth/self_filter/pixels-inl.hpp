@@ -65,7 +65,7 @@ HWY_INLINE FatesOf<D> choose([[maybe_unused]] D d, hn::Mask<D> where, FatesOf<D>
 }
 
 template <class D>
-HWY_INLINE hn::Mask<D> is_scenery(D d, const LinkId* link_id) {
+HWY_INLINE hn::Mask<D> is_environment(D d, const LinkId* link_id) {
   const hn::Rebind<std::int32_t, D> di;
   const hn::Rebind<LinkId, D> dl;
   const auto id = hn::PromoteTo(di, hn::LoadU(dl, link_id));

@@ -27,7 +27,7 @@ void classify(const FilterRow& row, int u_begin, int u_end, const Tolerance& tol
     const auto reading = hn::LoadU(d, row.reading_m + u);
     // The depth is NaN, and the comparison false, where there is no link.
     const auto on_model = belongs_to(d, reading, hn::LoadU(d, row.robot_depth_m + u), tolerance);
-    auto value = choose(d, is_scenery(d, row.link_id + u), code(d, PixelFate::environment),
+    auto value = choose(d, is_environment(d, row.link_id + u), code(d, PixelFate::environment),
                         code(d, PixelFate::robot));
     value = choose(d, on_model, value, code(d, PixelFate::obstacle));
     value = choose(d, hn::IsNaN(reading), code(d, PixelFate::no_reading), value);

@@ -39,9 +39,9 @@ class Filter {
     if (dilates()) {
       workspace.dilation.begin(camera, robot, settings, workspace.outline, PixelFate::dilation);
     }
-    if (!has_islands()) return;
-    workspace.islands.neighbourhood.begin(camera, robot, settings, workspace.outline);
-    set_size(camera, workspace.islands.state);
+    if (!has_flying_patches()) return;
+    workspace.flying_patches.neighbourhood.begin(camera, robot, settings, workspace.outline);
+    set_size(camera, workspace.flying_patches.state);
   }
 
   void run() {
@@ -51,15 +51,15 @@ class Filter {
     if (dilates()) workspace_.dilation.end_discs();
     tbb::parallel_for(0, grid_.rows(), [this](int tile_row) { look_around(tile_row); });
     add_counts();
-    if (has_islands()) {
-      drop_islands(sensor_depth_m_, robot_, tolerance_, static_cast<float>(settings_.island_jump_m),
-                   workspace_.islands, out_);
+    if (has_flying_patches()) {
+      drop_flying_patches(sensor_depth_m_, robot_, tolerance_, static_cast<float>(settings_.flying_patch_jump_m),
+                   workspace_.flying_patches, out_);
     }
   }
 
  private:
   bool dilates() const { return settings_.dilation_px > 0; }
-  bool has_islands() const { return settings_.island_radius_m > 0; }
+  bool has_flying_patches() const { return settings_.flying_patch_radius_m > 0; }
   int v_begin(int tile_row) const { return tile_row * kTileHeight_px; }
   int v_end(int tile_row) const { return std::min(grid_.height_px, v_begin(tile_row + 1)); }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "berth/self_filter/grown_robot.hpp"
-#include "berth/self_filter/islands.hpp"
+#include "berth/self_filter/flying_patches.hpp"
 #include "berth/self_filter/settings.hpp"
 #include "berth/types/camera.hpp"
 #include "berth/types/obstacle_image.hpp"
@@ -17,7 +17,7 @@ struct SelfFilterWorkspace {
   Outline outline;
   GrownRobot padding;
   GrownRobot dilation;
-  IslandWorkspace islands;
+  FlyingPatchWorkspace flying_patches;
   /// Of each row of tiles.
   std::vector<std::array<std::int64_t, kPixelFateCount>> counts;
 };
@@ -32,7 +32,7 @@ void self_filter(const Camera& camera, DepthView sensor_depth_m, const RobotImag
                  ObstacleImage& out);
 
 /// The same, and then ignores what is left where `region`, the image of robot_region() at the same
-/// pose, shows nothing: last of all rules, since islands have to see where a piece goes. Throws
+/// pose, shows nothing: last of all rules, since flying patches have to see where a piece goes. Throws
 /// std::invalid_argument if settings.robot_region_scale asks for no region.
 void self_filter(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,
                  const RobotImage& region, const SelfFilterSettings& settings,

@@ -24,24 +24,24 @@ struct SelfFilterSettings {
   /// Padding of single links: link_padding_m[i] is that of the link with the id i + 1; where the
   /// list ends or holds NaN, padding_m.
   std::vector<double> link_padding_m;
-  /// Padding of all scenery (environment links); none: padding_m. Scenery pads around its outline
-  /// only, and has no islands: a thing that stands on a table stays.
+  /// Padding of all environment (environment links); none: padding_m. Environment pads around its outline
+  /// only, and has no flying patches: a thing that stands on a table stays.
   std::optional<double> environment_padding_m;
   /// The silhouette also grows by this number of pixels.
   int dilation_px = 0;
   /// Padding and dilation take what lies behind the robot's outline by no more than this: a camera
-  /// that smooths draws webs from the arm to what is behind it. Farther behind they take only what
+  /// that smooths draws flying pixels from the arm to what is behind it. Farther behind they take only what
   /// is on no surface (discs.hpp), as mixed pixels are: a thing that is seen there is one.
   double padding_depth_m = 0.3;
   /// A mixed pixel lies between two flat neighbours, more than this from each; 0 turns the rule
   /// off.
   double edge_jump_m = 0.03;
-  /// A camera that smooths draws webs from the robot's outline. Pieces of readings, joined by steps
-  /// in depth of up to island_jump_m max(1, z^2), are taken for such webs if steps lead from the
+  /// A camera that smooths draws flying pixels from the robot's outline. Pieces of readings, joined by steps
+  /// in depth of up to flying_patch_jump_m max(1, z^2), are taken for such flying pixels if steps lead from the
   /// robot's own readings to them and they lie wholly where padding of this length would reach; 0
   /// turns the rule off.
-  double island_radius_m = 0.07;
-  double island_jump_m = 0.03;
+  double flying_patch_radius_m = 0.07;
+  double flying_patch_jump_m = 0.03;
   /// The robot-shaped region of surveillance (Hirt 3.1.1): obstacles that are not seen through the
   /// robot enlarged this many times (robot_region) are **ignored**, however near they are in space;
   /// the thesis's picture uses 6. It is uneven: wide around thick links, narrow around thin ones,
@@ -72,7 +72,7 @@ void visit_settings(Settings& s, Visitor&& visit) {
          "a reading beside the robot within this length is taken for the robot too"},
         s.padding_m);
   visit({"environment_padding_m", kNotNegative,
-         "the same beside scenery (environment_links); none: as padding_m"},
+         "the same beside environment (environment_links); none: as padding_m"},
         s.environment_padding_m);
   visit({"padding_depth_m", kNotNegative,
          "padding and dilation take nothing farther behind the robot than this, but mixed pixels"},
@@ -84,13 +84,13 @@ void visit_settings(Settings& s, Visitor&& visit) {
          "a single pixel between two flat surfaces is dropped where it is farther than this from "
          "both (times z² beyond 1 m); 0 is off"},
         s.edge_jump_m);
-  visit({"island_radius_m", kNotNegative,
+  visit({"flying_patch_radius_m", kNotNegative,
          "a small piece that touches the robot's own readings and stays within this distance of "
          "the robot is dropped; 0 is off"},
-        s.island_radius_m);
-  visit({"island_jump_m", kNotNegative,
+        s.flying_patch_radius_m);
+  visit({"flying_patch_jump_m", kNotNegative,
          "two neighbouring pixels are of one piece where their depths differ by no more than this"},
-        s.island_jump_m);
+        s.flying_patch_jump_m);
   visit({"robot_region_scale",
          {.least = 1, .has_off = true},
          "what is not seen through the robot enlarged so many times is ignored, however near "

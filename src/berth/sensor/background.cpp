@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "berth/self_filter/scenery.hpp"
+#include "berth/self_filter/environment.hpp"
 #include "berth/sensor/noise.hpp"
 
 namespace berth {
@@ -16,7 +16,7 @@ SelfFilterSettings clearance(double clearance_m) {
   settings.tolerance_m = settings.padding_depth_m = 1e6;  // all depths
   settings.padding_m = clearance_m;
   settings.edge_jump_m = 0;
-  settings.island_radius_m = 0;
+  settings.flying_patch_radius_m = 0;
   return settings;
 }
 
@@ -28,9 +28,9 @@ void Background::learn(const Camera& camera, DepthView sensor_depth_m, const Rob
     count_.resize(camera.width_px, camera.height_px, 0);
     least_m_.resize(camera.width_px, camera.height_px, kNoDepth);
   }
-  // Readings in front of scenery may be learned, so it must not cover them.
+  // Readings in front of environment may be learned, so it must not cover them.
   links_ = robot;
-  take_out_scenery(links_);
+  take_out_environment(links_);
   self_filter(camera, sensor_depth_m, links_, clearance(settings.background_clearance_m),
               workspace_, far_from_robot_);
   tbb::parallel_for(0, camera.height_px, [&](int v) {

@@ -11,7 +11,7 @@ namespace berth {
 inline constexpr float kHoleDepth_m = 0.01F;
 
 /// Gives the holes a depth by the policy, and the fate `hole`: `no_reading` pixels that the model,
-/// robot or scenery, does not cover. Only adds obstacles.
+/// robot or environment, does not cover. Only adds obstacles.
 void fill_holes(HolePolicy policy, const RobotImage& robot, ObstacleImage& out);
 
 }  // namespace berth

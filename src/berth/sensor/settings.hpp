@@ -8,7 +8,7 @@
 namespace berth {
 
 /// What a pixel without a reading means, where the model does not say that it shows the robot or
-/// scenery. Each enumerator is its own name.
+/// environment. Each enumerator is its own name.
 enum class HolePolicy {
   free,      ///< nothing is there
   obstacle,  ///< something may be right before the camera: its shadow is an obstacle

@@ -4,7 +4,7 @@
 
 namespace berth {
 
-double camera_uncertainty_m(const ViewSettings& settings, LinkId link, double depth_m) {
+double camera_uncertainty_m(const CameraSettings& settings, LinkId link, double depth_m) {
   const SelfFilterSettings& filter = settings.self_filter;
   const double z_m = std::max(0.0, depth_m);
   const double tolerance_m =

@@ -12,13 +12,13 @@ namespace berth {
 namespace {
 
 /// From the link to what is near it; a unit vector, or zero where the two touch.
-Eigen::Vector3d towards(const LinkDistance& link) {
+Eigen::Vector3d towards(const LinkResult& link) {
   const Eigen::Vector3d way_B = (link.obstacle_point_B_m - link.robot_point_B_m).cast<double>();
   return way_B.norm() > 0 ? Eigen::Vector3d(way_B.normalized()) : Eigen::Vector3d::Zero();
 }
 
 /// The mean direction, where it is known and says anything.
-Eigen::Vector3d mean_towards(const LinkDistance& link) {
+Eigen::Vector3d mean_towards(const LinkResult& link) {
   constexpr double kLeastLength = 0.1;
   const Eigen::Vector3d mean_B = link.mean_direction_B.cast<double>();
   return link.mean_count > 0 && mean_B.norm() > kLeastLength ? Eigen::Vector3d(mean_B.normalized())
@@ -39,8 +39,6 @@ Evader::Evader(std::shared_ptr<const Robot> robot, const std::string& end_effect
                                             end_effector, fmt::join(names, ", ")));
   }
   end_effector_ = static_cast<LinkId>(found - names.begin() + 1);
-  position_.resize(model.joints.size());
-  pose_.X_BL.resize(model.links.size());
   jacobian_.resize(3, static_cast<Eigen::Index>(model.joints.size()));
   for (auto* numbers : {&out_.velocity, &out_.forward, &out_.backward}) {
     numbers->resize(model.joints.size());
@@ -52,22 +50,20 @@ double Evader::risk(double distance_m) const {
   return 1 / (1 + std::exp(exponent));
 }
 
-const Evasion& Evader::look(const Answer& answer, std::span<const double> position) {
+const Evasion& Evader::update(const Result& result) {
   std::ranges::fill(out_.velocity, 0);
   std::ranges::fill(out_.forward, 1);
   std::ranges::fill(out_.backward, 1);
-  std::ranges::copy(position, position_.begin());
-  forward_kinematics(robot_->model(), position_, pose_);
-  for (const LinkDistance& link : answer.distances.links) {
+  for (const LinkResult& link : result.links) {
     if (!link.has_distance() || link.distance_m > settings_.reach_m) continue;
-    point_jacobian(robot_->model(), pose_, robot_->model().evaluated_links[link.id - 1],
+    point_jacobian(robot_->model(), result.pose, robot_->model().evaluated_links[link.id - 1],
                    link.robot_point_B_m.cast<double>(), jacobian_);
     link.id == end_effector_ ? give_way(link) : hold_back(link);
   }
   return out_;
 }
 
-void Evader::give_way(const LinkDistance& link) {
+void Evader::give_way(const LinkResult& link) {
   const Eigen::Vector3d velocity_B =
       -settings_.max_speed_m_s * risk(link.distance_m) * mean_towards(link);
   const Eigen::Matrix3d damping =
@@ -79,7 +75,7 @@ void Evader::give_way(const LinkDistance& link) {
   }
 }
 
-void Evader::hold_back(const LinkDistance& link) {
+void Evader::hold_back(const LinkResult& link) {
   const Eigen::Vector3d towards_B = towards(link);
   const double allowed = 1 - risk(link.distance_m);
   for (std::size_t j = 0; j < out_.forward.size(); ++j) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "berth/pipeline/answer.hpp"
+#include "berth/pipeline/result.hpp"
 #include "berth/pipeline/robot.hpp"
 #include "berth/robot/point_jacobian.hpp"
 #include "berth/types/setting.hpp"
@@ -33,7 +33,7 @@ void visit_settings(Settings& s, Visitor&& visit) {
   visit({"damping_m", kAboveZero, "keeps joint speeds small near singular poses"}, s.damping_m);
 }
 
-/// What a controller does with an answer. One number for each joint.
+/// What a controller does with a result. One number for each joint.
 struct Evasion {
   /// Moves the end effector away from what is near it (rad/s or m/s); added to what the program
   /// plans.
@@ -44,8 +44,7 @@ struct Evasion {
   std::vector<double> backward;
 };
 
-/// Repulsive vectors (Flacco, Kroeger, De Luca and Khatib 2012) from berth's answers with method
-/// `mesh`: the least distance gives the length, the mean direction (Hirt 2.2.5) the direction,
+/// Repulsive vectors (Flacco, Kroeger, De Luca and Khatib 2012) from berth's results: the least distance gives the length, the mean direction (Hirt 2.2.5) the direction,
 /// where it is asked for. **It reacts to what is near and promises nothing**: not that there is
 /// room to give way, nor that it is in time. One for each thread; once made, nothing allocates.
 class Evader {
@@ -55,21 +54,18 @@ class Evader {
   Evader(std::shared_ptr<const Robot> robot, const std::string& end_effector,
          const EvasionSettings& settings);
 
-  /// `position` is what the answer is about. Valid until the next question. Links whose distance is
-  /// not known do not count.
-  const Evasion& look(const Answer& answer, std::span<const double> position);
+  /// Valid until the next update. Links whose distance is not known do not count.
+  const Evasion& update(const Result& result);
 
  private:
   /// By how much something at this distance counts, 0 to 1.
   double risk(double distance_m) const;
-  void give_way(const LinkDistance& link);
-  void hold_back(const LinkDistance& link);
+  void give_way(const LinkResult& link);
+  void hold_back(const LinkResult& link);
 
   std::shared_ptr<const Robot> robot_;
   EvasionSettings settings_;
   LinkId end_effector_ = kNoLink;
-  std::vector<double> position_;
-  RobotPose pose_;
   Eigen::Matrix3Xd jacobian_;
   Evasion out_;
 };

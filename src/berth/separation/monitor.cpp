@@ -1,11 +1,18 @@
 #include "berth/separation/monitor.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
+#include <vector>
 
+#include "berth/pipeline/mounted_camera.hpp"
 #include "berth/separation/camera_uncertainty.hpp"
+#include "berth/separation/link_speed.hpp"
 #include "berth/separation/near_link.hpp"
+#include "berth/separation/protective_distance.hpp"
+#include "berth/separation/speed_hold.hpp"
 
 namespace berth {
 namespace {
@@ -18,25 +25,24 @@ bool are_finite(std::span<const double> values, std::size_t count) {
 }
 
 /// The first camera whose images cannot be relied on; -1: none.
-int lost_camera(std::span<const CameraState> cameras) {
+int lost_camera(std::span<const CameraResult> cameras) {
   for (std::size_t k = 0; k < cameras.size(); ++k) {
-    const CameraStatus status = cameras[k].status;
-    if (!is_used(status) || status == CameraStatus::blind) return static_cast<int>(k);
+    if (!is_relied_on(cameras[k].status)) return static_cast<int>(k);
   }
   return -1;
 }
 
-/// Of the oldest thing that the answer is made from; 0 where nobody told the time.
-double age_s(const SeparationQuestion& question) {
+/// Of the oldest thing that the result is made from; 0 where nobody told the time.
+double age_s(const Result& result) {
   double oldest_s = 0;
-  const auto look = [&](double age_s) {
+  const auto take = [&](double age_s) {
     if (age_s > oldest_s) oldest_s = age_s;
   };
-  for (const CameraState& camera : question.cameras) {
-    if (is_used(camera.status)) look(camera.age_s);
+  for (const CameraResult& camera : result.cameras) {
+    if (is_used(camera.status)) take(camera.age_s);
   }
-  look(question.answer.time.frame_age_s);
-  look(question.answer.time.joints_age_s);
+  take(result.time.frame_age_s);
+  take(result.time.joints_age_s);
   return oldest_s;
 }
 
@@ -46,150 +52,181 @@ bool allows_less(const LinkSeparation& a, const LinkSeparation& b) {
 
 }  // namespace
 
+/// What is kept from update to update, and the steps of one.
+struct SeparationMonitor::Parts {
+  Parts(std::shared_ptr<const Robot> of, SeparationSettings with);
+
+  const Separation& update(const Result& result, std::span<const double> velocity, double now_s);
+  /// Where the result leaves nothing to compute, why.
+  SeparationReason begin(const Result& result, std::span<const double> velocity);
+  void update_links(const Result& result);
+  /// Sets that of each link; that of the robot's fastest point.
+  double measure_speeds(const Result& result);
+  /// Towards the closest obstacle, where that is what counts.
+  std::optional<double> speed_towards(const Result& result, std::size_t i) const;
+  void update_link(const Result& result, double robot_m_s, std::size_t i);
+  double camera_uncertainty(const Result& result, std::size_t i) const;
+  void decide(double now_s);
+
+  std::shared_ptr<const Robot> robot;
+  SeparationSettings settings;
+  /// hulls[i] is of the link with the id i + 1.
+  std::vector<HullPoints> hulls;
+  std::vector<LinkTwist> twists;
+  /// Of the link that has least room, with release_m to spare.
+  double rising_scale = 0;
+  SpeedHold hold;
+  Separation out;
+};
+
 SeparationMonitor::SeparationMonitor(std::shared_ptr<const Robot> robot,
                                      SeparationSettings settings)
-    : robot_(std::move(robot)), settings_(std::move(settings)), hold_(settings_.hold_s) {
-  validate(settings_);
-  if (!robot_->settings().visibility) {
+    : parts_(std::make_unique<Parts>(std::move(robot), std::move(settings))) {}
+
+SeparationMonitor::~SeparationMonitor() = default;
+SeparationMonitor::SeparationMonitor(SeparationMonitor&&) noexcept = default;
+SeparationMonitor& SeparationMonitor::operator=(SeparationMonitor&&) noexcept = default;
+
+const SeparationSettings& SeparationMonitor::settings() const { return parts_->settings; }
+
+const Separation& SeparationMonitor::update(const Result& result, std::span<const double> velocity,
+                                            double now_s) {
+  return parts_->update(result, velocity, now_s);
+}
+
+SeparationMonitor::Parts::Parts(std::shared_ptr<const Robot> of, SeparationSettings with)
+    : robot(std::move(of)), settings(std::move(with)), hold(settings.hold_s) {
+  validate(settings);
+  if (!robot->settings().visibility) {
     throw std::invalid_argument(
         "separation: visibility is off; expected on, since it tells which links are seen");
   }
-  const RobotModel& model = robot_->model();
+  const RobotModel& model = robot->model();
   for (const std::size_t index : model.evaluated_links) {
-    hulls_.push_back(hull_points(model.links[index].mesh_L));
-    LinkSeparation& link = out_.links.emplace_back();
+    hulls.push_back(hull_points(model.links[index].mesh_L));
+    LinkSeparation& link = out.links.emplace_back();
     link.id = model.links[index].id;
     link.is_moved = model.is_moved(index);
   }
-  position_.resize(model.joints.size());
-  pose_.X_BL.resize(model.links.size());
-  twists_.resize(model.links.size());
+  twists.resize(model.links.size());
 }
 
-const Separation& SeparationMonitor::look(const SeparationQuestion& question) {
-  out_.reason = begin(question);
-  out_.link = kNoLink;
-  out_.camera = -1;
-  out_.speed_scale = rising_scale_ = 0;
-  if (out_.reason == SeparationReason::none) {
-    out_.speed_scale = rising_scale_ = 1;
-    look_at_links(question);
+const Separation& SeparationMonitor::Parts::update(const Result& result, std::span<const double> velocity,
+                                            double now_s) {
+  out.reason = begin(result, velocity);
+  out.link = kNoLink;
+  out.camera = -1;
+  out.speed_scale = rising_scale = 0;
+  if (out.reason == SeparationReason::none) {
+    out.speed_scale = rising_scale = 1;
+    update_links(result);
   }
-  decide(question.now_s);
-  return out_;
+  decide(now_s);
+  return out;
 }
 
-SeparationReason SeparationMonitor::begin(const SeparationQuestion& question) {
-  out_.reaction_time_s = kNaN;
-  for (LinkSeparation& link : out_.links) {
+SeparationReason SeparationMonitor::Parts::begin(const Result& result,
+                                          std::span<const double> velocity) {
+  out.reaction_time_s = kNaN;
+  for (LinkSeparation& link : out.links) {
     link.speed_m_s = link.distance_m = link.required_m = link.margin_m = kNaN;
     link.speed_scale = link.is_moved ? 0 : 1;
-    link.reason = link.is_moved ? SeparationReason::untimely : SeparationReason::none;
+    link.reason = link.is_moved ? SeparationReason::stale : SeparationReason::none;
   }
-  if (question.answer.time.status != TimeStatus::ok) return SeparationReason::untimely;
-  const RobotModel& model = robot_->model();
-  if (!are_finite(question.position, model.joints.size()) ||
-      !are_finite(question.velocity, model.joints.size())) {
-    return SeparationReason::velocity;
-  }
-  out_.reaction_time_s = age_s(question) + settings_.reaction_time_s;
-  std::ranges::copy(question.position, position_.begin());
-  forward_kinematics(model, position_, pose_);
-  link_twists(model, pose_, question.velocity, twists_);
+  if (result.time.status != TimeStatus::ok) return SeparationReason::stale;
+  const RobotModel& model = robot->model();
+  assert(result.pose.X_BL.size() == model.links.size());
+  if (!are_finite(velocity, model.joints.size())) return SeparationReason::velocity;
+  out.reaction_time_s = age_s(result) + settings.reaction_time_s;
+  link_twists(model, result.pose, velocity, twists);
   return SeparationReason::none;
 }
 
-void SeparationMonitor::look_at_links(const SeparationQuestion& question) {
-  out_.camera = settings_.camera == UnknownPolicy::ignore ? -1 : lost_camera(question.cameras);
+void SeparationMonitor::Parts::update_links(const Result& result) {
+  out.camera = settings.camera == UnknownPolicy::ignore ? -1 : lost_camera(result.cameras);
   const LinkSeparation* least = nullptr;
-  const double robot_m_s = measure_speeds(question);
-  for (std::size_t i = 0; i < out_.links.size(); ++i) {
-    if (!out_.links[i].is_moved) continue;
-    look_at(question, robot_m_s, i);
-    if (!least || allows_less(out_.links[i], *least)) least = &out_.links[i];
+  const double robot_m_s = measure_speeds(result);
+  for (std::size_t i = 0; i < out.links.size(); ++i) {
+    if (!out.links[i].is_moved) continue;
+    update_link(result, robot_m_s, i);
+    if (!least || allows_less(out.links[i], *least)) least = &out.links[i];
   }
   if (!least || least->speed_scale >= 1) return;
-  out_.speed_scale = least->speed_scale;
-  out_.reason = least->reason;
-  out_.link = least->id;
+  out.speed_scale = least->speed_scale;
+  out.reason = least->reason;
+  out.link = least->id;
 }
 
-double SeparationMonitor::measure_speeds(const SeparationQuestion& question) {
-  const double gain_m_s = settings_.acceleration_m_s2 * settings_.reaction_time_s;
+double SeparationMonitor::Parts::measure_speeds(const Result& result) {
+  const double gain_m_s = settings.acceleration_m_s2 * settings.reaction_time_s;
   double robot_m_s = 0;
-  for (std::size_t i = 0; i < out_.links.size(); ++i) {
-    LinkSeparation& link = out_.links[i];
+  for (std::size_t i = 0; i < out.links.size(); ++i) {
+    LinkSeparation& link = out.links[i];
     if (!link.is_moved) continue;
-    const std::size_t index = robot_->model().evaluated_links[i];
-    const double fastest_m_s = greatest_speed_m_s(hulls_[i], pose_.X_BL[index], twists_[index]);
+    const std::size_t index = robot->model().evaluated_links[i];
+    const double fastest_m_s = greatest_speed_m_s(hulls[i], result.pose.X_BL[index], twists[index]);
     robot_m_s = std::max(robot_m_s, fastest_m_s + gain_m_s);
-    link.speed_m_s = speed_towards(question, i).value_or(fastest_m_s) + gain_m_s;
+    link.speed_m_s = speed_towards(result, i).value_or(fastest_m_s) + gain_m_s;
   }
   return robot_m_s;
 }
 
-void SeparationMonitor::look_at(const SeparationQuestion& question, double robot_m_s,
-                                std::size_t i) {
-  LinkSeparation& out = out_.links[i];
-  const LinkVisibility none;
-  const auto& visibility = question.answer.visibility;
-  NearLink near =
-      near_link(settings_, question.answer.distances.links[i],
-                i < visibility.size() ? visibility[i] : none, robot_->settings().distance.range_m);
-  if (out_.camera >= 0) {
+void SeparationMonitor::Parts::update_link(const Result& result, double robot_m_s, std::size_t i) {
+  LinkSeparation& link = out.links[i];
+  NearLink near = near_link(settings, result.links[i], robot->settings().distance.range_m);
+  if (out.camera >= 0) {
     near =
-        with_unknown(near, settings_.camera, settings_.assumed_range_m, SeparationReason::camera);
+        with_unknown(near, settings.camera, settings.assumed_range_m, SeparationReason::camera);
   }
-  const ProtectiveTerms terms{out_.reaction_time_s, settings_.camera_uncertainty_m.value_or(
-                                                        camera_uncertainty(question, i))};
-  const LinkSpeed speed{out.speed_m_s, robot_m_s};
-  out.distance_m = near.distance_m;
-  out.required_m = protective_distance_m(settings_, terms, speed);
-  out.margin_m = out.distance_m - out.required_m;
-  out.speed_scale = greatest_speed_scale(settings_, terms, speed, out.distance_m);
-  out.reason = out.speed_scale < 1 ? near.reason : SeparationReason::none;
-  rising_scale_ = greatest_speed_scale(settings_, terms, speed,
-                                       out.distance_m - settings_.release_m, rising_scale_);
+  const ProtectiveTerms terms{out.reaction_time_s, settings.camera_uncertainty_m.value_or(
+                                                        camera_uncertainty(result, i))};
+  const LinkSpeed speed{link.speed_m_s, robot_m_s};
+  link.distance_m = near.distance_m;
+  link.required_m = protective_distance_m(settings, terms, speed);
+  link.margin_m = link.distance_m - link.required_m;
+  link.speed_scale = greatest_speed_scale(settings, terms, speed, link.distance_m);
+  link.reason = link.speed_scale < 1 ? near.reason : SeparationReason::none;
+  rising_scale = greatest_speed_scale(settings, terms, speed,
+                                       link.distance_m - settings.release_m, rising_scale);
 }
 
-std::optional<double> SeparationMonitor::speed_towards(const SeparationQuestion& question,
+std::optional<double> SeparationMonitor::Parts::speed_towards(const Result& result,
                                                        std::size_t i) const {
-  if (!settings_.directed_speed) return {};
-  const std::size_t index = robot_->model().evaluated_links[i];
-  const LinkDistance& link = question.answer.distances.links[i];
+  if (!settings.directed_speed) return {};
+  const std::size_t index = robot->model().evaluated_links[i];
+  const LinkResult& link = result.links[i];
   const Eigen::Vector3d way_B = (link.obstacle_point_B_m - link.robot_point_B_m).cast<double>();
   // NaN where there is no pair in the base frame, 0 where they touch.
   if (!(way_B.norm() > 0)) return {};
-  return greatest_speed_along_m_s(hulls_[i], pose_.X_BL[index], twists_[index], way_B.normalized());
+  return greatest_speed_along_m_s(hulls[i], result.pose.X_BL[index], twists[index], way_B.normalized());
 }
 
-double SeparationMonitor::camera_uncertainty(const SeparationQuestion& question,
+double SeparationMonitor::Parts::camera_uncertainty(const Result& result,
                                              std::size_t i) const {
-  const LinkDistance& link = question.answer.distances.links[i];
+  const LinkResult& link = result.links[i];
   const bool has_point = link.obstacle_point_B_m.allFinite();
   const Eigen::Vector3d p_B =
       has_point ? Eigen::Vector3d(link.obstacle_point_B_m.cast<double>())
-                : Eigen::Vector3d(pose_.X_BL[robot_->model().evaluated_links[i]].translation());
+                : Eigen::Vector3d(result.pose.X_BL[robot->model().evaluated_links[i]].translation());
   double greatest_m = 0;
-  for (std::size_t k = 0; k < question.frames.size(); ++k) {
-    const Frame* frame = question.frames[k].get();
-    if (!frame || !frame->view || !is_used(question.cameras[k].status)) continue;
-    const double depth_m = (frame->X_BC.inverse() * p_B).z();
+  for (const CameraResult& camera : result.cameras) {
+    if (!camera.mounted || !is_used(camera.status)) continue;
+    const double depth_m = (camera.X_BC.inverse() * p_B).z();
     greatest_m =
-        std::max(greatest_m, camera_uncertainty_m(frame->view->settings(), link.id, depth_m));
+        std::max(greatest_m, camera_uncertainty_m(camera.mounted->settings(), link.id, depth_m));
   }
   return greatest_m;
 }
 
-void SeparationMonitor::decide(double now_s) {
-  const double held = hold_.next(out_.speed_scale, rising_scale_, now_s);
-  if (held < out_.speed_scale) {
-    out_.reason = SeparationReason::hold;
-    out_.link = kNoLink;
+void SeparationMonitor::Parts::decide(double now_s) {
+  const double held = hold.next(out.speed_scale, rising_scale, now_s);
+  if (held < out.speed_scale) {
+    out.reason = SeparationReason::hold;
+    out.link = kNoLink;
   }
-  out_.speed_scale = held < settings_.least_scale ? 0 : held;
-  out_.state = out_.speed_scale >= 1  ? SeparationState::clear
-               : out_.speed_scale > 0 ? SeparationState::reduced
+  out.speed_scale = held < settings.least_scale ? 0 : held;
+  out.state = out.speed_scale >= 1  ? SeparationState::clear
+               : out.speed_scale > 0 ? SeparationState::reduced
                                       : SeparationState::stop;
 }
 

@@ -5,7 +5,7 @@
 namespace berth {
 namespace {
 
-SeparationReason reason_of(const LinkDistance& link) {
+SeparationReason reason_of(const LinkResult& link) {
   switch (link.status) {
     case LinkStatus::none_in_range:
       return SeparationReason::range;
@@ -15,29 +15,28 @@ SeparationReason reason_of(const LinkDistance& link) {
       break;
   }
   if (!link.has_distance()) return SeparationReason::range;
-  return link.obstacle_kind == ObstacleKind::hidden ? SeparationReason::hidden
-                                                    : SeparationReason::reading;
+  return link.obstacle_is == ObstacleKind::unknown ? SeparationReason::unknown
+                                                    : SeparationReason::occupied;
 }
 
 /// To what is seen alone.
-NearLink near_reading(const LinkDistance& link) {
-  return {link.reading.lower_bound_m,
-          link.reading.is_known() ? SeparationReason::reading : SeparationReason::range};
+NearLink near_reading(const LinkResult& link) {
+  return {link.occupied.lower_bound_m,
+          link.occupied.is_known() ? SeparationReason::occupied : SeparationReason::range};
 }
 
 /// By what is certified.
-NearLink near_known(const SeparationSettings& settings, const LinkDistance& link, double range_m) {
+NearLink near_known(const SeparationSettings& settings, const LinkResult& link, double range_m) {
   if (std::isnan(link.lower_bound_m)) return {range_m, SeparationReason::range};
   const NearLink known{link.lower_bound_m, reason_of(link)};
-  if (known.reason != SeparationReason::hidden) return known;
-  if (settings.hidden == UnknownPolicy::ignore) return near_reading(link);
-  return with_unknown(known, settings.hidden, known.distance_m, SeparationReason::hidden);
+  if (known.reason != SeparationReason::unknown) return known;
+  if (settings.unknown == UnknownPolicy::ignore) return near_reading(link);
+  return with_unknown(known, settings.unknown, known.distance_m, SeparationReason::unknown);
 }
 
-bool is_seen_enough(const SeparationSettings& settings, const LinkDistance& link,
-                    const LinkVisibility& visibility) {
+bool is_seen_enough(const SeparationSettings& settings, const LinkResult& link) {
   if (link.status == LinkStatus::not_seen || link.status == LinkStatus::not_visible) return false;
-  return !visibility.surface.is_known() || visibility.surface.seen >= settings.least_seen;
+  return !link.visibility.surface.is_known() || link.visibility.surface.seen >= settings.least_seen;
 }
 
 }  // namespace
@@ -49,15 +48,14 @@ NearLink with_unknown(const NearLink& near, UnknownPolicy policy, double distanc
   return distance_m < near.distance_m ? NearLink{distance_m, reason} : near;
 }
 
-NearLink near_link(const SeparationSettings& settings, const LinkDistance& link,
-                   const LinkVisibility& visibility, double range_m) {
-  if (link.status == LinkStatus::untimely) return {0, SeparationReason::untimely};
+NearLink near_link(const SeparationSettings& settings, const LinkResult& link, double range_m) {
+  if (link.status == LinkStatus::stale) return {0, SeparationReason::stale};
   NearLink near = near_known(settings, link, range_m);
-  if (visibility.doubtful_distance_m < near.distance_m) {
-    near = with_unknown(near, settings.doubtful, visibility.doubtful_distance_m,
-                        SeparationReason::doubtful);
+  if (link.visibility.rejected_distance_m < near.distance_m) {
+    near = with_unknown(near, settings.rejected, link.visibility.rejected_distance_m,
+                        SeparationReason::rejected);
   }
-  if (!is_seen_enough(settings, link, visibility)) {
+  if (!is_seen_enough(settings, link)) {
     near =
         with_unknown(near, settings.not_seen, settings.assumed_range_m, SeparationReason::not_seen);
   }

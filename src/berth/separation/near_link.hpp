@@ -2,21 +2,19 @@
 // for what is not.
 #pragma once
 
-#include "berth/separation/separation.hpp"
+#include "berth/pipeline/result.hpp"
+#include "berth/types/separation.hpp"
 #include "berth/separation/settings.hpp"
-#include "berth/types/link_distance.hpp"
-#include "berth/types/link_visibility.hpp"
 
 namespace berth {
 
 struct NearLink {
   double distance_m = 0;
-  SeparationReason reason = SeparationReason::untimely;
+  SeparationReason reason = SeparationReason::stale;
 };
 
-/// `visibility` is the link's. `range_m`: how far distances are looked for.
-NearLink near_link(const SeparationSettings& settings, const LinkDistance& link,
-                   const LinkVisibility& visibility, double range_m);
+/// `range_m`: how far distances are looked for.
+NearLink near_link(const SeparationSettings& settings, const LinkResult& link, double range_m);
 
 /// `near` with one more thing that may be there, at distance_m.
 NearLink with_unknown(const NearLink& near, UnknownPolicy policy, double distance_m,

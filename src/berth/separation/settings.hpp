@@ -12,8 +12,8 @@ namespace berth {
 /// What is done where it is not known how near something is.
 enum class UnknownPolicy {
   stop,          ///< the robot stops
-  assume_range,  ///< something is assumed to stand there: at the distance of what is doubtful or
-                 ///< hidden, else at SeparationSettings::assumed_range_m
+  assume_range,  ///< something is assumed to stand there: at the distance of what is rejected or
+                 ///< unknown, else at SeparationSettings::assumed_range_m
   ignore,        ///< only what is known counts
 };
 inline constexpr std::array kUnknownPolicies = {UnknownPolicy::stop, UnknownPolicy::assume_range,
@@ -70,8 +70,8 @@ struct SeparationSettings {
   UnknownPolicy camera = UnknownPolicy::stop;
   /// What the filter drops for being small is what intrusion_m is for. Counted, single false
   /// readings at outlines, as all cameras have them, stop the robot for good.
-  UnknownPolicy doubtful = UnknownPolicy::ignore;
-  UnknownPolicy hidden = UnknownPolicy::assume_range;
+  UnknownPolicy rejected = UnknownPolicy::ignore;
+  UnknownPolicy unknown = UnknownPolicy::assume_range;
   double assumed_range_m = 0.3;
 };
 
@@ -106,9 +106,9 @@ void visit_settings(Settings& s, Visitor&& visit) {
         s.least_seen);
   visit({"not_seen", {}, "what to do where a link is not seen enough"}, s.not_seen);
   visit({"camera", {}, "what to do where a camera is not used, or covered"}, s.camera);
-  visit({"doubtful", {}, "what to do where a dropped reading is nearer than the distance"},
-        s.doubtful);
-  visit({"hidden", {}, "what to do where hidden space is nearest"}, s.hidden);
+  visit({"rejected", {}, "what to do where a dropped reading is nearer than the distance"},
+        s.rejected);
+  visit({"unknown", {}, "what to do where unknown space is nearest"}, s.unknown);
   visit({"assumed_range_m", kNotNegative,
          "where something is assumed to stand beside a link that is not seen, or every link if a "
          "camera is lost"},

@@ -62,10 +62,6 @@ inline std::optional<Pixel> pixel_of(const Camera& camera, const Eigen::Vector3d
 using Pose = Eigen::Isometry3d;
 
 /// A pose that nobody has set: NaN, so that it cannot pass for one.
-inline Pose unset_pose() {
-  Pose X = Pose::Identity();
-  X.matrix().topRows<3>().setConstant(std::numeric_limits<double>::quiet_NaN());
-  return X;
-}
+Pose unset_pose();
 
 }  // namespace berth

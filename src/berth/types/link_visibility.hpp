@@ -13,7 +13,7 @@ namespace berth {
 enum class Sight : std::uint8_t {
   seen,                 ///< nothing stands before it
   hidden_by_obstacles,  ///< an obstacle stands before it
-  hidden_by_robot,  ///< a link, the point's own included, or scenery of the URDF stands before it
+  hidden_by_robot,  ///< a link, the point's own included, or environment of the URDF stands before it
   no_reading,       ///< its pixel has no reading, or the self filter dropped one that was there
   outside_image,    ///< it projects beside the image, or lies behind the camera
 };
@@ -49,11 +49,11 @@ struct LinkVisibility {
   /// obstacle already (the gray area, Hirt 2.14).
   float space_unknown = std::numeric_limits<float>::quiet_NaN();
   /// The least distance, as in LinkDistance, to readings that were dropped only because they are
-  /// few and near the robot (PixelFate::island) or few (speckle), and the pixel of the nearest. Set
+  /// few and near the robot (PixelFate::flying_patch) or few (speckle), and the pixel of the nearest. Set
   /// if that is within the range and nearer than the link's distance; then take it instead wherever
   /// a small thing may come near the robot. Else NaN and (-1, -1).
-  float doubtful_distance_m = std::numeric_limits<float>::quiet_NaN();
-  Pixel doubtful_pixel;
+  float rejected_distance_m = std::numeric_limits<float>::quiet_NaN();
+  Pixel rejected_pixel;
 };
 
 }  // namespace berth

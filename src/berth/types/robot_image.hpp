@@ -9,7 +9,7 @@ namespace berth {
 /// Which link a robot pixel belongs to: 1, 2, ... for the links that are evaluated.
 using LinkId = std::uint16_t;
 inline constexpr LinkId kNoLink = 0;
-/// Scenery of the URDF (environment links): filtered out of the depth image and not evaluated.
+/// Environment of the URDF (environment links): filtered out of the depth image and not evaluated.
 inline constexpr LinkId kEnvironmentLink = 0xFFFF;
 
 /// The robot as the camera would see it alone (Hirt 2.2.1): R, the depth of its visible surface,

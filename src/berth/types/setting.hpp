@@ -62,4 +62,12 @@ struct SettingCheck {
   }
 };
 
+/// What a list of fields says of one of them.
+struct Field {
+  /// As in JSON and Python; ends in frame and unit.
+  std::string_view name;
+  /// What it is, for people; stands alone.
+  std::string_view sentence;
+};
+
 }  // namespace berth

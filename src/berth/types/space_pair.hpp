@@ -7,41 +7,55 @@
 #include <limits>
 #include <string_view>
 
+#include "berth/types/robot_image.hpp"
 #include "berth/types/image.hpp"
 
 namespace berth {
 
+/// A point or direction that is not known.
+inline Eigen::Vector3f unset_point() {
+  return Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
+}
+
 /// What the obstacle's point of a pair is.
 enum class ObstacleKind : std::uint8_t {
-  reading,  ///< on a surface that a camera measured
-  hidden,   ///< behind such a surface, and no camera sees it free
+  occupied,  ///< on a surface that a camera measured
+  unknown,   ///< behind such a surface, or where nothing was read, and seen free by no camera
 };
 /// By enumerator.
-inline constexpr std::array<std::string_view, 2> kObstacleKindNames = {"reading", "hidden"};
+inline constexpr std::array<std::string_view, 2> kObstacleKindNames = {"occupied", "unknown"};
 
 constexpr std::string_view name_of(ObstacleKind kind) {
   return kObstacleKindNames[static_cast<std::size_t>(kind)];
 }
 
 /// The closest points of a link and the obstacles, in the robot's root frame B. While no pair is
-/// known, distance_m and the points are NaN and view is -1; the lower bound stands by itself.
+/// known, distance_m and the points are NaN and camera is -1; the lower bound stands by itself.
 struct SpacePair {
   /// The length from robot_point_B_m to obstacle_point_B_m: no more than lower_bound_m plus the
   /// tolerance, unless a deadline cut the search.
   float distance_m = std::numeric_limits<float>::quiet_NaN();
   /// No point of the obstacles is nearer to the link than this; the range where none is within it.
   float lower_bound_m = 0;
-  Eigen::Vector3f robot_point_B_m =
-      Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
-  Eigen::Vector3f obstacle_point_B_m =
-      Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
-  ObstacleKind kind = ObstacleKind::reading;
-  /// The view, by its place among the views of the question, and the pixel of it that the
-  /// obstacle's point lies in: the one that measured it, or the one that it is hidden behind.
-  int view = -1;
+  Eigen::Vector3f robot_point_B_m = unset_point();
+  Eigen::Vector3f obstacle_point_B_m = unset_point();
+  ObstacleKind obstacle_is = ObstacleKind::occupied;
+  /// The camera, by its place among those of the request, and the pixel of it that the obstacle's
+  /// point lies in: the one that measured it, or the one that it is hidden behind.
+  int camera = -1;
   Pixel obstacle_pixel;
 
-  bool is_known() const { return view >= 0; }
+  bool is_known() const { return camera >= 0; }
+};
+
+/// The two answers for one link. `occupied.distance_m` is never below `nearest.distance_m` where both
+/// are known.
+struct WholeLinkDistance {
+  LinkId id = kNoLink;
+  /// To what is occupied or unknown.
+  SpacePair nearest;
+  /// To what is occupied alone.
+  SpacePair occupied;
 };
 
 }  // namespace berth

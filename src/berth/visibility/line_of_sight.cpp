@@ -8,7 +8,7 @@ namespace berth {
 namespace {
 
 /// What the pixel's fate says of its line of sight up to a point, if an obstacle nearer than
-/// obstacle_up_to_m would stand before the point, and its robot or scenery does or does not.
+/// obstacle_up_to_m would stand before the point, and its robot or environment does or does not.
 Sight sight_up_to(const SeenFrame& frame, Pixel pixel, float obstacle_up_to_m,
                   bool robot_is_before) {
   const PixelFate fate = frame.obstacles.fate(pixel.u, pixel.v);

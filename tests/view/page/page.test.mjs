@@ -60,6 +60,8 @@ test("shows the bundled scene", async () => {
 
 test("a knob changes the distance, and goes back", async () => {
   const page = await open();
+  const isSettled = () => until(page, () => document.getElementById("provisional") === null && document.getElementById("links") !== null);
+  await isSettled();
   const table = () => text(page, "#links");
   const original = await table();
   await showSettings(page);
@@ -141,21 +143,39 @@ test("each question has its answer a click away", async () => {
   await page.waitForSelector("#link-details");
   await ask(4);
   await until(page, () => /^50 of 101/.test(document.getElementById("when").textContent));
-  assert.match(await text(page, "#link-details"), /arm_link_7.*13\.0 mm.*hidden/s);
+  assert.match(await text(page, "#link-details"), /arm_link_7.*13\.0 mm.*unknown/s);
   await ask(5);
-  assert.match(await text(page, "#legend"), /hidden space/);
+  assert.match(await text(page, "#legend"), /unknown space/);
   assert.deepEqual(page.errors, []);
   await page.close();
 });
 
-test("hidden space is not offered where the method does not know it", async () => {
+test("a scene of another method is shown with method mesh, and says so", async () => {
   const page = await open();
-  assert.ok(await page.locator("#layer-hidden").isDisabled());
-  assert.ok(await page.locator("#question-hidden").isDisabled());
+  assert.equal(await text(page, "#scene-note"), "method mesh is shown; the file says exact");
+  assert.equal(await page.locator("[id='evaluation.method']").count(), 0);
+  await click(page, "#questions button:nth-child(5)");
+  assert.match(await text(page, "#legend"), /unknown space/);
   await page.close();
   const all = await open(berth.url);
-  assert.ok(await all.locator("#layer-hidden").isEnabled());
+  assert.equal(await text(all, "#scene-note"), "");
   await all.close();
+});
+
+test("a result that lacks a camera is marked on every panel", async () => {
+  const folder = join(place.folder, "degraded");
+  cpSync(join(process.env.BERTH_SOURCE_DIR, "data/bundled"), folder, { recursive: true });
+  const file = join(folder, "scene.yaml");
+  const wrong = readFileSync(file, "utf8").replace(/(name: left[^]*?depth_scale: )0.001/, (_, before_) => `${before_}0.01`);
+  writeFileSync(file, wrong);
+  const other = await startBerth(["view", "scene.yaml", "--port", "0"], folder);
+  const page = await open(other.url);
+  await until(page, () => document.getElementById("answer").textContent === "degraded");
+  assert.match(await text(page, "#result-status"), /^Degraded: camera left is implausible; distances may be larger/);
+  await showSettings(page);
+  assert.ok(await page.locator("#answer").isVisible());
+  await page.close();
+  assert.equal(await other.end(), 0);
 });
 
 test("a monitored scene tells how fast the robot may go", async () => {
@@ -228,8 +248,8 @@ test("Ctrl-C ends it at once, whatever it does", async () => {
   const other = await startBerth(["demo", "--view", "--port", "0"], place.folder);
   const page = await open(other.url);
   await click(page, "#panel-tabs button:nth-child(3)");
-  await click(page, "#teach");
-  await page.waitForSelector("#stop-teach");
+  await click(page, "#calibrate");
+  await page.waitForSelector("#stop-calibration");
   const start_ms = performance.now();
   assert.equal(await other.end(), 0);
   const took_ms = performance.now() - start_ms;

@@ -1,13 +1,27 @@
 // The table of links, all numbers of the chosen one, and what became of the pixels.
 import { lengthText, make } from "./dom";
-import type { LinkResult, Scene, Shown } from "./messages";
+import type { LinkResult, Result, Scene, Shown } from "./messages";
+
+/** What became of a camera that is not as it should be; the page and `berth run` name it alike. */
+function troubleOf(result: Result): string {
+  const cameras = result.cameras.filter((camera) => !["ok", "hidden"].includes(camera.status));
+  return cameras.map((camera) => `camera ${camera.camera} is ${camera.status.replaceAll("_", " ")}`).join(", ");
+}
+
+/** Why a result is not complete; empty where it is. */
+export function statusText(result: Result): string {
+  if (result.status === "ok") return "";
+  const isLate = result.time.status !== "ok";
+  const why = [...(isLate ? [result.time.status.replaceAll("_", " ")] : []), troubleOf(result)].filter((text) => text !== "").join(", ");
+  if (result.status === "degraded") return `Degraded: ${why}; distances may be larger than with it.`;
+  return `Stale: there is no answer${why ? `: ${why}` : ""}.`;
+}
 
 export class DistancesPanel {
   readonly element = make("div");
   private scene?: Scene;
   private shown?: Shown;
   private chosen = "";
-  private speed = "";
 
   constructor(private readonly choose: (link: string) => void) {}
 
@@ -22,20 +36,20 @@ export class DistancesPanel {
     this.chosen = link;
     this.fill();
   }
-  /** What the separation monitor says; empty where there is none. */
-  setSpeed(text: string): void {
-    if (text === this.speed) return;
-    this.speed = text;
-    this.fill();
-  }
 
   private fill(): void {
     if (!this.scene || !this.shown) return;
-    const { links } = this.shown.result;
+    const { links, separation } = this.shown.result;
+    const problem = statusText(this.shown.result);
     const chosen = links.find((link) => link.link === this.chosen);
     const focused = (document.activeElement as HTMLElement)?.dataset?.link;
-    const speed = this.speed ? [make("p", { id: "speed", textContent: `Speed: ${this.speed}` })] : [];
-    this.element.replaceChildren(...speed, this.table(links), this.details(chosen), this.fates());
+    const provisional = "Provisional: from this frame alone, until the curves have come here.";
+    const lines = [
+      ...(this.shown.is_provisional ? [make("p", { id: "provisional", className: "faint", textContent: provisional })] : []),
+      ...(problem ? [make("p", { id: "result-status", className: "refused", textContent: problem })] : []),
+      ...(separation ? [make("p", { id: "speed", textContent: `Speed: ${separation.text}` })] : []),
+    ];
+    this.element.replaceChildren(...lines, this.table(links), this.details(chosen), this.fates());
     if (focused) this.element.querySelector<HTMLElement>(`tr[data-link="${CSS.escape(focused)}"]`)?.focus();
   }
 
@@ -68,27 +82,26 @@ export class DistancesPanel {
     const lines: [string, string][] = [
       ["distance", lengthText(link.distance_m)],
       ["certainly at least", lengthText(link.lower_bound_m)],
-      ["obstacle is", link.obstacle_is === "hidden" ? "hidden behind a reading" : (link.obstacle_is ?? "–")],
-      ["camera and pixel", link.camera ? `${link.camera} (${link.obstacle_pixel?.join(", ")})` : (link.obstacle_pixel?.join(", ") ?? "–")],
+      ["obstacle is", link.obstacle_is === "unknown" ? "unknown: hidden, and seen free by no camera" : (link.obstacle_is ?? "–")],
+      ["camera and pixel", link.camera ? `${link.camera} (${link.obstacle_pixel?.join(", ")})` : "–"],
       ["point of the link", point(link.robot_point_base_m)],
       ["point of the obstacle", point(link.obstacle_point_base_m)],
-      ["to readings alone", lengthText(link.reading_distance_m)],
+      ["to what is occupied", lengthText(link.occupied.distance_m)],
       ["seen of its surface", percent(link.visibility?.surface?.seen)],
       ["not known around it", percent(link.visibility?.space_unknown)],
-      ["doubtful reading at", lengthText(link.visibility?.doubtful_distance_m)],
+      ["rejected reading at", lengthText(link.visibility?.rejected_distance_m)],
     ];
     const list = make("dl", {}, lines.flatMap(([name, value]) => [make("dt", { textContent: name }), make("dd", { textContent: value })]));
     return make("div", { id: "link-details" }, [make("h3", { textContent: link.link }), list]);
   }
 
   private fates(): HTMLElement {
-    const { result } = this.shown!;
-    const cameras = result.cameras.map((camera) => ({ ...camera, counts: camera.self_filter ?? result.self_filter }));
-    const names = this.scene!.fates.map((fate) => fate.name).filter((name) => cameras.some((camera) => camera.counts?.[name]));
+    const { cameras } = this.shown!.result;
+    const names = this.scene!.fates.map((fate) => fate.name).filter((name) => cameras.some((camera) => camera.self_filter?.[name]));
     const head = make("tr", {}, ["pixels", ...cameras.map((camera) => camera.camera)].map((text) => make("th", { textContent: text })));
-    const status = make("tr", {}, ["camera is", ...cameras.map((camera) => camera.status)].map((text) => make("td", { textContent: text })));
+    const status = make("tr", {}, ["camera is", ...cameras.map((camera) => camera.status.replaceAll("_", " "))].map((text) => make("td", { textContent: text })));
     const rows = names.map((name) =>
-      make("tr", {}, [name.replaceAll("_", " "), ...cameras.map((camera) => String(camera.counts?.[name] ?? "–"))].map((text) => make("td", { textContent: text }))),
+      make("tr", {}, [name.replaceAll("_", " "), ...cameras.map((camera) => String(camera.self_filter?.[name] ?? "–"))].map((text) => make("td", { textContent: text }))),
     );
     return make("div", {}, [
       make("h3", { textContent: "What the filter did" }),

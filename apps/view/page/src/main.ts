@@ -1,14 +1,14 @@
 // The page: what comes from the program goes to all its parts, so that they show the same frame.
 import { colorings, coloringTexts, cssOf, hiddenColor, slowColor, stopColor, unseenColor, type Coloring } from "./colors";
 import { Connection } from "./connection";
-import { DistancesPanel } from "./distances_panel";
+import { DistancesPanel, statusText } from "./distances_panel";
 import { byId, make, tabs } from "./dom";
 import type { Image, Message, Scene, Shown, Timeline } from "./messages";
 import { legend, Picture } from "./picture";
 import { Plot } from "./plot";
 import { Scene3d, type Layers } from "./scene3d";
 import { SettingsPanel } from "./settings_panel";
-import { TeachInPanel } from "./teach_in_panel";
+import { CalibrationPanel } from "./calibration_panel";
 
 const layerTexts: [Exclude<keyof Layers, "coloring">, string][] = [
   ["robot", "Robot"],
@@ -17,7 +17,7 @@ const layerTexts: [Exclude<keyof Layers, "coloring">, string][] = [
   ["filtered", "Filtered away"],
   ["distances", "Distances"],
   ["frusta", "Cameras"],
-  ["hidden", "Hidden space"],
+  ["hidden", "Unknown space"],
   ["unseen", "Seen by no camera"],
 ];
 const usual: Layers = {
@@ -44,10 +44,10 @@ const connection = new Connection(take, () => {
   trouble("berth has ended, or cannot be reached. Start it again, then load this page again.");
 });
 const settings = new SettingsPanel((request) => connection.send(request));
-const teachIn = new TeachInPanel((request) => connection.send(request));
+const calibration = new CalibrationPanel((request) => connection.send(request));
 
-const panels = [distances.element, settings.element, teachIn.element];
-const showPanel = tabs(byId("panel-tabs"), ["Distances", "Settings", "Teach-in"], (index) => {
+const panels = [distances.element, settings.element, calibration.element];
+const showPanel = tabs(byId("panel-tabs"), ["Distances", "Settings", "Calibration"], (index) => {
   byId("panels").replaceChildren(panels[index]);
 });
 let showCamera: (index: number) => void = () => {};
@@ -60,7 +60,7 @@ function take(message: Message): void {
   else if (message.type === "space") view.setSpace(message);
   else if (message.type === "settings") settings.setSettings(message);
   else if (message.type === "timeline") setTimeline(message);
-  else if (message.type === "teach_in") teachIn.setState(message);
+  else if (message.type === "calibration_data") calibration.setState(message);
   else tell(message.text, message.is_refused);
 }
 
@@ -79,9 +79,11 @@ function isLive(): boolean {
 function setScene(message: Scene): void {
   scene = message;
   document.body.classList.toggle("live", isLive());
+  document.body.classList.remove("waiting");
   byId("status").textContent = "connected";
   byId("scene-name").textContent = scene.file.replace(/.*\//, "");
   byId("scene-name").title = scene.file;
+  byId("scene-note").textContent = scene.note;
   document.title = `berth: ${scene.robot}`;
   byId<HTMLInputElement>("scrub").max = String(scene.steps.length - 1);
   view.setScene(scene);
@@ -102,8 +104,7 @@ function setShown(message: Shown): void {
   picture.setShown(message);
   if (!isLive()) plot.setStep(message.step);
   distances.setShown(message);
-  showSpeed();
-  offerSpace(message.result.method === "mesh");
+  showAnswer(message);
   if (isLive()) {
     byId("when").textContent = `${message.result.stamp_s.toFixed(3)} s`;
     return;
@@ -130,29 +131,19 @@ function setImage(image: Image): void {
 function setTimeline(message: Timeline): void {
   timeline = message;
   plot.setTimeline(message);
-  showSpeed();
+  byId("speed-key").hidden = message.speed === null;
   const progress = byId<HTMLProgressElement>("progress");
   progress.value = message.total > 0 ? message.done / message.total : 0;
   progress.classList.toggle("done", isLive() || message.done === message.total || message.error !== "");
   trouble([message.error, ...message.warnings].filter((text) => text !== "").join("\n"));
 }
 
-/** Which parts of space no camera sees is known to one method alone. */
-function offerSpace(isKnown: boolean): void {
-  for (const key of ["hidden", "unseen"]) {
-    const box = byId<HTMLInputElement>(`layer-${key}`);
-    box.disabled = !isKnown;
-    box.parentElement!.title = isKnown ? "" : "Known to method mesh alone";
-  }
-  byId<HTMLButtonElement>("question-hidden").disabled = !isKnown;
-  if (!isKnown && (layers.hidden || layers.unseen)) setLayers({ hidden: false, unseen: false });
-}
-
-/** What the separation monitor says of the image that is shown. */
-function showSpeed(): void {
-  const texts = timeline?.speed?.text ?? [];
-  byId("speed-key").hidden = texts.length === 0;
-  distances.setSpeed(texts[isLive() ? texts.length - 1 : (shown?.step ?? 0)] ?? "");
+/** How good the result is, where every panel sees it. */
+function showAnswer({ result, is_provisional }: Shown): void {
+  const answer = byId("answer");
+  answer.textContent = [result.status === "ok" ? "" : result.status, is_provisional ? "provisional" : ""].filter((text) => text !== "").join(", ");
+  answer.title = statusText(result);
+  answer.className = result.status;
 }
 
 function trouble(text: string): void {
@@ -195,7 +186,7 @@ function showLegend(): void {
   if (!scene) return;
   const all = new Set([...fates.values()].flatMap((one) => [...one]));
   const entries = legend(layers.coloring, scene, all);
-  if (layers.hidden) entries.push([hiddenColor, "hidden space"]);
+  if (layers.hidden) entries.push([hiddenColor, "unknown space"]);
   if (layers.unseen) entries.push([unseenColor, "seen by no camera"]);
   const spans = entries.map(([color, text]) => {
     const key = make("i", { className: "key" });
@@ -231,25 +222,15 @@ function makeLayers(): void {
   byId("layers").append(...boxes, select);
 }
 
-/** The link that moves and has the least distance. */
-function nearestLink(): string | undefined {
-  const moved = new Set(scene?.links.filter((link) => link.is_moved).map((link) => link.name));
-  const known = shown?.result.links.filter((link) => moved.has(link.link) && link.distance_m !== null) ?? [];
-  return known.sort((a, b) => a.distance_m! - b.distance_m!)[0]?.link;
-}
-
 /** The image and link of the least distance of all. */
 function nearestOfAll(): { step: number; link: string } | undefined {
-  if (!scene || !timeline) return undefined;
+  if (!scene || !timeline || isLive()) return undefined;
   let best: { step: number; link: string; distance_m: number } | undefined;
-  if (isLive()) return undefined;
-  const evaluated = scene.links.filter((link) => link.is_evaluated).sort((a, b) => a.id - b.id);
-  timeline.links.distance_m.forEach((row, i) => {
-    if (!evaluated[i].is_moved) return;
-    row.forEach((distance_m, step) => {
-      const isOk = timeline!.links.status[i][step] === "ok";
-      if (isOk && distance_m !== null && distance_m < (best?.distance_m ?? Infinity)) best = { step, link: evaluated[i].name, distance_m };
-    });
+  timeline.nearest.forEach((row, step) => {
+    if (row === null) return;
+    const distance_m = timeline!.links.distance_m[row][step]!;
+    const link = scene!.links.find((one) => one.id === row + 1)!.name;
+    if (distance_m < (best?.distance_m ?? Infinity)) best = { step, link, distance_m };
   });
   return best;
 }
@@ -267,7 +248,7 @@ const questions: [string, string, () => void][] = [
     view.lookAtAll();
   }],
   ["Why this distance?", "The nearest link, its line and its numbers", () => {
-    const link = chosen || nearestLink();
+    const link = chosen || shown?.result.nearest;
     if (!link) return;
     setLayers({ ...usual, others: false });
     choose(link);
@@ -288,7 +269,6 @@ const questions: [string, string, () => void][] = [
 ];
 
 byId("questions").append(...questions.map(([textContent, title, onclick]) => make("button", { textContent, title, onclick })));
-byId("questions").lastElementChild!.id = "question-hidden";
 makeLayers();
 byId("speed-key").append(
   ...([["slower", slowColor], ["stop", stopColor]] as const).map(([text, color]) => {

@@ -27,6 +27,8 @@ export interface Fate {
 export interface Scene {
   type: "scene";
   file: string;
+  /** What a user should know of what is shown; empty where there is nothing. */
+  note: string;
   robot: string;
   links: Link[];
   cameras: Camera[];
@@ -37,7 +39,10 @@ export interface Scene {
 
 export type Point = [number, number, number];
 
+/** Closest points; null where none are known. */
 export interface Pair {
+  distance_m: number | null;
+  lower_bound_m: number | null;
   camera: string | null;
   obstacle_pixel: [number, number] | null;
   robot_point_base_m: Point | null;
@@ -47,16 +52,15 @@ export interface Pair {
 export interface LinkResult extends Pair {
   id: number;
   link: string;
+  is_moved: boolean;
   status: string;
-  distance_m: number | null;
-  lower_bound_m?: number | null;
-  obstacle_is?: "reading" | "hidden" | null;
-  reading_distance_m?: number | null;
-  reading?: Pair;
+  obstacle_is: "occupied" | "unknown" | null;
+  /** To what a camera measured, alone. */
+  occupied: Pair;
   visibility?: {
     surface: { seen: number } | null;
     space_unknown: number | null;
-    doubtful_distance_m: number | null;
+    rejected_distance_m: number | null;
   };
 }
 
@@ -65,23 +69,28 @@ export interface CameraResult {
   frame: number | null;
   age_s: number | null;
   status: string;
-  seen_through?: number;
-  self_filter?: Record<string, number>;
+  self_filter: Record<string, number> | null;
 }
 
+/** Schema berth/result/3; src/berth/results writes it. */
 export interface Result {
   frame: number;
   stamp_s: number;
-  method: string;
-  range_m: number;
+  status: "ok" | "degraded" | "stale";
+  time: { status: string };
+  /** The nearest link that a joint moves. */
+  nearest: string | null;
+  /** Where a separation monitor watches. */
+  separation?: { state: string; text: string };
   cameras: CameraResult[];
   links: LinkResult[];
-  self_filter?: Record<string, number>;
 }
 
 export interface Shown {
   type: "shown";
   step: number;
+  /** The run in the background has not come here: the result is that of this frame alone. */
+  is_provisional: boolean;
   result: Result;
   /** Poses in the root link's frame, rows of the matrix. */
   links: number[][] | null;
@@ -94,7 +103,6 @@ export interface SettingText {
   name: string;
   unit: string;
   sentence: string;
-  methods: string;
   kind: "number" | "whole" | "bool" | "choice";
   choices?: string[];
   least?: number;
@@ -139,12 +147,13 @@ export interface Timeline {
   /** Rows are links, columns are steps. */
   links: {
     distance_m: (number | null)[][];
-    reading_m: (number | null)[][];
     status: string[][];
-    is_doubtful: boolean[][];
+    is_rejected: boolean[][];
   };
+  /** Of each step, the row of the nearest link that a joint moves. */
+  nearest: (number | null)[];
   /** Where a separation monitor watches, of each step. */
-  speed: { scale: number[]; text: string[] } | null;
+  speed: { scale: number[]; state: string[] } | null;
 }
 
 interface Spread {
@@ -152,8 +161,8 @@ interface Spread {
   p90_m: number | null;
 }
 
-export interface TeachIn {
-  type: "teach_in";
+export interface CalibrationData {
+  type: "calibration_data";
   state: "none" | "runs" | "found" | "failed" | "taken";
   error: string;
   cameras?: { name: string; headline: string; before: Spread; after: Spread }[];
@@ -203,7 +212,7 @@ export type Message =
   | Shown
   | Settings
   | Timeline
-  | TeachIn
+  | CalibrationData
   | Notice
   | Mesh
   | Image

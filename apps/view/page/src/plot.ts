@@ -5,11 +5,11 @@ import type { Scene, Timeline } from "./messages";
 
 const warnColor: Rgb = [0xd9, 0x50, 0x00];
 
-/** Of one link: what is sure, and what is doubtful; null elsewhere. A doubtful piece joins its neighbours. */
-function split(distances: (number | null)[], doubtful: boolean[]): [(number | null)[], (number | null)[]] {
-  const sure = distances.map((distance, i) => (doubtful[i] ? null : distance));
+/** Of one link: what is sure, and what is rejected; null elsewhere. A rejected piece joins its neighbours. */
+function split(distances: (number | null)[], rejected: boolean[]): [(number | null)[], (number | null)[]] {
+  const sure = distances.map((distance, i) => (rejected[i] ? null : distance));
   const unsure = distances.map((distance, i) =>
-    doubtful[i] || doubtful[i - 1] || doubtful[i + 1] ? distance : null,
+    rejected[i] || rejected[i - 1] || rejected[i + 1] ? distance : null,
   );
   return [sure, unsure];
 }
@@ -32,10 +32,7 @@ export class Plot {
 
   setScene(scene: Scene): void {
     this.scene = scene;
-    const stamps_s = scene.steps.map((step) => step[2]);
-    const goesOn = stamps_s.every((stamp_s, i) => i === 0 || stamp_s >= stamps_s[i - 1]);
-    // Cameras one after another begin again: then images are counted.
-    this.times = goesOn ? stamps_s : stamps_s.map((_, i) => i);
+    this.times = scene.steps.map((step) => step[2]);
     this.make();
   }
 
@@ -67,7 +64,7 @@ export class Plot {
     const missing = (values: (number | null)[]) => this.times.map((_, i) => values[i] ?? null);
     const curves = this.timeline?.links;
     const series = this.evaluated().flatMap((_, row) =>
-      split(curves?.distance_m[row] ?? [], curves?.is_doubtful[row] ?? []).map(missing),
+      split(curves?.distance_m[row] ?? [], curves?.is_rejected[row] ?? []).map(missing),
     );
     return [this.times, ...series] as uPlot.AlignedData;
   }
@@ -122,9 +119,9 @@ export class Plot {
       if (rows.every(({ row }) => ["ok", "none_in_range"].includes(status[row][i]))) continue;
       ctx.fillRect(x(i) - 2, bbox.top + bbox.height - 7, 4, 7);
     }
-    this.timeline?.speed?.scale.forEach((scale, i) => {
-      if (scale >= 1) return;
-      ctx.fillStyle = cssOf(scale > 0 ? slowColor : stopColor);
+    this.timeline?.speed?.state.forEach((state, i) => {
+      if (state === "clear") return;
+      ctx.fillStyle = cssOf(state === "stop" ? stopColor : slowColor);
       const end = i + 1 < this.times.length ? x(i + 1) : x(i) + 2;
       ctx.fillRect(x(i), bbox.top, Math.max(2, end - x(i)), 7);
     });

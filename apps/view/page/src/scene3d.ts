@@ -1,4 +1,4 @@
-// The 3D view: robot, readings, distances, cameras and hidden space in the root link's frame.
+// The 3D view: robot, readings, distances, cameras and unknown space in the root link's frame.
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
@@ -331,10 +331,8 @@ export class Scene3d {
 
   /** Lengths at the lines: of the chosen link, and of the nearest three that move. */
   private drawLabels(): void {
-    const moved = (pair: { link: LinkResult }) =>
-      this.scene!.links.find((link) => link.name === pair.link.link)?.is_moved;
     const nearest = this.pairs
-      .filter(moved)
+      .filter((pair) => pair.link.is_moved)
       .sort((a, b) => a.link.distance_m! - b.link.distance_m!)
       .slice(0, 3);
     const labelled = this.pairs.filter((pair) => nearest.includes(pair) || pair.link.link === this.chosen);

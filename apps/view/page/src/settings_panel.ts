@@ -13,7 +13,7 @@ function stepOf(value: Value): number {
 }
 
 const groupNames: Record<string, string> = {
-  self_filter: "Self filter", sensor: "Sensor", space: "Hidden space", watch: "Watch of the camera", evaluation: "Evaluation", time: "Time", separation: "Separation",
+  self_filter: "Self filter", sensor: "Sensor", space: "Unknown space", watch: "Watch of the camera", evaluation: "Evaluation", time: "Time", separation: "Separation",
 };
 
 /** One row: its input, and how it is set anew. */
@@ -115,8 +115,7 @@ export class SettingsPanel {
       this.send({ do: "set", group: group.name, key: setting.name, camera: group.by_camera ? this.camera : null, value });
     const label = setting.unit ? `${setting.name} [${setting.unit}]` : setting.name;
     const domain = setting.domain ? ` (${setting.domain})` : "";
-    const methods = setting.methods ? ` Method ${setting.methods.replaceAll(" ", ", ")}.` : "";
-    return this.row(key, label, inputOf(setting, set), `${setting.sentence}${domain}.${methods}`, () => set(null)).element;
+    return this.row(key, label, inputOf(setting, set), `${setting.sentence}${domain}.`, () => set(null)).element;
   }
 
   private poseRow(name: string, i: number): HTMLElement {

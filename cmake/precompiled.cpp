@@ -1,0 +1,1 @@
+// Owns the precompiled headers (BerthTargets.cmake), which need a target with a source.

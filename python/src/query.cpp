@@ -1,0 +1,80 @@
+#include "berth/pipeline/query.hpp"
+
+#include <pybind11/stl.h>
+
+#include <mutex>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "handles.hpp"
+
+namespace berth::python {
+namespace {
+
+std::vector<std::shared_ptr<const Frame>> frames_of(const py::object& frames) {
+  if (py::isinstance<Frame>(frames)) return {frames.cast<std::shared_ptr<Frame>>()};
+  std::vector<std::shared_ptr<const Frame>> all;
+  for (const py::handle one : frames) all.push_back(one.cast<std::shared_ptr<Frame>>());
+  return all;
+}
+
+/// A query that several threads may ask, one after another.
+class SharedQuery {
+ public:
+  SharedQuery(const std::shared_ptr<Robot>& robot, std::vector<std::string> camera_names)
+      : robot_(robot), query_(robot, std::move(camera_names)) {}
+
+  Part<Result> ask(const py::object& of, const py::object& joints, std::optional<double> now_s,
+                   double joints_stamp_s, const py::object& ahead, double nearer_than_m) {
+    const std::vector<std::shared_ptr<const Frame>> frames = frames_of(of);
+    JointState state;
+    RequestedJoints requested;
+    if (is_buffer(joints)) {
+      requested = buffer_of(joints);
+    } else if (!joints.is_none()) {
+      state = joints_of(robot_->model(), joints, joints_stamp_s);
+      requested = state;
+    }
+    const std::vector<JointState> poses = many_joints_of(robot_->model(), ahead);
+    const py::gil_scoped_release release;
+    const std::lock_guard lock(mutex_);
+    return owned(query_.ask({frames, requested, now_s, poses, nearer_than_m}));
+  }
+
+  void forget() {
+    const py::gil_scoped_release release;
+    const std::lock_guard lock(mutex_);
+    query_.forget();
+  }
+
+ private:
+  std::shared_ptr<const Robot> robot_;
+  std::mutex mutex_;
+  Query query_;
+};
+
+}  // namespace
+
+void bind_query(py::module_& m) {
+  py::class_<SharedQuery>(
+      m, "Query",
+      "Requests about the newest frames of all cameras. Threads that ask at the\n"
+      "same time have a Query each; they may ask the same frames.")
+      .def(py::init<const std::shared_ptr<Robot>&, std::vector<std::string>>(), py::arg("robot"),
+           py::arg("camera_names") = std::vector<std::string>(),
+           "camera_names are those of cameras that have given no frame yet.")
+      .def("ask", &SharedQuery::ask, py::arg("frames"), py::arg("joints") = py::none(),
+           py::arg("now_s") = std::nullopt, py::arg("joints_stamp_s") = 0.0,
+           py::arg("ahead") = py::none(), py::arg("nearer_than_m") = 0.0,
+           "How far each link is from everything that the frames show or hide. frames: one\n"
+           "Frame, or the newest one of each camera (None where there is none yet). joints:\n"
+           "those of the exposure (None), any others (rad, m; by name or in the robot's order),\n"
+           "or a JointBuffer, whose newest count. With now_s ages are told and judged; a stale\n"
+           "result has no distance. ahead: rows of joints, poses that the robot may take next;\n"
+           "Result.ahead tells their distances, and the first pose at which some link may be\n"
+           "nearer than nearer_than_m.")
+      .def("forget", &SharedQuery::forget,
+           "A request begins with what is known of the one before; after this nothing is known.");
+}
+
+}  // namespace berth::python

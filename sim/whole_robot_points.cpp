@@ -1,0 +1,181 @@
+#include "sim/whole_robot_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace berth::sim {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// The own free depth of a pixel that frees nothing.
+constexpr double kNone = 0;
+
+/// Calls action(x, y) for the pixels of the image that lie up to `reach` from (u, v) sideways.
+template <class Action>
+void for_square(const DepthImage& image, int u, int v, int reach, Action action) {
+  for (int y = std::max(v - reach, 0); y <= std::min(v + reach, image.height() - 1); ++y) {
+    for (int x = std::max(u - reach, 0); x <= std::min(u + reach, image.width() - 1); ++x) {
+      action(x, y);
+    }
+  }
+}
+
+/// What a pixel with a reading, or with something that a sensor rule put there, frees by itself.
+double own_of_reading(const PointView& view, const SpaceSettings& settings, int u, int v) {
+  const double sensed_m = view.sensor_depth_m(u, v);
+  const double obstacle_m = view.obstacle_depth_m(u, v);
+  switch (view.fate(u, v)) {
+    case PixelFate::background:
+      if (std::isnan(sensed_m)) return kNone;
+      return std::min(obstacle_m - settings.free_space_margin_m, sensed_m + settings.behind_robot_m);
+    case PixelFate::robot:
+    case PixelFate::environment:
+    case PixelFate::padding:
+    case PixelFate::dilation:
+      return sensed_m + settings.behind_robot_m;
+    case PixelFate::edge:
+    case PixelFate::flying_patch:
+    case PixelFate::speckle:
+    case PixelFate::outside_region:
+      return sensed_m - settings.free_space_margin_m;
+    case PixelFate::obstacle:
+    case PixelFate::averaged:
+    case PixelFate::hole:
+    case PixelFate::no_reading:
+      break;
+  }
+  return obstacle_m - settings.free_space_margin_m;
+}
+
+bool is_empty(const PointView& view, int u, int v) {
+  return std::isnan(view.sensor_depth_m(u, v)) && std::isnan(view.obstacle_depth_m(u, v));
+}
+
+/// The least that its neighbours with readings free, if they are at least five.
+double own_of_hole(const PointView& view, const Image<double>& own_m, int u, int v) {
+  int readings = 0;
+  double least_m = kInfinity;
+  for_square(view.sensor_depth_m, u, v, 1, [&](int x, int y) {
+    if (std::isnan(view.sensor_depth_m(x, y))) return;
+    ++readings;
+    least_m = std::min(least_m, own_m(x, y));
+  });
+  return readings >= 5 ? least_m : kNone;
+}
+
+Image<double> own_free_depth_m(const PointView& view, const SpaceSettings& settings) {
+  const int width = view.camera.width_px;
+  const int height = view.camera.height_px;
+  Image<double> own_m(width, height, kNone);
+  for (int v = 0; v < height; ++v) {
+    for (int u = 0; u < width; ++u) {
+      if (!is_empty(view, u, v)) own_m(u, v) = own_of_reading(view, settings, u, v);
+    }
+  }
+  for (int v = 0; v < height; ++v) {
+    for (int u = 0; u < width; ++u) {
+      if (!is_empty(view, u, v)) continue;
+      own_m(u, v) =
+          settings.no_reading == NoReading::free ? kInfinity : own_of_hole(view, own_m, u, v);
+    }
+  }
+  return own_m;
+}
+
+/// What was that far away may have come nearer since, and sideways.
+Image<double> aged(const PointView& view, const SpaceSettings& settings,
+                   const Image<double>& own_m) {
+  const double moved_m = settings.obstacle_speed_m_s * view.age_s;
+  Image<double> aged_m = own_m;
+  for (double& m : aged_m.pixels()) m -= moved_m;
+  for (int v = 0; v < own_m.height(); ++v) {
+    for (int u = 0; u < own_m.width(); ++u) {
+      const double sensed_m = view.sensor_depth_m(u, v);
+      if (std::isnan(sensed_m)) continue;
+      const double f_px = std::max(view.camera.fx_px, view.camera.fy_px);
+      // Beyond the image's size it makes no difference.
+      const int reach_px = static_cast<int>(
+          std::min(std::ceil(f_px * moved_m / sensed_m), own_m.width() + own_m.height() + 0.0));
+      for_square(view.sensor_depth_m, u, v, reach_px, [&](int x, int y) {
+        aged_m(x, y) = std::min(aged_m(x, y), own_m(u, v) - moved_m);
+      });
+    }
+  }
+  return aged_m;
+}
+
+}  // namespace
+
+Image<double> free_depth_m(const PointView& view, const SpaceSettings& settings) {
+  const int width = view.camera.width_px;
+  const int height = view.camera.height_px;
+  Image<double> free_m(width, height, kNone);
+  if (view.age_s > settings.free_space_max_age_s) return free_m;
+  Image<double> own_m = own_free_depth_m(view, settings);
+  if (view.age_s > 0) own_m = aged(view, settings, own_m);
+  for (int v = 1; v < height - 1; ++v) {
+    for (int u = 1; u < width - 1; ++u) {
+      free_m(u, v) = kInfinity;
+      for_square(view.sensor_depth_m, u, v, 1,
+                 [&](int x, int y) { free_m(u, v) = std::min(free_m(u, v), own_m(x, y)); });
+    }
+  }
+  return free_m;
+}
+
+Pixel plain_pixel_of(const Camera& camera, const Eigen::Vector3d& p_C) {
+  if (!(p_C.z() > 0)) return {};
+  const double u = std::round(camera.fx_px * p_C.x() / p_C.z() + camera.cx_px);
+  const double v = std::round(camera.fy_px * p_C.y() / p_C.z() + camera.cy_px);
+  if (!(u >= 0 && v >= 0 && u < camera.width_px && v < camera.height_px)) return {};
+  return {static_cast<int>(u), static_cast<int>(v)};
+}
+
+PointSpace::PointSpace(std::vector<PointView> views, const SpaceSettings& settings)
+    : views_(std::move(views)), settings_(settings) {
+  for (const PointView& view : views_) free_depth_m_.push_back(free_depth_m(view, settings));
+}
+
+bool PointSpace::is_reading(std::size_t k, const Eigen::Vector3d& p_B) const {
+  const Eigen::Vector3d p_C = views_[k].X_BC.inverse() * p_B;
+  const Pixel pixel = plain_pixel_of(views_[k].camera, p_C);
+  if (pixel == Pixel{}) return false;
+  const double near_m = views_[k].obstacle_depth_m(pixel.u, pixel.v);
+  return near_m <= p_C.z() && p_C.z() <= near_m + settings_.surface_thickness_m;
+}
+
+bool PointSpace::is_behind(std::size_t k, const Eigen::Vector3d& p_B) const {
+  const Eigen::Vector3d p_C = views_[k].X_BC.inverse() * p_B;
+  const Pixel pixel = plain_pixel_of(views_[k].camera, p_C);
+  if (pixel == Pixel{}) return false;
+  return p_C.z() > views_[k].obstacle_depth_m(pixel.u, pixel.v) + settings_.surface_thickness_m;
+}
+
+bool PointSpace::is_free(std::size_t k, const Eigen::Vector3d& p_B) const {
+  const Eigen::Vector3d p_C = views_[k].X_BC.inverse() * p_B;
+  const Pixel pixel = plain_pixel_of(views_[k].camera, p_C);
+  return pixel != Pixel{} && p_C.z() < free_depth_m_[k](pixel.u, pixel.v);
+}
+
+bool PointSpace::is_reading(const Eigen::Vector3d& p_B) const {
+  for (std::size_t k = 0; k < views_.size(); ++k) {
+    if (is_reading(k, p_B)) return true;
+  }
+  return false;
+}
+
+bool PointSpace::is_hidden(const Eigen::Vector3d& p_B) const {
+  for (std::size_t k = 0; k < views_.size(); ++k) {
+    if (!is_behind(k, p_B)) continue;
+    bool is_seen_free = false;
+    for (std::size_t j = 0; j < views_.size(); ++j) {
+      if (j != k && is_free(j, p_B)) is_seen_free = true;
+    }
+    if (!is_seen_free) return true;
+  }
+  return false;
+}
+
+}  // namespace berth::sim

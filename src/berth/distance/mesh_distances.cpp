@@ -1,0 +1,360 @@
+#include "berth/distance/mesh_distances.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "berth/distance/last_question.hpp"
+
+namespace berth {
+namespace mesh {
+
+ConvexPair triangle_pair(const LinkSearch& search, const Pose& X_FL, int triangle,
+                         std::span<const Eigen::Vector3d> body_corners_m) {
+  Eigen::Vector3d corners_m[3];
+  const auto& from_m = search.link->corners_m;
+  for (int i = 0; i < 3; ++i) {
+    corners_m[i] = X_FL * Eigen::Vector3d(from_m[3 * i][triangle], from_m[3 * i + 1][triangle],
+                                          from_m[3 * i + 2][triangle]);
+  }
+  return closest_points(corners_m, body_corners_m);
+}
+
+}  // namespace mesh
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using mesh::LinkSearch;
+
+struct LinkState {
+  LinkSearch reading;
+  LinkSearch nearest;
+  /// The last answer's pair.
+  SpacePair last;
+};
+
+constexpr int kEndless = 1 << 30;
+/// Below it the roundings of bounds would keep a search from ending.
+constexpr float kFinestTolerance_m = 2e-5f;
+
+struct Asked {
+  const UnknownSpace& space;
+  const MeshQuestion& question;
+  /// With one view nothing is seen free by another one: hidden is all that lies behind a reading.
+  bool is_shadow() const { return space.views().size() < 2; }
+};
+
+void start(const LinkPatches& patches, const Pose& X_BL, const MeshQuestion& question,
+           LinkSearch& search) {
+  search.link = &patches;
+  search.X_BL = X_BL;
+  search.range_m = static_cast<float>(question.range_m);
+  search.tolerance_m = std::max(static_cast<float>(question.tolerance_m), kFinestTolerance_m);
+  search.best_m = search.range_m;
+  search.best_triangle = -1;
+  search.best_is_hidden = false;
+  search.known_bound_m = 0;
+}
+
+/// A reading is an obstacle for `nearest` as well.
+void take_reading(const LinkSearch& reading, LinkSearch& nearest) {
+  if (!reading.is_known() || !(reading.best_m < nearest.best_m)) return;
+  nearest.best_m = reading.best_m;
+  nearest.best_triangle = reading.best_triangle;
+  nearest.best_pixel = reading.best_pixel;
+  nearest.best_is_hidden = false;
+}
+
+/// The last answer's pixel as it is in the new image, its surface layer or with `to_shadow` all behind its
+/// reading, against the whole link.
+void guess(const UnknownSpace& space, const SpacePair& last, bool to_shadow, LinkSearch& search) {
+  if (search.link->empty() || last.camera < 0 ||
+      last.camera >= static_cast<int>(space.views().size())) {
+    return;
+  }
+  const CameraSpace& view = *space.views()[last.camera].space;
+  const Pixel pixel = last.obstacle_pixel;
+  if (pixel.u < 0 || pixel.v < 0 || pixel.u >= view.camera.width_px ||
+      pixel.v >= view.camera.height_px) {
+    return;
+  }
+  if (std::isnan(view.obstacle_depth_m(pixel.u, pixel.v))) return;
+  const int top_level = static_cast<int>(search.link->levels.size()) - 1;
+  search.items.clear();
+  search.items.push(
+      {0, mesh::patch_of(top_level, 0),
+       mesh::ImageCell{last.camera, mesh::ImageCell::kPixelLevel, 0, pixel.u, pixel.v}.key()});
+  // To the end, whatever is known: asked again, an answer becomes no worse.
+  const float known_bound_m = std::exchange(search.known_bound_m, 0.0f);
+  const float tolerance_m = std::exchange(search.tolerance_m, kFinestTolerance_m);
+  mesh::search_views(space, to_shadow, kEndless, search);
+  search.known_bound_m = known_bound_m;
+  search.tolerance_m = tolerance_m;
+}
+
+void start_nearest(const Asked& asked, LinkState& link) {
+  take_reading(link.reading, link.nearest);
+  if (asked.is_shadow()) {
+    guess(asked.space, link.last, true, link.nearest);
+    mesh::start_in_views(asked.space, link.nearest);
+  } else {
+    if (link.last.obstacle_is == ObstacleKind::unknown) {
+      mesh::try_hidden_point(asked.space, link.last.obstacle_point_B_m, link.nearest);
+    }
+    mesh::start_in_cubes(link.nearest);
+  }
+}
+
+void search_nearest(const Asked& asked, int steps, LinkState& link) {
+  if (asked.is_shadow()) {
+    mesh::search_views(asked.space, true, steps, link.nearest);
+  } else {
+    mesh::search_cubes(asked.space, steps, link.nearest);
+  }
+}
+
+void search_to_the_end(const Asked& asked, LinkState& link) {
+  if (link.reading.link->empty()) return;
+  mesh::search_views(asked.space, false, kEndless, link.reading);
+  if (!asked.question.unknown) return;
+  start_nearest(asked, link);
+  search_nearest(asked, kEndless, link);
+}
+
+/// How far its bounds are apart; 0 where that is near enough.
+double gap_m(const LinkSearch& search) {
+  return search.is_done() ? 0 : search.best_m - search.lower_bound_m();
+}
+
+/// One of a link's two searches.
+struct Turn {
+  LinkState* link = nullptr;
+  bool is_reading = true;
+
+  double gap_m() const {
+    if (link == nullptr) return 0;
+    return berth::gap_m(is_reading ? link->reading : link->nearest);
+  }
+};
+
+/// The search that knows least; none where all are done.
+Turn widest_of(const Asked& asked, std::vector<LinkState>& links) {
+  Turn widest;
+  for (LinkState& link : links) {
+    if (link.reading.link->empty()) continue;
+    for (const bool is_reading : {true, false}) {
+      const Turn turn{&link, is_reading};
+      if (!is_reading && !asked.question.unknown) continue;
+      if (turn.gap_m() > widest.gap_m()) widest = turn;
+    }
+  }
+  return widest;
+}
+
+/// Goes on where the least is known, until everything is or time is over. What is not finished the
+/// next question has to begin anew: if this one is asked `again`, each search that has its turn
+/// goes on to its end, so that all links are known after a few questions.
+void search_until(const Asked& asked, Clock::time_point deadline, bool again,
+                  std::vector<LinkState>& links) {
+  constexpr int kSteps = 8;
+  if (asked.question.unknown) {
+    for (LinkState& link : links) {
+      if (!link.reading.link->empty()) start_nearest(asked, link);
+    }
+  }
+  Turn turn;
+  do {
+    if (!again || turn.gap_m() == 0) turn = widest_of(asked, links);
+    if (turn.link == nullptr) return;
+    if (turn.is_reading) {
+      mesh::search_views(asked.space, false, kSteps, turn.link->reading);
+      take_reading(turn.link->reading, turn.link->nearest);
+    } else {
+      search_nearest(asked, kSteps, *turn.link);
+    }
+  } while (Clock::now() < deadline);
+}
+
+void set_points(const Eigen::Vector3d& robot_B_m, const Eigen::Vector3d& obstacle_B_m,
+                SpacePair& pair) {
+  pair.robot_point_B_m = robot_B_m.cast<float>();
+  pair.obstacle_point_B_m = obstacle_B_m.cast<float>();
+  pair.distance_m = static_cast<float>(
+      (pair.obstacle_point_B_m.cast<double>() - pair.robot_point_B_m.cast<double>()).norm());
+}
+
+/// The best pair was a triangle and all that a pixel measured, or also what that hides.
+void set_pixel_pair(const UnknownSpace& space, const LinkSearch& search, SpacePair& pair) {
+  const mesh::ImageCell cell = mesh::ImageCell::of_key(search.best_pixel);
+  const FreeingCamera& view = space.views()[cell.view];
+  const Camera& camera = view.space->camera;
+  const double near_m = view.space->obstacle_depth_m(cell.u, cell.v);
+  const double surface_end_m = near_m + view.space->settings.surface_thickness_m;
+  const Pose X_CL = view.X_CB * search.X_BL;
+  // Far enough to hold all within the range: the pair found was nearer.
+  const double far_m =
+      search.best_is_hidden ? surface_end_m + X_CL.translation().norm() + 100 : surface_end_m;
+  Eigen::Vector3d corners_m[8];
+  for (int i = 0; i < 8; ++i) {
+    const double z = i & 4 ? far_m : near_m;
+    corners_m[i] = {z * (cell.u + (i & 1 ? 0.5 : -0.5) - camera.cx_px) / camera.fx_px,
+                    z * (cell.v + (i & 2 ? 0.5 : -0.5) - camera.cy_px) / camera.fy_px, z};
+  }
+  const mesh::ConvexPair found = mesh::triangle_pair(search, X_CL, search.best_triangle, corners_m);
+  set_points(view.X_BC * found.a_m, view.X_BC * found.b_m, pair);
+  const bool is_hidden = search.best_is_hidden && found.b_m.z() > surface_end_m;
+  pair.obstacle_is = is_hidden ? ObstacleKind::unknown : ObstacleKind::occupied;
+  pair.camera = cell.view;
+  pair.obstacle_pixel = {cell.u, cell.v};
+}
+
+/// The best pair was a triangle and a point of unknown space.
+void set_hidden_pair(const UnknownSpace& space, const LinkSearch& search, SpacePair& pair) {
+  const Eigen::Vector3d point_B_m = search.best_point_B_m.cast<double>();
+  const auto hiding = space.hiding_pixel(point_B_m);
+  if (!hiding) return;
+  const mesh::ConvexPair found =
+      mesh::triangle_pair(search, search.X_BL, search.best_triangle, {&point_B_m, 1});
+  set_points(found.a_m, point_B_m, pair);
+  pair.obstacle_is = ObstacleKind::unknown;
+  pair.camera = hiding->view;
+  pair.obstacle_pixel = hiding->pixel;
+}
+
+SpacePair answer_of(const UnknownSpace& space, bool is_shadow, const LinkSearch& search) {
+  SpacePair pair;
+  pair.lower_bound_m = search.lower_bound_m();
+  if (!search.is_known()) return pair;
+  if (search.best_is_hidden && !is_shadow) {
+    set_hidden_pair(space, search, pair);
+  } else {
+    set_pixel_pair(space, search, pair);
+  }
+  return pair;
+}
+
+/// Two answers that do not contradict each other.
+void reconcile(WholeLinkDistance& link) {
+  SpacePair& nearest = link.nearest;
+  SpacePair& occupied = link.occupied;
+  if (occupied.is_known() && !(nearest.distance_m <= occupied.distance_m)) {
+    const float lower_bound_m = nearest.lower_bound_m;
+    nearest = occupied;
+    nearest.lower_bound_m = lower_bound_m;
+  }
+  occupied.lower_bound_m = std::max(occupied.lower_bound_m, nearest.lower_bound_m);
+  for (SpacePair* pair : {&nearest, &occupied}) {
+    if (pair->is_known()) pair->lower_bound_m = std::min(pair->lower_bound_m, pair->distance_m);
+  }
+}
+
+WholeLinkDistance answer_of(const Asked& asked, LinkId id, const LinkState& link) {
+  WholeLinkDistance out;
+  out.id = id;
+  if (link.reading.link->empty()) {
+    out.nearest.lower_bound_m = out.occupied.lower_bound_m = link.reading.range_m;
+    return out;
+  }
+  out.occupied = answer_of(asked.space, false, link.reading);
+  out.nearest = out.occupied;
+  if (asked.question.unknown) {
+    out.nearest = answer_of(asked.space, asked.is_shadow(), link.nearest);
+    if (!asked.is_shadow()) {
+      out.nearest.lower_bound_m = std::min(out.nearest.lower_bound_m, out.occupied.lower_bound_m);
+    }
+  }
+  reconcile(out);
+  return out;
+}
+
+}  // namespace
+
+struct MeshWorkspace::State {
+  std::vector<LinkState> links;
+  mesh::LastQuestion last;
+};
+
+MeshWorkspace::MeshWorkspace() : state_(std::make_unique<State>()) {}
+MeshWorkspace::~MeshWorkspace() = default;
+MeshWorkspace::MeshWorkspace(MeshWorkspace&&) noexcept = default;
+MeshWorkspace& MeshWorkspace::operator=(MeshWorkspace&&) noexcept = default;
+void MeshWorkspace::forget() { state_->last.links.clear(); }
+
+namespace {
+
+bool is_about(const mesh::LastQuestion& last, const RobotPatches& robot, const UnknownSpace& space) {
+  return last.robot == robot.serial_number && last.space == space.serial_number() &&
+         last.links.size() == robot.links.size();
+}
+
+/// What no link can have come nearer than since the last question.
+void recall(const mesh::LastLink& last, LinkState& link) {
+  const float moved_m = mesh::moved_at_most_m(*link.reading.link, last.X_BL, link.reading.X_BL);
+  const float range_m = link.reading.range_m;
+  link.reading.known_bound_m = std::clamp(last.reading_bound_m - moved_m, 0.0f, range_m);
+  link.nearest.known_bound_m = std::clamp(last.nearest_bound_m - moved_m, 0.0f, range_m);
+}
+
+void remember(const RobotPatches& robot, const UnknownSpace& space, bool hidden,
+              const std::vector<LinkState>& links, mesh::LastQuestion& last) {
+  last.robot = robot.serial_number;
+  last.space = space.serial_number();
+  last.links.resize(links.size());
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const LinkState& link = links[i];
+    if (link.reading.link->empty()) continue;
+    last.links[i] = {link.reading.X_BL, link.reading.lower_bound_m(),
+                     hidden ? link.nearest.lower_bound_m() : 0};
+  }
+}
+
+/// With the last answer's pairs for a first guess. Returns whether the last question was about the
+/// same space.
+bool start_links(const RobotPatches& robot, const RobotPose& pose, const Asked& asked,
+                 const mesh::LastQuestion& last, const std::vector<WholeLinkDistance>& last_answer,
+                 std::vector<LinkState>& links) {
+  const bool is_same = is_about(last, robot, asked.space);
+  links.resize(robot.links.size());
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    LinkState& link = links[i];
+    const Pose& X_BL = pose.X_BL[robot.links[i].link];
+    start(robot.links[i], X_BL, asked.question, link.reading);
+    start(robot.links[i], X_BL, asked.question, link.nearest);
+    if (is_same) recall(last.links[i], link);
+    const WholeLinkDistance guessed = i < last_answer.size() ? last_answer[i] : WholeLinkDistance{};
+    link.last = guessed.nearest;
+    guess(asked.space, guessed.occupied, false, link.reading);
+    mesh::start_in_views(asked.space, link.reading);
+  }
+  return is_same;
+}
+
+}  // namespace
+
+void mesh_distances(const RobotPatches& robot, const RobotPose& pose, const UnknownSpace& space,
+                    const MeshQuestion& question, MeshWorkspace& workspace,
+                    std::vector<WholeLinkDistance>& out) {
+  const Clock::time_point begin = Clock::now();
+  validate(question);
+  const Asked asked{space, question};
+  std::vector<LinkState>& links = workspace.state_->links;
+  const bool again = start_links(robot, pose, asked, workspace.state_->last, out, links);
+  if (question.deadline_us) {
+    const std::chrono::duration<double, std::micro> wait(std::min(*question.deadline_us, 1e12));
+    search_until(asked, begin + std::chrono::duration_cast<Clock::duration>(wait), again, links);
+  } else {
+    tbb::parallel_for(std::size_t{0}, links.size(),
+                      [&](std::size_t i) { search_to_the_end(asked, links[i]); });
+  }
+  remember(robot, space, question.unknown, links, workspace.state_->last);
+  out.resize(robot.links.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i] = answer_of(asked, static_cast<LinkId>(i + 1), links[i]);
+  }
+}
+
+}  // namespace berth

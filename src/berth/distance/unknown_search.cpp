@@ -1,0 +1,269 @@
+#include <algorithm>
+#include <cmath>
+
+#include "berth/distance/link_search.hpp"
+
+// Compiles the rest of this file once for each instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "berth/distance/unknown_search.cpp"
+#include "hwy/foreach_target.h"
+
+#include "berth/distance/cube_corners-inl.hpp"
+#include "berth/distance/leaf-inl.hpp"
+#include "berth/distance/nearest_point-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace berth::mesh {
+namespace HWY_NAMESPACE {
+
+/// A search for one link among the cubes of unknown space. A cube's distance is bounded by those of
+/// its corners; where nothing is hidden in it, it is dropped before these are asked for.
+struct CubeSearch {
+  LinkSearch& link;
+  const UnknownSpace& space;
+  Pose X_LB;
+  NearestPointSearch mesh;
+  float error_m;
+};
+
+/// Marks an item whose bound is that of its own corners, not of the cube that it is a child of.
+constexpr std::uint32_t kSharp = 1u << 31;
+
+/// The level from which on down a cube's corners tell more than patches do.
+constexpr int kGreatestByCorners = 4;
+
+Eigen::Vector3f in_link(const CubeSearch& search, const Eigen::Vector3d& p_B_m) {
+  return (search.X_LB * p_B_m).cast<float>();
+}
+
+/// How near the link is to the corners of a cube, at least; `hint` is a leaf that may be near to
+/// them, and becomes one that is.
+CubeCorners exact_corners(CubeSearch& search, const Cube& cube, float bound_m, int& hint) {
+  CubeCorners corners;
+  NearPoints unknown;
+  int place[8];
+  const auto corner = [&](int i) {
+    return Cube{cube.level, cube.x + (i & 1), cube.y + (i >> 1 & 1), cube.z + (i >> 2)};
+  };
+  for (int i = 0; i < 8; ++i) {
+    const std::uint64_t key = corner(i).key();
+    const CornerStore::Corner& kept = search.link.corners.at(key);
+    if (kept.key == key) {
+      corners.squared_m2[i] = kept.squared_m2;
+      hint = kept.leaf;
+    } else {
+      place[unknown.count] = i;
+      unknown.p_L_m[unknown.count++] = in_link(search, corner(i).corner_m());
+    }
+  }
+  if (unknown.count == 0) return corners;
+  // What lies between the corners costs up to seven times as much.
+  const auto edge_m = static_cast<float>(cube.edge_m());
+  const float slack_m = 0.05f * edge_m * edge_m / std::max(bound_m, edge_m);
+  search.mesh.find(hint, slack_m, unknown);
+  for (int k = 0; k < unknown.count; ++k) {
+    const int i = place[k];
+    const std::uint64_t key = corner(i).key();
+    const float distance_m = unknown.distance[k].lower_m;
+    corners.squared_m2[i] = distance_m * distance_m;
+    hint = unknown.distance[k].triangle / LinkPatches::kChildren;
+    search.link.corners.at(key) = {key, corners.squared_m2[i], hint};
+  }
+  return corners;
+}
+
+/// The greatest cubes at this distance of which what lies between the corners costs at most
+/// half of the tolerance: smaller ones need no corners of their own.
+int level_of_corners(const LinkSearch& link, float distance_m) {
+  int level = 0;
+  while (level < kGreatestByCorners) {
+    const auto edge_m = static_cast<float>(Cube{level + 1, 0, 0, 0}.edge_m());
+    if (!(0.75f * edge_m * edge_m <= link.tolerance_m * distance_m)) break;
+    ++level;
+  }
+  return level;
+}
+
+/// The corners of a cube, from those of the cube of `level` that it is part of if that is greater.
+CubeCorners corners_of(CubeSearch& search, const Cube& cube, float bound_m, int& hint) {
+  const int level = level_of_corners(search.link, bound_m);
+  if (cube.level >= level) return exact_corners(search, cube, bound_m, hint);
+  const int shift = 2 * (level - cube.level);
+  const Cube whole{level, cube.x >> shift, cube.y >> shift, cube.z >> shift};
+  const CubeCorners corners = exact_corners(search, whole, bound_m, hint);
+  const auto part = 1.0f / static_cast<float>(1 << shift);
+  const int mask = (1 << shift) - 1;
+  return corners_within(
+      corners, static_cast<float>(whole.edge_m()),
+      {part * static_cast<float>(cube.x & mask), part * static_cast<float>(cube.y & mask),
+       part * static_cast<float>(cube.z & mask)},
+      part);
+}
+
+/// Takes a point for the best obstacle if it is hidden and nearer than that.
+void try_point(CubeSearch& search, const Eigen::Vector3d& p_B_m, int hint) {
+  LinkSearch& link = search.link;
+  const Eigen::Vector3f point_B_m = p_B_m.cast<float>();
+  const Eigen::Vector3d rounded_B_m = point_B_m.cast<double>();
+  if (!search.space.hiding_pixel(rounded_B_m)) return;
+  NearPoints point;
+  point.count = 1;
+  point.p_L_m[0] = in_link(search, rounded_B_m);
+  search.mesh.find(hint, 0, point);
+  const MeshDistance& found = point.distance[0];
+  if (!(found.upper_m < link.best_m)) return;
+  link.best_m = found.upper_m;
+  link.best_triangle = found.triangle;
+  link.best_point_B_m = point_B_m;
+  link.best_is_hidden = true;
+}
+
+/// Takes the point of the cube that is nearest to the link's triangles near it.
+void try_nearest(CubeSearch& search, const Cube& cube, int hint) {
+  const Eigen::Vector3d low_m = cube.corner_m();
+  const Eigen::Vector3d high_m = low_m.array() + cube.edge_m();
+  const Eigen::Vector3f p_L_m = in_link(search, (low_m + high_m) / 2);
+  const Eigen::Vector3f nearest_m = search.mesh.nearest_of_leaf(hint, p_L_m);
+  const Eigen::Vector3d on_link_m = search.link.X_BL * nearest_m.cast<double>();
+  const Eigen::Vector3d point_m = on_link_m.cwiseMax(low_m).cwiseMin(high_m);
+  if ((point_m - on_link_m).norm() < search.link.best_m) try_point(search, point_m, hint);
+}
+
+/// Great cubes are far from being like their corners: the cylinders of the link's patches bound the
+/// distances of their children.
+HWY_INLINE void bound_by_patches(const CubeSearch& search, const Cube& cube, std::uint64_t wanted,
+                                 float (&out_m)[64]) {
+  constexpr int kMostPatches = 32;
+  const LinkPatches& link = *search.link.link;
+  std::size_t level = 0;
+  while (link.levels[level].count > kMostPatches) ++level;
+  const Motion motion = motion_of(search.link.X_BL);
+  const auto half_m = static_cast<float>(cube.edge_m() / 8);
+  for (int i = 0; i < 64; i += kLanes) {
+    if (!has_wanted(wanted, i)) continue;
+    const CubePoints centre = child_centres(cube, i);
+    const Boxes boxes{{centre.x, centre.y, centre.z}, Lanes(half_m)};
+    Lanes bound(HUGE_VALF);
+    for (int k = 0; k < link.levels[level].count; ++k) {
+      bound = least(bound, patch_bound(broadcast_patch(link.levels[level], k, motion), boxes));
+    }
+    store(bound - Lanes(search.error_m), out_m + i);
+  }
+}
+
+void expand(CubeSearch& search, const Item& item, Fresh& fresh) {
+  LinkSearch& link = search.link;
+  const Cube cube = Cube::of_key(item.space);
+  const std::uint64_t possible = cube.level == 0 ? 1 : search.space.block(cube);
+  if (possible == 0) return;
+  int hint = static_cast<int>(item.patch & ~kSharp);
+  float bound_m = item.bound_m;
+  alignas(64) float child_bounds_m[64];
+  if (cube.level <= kGreatestByCorners) {
+    const auto edge_m = static_cast<float>(cube.edge_m());
+    const CubeCorners corners = corners_of(search, cube, bound_m, hint);
+    if ((item.patch & kSharp) == 0) {
+      bound_m = std::max(bound_m, least_distance_m(corners, edge_m));
+      if (!(bound_m < link.limit_m())) return;
+      if (bound_m > link.items.least_bound_m()) {
+        fresh.add(bound_m, static_cast<std::uint32_t>(hint) | kSharp, item.space);
+        return;
+      }
+    }
+    if (centre_distance_m(corners, edge_m) < link.best_m) {
+      try_point(search, cube.corner_m().array() + cube.edge_m() / 2, hint);
+    }
+    try_nearest(search, cube, hint);
+    if (!(bound_m < link.limit_m())) return;
+    if (cube.level == 0) {
+      link.given_up_m = std::min(link.given_up_m, bound_m);
+      return;
+    }
+    bound_child_cubes(corners, edge_m, possible, child_bounds_m);
+  } else {
+    bound_by_patches(search, cube, possible, child_bounds_m);
+  }
+  for (std::uint64_t left = possible; left != 0; left &= left - 1) {
+    const int i = __builtin_ctzll(left);
+    if (!(child_bounds_m[i] < link.limit_m())) continue;
+    fresh.add(std::max(child_bounds_m[i], bound_m), static_cast<std::uint32_t>(hint),
+              cube.child(i).key());
+  }
+}
+
+CubeSearch make_search(const UnknownSpace& space, LinkSearch& link) {
+  const PatchLevel& top = link.link->levels.back();
+  const Eigen::Vector3d centre_L_m(top.centre_m[0][0], top.centre_m[1][0], top.centre_m[2][0]);
+  const double reach_m = centre_L_m.norm() + link.X_BL.translation().norm() + top.half_height_m[0] +
+                         top.radius_m[0] + link.range_m;
+  const float error_m = rounding_m(static_cast<float>(reach_m));
+  return {link, space, link.X_BL.inverse(), NearestPointSearch(*link.link, error_m), error_m};
+}
+
+void search_in_cubes(const UnknownSpace& space, int steps, LinkSearch& link) {
+  CubeSearch search = make_search(space, link);
+  search_best_first(link, steps,
+                    [&](const Item& item, Fresh& fresh) HWY_ATTR { expand(search, item, fresh); });
+}
+
+void try_point_of(const UnknownSpace& space, const Eigen::Vector3f& p_B_m, LinkSearch& link) {
+  CubeSearch search = make_search(space, link);
+  try_point(search, p_B_m.cast<double>(), 0);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace berth::mesh
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace berth::mesh {
+
+HWY_EXPORT(search_in_cubes);
+HWY_EXPORT(try_point_of);
+
+void search_cubes(const UnknownSpace& space, int steps, LinkSearch& search) {
+  HWY_DYNAMIC_DISPATCH(search_in_cubes)(space, steps, search);
+}
+
+void try_hidden_point(const UnknownSpace& space, const Eigen::Vector3f& p_B_m, LinkSearch& search) {
+  HWY_DYNAMIC_DISPATCH(try_point_of)(space, p_B_m, search);
+}
+
+void start_in_cubes(LinkSearch& search) {
+  search.items.clear();
+  search.corners.clear();
+  search.given_up_m = std::numeric_limits<float>::infinity();
+  if (search.link->empty()) return;
+  const int top_level = static_cast<int>(search.link->levels.size()) - 1;
+  const PatchLevel& top = search.link->levels[top_level];
+  const Eigen::Vector3d centre_B_m =
+      search.X_BL * Eigen::Vector3d(top.centre_m[0][0], top.centre_m[1][0], top.centre_m[2][0]);
+  const double reach_m = static_cast<double>(top.half_height_m[0]) + top.radius_m[0] +
+                         std::max(0.0f, search.limit_m());
+  constexpr int kSide = Cube::kCount >> 2 * Cube::kTopLevel;
+  int begin[3], end[3];
+  for (int i = 0; i < 3; ++i) {
+    begin[i] = top_cube_at(centre_B_m[i] - reach_m);
+    end[i] = top_cube_at(centre_B_m[i] + reach_m) + 1;
+    // Beyond all cubes nothing is known.
+    if (begin[i] < 0 || end[i] > kSide) search.given_up_m = 0;
+    begin[i] = std::clamp(begin[i], 0, kSide);
+    end[i] = std::clamp(end[i], 0, kSide);
+  }
+  for (int z = begin[2]; z < end[2]; ++z) {
+    for (int y = begin[1]; y < end[1]; ++y) {
+      for (int x = begin[0]; x < end[0]; ++x) {
+        const Cube cube{Cube::kTopLevel, x, y, z};
+        const Eigen::Vector3d low_m = cube.corner_m();
+        const Eigen::Vector3d high_m = low_m.array() + cube.edge_m();
+        const Eigen::Vector3d nearest_m = centre_B_m.cwiseMax(low_m).cwiseMin(high_m);
+        const double bound_m =
+            (nearest_m - centre_B_m).norm() - top.half_height_m[0] - top.radius_m[0] - 1e-5;
+        search.items.push({static_cast<float>(std::max(bound_m, 0.0)), 0, cube.key()});
+      }
+    }
+  }
+}
+
+}  // namespace berth::mesh
+#endif  // HWY_ONCE

@@ -1,0 +1,19 @@
+// For watch/ and calibration/: what an estimate means for the robot in the images.
+#pragma once
+
+#include <vector>
+
+#include "berth/fit/frame_drawer.hpp"
+#include "berth/fit/residual_spread.hpp"
+
+namespace berth {
+
+/// How far the robot's visible points lie apart between two estimates, as each camera sees them: a
+/// mean for each camera. NaN where a camera sees no robot.
+std::vector<double> displacement_m(FrameDrawer& drawer, int step, const CalibrationEstimate& a,
+                                   const CalibrationEstimate& b);
+
+/// |reading - model| where readings are the robot's, for each camera.
+std::vector<ResidualSpread> residuals(FrameDrawer& drawer, const CalibrationEstimate& estimate);
+
+}  // namespace berth

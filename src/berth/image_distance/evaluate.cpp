@@ -1,0 +1,53 @@
+#include "berth/image_distance/evaluate.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "berth/image_distance/brute_force.hpp"
+
+namespace berth {
+namespace {
+
+struct CpuFunction {
+  Method method;
+  void (*run)(const Question& question, EvaluateWorkspace& workspace, LinkDistances& out);
+};
+
+constexpr std::array<CpuFunction, 3> kOnCpu = {{
+    {Method::exact,
+     [](const Question& q, EvaluateWorkspace& w, LinkDistances& out) { exact(q, w.exact, out); }},
+    {Method::brute_force,
+     [](const Question& q, EvaluateWorkspace&, LinkDistances& out) { brute_force(q, out); }},
+    {Method::lattice,
+     [](const Question& q, EvaluateWorkspace& w, LinkDistances& out) { lattice(q, w.lattice, out); }},
+}};
+
+}  // namespace
+
+std::optional<Method> method_from_name(std::string_view name) {
+  const auto found = std::ranges::find(kMethodNames, name);
+  if (found == kMethodNames.end()) return std::nullopt;
+  return static_cast<Method>(found - kMethodNames.begin());
+}
+
+void require_on_processor(Method method) {
+  if (runs_on_opengl(method)) {
+    throw std::invalid_argument("method " + std::string(name_of(method)) +
+                                " runs on OpenGL; expected one that does not");
+  }
+  if (compares_images(method)) return;
+  throw std::invalid_argument("method " + std::string(name_of(method)) +
+                              " asks no images; expected one that does");
+}
+
+void evaluate(Method method, const Question& question, EvaluateWorkspace& workspace,
+              LinkDistances& out) {
+  require_on_processor(method);
+  std::ranges::find(kOnCpu, method, &CpuFunction::method)->run(question, workspace, out);
+  if (question.settings.mean_direction) {
+    fill_mean_directions(question, workspace.directions, out);
+  }
+}
+
+}  // namespace berth

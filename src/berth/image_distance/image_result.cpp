@@ -1,0 +1,94 @@
+#include "berth/image_distance/image_result.hpp"
+
+#include "berth/pipeline/frame_space.hpp"
+#include "berth/pipeline/frame_set.hpp"
+#include "berth/pipeline/mounted_camera.hpp"
+#include "berth/visibility/sample_points.hpp"
+
+namespace berth {
+
+ImageDistanceSettings settings_of(const Robot& robot, const ImageSettings& images) {
+  ImageDistanceSettings settings;
+  static_cast<DistanceSettings&>(settings) = robot.settings().distance;
+  static_cast<ImageSettings&>(settings) = images;
+  return settings;
+}
+
+Result empty_image_result(const Robot& robot, Method method, const ImageSettings& images) {
+  validate(images);
+  const DistanceSettings& settings = robot.settings().distance;
+  Result result;
+  begin_result(robot, result);
+  result.method = name_of(method);
+  result.compares_images = true;
+  result.has_bounds = settings.tolerance_m.value_or(0) > 0 || settings.deadline_us;
+  result.cameras.resize(1);
+  return result;
+}
+
+bool begin_image_result(const Robot& robot, const Exposure& exposure,
+                        std::optional<double> joints_stamp_s, TimeStatus joints_status,
+                        std::optional<double> now_s, Result& out) {
+  const TimeSettings& settings = robot.settings().time;
+  withhold(out);
+  out.stamp_s = std::numeric_limits<double>::quiet_NaN();
+  out.joints_stamp_s = joints_stamp_s.value_or(exposure.stamp_s);
+  out.time = joints_stamp_s ? timeliness_of(exposure, *joints_stamp_s, now_s, settings)
+                            : timeliness_of(exposure, now_s, settings);
+  if (joints_status != TimeStatus::ok) out.time.status = joints_status;
+  CameraResult& camera = out.cameras.front();
+  static_cast<CameraState&>(camera) =
+      camera_state(exposure, now_s.value_or(exposure.stamp_s), settings);
+  camera.has_frame = exposure.view != nullptr;
+  camera.mounted = exposure.view;
+  if (exposure.view) camera.camera = exposure.view->mount().name;
+  camera.X_BC = exposure.X_BC;
+  if (out.time.status != TimeStatus::ok) return false;
+  out.stamp_s = exposure.stamp_s;
+  out.status = is_relied_on(camera.CameraState::status) ? ResultStatus::ok : ResultStatus::degraded;
+  return true;
+}
+
+void tell_image_distances(const LinkDistances& distances, const Pose& X_BC, Result& out) {
+  out.pairs = distances.pairs;
+  for (std::size_t i = 0; i < distances.links.size(); ++i) {
+    const LinkDistance& from = distances.links[i];
+    LinkResult& link = out.links[i];
+    link.status = from.status;
+    link.distance_m = from.distance_m;
+    link.lower_bound_m = from.lower_bound_m;
+    link.image = {from.robot_pixel, from.robot_pixels};
+    link.mean_count = from.mean_count;
+    if (!from.has_distance()) continue;
+    link.camera = 0;
+    link.obstacle_pixel = from.obstacle_pixel;
+    link.robot_point_C_m = from.robot_point_C_m;
+    link.obstacle_point_C_m = from.obstacle_point_C_m;
+    link.robot_point_B_m = (X_BC * from.robot_point_C_m.cast<double>()).cast<float>();
+    link.obstacle_point_B_m = (X_BC * from.obstacle_point_C_m.cast<double>()).cast<float>();
+    link.mean_direction_C = from.mean_direction_C;
+    link.mean_direction_B =
+        (X_BC.linear() * from.mean_direction_C.cast<double>()).cast<float>();
+  }
+  find_nearest(out);
+}
+
+void tell_image_visibility(const Robot& robot, const Frame& frame, const AskedRobot& asked,
+                           const LinkDistances& distances, TellWorkspace& workspace, Result& out) {
+  if (!robot.settings().visibility) return;
+  const MountedCamera& view = *frame.view;
+  const SeenFrame seen{view.camera(), frame.robot, frame.obstacles,
+                       tolerance_of(view.settings().self_filter)};
+  const double range_m = robot.settings().distance.range_m;
+  find_visibility(robot.model(), robot.sample_points(), seen, asked, distances, range_m,
+                  workspace.visibility, workspace.links);
+  if (!frame.space->rejected.extent.empty() && workspace.rejected_number != frame.number) {
+    workspace.rejected_depth.build(frame.space->rejected.depth_m);
+    workspace.rejected_number = frame.number;
+  }
+  find_rejected_distances(view.camera(), asked.image, frame.space->rejected, workspace.rejected_depth,
+                          distances, range_m, workspace.rejected, workspace.links);
+  for (std::size_t i = 0; i < out.links.size(); ++i) out.links[i].visibility = workspace.links[i];
+}
+
+}  // namespace berth

@@ -1,0 +1,120 @@
+#include "berth/image_distance/opengl/gl_image_query.hpp"
+
+#include <stdexcept>
+#include <string>
+
+#include "berth/image_distance/image_method.hpp"
+#include "berth/image_distance/image_result.hpp"
+#include "berth/image_distance/opengl/gl_evaluate.hpp"
+#include "berth/image_distance/opengl/gl_frame_images.hpp"
+#include "berth/image_distance/opengl/gl_robot_renderer.hpp"
+#include "berth/pipeline/mounted_camera.hpp"
+
+namespace berth {
+namespace {
+
+void require_opengl(Method method) {
+  if (runs_on_opengl(method)) return;
+  throw std::invalid_argument("method " + std::string(name_of(method)) +
+                              " does not run on OpenGL; expected one that does");
+}
+
+class MethodOnGl : public ImageMethod {
+ public:
+  explicit MethodOnGl(Method method) : method_(method) {}
+
+  void evaluate(const Question& question, LinkDistances& out) override {
+    evaluator_.evaluate(method_, question, out);
+  }
+
+ private:
+  Method method_;
+  GlEvaluator evaluator_;
+};
+
+}  // namespace
+
+std::unique_ptr<ImageMethod> make_gl_method(Method method) {
+  require_opengl(method);
+  return std::make_unique<MethodOnGl>(method);
+}
+
+struct GlImageQuery::Parts {
+  Parts(std::shared_ptr<const Robot> of, Method named, const ImageSettings& with)
+      : robot(std::move(of)),
+        method(named),
+        settings(settings_of(*robot, with)),
+        result(empty_image_result(*robot, named, with)) {
+    require_opengl(named);
+  }
+
+  void render(const RobotPose& pose, const GlFrame& frame);
+  void evaluate(const GlFrame& frame, const GlRobotImage& of_robot);
+
+  std::shared_ptr<const Robot> robot;
+  Method method;
+  ImageDistanceSettings settings;
+  GlEvaluator evaluator;
+  /// Of the camera that was asked last, made at the first request at other joint angles than those
+  /// of the exposure.
+  std::optional<GlRobotRenderer> renderer;
+  std::shared_ptr<const MountedCamera> rendered_view;
+  GlRobotImage asked_on_gl;
+  /// Read back for the visibility.
+  Frame seen;
+  RobotImage asked;
+  LinkDistances distances;
+  TellWorkspace tell;
+  Result result;
+};
+
+GlImageQuery::GlImageQuery(std::shared_ptr<const Robot> robot, Method method,
+                           const ImageSettings& settings)
+    : parts_(std::make_unique<Parts>(std::move(robot), method, settings)) {}
+
+GlImageQuery::~GlImageQuery() = default;
+
+const Result& GlImageQuery::ask(const GlFrame& frame, std::optional<double> now_s) {
+  if (!begin_image_result(*parts_->robot, frame, {}, TimeStatus::ok, now_s, parts_->result)) return parts_->result;
+  parts_->result.pose.X_BL = frame.pose.X_BL;
+  parts_->evaluate(frame, frame.images->robot);
+  if (!parts_->robot->settings().visibility) return parts_->result;
+  read_back(frame, parts_->seen);
+  tell_image_visibility(*parts_->robot, parts_->seen, {parts_->seen.pose, parts_->seen.X_BC, parts_->seen.robot}, parts_->distances, parts_->tell,
+                        parts_->result);
+  return parts_->result;
+}
+
+const Result& GlImageQuery::ask(const GlFrame& frame, const JointState& joints,
+                                std::optional<double> now_s) {
+  if (!begin_image_result(*parts_->robot, frame, joints.stamp_s, TimeStatus::ok, now_s, parts_->result)) {
+    return parts_->result;
+  }
+  forward_kinematics(parts_->robot->model(), joints.position, parts_->result.pose);
+  parts_->render(parts_->result.pose, frame);
+  parts_->evaluate(frame, parts_->asked_on_gl);
+  if (!parts_->robot->settings().visibility) return parts_->result;
+  read_back(frame, parts_->seen);
+  read_back(parts_->asked_on_gl, parts_->asked);
+  tell_image_visibility(*parts_->robot, parts_->seen, {parts_->result.pose, frame.X_BC, parts_->asked}, parts_->distances, parts_->tell,
+                        parts_->result);
+  return parts_->result;
+}
+
+void GlImageQuery::Parts::render(const RobotPose& pose, const GlFrame& frame) {
+  if (rendered_view != frame.view) {
+    rendered_view = frame.view;
+    const Camera& camera = frame.view->camera();
+    renderer.emplace(robot->model(), camera);
+    asked_on_gl = GlRobotImage(camera.width_px, camera.height_px);
+  }
+  renderer->render(pose, frame.X_BC, asked_on_gl);
+}
+
+void GlImageQuery::Parts::evaluate(const GlFrame& frame, const GlRobotImage& of_robot) {
+  evaluator.evaluate(method, frame.view->camera(), of_robot, frame.images->obstacles.depth_m,
+                      robot->model().link_count(), settings, distances);
+  tell_image_distances(distances, frame.X_BC, result);
+}
+
+}  // namespace berth

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "berth/image_distance/method.hpp"
+#include "berth/image_distance/opengl/gl_frame.hpp"
+#include "berth/image_distance/settings.hpp"
+#include "berth/pipeline/result.hpp"
+#include "berth/pipeline/robot.hpp"
+#include "berth/types/joint_state.hpp"
+
+namespace berth {
+
+class ImageMethod;
+
+/// A method that runs on OpenGL, for images of this program's memory: they are uploaded for each
+/// question. Throws std::invalid_argument for another method. It belongs to the context that is
+/// current when it is made, and to its thread.
+std::unique_ptr<ImageMethod> make_gl_method(Method method);
+
+/// ImageQuery on OpenGL, whose frames stay there. What comes back from the GPU is the answer; with
+/// EvaluationSettings::visibility also the images, once for each request. Shaders are compiled and
+/// the robot is uploaded at the first request that needs them. It belongs to the context that is
+/// current when it is made, and to its thread.
+class GlImageQuery {
+ public:
+  /// Throws std::invalid_argument if the method does not run on OpenGL, and for bad settings.
+  GlImageQuery(std::shared_ptr<const Robot> robot, Method method,
+               const ImageSettings& settings = {});
+  ~GlImageQuery();
+
+  /// As those of ImageQuery, without a count of pixel fates.
+  const Result& ask(const GlFrame& frame, std::optional<double> now_s = {});
+  const Result& ask(const GlFrame& frame, const JointState& joints,
+                    std::optional<double> now_s = {});
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace berth

@@ -1,0 +1,21 @@
+// Inside pipeline/ and for who looks into a frame: what one image says of the space before the camera.
+#pragma once
+
+#include "berth/distance/mean_directions.hpp"
+#include "berth/space/camera_space.hpp"
+#include "berth/visibility/rejected.hpp"
+
+namespace berth {
+
+struct FrameSpace {
+  CameraSpace seen;
+  /// For mean directions, where the settings ask for them.
+  ReadingTiles reading_tiles;
+  /// Empty unless EvaluationSettings::visibility is set.
+  RejectedImage rejected;
+  /// The readings that are rejected; only where there are any.
+  CameraSpace rejected_space;
+  bool has_rejected_space = false;
+};
+
+}  // namespace berth

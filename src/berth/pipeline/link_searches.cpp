@@ -1,0 +1,131 @@
+#include "berth/pipeline/link_searches.hpp"
+
+#include "berth/pipeline/frame_space.hpp"
+#include "berth/pipeline/mounted_camera.hpp"
+
+namespace berth {
+namespace {
+
+constexpr double kDefaultTolerance_m = 0.001;
+
+MeshQuestion question_of(const DistanceSettings& settings) {
+  return {.range_m = settings.range_m,
+          .tolerance_m = settings.tolerance_m.value_or(kDefaultTolerance_m),
+          .deadline_us = settings.deadline_us};
+}
+
+LinkStatus status_of(const SpacePair& nearest, double range_m) {
+  if (nearest.is_known()) return LinkStatus::ok;
+  return nearest.lower_bound_m >= static_cast<float>(range_m) ? LinkStatus::none_in_range
+                                                              : LinkStatus::cut_short;
+}
+
+/// Its camera by its place among all frames of the request.
+SpacePair in_frames(SpacePair pair, const FrameSet& frames) {
+  if (pair.is_known()) pair.camera = frames.used()[pair.camera];
+  return pair;
+}
+
+}  // namespace
+
+LinkSearches::LinkSearches(std::shared_ptr<const Robot> robot) : robot_(std::move(robot)) {}
+
+void LinkSearches::ask(const FrameSet& frames, const RobotPose& pose,
+                       std::vector<WholeLinkDistance>& out) {
+  mesh_distances(*robot_->patches(), pose, frames.space(),
+                 question_of(robot_->settings().distance), workspace_, out);
+}
+
+void LinkSearches::ask(const FrameSet& frames, const RobotPose& pose, Result& out) {
+  ask(frames, pose, found_);
+  tell_distances(frames, out);
+  if (robot_->settings().distance.mean_direction) tell_mean_directions(frames, out);
+  tell_visibility(frames, pose, out);
+}
+
+void LinkSearches::forget() {
+  workspace_.forget();
+  found_.clear();
+  rejected_workspace_.forget();
+  rejected_.clear();
+}
+
+void LinkSearches::tell_distances(const FrameSet& frames, Result& out) const {
+  for (std::size_t i = 0; i < found_.size(); ++i) {
+    LinkResult& link = out.links[i];
+    static_cast<SpacePair&>(link) = in_frames(found_[i].nearest, frames);
+    link.occupied = in_frames(found_[i].occupied, frames);
+    link.status = status_of(link, robot_->settings().distance.range_m);
+    link.robot_point_C_m = link.obstacle_point_C_m = unset_point();
+    link.mean_direction_B = link.mean_direction_C = unset_point();
+    link.mean_count = 0;
+    if (!link.is_known()) continue;
+    const Pose X_CB = frames.frames()[link.camera]->X_BC.inverse();
+    link.robot_point_C_m = (X_CB * link.robot_point_B_m.cast<double>()).cast<float>();
+    link.obstacle_point_C_m = (X_CB * link.obstacle_point_B_m.cast<double>()).cast<float>();
+  }
+}
+
+void LinkSearches::tell_mean_directions(const FrameSet& frames, Result& out) {
+  direction_views_.clear();
+  for (const int k : frames.used()) {
+    const Frame& frame = *frames.frames()[k];
+    direction_views_.push_back(
+        {frame.view->camera(), frame.obstacles.depth_m, frame.space->reading_tiles, frame.X_BC});
+  }
+  for (LinkResult& link : out.links) {
+    if (!link.has_distance()) continue;
+    const MeanDirection mean =
+        mean_direction(direction_views_, link.robot_point_B_m.cast<double>(),
+                       robot_->settings().distance.range_m);
+    link.mean_count = mean.count;
+    if (mean.count == 0) continue;
+    link.mean_direction_B = mean.direction_B;
+    const Pose& X_BC = frames.frames()[link.camera]->X_BC;
+    link.mean_direction_C =
+        (X_BC.linear().transpose() * mean.direction_B.cast<double>()).cast<float>();
+  }
+}
+
+void LinkSearches::tell_visibility(const FrameSet& frames, const RobotPose& pose, Result& out) {
+  views_.clear();
+  for (const int k : frames.used()) {
+    const Frame& frame = *frames.frames()[k];
+    const MountedCamera& view = *frame.view;
+    views_.push_back({{view.camera(), frame.robot, frame.obstacles,
+                       tolerance_of(view.settings().self_filter)},
+                      frame.space->seen.sensor_depth_m,
+                      frame.X_BC.inverse()});
+  }
+  const DistanceSettings& settings = robot_->settings().distance;
+  const SamplePoints& points = robot_->sample_points();
+  const RobotModel& model = robot_->model();
+  for (std::size_t i = 0; i < out.links.size(); ++i) {
+    const Pose& X_BL = pose.X_BL[model.evaluated_links[i]];
+    if (is_seen(views_, points.surface[i], X_BL, settings.min_seen_share)) continue;
+    out.links[i].status = LinkStatus::not_seen;
+  }
+  if (!robot_->settings().visibility) return;
+  find_whole_robot_visibility(model, points, pose, views_, found_, visibility_);
+  for (std::size_t i = 0; i < out.links.size(); ++i) out.links[i].visibility = visibility_[i];
+  tell_rejected(frames, pose, out);
+}
+
+void LinkSearches::tell_rejected(const FrameSet& frames, const RobotPose& pose, Result& out) {
+  if (frames.rejected().views().empty()) return;
+  MeshQuestion question = question_of(robot_->settings().distance);
+  question.unknown = false;
+  mesh_distances(*robot_->patches(), pose, frames.rejected(), question, rejected_workspace_,
+                 rejected_);
+  for (std::size_t i = 0; i < rejected_.size(); ++i) {
+    const SpacePair& dropped = rejected_[i].occupied;
+    LinkResult& kept = out.links[i];
+    if (!dropped.is_known() || (kept.has_distance() && kept.distance_m <= dropped.distance_m)) {
+      continue;
+    }
+    kept.visibility.rejected_distance_m = dropped.distance_m;
+    kept.visibility.rejected_pixel = dropped.obstacle_pixel;
+  }
+}
+
+}  // namespace berth

@@ -1,0 +1,46 @@
+// Inside pipeline/ only: what a request finds out of each link.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "berth/distance/mean_directions.hpp"
+#include "berth/distance/mesh_distances.hpp"
+#include "berth/pipeline/frame_set.hpp"
+#include "berth/pipeline/result.hpp"
+#include "berth/pipeline/robot.hpp"
+#include "berth/visibility/whole_robot.hpp"
+
+namespace berth {
+
+/// One for each thread.
+class LinkSearches {
+ public:
+  explicit LinkSearches(std::shared_ptr<const Robot> robot);
+
+  /// Writes the links of `out` for the robot in this pose. At least one frame is used.
+  void ask(const FrameSet& frames, const RobotPose& pose, Result& out);
+
+  /// Distances alone, of one pose of many.
+  void ask(const FrameSet& frames, const RobotPose& pose, std::vector<WholeLinkDistance>& out);
+
+  /// As Query::forget().
+  void forget();
+
+ private:
+  void tell_distances(const FrameSet& frames, Result& out) const;
+  void tell_mean_directions(const FrameSet& frames, Result& out);
+  void tell_visibility(const FrameSet& frames, const RobotPose& pose, Result& out);
+  void tell_rejected(const FrameSet& frames, const RobotPose& pose, Result& out);
+
+  std::shared_ptr<const Robot> robot_;
+  MeshWorkspace workspace_;
+  std::vector<WholeLinkDistance> found_;
+  MeshWorkspace rejected_workspace_;
+  std::vector<WholeLinkDistance> rejected_;
+  std::vector<SeeingCamera> views_;
+  std::vector<DirectionCamera> direction_views_;
+  std::vector<LinkVisibility> visibility_;
+};
+
+}  // namespace berth

@@ -1,0 +1,164 @@
+#include "berth/pipeline/query.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "berth/pipeline/frame_set.hpp"
+#include "berth/pipeline/link_searches.hpp"
+#include "berth/pipeline/look_ahead.hpp"
+#include "berth/pipeline/mounted_camera.hpp"
+
+namespace berth {
+namespace {
+
+double newest_stamp_s(std::span<const Frame* const> frames) {
+  double newest_s = -std::numeric_limits<double>::infinity();
+  for (const Frame* frame : frames) {
+    if (frame) newest_s = std::max(newest_s, frame->stamp_s);
+  }
+  return newest_s;
+}
+
+/// Of a frame that another image may take the place of, at the same address.
+std::uint64_t number_of(const Frame* frame) { return frame ? frame->number : 0; }
+
+void require_length(double limit_m) {
+  if (std::isfinite(limit_m) && limit_m >= 0) return;
+  throw std::invalid_argument(fmt::format(
+      "look-ahead: the limit is {} m; expected a finite number of at least 0", limit_m));
+}
+
+}  // namespace
+
+void NewestFrames::require_count(std::size_t count) {
+  if (count >= 1 && count <= kMostCameras) return;
+  throw std::invalid_argument(
+      fmt::format("frames: {} cameras; expected 1 to {}", count, kMostCameras));
+}
+
+void begin_result(const Robot& robot, Result& result) {
+  const RobotModel& model = robot.model();
+  result.range_m = robot.settings().distance.range_m;
+  result.has_visibility = robot.settings().visibility;
+  result.links.resize(model.evaluated_links.size());
+  for (std::size_t i = 0; i < result.links.size(); ++i) {
+    const std::size_t index = model.evaluated_links[i];
+    result.links[i].id = static_cast<LinkId>(i + 1);
+    result.links[i].link = model.links[index].name;
+    result.links[i].is_moved = model.is_moved(index);
+  }
+  withhold(result);
+}
+
+void tell_camera(const Frame* frame, const CameraState& state, CameraResult& out) {
+  static_cast<CameraState&>(out) = state;
+  out.has_frame = frame && frame->view;
+  if (!out.has_frame) return;
+  if (out.mounted != frame->view) {
+    out.mounted = frame->view;
+    out.camera = frame->view->mount().name;
+  }
+  out.X_BC = frame->X_BC;
+  out.self_filter = frame->obstacles.count;
+}
+
+Query::Query(std::shared_ptr<const Robot> robot, std::vector<std::string> camera_names)
+    : robot_(std::move(robot)),
+      camera_names_(std::move(camera_names)),
+      set_(std::make_unique<FrameSet>()),
+      searches_(std::make_unique<LinkSearches>(robot_)) {
+  begin_result(*robot_, result_);
+}
+
+Query::~Query() = default;
+
+void Query::forget() { searches_->forget(); }
+
+bool Query::has_changed(std::span<const Frame* const> frames) const {
+  if (!std::ranges::equal(frames, set_->frames())) return true;
+  if (!std::ranges::equal(frames, numbers_, {}, number_of)) return true;
+  return !std::ranges::equal(cameras_, before_, {}, &CameraState::status, &CameraState::status);
+}
+
+void Query::update_frames(std::span<const Frame* const> frames, double now_s) {
+  const TimeSettings& settings = robot_->settings().time;
+  before_.swap(cameras_);
+  cameras_.clear();
+  for (const Frame* frame : frames) cameras_.push_back(camera_state(frame, now_s, settings));
+  if (!has_changed(frames)) return;
+  set_->assign(frames, settings, now_s);
+  numbers_.clear();
+  for (const Frame* frame : frames) numbers_.push_back(number_of(frame));
+}
+
+Timeliness Query::find_pose(const Request& request) {
+  const TimeSettings& settings = robot_->settings().time;
+  const JointState* joints = request.joints.state();
+  TimeStatus joints_status = TimeStatus::ok;
+  if (const JointBuffer* buffer = request.joints.buffer()) {
+    joints_status = buffer->newest(newest_);
+    joints = &newest_;
+  }
+  if (!joints) {
+    const Timeliness time = timeliness_of(*set_, request.now_s, settings);
+    result_.joints_stamp_s = result_.stamp_s;
+    if (time.status == TimeStatus::ok) result_.pose.X_BL = set_->newest()->pose.X_BL;
+    return time;
+  }
+  Timeliness time = timeliness_of(*set_, joints->stamp_s, request.now_s, settings);
+  result_.joints_stamp_s = joints->stamp_s;
+  if (joints_status != TimeStatus::ok) {
+    time.status = joints_status;
+  } else if (time.status == TimeStatus::ok) {
+    forward_kinematics(robot_->model(), joints->position, result_.pose);
+  }
+  return time;
+}
+
+void Query::tell_cameras() {
+  result_.cameras.resize(cameras_.size());
+  for (std::size_t k = 0; k < cameras_.size(); ++k) {
+    CameraResult& camera = result_.cameras[k];
+    tell_camera(set_->frames()[k], cameras_[k], camera);
+    if (!camera.has_frame && k < camera_names_.size()) camera.camera = camera_names_[k];
+  }
+}
+
+void Query::tell_ahead(const Request& request) {
+  result_.ahead.first_nearer.reset();
+  if (request.ahead.empty() || result_.status == ResultStatus::stale) {
+    return result_.ahead.poses.clear();
+  }
+  if (!ahead_) ahead_ = std::make_unique<LookAheadSearch>(robot_);
+  ahead_->ask(*set_, request.ahead, request.nearer_than_m, result_.ahead);
+}
+
+const Result& Query::ask(const Request& request) {
+  require_length(request.nearer_than_m);
+  if (request.joints.buffer() && !request.now_s) {
+    throw std::invalid_argument(
+        "now_s: none; expected the time of the request, since joints are a buffer");
+  }
+  const std::span<const Frame* const> frames = request.frames.get();
+  update_frames(frames, request.now_s.value_or(newest_stamp_s(frames)));
+  tell_cameras();
+  result_.stamp_s =
+      set_->newest() ? set_->newest()->stamp_s : std::numeric_limits<double>::quiet_NaN();
+  result_.time = find_pose(request);
+  if (result_.time.status != TimeStatus::ok) {
+    withhold(result_);
+  } else {
+    result_.status = std::ranges::all_of(cameras_, is_relied_on, &CameraState::status)
+                         ? ResultStatus::ok
+                         : ResultStatus::degraded;
+    searches_->ask(*set_, result_.pose, result_);
+    find_nearest(result_);
+  }
+  tell_ahead(request);
+  return result_;
+}
+
+}  // namespace berth

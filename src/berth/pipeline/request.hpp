@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <cassert>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "berth/pipeline/frame.hpp"
+#include "berth/robot/joint_buffer.hpp"
+#include "berth/types/joint_state.hpp"
+
+namespace berth {
+
+/// How many cameras a request may have.
+inline constexpr std::size_t kMostCameras = 8;
+
+/// The newest frame of each camera, or null where a camera has given none yet. It refers to them.
+class NewestFrames {
+ public:
+  NewestFrames(const Frame& only) : count_(1) { frames_[0] = &only; }
+  NewestFrames(std::span<const Frame* const> frames) { assign(frames); }
+  NewestFrames(std::span<const std::shared_ptr<const Frame>> frames) { assign(frames); }
+  NewestFrames(const std::vector<const Frame*>& frames) { assign(frames); }
+  NewestFrames(const std::vector<std::shared_ptr<const Frame>>& frames) { assign(frames); }
+
+  std::span<const Frame* const> get() const { return {frames_.data(), count_}; }
+
+ private:
+  /// Throws std::invalid_argument unless there are 1 to kMostCameras.
+  static void require_count(std::size_t count);
+  template <class Frames>
+  void assign(const Frames& frames) {
+    require_count(frames.size());
+    for (const auto& frame : frames) frames_[count_++] = frame ? &*frame : nullptr;
+  }
+
+  std::array<const Frame*, kMostCameras> frames_ = {};
+  std::size_t count_ = 0;
+};
+
+/// The joints that are asked about: those of the newest exposure that is used, any others, or the
+/// newest of a buffer, whose trouble is a status. It refers to them.
+class RequestedJoints {
+ public:
+  RequestedJoints() = default;
+  RequestedJoints(const JointState& state) : state_(&state) {}
+  RequestedJoints(const JointBuffer& buffer) : buffer_(&buffer) {}
+
+  const JointState* state() const { return state_; }
+  const JointBuffer* buffer() const { return buffer_; }
+
+ private:
+  const JointState* state_ = nullptr;
+  const JointBuffer* buffer_ = nullptr;
+};
+
+/// One request over all cameras.
+struct Request {
+  NewestFrames frames;
+  RequestedJoints joints = {};
+  /// The time of the request: ages are told and judged by TimeSettings. Without it no age is known,
+  /// and the frames are judged at the newest of their stamps. A JointBuffer needs it.
+  std::optional<double> now_s = std::nullopt;
+  /// Joint angles that the robot may take next: Result::ahead tells their distances.
+  std::span<const JointState> ahead = {};
+  /// Result::ahead tells the first of these poses that may be nearer than this.
+  double nearer_than_m = 0;
+};
+
+}  // namespace berth

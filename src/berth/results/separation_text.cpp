@@ -1,0 +1,72 @@
+#include "berth/results/result_text.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace berth {
+namespace {
+
+std::string near_text(const Result& result, const LinkSeparation& link,
+                      std::string_view what) {
+  return fmt::format("{} is {:.3f} m from {}; at {:.2f} m/s it needs {:.3f} m",
+                     result.links[link.id - 1].link, std::floor(1e3 * link.distance_m) / 1e3, what,
+                     link.speed_m_s, link.required_m);
+}
+
+std::string seen_text_of(const Result& result, LinkId id) {
+  const LinkResult& link = result.links[id - 1];
+  if (!link.visibility.surface.is_known()) return link.link + " is not seen";
+  return fmt::format("{} is {:.0f} % unseen", link.link, 100 * (1 - link.visibility.surface.seen));
+}
+
+std::string camera_text(const Result& result, int camera) {
+  const CameraResult& lost = result.cameras[camera];
+  return fmt::format("camera {} cannot be relied on ({})", lost.camera, name_of(lost.status));
+}
+
+std::string why(const Result& result) {
+  const Separation& separation = *result.separation;
+  const auto near = [&](std::string_view what) {
+    return near_text(result, separation.links[separation.link - 1], what);
+  };
+  switch (separation.reason) {
+    case SeparationReason::none:
+      return "";
+    case SeparationReason::occupied:
+      return near("what a camera sees");
+    case SeparationReason::unknown:
+      return near("space that no camera sees");
+    case SeparationReason::rejected:
+      return near("a reading that was dropped as rejected");
+    case SeparationReason::range:
+      return near("the end of the range");
+    case SeparationReason::cut_short:
+      return near("where the deadline cut the search");
+    case SeparationReason::not_seen:
+      return seen_text_of(result, separation.link);
+    case SeparationReason::camera:
+      return camera_text(result, separation.camera);
+    case SeparationReason::stale:
+      return "there is no answer in time";
+    case SeparationReason::velocity:
+      return "the robot's velocity is not known";
+    case SeparationReason::hold:
+      return "there has not been room for long enough";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string separation_text(const Result& result) {
+  const Separation& separation = *result.separation;
+  std::string text(name_of(separation.state));
+  if (separation.state == SeparationState::reduced) {
+    text += fmt::format(" to {:.0f} %", std::floor(100 * separation.speed_scale));
+  }
+  const std::string reason = why(result);
+  return reason.empty() ? text : text + ": " + reason;
+}
+
+}  // namespace berth

@@ -1,0 +1,43 @@
+#include "berth/space/camera_space.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace berth {
+namespace {
+
+void copy(DepthView from, DepthImage& to) {
+  if (to.width() != from.width || to.height() != from.height) {
+    to.resize(from.width, from.height, kNoDepth);
+  }
+  for (int v = 0; v < from.height; ++v) std::copy_n(from.row(v), from.width, to.row(v));
+}
+
+}  // namespace
+
+void build_camera_space(const Camera& camera, DepthView sensor_depth_m,
+                      const ObstacleImage& obstacles, const SpaceSettings& settings,
+                      CameraSpace& out) {
+  assert(sensor_depth_m.width == camera.width_px && sensor_depth_m.height == camera.height_px);
+  build_reading_space(camera, obstacles.depth_m, settings, out);
+  if (out.is_empty()) return;
+  copy(sensor_depth_m, out.sensor_depth_m);
+  find_own_free_depth(sensor_depth_m, obstacles, settings, out.own_free_depth_m);
+  find_free_depth(out.own_free_depth_m, out.free_depth_m);
+  build_depth_windows(out.obstacle_depth_m, out.obstacle_windows);
+  build_depth_windows(out.free_depth_m, out.free_windows);
+  out.has_free_depth = true;
+}
+
+void build_reading_space(const Camera& camera, DepthView obstacle_depth_m,
+                         const SpaceSettings& settings, CameraSpace& out) {
+  validate(settings);
+  assert(obstacle_depth_m.width == camera.width_px && obstacle_depth_m.height == camera.height_px);
+  out.camera = camera;
+  out.settings = settings;
+  out.obstacle_depth_m = obstacle_depth_m;
+  out.has_free_depth = false;
+  if (!out.is_empty()) build_depth_cells(obstacle_depth_m, out.cells);
+}
+
+}  // namespace berth

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "berth/space/depth_cells.hpp"
+#include "berth/space/depth_windows.hpp"
+#include "berth/space/free_depth.hpp"
+#include "berth/space/settings.hpp"
+#include "berth/types/camera.hpp"
+#include "berth/types/obstacle_image.hpp"
+
+namespace berth {
+
+/// What one depth image says of the space before its camera: surfaces, what they hide, and what is
+/// free. Made once a frame, at the camera's clock; then constant.
+struct CameraSpace {
+  Camera camera;
+  SpaceSettings settings;
+  /// F: the depth of what may be an obstacle; NaN elsewhere. The pixels are those of the image that
+  /// this was made of, which have to stay where they are and as they are.
+  DepthView obstacle_depth_m;
+  /// The depth ranges of F.
+  DepthCells cells;
+
+  /// Whether what follows is there: without it only readings can be asked for.
+  bool has_free_depth = false;
+  /// E: a point that projects into this pixel is seen free while it is nearer to the camera than
+  /// this; 0 where the pixel frees nothing (whole-robot definition 2).
+  DepthImage free_depth_m;
+
+  /// S, and what each pixel by itself frees (definition 1): what E is made of once more, when
+  /// newer frames have made this one old.
+  DepthImage sensor_depth_m;
+  DepthImage own_free_depth_m;
+  DepthWindows obstacle_windows;
+  DepthWindows free_windows;
+
+  bool is_empty() const { return obstacle_depth_m.width == 0 || obstacle_depth_m.height == 0; }
+};
+
+/// Writes `out`, whose memory it reuses. `sensor_depth_m` is the raw image S, `obstacles` what the
+/// self filter made of it, which `out` goes on to refer to; both have the camera's size. Throws
+/// std::invalid_argument for bad settings.
+void build_camera_space(const Camera& camera, DepthView sensor_depth_m,
+                      const ObstacleImage& obstacles, const SpaceSettings& settings,
+                      CameraSpace& out);
+
+/// The same for questions about readings alone (MeshQuestion::hidden is false): such a view frees
+/// nothing.
+void build_reading_space(const Camera& camera, DepthView obstacle_depth_m,
+                         const SpaceSettings& settings, CameraSpace& out);
+
+}  // namespace berth

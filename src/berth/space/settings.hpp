@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "berth/types/setting.hpp"
+
+namespace berth {
+
+/// What a camera's pixel without a reading says of its line of sight.
+enum class NoReading : std::uint8_t {
+  unknown,  ///< nothing: it frees nothing that another camera's obstacle hides
+  free,     ///< nothing stands there, for a camera that sees no background within its range
+};
+
+inline constexpr std::array kNoReadings = {NoReading::unknown, NoReading::free};
+constexpr std::string_view name_of(NoReading meaning) {
+  return meaning == NoReading::free ? "free" : "unknown";
+}
+constexpr const auto& all_of(NoReading) { return kNoReadings; }
+
+/// What a camera's readings say of space.
+struct SpaceSettings {
+  /// t: how thick a surface is that a camera measured. What lies deeper is hidden.
+  double surface_thickness_m = 0.03;
+  /// m: a reading frees what is nearer to the camera than it by more than this.
+  double free_space_margin_m = 0.02;
+  /// rho: where the self filter took a reading for the robot, what is up to this far behind it is
+  /// free as well: what the robot hides is no obstacle.
+  double behind_robot_m = 0.3;
+  NoReading no_reading = NoReading::unknown;
+  /// A frame frees nothing once it is older than the newest one by more than this.
+  double free_space_max_age_s = 0.2;
+  /// v: how fast something may have come into space that an older frame saw free.
+  double obstacle_speed_m_s = 1.6;
+};
+
+/// The list of these settings.
+template <SettingsOf<SpaceSettings> Settings, class Visitor>
+void visit_settings(Settings& s, Visitor&& visit) {
+  visit({"surface_thickness_m", kNotNegative, "how thick a surface is that the camera measured; what lies deeper "
+                               "is hidden"},
+        s.surface_thickness_m);
+  visit({"free_space_margin_m", kNotNegative,
+         "a reading frees what is nearer to the camera than it by more than this"},
+        s.free_space_margin_m);
+  visit({"behind_robot_m", kNotNegative,
+         "where the camera sees the robot, what is up to this far behind it is free as well"},
+        s.behind_robot_m);
+  visit({"no_reading", {},
+         "what a pixel without a reading says of its line of sight: free is for a camera that sees "
+         "no background within its range"},
+        s.no_reading);
+  visit({"free_space_max_age_s", kNotNegative,
+         "an image frees nothing once it is older than the newest one by more than this"},
+        s.free_space_max_age_s);
+  visit({"obstacle_speed_m_s", kNotNegative,
+         "how fast something may have come into space that an older image saw free"},
+        s.obstacle_speed_m_s);
+}
+
+/// Throws std::invalid_argument that names key, value and what was expected.
+void validate(const SpaceSettings& settings);
+
+}  // namespace berth

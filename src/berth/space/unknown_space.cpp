@@ -1,0 +1,121 @@
+#include "berth/space/unknown_space.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "berth/space/unknown_blocks.hpp"
+#include "berth/space/serial_number.hpp"
+
+namespace berth {
+namespace {
+
+/// Blocks that are kept; more of them are found anew each time.
+constexpr std::uint32_t kMostBlocks = 1u << 15;
+constexpr std::uint32_t kSlots = 2 * kMostBlocks;
+/// The key of a slot that somebody is filling.
+constexpr std::uint64_t kBusy = ~std::uint64_t{0};
+
+std::uint32_t hash(std::uint64_t key) {
+  return static_cast<std::uint32_t>((key * 0x9E3779B97F4A7C15u) >> 40) % kSlots;
+}
+
+void require(bool holds, const char* what) {
+  if (!holds) throw std::invalid_argument(what);
+}
+
+}  // namespace
+
+bool is_seen_free(const FreeingCamera& view, const Eigen::Vector3d& p_B) {
+  if (view.free_depth_m == nullptr) return false;
+  const Eigen::Vector3d p_C = view.X_CB * p_B;
+  const auto pixel = pixel_of(view.space->camera, p_C);
+  return pixel && p_C.z() < (*view.free_depth_m)(pixel->u, pixel->v);
+}
+
+UnknownSpace::UnknownSpace() : slots_(kSlots), used_(kMostBlocks) {}
+
+void UnknownSpace::assign(std::span<const PosedSpace> views) {
+  require(views.size() <= kMostViews, "more than 64 views, expected at most 64");
+  for (const PosedSpace& view : views) {
+    require(view.age_s >= 0, "age_s of a view, expected a number of at least 0");
+    require(view.X_BC.matrix().allFinite(), "X_BC of a view, expected a pose of finite numbers");
+  }
+  const std::uint32_t used = std::min(used_count_.load(), kMostBlocks);
+  for (std::uint32_t i = 0; i < used; ++i) slots_[used_[i]].key.store(0);
+  used_count_.store(0);
+
+  serial_number_ = mesh::next_serial_number();
+  views_.clear();
+  aged_.resize(std::max(aged_.size(), views.size()));
+  for (std::size_t k = 0; k < views.size(); ++k) {
+    const CameraSpace& space = *views[k].space;
+    FreeingCamera view{&space, views[k].X_BC, views[k].X_BC.inverse(), nullptr, nullptr};
+    if (!space.has_free_depth || views[k].age_s > space.settings.free_space_max_age_s) {
+      // Frees nothing.
+    } else if (views[k].age_s == 0 || views.size() < 2) {
+      view.free_depth_m = &space.free_depth_m;
+      view.free_windows = &space.free_windows;
+    } else {
+      AgedSpace& aged = aged_[k];
+      age_own_free_depth(space.camera, space.sensor_depth_m, space.own_free_depth_m,
+                         space.settings.obstacle_speed_m_s * views[k].age_s, aging_, aged.own_m);
+      find_free_depth(aged.own_m, aged.free_depth_m);
+      build_depth_windows(aged.free_depth_m, aged.windows);
+      view.free_depth_m = &aged.free_depth_m;
+      view.free_windows = &aged.windows;
+    }
+    views_.push_back(view);
+  }
+}
+
+std::optional<HidingPixel> UnknownSpace::hiding_pixel(const Eigen::Vector3d& p_B) const {
+  for (std::size_t k = 0; k < views_.size(); ++k) {
+    const CameraSpace& space = *views_[k].space;
+    const Eigen::Vector3d p_C = views_[k].X_CB * p_B;
+    const auto pixel = pixel_of(space.camera, p_C);
+    if (!pixel) continue;
+    const double surface_end_m =
+        static_cast<double>(space.obstacle_depth_m(pixel->u, pixel->v)) + space.settings.surface_thickness_m;
+    if (!(p_C.z() > surface_end_m)) continue;
+    bool is_free = false;
+    for (std::size_t j = 0; j < views_.size() && !is_free; ++j) {
+      is_free = j != k && is_seen_free(views_[j], p_B);
+    }
+    if (!is_free) return HidingPixel{static_cast<int>(k), *pixel};
+  }
+  return std::nullopt;
+}
+
+std::uint64_t UnknownSpace::block(const mesh::Cube& cube) const {
+  constexpr int kMostProbes = 32;
+  const std::uint64_t key = cube.key();
+  std::uint32_t place = hash(key);
+  Slot* slot = nullptr;
+  for (int probe = 0; probe < kMostProbes; ++probe, place = (place + 1) % kSlots) {
+    const std::uint64_t found = slots_[place].key.load(std::memory_order_acquire);
+    if (found == key) return slots_[place].possible.load(std::memory_order_relaxed);
+    if (found != 0) continue;
+    slot = &slots_[place];
+    break;
+  }
+  const std::uint64_t block = mesh::find_block(views_, cube);
+  std::uint64_t expected = 0;
+  if (slot == nullptr || used_count_.load(std::memory_order_relaxed) >= kMostBlocks ||
+      !slot->key.compare_exchange_strong(expected, kBusy)) {
+    return block;
+  }
+  const std::uint32_t number = used_count_.fetch_add(1);
+  if (number >= kMostBlocks) {
+    slot->key.store(0);
+    return block;
+  }
+  used_[number] = place;
+  slot->possible.store(block, std::memory_order_relaxed);
+  slot->key.store(key, std::memory_order_release);
+  return block;
+}
+
+std::size_t UnknownSpace::kept_blocks() const { return std::min(used_count_.load(), kMostBlocks); }
+
+}  // namespace berth

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "berth/space/cubes.hpp"
+#include "berth/space/free_depth.hpp"
+#include "berth/space/camera_space.hpp"
+
+namespace berth {
+
+/// A frame's space, and where its camera stood when it was exposed.
+struct PosedSpace {
+  const CameraSpace* space = nullptr;
+  /// The pose of the optical frame C in the robot's root frame B.
+  Pose X_BC = Pose::Identity();
+  /// By how much the frame is older than the newest of the set.
+  double age_s = 0;
+};
+
+/// A view with what its age leaves of its free space.
+struct FreeingCamera {
+  const CameraSpace* space = nullptr;
+  Pose X_BC = Pose::Identity();
+  Pose X_CB = Pose::Identity();
+  /// E at this age; null where the view frees nothing.
+  const DepthImage* free_depth_m = nullptr;
+  const DepthWindows* free_windows = nullptr;
+};
+
+/// Whether 0 < z < E (whole-robot definition 3).
+bool is_seen_free(const FreeingCamera& view, const Eigen::Vector3d& p_B);
+
+/// The view that hides a point, and the pixel behind whose reading it lies.
+struct HidingPixel {
+  int view = -1;
+  Pixel pixel;
+};
+
+/// Everything that the cameras left: all measured surfaces, and every point that one of them hides
+/// and no other one sees free. Which parts of space are hidden is found where somebody asks, once,
+/// and kept for all later questions, in bounded memory. Any number of threads may ask at a time.
+class UnknownSpace {
+ public:
+  static constexpr int kMostViews = 64;
+
+  UnknownSpace();
+
+  /// Begins anew with these views, which have to outlive it; reuses its memory. Nobody may ask
+  /// meanwhile. A view whose age is above its free_space_max_age_s frees nothing; a lesser one shrinks
+  /// what it frees (age_own_free_depth). Throws std::invalid_argument for more than kMostViews, an
+  /// age below 0 or a pose that is not finite.
+  void assign(std::span<const PosedSpace> views);
+
+  std::span<const FreeingCamera> views() const { return views_; }
+
+  /// Another one after each assign(), and no other object's.
+  std::uint64_t serial_number() const { return serial_number_; }
+
+  /// Who hides this point, if it is hidden: behind the surface layer of its pixel in some view, and seen
+  /// free by no other one (definition 5).
+  std::optional<HidingPixel> hiding_pixel(const Eigen::Vector3d& p_B) const;
+
+  /// Which of the 64 cubes that `cube`, of a level above 0, consists of may hold a hidden point:
+  /// one bit each.
+  std::uint64_t block(const mesh::Cube& cube) const;
+
+  /// How many of them are kept.
+  std::size_t kept_blocks() const;
+
+ private:
+  struct Slot {
+    std::atomic<std::uint64_t> key{0};
+    std::atomic<std::uint64_t> possible{0};
+  };
+  /// E of a view that has aged.
+  struct AgedSpace {
+    DepthImage own_m;
+    DepthImage free_depth_m;
+    DepthWindows windows;
+  };
+
+  std::uint64_t serial_number_ = 0;
+  std::vector<FreeingCamera> views_;
+  std::vector<AgedSpace> aged_;
+  AgingWorkspace aging_;
+  /// A hash table with open addresses, and which of its slots are in use.
+  mutable std::vector<Slot> slots_;
+  mutable std::vector<std::uint32_t> used_;
+  mutable std::atomic<std::uint32_t> used_count_{0};
+};
+
+}  // namespace berth

@@ -1,0 +1,52 @@
+#include "berth/visibility/rejected.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace berth {
+namespace {
+
+bool is_rejected(PixelFate fate) { return fate == PixelFate::flying_patch || fate == PixelFate::speckle; }
+
+void add(Pixel p, PixelRect& extent) {
+  if (extent.empty()) {
+    extent = {p.u, p.v, p.u + 1, p.v + 1};
+    return;
+  }
+  extent = {std::min(extent.u_begin, p.u), std::min(extent.v_begin, p.v),
+            std::max(extent.u_end, p.u + 1), std::max(extent.v_end, p.v + 1)};
+}
+
+}  // namespace
+
+void clear_rejected(int width, int height, RejectedImage& out) {
+  if (out.depth_m.width() != width || out.depth_m.height() != height) {
+    out.depth_m.resize(width, height, kNoDepth);
+  } else {
+    // Faster than all pixels.
+    for (int v = out.extent.v_begin; v < out.extent.v_end; ++v) {
+      std::fill(out.depth_m.row(v) + out.extent.u_begin, out.depth_m.row(v) + out.extent.u_end,
+                kNoDepth);
+    }
+  }
+  out.extent = {};
+}
+
+void find_rejected(DepthView sensor_depth_m, const ObstacleImage& obstacles, RejectedImage& out) {
+  const int width = sensor_depth_m.width, height = sensor_depth_m.height;
+  assert(obstacles.fate.width() == width && obstacles.fate.height() == height);
+  clear_rejected(width, height, out);
+  if (obstacles.count_of(PixelFate::flying_patch) + obstacles.count_of(PixelFate::speckle) == 0) return;
+  for (int v = 0; v < height; ++v) {
+    const PixelFate* fate = obstacles.fate.row(v);
+    // Most rows have none, and counting goes in vectors.
+    if (std::count_if(fate, fate + width, is_rejected) == 0) continue;
+    for (int u = 0; u < width; ++u) {
+      if (!is_rejected(fate[u])) continue;
+      out.depth_m(u, v) = sensor_depth_m(u, v);
+      add({u, v}, out.extent);
+    }
+  }
+}
+
+}  // namespace berth

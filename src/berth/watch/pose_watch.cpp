@@ -1,0 +1,101 @@
+#include "berth/watch/pose_watch.hpp"
+
+#include <limits>
+#include <utility>
+
+namespace berth {
+namespace {
+
+constexpr int kAgreeingChecks = 2, kChecks = 3;
+
+bool tells_displacement(const RobotReadings& robot) {
+  return robot.judged() + robot.before >= kLeastJudgedPixels &&
+         robot.hidden_share() <= kMostHiddenForDisplacement;
+}
+
+const WatchSettings& checked(const WatchSettings& settings) {
+  validate(settings);
+  return settings;
+}
+
+}  // namespace
+
+PoseWatch::PoseWatch(const WatchSettings& settings, MeasureDisplacement measure)
+    : settings_(checked(settings)),
+      by_seen_through_(settings.agreeing_frames, settings.frames),
+      by_displacement_(kAgreeingChecks, kChecks),
+      by_place_(settings.agreeing_frames, settings.frames) {
+  state_.is_on = settings.is_on();
+  if (settings.max_displacement_m == 0) return;
+  if (!measure) {
+    throw_bad_setting("watch", "max_displacement_m", settings.max_displacement_m,
+                      "0, since nothing measures it");
+  }
+  check_.emplace(std::move(measure));
+}
+
+const CameraWatch& PoseWatch::look(DepthView depth_m, const RobotImage& robot,
+                                   const JointState& at_exposure) {
+  if (!state_.is_on && settings_.min_at_robot == 0) return state_;
+  const RobotReadings readings = read_robot(depth_m, robot, settings_.bias_m);
+  judge_place(readings);
+  if (!state_.is_on) return state_;
+  const bool tells = readings.tells();
+  state_.seen_through =
+      tells ? readings.seen_through() : std::numeric_limits<double>::quiet_NaN();
+  if (tells && settings_.max_seen_through > 0) {
+    by_seen_through_.add(state_.seen_through > settings_.max_seen_through);
+  }
+  take_displacement();
+  if (check_ && tells_displacement(readings) && is_due(at_exposure.stamp_s) &&
+      check_->start(depth_m, at_exposure)) {
+    begun_s_ = at_exposure.stamp_s;
+  }
+  return state_;
+}
+
+void PoseWatch::judge_place(const RobotReadings& readings) {
+  if (settings_.min_at_robot == 0) return;
+  const bool tells = readings.tells();
+  state_.is_hidden = readings.is_hidden();
+  state_.at_robot = tells ? readings.at_robot() : std::numeric_limits<double>::quiet_NaN();
+  if (!tells) return;
+  const bool verdict = state_.at_robot < settings_.min_at_robot;
+  if (std::exchange(has_place_verdict_, true)) {
+    by_place_.add(verdict);
+  } else {
+    by_place_.begin(verdict);
+  }
+  state_.is_implausible = by_place_.state() && !settings_.tell_only;
+  state_.is_unconfirmed = by_place_.state() && settings_.tell_only;
+}
+
+const CameraWatch& PoseWatch::pass_over() {
+  state_.is_hidden = false;
+  state_.at_robot = std::numeric_limits<double>::quiet_NaN();
+  state_.seen_through = std::numeric_limits<double>::quiet_NaN();
+  take_displacement();
+  return state_;
+}
+
+const CameraWatch& PoseWatch::wait() {
+  if (check_) check_->wait();
+  take_displacement();
+  return state_;
+}
+
+void PoseWatch::take_displacement() {
+  const auto result = check_ ? check_->take() : std::nullopt;
+  if (result && *result) {
+    state_.displacement_m = **result;
+    by_displacement_.add(state_.displacement_m > settings_.max_displacement_m);
+  }
+  state_.has_moved = by_seen_through_.state() || by_displacement_.state();
+}
+
+bool PoseWatch::is_due(double stamp_s) const {
+  // Stamps that went back are a recording's that begins anew.
+  return !begun_s_ || stamp_s < *begun_s_ || stamp_s >= *begun_s_ + settings_.check_every_s;
+}
+
+}  // namespace berth

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <optional>
+
+#include "berth/watch/agreement.hpp"
+#include "berth/watch/displacement_check.hpp"
+#include "berth/watch/seen_through.hpp"
+#include "berth/watch/watch_settings.hpp"
+#include "berth/types/camera_status.hpp"
+#include "berth/types/image.hpp"
+#include "berth/types/joint_state.hpp"
+#include "berth/types/robot_image.hpp"
+
+namespace berth {
+
+/// For D less may be hidden than for T, since what hides the robot pulls at the fit.
+inline constexpr double kMostHiddenForDisplacement = 0.4;
+
+/// Tells whether one camera stands where it is said to, from the robot in its images. It has moved
+/// once T or D says so, and is back once neither does; T and D each by k of their last n verdicts
+/// (WatchSettings; two of three for D). A frame that says nothing is no verdict: it neither raises
+/// nor clears.
+///
+/// It also tells, without anything that was learned, that a camera is implausible: the camera sees
+/// through nearly all of the robot. The first frame that says something decides at once, so that no
+/// answer stands on a mistake of the scene; then k of n frames do. One for each camera, used by one
+/// thread.
+class PoseWatch {
+ public:
+  /// Throws std::invalid_argument for settings outside of their domain, and where max_displacement_m
+  /// is set and nothing measures D. The thread that measures is there only where both are given.
+  explicit PoseWatch(const WatchSettings& settings, MeasureDisplacement measure = {});
+
+  /// Judges one frame: the camera's image, the robot as it should be seen in it, the joints at its
+  /// exposure. Takes D of an earlier frame where it is there, and begins with this frame's where it
+  /// is due. Allocates nothing after the first frame that D was begun of.
+  const CameraWatch& look(DepthView depth_m, const RobotImage& robot,
+                          const JointState& at_exposure);
+
+  /// A frame that was not observed, since its joints are not known: no verdict.
+  const CameraWatch& pass_over();
+
+  /// Waits for D where it is being measured, and takes it: what is told then does not depend on how
+  /// long it took. For recordings.
+  const CameraWatch& wait();
+
+ private:
+  void judge_place(const RobotReadings& readings);
+  void take_displacement();
+  bool is_due(double stamp_s) const;
+
+  WatchSettings settings_;
+  CameraWatch state_;
+  Agreement by_seen_through_;
+  Agreement by_displacement_;
+  Agreement by_place_;
+  bool has_place_verdict_ = false;
+  std::optional<DisplacementCheck> check_;
+  std::optional<double> begun_s_;
+};
+
+}  // namespace berth

@@ -1,0 +1,183 @@
+// What a workspace remembers of the question before.
+#include "berth/distance/last_question.hpp"
+
+#include <gtest/gtest.h>
+
+#include "sim/random.hpp"
+#include "tests/distance/agreement.hpp"
+#include "tests/distance/mesh_world.hpp"
+#include "tests/support/thinned.hpp"
+
+namespace berth::testing {
+namespace {
+
+Pose draw_motion(sim::Random& random, double reach_m) {
+  const Eigen::Vector3d axis = sim::draw_point(random, 1).normalized();
+  return Eigen::Translation3d(sim::draw_point(random, reach_m)) *
+         Eigen::AngleAxisd(random(-5, 5) * reach_m, axis);
+}
+
+RobotPose moved(const RobotPose& pose, sim::Random& random, double reach_m) {
+  RobotPose out = pose;
+  for (Pose& X_BL : out.X_BL) X_BL = X_BL * draw_motion(random, reach_m);
+  return out;
+}
+
+MeshWorld small_world(std::uint32_t seed) {
+  MeshWorldSettings settings;
+  settings.views = 1 + static_cast<int>(seed % 3);
+  return draw_mesh_world(settings, 900 + seed);
+}
+
+/// One that asks again and again.
+struct Questioner {
+  const PreparedWorld* world;
+  MeshWorkspace workspace;
+  std::vector<WholeLinkDistance> answer;
+
+  const std::vector<WholeLinkDistance>& ask(const RobotPose& pose, const MeshQuestion& question) {
+    mesh_distances(world->patches(), pose, world->space(), question, workspace, answer);
+    return answer;
+  }
+};
+
+std::vector<WholeLinkDistance> ask_anew(const PreparedWorld& world, const RobotPose& pose,
+                                        const MeshQuestion& question) {
+  return Questioner{&world, {}, {}}.ask(pose, question);
+}
+
+TEST(LastQuestion, NoPointOfALinkMovesByMore) {
+  sim::Random random(3);
+  for (std::uint32_t seed = 0; seed < 20; ++seed) {
+    const MeshWorld world = small_world(seed);
+    const auto patches = build_robot_patches(world.model);
+    for (const LinkPatches& link : patches->links) {
+      const Pose before = draw_motion(random, 1);
+      const Pose after = before * draw_motion(random, seed % 2 ? 0.001 : 0.5);
+      double most_m = 0;
+      for (const auto& p_L_m : world.model.links[link.link].mesh_L.vertices_m) {
+        const Eigen::Vector3d p = p_L_m.cast<double>();
+        most_m = std::max(most_m, (after * p - before * p).norm());
+      }
+      const float bound_m = mesh::moved_at_most_m(link, before, after);
+      EXPECT_GE(bound_m, most_m);
+      EXPECT_LE(bound_m, 4 * most_m + 2e-6);
+    }
+  }
+}
+
+TEST(LastQuestion, BoundsHoldOnWhileTheRobotMoves) {
+  sim::Random random(5);
+  for (std::uint32_t seed = 0; seed < thinned(9u); ++seed) {
+    const MeshWorld world = small_world(seed);
+    const PreparedWorld prepared(world);
+    Questioner questioner{&prepared, {}, {}};
+    RobotPose pose = world.pose;
+    for (int step = 0; step < 12; ++step) {
+      MeshQuestion question{.range_m = random(0.2, 1.5)};
+      if (step % 3 != 0) question.deadline_us = random(0, 100);
+      if (step % 4 == 2) question.unknown = false;
+      SCOPED_TRACE("seed " + std::to_string(seed) + " step " + std::to_string(step));
+      const auto found = questioner.ask(pose, question);
+      question.deadline_us.reset();
+      expect_agree(found, ask_anew(prepared, pose, question));
+      for (const WholeLinkDistance& link : found) {
+        EXPECT_LE(link.occupied.lower_bound_m, static_cast<float>(question.range_m));
+        EXPECT_LE(link.nearest.lower_bound_m, static_cast<float>(question.range_m));
+      }
+      pose = moved(pose, random, random(0, 0.01));
+    }
+  }
+}
+
+TEST(LastQuestion, WithoutTimeAnAnswerIsKnownToAsMuchAsTheLinkMoved) {
+  sim::Random random(7);
+  for (std::uint32_t seed = 0; seed < thinned(9u); ++seed) {
+    SCOPED_TRACE(seed);
+    const MeshWorld world = small_world(seed);
+    const PreparedWorld prepared(world);
+    Questioner questioner{&prepared, {}, {}};
+    const auto before = questioner.ask(world.pose, {});
+    const RobotPose pose = moved(world.pose, random, 0.002);
+    const auto found = questioner.ask(pose, {.deadline_us = 0});
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const LinkPatches& link = prepared.patches().links[i];
+      const float moved_m =
+          mesh::moved_at_most_m(link, world.pose.X_BL[link.link], pose.X_BL[link.link]);
+      EXPECT_GE(found[i].occupied.lower_bound_m, before[i].occupied.lower_bound_m - moved_m - 1e-6);
+      EXPECT_GE(found[i].nearest.lower_bound_m, before[i].nearest.lower_bound_m - moved_m - 1e-6);
+      if (!before[i].nearest.is_known() || before[i].nearest.distance_m + moved_m > 1) continue;
+      ASSERT_TRUE(found[i].nearest.is_known());
+      EXPECT_LE(found[i].nearest.distance_m, before[i].nearest.distance_m + moved_m + 1e-5);
+    }
+  }
+}
+
+TEST(LastQuestion, AskedAgainAnAnswerBecomesNoWorse) {
+  for (std::uint32_t seed = 0; seed < thinned(30u); ++seed) {
+    SCOPED_TRACE(seed);
+    const MeshWorld world = small_world(seed);
+    const PreparedWorld prepared(world);
+    Questioner questioner{&prepared, {}, {}};
+    const auto once = questioner.ask(world.pose, {});
+    const auto again = questioner.ask(world.pose, {});
+    questioner.workspace.forget();
+    questioner.answer.clear();
+    const auto anew = questioner.ask(world.pose, {});
+    for (std::size_t i = 0; i < once.size(); ++i) {
+      EXPECT_EQ(anew[i].nearest.lower_bound_m, once[i].nearest.lower_bound_m);
+      if (!once[i].nearest.is_known()) continue;
+      EXPECT_EQ(anew[i].nearest.distance_m, once[i].nearest.distance_m);
+      EXPECT_LE(again[i].nearest.distance_m, once[i].nearest.distance_m + 2.1e-5);
+      EXPECT_GE(again[i].nearest.lower_bound_m, once[i].nearest.lower_bound_m - 2e-6);
+    }
+  }
+}
+
+TEST(LastQuestion, AnotherSpaceOrRobotIsANewStart) {
+  MeshWorkspace workspace;
+  for (std::uint32_t seed = 0; seed < thinned(30u); ++seed) {
+    SCOPED_TRACE(seed);
+    const MeshWorld world = small_world(seed);
+    const PreparedWorld prepared(world);
+    Questioner questioner{&prepared, std::move(workspace), {}};
+    expect_agree(questioner.ask(world.pose, {.deadline_us = 0}),
+                 ask_anew(prepared, world.pose, {}));
+    questioner.ask(world.pose, {});
+    workspace = std::move(questioner.workspace);
+  }
+}
+
+TEST(LastQuestion, ASpaceThatBeginsAnewIsAnotherOne) {
+  const MeshWorld near = small_world(2);
+  const PreparedWorld prepared(near);
+  CameraSpace far_space;
+  const MeshWorldView& view = near.views[0];
+  ObstacleImage nothing = view.obstacles;
+  for (float& depth_m : nothing.depth_m.pixels()) depth_m = 20;
+  for (PixelFate& fate : nothing.fate.pixels()) fate = PixelFate::obstacle;
+  build_camera_space(view.camera, nothing.depth_m, nothing, {}, far_space);
+  UnknownSpace space;
+  const PosedSpace far[] = {{&far_space, view.X_BC, 0}};
+  space.assign(far);
+  const std::uint64_t before = space.serial_number();
+  MeshWorkspace workspace;
+  std::vector<WholeLinkDistance> answer;
+  const MeshQuestion readings{.unknown = false};
+  mesh_distances(prepared.patches(), near.pose, space, readings, workspace, answer);
+  for (const auto& link : answer) EXPECT_EQ(link.occupied.lower_bound_m, 1);
+  std::vector<PosedSpace> posed;
+  for (const FreeingCamera& seen : prepared.space().views()) {
+    posed.push_back({seen.space, seen.X_BC, 0});
+  }
+  space.assign(posed);
+  EXPECT_NE(space.serial_number(), before);
+  mesh_distances(prepared.patches(), near.pose, space, readings, workspace, answer);
+  expect_agree(answer, ask_anew(prepared, near.pose, readings));
+  int within_range = 0;
+  for (const auto& link : answer) within_range += link.occupied.is_known();
+  EXPECT_GT(within_range, 0);
+}
+
+}  // namespace
+}  // namespace berth::testing

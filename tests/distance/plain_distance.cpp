@@ -1,0 +1,222 @@
+#include "tests/distance/plain_distance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "berth/distance/convex_pair.hpp"
+
+namespace berth::testing {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double own_of_reading(const MeshWorldView& view, const SpaceSettings& settings, int u, int v) {
+  const double sensed_m = view.sensor_depth_m(u, v);
+  const double obstacle_m = view.obstacles.depth_m(u, v);
+  const PixelFate fate = view.obstacles.fate(u, v);
+  if (fate == PixelFate::background) {
+    return std::isnan(sensed_m)
+               ? 0
+               : std::min(obstacle_m - settings.free_space_margin_m, sensed_m + settings.behind_robot_m);
+  }
+  if (is_kept(fate)) return obstacle_m - settings.free_space_margin_m;
+  const bool is_robot = fate == PixelFate::robot || fate == PixelFate::environment ||
+                        fate == PixelFate::padding || fate == PixelFate::dilation;
+  return is_robot ? sensed_m + settings.behind_robot_m : sensed_m - settings.free_space_margin_m;
+}
+
+double own_free_depth(const MeshWorldView& view, const SpaceSettings& settings, int u, int v) {
+  const DepthImage& S = view.sensor_depth_m;
+  if (!std::isnan(S(u, v)) || !std::isnan(view.obstacles.depth_m(u, v))) {
+    return own_of_reading(view, settings, u, v);
+  }
+  if (settings.no_reading == NoReading::free) return kInfinity;
+  int readings = 0;
+  double least_m = kInfinity;
+  for (int y = v - 1; y <= v + 1; ++y) {
+    for (int x = u - 1; x <= u + 1; ++x) {
+      if (x < 0 || y < 0 || x >= S.width() || y >= S.height() || std::isnan(S(x, y))) continue;
+      ++readings;
+      least_m = std::min(least_m, own_of_reading(view, settings, x, y));
+    }
+  }
+  return readings >= 5 ? least_m : 0;
+}
+
+std::optional<Pixel> plain_pixel(const Camera& camera, const Eigen::Vector3d& p_C) {
+  if (p_C.z() <= 0) return std::nullopt;
+  const double u = std::floor(p_C.x() / p_C.z() * camera.fx_px + camera.cx_px + 0.5);
+  const double v = std::floor(p_C.y() / p_C.z() * camera.fy_px + camera.cy_px + 0.5);
+  if (u < 0 || v < 0 || u >= camera.width_px || v >= camera.height_px) return std::nullopt;
+  return Pixel{static_cast<int>(u), static_cast<int>(v)};
+}
+
+}  // namespace
+
+Image<double> plain_free_depth(const MeshWorldView& view, const SpaceSettings& settings) {
+  const int width = view.camera.width_px;
+  const int height = view.camera.height_px;
+  Image<double> free_m(width, height, 0);
+  if (view.age_s > settings.free_space_max_age_s) return free_m;
+  const double moved_m = settings.obstacle_speed_m_s * view.age_s;
+  const double f_px = std::max(view.camera.fx_px, view.camera.fy_px);
+  Image<double> left_m(width, height, kInfinity);
+  for (int v = 0; v < height; ++v) {
+    for (int u = 0; u < width; ++u) {
+      const double own_m = own_free_depth(view, settings, u, v) - moved_m;
+      const double sensed_m = view.sensor_depth_m(u, v);
+      const double reach = std::isnan(sensed_m) ? 0 : std::ceil(f_px * moved_m / sensed_m);
+      for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+          if (std::abs(x - u) > reach || std::abs(y - v) > reach) continue;
+          left_m(x, y) = std::min(left_m(x, y), own_m);
+        }
+      }
+    }
+  }
+  for (int v = 1; v + 1 < height; ++v) {
+    for (int u = 1; u + 1 < width; ++u) {
+      double least_m = kInfinity;
+      for (int y = v - 1; y <= v + 1; ++y) {
+        for (int x = u - 1; x <= u + 1; ++x) least_m = std::min(least_m, left_m(x, y));
+      }
+      free_m(u, v) = std::max(least_m, 0.0);
+    }
+  }
+  return free_m;
+}
+
+PlainSpace::PlainSpace(const MeshWorld& world) : world_(world) {
+  for (const MeshWorldView& view : world.views) {
+    free_m_.push_back(plain_free_depth(view, world.settings));
+  }
+}
+
+bool PlainSpace::is_reading(std::size_t k, const Eigen::Vector3d& p_B, double slack_m) const {
+  const MeshWorldView& view = world_.views[k];
+  const Eigen::Vector3d p_C = view.X_BC.inverse() * p_B;
+  if (p_C.z() <= 0) return false;
+  // A pixel's neighbour counts where the point lies on the border between them.
+  const double slack_px = slack_m / p_C.z() * view.camera.fx_px;
+  const double u = p_C.x() / p_C.z() * view.camera.fx_px + view.camera.cx_px;
+  const double v = p_C.y() / p_C.z() * view.camera.fy_px + view.camera.cy_px;
+  for (const double du : {-slack_px, slack_px}) {
+    for (const double dv : {-slack_px, slack_px}) {
+      const double x = std::floor(u + du + 0.5);
+      const double y = std::floor(v + dv + 0.5);
+      if (x < 0 || y < 0 || x >= view.camera.width_px || y >= view.camera.height_px) continue;
+      const double near_m = view.obstacles.depth_m(static_cast<int>(x), static_cast<int>(y));
+      if (near_m - slack_m <= p_C.z() && p_C.z() <= near_m + world_.settings.surface_thickness_m + slack_m) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+bool PlainSpace::is_behind(std::size_t k, const Eigen::Vector3d& p_B) const {
+  const MeshWorldView& view = world_.views[k];
+  const Eigen::Vector3d p_C = view.X_BC.inverse() * p_B;
+  const auto pixel = plain_pixel(view.camera, p_C);
+  return pixel && p_C.z() > view.obstacles.depth_m(pixel->u, pixel->v) + world_.settings.surface_thickness_m;
+}
+
+bool PlainSpace::is_free(std::size_t k, const Eigen::Vector3d& p_B) const {
+  const MeshWorldView& view = world_.views[k];
+  const Eigen::Vector3d p_C = view.X_BC.inverse() * p_B;
+  const auto pixel = plain_pixel(view.camera, p_C);
+  return pixel && p_C.z() < free_m_[k](pixel->u, pixel->v);
+}
+
+bool PlainSpace::is_hidden(const Eigen::Vector3d& p_B) const {
+  for (std::size_t k = 0; k < world_.views.size(); ++k) {
+    if (!is_behind(k, p_B)) continue;
+    bool is_seen_free = false;
+    for (std::size_t j = 0; j < world_.views.size(); ++j) is_seen_free |= j != k && is_free(j, p_B);
+    if (!is_seen_free) return true;
+  }
+  return false;
+}
+
+namespace {
+
+std::vector<std::array<Eigen::Vector3d, 3>> triangles_in(const MeshWorld& world, std::size_t link,
+                                                         const Pose& X_FB) {
+  const TriangleMesh& mesh = world.model.links[link].mesh_L;
+  const Pose X_FL = X_FB * world.pose.X_BL[link];
+  std::vector<std::array<Eigen::Vector3d, 3>> triangles;
+  for (const auto& corners : mesh.triangles) {
+    auto& triangle = triangles.emplace_back();
+    for (int i = 0; i < 3; ++i) {
+      triangle[i] = X_FL * mesh.vertices_m[corners[i]].cast<double>();
+    }
+  }
+  return triangles;
+}
+
+/// A ball around points, about their middle.
+struct Ball {
+  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();
+  double radius_m = 0;
+};
+
+template <std::size_t count>
+Ball ball_of(const std::array<Eigen::Vector3d, count>& points_m) {
+  Ball ball;
+  for (const auto& p : points_m) ball.centre_m += p / count;
+  for (const auto& p : points_m) {
+    ball.radius_m = std::max(ball.radius_m, (p - ball.centre_m).norm());
+  }
+  return ball;
+}
+
+}  // namespace
+
+double plain_pixel_distance(const MeshWorld& world, std::size_t link, bool to_shadow,
+                            double range_m) {
+  constexpr double kFar_m = 20;
+  double least_m = range_m;
+  for (const MeshWorldView& view : world.views) {
+    const auto triangles = triangles_in(world, link, view.X_BC.inverse());
+    std::vector<Ball> balls;
+    for (const auto& triangle : triangles) balls.push_back(ball_of(triangle));
+    for (int v = 0; v < view.camera.height_px; ++v) {
+      for (int u = 0; u < view.camera.width_px; ++u) {
+        const double near_m = view.obstacles.depth_m(u, v);
+        if (std::isnan(near_m)) continue;
+        std::array<Eigen::Vector3d, 8> chunk_m;
+        for (int i = 0; i < 8; ++i) {
+          const double z = !(i & 4) ? near_m : to_shadow ? kFar_m : near_m + world.settings.surface_thickness_m;
+          chunk_m[i] = {z * (u + (i & 1) - 0.5 - view.camera.cx_px) / view.camera.fx_px,
+                        z * (v + (i >> 1 & 1) - 0.5 - view.camera.cy_px) / view.camera.fy_px, z};
+        }
+        const Ball around = ball_of(chunk_m);
+        for (std::size_t i = 0; i < triangles.size(); ++i) {
+          const double bound_m =
+              (around.centre_m - balls[i].centre_m).norm() - around.radius_m - balls[i].radius_m;
+          if (bound_m >= least_m) continue;
+          least_m = std::min(least_m, mesh::closest_points(triangles[i], chunk_m).distance_m);
+        }
+      }
+    }
+  }
+  return least_m;
+}
+
+LinkSurface::LinkSurface(const MeshWorld& world, std::size_t link)
+    : triangles_B_(triangles_in(world, link, Pose::Identity())) {}
+
+double LinkSurface::distance_m(const Eigen::Vector3d& p_B) const {
+  double least_m = kInfinity;
+  for (const auto& triangle : triangles_B_) {
+    const double reach_m =
+        std::max((triangle[1] - triangle[0]).norm(), (triangle[2] - triangle[0]).norm());
+    if ((triangle[0] - p_B).norm() - reach_m >= least_m) continue;
+    least_m = std::min(least_m, mesh::closest_points(triangle, {&p_B, 1}).distance_m);
+  }
+  return least_m;
+}
+
+}  // namespace berth::testing

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <algorithm>
+
+#include "berth/types/robot_image.hpp"
+
+namespace berth {
+
+/// Readings at the robot's depth to the right of it, as a camera that smooths makes them. For
+/// images of the bundled scene.
+inline void draw_flying_pixels(const RobotImage& robot, DepthImage& depth_m) {
+  for (int v = 100; v < 300; ++v) {
+    for (int u = robot.link_id.width() - 40; u > 0; --u) {
+      const LinkId id = robot.link_id(u, v);
+      if (id == kNoLink || id == kEnvironmentLink) continue;
+      std::fill_n(depth_m.row(v) + u + 1, 12, robot.depth_m(u, v));
+      break;
+    }
+  }
+}
+
+}  // namespace berth

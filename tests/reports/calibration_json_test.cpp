@@ -1,0 +1,92 @@
+#include "berth/reports/calibration_json.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/small_calibration_data.hpp"
+
+namespace berth {
+namespace {
+
+using Json = nlohmann::json;
+
+Json json_of(const testing::SmallCalibrationData& small) {
+  return Json::parse(calibration_json(small.report()));
+}
+
+TEST(CalibrationJson, IsOneLineInTheOrderOfTheSchema) {
+  testing::SmallCalibrationData small(2);
+  small.found().not_determined = {"clock_offset_s"};
+  small.result.joint_offsets = {{"joint_2", 0.004}};
+  small.result.joints_not_determined = {"joint_1"};
+  CalibrationReport report = small.report();
+  report.warnings = {"Two \"poses\"."};
+  EXPECT_EQ(
+      calibration_json(report),
+      R"({"schema":"berth/calibration/1","frames_used":2,"cameras":[{"camera":"camera","parent":"base",)"
+      R"("xyz":[0.1,0.0,1.5],"quaternion_xyzw":[1.0,0.0,0.0,0.0],"sigma_xyz_m":[0.001,0.001,0.001],)"
+      R"("sigma_rotation_rad":[0.002,0.002,0.002],"clock_offset_s":0.0,"sigma_clock_s":null,)"
+      R"("depth":{"offset_m":0.0,"scale":1.0},"dilation_px":0.0,"moved_m":0.02,"halves_m":0.003,)"
+      R"("residual_m":{"before":{"median":0.02,"p90":0.02,"p99":0.02},)"
+      R"("after":{"median":0.0,"p90":0.0,"p99":0.0}},"score":{"before":1.25,"after":1.75},)"
+      R"("not_determined":["clock_offset_s"],"refused":null,"frames":[0,1],)"
+      R"("self_filter":{"tolerance_m":0.03,"padding_m":0.02},"sensor":{"speckle_px":20},"bias_m":0.004,)"
+      R"("leftover_px":0,"largest_leftover_px":0,"smallest_obstacle":[)"
+      R"({"depth_m":1.0,"rod_width_m":0.004,"finger_width_m":0.006},)"
+      R"({"depth_m":2.0,"rod_width_m":0.012,"finger_width_m":null}],"rod_gap_m":0.04}],)"
+      R"("joint_offsets":{"joint_2":0.004},"joints_not_determined":["joint_1"],)"
+      R"("warnings":["Two \"poses\"."]})");
+}
+
+TEST(CalibrationJson, WhatIsNotKnownIsNull) {
+  testing::SmallCalibrationData small(1);
+  const double nan = std::nan("");
+  small.found().halves_m = nan;
+  small.found().before = {nan, nan, nan};
+  const Json camera = json_of(small)["cameras"][0];
+  EXPECT_TRUE(camera["halves_m"].is_null());
+  EXPECT_TRUE(camera["residual_m"]["before"]["p99"].is_null());
+  EXPECT_EQ(camera["residual_m"]["after"]["p99"], 0.0);
+}
+
+TEST(CalibrationJson, ARefusedPoseHasNoDeviationsAndSaysWhy) {
+  testing::SmallCalibrationData small;
+  EXPECT_FALSE(json_of(small)["cameras"][0]["sigma_clock_s"].is_null());
+  small.found().refused = "it is worse";
+  const Json camera = json_of(small)["cameras"][0];
+  EXPECT_EQ(camera["refused"], "it is worse");
+  for (const char* key : {"sigma_xyz_m", "sigma_rotation_rad", "sigma_clock_s"}) {
+    EXPECT_TRUE(camera[key].is_null()) << key;
+  }
+}
+
+TEST(CalibrationJson, NumbersAreRoundedAndTheQuaternionStaysOne) {
+  testing::SmallCalibrationData small;
+  small.found().X_PC.translation().x() = 1.23456789;
+  small.found().X_PC.linear() =
+      Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  const Json camera = json_of(small)["cameras"][0];
+  EXPECT_EQ(camera["xyz"][0], 1.234568);
+  const std::vector<double> q = camera["quaternion_xyzw"];
+  EXPECT_NEAR(std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3])), 1, 3e-9);
+  EXPECT_NEAR(q[3], std::cos(0.15), 1e-9);
+  small.found().X_PC.linear() = Eigen::AngleAxisd(3.5, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  EXPECT_GT(json_of(small)["cameras"][0]["quaternion_xyzw"][3], 0.1);
+}
+
+TEST(CalibrationJson, FramesOfAllCamerasAreCounted) {
+  testing::SmallCalibrationData small(3);
+  small.calibration_data.cameras.push_back(&small.camera);
+  small.result.cameras.push_back(small.found());
+  CalibrationReport report = small.report();
+  report.proposals.push_back({});
+  const Json json = Json::parse(calibration_json(report));
+  EXPECT_EQ(json["frames_used"], 6);
+  EXPECT_EQ(json["cameras"].size(), 2);
+  EXPECT_EQ(json["cameras"][1]["self_filter"], Json::object());
+}
+
+}  // namespace
+}  // namespace berth

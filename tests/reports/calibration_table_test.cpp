@@ -1,0 +1,133 @@
+#include "berth/reports/calibration_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "berth/reports/calibration_words.hpp"
+#include "tests/support/small_calibration_data.hpp"
+
+namespace berth {
+namespace {
+
+bool says(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(CalibrationTable, SaysWhatWasFoundAndHowSureThatIs) {
+  testing::SmallCalibrationData small;
+  small.proposal.leftover_px = 31;
+  small.proposal.largest_leftover_px = 12;
+  small.result.joint_offsets = {{"joint_2", 0.004}};
+  small.result.joints_not_determined = {"joint_1"};
+  CalibrationReport report = small.report();
+  report.warnings = {"Nobody may walk there."};
+  const std::string table = calibration_table(report);
+  EXPECT_TRUE(table.starts_with(
+      "warning: Nobody may walk there.\n"
+      "camera: This camera's view of the robot was off by 20.0 mm; now it is sure to ± 1.5 mm "
+      "(5 frames).\n"
+      "  residual         before     after\n"
+      "    median        20.0 mm    0.0 mm\n"
+      "    90 %          20.0 mm    0.0 mm\n"
+      "    99 %          20.0 mm    0.0 mm\n"
+      "  agreement          1.25      1.75   (of 2)\n"
+      "  clock offset: not looked for: the images have no stamps\n"
+      "  depth: the camera reads 0.0 mm too far at 1.45 m; left as it is\n"
+      "  settings\n"
+      "    self_filter.tolerance_m: 0.03 m\n"
+      "      Because of the tolerance.\n"
+      "    self_filter.padding_m: 0.02 m\n"
+      "      Because of the padding.\n"
+      "    sensor.speckle_px: 20 px\n"
+      "      Because of speckle.\n"
+      "    The camera sees the robot 4.0 mm behind its model, in the median: what stands before "
+      "the "
+      "robot by less than 34.0 mm is taken for the robot.\n"
+      "    With these settings 31 pixels beside the robot are left in all these images, 12 of them "
+      "in one piece: they would be taken for an obstacle.\n"
+      "    A rod of 1 cm at the robot's side is seen from 4 cm of free space on.\n"
+      "    seen 1 m away: rods of 4 mm, fingers of 6 mm\n"
+      "    seen 2 m away: rods of 12 mm, fingers of not even 3 cm, or no room\n"))
+      << table;
+  EXPECT_TRUE(
+      table.ends_with("joint offsets [rad or m]\n  joint_2: 0.0040\n  joint_1: not determined\n"))
+      << table;
+}
+
+TEST(CalibrationTable, WhatIsNotKnownIsADash) {
+  testing::SmallCalibrationData small;
+  small.found().before.median_m = std::nan("");
+  EXPECT_TRUE(says(calibration_table(small.report()), "    median              -    0.0 mm\n"));
+}
+
+TEST(CalibrationTable, ARefusedPoseSaysWhyAndProposesNothing) {
+  testing::SmallCalibrationData small;
+  small.found().refused = "the robot is elsewhere";
+  small.proposal = {};
+  const std::string table = calibration_table(small.report());
+  EXPECT_TRUE(says(table, "The scene's pose stays: the robot is elsewhere.\n"));
+  EXPECT_TRUE(says(table, "  depth: not looked for\n"));
+  EXPECT_FALSE(says(table, "settings"));
+}
+
+TEST(CalibrationWords, TheHeadlineKnowsAPoseThatWasRightAndOneFrame) {
+  testing::SmallCalibrationData small;
+  small.found().moved_m = 0.001;
+  EXPECT_EQ(headline(small.found()),
+            "The scene's pose was right: what was found differs by 1.0 mm, sure to ± 1.5 mm "
+            "(5 frames).");
+  small.found().halves_m = std::nan("");
+  EXPECT_EQ(
+      headline(small.found()),
+      "This camera's view of the robot was off by 1.0 mm. How sure the pose that was found is, "
+      "one frame cannot tell.");
+}
+
+TEST(CalibrationWords, TheClockIsToldOrWhyNot) {
+  testing::SmallCalibrationData small;
+  small.camera.has_stamps = true;
+  small.camera.clock_offset_s = 0.002;
+  small.found().clock_offset_s = 0.0123;
+  small.found().sigma_clock_s = 0.0004;
+  EXPECT_EQ(clock_text(small.found(), small.camera), "12.3 ms, was 2.0 ms; sure to ± 0.4 ms");
+  small.found().not_determined = {"clock_offset_s"};
+  EXPECT_EQ(clock_text(small.found(), small.camera),
+            "stays 2.0 ms: the arm moves too little while images are taken to tell");
+}
+
+TEST(CalibrationWords, DepthsErrorIsToldAtADistance) {
+  testing::SmallCalibrationData small;
+  small.found().depth = {0, 1 / 1.01};
+  EXPECT_EQ(depth_text(small.found(), 1.5, true),
+            "the camera reads 15.0 mm too far at 1.50 m; the new scene takes that out");
+  small.found().depth = {0.01, 1};
+  EXPECT_EQ(depth_text(small.found(), 1.5, false),
+            "the camera reads 10.0 mm too near at 1.50 m; left as it is");
+  EXPECT_EQ(depth_text(small.found(), std::nan(""), false), "unknown: no reading shows the robot");
+}
+
+TEST(CalibrationWords, OpenQuestionsAreSentences) {
+  testing::SmallCalibrationData small;
+  EXPECT_TRUE(open_questions(small.found()).empty());
+  small.found().not_determined = {"pose", "depth.scale"};
+  EXPECT_EQ(open_questions(small.found()),
+            (std::vector<std::string>{"Not determined: the pose, to within 1 cm.",
+                                      "Not determined: the scale of the depth's error."}));
+  small.found().not_determined = {"depth.offset_m", "depth.scale"};
+  EXPECT_EQ(open_questions(small.found()).size(), 1);
+}
+
+TEST(CalibrationWords, AReadingBeforeTheModelMakesLessRoomForObstacles) {
+  testing::SmallCalibrationData small;
+  small.proposal.bias_m = -0.01;
+  small.proposal.rod_gap_m = std::nan("");
+  const std::vector<std::string> sentences = consequences(small.proposal);
+  EXPECT_TRUE(says(sentences[0], "10.0 mm before its model")) << sentences[0];
+  EXPECT_TRUE(says(sentences[0], "by less than 20.0 mm")) << sentences[0];
+  EXPECT_TRUE(says(sentences[1], "nothing of the robot is left"));
+  EXPECT_TRUE(says(sentences[2], "15 cm away"));
+}
+
+}  // namespace
+}  // namespace berth

@@ -1,0 +1,527 @@
+#include <gtest/gtest.h>
+
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "berth/results/result_json.hpp"
+#include "berth/results/result_text.hpp"
+
+namespace berth {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+LinkResult link_without_distance(LinkId id, const std::string& name, LinkStatus status,
+                                 int robot_pixels) {
+  LinkResult link;
+  link.id = id;
+  link.link = name;
+  link.status = status;
+  link.lower_bound_m = link.occupied.lower_bound_m = kNaN;
+  link.image.robot_pixels = robot_pixels;
+  return link;
+}
+
+/// Of a method that compares images.
+LinkResult ok_link() {
+  LinkResult link = link_without_distance(1, "link_1", LinkStatus::ok, 4012);
+  link.distance_m = 0.1234F;
+  link.camera = 0;
+  link.image.robot_pixel = {312, 200};
+  link.obstacle_pixel = {340, 211};
+  link.robot_point_C_m = {0.1F, -0.2F, 1.3F};
+  link.obstacle_point_C_m = {0.25F, 0, 1.5F};
+  link.robot_point_B_m = {1.2F, 2.1F, 4.3F};
+  link.obstacle_point_B_m = {1, 2.25F, 4.5F};
+  link.mean_direction_B = {0, 0, 0.9F};
+  link.mean_count = 5121;
+  return link;
+}
+
+/// Of three links that compares images, with one camera whose frame C is the base frame B turned and
+/// moved.
+Result image_result() {
+  Result result;
+  result.status = ResultStatus::ok;
+  result.time.status = TimeStatus::ok;
+  result.stamp_s = 0.25;
+  result.method = "exact";
+  result.compares_images = true;
+  result.has_bounds = false;
+  result.range_m = 1.0;
+  result.pairs = 123456;
+  CameraResult& camera = result.cameras.emplace_back();
+  static_cast<CameraState&>(camera) = {CameraStatus::ok, 0.25, 0, TimeStatus::ok, {}};
+  camera.camera = "camera";
+  camera.frame = 0;
+  camera.X_BC = Pose(Eigen::Translation3d(1, 2, 3) *
+                     Eigen::AngleAxisd(EIGEN_PI / 2, Eigen::Vector3d::UnitZ()));
+  result.links = {ok_link(), link_without_distance(2, "link_2", LinkStatus::none_in_range, 12),
+                  link_without_distance(3, "a \"b\"", LinkStatus::not_visible, 0)};
+  find_nearest(result);
+  return result;
+}
+
+SpacePair pair_at(float distance_m, int camera) {
+  SpacePair pair;
+  pair.distance_m = distance_m;
+  pair.lower_bound_m = distance_m - 0.0005F;
+  pair.robot_point_B_m = {0.5F, 0, 1};
+  pair.obstacle_point_B_m = {0.5F, distance_m, 1};
+  pair.camera = camera;
+  pair.obstacle_pixel = {340, 211};
+  return pair;
+}
+
+/// Of two links and three cameras, the last of which has given no frame.
+Result mesh_result() {
+  Result result;
+  result.status = ResultStatus::degraded;
+  result.time = {};
+  result.time.status = TimeStatus::ok;
+  result.frame = 7;
+  result.stamp_s = 0.25;
+  result.joints_stamp_s = 0.5;
+  result.range_m = 1.0;
+  result.cameras.resize(3);
+  for (int k = 0; k < 3; ++k) result.cameras[k].camera = k == 0 ? "left" : k == 1 ? "right" : "top";
+  for (int k = 0; k < 2; ++k) {
+    CameraResult& camera = result.cameras[k];
+    static_cast<CameraState&>(camera) = {CameraStatus::ok, 0.25, 0, TimeStatus::ok, {}};
+    camera.frame = 3 + k;
+    camera.has_frame = true;
+    camera.X_BC = Pose::Identity();
+    camera.self_filter[0] = 10;
+  }
+  LinkResult link;
+  link.id = 1;
+  link.link = "link_1";
+  link.status = LinkStatus::ok;
+  static_cast<SpacePair&>(link) = pair_at(0.125F, 0);
+  link.obstacle_is = ObstacleKind::unknown;
+  link.occupied = pair_at(0.25F, 1);
+  link.mean_direction_B = {0, 0, 0.5F};
+  link.mean_count = 12;
+  result.links = {link, link_without_distance(2, "link_2", LinkStatus::none_in_range, 0)};
+  result.links[1].lower_bound_m = result.links[1].occupied.lower_bound_m = 1;
+  find_nearest(result);
+  return result;
+}
+
+Json json_of(const Result& result) { return Json::parse(result_json(result)); }
+Json json_2_of(const Result& result) { return Json::parse(result_json_2(result)); }
+
+std::vector<std::string> keys_of(const nlohmann::ordered_json& object) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : object.items()) keys.push_back(key);
+  return keys;
+}
+
+TEST(ResultJson, IsOneLineInTheOrderOfTheSchema) {
+  const std::string text = result_json(mesh_result());
+  EXPECT_EQ(
+      text,
+      R"({"schema":"berth/result/3","frame":7,"stamp_s":0.25,"joints_stamp_s":0.5,"status":"degraded",)"
+      R"("time":{"status":"ok","frame_age_s":null,"joints_age_s":null,"skew_s":null},)"
+      R"("method":"mesh","range_m":1.0,"nearest":"link_1",)"
+      R"("cameras":[{"camera":"left","frame":3,"stamp_s":0.25,"age_s":0.0,"status":"ok",)"
+      R"("seen_through":null,"displacement_m":null,"at_robot":null,)"
+      R"("self_filter":{"obstacle":10,"no_reading":0,"robot":0,"environment":0,"padding":0,)"
+      R"("dilation":0,"edge":0,"flying_patch":0,"outside_region":0,"speckle":0,"averaged":0,)"
+      R"("background":0,"hole":0}},)"
+      R"({"camera":"right","frame":4,"stamp_s":0.25,"age_s":0.0,"status":"ok",)"
+      R"("seen_through":null,"displacement_m":null,"at_robot":null,)"
+      R"("self_filter":{"obstacle":10,"no_reading":0,"robot":0,"environment":0,"padding":0,)"
+      R"("dilation":0,"edge":0,"flying_patch":0,"outside_region":0,"speckle":0,"averaged":0,)"
+      R"("background":0,"hole":0}},)"
+      R"({"camera":"top","frame":null,"stamp_s":null,"age_s":null,"status":"no_frame",)"
+      R"("seen_through":null,"displacement_m":null,"at_robot":null,"self_filter":null}],)"
+      R"("links":[{"id":1,"link":"link_1","is_moved":true,"status":"ok","distance_m":0.125,)"
+      R"("lower_bound_m":0.1245,"robot_point_base_m":[0.5,0.0,1.0],)"
+      R"("obstacle_point_base_m":[0.5,0.125,1.0],"camera":"left","obstacle_pixel":[340,211],)"
+      R"("obstacle_is":"unknown","occupied":{"distance_m":0.25,"lower_bound_m":0.2495,)"
+      R"("robot_point_base_m":[0.5,0.0,1.0],"obstacle_point_base_m":[0.5,0.25,1.0],)"
+      R"("camera":"right","obstacle_pixel":[340,211]},)"
+      R"("mean_direction_base":[0.0,0.0,0.5],"mean_count":12},)"
+      R"({"id":2,"link":"link_2","is_moved":true,"status":"none_in_range","distance_m":null,)"
+      R"("lower_bound_m":1.0,"robot_point_base_m":null,"obstacle_point_base_m":null,)"
+      R"("camera":null,"obstacle_pixel":null,"obstacle_is":null,)"
+      R"("occupied":{"distance_m":null,"lower_bound_m":1.0,"robot_point_base_m":null,)"
+      R"("obstacle_point_base_m":null,"camera":null,"obstacle_pixel":null},)"
+      R"("mean_direction_base":null,"mean_count":0}]})");
+}
+
+TEST(ResultJson, AWithheldResultHasNulls) {
+  Result result = mesh_result();
+  result.stamp_s = std::numeric_limits<double>::quiet_NaN();
+  withhold(result);
+  const Json json = json_of(result);
+  EXPECT_EQ(json["status"], "stale");
+  EXPECT_TRUE(json["stamp_s"].is_null());
+  EXPECT_TRUE(json["nearest"].is_null());
+  for (const Json& link : json["links"]) {
+    EXPECT_EQ(link["status"], "stale");
+    for (const char* key : {"distance_m", "lower_bound_m", "robot_point_base_m",
+                            "obstacle_point_base_m", "camera", "obstacle_pixel", "obstacle_is",
+                            "mean_direction_base"}) {
+      ASSERT_TRUE(link.contains(key)) << key;
+      EXPECT_TRUE(link[key].is_null()) << key;
+    }
+    for (const auto& [key, value] : link["occupied"].items()) EXPECT_TRUE(value.is_null()) << key;
+  }
+}
+
+TEST(ResultJson, OneCameraHasItsPointsInItsOwnFrameToo) {
+  Result result = mesh_result();
+  EXPECT_FALSE(json_of(result)["links"][0].contains("robot_point_camera_m"));
+  result.cameras.resize(1);
+  result.links[0].occupied.camera = 0;
+  result.links[0].robot_point_C_m = {0.5F, 0, 0.25F};
+  const Json link = json_of(result)["links"][0];
+  EXPECT_EQ(link["robot_point_camera_m"], (Json{0.5, 0, 0.25}));
+  EXPECT_TRUE(link["obstacle_point_camera_m"].is_null());
+}
+
+TEST(ResultJson, MethodsOnImagesAddTheirPixels) {
+  const Json json = json_of(image_result());
+  EXPECT_EQ(json["pairs"], 123456);
+  EXPECT_EQ(json["nearest"], "link_1");
+  const Json link = json["links"][0];
+  EXPECT_EQ(link["robot_pixel"], (Json{312, 200}));
+  EXPECT_EQ(link["robot_pixels"], 4012);
+  EXPECT_EQ(link["obstacle_pixel"], (Json{340, 211}));
+  EXPECT_FLOAT_EQ(link["robot_point_camera_m"][2], 1.3F);
+  EXPECT_FLOAT_EQ(link["robot_point_base_m"][2], 4.3F);
+  EXPECT_FLOAT_EQ(link["mean_direction_base"][2], 0.9F);
+  EXPECT_TRUE(json["links"][1]["robot_pixel"].is_null());
+  EXPECT_EQ(json["links"][1]["robot_pixels"], 12);
+  const Json mesh = json_of(mesh_result());
+  EXPECT_FALSE(mesh.contains("pairs"));
+  EXPECT_FALSE(mesh["links"][0].contains("robot_pixel"));
+  EXPECT_FALSE(mesh["links"][0].contains("robot_pixels"));
+}
+
+TEST(ResultJson, ACameraSaysWhatIsWrongWithItsTime) {
+  Result result = mesh_result();
+  result.cameras[1].status = CameraStatus::stale;
+  result.cameras[1].time = TimeStatus::skewed;
+  result.cameras[0].status = CameraStatus::moved;
+  result.cameras[0].watch.is_on = true;
+  result.cameras[0].watch.seen_through = 0.125;
+  result.cameras[0].watch.displacement_m = 0.0625;
+  result.cameras[0].watch.at_robot = 0.5;
+  const Json cameras = json_of(result)["cameras"];
+  EXPECT_EQ(cameras[1]["status"], "skewed");
+  EXPECT_EQ(cameras[0]["status"], "moved");
+  EXPECT_EQ(cameras[0]["seen_through"], 0.125);
+  EXPECT_EQ(cameras[0]["displacement_m"], 0.0625);
+  EXPECT_EQ(cameras[0]["at_robot"], 0.5);
+}
+
+TEST(ResultJson, VisibilityIsToldWhereItWasAskedFor) {
+  Result result = mesh_result();
+  EXPECT_FALSE(json_of(result)["links"][0].contains("visibility"));
+  result.has_visibility = true;
+  LinkVisibility& visibility = result.links[0].visibility;
+  visibility.surface = {0.41F, 0.02F, 0.5525F, 0.0175F, 0};
+  visibility.space_unknown = 0.4F;
+  visibility.rejected_distance_m = 0.0625F;
+  visibility.rejected_pixel = {7, 8};
+  const std::string text = result_json(result);
+  EXPECT_NE(text.find(R"("mean_count":12,"visibility":{"surface":{"seen":0.41,)"
+                      R"("hidden_by_obstacles":0.02,"hidden_by_robot":0.5525,"no_reading":0.0175,)"
+                      R"("outside_image":0.0},"space":null,"space_unknown":0.4,)"
+                      R"("rejected_distance_m":0.0625,"rejected_pixel":[7,8]}})"),
+            std::string::npos)
+      << text;
+  const Json other = Json::parse(text)["links"][1]["visibility"];
+  for (const auto& [key, value] : other.items()) EXPECT_TRUE(value.is_null()) << key;
+}
+
+TEST(ResultJson, AMonitorSaysHowFastTheRobotAndItsLinksMayGo) {
+  Result result = mesh_result();
+  EXPECT_FALSE(json_of(result).contains("separation"));
+  EXPECT_FALSE(json_of(result)["links"][0].contains("separation"));
+  result.links[1].is_moved = false;
+  Separation& separation = result.separation.emplace();
+  separation.state = SeparationState::reduced;
+  separation.speed_scale = 0.5;
+  separation.reason = SeparationReason::unknown;
+  separation.link = 1;
+  separation.reaction_time_s = 0.125;
+  separation.links = {{1, true, 0.5, 0.25, 0.375, -0.125, 0.5, SeparationReason::unknown}, {}};
+  const nlohmann::ordered_json json = nlohmann::ordered_json::parse(result_json(result));
+  EXPECT_EQ(keys_of(json["separation"]),
+            (std::vector<std::string>{"state", "speed_scale", "reason", "link", "camera",
+                                      "reaction_time_s", "text"}));
+  EXPECT_EQ(json["separation"]["reason"], "unknown");
+  EXPECT_EQ(json["separation"]["link"], "link_1");
+  EXPECT_TRUE(json["separation"]["camera"].is_null());
+  EXPECT_EQ(json["links"][0]["separation"].dump(),
+            R"({"speed_m_s":0.5,"distance_m":0.25,"required_m":0.375,"margin_m":-0.125,)"
+            R"("speed_scale":0.5,"reason":"unknown"})");
+  EXPECT_FALSE(json["links"][1].contains("separation")) << "no joint moves it";
+  separation.reason = SeparationReason::camera;
+  separation.camera = 2;
+  separation.link = kNoLink;
+  EXPECT_EQ(json_of(result)["separation"]["camera"], "top");
+  EXPECT_TRUE(json_of(result)["separation"]["link"].is_null());
+}
+
+TEST(ResultJson, TimingComesLastUnderItsName) {
+  Result result = mesh_result();
+  EXPECT_FALSE(json_of(result).contains("timing"));
+  result.timing = RequestTiming{50, 1.5, 2, 3, 4.25};
+  const std::string timing =
+      R"("timing":{"repeat":50,"ask_us":{"min":1.5,"p50":2.0,"p99":3.0,"max":4.25}}})";
+  EXPECT_TRUE(result_json(result).ends_with(timing)) << result_json(result);
+  result.timing_name = "evaluate_us";
+  EXPECT_TRUE(json_of(result)["timing"].contains("evaluate_us"));
+}
+
+TEST(ResultJson, TheRendererIsToldWhereThereIsOne) {
+  Result result = image_result();
+  EXPECT_FALSE(json_of(result).contains("gl_renderer"));
+  result.gl_renderer = "llvmpipe";
+  EXPECT_EQ(json_of(result)["gl_renderer"], "llvmpipe");
+}
+
+TEST(ResultJson, FloatsCanBeReadBackExactlyAndHaveFewDigits) {
+  Result result = image_result();
+  std::mt19937 random(7);
+  constexpr int kFloats = 20'000;
+  int longer_than_nine_digits = 0;
+  for (int i = 0; i < kFloats; ++i) {
+    const float value =
+        std::ldexp(std::uniform_real_distribution<float>(1, 2)(random), i % 40 - 30);
+    result.links[0].distance_m = value;
+    const std::string text = result_json(result);
+    const std::size_t begin = text.find("\"distance_m\":") + 13;
+    std::string printed = text.substr(begin, text.find(',', begin) - begin);
+    float again = 0;
+    std::from_chars(printed.data(), printed.data() + printed.size(), again);
+    ASSERT_EQ(again, value) << printed;
+    printed = printed.substr(0, printed.find('e'));
+    std::erase(printed, '.');
+    printed.erase(0, printed.find_first_not_of('0'));
+    longer_than_nine_digits += printed.size() > 9;
+  }
+  EXPECT_LT(longer_than_nine_digits, kFloats / 100);
+}
+
+TEST(ResultJson, NamesOfAnyLettersMakeValidJson) {
+  EXPECT_EQ(json_of(image_result())["links"][2]["link"], "a \"b\"");
+  EXPECT_EQ(json_2_of(image_result())["links"][2]["link"], "a \"b\"");
+}
+
+// Schema 2, as it was.
+
+TEST(ResultJson2, IsOneLineInTheOrderOfTheSchema) {
+  Result result = image_result();
+  result.links.resize(2);
+  result.cameras[0].X_BC = unset_pose();
+  result.links[0].mean_count = 0;
+  EXPECT_EQ(
+      result_json_2(result),
+      R"({"schema":"berth/result/2","frame":0,"stamp_s":0.25,"camera":"camera","method":"exact","range_m":1.0,)"
+      R"("cameras":[{"camera":"camera","frame":0,"stamp_s":0.25,"age_s":0.0,"status":"ok"}],)"
+      R"("links":[{"id":1,"link":"link_1","status":"ok","distance_m":0.1234,"robot_pixel":[312,200],)"
+      R"("obstacle_pixel":[340,211],"robot_point_m":[0.1,-0.2,1.3],"obstacle_point_m":[0.25,0.0,1.5],)"
+      R"("mean_direction":null,"mean_count":0,"robot_pixels":4012},)"
+      R"({"id":2,"link":"link_2","status":"none_in_range","distance_m":null,"robot_pixel":null,)"
+      R"("obstacle_pixel":null,"robot_point_m":null,"obstacle_point_m":null,)"
+      R"("mean_direction":null,"mean_count":0,"robot_pixels":12}],"pairs":123456})");
+}
+
+TEST(ResultJson2, ALinkThatIsNotOkHasNulls) {
+  const Json link = json_2_of(image_result())["links"][1];
+  EXPECT_EQ(link["status"], "none_in_range");
+  for (const char* key :
+       {"distance_m", "robot_pixel", "obstacle_pixel", "robot_point_m", "obstacle_point_m",
+        "robot_point_base_m", "obstacle_point_base_m", "mean_direction"}) {
+    ASSERT_TRUE(link.contains(key)) << key;
+    EXPECT_TRUE(link[key].is_null()) << key;
+  }
+}
+
+TEST(ResultJson2, TheMeanDirectionIsInTheCamerasFrame) {
+  Result result = image_result();
+  result.links[0].mean_direction_C = {0.5F, 0, 0.75F};
+  const std::vector<double> direction = json_2_of(result)["links"][0]["mean_direction"];
+  const std::vector<double> expected = {0.5, 0, 0.75};
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(direction[i], expected[i], 1e-6);
+  result.links[0].mean_count = 0;
+  EXPECT_TRUE(json_2_of(result)["links"][0]["mean_direction"].is_null());
+}
+
+TEST(ResultJson2, PointsInTheBaseAreToldWhereTheCamerasPoseIsKnown) {
+  Result result = image_result();
+  const Json link = json_2_of(result)["links"][0];
+  const std::vector<double> robot_B = link["robot_point_base_m"];
+  const std::vector<double> obstacle_B = link["obstacle_point_base_m"];
+  const std::vector<double> expected_robot_B = {1.2, 2.1, 4.3};
+  const std::vector<double> expected_obstacle_B = {1, 2.25, 4.5};
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(robot_B[i], expected_robot_B[i], 1e-6);
+    EXPECT_NEAR(obstacle_B[i], expected_obstacle_B[i], 1e-6);
+  }
+  result.cameras[0].X_BC = unset_pose();
+  EXPECT_FALSE(json_2_of(result)["links"][0].contains("robot_point_base_m"));
+}
+
+TEST(ResultJson2, TimingAndFilterCountsAreToldWhereTheyAreGiven) {
+  Result result = image_result();
+  EXPECT_FALSE(json_2_of(result).contains("timing"));
+  EXPECT_FALSE(json_2_of(result).contains("self_filter"));
+  result.timing = RequestTiming{50, 1.5, 2, 3, 4.25};
+  result.timing_name = "evaluate_us";
+  result.cameras[0].has_frame = true;
+  result.cameras[0].self_filter = {10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22};
+  const std::string text = result_json_2(result);
+  EXPECT_TRUE(text.ends_with(
+      R"("timing":{"repeat":50,"evaluate_us":{"min":1.5,"p50":2.0,"p99":3.0,"max":4.25}},)"
+      R"("self_filter":{"obstacle":10,"no_reading":11,"robot":12,"environment":13,"padding":14,)"
+      R"("dilation":15,"edge":16,"island":17,"outside_region":18,"speckle":19,"averaged":20,)"
+      R"("background":21,"hole":22}})"))
+      << text;
+}
+
+TEST(ResultJson2, LowerBoundsAreToldWhereASearchMayEndEarly) {
+  Result result = image_result();
+  result.links[0].lower_bound_m = 0.12099F;
+  result.links[1].status = LinkStatus::cut_short;
+  result.links[1].lower_bound_m = 0.5F;
+  EXPECT_FALSE(json_2_of(result)["links"][0].contains("lower_bound_m"));
+  result.has_bounds = true;
+  const Json links = json_2_of(result)["links"];
+  EXPECT_EQ(links[0]["lower_bound_m"], 0.12099);
+  EXPECT_EQ(links[1]["status"], "cut_short");
+  EXPECT_EQ(links[1]["lower_bound_m"], 0.5);
+  EXPECT_TRUE(links[1]["distance_m"].is_null());
+  EXPECT_TRUE(links[2]["lower_bound_m"].is_null());
+}
+
+TEST(ResultJson2, VisibilityIsToldWhereItIsGiven) {
+  Result result = image_result();
+  EXPECT_FALSE(json_2_of(result)["links"][0].contains("visibility"));
+  result.has_visibility = true;
+  LinkVisibility& first = result.links[0].visibility;
+  first.surface = {0.41F, 0.02F, 0.5525F, 0.0175F, 0};
+  first.space = {0.5F, 0.1F, 0.2F, 0.15F, 0.05F};
+  first.space_unknown = 0.4F;
+  result.links[1].visibility.surface = {0, 0, 0, 0, 1};
+  const std::string text = result_json_2(result);
+  EXPECT_NE(
+      text.find(
+          R"("robot_pixels":4012,"visibility":{"surface":{"seen":0.41,"hidden_by_obstacles":0.02,)"
+          R"("hidden_by_robot":0.5525,"no_reading":0.0175,"outside_image":0.0},)"
+          R"("space":{"seen":0.5,"hidden_by_obstacles":0.1,"hidden_by_robot":0.2,)"
+          R"("no_reading":0.15,"outside_image":0.05},"space_unknown":0.4,)"
+          R"("doubtful_distance_m":null,"doubtful_pixel":null}})"),
+      std::string::npos)
+      << text;
+  const Json links = Json::parse(text)["links"];
+  EXPECT_EQ(links[1]["visibility"]["surface"]["outside_image"], 1);
+  EXPECT_TRUE(links[1]["visibility"]["space"].is_null());
+  EXPECT_TRUE(links[1]["visibility"]["space_unknown"].is_null());
+  EXPECT_TRUE(links[2]["visibility"]["surface"].is_null());
+  result.links[1].visibility.rejected_distance_m = 0.0625F;
+  result.links[1].visibility.rejected_pixel = {7, 8};
+  const Json rejected = json_2_of(result)["links"][1]["visibility"];
+  EXPECT_EQ(rejected["doubtful_distance_m"], 0.0625);
+  EXPECT_EQ(rejected["doubtful_pixel"], Json({7, 8}));
+}
+
+TEST(ResultJson2, KeepsTheWordsOfItsTime) {
+  Result result = mesh_result();
+  Json link = json_2_of(result)["links"][0];
+  EXPECT_EQ(link["obstacle_is"], "hidden");
+  EXPECT_EQ(link["camera"], "left");
+  EXPECT_EQ(link["reading_distance_m"], 0.25);
+  EXPECT_EQ(link["reading"]["camera"], "right");
+  EXPECT_EQ(link["reading"]["lower_bound_m"], 0.2495);
+  EXPECT_EQ(link["mean_direction_base"], (Json{0, 0, 0.5}));
+  EXPECT_FALSE(link.contains("robot_point_m")) << "which camera's frame?";
+  result.links[0].obstacle_is = ObstacleKind::occupied;
+  EXPECT_EQ(json_2_of(result)["links"][0]["obstacle_is"], "reading");
+  Separation& separation = result.separation.emplace();
+  separation.reason = SeparationReason::stale;
+  separation.links.resize(2);
+  separation.links[0].reason = SeparationReason::unknown;
+  separation.links[1].reason = SeparationReason::occupied;
+  const Json json = json_2_of(result);
+  EXPECT_EQ(json["separation"]["reason"], "untimely");
+  result.separation.reset();
+  withhold(result);
+  EXPECT_EQ(json_2_of(result)["links"][0]["status"], "untimely");
+  EXPECT_FALSE(json_2_of(result)["links"][0].contains("reading"));
+}
+
+TEST(ResultTable, HasAlignedColumnsAndDashesForWhatIsNotKnown) {
+  EXPECT_EQ(result_table(image_result()),
+            "link    status         distance [m]  robot pixel  obstacle pixel  robot pixels\n"
+            "link_1  ok                   0.1234   (312, 200)      (340, 211)          4012\n"
+            "link_2  none_in_range             -            -               -            12\n"
+            "a \"b\"   not_visible               -            -               -             0\n");
+}
+
+TEST(ResultTable, TellsBoundsWhereASearchMayEndEarly) {
+  Result result = image_result();
+  result.links[0].lower_bound_m = 0.12099F;
+  result.links[1].status = LinkStatus::cut_short;
+  result.links[1].lower_bound_m = 0.5F;
+  result.has_bounds = true;
+  EXPECT_EQ(result_table(result),
+            "link    status           distance [m]  robot pixel  obstacle pixel  robot pixels\n"
+            "link_1  ok           0.1209 to 0.1234   (312, 200)      (340, 211)          4012\n"
+            "link_2  cut_short      0.5000 or more            -               -            12\n"
+            "a \"b\"   not_visible                 -            -               -             0\n");
+}
+
+TEST(ResultTable, TellsWhatIsSeenAndWhatIsRejected) {
+  Result result = image_result();
+  result.has_visibility = true;
+  result.links[0].visibility.surface = {0.41F, 0.02F, 0.5525F, 0.0175F, 0};
+  result.links[1].visibility.surface = {0, 0, 0, 0, 1};
+  EXPECT_EQ(
+      result_table(result),
+      "link    status         distance [m]  robot pixel  obstacle pixel  robot pixels  seen\n"
+      "link_1  ok                   0.1234   (312, 200)      (340, 211)          4012  41 %\n"
+      "link_2  none_in_range             -            -               -            12   0 %\n"
+      "a \"b\"   not_visible               -            -               -             0     -\n");
+  result.links[1].visibility.rejected_distance_m = 0.0625F;
+  EXPECT_EQ(
+      result_table(result),
+      "link    status         distance [m]  robot pixel  obstacle pixel  robot pixels  seen  "
+      "rejected [m]\n"
+      "link_1  ok                   0.1234   (312, 200)      (340, 211)          4012  41 %  "
+      "           -\n"
+      "link_2  none_in_range             -            -               -            12   0 %  "
+      "      0.0625\n"
+      "a \"b\"   not_visible               -            -               -             0     -  "
+      "           -\n");
+}
+
+TEST(ResultTable, OfTheWholeRobotTellsWhatIsNearAndWhichCameraSaysSo) {
+  EXPECT_EQ(result_table(mesh_result()),
+            "link    status         distance [m]  to what is  to occupied [m]  camera  obstacle "
+            "pixel\n"
+            "link_1  ok                   0.1250     unknown           0.2500    left      (340, "
+            "211)\n"
+            "link_2  none_in_range             -           -                -       -              "
+            " -\n");
+}
+
+TEST(ResultTable, LinksThatNoJointMovesComeLast) {
+  Result result = mesh_result();
+  result.links[0].is_moved = false;
+  const std::string table = result_table(result);
+  EXPECT_LT(table.find("link_2"), table.find("link_1"));
+}
+
+}  // namespace
+}  // namespace berth

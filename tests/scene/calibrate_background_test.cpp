@@ -1,0 +1,193 @@
+// The background that calibration's images give, and what a scene makes of its PNG.
+#include "berth/scene/calibrate_background.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "berth/files/file_bytes.hpp"
+#include "berth/scene/scene_run.hpp"
+#include "tests/support/drawn_cell.hpp"
+#include "tests/support/error_message.hpp"
+
+namespace berth {
+namespace {
+
+using testing::CellLines;
+using testing::DrawnCell;
+using sim::DrawnMount;
+
+const std::string kArmFolder = BERTH_SOURCE_DIR "/data/bundled/arm";
+
+DrawnCell right_cell(CellLines lines = {}, DrawnMount mount = DrawnMount::root) {
+  lines.offset_m = lines.angle_rad = 0;
+  return {kArmFolder, {.width_px = 160, .height_px = 120, .poses = 4, .mount = mount}, 2, lines};
+}
+
+/// Of the scene as it is: nothing is fitted. new.yaml and its background are there afterwards.
+std::vector<CalibratedBackground> calibrate_cell(const DrawnCell& cell) {
+  SceneChange change;
+  const auto calibrated =
+      calibrate_backgrounds(open_scene(cell.scene()), cell / "new.yaml", [] {}, change);
+  write_backgrounds(calibrated);
+  write_rewritten_scene(cell.scene(), change, cell / "new.yaml");
+  return calibrated;
+}
+
+/// Obstacles of all images: with the background that the file names, and with the one that the run
+/// learns by itself.
+struct TwoRuns {
+  std::vector<ObstacleImage> named;
+  std::vector<ObstacleImage> learned;
+
+  explicit TwoRuns(SceneFile scene) {
+    named = run(scene);
+    scene.cameras[0].background.reset();
+    learned = run(scene);
+  }
+
+  static std::vector<ObstacleImage> run(const SceneFile& file) {
+    const OpenScene scene = open_scene(file);
+    SceneRun run(scene);
+    std::vector<ObstacleImage> images;
+    while (run.next()) images.push_back(run.frame()->obstacles);
+    return images;
+  }
+};
+
+TEST(CalibrateBackground, IsWhatARunLearnsFromTheSameImages) {
+  const DrawnCell cell = right_cell();
+  const std::vector<CalibratedBackground> calibrated = calibrate_cell(cell);
+  ASSERT_EQ(calibrated.size(), 1U);
+  EXPECT_EQ(calibrated[0].file, cell / "new.background.camera.png");
+  EXPECT_GT(calibrated[0].known_share(), 0.3);
+  EXPECT_LT(calibrated[0].known_share(), 1) << "the robot is somewhere in all images";
+  const SceneFile scene = read_scene(cell / "new.yaml");
+  EXPECT_EQ(scene.cameras[0].background, cell / "new.background.camera.png");
+  EXPECT_EQ(scene.cameras[0].settings.sensor.background_frames, 3);
+  // Images and background are whole millimetres both.
+  const TwoRuns runs(scene);
+  ASSERT_EQ(runs.named.size(), 4U);
+  for (std::size_t k = 0; k < runs.named.size(); ++k) {
+    EXPECT_EQ(runs.named[k].fate.pixels(), runs.learned[k].fate.pixels());
+    EXPECT_EQ(runs.named[k].count, runs.learned[k].count);
+    EXPECT_GT(runs.named[k].count[static_cast<std::size_t>(PixelFate::background)], 100);
+    for (std::size_t i = 0; i < runs.named[k].depth_m.pixels().size(); ++i) {
+      const float named_m = runs.named[k].depth_m.pixels()[i];
+      const float learned_m = runs.learned[k].depth_m.pixels()[i];
+      ASSERT_TRUE(named_m == learned_m || (std::isnan(named_m) && std::isnan(learned_m))) << i;
+    }
+  }
+}
+
+TEST(CalibrateBackground, IsNeverFartherThanItWasMeasured) {
+  const DrawnCell cell = right_cell({.depth_scale_m = 0.0007, .depth_offset_m = 0.0003});
+  calibrate_cell(cell);
+  const TwoRuns runs(read_scene(cell / "new.yaml"));
+  int put = 0;
+  for (std::size_t k = 0; k < runs.named.size(); ++k) {
+    for (std::size_t i = 0; i < runs.named[k].depth_m.pixels().size(); ++i) {
+      if (runs.named[k].fate.pixels()[i] != PixelFate::background) continue;
+      ++put;
+      const double nearer_m =
+          double{runs.learned[k].depth_m.pixels()[i]} - runs.named[k].depth_m.pixels()[i];
+      ASSERT_GT(nearer_m, -2e-6);
+      ASSERT_LT(nearer_m, 0.001);
+    }
+  }
+  EXPECT_GT(put, 100);
+}
+
+TEST(CalibrateBackground, TheScenesOwnNumberOfImagesStays) {
+  const DrawnCell cell = right_cell({.more = "sensor: {background_frames: 2}\n"});
+  const double share_of_two = calibrate_cell(cell)[0].known_share();
+  EXPECT_EQ(read_scene(cell / "new.yaml").cameras[0].settings.sensor.background_frames, 2);
+  EXPECT_GE(share_of_two, calibrate_cell(right_cell())[0].known_share());
+  const DrawnCell many = right_cell({.more = "sensor: {background_frames: 9}\n"});
+  SceneChange change;
+  expect_parts(error_message([&] {
+                 calibrate_backgrounds(open_scene(many.scene()), many / "new.yaml", [] {}, change);
+               }),
+               {"scene.yaml: camera camera: no background was learned from its 4 images; expected a "
+                "place that 9 of them (sensor.background_frames) show alike"});
+}
+
+TEST(CalibrateBackground, ACopyOfTheSceneElsewhereLeadsToTheSameFile) {
+  const DrawnCell cell = right_cell();
+  calibrate_cell(cell);
+  std::filesystem::create_directory(cell / "other");
+  write_rewritten_scene(cell / "new.yaml", {}, cell / "other/again.yaml");
+  const SceneFile again = read_scene(cell / "other/again.yaml");
+  EXPECT_TRUE(std::filesystem::equivalent(*again.cameras[0].background,
+                                          cell / "new.background.camera.png"));
+  const std::vector<std::string> older = older_backgrounds(open_scene(again));
+  ASSERT_EQ(older.size(), 1U);
+  expect_parts(older[0], {"camera camera: its background was learned before", "--background"});
+  EXPECT_TRUE(older_backgrounds(open_scene(cell.scene())).empty());
+}
+
+TEST(CalibrateBackground, ABadFileIsToldWhenTheSceneIsOpened) {
+  const DrawnCell cell = right_cell();
+  calibrate_cell(cell);
+  const auto opened = [&] { return error_message([&] { open_scene(cell / "new.yaml"); }); };
+  EXPECT_EQ(opened(), "");
+  const std::filesystem::path file = cell / "new.background.camera.png";
+  write_depth_png(file, DepthImage(80, 60, 2.0F), 0.001);
+  expect_parts(opened(), {"new.background.camera.png", "80", "160"});
+  write_link_ids_png(file, Image<LinkId>(160, 120, 7));
+  expect_parts(opened(), {"new.background.camera.png", "8", "16"});
+  write_file_bytes(file, "no image");
+  expect_parts(opened(), {"new.background.camera.png"});
+  std::filesystem::remove(file);
+  expect_parts(opened(), {"new.background.camera.png"});
+}
+
+TEST(CalibrateBackground, AFileWithoutTheRuleIsRefused) {
+  const DrawnCell cell = right_cell();
+  calibrate_cell(cell);
+  std::string text = read_file_bytes(cell / "new.yaml");
+  const std::string rule = "background_frames: 3";
+  ASSERT_NE(text.find(rule), std::string::npos);
+  text.replace(text.find(rule), rule.size(), "background_frames: 0");
+  cell.write("new.yaml", text);
+  expect_parts(error_message([&] { read_scene(cell / "new.yaml"); }),
+               {"new.yaml:", "cameras[0].background", "new.background.camera.png",
+                "expected sensor.background_frames of 1 or more with it"});
+}
+
+TEST(CalibrateBackground, ACameraThatMovesHasNone) {
+  const DrawnCell cell = right_cell({}, DrawnMount::hand);
+  const OpenScene scene = open_scene(cell.scene());
+  const std::string link = scene.cameras[0].source.parent_link;
+  expect_parts(error_message([&] { require_backgrounds(scene, cell / "new.yaml"); }),
+               {"scene.yaml: camera camera: moves with link \"" + link +
+                    "\", so that it has no background; expected no --background",
+                "fixed to the root link"});
+  // Beside a fixed one it is passed over, and named.
+  SceneFile both = read_scene(cell.scene());
+  both.cameras.push_back(both.cameras[0]);
+  both.cameras[1].name = "fixed";
+  both.cameras[1].parent_link = scene.robot->model().links[0].name;
+  EXPECT_EQ(require_backgrounds(open_scene(both), cell / "new.yaml"),
+            std::vector<std::string>{"camera camera: moves with link \"" + link +
+                                     "\", so that it has no background"});
+}
+
+TEST(CalibrateBackground, NoFileOfTheSceneIsOverwritten) {
+  const DrawnCell cell = right_cell();
+  const OpenScene scene = open_scene(cell.scene());
+  EXPECT_TRUE(require_backgrounds(scene, cell / "new.yaml").empty());
+  expect_parts(error_message([&] { require_backgrounds(scene, cell / "cell/depth/new.yaml"); }),
+               {"cell/depth/new.background.camera.png: would lie among the images of camera camera",
+                "expected --out in another folder"});
+  calibrate_cell(cell);
+  std::filesystem::rename(cell / "new.yaml", cell / "renamed.yaml");
+  expect_parts(error_message([&] {
+                 require_backgrounds(open_scene(cell / "renamed.yaml"), cell / "new.yaml");
+               }),
+               {"new.background.camera.png: is camera camera's background in ",
+                "expected --out in another folder"});
+}
+
+}  // namespace
+}  // namespace berth
