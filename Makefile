@@ -74,14 +74,13 @@ bench-gpu:
 	  $(if $(BERTH_DATA),$(recordings)) $(STUDY_OPTIONS)
 	lab/bench/gpu_results.py build/bench_gpu
 
-# The tests under AddressSanitizer and UBSan, then under ThreadSanitizer: all, or readers and what has threads.
+# The tests under AddressSanitizer and UBSan, then, with vector code for one lane, under ThreadSanitizer: all, or those that say so.
 sanitize: sanitize-asan sanitize-tsan
 sanitize-%: setup
 	cmake --preset $*
 	cmake --build --preset $*
 	ctest --preset $* -j2
 sanitize-thinned: thinned-asan thinned-tsan
-# thinned-scalar: vector code for one lane through its own tests.
 thinned-%: setup
 	cmake --preset $*
 	cmake --build --preset $* --target $*_thinned

@@ -1,16 +1,5 @@
-# berth_precompiled_headers(<name> <header>...): what many sources include, read once for all of them, with what nearly all
-# include. It changes no source's meaning: each compiles without it, as the preset `dev` shows. Vector code never has it: there
-# GCC 12 took a * b + c for one operation and ended a search in a crash.
-function(berth_precompiled_headers name)
-  add_library(${name} OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp)
-  target_compile_features(${name} PRIVATE cxx_std_20)
-  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/src)
-  target_link_libraries(${name} PRIVATE Eigen3::Eigen fmt::fmt)
-  berth_sanitize(${name})
-  target_precompile_headers(${name} PRIVATE
-    <Eigen/Geometry> <fmt/format.h> <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <limits> <map> <memory>
-    <optional> <span> <stdexcept> <string> <string_view> <utility> <vector> ${ARGN})
-endfunction()
+# What nobody waits for is compiled in two thirds of the time: arguments, text, pages, tests.
+set(BERTH_COLD $<$<CONFIG:Release>:-O1>)
 
 # berth_sanitize(<target>)
 function(berth_sanitize target)
@@ -20,44 +9,59 @@ function(berth_sanitize target)
   endif()
 endfunction()
 
-# berth_compile_options(<target> [<name>]): what all of berth is compiled with; the name is of precompiled headers, in place of
-# `berth_precompiled`, or NONE.
+# berth_precompiled_headers(<name> <options> <header>...): what many sources include, read once for all of them, with what nearly
+# all include. GCC 12 takes -O1 or -O3 from these headers, and not from the source's command: each kind of code has its own. Vector
+# code has none: there GCC 12 took a * b + c for one operation, and ended a search in a crash. No source needs them: the preset
+# `tsan` compiles without.
+function(berth_precompiled_headers name options)
+  add_library(${name} OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp)
+  target_compile_features(${name} PRIVATE cxx_std_20)
+  target_compile_options(${name} PRIVATE ${options})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  target_link_libraries(${name} PRIVATE Eigen3::Eigen fmt::fmt)
+  berth_sanitize(${name})
+  target_precompile_headers(${name} PRIVATE
+    <Eigen/Geometry> <fmt/format.h> <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <limits> <map> <memory>
+    <optional> <span> <stdexcept> <string> <string_view> <utility> <vector> ${ARGN})
+endfunction()
+berth_precompiled_headers(berth_precompiled_hot "")
+# For those who open scenes and tell of them.
+berth_precompiled_headers(berth_precompiled_cold "${BERTH_COLD}" <berth/scene/scene_run.hpp>)
+
+# berth_compile_options(<target> [HOT | COLD | TEST | OWN]): what all of berth is compiled with. HOT: what a loop waits for. COLD:
+# what nobody waits for. TEST: COLD, with GoogleTest. OWN: COLD, with precompiled headers of the target's own.
 function(berth_compile_options target)
-  set(precompiled berth_precompiled ${ARGN})
-  list(GET precompiled -1 precompiled)
+  set(kind HOT ${ARGN})
+  list(GET kind -1 kind)
+  string(TOLOWER ${kind} precompiled)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor
                          $<$<BOOL:${BERTH_WARNINGS_AS_ERRORS}>:-Werror>)
   berth_sanitize(${target})
-  if(NOT precompiled STREQUAL "NONE")
-    target_precompile_headers(${target} REUSE_FROM ${precompiled})
-    # As their owner has it: the definitions, and code for any address, in a program as well. -fpch-preprocess is for ccache.
-    target_compile_options(${target} PRIVATE -fPIC $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
-    target_compile_definitions(${target} PRIVATE $<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>)
-    get_target_property(sources ${target} SOURCES)
-    foreach(source IN LISTS sources)
-      file(STRINGS ${source} vectors REGEX "hwy/" LIMIT_COUNT 1)
-      if(vectors)
-        set_source_files_properties(${source} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
-      endif()
-    endforeach()
+  if(NOT kind STREQUAL "HOT")
+    target_compile_options(${target} PRIVATE ${BERTH_COLD})
   endif()
+  if(kind STREQUAL "OWN")
+    return()
+  endif()
+  target_precompile_headers(${target} REUSE_FROM berth_precompiled_${precompiled})
+  # As their owner has it: the definitions, and code for any address, in a program as well. -fpch-preprocess is for ccache.
+  target_compile_options(${target} PRIVATE -fPIC $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+  target_compile_definitions(${target} PRIVATE $<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>)
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    file(STRINGS ${source} vectors REGEX "hwy/" LIMIT_COUNT 1)
+    if(vectors)
+      set_source_files_properties(${source} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+    endif()
+  endforeach()
 endfunction()
 
-# berth_cold_code(<target>): arguments, text and pages, which nobody waits for. Compiles in two thirds of the time.
-function(berth_cold_code target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
-endfunction()
-
-berth_precompiled_headers(berth_precompiled)
-# For those who open scenes and tell of them.
-berth_precompiled_headers(berth_precompiled_scene <berth/scene/scene_run.hpp>)
-
-# berth_library(<folder> SOURCES ... DEPENDS ... USES ... [COMPONENT opengl] [PRECOMPILED ...]): one target for each folder of src/berth.
+# berth_library(<folder> SOURCES ... DEPENDS ... USES ... [COMPONENT opengl] [COLD]): one target for each folder of src/berth.
 # DEPENDS are libraries that its headers need, USES are those that only its sources need. COMPONENT: users get it only where
 # they ask find_package for it.
 function(berth_library folder)
-  cmake_parse_arguments(ARG "" "COMPONENT;PRECOMPILED" "SOURCES;DEPENDS;USES" ${ARGN})
+  cmake_parse_arguments(ARG "COLD" "COMPONENT" "SOURCES;DEPENDS;USES" ${ARGN})
   add_library(berth_${folder} ${ARG_SOURCES})
   add_library(berth::${folder} ALIAS berth_${folder})
   set_target_properties(berth_${folder} PROPERTIES EXPORT_NAME ${folder} VERSION ${PROJECT_VERSION}
@@ -65,7 +69,11 @@ function(berth_library folder)
   target_include_directories(berth_${folder} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(berth_${folder} PUBLIC ${ARG_DEPENDS} PRIVATE ${ARG_USES})
-  berth_compile_options(berth_${folder} ${ARG_PRECOMPILED})
+  if(ARG_COLD)
+    berth_compile_options(berth_${folder} COLD)
+  else()
+    berth_compile_options(berth_${folder})
+  endif()
   if(BUILD_SHARED_LIBS)
     # By the linker, so that objects are the same for both kinds of library. Installed, the libraries lie in one folder.
     set(map ${PROJECT_SOURCE_DIR}/cmake/exported_symbols.map)
@@ -78,21 +86,23 @@ function(berth_library folder)
   set_property(GLOBAL APPEND PROPERTY BERTH_LIBRARIES_OF_${ARG_COMPONENT} berth_${folder})
 endfunction()
 
-# berth_program(<name> SOURCES ... DEPENDS ... [PRECOMPILED ...])
+# berth_program(<name> SOURCES ... DEPENDS ...): arguments and reports around the work of libraries.
 function(berth_program name)
-  cmake_parse_arguments(ARG "" "PRECOMPILED" "SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_DEPENDS})
-  berth_compile_options(${name} ${ARG_PRECOMPILED})
+  berth_compile_options(${name} COLD)
 endfunction()
 
 # berth_test(<name> SOURCES ... DEPENDS ... SANITIZE ... [TIMING] [COST ...]): a GoogleTest program, each of its tests one line of
-# ctest. SANITIZE: the presets (asan, tsan, scalar) whose thinned run has it: the target asan_thinned and so on, the label in
+# ctest. SANITIZE: the presets (asan, tsan) whose thinned run has it: the target asan_thinned and so on, the label in
 # ctest. TIMING: its tests hold the clock against a limit, and run apart, with the label `timing`. COST: about how many seconds
 # its longest test takes, where that is many; ctest begins with these.
 function(berth_test name)
   cmake_parse_arguments(ARG "TIMING" "COST" "SOURCES;DEPENDS;SANITIZE" ${ARGN})
-  berth_program(${name} SOURCES ${ARG_SOURCES} DEPENDS ${ARG_DEPENDS} GTest::gtest_main PRECOMPILED berth_precompiled_tests)
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_DEPENDS} GTest::gtest_main)
+  berth_compile_options(${name} TEST)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   foreach(preset ${ARG_SANITIZE})
     if(NOT TARGET ${preset}_thinned)
