@@ -50,7 +50,7 @@ struct CommonArguments {
 };
 
 struct RunArguments : CommonArguments {
-  /// Of each question; 0: once, without its time.
+  /// Of each request; 0: once, without its time.
   int repeat = 0;
   std::filesystem::path scene;
   std::filesystem::path picture_folder;

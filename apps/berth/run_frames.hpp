@@ -25,7 +25,7 @@ void make_folders(const OpenScene& scene, const std::filesystem::path& folder);
 void each_frame(const OpenScene& scene, SceneRun& run, const char* doing,
                 const std::function<void()>& take);
 
-/// All frames of a scene through the whole pipeline, each question asked so often (SceneRun::ask):
+/// All frames of a scene through the whole pipeline, each request asked so often (SceneRun::ask):
 /// `take` gets each result. Each frame is drawn
 /// into picture_folder unless that is empty. Throws as SceneRun does, before anything is written.
 void run_frames(const OpenScene& scene, const BackendChoice& where,

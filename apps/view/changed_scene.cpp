@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_of_questions(const std::string& group) {
+bool is_of_requests(const std::string& group) {
   return group == "evaluation" || group == "time" || group == "separation";
 }
 
@@ -55,12 +55,12 @@ ChangedScene::ChangedScene(const fs::path& file)
 void ChangedScene::set(const std::string& group, const std::string& key,
                        std::optional<std::size_t> camera, const std::optional<std::string>& text) {
   SceneChange change = change_;
-  if (camera && !is_of_questions(group)) {
+  if (camera && !is_of_requests(group)) {
     set_value(change.values, place_in_camera(*camera, group, key), text);
   } else {
     set_value(change.values, {group, key}, text);
     // What a camera's own entry says goes over what the scene says.
-    for (std::size_t c = 0; c < original_.cameras.size() && !is_of_questions(group); ++c) {
+    for (std::size_t c = 0; c < original_.cameras.size() && !is_of_requests(group); ++c) {
       const YamlPath own = place_in_camera(c, group, key);
       change.values.erase(own);
       if (text && scalars_.contains(own)) change.values[own] = *text;

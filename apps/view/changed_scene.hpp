@@ -26,7 +26,7 @@ class ChangedScene {
   // Each of these throws std::runtime_error with the place, the value and what was expected, and
   // then leaves all as it was.
 
-  /// A setting of one camera or, without its number, of all; of questions, for the groups
+  /// A setting of one camera or, without its number, of all; of requests, for the groups
   /// `evaluation`, `time` and `separation`. Without a text it is as in the file again.
   void set(const std::string& group, const std::string& key, std::optional<std::size_t> camera,
            const std::optional<std::string>& text);

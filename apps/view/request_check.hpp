@@ -19,7 +19,7 @@ bool is_same_secret(std::string_view given, std::string_view secret);
 /// The value of `token` in a request's target, such as /?token=a1; empty where it has none.
 std::string_view token_of(std::string_view target);
 
-/// The target without what follows a question mark.
+/// The target without what follows a request mark.
 std::string_view path_of(std::string_view target);
 
 /// 128 random bits as 32 letters and digits.

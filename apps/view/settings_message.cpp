@@ -86,7 +86,7 @@ Json values_of(const Settings& settings) {
   return values;
 }
 
-Json question_group(std::string_view name, const auto& now, const auto& original) {
+Json request_group(std::string_view name, const auto& now, const auto& original) {
   return {{"name", name},
           {"by_camera", false},
           {"settings", described(now)},
@@ -142,10 +142,10 @@ PageMessage settings_message(const ChangedScene& scene) {
   // Without what only methods that compare images have.
   const EvaluationSettings& now = scene.now().evaluation;
   const EvaluationSettings& original = scene.original().evaluation;
-  groups.push_back(question_group("evaluation", now, original));
-  groups.push_back(question_group("time", now.time, original.time));
+  groups.push_back(request_group("evaluation", now, original));
+  groups.push_back(request_group("time", now.time, original.time));
   if (scene.now().separation) {
-    groups.push_back(question_group("separation", *scene.now().separation,
+    groups.push_back(request_group("separation", *scene.now().separation,
                                     scene.original().separation.value_or(SeparationSettings())));
   }
   return json_message({{"type", "settings"}, {"groups", groups}, {"poses", poses(scene)}});

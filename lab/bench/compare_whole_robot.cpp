@@ -115,20 +115,20 @@ class CamerasComparison {
   }
 
  private:
-  static constexpr MeshQuestion kBoth{};
+  static constexpr MeshRequest kBoth{};
 
   struct Compared {
     std::unique_ptr<CamerasPeer> peer;
     CamerasRecord record;
   };
 
-  void run_mesh(const WholeRobotScene& scene, const MeshQuestion& question, CamerasRecord& record) {
+  void run_mesh(const WholeRobotScene& scene, const MeshRequest& request, CamerasRecord& record) {
     time_once(
         [&] {
           spaces_.build_all(scene);
           spaces_.assign(scene, kSceneCameras);
         },
-        [&] { mesh_.ask(spaces_, scene.pose, question); }, record);
+        [&] { mesh_.ask(spaces_, scene.pose, request); }, record);
   }
 
   int links_;

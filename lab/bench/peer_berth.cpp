@@ -11,7 +11,7 @@
 namespace berth::lab {
 namespace {
 
-/// How far the scene was beside its place when the question before was asked.
+/// How far the scene was beside its place when the request before was asked.
 constexpr int kMoved_px = 2;
 
 /// How berth is asked.

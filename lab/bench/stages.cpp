@@ -21,8 +21,8 @@
 namespace berth::lab {
 namespace {
 
-/// Questions between two images: a controller asks more often than a camera sees.
-constexpr std::size_t kQuestions = 5;
+/// Requests between two images: a controller asks more often than a camera sees.
+constexpr std::size_t kRequests = 5;
 
 /// The pipeline taken apart. Each run fills the frame as Observer and ImageQuery do.
 class Stages {
@@ -46,9 +46,9 @@ class Stages {
       query_.ask({.frames = frame_});
     });
     const std::vector<JointState>& joints_of = camera_.at_exposure;
-    for (std::size_t k = 1; k <= kQuestions; ++k) {
+    for (std::size_t k = 1; k <= kRequests; ++k) {
       const JointState& next = joints_of[(frame_number + k) % joints_of.size()];
-      question_.take([&] { query_.ask({.frames = frame_, .joints = next}); });
+      request_.take([&] { query_.ask({.frames = frame_, .joints = next}); });
     }
   }
 
@@ -63,7 +63,7 @@ class Stages {
 
   std::vector<Stage*> all() {
     return {&render_, &self_filter_, &both_,  &tree_,     &exact_,
-            &mean_,   &visibility_,  &whole_, &question_, &embree_};
+            &mean_,   &visibility_,  &whole_, &request_, &embree_};
   }
 
  private:
@@ -79,10 +79,10 @@ class Stages {
     both_.times_ms.push_back(render_.times_ms.back() + self_filter_.times_ms.back());
     tree_.take([&] { searchable_.build(frame_.obstacles.depth_m); });
     distances_.links.clear();
-    const Question question{view_->camera(), frame_.robot, view_->robot()->model().link_count(),
+    const ImageRequest request{view_->camera(), frame_.robot, view_->robot()->model().link_count(),
                             searchable_, settings_};
-    exact_.take([&] { evaluate(Method::exact, question, workspace_, distances_); });
-    mean_.take([&] { fill_mean_directions(question, workspace_.directions, distances_); });
+    exact_.take([&] { evaluate(Method::exact, request, workspace_, distances_); });
+    mean_.take([&] { fill_mean_directions(request, workspace_.directions, distances_); });
     const RobotModel& model = view_->robot()->model();
     const Pose X_BC = view_->camera_pose(pose_);
     const SeenFrame seen{view_->camera(), frame_.robot, frame_.obstacles,
@@ -118,7 +118,7 @@ class Stages {
   Stage mean_{"mean direction, on top"};
   Stage visibility_{"visibility, on top"};
   Stage whole_{"depth image to result"};
-  Stage question_{"question at new joint angles"};
+  Stage request_{"request at new joint angles"};
   Stage embree_{"Embree rays, same pixels"};
 };
 
@@ -150,7 +150,7 @@ Table measure_stages(const Recording& recording, int threads, int rounds) {
   return table_of(
       title,
       fmt::format("{} x {}, {} triangles, {} links, {} frames, each {} times. The image to "
-                  "result and the question are the whole pipeline, with mean directions; "
+                  "result and the request are the whole pipeline, with mean directions; "
                   "Embree is beside it.",
                   camera.view->camera().width_px, camera.view->camera().height_px,
                   triangle_count(camera.view->robot()->model()), camera.view->robot()->model().link_count(), frames,

@@ -18,11 +18,11 @@ namespace {
 
 /// So that neighbours on the machine count little.
 constexpr clockid_t kProcessorTime = CLOCK_THREAD_CPUTIME_ID;
-constexpr MeshQuestion kReadings{.unknown = false};
-constexpr MeshQuestion kHasty{.deadline_us = 1000};
-/// A controller's questions between two images of a camera, one each millisecond. In this time all
+constexpr MeshRequest kReadings{.unknown = false};
+constexpr MeshRequest kHasty{.deadline_us = 1000};
+/// A controller's requests between two images of a camera, one each millisecond. In this time all
 /// joints turn by up to WholeRobotScene::next_joints, 0.05 rad.
-constexpr int kQuestionsPerFrame = 33;
+constexpr int kRequestsPerFrame = 33;
 /// Of each edge of the meshes, where they grow and where there are most triangles.
 constexpr int kGrowingParts[] = {1, 2, kUsualParts, 4};
 constexpr int kMostParts = 4;
@@ -60,7 +60,7 @@ std::vector<Table::Row> rows_of(const std::vector<const TimeRow*>& times) {
   return rows;
 }
 
-/// What a camera's frame costs, and questions about one and three cameras.
+/// What a camera's frame costs, and requests about one and three cameras.
 class WholeRobotStages {
  public:
   explicit WholeRobotStages(const RobotModel& model)
@@ -84,10 +84,10 @@ class WholeRobotStages {
   }
 
  private:
-  double cold_ms(const WholeRobotScene& scene, int cameras, const MeshQuestion& question) {
+  double cold_ms(const WholeRobotScene& scene, int cameras, const MeshRequest& request) {
     return least_ms(
         kProcessorTime, [&] { spaces_.assign(scene, cameras); },
-        [&] { mesh_.ask(spaces_, scene.pose, question); });
+        [&] { mesh_.ask(spaces_, scene.pose, request); });
   }
 
   void run_frame(const WholeRobotScene& scene, int k) {
@@ -121,10 +121,10 @@ class WholeRobotStages {
     spaces_.assign(scene, kSceneCameras);
     mesh_.ask(spaces_, scene.pose, kHasty);
     RobotPose pose;
-    for (int i = 1; i <= kQuestionsPerFrame; ++i) {
+    for (int i = 1; i <= kRequestsPerFrame; ++i) {
       std::vector<double> joints = scene.joints.position;
       for (std::size_t k = 0; k < joints.size(); ++k) {
-        joints[k] += (scene.next_joints[0].position[k] - joints[k]) * i / kQuestionsPerFrame;
+        joints[k] += (scene.next_joints[0].position[k] - joints[k]) * i / kRequestsPerFrame;
       }
       forward_kinematics(model_, joints, pose);
       const Stopwatch watch(kProcessorTime);
@@ -153,8 +153,8 @@ class WholeRobotStages {
   TimeRow exact_row_{"exact, 1 camera"};
   TimeRow one_camera_{"mesh, 1 camera, both"};
   TimeRow readings_{"mesh, 3 cameras, readings alone"};
-  TimeRow first_{"mesh, 3 cameras, both, first question"};
-  TimeRow next_{"mesh, 3 cameras, both, next question"};
+  TimeRow first_{"mesh, 3 cameras, both, first request"};
+  TimeRow next_{"mesh, 3 cameras, both, next request"};
   TimeRow hasty_{"mesh, 3 cameras, both, deadline 1 ms"};
   TimeRow moving_{"the same, one each ms until the next image"};
   TimeRow render_{"a camera's frame: render"};
@@ -162,7 +162,7 @@ class WholeRobotStages {
   TimeRow space_{"a camera's frame: space for mesh"};
 };
 
-/// The same questions by the clock on the wall with one thread and with two.
+/// The same requests by the clock on the wall with one thread and with two.
 class WholeRobotThreads {
  public:
   explicit WholeRobotThreads(const RobotModel& model) : mesh_(model) {}
@@ -174,7 +174,7 @@ class WholeRobotThreads {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         asked.ms[threads - 1].push_back(least_ms(
             CLOCK_MONOTONIC, [&] { spaces_.assign(scene, asked.cameras); },
-            [&] { mesh_.ask(spaces_, scene.pose, asked.question); }));
+            [&] { mesh_.ask(spaces_, scene.pose, asked.request); }));
       }
     }
   }
@@ -193,7 +193,7 @@ class WholeRobotThreads {
   struct Asked {
     std::string name;
     int cameras;
-    MeshQuestion question;
+    MeshRequest request;
     /// By threads - 1.
     std::array<std::vector<double>, 2> ms = {};
   };
@@ -202,7 +202,7 @@ class WholeRobotThreads {
   SceneSpaces spaces_;
   std::array<Asked, 3> asked_ = {Asked{"1 camera, both", 1, {}},
                                  Asked{"3 cameras, readings alone", kSceneCameras, kReadings},
-                                 Asked{"3 cameras, both, first question", kSceneCameras, {}}};
+                                 Asked{"3 cameras, both, first request", kSceneCameras, {}}};
 };
 
 /// The same surface in more and smaller triangles.
@@ -264,7 +264,7 @@ class LargeImages {
     Frame frame;
     Observer(view).observe(images.depth_m, scene.joints, frame);
     for (const JointState& next : scene.next_joints) {
-      question_.ms.push_back(least_ms(
+      request_.ms.push_back(least_ms(
           kProcessorTime,
           [&] {
             // Another image, or what was found out about unknown space would be known already.
@@ -275,7 +275,7 @@ class LargeImages {
     }
   }
 
-  std::vector<Table::Row> rows() const { return rows_of({&exact_row_, &question_}); }
+  std::vector<Table::Row> rows() const { return rows_of({&exact_row_, &request_}); }
 
  private:
   static EvaluationSettings settings() {
@@ -288,13 +288,13 @@ class LargeImages {
   ExactYardstick exact_;
   Query query_;
   TimeRow exact_row_{"exact, 1 camera"};
-  TimeRow question_{"mesh, 1 camera, question at new joint angles with visibility"};
+  TimeRow request_{"mesh, 1 camera, request at new joint angles with visibility"};
 };
 
 Table large_table(const RobotSettings& robot, const RobotModel& drawn, int count) {
   RobotModel model = coarse_robot(robot, kMostParts);
   const std::string note = fmt::format(
-      "{} scenes, 1280 x 720, {} triangles, one thread, processor time. The question is that of "
+      "{} scenes, 1280 x 720, {} triangles, one thread, processor time. The request is that of "
       "the pipeline, both distances to 1 mm, and begins from the answer before.",
       count, triangle_count(model));
   LargeImages large(std::move(model));
@@ -325,7 +325,7 @@ std::vector<Table> measure_whole_robot(const std::filesystem::path& scene_file, 
                     {"1 thread ms", "2 threads ms", "speed-up"},
                     threads.rows()});
   tables.push_back({"Growth of the whole robot with the meshes",
-                    where + ". The same surface in each row; 3 cameras, both, first question.",
+                    where + ". The same surface in each row; 3 cameras, both, first request.",
                     "triangles",
                     {"median ms", "95 % ms", "max ms", "x fewest"},
                     growth.rows()});

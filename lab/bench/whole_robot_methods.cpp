@@ -29,14 +29,14 @@ void SceneSpaces::assign(const WholeRobotScene& scene, int cameras) {
 }
 
 void MeshMethod::ask(const SceneSpaces& spaces, const RobotPose& pose,
-                     const MeshQuestion& question) {
+                     const MeshRequest& request) {
   distances_.clear();
-  ask_on(spaces, pose, question);
+  ask_on(spaces, pose, request);
 }
 
 void MeshMethod::ask_on(const SceneSpaces& spaces, const RobotPose& pose,
-                        const MeshQuestion& question) {
-  mesh_distances(*robot_, pose, spaces.hidden(), question, workspace_, distances_);
+                        const MeshRequest& request) {
+  mesh_distances(*robot_, pose, spaces.hidden(), request, workspace_, distances_);
 }
 
 }  // namespace berth::lab

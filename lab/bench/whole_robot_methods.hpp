@@ -57,15 +57,15 @@ class SceneSpaces {
   UnknownSpace hidden_;
 };
 
-/// Questions of method `mesh`.
+/// Requests of method `mesh`.
 class MeshMethod {
  public:
   explicit MeshMethod(const RobotModel& model) : robot_(build_robot_patches(model)) {}
 
   /// Without the last answer to begin with.
-  void ask(const SceneSpaces& spaces, const RobotPose& pose, const MeshQuestion& question = {});
+  void ask(const SceneSpaces& spaces, const RobotPose& pose, const MeshRequest& request = {});
   /// As a robot in motion does.
-  void ask_on(const SceneSpaces& spaces, const RobotPose& pose, const MeshQuestion& question);
+  void ask_on(const SceneSpaces& spaces, const RobotPose& pose, const MeshRequest& request);
   const std::vector<WholeLinkDistance>& distances() const { return distances_; }
 
  private:

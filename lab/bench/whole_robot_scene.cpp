@@ -8,7 +8,7 @@
 namespace berth::lab {
 namespace {
 
-constexpr int kNextQuestions = 3;
+constexpr int kNextRequests = 3;
 constexpr double kNextStep_rad = 0.05;
 /// Between neighbouring cameras, about a third of a turn.
 constexpr double kCameraTurn_rad = 2.1;
@@ -52,7 +52,7 @@ WholeRobotScene WholeRobotScenes::draw(std::uint32_t seed) const {
         kCameraTurn_rad * k + random(-kCameraTurnSpread_rad, kCameraTurnSpread_rad);
     scene.views.push_back(see(drawn, turned_about(middle_B_m, turn_rad, drawn.X_BC)));
   }
-  for (int i = 0; i < kNextQuestions; ++i) {
+  for (int i = 0; i < kNextRequests; ++i) {
     JointState& joints = scene.next_joints.emplace_back(drawn.joints);
     for (double& position : joints.position) position += random(-kNextStep_rad, kNextStep_rad);
     forward_kinematics(model_, joints.position, scene.next_poses.emplace_back());

@@ -28,7 +28,7 @@ inline constexpr double kArmDeceleration_m_s2 = 4;
 inline constexpr double kArmAcceleration_m_s2 = 3;
 
 /// berth's defaults, but for the robot's data: brake, motors, and the time of the loop from a
-/// question until the arm obeys.
+/// request until the arm obeys.
 SeparationSettings cell_separation();
 
 /// How far distances are looked for: above what the arm needs at full speed.

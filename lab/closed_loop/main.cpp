@@ -55,7 +55,7 @@ void print_cost(int encounter) {
   simulate(static_cast<std::uint32_t>(encounter), supervisor, {});
   std::vector<double> us = supervisor.monitor_us();
   std::ranges::sort(us);
-  fmt::print("{} questions; the monitor took {:.1f} us (median), {:.1f} (99 %), {:.1f} (most)\n",
+  fmt::print("{} requests; the monitor took {:.1f} us (median), {:.1f} (99 %), {:.1f} (most)\n",
              us.size(), us[us.size() / 2], us[us.size() * 99 / 100], us.back());
 }
 

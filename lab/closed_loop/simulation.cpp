@@ -100,7 +100,7 @@ class Loop {
   void step(std::vector<LoopSample>* samples) {
     send_joints();
     send_images();
-    if (time_s_ >= next_question_s_) ask(samples);
+    if (time_s_ >= next_request_s_) ask(samples);
     while (!commands_.empty() && commands_.front().obeyed_s <= time_s_) {
       commanded_ = commands_.front();
       commands_.pop_front();
@@ -144,7 +144,7 @@ class Loop {
   }
 
   void ask(std::vector<LoopSample>* samples) {
-    next_question_s_ += 1 / settings_.question_hz;
+    next_request_s_ += 1 / settings_.request_hz;
     const std::vector<Pose> X_BP = person();
     const double scale = supervisor_.scale({time_s_, joints_, arm_.plan(), range_of(X_BP)});
     commands_.push_back({time_s_ + settings_.controller_s, scale, supervisor_.evasion()});
@@ -186,7 +186,7 @@ class Loop {
   std::deque<Command> commands_;
   Command commanded_{};
   double time_s_ = 0;
-  double next_question_s_ = 0;
+  double next_request_s_ = 0;
   double first_phase_s_ = 0;
   int stopped_steps_ = 0;
   EncounterResult result_;

@@ -22,7 +22,7 @@ struct SimulationSettings {
   double image_hz = 30;
   double image_latency_s = 0.060;
   double joint_latency_s = 0.002;
-  double question_hz = 50;
+  double request_hz = 50;
   /// From an answer until the arm obeys.
   double controller_s = 0.010;
   Fault fault = Fault::none;
@@ -50,7 +50,7 @@ struct EncounterResult {
   double stopped_s = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// What was so at one question.
+/// What was so at one request.
 struct LoopSample {
   double time_s;
   double clearance_m;
@@ -58,7 +58,7 @@ struct LoopSample {
   double scale;
 };
 
-/// `samples` get one for each question, unless they are null.
+/// `samples` get one for each request, unless they are null.
 EncounterResult simulate(std::uint32_t seed, Supervisor& supervisor,
                          const SimulationSettings& settings,
                          std::vector<LoopSample>* samples = nullptr);

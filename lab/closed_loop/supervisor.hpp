@@ -32,7 +32,7 @@ class Supervisor {
                    const JointBuffer& joints);
   /// Of the planned velocity, 0 to 1.
   virtual double scale(const Situation& situation) = 0;
-  /// How the arm gives way, of the last question.
+  /// How the arm gives way, of the last request.
   virtual std::optional<Evasion> evasion() const { return {}; }
 };
 
@@ -65,7 +65,7 @@ class MonitorSupervisor : public Supervisor {
   const Separation& last() const { return *last_; }
   const std::shared_ptr<const Robot>& robot() const { return robot_; }
   const Result& result() const { return *result_; }
-  /// How long the monitor took, of each question, without the request itself.
+  /// How long the monitor took, of each request, without the request itself.
   const std::vector<double>& monitor_us() const { return monitor_us_; }
   /// Null where it has none yet.
   const std::shared_ptr<const Frame>& newest(std::size_t which) const { return frames_[which]; }

@@ -18,10 +18,10 @@ EncounterResult run_with(Fault fault) {
   return simulate(3, *make_supervisor("three"), settings);
 }
 
-/// S holds for images up to this old, and a question comes after that.
+/// S holds for images up to this old, and a request comes after that.
 double assumed_s() {
   const SimulationSettings settings;
-  return TimeSettings().max_frame_age_s + 1 / settings.question_hz + 0.001;
+  return TimeSettings().max_frame_age_s + 1 / settings.request_hz + 0.001;
 }
 
 /// From its greatest speed.

@@ -1,4 +1,4 @@
-// Whether two answers to one question contradict each other.
+// Whether two answers to one request contradict each other.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -112,10 +112,10 @@ PreparedWorld::PreparedWorld(const MeshWorld& world)
   space_.assign(posed);
 }
 
-std::vector<WholeLinkDistance> PreparedWorld::ask(const MeshQuestion& question) const {
+std::vector<WholeLinkDistance> PreparedWorld::ask(const MeshRequest& request) const {
   MeshWorkspace workspace;
   std::vector<WholeLinkDistance> out;
-  mesh_distances(*patches_, world_.pose, space_, question, workspace, out);
+  mesh_distances(*patches_, world_.pose, space_, request, workspace, out);
   return out;
 }
 

@@ -46,7 +46,7 @@ class PreparedWorld {
   const MeshWorld& world() const { return world_; }
   const RobotPatches& patches() const { return *patches_; }
   const UnknownSpace& space() const { return space_; }
-  std::vector<WholeLinkDistance> ask(const MeshQuestion& question) const;
+  std::vector<WholeLinkDistance> ask(const MeshRequest& request) const;
 
  private:
   const MeshWorld& world_;

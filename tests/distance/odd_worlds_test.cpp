@@ -188,7 +188,7 @@ TEST(MeshOdd, TrianglesThatAreNeedlesOrPoints) {
   EXPECT_NEAR(link.occupied.distance_m, 0.5, 1.1e-3);
 }
 
-TEST(MeshOdd, BadQuestionsAreRefused) {
+TEST(MeshOdd, BadRequestsAreRefused) {
   const MeshWorld world = wall_world(Pose::Identity(), make_box({0.2, 0.2, 0.2}), at(0.05, 0, 0.5));
   const PreparedWorld prepared(world);
   EXPECT_THROW(prepared.ask({0}), std::invalid_argument);

@@ -18,7 +18,7 @@ TEST(MeshSteadyState, NothingIsAllocatedOnceTheSceneWasSeen) {
   UnknownSpace space;
   MeshWorkspace workspace;
   std::vector<WholeLinkDistance> out;
-  const auto frame_and_questions = [&] {
+  const auto frame_and_requests = [&] {
     for (int k = 0; k < 3; ++k) {
       const MeshWorldView& view = world.views[k];
       build_camera_space(view.camera, view.sensor_depth_m, view.obstacles, world.settings, spaces[k]);
@@ -31,10 +31,10 @@ TEST(MeshSteadyState, NothingIsAllocatedOnceTheSceneWasSeen) {
     space.assign(std::span(posed).first(1));
     mesh_distances(*robot, world.pose, space, {}, workspace, out);
   };
-  frame_and_questions();
-  frame_and_questions();
+  frame_and_requests();
+  frame_and_requests();
   const std::size_t before = allocation_count();
-  frame_and_questions();
+  frame_and_requests();
   EXPECT_EQ(allocation_count(), before);
   EXPECT_GT(before, 0u);
 }

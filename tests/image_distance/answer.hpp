@@ -21,7 +21,7 @@ class MethodTest : public ::testing::TestWithParam<Method> {
   void TearDown() override;
 };
 
-/// What may be used again for the next question.
+/// What may be used again for the next request.
 struct AnswerWorkspace {
   SearchableDepth obstacles;
   EvaluateWorkspace evaluate;

@@ -9,17 +9,17 @@
 namespace berth::testing {
 namespace {
 
-struct Question {
+struct ImageRequest {
   const sim::ImagePair& images;
   const LatticeSettings& lattice;
   float range_m;
   LinkId id;
 };
 
-bool is_of_link(const Question& question, Pixel p) {
-  const Image<LinkId>& ids = question.images.robot.link_id;
+bool is_of_link(const ImageRequest& request, Pixel p) {
+  const Image<LinkId>& ids = request.images.robot.link_id;
   return p.u >= 0 && p.v >= 0 && p.u < ids.width() && p.v < ids.height() &&
-         ids(p.u, p.v) == question.id;
+         ids(p.u, p.v) == request.id;
 }
 
 /// Manhattan distance from the tile's centre in half pixels.
@@ -28,7 +28,7 @@ int half_pixels_from_centre(int u, int v, int tile_px) {
 }
 
 /// Of each tile of the window the pixel nearest to the tile's centre, by rows of pixels.
-std::vector<Pixel> tile_points(const Question& question, const PixelRect& window, int tile_px) {
+std::vector<Pixel> tile_points(const ImageRequest& request, const PixelRect& window, int tile_px) {
   std::vector<Pixel> points;
   for (int v = window.v_begin; v < window.v_end; v += tile_px) {
     for (int u = window.u_begin; u < window.u_end; u += tile_px) {
@@ -37,7 +37,7 @@ std::vector<Pixel> tile_points(const Question& question, const PixelRect& window
       for (int dv = 0; dv < std::min(tile_px, window.v_end - v); ++dv) {
         for (int du = 0; du < std::min(tile_px, window.u_end - u); ++du) {
           const int away = half_pixels_from_centre(du, dv, tile_px);
-          if (away >= least || !is_of_link(question, {u + du, v + dv})) continue;
+          if (away >= least || !is_of_link(request, {u + du, v + dv})) continue;
           least = away;
           nearest = {u + du, v + dv};
         }
@@ -50,14 +50,14 @@ std::vector<Pixel> tile_points(const Question& question, const PixelRect& window
   return points;
 }
 
-std::vector<Pixel> disc_points(const Question& question, Pixel centre, int radius_px) {
+std::vector<Pixel> disc_points(const ImageRequest& request, Pixel centre, int radius_px) {
   std::vector<Pixel> points;
   for (int v = centre.v - radius_px; v <= centre.v + radius_px; ++v) {
     for (int u = centre.u - radius_px; u <= centre.u + radius_px; ++u) {
       const int du = u - centre.u;
       const int dv = v - centre.v;
       const bool is_within = du * du + dv * dv <= radius_px * radius_px;
-      if (is_within && is_of_link(question, {u, v})) points.push_back({u, v});
+      if (is_within && is_of_link(request, {u, v})) points.push_back({u, v});
     }
   }
   return points;
@@ -87,27 +87,27 @@ std::int64_t try_points(const sim::ImagePair& images, const std::vector<Pixel>& 
   return pairs;
 }
 
-LinkDistance search_link(const Question& question, std::int64_t& pairs) {
-  const sim::ImagePair& images = question.images;
-  const auto& [step_x, step_y, initial_px, final_px, first_tile_px] = question.lattice;
+LinkDistance search_link(const ImageRequest& request, std::int64_t& pairs) {
+  const sim::ImagePair& images = request.images;
+  const auto& [step_x, step_y, initial_px, final_px, first_tile_px] = request.lattice;
   const Image<LinkId>& ids = images.robot.link_id;
-  const auto pixels = std::count(ids.pixels().begin(), ids.pixels().end(), question.id);
-  ClosestPair best{gl_farthest_m2(question.range_m)};
+  const auto pixels = std::count(ids.pixels().begin(), ids.pixels().end(), request.id);
+  ClosestPair best{gl_farthest_m2(request.range_m)};
   const auto closest = [&] { return Pixel{static_cast<int>(best.ru), static_cast<int>(best.rv)}; };
   int tile_px = first_tile_px;
-  pairs += try_points(images, tile_points(question, {0, 0, ids.width(), ids.height()}, tile_px),
+  pairs += try_points(images, tile_points(request, {0, 0, ids.width(), ids.height()}, tile_px),
                       step_x, step_y, best);
   while (best.ru >= 0 && tile_px > final_px) {
     const auto [u, v] = closest();
     const PixelRect window{u - tile_px, v - tile_px, u + tile_px, v + tile_px};
     tile_px = std::max(tile_px / 2, final_px);
-    pairs += try_points(images, tile_points(question, window, tile_px), step_x, step_y, best);
+    pairs += try_points(images, tile_points(request, window, tile_px), step_x, step_y, best);
   }
   if (best.ru >= 0) {
-    pairs += try_points(images, disc_points(question, closest(), final_px), 1, 1, best);
+    pairs += try_points(images, disc_points(request, closest(), final_px), 1, 1, best);
   }
-  return link_distance(question.id, static_cast<int>(pixels), metric_of(images.camera), best,
-                       question.range_m);
+  return link_distance(request.id, static_cast<int>(pixels), metric_of(images.camera), best,
+                       request.range_m);
 }
 
 }  // namespace

@@ -153,7 +153,7 @@ TEST_F(AskedScene, AMethodThatComparesImagesAsksItsOnlyCamera) {
   EXPECT_EQ(result.cameras[0].status, CameraStatus::ok);
 }
 
-TEST_F(AskedScene, CamerasRunWhileQuestionsAreAsked) {
+TEST_F(AskedScene, CamerasRunWhileRequestsAreAsked) {
   std::vector<std::unique_ptr<LiveCamera>> cameras;
   for (const OpenCamera& camera : scene_.cameras) {
     cameras.push_back(

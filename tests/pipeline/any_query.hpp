@@ -23,7 +23,7 @@ class AnyQuery {
   const Result& ask(const Frame& frame, const RequestedJoints& joints = {},
                     std::optional<double> now_s = {}) {
     if (images_) return images_->ask(frame, joints, now_s);
-    // Nothing of the request before, as with images: the same question has the same result.
+    // Nothing of the request before, as with images: the same request has the same result.
     whole_->forget();
     return whole_->ask({.frames = frame, .joints = joints, .now_s = now_s});
   }

@@ -110,7 +110,7 @@ TEST_F(GlPipeline, WhatIsRejectedIsThatOfTheCpu) {
   EXPECT_GT(rejected_readings, 0);
 }
 
-TEST_F(GlPipeline, AFrameOfTheCpuIsUploadedForTheQuestion) {
+TEST_F(GlPipeline, AFrameOfTheCpuIsUploadedForTheRequest) {
   ImageQuery gl_query = on_gl();
   const Frame frame = observe_on_cpu(12);
   const Result& found = gl_query.ask(frame);

@@ -1,4 +1,4 @@
-// Days of running, thinned: BERTH_LONG_RUN=full in the environment makes it a million questions and
+// Days of running, thinned: BERTH_LONG_RUN=full in the environment makes it a million requests and
 // 100 000 frames. A program of its own, because allocation_count replaces the global operator new.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -144,11 +144,11 @@ class LongRun : public ::testing::TestWithParam<Method> {
 INSTANTIATE_TEST_SUITE_P(Methods, LongRun, ::testing::Values(Method::mesh, Method::exact),
                          [](const auto& test) { return std::string(name_of(test.param)); });
 
-TEST_P(LongRun, QuestionsTakeNoMemoryAndTheirAnswersStayTheSame) {
+TEST_P(LongRun, RequestsTakeNoMemoryAndTheirAnswersStayTheSame) {
   observer_.observe(image_of(3), joints_of(3), frame_);
   std::vector<JointState> joints;
   for (int pose = 0; pose < kPoses; ++pose) joints.push_back(joints_of(pose));
-  run_long("questions", is_full() ? 1'000'000 : thinned(2'000),
+  run_long("requests", is_full() ? 1'000'000 : thinned(2'000),
            [&](int pose) -> const Result& { return query_.ask(frame_, joints[pose]); });
 }
 

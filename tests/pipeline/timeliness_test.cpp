@@ -170,7 +170,7 @@ TEST_P(RunningRobot, StampsThatGoBackRepeatOrJumpCostTheirFrame) {
   EXPECT_EQ(observe(-1e9), TimeStatus::stamp_went_back);
 }
 
-TEST_P(RunningRobot, AMissingJointIsTheStatusOfFramesAndQuestions) {
+TEST_P(RunningRobot, AMissingJointIsTheStatusOfFramesAndRequests) {
   ASSERT_EQ(observe(10.4), TimeStatus::ok);
   const std::vector<std::string> fewer(names_.begin() + 1, names_.end());
   buffer_.push(10.52, fewer, std::vector<double>(fewer.size(), 0.0));

@@ -1,4 +1,4 @@
-// Frames at the camera's clock, questions at the controller's.
+// Frames at the camera's clock, requests at the controller's.
 #include <gtest/gtest.h>
 
 #include <thread>

@@ -183,7 +183,7 @@ TEST_F(WholeRobot, ALinkThatNoCameraSeesKeepsItsDistanceBesideTheStatus) {
   Query query(view_->robot());
   for (const LinkResult& link : query.ask({frame}).links) {
     EXPECT_EQ(link.status, LinkStatus::not_seen);
-    EXPECT_LE(link.distance_m, MeshQuestion{}.tolerance_m) << "all of it is hidden";
+    EXPECT_LE(link.distance_m, MeshRequest{}.tolerance_m) << "all of it is hidden";
     EXPECT_EQ(link.lower_bound_m, 0);
     EXPECT_EQ(link.obstacle_is, ObstacleKind::unknown);
   }

@@ -49,7 +49,7 @@ TEST(Errors, LinksThatWereNotFoundAreCountedAndHaveNoError) {
   EXPECT_EQ(errors.distance_mm.mean(), 0);
 }
 
-TEST(Errors, OnlyLinksInRangeOfTheQuestionCount) {
+TEST(Errors, OnlyLinksInRangeOfTheRequestCount) {
   const LinkDistances truth{
       {link(0.5f, {0, 0, 1}, {0.5f, 0, 1}), link(0.7f, {0, 0, 1}, {0.7f, 0, 1}),
        without_pair(LinkStatus::none_in_range), without_pair(LinkStatus::not_visible)}};

@@ -1,4 +1,4 @@
-// Random questions to the method `mesh`: a drawn scene, what sensors and filters do to it, and what
+// Random requests to the method `mesh`: a drawn scene, what sensors and filters do to it, and what
 // is asked.
 #pragma once
 

@@ -1,5 +1,5 @@
-// The method `mesh` against its slow twin, link by link: a sample of links and questions.
-// BERTH_MESH_TWIN=full in the environment makes it ten thousand links, and every question.
+// The method `mesh` against its slow twin, link by link: a sample of links and requests.
+// BERTH_MESH_TWIN=full in the environment makes it ten thousand links, and every request.
 #include "berth/distance/mesh_distances.hpp"
 
 #include <fmt/format.h>
@@ -61,18 +61,18 @@ class Judge {
 
   /// Without a deadline the answer has to be as near as the tolerance says; how many are not is
   /// counted, because space may be undecided down to the smallest cubes.
-  void judge(const std::vector<WholeLinkDistance>& answers, const MeshQuestion& question) {
+  void judge(const std::vector<WholeLinkDistance>& answers, const MeshRequest& request) {
     ASSERT_EQ(answers.size(), twin_.size());
     for (std::size_t i = 0; i < answers.size(); ++i) {
-      SCOPED_TRACE(fmt::format("link {}, tolerance {} m", i + 1, question.tolerance_m));
+      SCOPED_TRACE(fmt::format("link {}, tolerance {} m", i + 1, request.tolerance_m));
       EXPECT_EQ(answers[i].id, i + 1);
-      const auto& wanted = question.unknown ? twin_[i].nearest : twin_[i].reading;
+      const auto& wanted = request.unknown ? twin_[i].nearest : twin_[i].reading;
       {
         SCOPED_TRACE("nearest");
-        judge_pair(answers[i].nearest, wanted, i, question);
+        judge_pair(answers[i].nearest, wanted, i, request);
       }
       SCOPED_TRACE("reading");
-      judge_pair(answers[i].occupied, twin_[i].reading, i, question);
+      judge_pair(answers[i].occupied, twin_[i].reading, i, request);
       EXPECT_FALSE(answers[i].occupied.is_known() &&
                    answers[i].occupied.obstacle_is != ObstacleKind::occupied);
       EXPECT_FALSE(answers[i].occupied.distance_m < answers[i].nearest.distance_m);
@@ -84,8 +84,8 @@ class Judge {
 
  private:
   void judge_pair(const SpacePair& pair, const TwinInterval& twin, std::size_t link,
-                  const MeshQuestion& question) {
-    const double range_m = question.range_m;
+                  const MeshRequest& request) {
+    const double range_m = request.range_m;
     SCOPED_TRACE(fmt::format("lower {} m, distance {} m; twin [{}, {}] m", pair.lower_bound_m,
                              pair.distance_m, twin.lower_m, twin.upper_m));
     EXPECT_GE(pair.lower_bound_m, 0);
@@ -97,15 +97,15 @@ class Judge {
       EXPECT_LE(pair.lower_bound_m, pair.distance_m);
       judge_points(pair, link);
     }
-    if (question.deadline_us) return;
+    if (request.deadline_us) return;
     ++pairs;
     if (pair.is_known()) {
       const double undecided_m =
-          pair.obstacle_is == ObstacleKind::unknown && question.tolerance_m < 0.001 ? kUndecided_m : 0;
-      const double tolerance_m = std::max(question.tolerance_m, 20e-6) + kRounding_m + undecided_m;
+          pair.obstacle_is == ObstacleKind::unknown && request.tolerance_m < 0.001 ? kUndecided_m : 0;
+      const double tolerance_m = std::max(request.tolerance_m, 20e-6) + kRounding_m + undecided_m;
       wide += pair.distance_m - pair.lower_bound_m > tolerance_m;
     } else {
-      EXPECT_GE(twin.upper_m, range_m - question.tolerance_m) << "not found";
+      EXPECT_GE(twin.upper_m, range_m - request.tolerance_m) << "not found";
       wide += pair.lower_bound_m < range_m;
     }
   }
@@ -191,14 +191,14 @@ class Asked {
   }
 
   /// Cold: nothing is known of an answer before.
-  std::vector<WholeLinkDistance> ask(const MeshQuestion& question) {
+  std::vector<WholeLinkDistance> ask(const MeshRequest& request) {
     std::vector<WholeLinkDistance> answers;
     workspace_ = {};
-    ask_again(question, answers);
+    ask_again(request, answers);
     return answers;
   }
-  void ask_again(const MeshQuestion& question, std::vector<WholeLinkDistance>& answers) {
-    mesh_distances(*patches_, pose_, hidden_, question, workspace_, answers);
+  void ask_again(const MeshRequest& request, std::vector<WholeLinkDistance>& answers) {
+    mesh_distances(*patches_, pose_, hidden_, request, workspace_, answers);
   }
 
  private:
@@ -234,18 +234,18 @@ void judge_case(const RobotModel& model, const MeshCase& mesh_case, Tally& tally
   Judge judge(model, mesh_case.pose, space);
   Asked asked(model, mesh_case);
   for (const double tolerance_m : tolerances_m()) {
-    const MeshQuestion question{.tolerance_m = tolerance_m};
-    std::vector<WholeLinkDistance> answers = asked.ask(question);
-    judge.judge(answers, question);
-    asked.ask_again(question, answers);
-    judge.judge(answers, question);
+    const MeshRequest request{.tolerance_m = tolerance_m};
+    std::vector<WholeLinkDistance> answers = asked.ask(request);
+    judge.judge(answers, request);
+    asked.ask_again(request, answers);
+    judge.judge(answers, request);
   }
-  const MeshQuestion seen_alone{.unknown = false};
+  const MeshRequest seen_alone{.unknown = false};
   judge.judge(asked.ask(seen_alone), seen_alone);
   for (const double deadline_us : deadlines_us()) {
-    const MeshQuestion question{.tolerance_m = 0.0001, .deadline_us = deadline_us};
+    const MeshRequest request{.tolerance_m = 0.0001, .deadline_us = deadline_us};
     Asked cold(model, mesh_case);
-    judge.judge(cold.ask(question), question);
+    judge.judge(cold.ask(request), request);
   }
   tally.links += static_cast<int>(judge.links());
   tally.pairs += judge.pairs;

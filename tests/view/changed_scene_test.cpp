@@ -45,7 +45,7 @@ TEST_F(ChangedSceneTest, SetsOneCameraAndAll) {
   EXPECT_TRUE(scene_.change().values.empty());
 }
 
-TEST_F(ChangedSceneTest, SetsNamesAndQuestions) {
+TEST_F(ChangedSceneTest, SetsNamesAndRequests) {
   scene_.set("sensor", "holes", 2, "obstacle");
   EXPECT_EQ(scene_.now().cameras[2].settings.sensor.holes, HolePolicy::obstacle);
   scene_.set("evaluation", "range_m", 1, "0.5");

@@ -9,7 +9,7 @@ namespace berth::testing {
 
 inline constexpr int kDroppedWidth_px = 96, kDroppedHeight_px = 72, kDroppedLinks = 4;
 
-/// A question, and what its self filter dropped as rejected: blocks of obstacle pixels at random.
+/// A request, and what its self filter dropped as rejected: blocks of obstacle pixels at random.
 struct DroppedScene {
   sim::ImagePair images;
   DepthImage sensor_depth_m;

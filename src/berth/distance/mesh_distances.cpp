@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "berth/distance/last_question.hpp"
+#include "berth/distance/last_request.hpp"
 
 namespace berth {
 namespace mesh {
@@ -43,17 +43,17 @@ constexpr float kFinestTolerance_m = 2e-5f;
 
 struct Asked {
   const UnknownSpace& space;
-  const MeshQuestion& question;
+  const MeshRequest& request;
   /// With one view nothing is seen free by another one: hidden is all that lies behind a reading.
   bool is_shadow() const { return space.views().size() < 2; }
 };
 
-void start(const LinkPatches& patches, const Pose& X_BL, const MeshQuestion& question,
+void start(const LinkPatches& patches, const Pose& X_BL, const MeshRequest& request,
            LinkSearch& search) {
   search.link = &patches;
   search.X_BL = X_BL;
-  search.range_m = static_cast<float>(question.range_m);
-  search.tolerance_m = std::max(static_cast<float>(question.tolerance_m), kFinestTolerance_m);
+  search.range_m = static_cast<float>(request.range_m);
+  search.tolerance_m = std::max(static_cast<float>(request.tolerance_m), kFinestTolerance_m);
   search.best_m = search.range_m;
   search.best_triangle = -1;
   search.best_is_hidden = false;
@@ -120,7 +120,7 @@ void search_nearest(const Asked& asked, int steps, LinkState& link) {
 void search_to_the_end(const Asked& asked, LinkState& link) {
   if (link.reading.link->empty()) return;
   mesh::search_views(asked.space, false, kEndless, link.reading);
-  if (!asked.question.unknown) return;
+  if (!asked.request.unknown) return;
   start_nearest(asked, link);
   search_nearest(asked, kEndless, link);
 }
@@ -148,7 +148,7 @@ Turn widest_of(const Asked& asked, std::vector<LinkState>& links) {
     if (link.reading.link->empty()) continue;
     for (const bool is_reading : {true, false}) {
       const Turn turn{&link, is_reading};
-      if (!is_reading && !asked.question.unknown) continue;
+      if (!is_reading && !asked.request.unknown) continue;
       if (turn.gap_m() > widest.gap_m()) widest = turn;
     }
   }
@@ -156,12 +156,12 @@ Turn widest_of(const Asked& asked, std::vector<LinkState>& links) {
 }
 
 /// Goes on where the least is known, until everything is or time is over. What is not finished the
-/// next question has to begin anew: if this one is asked `again`, each search that has its turn
-/// goes on to its end, so that all links are known after a few questions.
+/// next request has to begin anew: if this one is asked `again`, each search that has its turn
+/// goes on to its end, so that all links are known after a few requests.
 void search_until(const Asked& asked, Clock::time_point deadline, bool again,
                   std::vector<LinkState>& links) {
   constexpr int kSteps = 8;
-  if (asked.question.unknown) {
+  if (asked.request.unknown) {
     for (LinkState& link : links) {
       if (!link.reading.link->empty()) start_nearest(asked, link);
     }
@@ -261,7 +261,7 @@ WholeLinkDistance answer_of(const Asked& asked, LinkId id, const LinkState& link
   }
   out.occupied = answer_of(asked.space, false, link.reading);
   out.nearest = out.occupied;
-  if (asked.question.unknown) {
+  if (asked.request.unknown) {
     out.nearest = answer_of(asked.space, asked.is_shadow(), link.nearest);
     if (!asked.is_shadow()) {
       out.nearest.lower_bound_m = std::min(out.nearest.lower_bound_m, out.occupied.lower_bound_m);
@@ -275,7 +275,7 @@ WholeLinkDistance answer_of(const Asked& asked, LinkId id, const LinkState& link
 
 struct MeshWorkspace::State {
   std::vector<LinkState> links;
-  mesh::LastQuestion last;
+  mesh::LastRequest last;
 };
 
 MeshWorkspace::MeshWorkspace() : state_(std::make_unique<State>()) {}
@@ -286,12 +286,12 @@ void MeshWorkspace::forget() { state_->last.links.clear(); }
 
 namespace {
 
-bool is_about(const mesh::LastQuestion& last, const RobotPatches& robot, const UnknownSpace& space) {
+bool is_about(const mesh::LastRequest& last, const RobotPatches& robot, const UnknownSpace& space) {
   return last.robot == robot.serial_number && last.space == space.serial_number() &&
          last.links.size() == robot.links.size();
 }
 
-/// What no link can have come nearer than since the last question.
+/// What no link can have come nearer than since the last request.
 void recall(const mesh::LastLink& last, LinkState& link) {
   const float moved_m = mesh::moved_at_most_m(*link.reading.link, last.X_BL, link.reading.X_BL);
   const float range_m = link.reading.range_m;
@@ -300,7 +300,7 @@ void recall(const mesh::LastLink& last, LinkState& link) {
 }
 
 void remember(const RobotPatches& robot, const UnknownSpace& space, bool hidden,
-              const std::vector<LinkState>& links, mesh::LastQuestion& last) {
+              const std::vector<LinkState>& links, mesh::LastRequest& last) {
   last.robot = robot.serial_number;
   last.space = space.serial_number();
   last.links.resize(links.size());
@@ -312,18 +312,18 @@ void remember(const RobotPatches& robot, const UnknownSpace& space, bool hidden,
   }
 }
 
-/// With the last answer's pairs for a first guess. Returns whether the last question was about the
+/// With the last answer's pairs for a first guess. Returns whether the last request was about the
 /// same space.
 bool start_links(const RobotPatches& robot, const RobotPose& pose, const Asked& asked,
-                 const mesh::LastQuestion& last, const std::vector<WholeLinkDistance>& last_answer,
+                 const mesh::LastRequest& last, const std::vector<WholeLinkDistance>& last_answer,
                  std::vector<LinkState>& links) {
   const bool is_same = is_about(last, robot, asked.space);
   links.resize(robot.links.size());
   for (std::size_t i = 0; i < links.size(); ++i) {
     LinkState& link = links[i];
     const Pose& X_BL = pose.X_BL[robot.links[i].link];
-    start(robot.links[i], X_BL, asked.question, link.reading);
-    start(robot.links[i], X_BL, asked.question, link.nearest);
+    start(robot.links[i], X_BL, asked.request, link.reading);
+    start(robot.links[i], X_BL, asked.request, link.nearest);
     if (is_same) recall(last.links[i], link);
     const WholeLinkDistance guessed = i < last_answer.size() ? last_answer[i] : WholeLinkDistance{};
     link.last = guessed.nearest;
@@ -336,21 +336,21 @@ bool start_links(const RobotPatches& robot, const RobotPose& pose, const Asked& 
 }  // namespace
 
 void mesh_distances(const RobotPatches& robot, const RobotPose& pose, const UnknownSpace& space,
-                    const MeshQuestion& question, MeshWorkspace& workspace,
+                    const MeshRequest& request, MeshWorkspace& workspace,
                     std::vector<WholeLinkDistance>& out) {
   const Clock::time_point begin = Clock::now();
-  validate(question);
-  const Asked asked{space, question};
+  validate(request);
+  const Asked asked{space, request};
   std::vector<LinkState>& links = workspace.state_->links;
   const bool again = start_links(robot, pose, asked, workspace.state_->last, out, links);
-  if (question.deadline_us) {
-    const std::chrono::duration<double, std::micro> wait(std::min(*question.deadline_us, 1e12));
+  if (request.deadline_us) {
+    const std::chrono::duration<double, std::micro> wait(std::min(*request.deadline_us, 1e12));
     search_until(asked, begin + std::chrono::duration_cast<Clock::duration>(wait), again, links);
   } else {
     tbb::parallel_for(std::size_t{0}, links.size(),
                       [&](std::size_t i) { search_to_the_end(asked, links[i]); });
   }
-  remember(robot, space, question.unknown, links, workspace.state_->last);
+  remember(robot, space, request.unknown, links, workspace.state_->last);
   out.resize(robot.links.size());
   for (std::size_t i = 0; i < out.size(); ++i) {
     out[i] = answer_of(asked, static_cast<LinkId>(i + 1), links[i]);

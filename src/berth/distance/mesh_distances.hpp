@@ -11,8 +11,8 @@
 
 namespace berth {
 
-/// The memory of mesh_distances(), made once and used for every question; one for each thread that
-/// asks. It remembers how far the last question had got: if the next one is about the same space
+/// The memory of mesh_distances(), made once and used for every request; one for each thread that
+/// asks. It remembers how far the last request had got: if the next one is about the same space
 /// and robot, what was known then still holds but for how far each link has moved.
 class MeshWorkspace {
  public:
@@ -21,12 +21,12 @@ class MeshWorkspace {
   MeshWorkspace(MeshWorkspace&&) noexcept;
   MeshWorkspace& operator=(MeshWorkspace&&) noexcept;
 
-  /// The next question begins with nothing known.
+  /// The next request begins with nothing known.
   void forget();
 
  private:
   friend void mesh_distances(const RobotPatches&, const RobotPose&, const UnknownSpace&,
-                             const MeshQuestion&, MeshWorkspace&, std::vector<WholeLinkDistance>&);
+                             const MeshRequest&, MeshWorkspace&, std::vector<WholeLinkDistance>&);
   struct State;
   std::unique_ptr<State> state_;
 };
@@ -44,7 +44,7 @@ class MeshWorkspace {
 /// Allocates nothing once workspace and `out` have grown. Throws std::invalid_argument for bad
 /// settings.
 void mesh_distances(const RobotPatches& robot, const RobotPose& pose, const UnknownSpace& space,
-                    const MeshQuestion& question, MeshWorkspace& workspace,
+                    const MeshRequest& request, MeshWorkspace& workspace,
                     std::vector<WholeLinkDistance>& out);
 
 }  // namespace berth

@@ -6,11 +6,11 @@ void validate(const DistanceSettings& settings) {
   visit_settings(settings, SettingCheck{"evaluation"});
 }
 
-void validate(const MeshQuestion& question) {
+void validate(const MeshRequest& request) {
   const SettingCheck check{"evaluation"};
-  check({"range_m", kAboveZero, ""}, question.range_m);
-  check({"tolerance_m", kNotNegative, ""}, question.tolerance_m);
-  check({"deadline_us", {.may_be_infinite = true}, ""}, question.deadline_us);
+  check({"range_m", kAboveZero, ""}, request.range_m);
+  check({"tolerance_m", kNotNegative, ""}, request.tolerance_m);
+  check({"deadline_us", {.may_be_infinite = true}, ""}, request.deadline_us);
 }
 
 }  // namespace berth

@@ -50,7 +50,7 @@ void visit_settings(Settings& s, Visitor&& visit) {
 void validate(const DistanceSettings& settings);
 
 /// What is asked of mesh_distances().
-struct MeshQuestion {
+struct MeshRequest {
   /// L: a distance above it is no answer.
   double range_m = 1.0;
   /// The search ends once no obstacle can be nearer to a link than the pair found by more than
@@ -63,6 +63,6 @@ struct MeshQuestion {
 };
 
 /// Throws std::invalid_argument that names key, value and what was expected.
-void validate(const MeshQuestion& question);
+void validate(const MeshRequest& request);
 
 }  // namespace berth

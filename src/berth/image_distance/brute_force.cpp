@@ -75,15 +75,15 @@ bool loses_pairs(const Surveillance& surveillance) {
 
 }  // namespace
 
-void brute_force(const Question& question, LinkDistances& out) {
-  validate(question.settings);
-  const RobotImage& robot = question.robot;
-  const DepthView obstacle_depth_m = question.obstacles.depth_m();
-  const int link_count = question.link_count;
+void brute_force(const ImageRequest& request, LinkDistances& out) {
+  validate(request.settings);
+  const RobotImage& robot = request.robot;
+  const DepthView obstacle_depth_m = request.obstacles.depth_m();
+  const int link_count = request.link_count;
   assert(robot.depth_m.width() == obstacle_depth_m.width);
   assert(robot.depth_m.height() == obstacle_depth_m.height);
-  const Metric metric = metric_of(question.camera);
-  const Surveillance surveillance = surveillance_of(question, metric, SurveillanceRegion::image);
+  const Metric metric = metric_of(request.camera);
+  const Surveillance surveillance = surveillance_of(request, metric, SurveillanceRegion::image);
   const bool tries_all = surveillance.region == SurveillanceRegion::image &&
                          surveillance.depth_interval == DepthInterval::gray_area;
   const std::int64_t readings = count_readings(obstacle_depth_m);
@@ -96,7 +96,7 @@ void brute_force(const Question& question, LinkDistances& out) {
     return readings;
   };
 
-  const auto range_m = static_cast<float>(question.settings.range_m);
+  const auto range_m = static_cast<float>(request.settings.range_m);
   std::vector<ClosestPair> best(link_count, no_pair_within(range_m));
   std::vector<int> pixels(link_count, 0);
   out.pairs = 0;

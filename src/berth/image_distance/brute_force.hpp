@@ -1,6 +1,6 @@
 #pragma once
 
-#include "berth/image_distance/question.hpp"
+#include "berth/image_distance/image_request.hpp"
 #include "berth/types/link_distance.hpp"
 
 namespace berth {
@@ -18,6 +18,6 @@ namespace berth {
 /// and cube can lose pairs: lower_bound_m is then 0.
 ///
 /// Throws std::invalid_argument for bad settings.
-void brute_force(const Question& question, LinkDistances& out);
+void brute_force(const ImageRequest& request, LinkDistances& out);
 
 }  // namespace berth

@@ -11,16 +11,16 @@ namespace {
 
 struct CpuFunction {
   Method method;
-  void (*run)(const Question& question, EvaluateWorkspace& workspace, LinkDistances& out);
+  void (*run)(const ImageRequest& request, EvaluateWorkspace& workspace, LinkDistances& out);
 };
 
 constexpr std::array<CpuFunction, 3> kOnCpu = {{
     {Method::exact,
-     [](const Question& q, EvaluateWorkspace& w, LinkDistances& out) { exact(q, w.exact, out); }},
+     [](const ImageRequest& q, EvaluateWorkspace& w, LinkDistances& out) { exact(q, w.exact, out); }},
     {Method::brute_force,
-     [](const Question& q, EvaluateWorkspace&, LinkDistances& out) { brute_force(q, out); }},
+     [](const ImageRequest& q, EvaluateWorkspace&, LinkDistances& out) { brute_force(q, out); }},
     {Method::lattice,
-     [](const Question& q, EvaluateWorkspace& w, LinkDistances& out) { lattice(q, w.lattice, out); }},
+     [](const ImageRequest& q, EvaluateWorkspace& w, LinkDistances& out) { lattice(q, w.lattice, out); }},
 }};
 
 }  // namespace
@@ -41,12 +41,12 @@ void require_on_processor(Method method) {
                               " asks no images; expected one that does");
 }
 
-void evaluate(Method method, const Question& question, EvaluateWorkspace& workspace,
+void evaluate(Method method, const ImageRequest& request, EvaluateWorkspace& workspace,
               LinkDistances& out) {
   require_on_processor(method);
-  std::ranges::find(kOnCpu, method, &CpuFunction::method)->run(question, workspace, out);
-  if (question.settings.mean_direction) {
-    fill_mean_directions(question, workspace.directions, out);
+  std::ranges::find(kOnCpu, method, &CpuFunction::method)->run(request, workspace, out);
+  if (request.settings.mean_direction) {
+    fill_mean_directions(request, workspace.directions, out);
   }
 }
 

@@ -7,7 +7,7 @@
 
 namespace berth {
 
-/// The memory of evaluate(), made once and used for every question; one for each thread. It carries
+/// The memory of evaluate(), made once and used for every request; one for each thread. It carries
 /// nothing from one answer to the next.
 struct EvaluateWorkspace {
   ExactWorkspace exact;
@@ -20,7 +20,7 @@ struct EvaluateWorkspace {
 ///
 /// Throws std::invalid_argument for bad settings, and unless the method compares images on the
 /// processor.
-void evaluate(Method method, const Question& question, EvaluateWorkspace& workspace,
+void evaluate(Method method, const ImageRequest& request, EvaluateWorkspace& workspace,
               LinkDistances& out);
 
 }  // namespace berth

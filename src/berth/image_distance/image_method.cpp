@@ -7,8 +7,8 @@ class MethodOnCpu : public ImageMethod {
  public:
   explicit MethodOnCpu(Method method) : method_(method) {}
 
-  void evaluate(const Question& question, LinkDistances& out) override {
-    berth::evaluate(method_, question, workspace_, out);
+  void evaluate(const ImageRequest& request, LinkDistances& out) override {
+    berth::evaluate(method_, request, workspace_, out);
   }
 
  private:

@@ -13,7 +13,7 @@ class ImageMethod {
   virtual ~ImageMethod() = default;
 
   /// As evaluate().
-  virtual void evaluate(const Question& question, LinkDistances& out) = 0;
+  virtual void evaluate(const ImageRequest& request, LinkDistances& out) = 0;
 };
 
 /// Throws std::invalid_argument unless the method compares images on the processor.

@@ -5,6 +5,7 @@
 
 #include "berth/image_distance/image_method.hpp"
 #include "berth/image_distance/image_result.hpp"
+#include "berth/pipeline/camera_state.hpp"
 #include "berth/pipeline/mounted_camera.hpp"
 #include "berth/render/robot_renderer.hpp"
 
@@ -61,31 +62,24 @@ void ImageQuery::prepare(const Frame& frame) {
 
 const Result& ImageQuery::ask(const Frame& frame, const RequestedJoints& joints,
                               std::optional<double> now_s) {
-  if (joints.buffer() && !now_s) {
-    throw std::invalid_argument(
-        "now_s: none; expected the time of the request, since joints are a buffer");
-  }
-  const JointState* state = joints.state();
   TimeStatus joints_status = TimeStatus::ok;
-  if (joints.buffer()) {
-    joints_status = joints.buffer()->newest(parts_->newest);
-    state = &parts_->newest;
-  }
+  const JointState* state = joints.read(now_s, parts_->newest, joints_status);
   const std::optional<double> stamp_s = state ? std::optional(state->stamp_s) : std::nullopt;
-  parts_->result.cameras.front().self_filter = frame.obstacles.count;
-  if (!begin_image_result(*parts_->robot, frame, stamp_s, joints_status, now_s, parts_->result)) return parts_->result;
-  if (frame.is_blind) {
-    parts_->result.cameras.front().CameraState::status = CameraStatus::blind;
-    parts_->result.status = ResultStatus::degraded;
+  const CameraState camera = camera_state(&frame, now_s.value_or(frame.stamp_s),
+                                          parts_->robot->settings().time);
+  Result& result = parts_->result;
+  result.cameras.front().self_filter = frame.obstacles.count;
+  if (!begin_image_result(*parts_->robot, frame, camera, stamp_s, joints_status, now_s, result)) {
+    return result;
   }
   prepare(frame);
   if (!state) {
-    parts_->result.pose.X_BL = frame.pose.X_BL;
+    result.pose.X_BL = frame.pose.X_BL;
     return parts_->evaluate(frame, {frame.pose, frame.X_BC, frame.robot});
   }
-  forward_kinematics(parts_->robot->model(), state->position, parts_->result.pose);
-  parts_->renderer_of(frame.view).render(parts_->result.pose, frame.X_BC, parts_->image);
-  return parts_->evaluate(frame, {parts_->result.pose, frame.X_BC, parts_->image});
+  forward_kinematics(parts_->robot->model(), state->position, result.pose);
+  parts_->renderer_of(frame.view).render(result.pose, frame.X_BC, parts_->image);
+  return parts_->evaluate(frame, {result.pose, frame.X_BC, parts_->image});
 }
 
 const Result& ImageQuery::Parts::evaluate(const Frame& frame, const AskedRobot& asked) {

@@ -26,7 +26,7 @@ Result empty_image_result(const Robot& robot, Method method, const ImageSettings
   return result;
 }
 
-bool begin_image_result(const Robot& robot, const Exposure& exposure,
+bool begin_image_result(const Robot& robot, const Exposure& exposure, const CameraState& state,
                         std::optional<double> joints_stamp_s, TimeStatus joints_status,
                         std::optional<double> now_s, Result& out) {
   const TimeSettings& settings = robot.settings().time;
@@ -36,16 +36,10 @@ bool begin_image_result(const Robot& robot, const Exposure& exposure,
   out.time = joints_stamp_s ? timeliness_of(exposure, *joints_stamp_s, now_s, settings)
                             : timeliness_of(exposure, now_s, settings);
   if (joints_status != TimeStatus::ok) out.time.status = joints_status;
-  CameraResult& camera = out.cameras.front();
-  static_cast<CameraState&>(camera) =
-      camera_state(exposure, now_s.value_or(exposure.stamp_s), settings);
-  camera.has_frame = exposure.view != nullptr;
-  camera.mounted = exposure.view;
-  if (exposure.view) camera.camera = exposure.view->mount().name;
-  camera.X_BC = exposure.X_BC;
+  tell_camera(&exposure, state, out.cameras.front());
   if (out.time.status != TimeStatus::ok) return false;
   out.stamp_s = exposure.stamp_s;
-  out.status = is_relied_on(camera.CameraState::status) ? ResultStatus::ok : ResultStatus::degraded;
+  out.status = is_relied_on(state.status) ? ResultStatus::ok : ResultStatus::degraded;
   return true;
 }
 

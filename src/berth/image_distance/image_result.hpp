@@ -24,8 +24,8 @@ Result empty_image_result(const Robot& robot, Method method, const ImageSettings
 
 /// The first step of each request: writes stamps, time and camera, and withholds what the request
 /// before told. Whether the exposure allows a result for joints of this stamp (none: those of the
-/// exposure) with this status.
-bool begin_image_result(const Robot& robot, const Exposure& exposure,
+/// exposure) with this status; `state` is what becomes of its camera.
+bool begin_image_result(const Robot& robot, const Exposure& exposure, const CameraState& state,
                         std::optional<double> joints_stamp_s, TimeStatus joints_status,
                         std::optional<double> now_s, Result& out);
 

@@ -19,7 +19,7 @@ struct AskedRobot {
   const RobotImage& image;
 };
 
-/// The memory of find_visibility(), made once and used for every question; one for each thread.
+/// The memory of find_visibility(), made once and used for every request; one for each thread.
 struct VisibilityWorkspace {
   /// The points of one link that the robot image shows.
   std::vector<Eigen::Vector3d> drawn_C_m;

@@ -8,7 +8,7 @@
 
 namespace berth {
 
-/// The memory of find_rejected_distances(), made once and used for every question; one for each
+/// The memory of find_rejected_distances(), made once and used for every request; one for each
 /// thread.
 struct RejectedWorkspace {
   ExactWorkspace exact;

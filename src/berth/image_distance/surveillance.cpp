@@ -108,17 +108,17 @@ ClosestPair pair_at(const Metric& metric, const WatchedPixel& robot, const Depth
 
 }  // namespace
 
-Surveillance surveillance_of(const Question& question, const Metric& metric,
+Surveillance surveillance_of(const ImageRequest& request, const Metric& metric,
                              SurveillanceRegion usual_region) {
-  const SurveillanceSettings& watched = question.settings.surveillance;
-  return {question.camera,
+  const SurveillanceSettings& watched = request.settings.surveillance;
+  return {request.camera,
           metric,
-          question.obstacles.depth_m(),
+          request.obstacles.depth_m(),
           watched.region.value_or(usual_region),
           watched.depth_interval,
           watched.search_pattern,
           watched.shrinking,
-          no_pair_within(static_cast<float>(question.settings.range_m))};
+          no_pair_within(static_cast<float>(request.settings.range_m))};
 }
 
 std::int64_t search_around(const Surveillance& surveillance, Pixel robot_pixel, float robot_depth_m,

@@ -3,12 +3,12 @@
 #include <cstdint>
 
 #include "berth/image_distance/closest_pair.hpp"
-#include "berth/image_distance/question.hpp"
+#include "berth/image_distance/image_request.hpp"
 #include "berth/image_distance/search_pattern.hpp"
 
 namespace berth {
 
-/// What all searches around the robot pixels of one question have in common. The obstacle image has
+/// What all searches around the robot pixels of one request have in common. The obstacle image has
 /// the camera's size.
 struct Surveillance {
   const Camera& camera;
@@ -23,7 +23,7 @@ struct Surveillance {
 };
 
 /// Where the settings name no region, it is `usual_region`. The settings are valid.
-Surveillance surveillance_of(const Question& question, const Metric& metric,
+Surveillance surveillance_of(const ImageRequest& request, const Metric& metric,
                              SurveillanceRegion usual_region);
 
 /// Replaces `best` by the closest pair of the robot pixel and every step-th obstacle pixel of its

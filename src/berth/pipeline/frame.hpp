@@ -10,7 +10,7 @@ namespace berth {
 
 struct FrameSpace;
 
-/// What one depth image tells, ready for any number of questions; constant while it is asked.
+/// What one depth image tells, ready for any number of requests; constant while it is asked.
 struct Frame : Exposure {
   Frame();
   ~Frame();

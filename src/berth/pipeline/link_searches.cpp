@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kDefaultTolerance_m = 0.001;
 
-MeshQuestion question_of(const DistanceSettings& settings) {
+MeshRequest request_of(const DistanceSettings& settings) {
   return {.range_m = settings.range_m,
           .tolerance_m = settings.tolerance_m.value_or(kDefaultTolerance_m),
           .deadline_us = settings.deadline_us};
@@ -33,7 +33,7 @@ LinkSearches::LinkSearches(std::shared_ptr<const Robot> robot) : robot_(std::mov
 void LinkSearches::ask(const FrameSet& frames, const RobotPose& pose,
                        std::vector<WholeLinkDistance>& out) {
   mesh_distances(*robot_->patches(), pose, frames.space(),
-                 question_of(robot_->settings().distance), workspace_, out);
+                 request_of(robot_->settings().distance), workspace_, out);
 }
 
 void LinkSearches::ask(const FrameSet& frames, const RobotPose& pose, Result& out) {
@@ -113,9 +113,9 @@ void LinkSearches::tell_visibility(const FrameSet& frames, const RobotPose& pose
 
 void LinkSearches::tell_rejected(const FrameSet& frames, const RobotPose& pose, Result& out) {
   if (frames.rejected().views().empty()) return;
-  MeshQuestion question = question_of(robot_->settings().distance);
-  question.unknown = false;
-  mesh_distances(*robot_->patches(), pose, frames.rejected(), question, rejected_workspace_,
+  MeshRequest request = request_of(robot_->settings().distance);
+  request.unknown = false;
+  mesh_distances(*robot_->patches(), pose, frames.rejected(), request, rejected_workspace_,
                  rejected_);
   for (std::size_t i = 0; i < rejected_.size(); ++i) {
     const SpacePair& dropped = rejected_[i].occupied;

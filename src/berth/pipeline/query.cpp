@@ -33,12 +33,6 @@ void require_length(double limit_m) {
 
 }  // namespace
 
-void NewestFrames::require_count(std::size_t count) {
-  if (count >= 1 && count <= kMostCameras) return;
-  throw std::invalid_argument(
-      fmt::format("frames: {} cameras; expected 1 to {}", count, kMostCameras));
-}
-
 void begin_result(const Robot& robot, Result& result) {
   const RobotModel& model = robot.model();
   result.range_m = robot.settings().distance.range_m;
@@ -53,16 +47,15 @@ void begin_result(const Robot& robot, Result& result) {
   withhold(result);
 }
 
-void tell_camera(const Frame* frame, const CameraState& state, CameraResult& out) {
+void tell_camera(const Exposure* exposure, const CameraState& state, CameraResult& out) {
   static_cast<CameraState&>(out) = state;
-  out.has_frame = frame && frame->view;
+  out.has_frame = exposure && exposure->view;
   if (!out.has_frame) return;
-  if (out.mounted != frame->view) {
-    out.mounted = frame->view;
-    out.camera = frame->view->mount().name;
+  if (out.mounted != exposure->view) {
+    out.mounted = exposure->view;
+    out.camera = exposure->view->mount().name;
   }
-  out.X_BC = frame->X_BC;
-  out.self_filter = frame->obstacles.count;
+  out.X_BC = exposure->X_BC;
 }
 
 Query::Query(std::shared_ptr<const Robot> robot, std::vector<std::string> camera_names)
@@ -94,21 +87,16 @@ void Query::update_frames(std::span<const Frame* const> frames, double now_s) {
   for (const Frame* frame : frames) numbers_.push_back(number_of(frame));
 }
 
-Timeliness Query::find_pose(const Request& request) {
+Timeliness Query::find_pose(const JointState* joints, TimeStatus joints_status,
+                            std::optional<double> now_s) {
   const TimeSettings& settings = robot_->settings().time;
-  const JointState* joints = request.joints.state();
-  TimeStatus joints_status = TimeStatus::ok;
-  if (const JointBuffer* buffer = request.joints.buffer()) {
-    joints_status = buffer->newest(newest_);
-    joints = &newest_;
-  }
   if (!joints) {
-    const Timeliness time = timeliness_of(*set_, request.now_s, settings);
+    const Timeliness time = timeliness_of(*set_, now_s, settings);
     result_.joints_stamp_s = result_.stamp_s;
     if (time.status == TimeStatus::ok) result_.pose.X_BL = set_->newest()->pose.X_BL;
     return time;
   }
-  Timeliness time = timeliness_of(*set_, joints->stamp_s, request.now_s, settings);
+  Timeliness time = timeliness_of(*set_, joints->stamp_s, now_s, settings);
   result_.joints_stamp_s = joints->stamp_s;
   if (joints_status != TimeStatus::ok) {
     time.status = joints_status;
@@ -122,7 +110,9 @@ void Query::tell_cameras() {
   result_.cameras.resize(cameras_.size());
   for (std::size_t k = 0; k < cameras_.size(); ++k) {
     CameraResult& camera = result_.cameras[k];
-    tell_camera(set_->frames()[k], cameras_[k], camera);
+    const Frame* frame = set_->frames()[k];
+    tell_camera(frame, cameras_[k], camera);
+    if (camera.has_frame) camera.self_filter = frame->obstacles.count;
     if (!camera.has_frame && k < camera_names_.size()) camera.camera = camera_names_[k];
   }
 }
@@ -138,16 +128,14 @@ void Query::tell_ahead(const Request& request) {
 
 const Result& Query::ask(const Request& request) {
   require_length(request.nearer_than_m);
-  if (request.joints.buffer() && !request.now_s) {
-    throw std::invalid_argument(
-        "now_s: none; expected the time of the request, since joints are a buffer");
-  }
+  TimeStatus joints_status = TimeStatus::ok;
+  const JointState* joints = request.joints.read(request.now_s, newest_, joints_status);
   const std::span<const Frame* const> frames = request.frames.get();
   update_frames(frames, request.now_s.value_or(newest_stamp_s(frames)));
   tell_cameras();
   result_.stamp_s =
       set_->newest() ? set_->newest()->stamp_s : std::numeric_limits<double>::quiet_NaN();
-  result_.time = find_pose(request);
+  result_.time = find_pose(joints, joints_status, request.now_s);
   if (result_.time.status != TimeStatus::ok) {
     withhold(result_);
   } else {

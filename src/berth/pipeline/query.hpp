@@ -44,7 +44,8 @@ class Query {
   void update_frames(std::span<const Frame* const> frames, double now_s);
   bool has_changed(std::span<const Frame* const> frames) const;
   /// Judges stamps and joints, and tells the pose that is asked about.
-  Timeliness find_pose(const Request& request);
+  Timeliness find_pose(const JointState* joints, TimeStatus joints_status,
+                       std::optional<double> now_s);
   void tell_cameras();
   void tell_ahead(const Request& request);
 
@@ -64,6 +65,6 @@ class Query {
 void begin_result(const Robot& robot, Result& result);
 
 /// What a camera's newest frame tells of it.
-void tell_camera(const Frame* frame, const CameraState& state, CameraResult& out);
+void tell_camera(const Exposure* exposure, const CameraState& state, CameraResult& out);
 
 }  // namespace berth

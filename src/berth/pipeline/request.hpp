@@ -47,8 +47,10 @@ class RequestedJoints {
   RequestedJoints(const JointState& state) : state_(&state) {}
   RequestedJoints(const JointBuffer& buffer) : buffer_(&buffer) {}
 
-  const JointState* state() const { return state_; }
-  const JointBuffer* buffer() const { return buffer_; }
+  /// Those that a request at `now_s` is about: null for those of the exposure. A buffer's newest
+  /// are written to `newest`, with how they stand in `status`. Throws std::invalid_argument for a
+  /// buffer without a time.
+  const JointState* read(std::optional<double> now_s, JointState& newest, TimeStatus& status) const;
 
  private:
   const JointState* state_ = nullptr;

@@ -8,20 +8,20 @@
 
 namespace berth {
 
-/// How old is too old. An answer that is not in time has no distance (LinkStatus::stale): a
+/// How old is too old. A result that is not in time has no distance (LinkStatus::stale): a
 /// controller that forgets to look at ages must not take an old free space for a new one. To judge
-/// an age yourself, set its limit to infinity and read Answer::time.
+/// an age yourself, set its limit to infinity and read Result::time.
 struct TimeSettings {
   JointTimeLimits joints;
-  /// From the exposure to the question. The default suits 30 Hz: time for the transfer, for the
+  /// From the exposure to the request. The default suits 30 Hz: time for the transfer, for the
   /// next frame, and for one that is lost.
   double max_frame_age_s = 0.15;
-  /// From the joints' stamp to the question. Joints ahead of it, where the robot is about to go,
+  /// From the joints' stamp to the request. Joints ahead of it, where the robot is about to go,
   /// have a negative age and are within any limit.
   double max_joints_age_s = 0.02;
   /// From one frame's stamp to the next. If they are farther apart, one of the two may be wrong.
   double max_frame_gap_s = 1;
-  /// How far a frame's stamp may lie after the question, where the camera's clock goes ahead.
+  /// How far a frame's stamp may lie after the request, where the camera's clock goes ahead.
   double max_clock_offset_s = 0.005;
 
   bool operator==(const TimeSettings&) const = default;
@@ -39,7 +39,7 @@ void visit_settings(Settings& s, Visitor&& visit) {
   visit({"max_frame_gap_s", kSeconds, "how far an image's stamp may lie above the one before"},
         s.max_frame_gap_s);
   visit({"max_clock_offset_s", kSeconds,
-         "how far an image's stamp may lie after the time of the question"},
+         "how far an image's stamp may lie after the time of the request"},
         s.max_clock_offset_s);
 }
 
@@ -58,7 +58,7 @@ class FrameClock {
   std::optional<double> last_s_;
 };
 
-/// How an answer stands at `now_s` for the joints of the exposure, whose age is the frame's.
+/// How a result stands at `now_s` for the joints of the exposure, whose age is the frame's.
 /// Without now_s no age is known and none is judged. A frame that nobody has observed is no_frame.
 Timeliness timeliness_of(const Exposure& frame, std::optional<double> now_s,
                          const TimeSettings& settings);

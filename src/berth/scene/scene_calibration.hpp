@@ -21,7 +21,7 @@ struct SceneCalibrationData {
   std::vector<std::string> warnings;
 };
 
-/// read_scene() of a scene that is asked no question: nothing is made ready for one.
+/// read_scene() of a scene that is asked no request: nothing is made ready for one.
 SceneFile read_scene_to_calibrate(const std::filesystem::path& file);
 
 /// More frames than this of a camera tell nothing new.

@@ -80,7 +80,7 @@ void SceneRun::make_pipelines(const BackendChoice& where) {
 void SceneRun::make_monitors() {
   if (!scene_.separation) return;
   try {
-    for (std::size_t i = 0; i < (query_ ? 1 : scene_.cameras.size()); ++i) {
+    for (std::size_t i = 0; i < scene_.cameras.size(); ++i) {
       monitors_.emplace_back(scene_.robot, *scene_.separation);
     }
   } catch (const std::invalid_argument& error) {
@@ -131,20 +131,26 @@ std::optional<DepthImage> SceneRun::background_m(std::size_t camera) const {
   return pipelines_[camera]->background_m();
 }
 
+SceneRun::Asked SceneRun::asked() const {
+  return query_ ? Asked{0, scene_.cameras.size()} : Asked{step().camera, 1};
+}
+
 void SceneRun::go_to(std::size_t step, const Result* found) {
   step_ = step + 1;
   observed_ = steps_known_at(scene_, steps_, step);
+  const auto [first, count] = asked();
   std::vector<bool> has_image(scene_.cameras.size());
   for (std::size_t i = observed_; i-- > 0;) {
     const ImageStep& at = steps_[i];
-    if (has_image[at.camera]) continue;
-    if (!query_ && at.camera != steps_[step].camera) break;
+    if (has_image[at.camera] || at.camera < first || at.camera >= first + count) continue;
     has_image[at.camera] = true;
     observe_alone(at);
   }
   for (std::size_t c = 0; c < has_image.size(); ++c) {
     if (!has_image[c]) newest_[c].number.reset();
-    pipelines_[c]->tell_watch(found && query_ ? &found->cameras[c].watch : nullptr);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    pipelines_[first + i]->tell_watch(found ? &found->cameras[i].watch : nullptr);
   }
   keep_frames();
 }
@@ -176,12 +182,11 @@ Result SceneRun::ask(int repeat) {
 }
 
 void SceneRun::tell_scene(Result& result) {
-  // Lines are counted where all cameras are asked together.
-  result.frame = static_cast<int>(query_ ? step_ - 1 : step().frame);
+  result.frame = static_cast<int>(step().result);
   result.stamp_s = step().stamp_s;
   if (gl_) result.gl_renderer = gl_->renderer();
   for (std::size_t i = 0; i < result.cameras.size(); ++i) {
-    const std::size_t c = query_ ? i : step().camera;
+    const std::size_t c = asked().first + i;
     if (!newest_[c].number) continue;
     result.cameras[i].frame = static_cast<int>(*newest_[c].number);
     result.cameras[i].self_filter = pipelines_[c]->fate_counts();
@@ -191,7 +196,7 @@ void SceneRun::tell_scene(Result& result) {
 void SceneRun::monitor(Result& result) {
   if (monitors_.empty()) return;
   scene_.joints->velocity(result.joints_stamp_s, velocity_);
-  SeparationMonitor& own = monitors_[query_ ? 0 : step().camera];
+  SeparationMonitor& own = monitors_[asked().first];
   result.separation = own.update(result, velocity_, result.stamp_s);
 }
 

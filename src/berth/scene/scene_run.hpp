@@ -93,7 +93,14 @@ class SceneRun {
     DepthImage depth_m;
   };
 
+  /// The cameras of one result: all where they are joined, else that of the step.
+  struct Asked {
+    std::size_t first;
+    std::size_t count;
+  };
+
   const ImageStep& step() const { return steps_[step_ - 1]; }
+  Asked asked() const;
   void make_pipelines(const BackendChoice& where);
   void make_monitors();
   void begin_background(std::size_t camera, const std::function<void()>& before_image);
@@ -117,7 +124,7 @@ class SceneRun {
   std::vector<std::shared_ptr<const Frame>> kept_;
   /// Only where one result is that of all cameras.
   std::optional<Query> query_;
-  /// Where the scene asks for them: one, or one for each camera where each image has its result.
+  /// Where the scene asks for them, one for each camera; where cameras are joined the first serves.
   std::vector<SeparationMonitor> monitors_;
   std::vector<double> velocity_;
 };

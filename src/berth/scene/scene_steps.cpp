@@ -9,12 +9,13 @@ std::vector<ImageStep> scene_steps(const OpenScene& scene) {
   for (std::size_t c = 0; c < scene.cameras.size(); ++c) {
     const OpenCamera& camera = scene.cameras[c];
     for (std::size_t k = 0; k < camera.source.depth.size(); ++k) {
-      steps.push_back({c, k, camera.at_exposure[k].stamp_s});
+      steps.push_back({c, k, camera.at_exposure[k].stamp_s, k});
     }
   }
   if (!scene.joins_cameras()) return steps;
   std::stable_sort(steps.begin(), steps.end(),
                    [](const ImageStep& a, const ImageStep& b) { return a.stamp_s < b.stamp_s; });
+  for (std::size_t i = 0; i < steps.size(); ++i) steps[i].result = i;
   return steps;
 }
 

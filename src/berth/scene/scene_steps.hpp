@@ -13,6 +13,8 @@ struct ImageStep {
   /// Its number among the images of its camera.
   std::size_t frame;
   double stamp_s;
+  /// The number of its result: where cameras are joined among all, else among those of its camera.
+  std::size_t result;
 };
 
 /// All of them: with method `mesh` in the order of their stamps, else camera by camera.

@@ -36,7 +36,7 @@ struct StoppingRow {
 struct SeparationSettings {
   /// v_h: how fast a person may come nearer.
   double human_speed_m_s = 1.6;
-  /// From the question to the moment at which the robot begins to brake, or to obey a new speed:
+  /// From the request to the moment at which the robot begins to brake, or to obey a new speed:
   /// the answer itself, its way to the controller, the controller. The age of the images is added.
   double reaction_time_s = 0.1;
   /// How fast a robot that brakes loses speed; T_s = v / a and S_s = v^2 / 2a. Not used where there
@@ -80,7 +80,7 @@ template <SettingsOf<SeparationSettings> Settings, class Visitor>
 void visit_settings(Settings& s, Visitor&& visit) {
   visit({"human_speed_m_s", kNotNegative, "how fast a person may come nearer"}, s.human_speed_m_s);
   visit({"reaction_time_s", kNotNegative,
-         "from the question until the robot obeys; the age of the images is added"},
+         "from the request until the robot obeys; the age of the images is added"},
         s.reaction_time_s);
   visit({"deceleration_m_s2", kAboveZero,
          "how fast a robot that brakes loses speed, where there is no table `stopping`"},

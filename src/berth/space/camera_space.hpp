@@ -43,7 +43,7 @@ void build_camera_space(const Camera& camera, DepthView sensor_depth_m,
                       const ObstacleImage& obstacles, const SpaceSettings& settings,
                       CameraSpace& out);
 
-/// The same for questions about readings alone (MeshQuestion::hidden is false): such a view frees
+/// The same for requests about readings alone (MeshRequest::hidden is false): such a view frees
 /// nothing.
 void build_reading_space(const Camera& camera, DepthView obstacle_depth_m,
                          const SpaceSettings& settings, CameraSpace& out);

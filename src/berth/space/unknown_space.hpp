@@ -43,7 +43,7 @@ struct HidingPixel {
 
 /// Everything that the cameras left: all measured surfaces, and every point that one of them hides
 /// and no other one sees free. Which parts of space are hidden is found where somebody asks, once,
-/// and kept for all later questions, in bounded memory. Any number of threads may ask at a time.
+/// and kept for all later requests, in bounded memory. Any number of threads may ask at a time.
 class UnknownSpace {
  public:
   static constexpr int kMostViews = 64;

@@ -36,7 +36,7 @@ struct CameraWatch {
   bool is_trusted() const { return !has_moved && !is_implausible; }
 };
 
-/// What became of one camera in a question.
+/// What became of one camera in a request.
 enum class CameraStatus : std::uint8_t {
   ok,        ///< its frame is used
   no_frame,  ///< it has given none yet
@@ -76,7 +76,7 @@ struct CameraState {
   CameraStatus status = CameraStatus::no_frame;
   /// Of its frame; NaN where there is none.
   double stamp_s = std::numeric_limits<double>::quiet_NaN();
-  /// Of its frame, at the question or, where nobody told its time, at the newest frame.
+  /// Of its frame, at the request or, where nobody told its time, at the newest frame.
   double age_s = std::numeric_limits<double>::quiet_NaN();
   /// Why it is stale.
   TimeStatus time = TimeStatus::ok;

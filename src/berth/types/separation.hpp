@@ -87,7 +87,7 @@ struct Separation {
   /// Why it is not larger, and the link that says so; kNoLink where it is no link.
   SeparationReason reason = SeparationReason::stale;
   LinkId link = kNoLink;
-  /// The camera that is not used, by its place in the question; -1 where that is not the reason.
+  /// The camera that is not used, by its place in the request; -1 where that is not the reason.
   int camera = -1;
   /// T_r; NaN where it is not known.
   double reaction_time_s = std::numeric_limits<double>::quiet_NaN();

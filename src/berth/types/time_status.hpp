@@ -17,7 +17,7 @@ enum class TimeStatus : std::uint8_t {
   skewed,                ///< no joint sample lies near enough to the exposure
   stamp_went_back,       ///< the frame's stamp is not above that of the frame before
   stamp_jumped,     ///< the frame's stamp is too far above that of the frame before, or not finite
-  frame_in_future,  ///< the frame's stamp lies after the time of the question
+  frame_in_future,  ///< the frame's stamp lies after the time of the request
   stale_frame,      ///< the frame is too old
   stale_joints,     ///< the joints are too old
   no_frame,         ///< no camera has given a frame yet
@@ -44,7 +44,7 @@ struct FrameTime {
 };
 
 /// How an answer stands in time. Unless status is ok, the answer has no distance. An age is that at
-/// the question; NaN where nobody told the time of the question.
+/// the request; NaN where nobody told the time of the request.
 struct Timeliness {
   TimeStatus status = TimeStatus::ok;
   double frame_age_s = std::numeric_limits<double>::quiet_NaN();

@@ -65,8 +65,8 @@ TEST_F(GlExactTest, AMethodOfTheCpuIsRefused) {
   LinkDistances out;
   const SearchableDepth obstacles(images.obstacle_depth_m);
   const ImageDistanceSettings settings;
-  const Question question{images.camera, images.robot, 1, obstacles, settings};
-  EXPECT_THROW(shared_gl()->evaluator.evaluate(Method::exact, question, out),
+  const ImageRequest request{images.camera, images.robot, 1, obstacles, settings};
+  EXPECT_THROW(shared_gl()->evaluator.evaluate(Method::exact, request, out),
                std::invalid_argument);
 }
 

@@ -16,7 +16,7 @@ using Clock = std::chrono::steady_clock;
 
 /// What all links have in common.
 struct Task {
-  const Question& question;
+  const ImageRequest& request;
   Metric metric;
   float range_m;
   /// A link is done once its answer is known to this.
@@ -28,15 +28,15 @@ ClosestPair first_guess(const Task& task, const LinkDistance& last, LinkId id) {
   const ClosestPair none = no_pair_within(task.range_m);
   const Pixel r = last.robot_pixel;
   const Pixel o = last.obstacle_pixel;
-  const DepthView obstacle_m = task.question.obstacles.depth_m();
+  const DepthView obstacle_m = task.request.obstacles.depth_m();
   const auto is_inside = [&](Pixel p) {
     return p.u >= 0 && p.v >= 0 && p.u < obstacle_m.width && p.v < obstacle_m.height;
   };
-  if (!is_inside(r) || !is_inside(o) || task.question.robot.link_id(r.u, r.v) != id) return none;
+  if (!is_inside(r) || !is_inside(o) || task.request.robot.link_id(r.u, r.v) != id) return none;
   ClosestPair pair{0,
                    static_cast<float>(r.u),
                    static_cast<float>(r.v),
-                   task.question.robot.depth_m(r.u, r.v),
+                   task.request.robot.depth_m(r.u, r.v),
                    static_cast<float>(o.u),
                    static_cast<float>(o.v),
                    obstacle_m(o.u, o.v)};
@@ -65,8 +65,8 @@ void search_on(const Task& task, const SearchLimits& limits, ExactWorkspace& wor
                        link.lower_bound_m > 0 && Clock::now() >= limits.deadline;
   if (link.is_done || is_late) return;
   const SearchResult result = search_link(
-      {task.metric, workspace.robot, task.question.robot.depth_m, task.question.obstacles.tree(),
-       task.question.obstacles.depth_m(), workspace.order.data() + link.first_order},
+      {task.metric, workspace.robot, task.request.robot.depth_m, task.request.obstacles.tree(),
+       task.request.obstacles.depth_m(), workspace.order.data() + link.first_order},
       workspace.robot.links[i].last_node, limits, link.best);
   link.pairs += result.pairs;
   link.lower_bound_m = std::max(link.lower_bound_m, result.lower_bound_m);
@@ -116,15 +116,15 @@ void sort_by_bound(ExactWorkspace::NodeOrder* order, int count) {
             [](const auto& a, const auto& b) { return a.bound_m2 < b.bound_m2; });
 }
 
-void exact(const Question& question, ExactWorkspace& workspace, LinkDistances& out) {
+void exact(const ImageRequest& request, ExactWorkspace& workspace, LinkDistances& out) {
   const Clock::time_point begin = Clock::now();
-  const ImageDistanceSettings& settings = question.settings;
+  const ImageDistanceSettings& settings = request.settings;
   validate(settings);
-  assert(question.robot.depth_m.width() == question.obstacles.depth_m().width);
-  assert(question.robot.depth_m.height() == question.obstacles.depth_m().height);
-  const Task task{question, metric_of(question.camera), static_cast<float>(settings.range_m),
+  assert(request.robot.depth_m.width() == request.obstacles.depth_m().width);
+  assert(request.robot.depth_m.height() == request.obstacles.depth_m().height);
+  const Task task{request, metric_of(request.camera), static_cast<float>(settings.range_m),
                   static_cast<float>(settings.tolerance_m.value_or(0))};
-  build_robot_tiles(question.robot, question.link_count, workspace.robot);
+  build_robot_tiles(request.robot, request.link_count, workspace.robot);
   start(task, out, workspace);
   if (settings.deadline_us) {
     const std::chrono::duration<double, std::micro> wait(std::min(*settings.deadline_us, 1e12));
@@ -136,8 +136,8 @@ void exact(const Question& question, ExactWorkspace& workspace, LinkDistances& o
   }
 
   out.pairs = 0;
-  out.links.resize(question.link_count);
-  for (int i = 0; i < question.link_count; ++i) {
+  out.links.resize(request.link_count);
+  for (int i = 0; i < request.link_count; ++i) {
     out.pairs += workspace.links[i].pairs;
     out.links[i] = answer_of(task, static_cast<LinkId>(i + 1), workspace.robot.links[i].pixels,
                              workspace.links[i]);

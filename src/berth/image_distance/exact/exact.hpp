@@ -4,12 +4,12 @@
 
 #include "berth/image_distance/closest_pair.hpp"
 #include "berth/image_distance/exact/robot_tiles.hpp"
-#include "berth/image_distance/question.hpp"
+#include "berth/image_distance/image_request.hpp"
 #include "berth/types/link_distance.hpp"
 
 namespace berth {
 
-/// The memory of exact(), made once and used for every question; one for each thread that asks. It
+/// The memory of exact(), made once and used for every request; one for each thread that asks. It
 /// carries nothing from one answer to the next.
 struct ExactWorkspace {
   /// A robot node, and a bound that its nearest tile of obstacles promises.
@@ -42,6 +42,6 @@ struct ExactWorkspace {
 /// If `out` holds an answer on entry, its pixels are tried first in the new images. That saves time
 /// where little has moved, and changes no distance. Allocates nothing once the workspace and `out`
 /// have grown to the scene. Throws std::invalid_argument for bad settings.
-void exact(const Question& question, ExactWorkspace& workspace, LinkDistances& out);
+void exact(const ImageRequest& request, ExactWorkspace& workspace, LinkDistances& out);
 
 }  // namespace berth

@@ -68,22 +68,22 @@ std::int64_t search_link(const Task& task, std::span<const Pixel> pixels, LinkLa
 
 }  // namespace
 
-void lattice(const Question& question, LatticeWorkspace& workspace, LinkDistances& out) {
-  validate(question.settings);
-  const DepthView obstacle_depth_m = question.obstacles.depth_m();
-  assert(question.robot.depth_m.width() == obstacle_depth_m.width);
-  assert(question.robot.depth_m.height() == obstacle_depth_m.height);
-  const Metric metric = metric_of(question.camera);
+void lattice(const ImageRequest& request, LatticeWorkspace& workspace, LinkDistances& out) {
+  validate(request.settings);
+  const DepthView obstacle_depth_m = request.obstacles.depth_m();
+  assert(request.robot.depth_m.width() == obstacle_depth_m.width);
+  assert(request.robot.depth_m.height() == obstacle_depth_m.height);
+  const Metric metric = metric_of(request.camera);
   const Surveillance surveillance =
-      surveillance_of(question, metric, SurveillanceRegion::cube_projection);
-  const Task task{surveillance, question.robot.depth_m, question.settings.lattice};
-  const auto range_m = static_cast<float>(question.settings.range_m);
-  workspace.pixels.sort(question.robot, question.link_count);
+      surveillance_of(request, metric, SurveillanceRegion::cube_projection);
+  const Task task{surveillance, request.robot.depth_m, request.settings.lattice};
+  const auto range_m = static_cast<float>(request.settings.range_m);
+  workspace.pixels.sort(request.robot, request.link_count);
   workspace.lattice.reset(obstacle_depth_m.width, obstacle_depth_m.height);
 
   out.pairs = 0;
-  out.links.resize(question.link_count);
-  for (int i = 0; i < question.link_count; ++i) {
+  out.links.resize(request.link_count);
+  for (int i = 0; i < request.link_count; ++i) {
     const std::span<const Pixel> pixels = workspace.pixels.of(i);
     const auto count = static_cast<int>(pixels.size());
     ClosestPair best = no_pair_within(range_m);

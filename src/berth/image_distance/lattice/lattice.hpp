@@ -2,12 +2,12 @@
 
 #include "berth/image_distance/lattice/link_lattice.hpp"
 #include "berth/image_distance/lattice/link_pixels.hpp"
-#include "berth/image_distance/question.hpp"
+#include "berth/image_distance/image_request.hpp"
 #include "berth/types/link_distance.hpp"
 
 namespace berth {
 
-/// The memory of lattice(), made once and used for every question; one for each thread that asks.
+/// The memory of lattice(), made once and used for every request; one for each thread that asks.
 /// It carries nothing from one answer to the next.
 struct LatticeWorkspace {
   LinkPixels pixels;
@@ -24,6 +24,6 @@ struct LatticeWorkspace {
 /// lower_bound_m is 0 for every visible link: nothing is certified. Otherwise as brute_force;
 /// out.pairs counts the pairs computed. Allocates nothing once the workspace and `out` have grown
 /// to the scene. Throws std::invalid_argument for bad settings.
-void lattice(const Question& question, LatticeWorkspace& workspace, LinkDistances& out);
+void lattice(const ImageRequest& request, LatticeWorkspace& workspace, LinkDistances& out);
 
 }  // namespace berth

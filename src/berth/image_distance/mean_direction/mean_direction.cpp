@@ -10,12 +10,12 @@
 namespace berth {
 namespace {
 
-DirectionSum start_at(const Question& question, Pixel pixel) {
-  const float depth_m = question.robot.depth_m(pixel.u, pixel.v);
-  const double range_m = question.settings.range_m;
+DirectionSum start_at(const ImageRequest& request, Pixel pixel) {
+  const float depth_m = request.robot.depth_m(pixel.u, pixel.v);
+  const double range_m = request.settings.range_m;
   return {static_cast<float>(pixel.u), static_cast<float>(pixel.v), depth_m,
           static_cast<float>(depth_m + range_m),
-          region_of_surveillance(question.camera, pixel, depth_m, range_m)};
+          region_of_surveillance(request.camera, pixel, depth_m, range_m)};
 }
 
 void fill(const DirectionSum& sum, LinkDistance& link) {
@@ -27,9 +27,9 @@ void fill(const DirectionSum& sum, LinkDistance& link) {
 
 }  // namespace
 
-void fill_mean_directions(const Question& question, DirectionWorkspace& workspace,
+void fill_mean_directions(const ImageRequest& request, DirectionWorkspace& workspace,
                           LinkDistances& distances) {
-  validate(question.settings);
+  validate(request.settings);
   workspace.sums.clear();
   PixelRect rect;
   float max_depth_m = 0;
@@ -37,16 +37,16 @@ void fill_mean_directions(const Question& question, DirectionWorkspace& workspac
     link.mean_direction_C.setConstant(std::numeric_limits<float>::quiet_NaN());
     link.mean_count = 0;
     if (link.status != LinkStatus::ok) continue;
-    workspace.sums.push_back(start_at(question, link.robot_pixel));
+    workspace.sums.push_back(start_at(request, link.robot_pixel));
     rect = united(rect, workspace.sums.back().rect);
     max_depth_m = std::max(max_depth_m, workspace.sums.back().max_depth_m);
   }
   if (workspace.sums.empty()) return;
 
-  build_tile_means(question.camera, question.obstacles, rect, max_depth_m, workspace.means);
-  const Metric metric = metric_of(question.camera);
+  build_tile_means(request.camera, request.obstacles, rect, max_depth_m, workspace.means);
+  const Metric metric = metric_of(request.camera);
   tbb::parallel_for(std::size_t{0}, workspace.sums.size(), [&](std::size_t i) {
-    add_directions(metric, question.obstacles, workspace.means, workspace.sums[i]);
+    add_directions(metric, request.obstacles, workspace.means, workspace.sums[i]);
   });
   auto sum = workspace.sums.begin();
   for (LinkDistance& link : distances.links) {

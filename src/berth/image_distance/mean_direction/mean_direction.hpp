@@ -4,7 +4,7 @@
 
 #include "berth/image_distance/mean_direction/direction_sum.hpp"
 #include "berth/image_distance/mean_direction/tile_means.hpp"
-#include "berth/image_distance/question.hpp"
+#include "berth/image_distance/image_request.hpp"
 #include "berth/types/link_distance.hpp"
 
 namespace berth {
@@ -14,7 +14,7 @@ namespace berth {
 /// far from the robot are taken as one.
 inline constexpr float kMeanDirectionError = 0.017f;
 
-/// The memory of fill_mean_directions(), made once and used for every question; one for each
+/// The memory of fill_mean_directions(), made once and used for every request; one for each
 /// thread. It carries nothing from one answer to the next.
 struct DirectionWorkspace {
   TileMeans means;
@@ -28,7 +28,7 @@ struct DirectionWorkspace {
 /// not count. The count is exact, the direction within kMeanDirectionError. NaN and 0 for a link
 /// that is not ok, or that nothing counts for. Allocates nothing once the workspace has grown to
 /// the scene.
-void fill_mean_directions(const Question& question, DirectionWorkspace& workspace,
+void fill_mean_directions(const ImageRequest& request, DirectionWorkspace& workspace,
                           LinkDistances& distances);
 
 /// The minimum's magnitude with the mean's direction (Flacco), in frame C; NaN where either is

@@ -47,20 +47,20 @@ void GlEvaluator::evaluate(Method method, const Camera& camera, const GlRobotIma
       fmt::format("method {} does not run on OpenGL; expected one that does", name_of(method)));
 }
 
-void GlEvaluator::evaluate(Method method, const Question& question, LinkDistances& out) {
-  const DepthView obstacle_depth_m = question.obstacles.depth_m();
+void GlEvaluator::evaluate(Method method, const ImageRequest& request, LinkDistances& out) {
+  const DepthView obstacle_depth_m = request.obstacles.depth_m();
   std::optional<GlUploadedImages>& uploaded = state_->uploaded;
   if (!uploaded || !uploaded->has_size(obstacle_depth_m.width, obstacle_depth_m.height))
     uploaded.emplace(obstacle_depth_m.width, obstacle_depth_m.height);
   uploaded->upload.send(obstacle_depth_m, uploaded->obstacle_depth_m);
   if (method == Method::gl_hybrid) {
-    state_->made_hybrid().evaluate(question.camera, question.robot, uploaded->obstacle_depth_m,
-                                   question.link_count, question.settings, out);
+    state_->made_hybrid().evaluate(request.camera, request.robot, uploaded->obstacle_depth_m,
+                                   request.link_count, request.settings, out);
     return;
   }
-  uploaded->upload.send(question.robot, uploaded->robot);
-  evaluate(method, question.camera, uploaded->robot, uploaded->obstacle_depth_m,
-           question.link_count, question.settings, out);
+  uploaded->upload.send(request.robot, uploaded->robot);
+  evaluate(method, request.camera, uploaded->robot, uploaded->obstacle_depth_m,
+           request.link_count, request.settings, out);
 }
 
 }  // namespace berth

@@ -24,7 +24,7 @@ class GlEvaluator {
                 LinkDistances& out);
 
   /// The same with images of this program's memory: uploads them first.
-  void evaluate(Method method, const Question& question, LinkDistances& out);
+  void evaluate(Method method, const ImageRequest& request, LinkDistances& out);
 
  private:
   struct State;

@@ -8,6 +8,7 @@
 #include "berth/image_distance/opengl/gl_evaluate.hpp"
 #include "berth/image_distance/opengl/gl_frame_images.hpp"
 #include "berth/image_distance/opengl/gl_robot_renderer.hpp"
+#include "berth/pipeline/camera_state.hpp"
 #include "berth/pipeline/mounted_camera.hpp"
 
 namespace berth {
@@ -23,8 +24,8 @@ class MethodOnGl : public ImageMethod {
  public:
   explicit MethodOnGl(Method method) : method_(method) {}
 
-  void evaluate(const Question& question, LinkDistances& out) override {
-    evaluator_.evaluate(method_, question, out);
+  void evaluate(const ImageRequest& request, LinkDistances& out) override {
+    evaluator_.evaluate(method_, request, out);
   }
 
  private:
@@ -48,6 +49,8 @@ struct GlImageQuery::Parts {
     require_opengl(named);
   }
 
+  bool begin(const GlFrame& frame, std::optional<double> joints_stamp_s,
+             std::optional<double> now_s);
   void render(const RobotPose& pose, const GlFrame& frame);
   void evaluate(const GlFrame& frame, const GlRobotImage& of_robot);
 
@@ -75,7 +78,7 @@ GlImageQuery::GlImageQuery(std::shared_ptr<const Robot> robot, Method method,
 GlImageQuery::~GlImageQuery() = default;
 
 const Result& GlImageQuery::ask(const GlFrame& frame, std::optional<double> now_s) {
-  if (!begin_image_result(*parts_->robot, frame, {}, TimeStatus::ok, now_s, parts_->result)) return parts_->result;
+  if (!parts_->begin(frame, {}, now_s)) return parts_->result;
   parts_->result.pose.X_BL = frame.pose.X_BL;
   parts_->evaluate(frame, frame.images->robot);
   if (!parts_->robot->settings().visibility) return parts_->result;
@@ -87,9 +90,7 @@ const Result& GlImageQuery::ask(const GlFrame& frame, std::optional<double> now_
 
 const Result& GlImageQuery::ask(const GlFrame& frame, const JointState& joints,
                                 std::optional<double> now_s) {
-  if (!begin_image_result(*parts_->robot, frame, joints.stamp_s, TimeStatus::ok, now_s, parts_->result)) {
-    return parts_->result;
-  }
+  if (!parts_->begin(frame, joints.stamp_s, now_s)) return parts_->result;
   forward_kinematics(parts_->robot->model(), joints.position, parts_->result.pose);
   parts_->render(parts_->result.pose, frame);
   parts_->evaluate(frame, parts_->asked_on_gl);
@@ -99,6 +100,13 @@ const Result& GlImageQuery::ask(const GlFrame& frame, const JointState& joints,
   tell_image_visibility(*parts_->robot, parts_->seen, {parts_->result.pose, frame.X_BC, parts_->asked}, parts_->distances, parts_->tell,
                         parts_->result);
   return parts_->result;
+}
+
+bool GlImageQuery::Parts::begin(const GlFrame& frame, std::optional<double> joints_stamp_s,
+                                std::optional<double> now_s) {
+  const CameraState camera =
+      camera_state(frame, now_s.value_or(frame.stamp_s), robot->settings().time);
+  return begin_image_result(*robot, frame, camera, joints_stamp_s, TimeStatus::ok, now_s, result);
 }
 
 void GlImageQuery::Parts::render(const RobotPose& pose, const GlFrame& frame) {

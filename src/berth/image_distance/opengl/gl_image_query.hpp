@@ -15,7 +15,7 @@ namespace berth {
 class ImageMethod;
 
 /// A method that runs on OpenGL, for images of this program's memory: they are uploaded for each
-/// question. Throws std::invalid_argument for another method. It belongs to the context that is
+/// request. Throws std::invalid_argument for another method. It belongs to the context that is
 /// current when it is made, and to its thread.
 std::unique_ptr<ImageMethod> make_gl_method(Method method);
 

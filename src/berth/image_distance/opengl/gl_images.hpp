@@ -1,4 +1,4 @@
-// The images of one question on the GPU, and their way there and back.
+// The images of one request on the GPU, and their way there and back.
 #pragma once
 
 #include "berth/image_distance/opengl/gl_buffer.hpp"
@@ -46,7 +46,7 @@ class GlUpload {
   GlFence sent_;
 };
 
-/// The images of one question, and what carries them.
+/// The images of one request, and what carries them.
 struct GlUploadedImages {
   GlUploadedImages(int width, int height)
       : upload(width, height),

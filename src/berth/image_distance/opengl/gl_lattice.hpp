@@ -13,7 +13,7 @@ namespace berth {
 /// its centre (Manhattan distance); around each link's closest point smaller tiles do, until the
 /// final size; last come all of the link's pixels within the final radius of the closest.
 ///
-/// A question takes 4 dispatches and one for each halving of the tiles, 7 with the defaults, and
+/// A request takes 4 dispatches and one for each halving of the tiles, 7 with the defaults, and
 /// one for mean directions; the GPU is waited for once.
 class GlLattice {
  public:

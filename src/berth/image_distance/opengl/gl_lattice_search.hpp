@@ -9,14 +9,14 @@
 
 namespace berth {
 
-/// A question's searches on the GPU, each around the pairs that the one before found. A search
+/// A request's searches on the GPU, each around the pairs that the one before found. A search
 /// tries its robot pixels against every step-th obstacle pixel of the whole image: a workgroup for
 /// each link and slice of the image.
 class GlLatticeSearch {
  public:
   GlLatticeSearch();
 
-  /// Begins a question. `link_pixels` holds the number of pixels of each link, as an unsigned of 32
+  /// Begins a request. `link_pixels` holds the number of pixels of each link, as an unsigned of 32
   /// bits, by the time of the first run(); links without any are passed over. Takes memory where
   /// the image is larger or has more links than before.
   void begin(const Camera& camera, int link_count, const GlTexture& obstacle_depth_m,

@@ -1,5 +1,5 @@
-// What a workspace remembers of the question before.
-#include "berth/distance/last_question.hpp"
+// What a workspace remembers of the request before.
+#include "berth/distance/last_request.hpp"
 
 #include <gtest/gtest.h>
 
@@ -30,23 +30,23 @@ MeshWorld small_world(std::uint32_t seed) {
 }
 
 /// One that asks again and again.
-struct Questioner {
+struct Requester {
   const PreparedWorld* world;
   MeshWorkspace workspace;
   std::vector<WholeLinkDistance> answer;
 
-  const std::vector<WholeLinkDistance>& ask(const RobotPose& pose, const MeshQuestion& question) {
-    mesh_distances(world->patches(), pose, world->space(), question, workspace, answer);
+  const std::vector<WholeLinkDistance>& ask(const RobotPose& pose, const MeshRequest& request) {
+    mesh_distances(world->patches(), pose, world->space(), request, workspace, answer);
     return answer;
   }
 };
 
 std::vector<WholeLinkDistance> ask_anew(const PreparedWorld& world, const RobotPose& pose,
-                                        const MeshQuestion& question) {
-  return Questioner{&world, {}, {}}.ask(pose, question);
+                                        const MeshRequest& request) {
+  return Requester{&world, {}, {}}.ask(pose, request);
 }
 
-TEST(LastQuestion, NoPointOfALinkMovesByMore) {
+TEST(LastRequest, NoPointOfALinkMovesByMore) {
   sim::Random random(3);
   for (std::uint32_t seed = 0; seed < 20; ++seed) {
     const MeshWorld world = small_world(seed);
@@ -66,40 +66,40 @@ TEST(LastQuestion, NoPointOfALinkMovesByMore) {
   }
 }
 
-TEST(LastQuestion, BoundsHoldOnWhileTheRobotMoves) {
+TEST(LastRequest, BoundsHoldOnWhileTheRobotMoves) {
   sim::Random random(5);
   for (std::uint32_t seed = 0; seed < thinned(9u); ++seed) {
     const MeshWorld world = small_world(seed);
     const PreparedWorld prepared(world);
-    Questioner questioner{&prepared, {}, {}};
+    Requester requester{&prepared, {}, {}};
     RobotPose pose = world.pose;
     for (int step = 0; step < 12; ++step) {
-      MeshQuestion question{.range_m = random(0.2, 1.5)};
-      if (step % 3 != 0) question.deadline_us = random(0, 100);
-      if (step % 4 == 2) question.unknown = false;
+      MeshRequest request{.range_m = random(0.2, 1.5)};
+      if (step % 3 != 0) request.deadline_us = random(0, 100);
+      if (step % 4 == 2) request.unknown = false;
       SCOPED_TRACE("seed " + std::to_string(seed) + " step " + std::to_string(step));
-      const auto found = questioner.ask(pose, question);
-      question.deadline_us.reset();
-      expect_agree(found, ask_anew(prepared, pose, question));
+      const auto found = requester.ask(pose, request);
+      request.deadline_us.reset();
+      expect_agree(found, ask_anew(prepared, pose, request));
       for (const WholeLinkDistance& link : found) {
-        EXPECT_LE(link.occupied.lower_bound_m, static_cast<float>(question.range_m));
-        EXPECT_LE(link.nearest.lower_bound_m, static_cast<float>(question.range_m));
+        EXPECT_LE(link.occupied.lower_bound_m, static_cast<float>(request.range_m));
+        EXPECT_LE(link.nearest.lower_bound_m, static_cast<float>(request.range_m));
       }
       pose = moved(pose, random, random(0, 0.01));
     }
   }
 }
 
-TEST(LastQuestion, WithoutTimeAnAnswerIsKnownToAsMuchAsTheLinkMoved) {
+TEST(LastRequest, WithoutTimeAnAnswerIsKnownToAsMuchAsTheLinkMoved) {
   sim::Random random(7);
   for (std::uint32_t seed = 0; seed < thinned(9u); ++seed) {
     SCOPED_TRACE(seed);
     const MeshWorld world = small_world(seed);
     const PreparedWorld prepared(world);
-    Questioner questioner{&prepared, {}, {}};
-    const auto before = questioner.ask(world.pose, {});
+    Requester requester{&prepared, {}, {}};
+    const auto before = requester.ask(world.pose, {});
     const RobotPose pose = moved(world.pose, random, 0.002);
-    const auto found = questioner.ask(pose, {.deadline_us = 0});
+    const auto found = requester.ask(pose, {.deadline_us = 0});
     for (std::size_t i = 0; i < found.size(); ++i) {
       const LinkPatches& link = prepared.patches().links[i];
       const float moved_m =
@@ -113,17 +113,17 @@ TEST(LastQuestion, WithoutTimeAnAnswerIsKnownToAsMuchAsTheLinkMoved) {
   }
 }
 
-TEST(LastQuestion, AskedAgainAnAnswerBecomesNoWorse) {
+TEST(LastRequest, AskedAgainAnAnswerBecomesNoWorse) {
   for (std::uint32_t seed = 0; seed < thinned(30u); ++seed) {
     SCOPED_TRACE(seed);
     const MeshWorld world = small_world(seed);
     const PreparedWorld prepared(world);
-    Questioner questioner{&prepared, {}, {}};
-    const auto once = questioner.ask(world.pose, {});
-    const auto again = questioner.ask(world.pose, {});
-    questioner.workspace.forget();
-    questioner.answer.clear();
-    const auto anew = questioner.ask(world.pose, {});
+    Requester requester{&prepared, {}, {}};
+    const auto once = requester.ask(world.pose, {});
+    const auto again = requester.ask(world.pose, {});
+    requester.workspace.forget();
+    requester.answer.clear();
+    const auto anew = requester.ask(world.pose, {});
     for (std::size_t i = 0; i < once.size(); ++i) {
       EXPECT_EQ(anew[i].nearest.lower_bound_m, once[i].nearest.lower_bound_m);
       if (!once[i].nearest.is_known()) continue;
@@ -134,21 +134,21 @@ TEST(LastQuestion, AskedAgainAnAnswerBecomesNoWorse) {
   }
 }
 
-TEST(LastQuestion, AnotherSpaceOrRobotIsANewStart) {
+TEST(LastRequest, AnotherSpaceOrRobotIsANewStart) {
   MeshWorkspace workspace;
   for (std::uint32_t seed = 0; seed < thinned(30u); ++seed) {
     SCOPED_TRACE(seed);
     const MeshWorld world = small_world(seed);
     const PreparedWorld prepared(world);
-    Questioner questioner{&prepared, std::move(workspace), {}};
-    expect_agree(questioner.ask(world.pose, {.deadline_us = 0}),
+    Requester requester{&prepared, std::move(workspace), {}};
+    expect_agree(requester.ask(world.pose, {.deadline_us = 0}),
                  ask_anew(prepared, world.pose, {}));
-    questioner.ask(world.pose, {});
-    workspace = std::move(questioner.workspace);
+    requester.ask(world.pose, {});
+    workspace = std::move(requester.workspace);
   }
 }
 
-TEST(LastQuestion, ASpaceThatBeginsAnewIsAnotherOne) {
+TEST(LastRequest, ASpaceThatBeginsAnewIsAnotherOne) {
   const MeshWorld near = small_world(2);
   const PreparedWorld prepared(near);
   CameraSpace far_space;
@@ -163,7 +163,7 @@ TEST(LastQuestion, ASpaceThatBeginsAnewIsAnotherOne) {
   const std::uint64_t before = space.serial_number();
   MeshWorkspace workspace;
   std::vector<WholeLinkDistance> answer;
-  const MeshQuestion readings{.unknown = false};
+  const MeshRequest readings{.unknown = false};
   mesh_distances(prepared.patches(), near.pose, space, readings, workspace, answer);
   for (const auto& link : answer) EXPECT_EQ(link.occupied.lower_bound_m, 1);
   std::vector<PosedSpace> posed;

@@ -9,7 +9,7 @@ namespace berth {
 
 /// What every method answers: the distances between the links of one image and what may be an
 /// obstacle in another. Both images have the camera's size.
-struct Question {
+struct ImageRequest {
   const Camera& camera;
   /// Link ids go from 1 to link_count. Pixels of kEnvironmentLink are not evaluated; any other id
   /// is a programming error.

@@ -1,4 +1,4 @@
-// What the question before tells of the next one about the same space.
+// What the request before tells of the next one about the same space.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct LastLink {
   float nearest_bound_m = 0;
 };
 
-struct LastQuestion {
+struct LastRequest {
   /// RobotPatches::serial_number and UnknownSpace::serial_number().
   std::uint64_t robot = 0;
   std::uint64_t space = 0;

@@ -1,4 +1,4 @@
-#include "berth/distance/last_question.hpp"
+#include "berth/distance/last_request.hpp"
 
 #include <cmath>
 #include <numbers>
