@@ -1,5 +1,5 @@
-// Two clocks: the camera's thread makes frames of images and the joints at their exposure, the controller's asks,
-// a thousand times a second, how far the robot is. Usage: two_clocks robot.urdf
+// Two clocks: the camera's thread makes frames of images and the joints at their exposure, the
+// controller's asks, a thousand times a second, how far the robot is. Usage: two_clocks robot.urdf
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -50,7 +50,8 @@ int main(int argc, char** argv) {
   berth::CameraMount mount{{640, 480, 525, 525, 319.5, 239.5}, model.links.front().name};
   mount.X_PC.linear() << 0, 0, -1, 1, 0, 0, 0, -1, 0;
   mount.X_PC.translation() << 2, 0, 0.5;
-  // A real camera has berth::settings_of_real_camera(): an image that does not show the robot is not used then.
+  // A real camera has berth::settings_of_real_camera(): an image that does not show the robot is
+  // not used then.
   const auto view = std::make_shared<const berth::MountedCamera>(robot, mount);
   berth::JointBuffer joints(model, 500);
 

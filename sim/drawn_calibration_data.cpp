@@ -112,8 +112,7 @@ void add_things(Random& random, const RobotExtent& robot, const Pose& X_BC,
   for (int i = 0; i < 6; ++i) {
     const double radius_m = robot.radius_m * random(0.1, 0.4);
     const Eigen::Vector3d direction = draw_rotation(random) * Eigen::Vector3d::UnitX();
-    const Eigen::Vector3d p_B_m =
-        robot.centre_B_m + (1.3 * robot.radius_m + radius_m) * direction;
+    const Eigen::Vector3d p_B_m = robot.centre_B_m + (1.3 * robot.radius_m + radius_m) * direction;
     // Nothing stands between camera and robot.
     if (direction.dot((X_BC.translation() - robot.centre_B_m).normalized()) > 0.2) continue;
     Pose X_BO(draw_rotation(random));
@@ -165,8 +164,10 @@ bool is_observable(const RobotModel& model, std::size_t joint) {
 
 }  // namespace
 
-DrawnCalibrationData draw_calibration_data(const RobotModel& model, std::shared_ptr<const LinkMeshes> meshes,
-                           const DrawnCalibrationSettings& settings, std::uint32_t seed) {
+DrawnCalibrationData draw_calibration_data(const RobotModel& model,
+                                           std::shared_ptr<const LinkMeshes> meshes,
+                                           const DrawnCalibrationSettings& settings,
+                                           std::uint32_t seed) {
   Random random(seed);
   DrawnCalibrationData drawn;
   drawn.camera = std::make_unique<CalibrationCamera>();

@@ -1,5 +1,5 @@
-// A robot that goes through poses before a camera, for calibration: the truth, and what a camera and
-// a calibration that are not right make of it.
+// A robot that goes through poses before a camera, for calibration: the truth, and what a camera
+// and a calibration that are not right make of it.
 #pragma once
 
 #include <cstdint>
@@ -35,8 +35,8 @@ struct DrawnCalibrationSettings {
   DrawnMount mount = DrawnMount::root;
 };
 
-/// The images are made of the truth; `calibration_data` believes the true camera and clock 0, and joints
-/// that lack joint_shift.
+/// The images are made of the truth; `calibration_data` believes the true camera and clock 0, and
+/// joints that lack joint_shift.
 struct DrawnCalibrationData {
   std::unique_ptr<CalibrationCamera> camera;
   std::unique_ptr<JointTrajectory> joints;
@@ -50,7 +50,9 @@ struct DrawnCalibrationData {
 
 /// In a room with some things in it that the robot never meets. Depends on its arguments alone.
 /// Throws std::runtime_error where the robot cannot be seen.
-DrawnCalibrationData draw_calibration_data(const RobotModel& model, std::shared_ptr<const LinkMeshes> meshes,
-                           const DrawnCalibrationSettings& settings, std::uint32_t seed);
+DrawnCalibrationData draw_calibration_data(const RobotModel& model,
+                                           std::shared_ptr<const LinkMeshes> meshes,
+                                           const DrawnCalibrationSettings& settings,
+                                           std::uint32_t seed);
 
 }  // namespace berth::sim

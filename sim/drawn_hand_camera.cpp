@@ -27,7 +27,8 @@ bool is_turned_by_itself(const Joint& joint) {
 /// Indices of the links that a joint turns, from the root to this one.
 std::vector<std::size_t> turned_links(const RobotModel& model, std::size_t link) {
   std::vector<std::size_t> chain;
-  for (std::optional<std::size_t> i = link; i && model.links[*i].parent; i = model.links[*i].parent) {
+  for (std::optional<std::size_t> i = link; i && model.links[*i].parent;
+       i = model.links[*i].parent) {
     if (is_turned_by_itself(model.links[*i].joint)) chain.push_back(*i);
   }
   std::reverse(chain.begin(), chain.end());
@@ -78,9 +79,12 @@ struct Look {
 Look look_at(const RobotModel& model, const RobotPose& pose, const std::vector<bool>& carried,
              const Pose& X_BC, const Camera& camera) {
   const double step = static_cast<double>(camera.width_px) / kLook_px;
-  const Camera small{kLook_px,         static_cast<int>(camera.height_px / step),
-                     camera.fx_px / step, camera.fy_px / step,
-                     camera.cx_px / step, camera.cy_px / step};
+  const Camera small{kLook_px,
+                     static_cast<int>(camera.height_px / step),
+                     camera.fx_px / step,
+                     camera.fy_px / step,
+                     camera.cx_px / step,
+                     camera.cy_px / step};
   const RobotImage image = cast_image(EmbreeRenderer(model, pose, X_BC, small), small);
   Look look;
   std::vector<double> count(model.evaluated_links.size() + 1, 0.0);
@@ -124,7 +128,8 @@ bool place_hand_camera(Random& random, const RobotModel& model, const std::vecto
       seen += look.moving_share > kLeastMovingShare;
       return look.most_share < kMostSeenShare && !(look.nearest_m < kNearest_m);
     });
-    if (is_clear && static_cast<double>(seen) >= kLeastPosesShare * static_cast<double>(poses.size())) {
+    if (is_clear &&
+        static_cast<double>(seen) >= kLeastPosesShare * static_cast<double>(poses.size())) {
       return true;
     }
   }

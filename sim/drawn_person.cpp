@@ -4,9 +4,9 @@
 #include <numbers>
 
 #include "berth/render/robot_renderer.hpp"
-#include "berth/watch/seen_through.hpp"
 #include "berth/robot/primitives.hpp"
 #include "berth/robot/robot_model.hpp"
+#include "berth/watch/seen_through.hpp"
 #include "sim/drawn_obstacles.hpp"
 #include "sim/sensor_model.hpp"
 
@@ -20,8 +20,7 @@ constexpr double kUpperArm_m = 0.30, kForearm_m = 0.35, kLeg_m = 0.85;
 void append_capsule(const Vector3d& from_B_m, const Vector3d& to_B_m, double radius_m,
                     TriangleMesh& out) {
   const Vector3d along_m = to_B_m - from_B_m;
-  const Eigen::Quaterniond turned =
-      Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), along_m);
+  const Eigen::Quaterniond turned = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), along_m);
   out.append(make_sphere(radius_m), Eigen::Affine3d(Eigen::Translation3d(from_B_m)));
   out.append(make_sphere(radius_m), Eigen::Affine3d(Eigen::Translation3d(to_B_m)));
   out.append(make_cylinder(radius_m, along_m.norm()),
@@ -80,8 +79,8 @@ DepthImage with_person(const TriangleMesh& person_B, const Camera& camera, const
 }
 
 DepthImage hide_robot(double share, const Camera& camera, const Pose& X_BC,
-                      const Vector3d& robot_B_m, const DepthImage& depth_m,
-                      const RobotImage& robot, std::uint32_t seed) {
+                      const Vector3d& robot_B_m, const DepthImage& depth_m, const RobotImage& robot,
+                      std::uint32_t seed) {
   Random random(seed);
   DepthImage best_m = depth_m;
   double best_error = 1;

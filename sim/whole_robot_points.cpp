@@ -29,7 +29,8 @@ double own_of_reading(const PointView& view, const SpaceSettings& settings, int 
   switch (view.fate(u, v)) {
     case PixelFate::background:
       if (std::isnan(sensed_m)) return kNone;
-      return std::min(obstacle_m - settings.free_space_margin_m, sensed_m + settings.behind_robot_m);
+      return std::min(obstacle_m - settings.free_space_margin_m,
+                      sensed_m + settings.behind_robot_m);
     case PixelFate::robot:
     case PixelFate::environment:
     case PixelFate::padding:

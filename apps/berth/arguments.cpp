@@ -1,7 +1,7 @@
 #include "apps/berth/arguments.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cctype>
@@ -184,8 +184,8 @@ void require_method(const Setting& setting, Method used) {
   for (std::size_t at = 0; (at = expected.find(' ', at)) != std::string::npos; at += 4) {
     expected.replace(at, 1, " or ");
   }
-  throw std::invalid_argument(fmt::format("method {}: has no {}; expected method {}",
-                                          name_of(used), option_of(setting.name), expected));
+  throw std::invalid_argument(fmt::format("method {}: has no {}; expected method {}", name_of(used),
+                                          option_of(setting.name), expected));
 }
 
 }  // namespace
@@ -196,8 +196,8 @@ ImageDistanceSettings EvaluationArguments::settings_over(ImageDistanceSettings s
     const auto text = given.find(setting.name);
     if (text == given.end()) return;
     require_method(setting, method_used);
-    value = parse<typename ValueOf<std::remove_cvref_t<decltype(value)>>::Type>(setting,
-                                                                               text->second);
+    value =
+        parse<typename ValueOf<std::remove_cvref_t<decltype(value)>>::Type>(setting, text->second);
   };
   visit_settings(static_cast<DistanceSettings&>(settings), take);
   visit_settings(static_cast<ImageSettings&>(settings), take);

@@ -9,11 +9,11 @@
 #include "apps/berth/run_frames.hpp"
 #include "apps/support/interrupt.hpp"
 #include "apps/support/progress_bar.hpp"
-#include "berth/scene/calibrate_scene.hpp"
 #include "berth/reports/calibration_json.hpp"
 #include "berth/reports/calibration_report.hpp"
 #include "berth/reports/calibration_table.hpp"
 #include "berth/scene/calibrate_background.hpp"
+#include "berth/scene/calibrate_scene.hpp"
 
 namespace berth::app {
 namespace {
@@ -25,13 +25,14 @@ void require_place_for(const fs::path& out, const fs::path& scene) {
   std::error_code error;
   const fs::path folder = fs::absolute(out, error).parent_path();
   if (!fs::is_directory(folder, error)) {
-    throw std::runtime_error(fmt::format("{}: cannot be written: there is no folder {}; expected one "
-                                         "that is there",
-                                         out.string(), folder.string()));
+    throw std::runtime_error(
+        fmt::format("{}: cannot be written: there is no folder {}; expected one "
+                    "that is there",
+                    out.string(), folder.string()));
   }
   if (!fs::exists(out, error) || !fs::equivalent(scene, out, error)) return;
-  throw std::runtime_error(fmt::format("{}: is the scene itself; expected another file for --out",
-                                       out.string()));
+  throw std::runtime_error(
+      fmt::format("{}: is the scene itself; expected another file for --out", out.string()));
 }
 
 OpenScene open_for_calibration_data(const fs::path& file) {
@@ -78,11 +79,13 @@ void calibrate_command(const CalibrateArguments& arguments) {
         },
         calibration.change);
   }
-  const CalibrationReport report{&material.calibration_data, &calibration.found, calibration.filters,
-                                 arguments.correct_depth, calibration.warnings};
+  const CalibrationReport report{&material.calibration_data, &calibration.found,
+                                 calibration.filters, arguments.correct_depth,
+                                 calibration.warnings};
   const std::string text = arguments.format == OutputFormat::json ? calibration_json(report) + "\n"
                                                                   : calibration_table(report);
-  if (!arguments.report_folder.empty()) write_calibration_page(arguments.report_folder, arguments.scene.string(), report);
+  if (!arguments.report_folder.empty())
+    write_calibration_page(arguments.report_folder, arguments.scene.string(), report);
   write_backgrounds(backgrounds);
   write_rewritten_scene(arguments.scene, calibration.change, arguments.out);
   std::fputs(text.c_str(), stdout);

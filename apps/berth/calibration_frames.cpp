@@ -45,7 +45,8 @@ PixelRect with_margin(const PixelRect& seen, int width, int height) {
 
 class FrameWriter {
  public:
-  FrameWriter(const std::filesystem::path& folder, std::size_t camera, const CalibratedRobot& calibrated)
+  FrameWriter(const std::filesystem::path& folder, std::size_t camera,
+              const CalibratedRobot& calibrated)
       : folder_(folder), camera_(camera), calibrated_(calibrated) {}
 
   FramePictures write(std::size_t frame, const std::optional<Side>& before,
@@ -65,7 +66,8 @@ class FrameWriter {
                           const char* name) const {
     if (!side) return {};
     const CalibrationFrame& source = calibrated_.source().frames[frame];
-    const Image<std::uint8_t> flying = flying_pixels_at_robot(calibrated_.source(), frame, side->robot);
+    const Image<std::uint8_t> flying =
+        flying_pixels_at_robot(calibrated_.source(), frame, side->robot);
     // By place, since a camera's name may hold what a file's may not.
     FramePicture picture{
         fmt::format("camera_{}_frame_{:06}_{}.png", camera_ + 1, source.number, name),
@@ -95,8 +97,9 @@ std::vector<std::size_t> frames_to_draw(const CalibrationCamera& camera,
                                       });
   for (std::size_t i = 0; i < kMostPictures; ++i) chosen[i] = i * (count - 1) / (kMostPictures - 1);
   if (worst == coverage.frames.end()) return chosen;
-  const auto at = std::find_if(camera.frames.begin(), camera.frames.end(),
-                               [&](const CalibrationFrame& f) { return f.number == worst->number; });
+  const auto at =
+      std::find_if(camera.frames.begin(), camera.frames.end(),
+                   [&](const CalibrationFrame& f) { return f.number == worst->number; });
   const auto index = static_cast<std::size_t>(at - camera.frames.begin());
   // In the place of the nearest one, so that the others stay spread.
   auto nearest = std::lower_bound(chosen.begin(), chosen.end(), index);

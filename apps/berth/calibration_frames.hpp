@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "apps/berth/residual_histogram.hpp"
-#include "berth/reports/calibration_report.hpp"
 #include "berth/reports/calibration_coverage.hpp"
+#include "berth/reports/calibration_report.hpp"
 
 namespace berth::app {
 

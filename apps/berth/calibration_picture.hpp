@@ -29,8 +29,8 @@ inline constexpr Rgb kOutlineColor{0x10, 0x10, 0x10};
 inline constexpr Rgb kBlindOutlineColor{0xC8, 0xC8, 0xC8};
 
 /// The bytes of a PNG: depth in dark grey, robot pixels in residual_color(), the model's outline,
-/// flying. Small images are enlarged by a whole factor. Throws std::runtime_error where it cannot be
-/// drawn.
+/// flying. Small images are enlarged by a whole factor. Throws std::runtime_error where it cannot
+/// be drawn.
 std::string calibration_picture_png(const CalibrationPicture& picture);
 
 /// The least rectangle that holds the robot; empty where none is seen.

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "apps/berth/commands.hpp"
-#include "apps/support/data_folders.hpp"
 #include "apps/berth/run_frames.hpp"
+#include "apps/support/data_folders.hpp"
 #include "berth/results/result_text.hpp"
 
 namespace berth::app {
@@ -18,9 +18,8 @@ namespace fs = std::filesystem;
 void demo_command(const DemoArguments& arguments) {
   if (arguments.view) {
     // Nobody's own scene lies beside the bundled one.
-    return view_command({.scene = bundled_scene_file(),
-                         .port = arguments.port,
-                         .save_folder = fs::current_path()});
+    return view_command(
+        {.scene = bundled_scene_file(), .port = arguments.port, .save_folder = fs::current_path()});
   }
   const OpenScene scene = open_scene_over(bundled_scene_file(), {});
   std::optional<float> least_m;

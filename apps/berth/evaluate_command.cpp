@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "apps/berth/commands.hpp"
-#include "apps/support/interrupt.hpp"
 #include "apps/berth/output.hpp"
-#include "berth/image_distance/image_method.hpp"
-#include "berth/image_distance/image_result.hpp"
+#include "apps/support/interrupt.hpp"
 #include "berth/files/camera_info.hpp"
 #include "berth/files/error.hpp"
 #include "berth/files/png.hpp"
+#include "berth/image_distance/image_method.hpp"
+#include "berth/image_distance/image_result.hpp"
 #include "berth/scene/gl_backend.hpp"
 
 namespace berth::app {

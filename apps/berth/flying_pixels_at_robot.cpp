@@ -32,7 +32,7 @@ bool is_inside(const Image<LinkId>& ids, Pixel p) {
 }  // namespace
 
 Image<std::uint8_t> flying_pixels_at_robot(const CalibrationCamera& camera, std::size_t frame,
-                               const RobotImage& robot) {
+                                           const RobotImage& robot) {
   const Image<LinkId>& ids = robot.link_id;
   Image<std::uint8_t> flying(ids.width(), ids.height(), 0);
   // Outwards from the outline, ring by ring; each pixel keeps the pixel of the robot it came from.

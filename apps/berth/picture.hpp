@@ -13,8 +13,8 @@
 
 namespace berth::app {
 
-/// What write_picture() draws. A pair whose pixels are not in the image is not drawn. A null pointer leaves that layer out; the images have the sensor's
-/// size.
+/// What write_picture() draws. A pair whose pixels are not in the image is not drawn. A null
+/// pointer leaves that layer out; the images have the sensor's size.
 struct PictureInput {
   DepthView sensor_depth_m;
   const RobotImage* robot = nullptr;

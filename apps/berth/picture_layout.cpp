@@ -28,9 +28,8 @@ double fixed_height_em(const PictureInput& input, int columns) {
   const auto fate_count = input.obstacles ? std::ssize(shown_fates(*input.obstacles)) : 0;
   const auto fate_rows = static_cast<double>((fate_count + columns - 1) / columns);
   const double fates = input.obstacles ? kHeadingEm + kFateRowEm * fate_rows : 0;
-  const double links = input.links ? kCardEm + kHeadingEm + kKeyEm +
-                                             (has_hidden(input) ? kHiddenKeyEm : 0)
-                                       : 0;
+  const double links =
+      input.links ? kCardEm + kHeadingEm + kKeyEm + (has_hidden(input) ? kHiddenKeyEm : 0) : 0;
   return links + fates + kScaleEm;
 }
 

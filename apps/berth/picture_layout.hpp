@@ -49,8 +49,8 @@ bool has_hidden(const PictureInput& input);
 inline constexpr double kFateRowEm = 1.3;
 inline constexpr double kScaleEm = 4.0;
 
-/// The fates that the legend lists: those of the self filter up to `flying_patch`, and of the others
-/// those that some pixel has.
+/// The fates that the legend lists: those of the self filter up to `flying_patch`, and of the
+/// others those that some pixel has.
 std::vector<PixelFate> shown_fates(const ObstacleImage& obstacles);
 
 PictureLayout layout_picture(const PictureInput& input);

@@ -29,8 +29,7 @@ struct Legend {
 };
 
 int count_of(const PictureInput& input, LinkStatus status) {
-  return static_cast<int>(
-      std::ranges::count(*input.links, status, &LinkResult::status));
+  return static_cast<int>(std::ranges::count(*input.links, status, &LinkResult::status));
 }
 
 /// Links with a distance, nearest first, then those with none in range, then those not visible.
@@ -102,8 +101,7 @@ void draw_link_row(Legend& legend, const LinkResult& link, double x, double y, b
   if (nearest) legend.canvas.fill_box({x, y, right - x, row}, kTrack, 0.3 * em);
   legend.canvas.fill_box({x + 0.25 * em, middle - 0.38 * em, 0.76 * em, 0.76 * em},
                          link_color(link.id), 0.15 * em);
-  const std::string name =
-      fit_text(legend.canvas, link.link, font, plan.name_em * em);
+  const std::string name = fit_text(legend.canvas, link.link, font, plan.name_em * em);
   const bool seen = link.status != LinkStatus::not_visible;
   legend.canvas.text({x + 1.4 * em, middle}, name, font, seen ? kInk : kFaintInk);
   legend.canvas.text({right - 0.3 * em, middle}, distance_text(link, legend.input.range_m), font,

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "berth/types/camera.hpp"
 #include "berth/pipeline/result.hpp"
+#include "berth/types/camera.hpp"
 
 namespace berth::app {
 

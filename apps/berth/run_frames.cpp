@@ -33,19 +33,18 @@ std::string speed_text(const Result& result) {
   return ", speed: " + text.substr(0, text.find(':'));
 }
 
-void draw(const fs::path& folder, const OpenScene& scene, SceneRun& run,
-          const Result& result) {
+void draw(const fs::path& folder, const OpenScene& scene, SceneRun& run, const Result& result) {
   const std::string which =
       scene.cameras.size() > 1 ? fmt::format(", camera {}", run.camera().source.name) : "";
   const std::shared_ptr<const Frame> kept = run.frame();
   const Frame& frame = *kept;
   std::vector<LinkResult> links = result.links;
   if (!result.compares_images) project_pairs(run.camera().view->camera(), frame.X_BC, links);
-  write_picture(folder_of(scene, run.camera(), folder) /
-                    fmt::format("frame_{:06}.png", run.frame_number()),
-                {run.sensor_depth_m(), &frame.robot, &frame.obstacles, &links, result.range_m,
-                 fmt::format("{}{}, frame {}, {:.3f} s{}", scene.robot->model().name, which,
-                             run.frame_number(), frame.stamp_s, speed_text(result))});
+  write_picture(
+      folder_of(scene, run.camera(), folder) / fmt::format("frame_{:06}.png", run.frame_number()),
+      {run.sensor_depth_m(), &frame.robot, &frame.obstacles, &links, result.range_m,
+       fmt::format("{}{}, frame {}, {:.3f} s{}", scene.robot->model().name, which,
+                   run.frame_number(), frame.stamp_s, speed_text(result))});
 }
 
 void say(const OpenScene& scene, const std::string& text) {

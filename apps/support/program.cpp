@@ -1,8 +1,8 @@
 #include "apps/support/program.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <tbb/global_control.h>
+#include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <exception>

@@ -26,9 +26,10 @@ PageMessage state_message(const char* state, const std::string& error = "") {
   return json_message({{"type", "calibration_data"}, {"state", state}, {"error", error}});
 }
 
-PageMessage found_message(const SceneCalibrationData& material, const SceneCalibration& calibration) {
-  const CalibrationReport report{&material.calibration_data, &calibration.found, calibration.filters, false,
-                                 calibration.warnings};
+PageMessage found_message(const SceneCalibrationData& material,
+                          const SceneCalibration& calibration) {
+  const CalibrationReport report{&material.calibration_data, &calibration.found,
+                                 calibration.filters, false, calibration.warnings};
   Json cameras = Json::array();
   for (const CameraCalibration& camera : calibration.found.cameras) {
     cameras.push_back({{"name", camera.camera},

@@ -1,7 +1,7 @@
 #include "apps/view/live_page.hpp"
 
-#include "berth/pipeline/frame_space.hpp"
 #include <fmt/format.h>
+#include "berth/pipeline/frame_space.hpp"
 
 #include <chrono>
 #include <stdexcept>
@@ -17,7 +17,8 @@ constexpr std::chrono::milliseconds kBetweenCurves{250};
 
 /// The camera's own image, where the frame has kept it.
 const DepthImage& sensor_depth_of(const Frame& frame) {
-  return frame.space->seen.has_free_depth ? frame.space->seen.sensor_depth_m : frame.obstacles.depth_m;
+  return frame.space->seen.has_free_depth ? frame.space->seen.sensor_depth_m
+                                          : frame.obstacles.depth_m;
 }
 
 }  // namespace

@@ -146,7 +146,7 @@ PageMessage settings_message(const ChangedScene& scene) {
   groups.push_back(request_group("time", now.time, original.time));
   if (scene.now().separation) {
     groups.push_back(request_group("separation", *scene.now().separation,
-                                    scene.original().separation.value_or(SeparationSettings())));
+                                   scene.original().separation.value_or(SeparationSettings())));
   }
   return json_message({{"type", "settings"}, {"groups", groups}, {"poses", poses(scene)}});
 }

@@ -16,7 +16,8 @@ bool is_on_surface(const FreeingCamera& view, const Eigen::Vector3d& p_B) {
   if (!pixel) return false;
   const double depth_m = view.space->obstacle_depth_m(pixel->u, pixel->v);
   const SpaceSettings& settings = view.space->settings;
-  return p_C.z() >= depth_m - settings.free_space_margin_m && p_C.z() <= depth_m + settings.surface_thickness_m;
+  return p_C.z() >= depth_m - settings.free_space_margin_m &&
+         p_C.z() <= depth_m + settings.surface_thickness_m;
 }
 
 CellSight sight_at(const UnknownSpace& space, const Eigen::Vector3d& p_B) {

@@ -11,9 +11,9 @@
 #include "apps/view/scene_messages.hpp"
 #include "apps/view/settings_message.hpp"
 #include "apps/view/space_grid.hpp"
+#include "berth/pipeline/frame_set.hpp"
 #include "berth/scene/rpy.hpp"
 #include "berth/scene/settings_text.hpp"
-#include "berth/pipeline/frame_set.hpp"
 
 namespace berth::app {
 namespace {

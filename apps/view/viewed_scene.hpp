@@ -11,9 +11,9 @@
 #include <string>
 #include <thread>
 
+#include "apps/view/calibration_run.hpp"
 #include "apps/view/changed_scene.hpp"
 #include "apps/view/page_message.hpp"
-#include "apps/view/calibration_run.hpp"
 #include "apps/view/timeline_run.hpp"
 #include "berth/scene/scene_run.hpp"
 
@@ -33,7 +33,8 @@ namespace berth::app {
 ///     {"do": "pose", "camera": 0, "xyz_m": [0, 0, 1], "rpy_rad": [0, 0, 0]}
 ///     {"do": "space", "on": true}
 ///     {"do": "save", "name": "mine.yaml"}
-///     {"do": "reset"}, {"do": "calibration_data"}, {"do": "drop_calibration_data"}, {"do": "take_calibration_data"}
+///     {"do": "reset"}, {"do": "calibration_data"}, {"do": "drop_calibration_data"}, {"do":
+///     "take_calibration_data"}
 ///
 /// Without `camera` a setting is that of all cameras; null in place of a value or a pose is what
 /// the file says. What is refused is published (kind "notice") with the reason.

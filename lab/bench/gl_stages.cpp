@@ -110,7 +110,8 @@ class GlStages {
       filter_.filter(camera_, sensor_depth_m_, frame_.images->robot, region_.link_id, settings,
                      frame_.images->obstacles);
     } else {
-      filter_.filter(camera_, sensor_depth_m_, frame_.images->robot, settings, frame_.images->obstacles);
+      filter_.filter(camera_, sensor_depth_m_, frame_.images->robot, settings,
+                     frame_.images->obstacles);
     }
   }
 

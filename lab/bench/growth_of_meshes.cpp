@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
-#include "berth/render/robot_renderer.hpp"
-#include "berth/scene/open_scene.hpp"
 #include "apps/support/interrupt.hpp"
 #include "apps/support/progress_bar.hpp"
 #include "berth/pipeline/observer.hpp"
+#include "berth/render/robot_renderer.hpp"
+#include "berth/scene/open_scene.hpp"
 #include "lab/bench/coarse_robot.hpp"
 #include "lab/bench/embree_rays.hpp"
 #include "lab/bench/growth.hpp"

@@ -5,11 +5,11 @@
 
 #include "apps/support/interrupt.hpp"
 #include "apps/support/progress_bar.hpp"
-#include "berth/render/robot_renderer.hpp"
+#include "berth/image_distance/image_method.hpp"
 #include "berth/image_distance/image_visibility.hpp"
 #include "berth/image_distance/mean_direction/mean_direction.hpp"
 #include "berth/pipeline/observer.hpp"
-#include "berth/image_distance/image_method.hpp"
+#include "berth/render/robot_renderer.hpp"
 #include "berth/self_filter/self_filter.hpp"
 #include "berth/sensor/sensor_rules.hpp"
 #include "berth/visibility/sample_points.hpp"
@@ -62,7 +62,7 @@ class Stages {
   }
 
   std::vector<Stage*> all() {
-    return {&render_, &self_filter_, &both_,  &tree_,     &exact_,
+    return {&render_, &self_filter_, &both_,  &tree_,    &exact_,
             &mean_,   &visibility_,  &whole_, &request_, &embree_};
   }
 
@@ -80,7 +80,7 @@ class Stages {
     tree_.take([&] { searchable_.build(frame_.obstacles.depth_m); });
     distances_.links.clear();
     const ImageRequest request{view_->camera(), frame_.robot, view_->robot()->model().link_count(),
-                            searchable_, settings_};
+                               searchable_, settings_};
     exact_.take([&] { evaluate(Method::exact, request, workspace_, distances_); });
     mean_.take([&] { fill_mean_directions(request, workspace_.directions, distances_); });
     const RobotModel& model = view_->robot()->model();
@@ -153,8 +153,8 @@ Table measure_stages(const Recording& recording, int threads, int rounds) {
                   "result and the request are the whole pipeline, with mean directions; "
                   "Embree is beside it.",
                   camera.view->camera().width_px, camera.view->camera().height_px,
-                  triangle_count(camera.view->robot()->model()), camera.view->robot()->model().link_count(), frames,
-                  rounds + 1),
+                  triangle_count(camera.view->robot()->model()),
+                  camera.view->robot()->model().link_count(), frames, rounds + 1),
       stages.all());
 }
 

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
-#include "berth/render/robot_renderer.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "berth/pipeline/query.hpp"
+#include "berth/render/robot_renderer.hpp"
 #include "berth/scene/scene_file.hpp"
 #include "berth/self_filter/self_filter.hpp"
 #include "lab/bench/coarse_robot.hpp"

@@ -28,8 +28,7 @@ void SceneSpaces::assign(const WholeRobotScene& scene, int cameras) {
   hidden_.assign(posed_);
 }
 
-void MeshMethod::ask(const SceneSpaces& spaces, const RobotPose& pose,
-                     const MeshRequest& request) {
+void MeshMethod::ask(const SceneSpaces& spaces, const RobotPose& pose, const MeshRequest& request) {
   distances_.clear();
   ask_on(spaces, pose, request);
 }

@@ -33,9 +33,10 @@ CalibrationError error_of(const TrialRobot& robot, const DrawnTrials& trials, st
       sim::draw_calibration_data(robot.model, robot.meshes, trials.drawn, seed);
   drawn.camera->X_PC =
       sim::miscalibrated(drawn.X_PC_true, trials.start.offset_m,
-                             trials.start.angle_deg * std::numbers::pi / 180, seed + 100);
+                         trials.start.angle_deg * std::numbers::pi / 180, seed + 100);
   const Stopwatch stopwatch;
-  const CalibrationResult found = calibrate(drawn.calibration_data, {.joint_zeros = trials.joint_zeros});
+  const CalibrationResult found =
+      calibrate(drawn.calibration_data, {.joint_zeros = trials.joint_zeros});
   CalibrationError error;
   error.time_s = stopwatch.ms() / 1000;
   const CameraCalibration& camera = found.cameras[0];
@@ -54,8 +55,8 @@ CalibrationError error_of(const TrialRobot& robot, const DrawnTrials& trials, st
     error.joint = std::fmax(error.joint, std::abs(offset->second - drawn.joint_shift[j]));
   }
   const bool is_carried = trials.drawn.mount != sim::DrawnMount::root;
-  error.robot_m = (is_carried ? seen_points_apart_m : robot_points_apart_m)(drawn, camera.X_PC,
-                                                                            joint_offsets);
+  error.robot_m =
+      (is_carried ? seen_points_apart_m : robot_points_apart_m)(drawn, camera.X_PC, joint_offsets);
   return error;
 }
 
@@ -67,7 +68,8 @@ double median_of(std::vector<double> values) {
 }  // namespace
 
 const char* const kDrawnHeading =
-    "| what is wrong | calibrations | refused | robot points, median mm | worst mm | clock, worst ms | "
+    "| what is wrong | calibrations | refused | robot points, median mm | worst mm | clock, worst "
+    "ms | "
     "depth at 1.5 m, worst % | joints told | worst degrees | median s | worst s |\n"
     "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n";
 
@@ -78,10 +80,11 @@ void measure_drawn(const std::vector<TrialRobot>& robots, const DrawnTrials& tri
     for (int seed = 1; seed <= trials.seeds; ++seed) {
       const CalibrationError error = error_of(robot, trials, static_cast<std::uint32_t>(seed));
       if (trials.prints_each) {
-        fmt::print(stderr, "{} {}: {} robot {:.2f} mm (halves {:.2f}), clock {:.2f} ms, depth {:.3f} %, "
+        fmt::print(stderr,
+                   "{} {}: {} robot {:.2f} mm (halves {:.2f}), clock {:.2f} ms, depth {:.3f} %, "
                    "joints {:.3f} deg, {:.1f} s\n",
-                   robot.name, seed, error.refused, 1000 * error.robot_m,
-                   1000 * error.halves_m, 1000 * error.clock_s, 100 * error.depth_share,
+                   robot.name, seed, error.refused, 1000 * error.robot_m, 1000 * error.halves_m,
+                   1000 * error.clock_s, 100 * error.depth_share,
                    error.joint * 180 / std::numbers::pi, error.time_s);
       }
       time_s.push_back(error.time_s);

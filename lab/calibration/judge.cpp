@@ -67,7 +67,7 @@ Calibrated calibration_data(const SceneFile& file) {
   calibrated.time_s = stopwatch.ms() / 1000;
   const CameraSettings& settings = scene.cameras[0].view->settings();
   calibrated.proposal = propose_filter(material.calibration_data, 0, calibrated.found, false,
-                                   settings.self_filter, settings.sensor);
+                                       settings.self_filter, settings.sensor);
   return calibrated;
 }
 
@@ -115,18 +115,19 @@ Judgement judge(const SceneFile& file, const std::filesystem::path& folder) {
       (range.is_checked ? judgement.checked_in_range : judgement.estimates_in_range) += is_inside;
       judgement.too_far += !(link.distance_m <= range.max_m + kFarMargin_m);
     }
-    count_mask(folder / fmt::format("reference/robot_mask_{:06}.png", i), camera.view->camera(), frame,
-               depth_m, judgement);
+    count_mask(folder / fmt::format("reference/robot_mask_{:06}.png", i), camera.view->camera(),
+               frame, depth_m, judgement);
   }
   return judgement;
 }
 
 std::string text_of(const Judgement& judgement) {
-  return fmt::format("{} of {} checked rows in range, {} of {} estimates, {} too far; of {} mask "
-                     "pixels {} left, {} of them at the robot's depth",
-                     judgement.checked_in_range, judgement.checked, judgement.estimates_in_range,
-                     judgement.estimates, judgement.too_far, judgement.mask_pixels,
-                     judgement.mask_pixels_left, judgement.robot_pixels_left);
+  return fmt::format(
+      "{} of {} checked rows in range, {} of {} estimates, {} too far; of {} mask "
+      "pixels {} left, {} of them at the robot's depth",
+      judgement.checked_in_range, judgement.checked, judgement.estimates_in_range,
+      judgement.estimates, judgement.too_far, judgement.mask_pixels, judgement.mask_pixels_left,
+      judgement.robot_pixels_left);
 }
 
 }  // namespace berth::lab

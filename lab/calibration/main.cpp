@@ -12,7 +12,8 @@
 
 int main(int argc, char** argv) {
   namespace lab = berth::lab;
-  CLI::App app("Measures calibration: recordings from random starts, drawn scenes with known truth");
+  CLI::App app(
+      "Measures calibration: recordings from random starts, drawn scenes with known truth");
   std::filesystem::path data;
   std::string robot;
   int starts = 0;
@@ -33,7 +34,8 @@ int main(int argc, char** argv) {
   app.add_option("--poses", trials.drawn.poses);
   app.add_flag("--moves", trials.drawn.moves, "Images are taken while the robot moves");
   app.add_flag("--hand", is_on_hand, "The camera is fixed to the last link that a joint turns");
-  app.add_flag("--upper-link", is_on_upper_link, "The camera is fixed to a link half the way up the arm");
+  app.add_flag("--upper-link", is_on_upper_link,
+               "The camera is fixed to a link half the way up the arm");
   app.add_option("--depth-share", trials.drawn.errors.depth_share);
   app.add_option("--clock-s", trials.drawn.errors.clock_offset_s);
   app.add_option("--joint-zero-deg", zero_deg);
@@ -52,11 +54,12 @@ int main(int argc, char** argv) {
     std::erase_if(robots, [&](const lab::TrialRobot& one) {
       return one.name.find(robot) == std::string::npos;
     });
-    fmt::print("{}| start {:.0f} cm, {:.0f} degrees off, depth {:g} %, clock {:g} ms, joints {:g} "
-               "degrees, {} poses | {} ",
-               lab::kDrawnHeading, 100 * trials.start.offset_m, trials.start.angle_deg,
-               100 * trials.drawn.errors.depth_share, 1000 * trials.drawn.errors.clock_offset_s,
-               zero_deg, trials.drawn.poses, robots.size() * trials.seeds);
+    fmt::print(
+        "{}| start {:.0f} cm, {:.0f} degrees off, depth {:g} %, clock {:g} ms, joints {:g} "
+        "degrees, {} poses | {} ",
+        lab::kDrawnHeading, 100 * trials.start.offset_m, trials.start.angle_deg,
+        100 * trials.drawn.errors.depth_share, 1000 * trials.drawn.errors.clock_offset_s, zero_deg,
+        trials.drawn.poses, robots.size() * trials.seeds);
     lab::measure_drawn(robots, trials);
     return 0;
   } catch (const std::exception& error) {

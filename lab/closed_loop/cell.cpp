@@ -59,8 +59,8 @@ std::shared_ptr<const Robot> cell_robot() {
   return std::make_shared<const Robot>(cell_model(), settings);
 }
 
-std::vector<std::shared_ptr<const MountedCamera>> cell_views(const std::shared_ptr<const Robot>& robot,
-                                                    const std::vector<int>& cameras) {
+std::vector<std::shared_ptr<const MountedCamera>> cell_views(
+    const std::shared_ptr<const Robot>& robot, const std::vector<int>& cameras) {
   const std::vector<CellCamera> all = cell_cameras();
   CameraSettings settings = settings_of_real_camera();
   settings.sensor.speckle_px = 8;

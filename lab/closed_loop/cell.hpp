@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "berth/pipeline/robot.hpp"
 #include "berth/pipeline/mounted_camera.hpp"
+#include "berth/pipeline/robot.hpp"
 #include "berth/separation/settings.hpp"
 
 namespace berth::lab {
@@ -39,7 +39,7 @@ std::shared_ptr<const Robot> cell_robot();
 
 /// Of these cameras, by their place in cell_cameras(). Settings are the defaults, but for speckle:
 /// these cameras mix pixels at outlines.
-std::vector<std::shared_ptr<const MountedCamera>> cell_views(const std::shared_ptr<const Robot>& robot,
-                                                    const std::vector<int>& cameras);
+std::vector<std::shared_ptr<const MountedCamera>> cell_views(
+    const std::shared_ptr<const Robot>& robot, const std::vector<int>& cameras);
 
 }  // namespace berth::lab

@@ -34,8 +34,7 @@ RecordingCount count_view(const JudgedView& view, const FilterChoice& choice) {
   self_filter(view.camera, view.depth_m, view.robot, choice.filter, workspace, obstacles);
   apply_sensor_rules(view.depth_m, view.robot, {}, choice.sensor, sensor, obstacles);
   const LinkDistances distances = distances_of(view, obstacles.depth_m);
-  const auto rejected =
-      with_rejected(view.camera, view.robot, view.depth_m, obstacles, distances);
+  const auto rejected = with_rejected(view.camera, view.robot, view.depth_m, obstacles, distances);
   RecordingCount count;
   for (std::size_t i = 0; i < view.expected.size(); ++i) {
     const ExpectedRange& range = view.expected[i];

@@ -10,7 +10,7 @@ namespace berth::lab {
 /// How many links' distances lie where.
 struct RangeCount {
   int in_range = 0;
-  int too_far = 0;   ///< by more than kFarMargin_m
+  int too_far = 0;    ///< by more than kFarMargin_m
   int a_bit_far = 0;  ///< by less
   int too_near = 0;
 

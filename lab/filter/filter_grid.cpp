@@ -43,17 +43,27 @@ std::string FilterGrid::heading() const {
 
 std::vector<FilterChoice> FilterGrid::choices() const {
   std::vector<FilterChoice> all(1);
-  cross(tolerance_m, [](FilterChoice& c) -> auto& { return c.filter.tolerance_m; }, all);
-  cross(padding_m, [](FilterChoice& c) -> auto& { return c.filter.padding_m; }, all);
+  cross(
+      tolerance_m, [](FilterChoice & c) -> auto& { return c.filter.tolerance_m; }, all);
+  cross(
+      padding_m, [](FilterChoice & c) -> auto& { return c.filter.padding_m; }, all);
   cross(
       environment_padding_m,
-      [](FilterChoice& c) -> auto& { return c.filter.environment_padding_m; }, all);
-  cross(padding_depth_m, [](FilterChoice& c) -> auto& { return c.filter.padding_depth_m; }, all);
-  cross(dilation_px, [](FilterChoice& c) -> auto& { return c.filter.dilation_px; }, all);
-  cross(edge_jump_m, [](FilterChoice& c) -> auto& { return c.filter.edge_jump_m; }, all);
-  cross(flying_patch_radius_m, [](FilterChoice& c) -> auto& { return c.filter.flying_patch_radius_m; }, all);
-  cross(flying_patch_jump_m, [](FilterChoice& c) -> auto& { return c.filter.flying_patch_jump_m; }, all);
-  cross(speckle_px, [](FilterChoice& c) -> auto& { return c.sensor.speckle_px; }, all);
+      [](FilterChoice & c) -> auto& { return c.filter.environment_padding_m; }, all);
+  cross(
+      padding_depth_m, [](FilterChoice & c) -> auto& { return c.filter.padding_depth_m; }, all);
+  cross(
+      dilation_px, [](FilterChoice & c) -> auto& { return c.filter.dilation_px; }, all);
+  cross(
+      edge_jump_m, [](FilterChoice & c) -> auto& { return c.filter.edge_jump_m; }, all);
+  cross(
+      flying_patch_radius_m,
+      [](FilterChoice & c) -> auto& { return c.filter.flying_patch_radius_m; }, all);
+  cross(
+      flying_patch_jump_m, [](FilterChoice & c) -> auto& { return c.filter.flying_patch_jump_m; },
+      all);
+  cross(
+      speckle_px, [](FilterChoice & c) -> auto& { return c.sensor.speckle_px; }, all);
   return all;
 }
 

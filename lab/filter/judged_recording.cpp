@@ -4,8 +4,8 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "berth/scene/open_scene.hpp"
 #include "berth/render/robot_renderer.hpp"
+#include "berth/scene/open_scene.hpp"
 #include "sim/random.hpp"
 
 namespace berth::lab {

@@ -8,8 +8,8 @@
 
 #include "lab/filter/count_ranges.hpp"
 #include "lab/filter/filter_grid.hpp"
-#include "lab/trust/trial_robots.hpp"
 #include "lab/filter/truth_rows.hpp"
+#include "lab/trust/trial_robots.hpp"
 
 namespace {
 

@@ -49,9 +49,9 @@ std::vector<Trial> run_trials(const std::vector<TrialRobot>& robots,
     // Else a waiting thread would begin another scene on top of this one.
     tbb::this_task_arena::isolate([&] {
       const auto [width_px, height_px] = kSizes_px[i % 3];
-      trials[i] = run_trial(robots[i / 3 % robots.size()],
-                            {.width_px = width_px, .height_px = height_px},
-                            static_cast<std::uint32_t>(i), conditions);
+      trials[i] =
+          run_trial(robots[i / 3 % robots.size()], {.width_px = width_px, .height_px = height_px},
+                    static_cast<std::uint32_t>(i), conditions);
     });
   });
   return trials;
@@ -79,7 +79,7 @@ struct Excess {
   }
 };
 
-constexpr double kFar_m = 0.1;       ///< farther than what tolerance and padding take
+constexpr double kFar_m = 0.1;         ///< farther than what tolerance and padding take
 constexpr double kFalseZero_m = 0.02;  ///< a distance of 0 where nothing is nearer than this
 
 std::string row(const std::string& cells, const std::vector<Trial>& trials, std::size_t condition) {
@@ -100,10 +100,11 @@ std::string row(const std::string& cells, const std::vector<Trial>& trials, std:
   for (const Sample& sample : covered(condition + 1)) {
     if (sample.is_ok()) over_rejected.add(sample.over_seen_m());
   }
-  return fmt::format("{}| {:.1f} | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {:.1f} | {:.0f} | {} | {} |\n",
-                     cells, over.share_percent(), over.at_mm(0.99), over.at_mm(1), far.at_mm(1),
-                     over_rejected.at_mm(0.99), over_rejected.at_mm(1), under.share_percent(),
-                     under.at_mm(0.5), zeros, lost);
+  return fmt::format(
+      "{}| {:.1f} | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {:.1f} | {:.0f} | {} | {} |\n",
+      cells, over.share_percent(), over.at_mm(0.99), over.at_mm(1), far.at_mm(1),
+      over_rejected.at_mm(0.99), over_rejected.at_mm(1), under.share_percent(), under.at_mm(0.5),
+      zeros, lost);
 }
 
 /// Of links that are farther than with the ideal filter.
@@ -130,9 +131,11 @@ void print_drawn_truth(const FilterGrid& grid, const std::vector<TrialRobot>& ro
   for (const Condition& sensor : sensors()) {
     const std::vector<Condition> conditions = with_choices(sensor, choices);
     const std::vector<Trial> trials = run_trials(robots, conditions, scenes);
-    fmt::print("\n## {} drawn scenes; {}\n{}| too large % | 99 % | greatest | beyond 10 cm | with rejected: "
-               "99 % | greatest | too small % | median | false 0 | lost |\n",
-               scenes, sensor.table.substr(std::string(kSettingsTable).size()), grid.heading());
+    fmt::print(
+        "\n## {} drawn scenes; {}\n{}| too large % | 99 % | greatest | beyond 10 cm | with "
+        "rejected: "
+        "99 % | greatest | too small % | median | false 0 | lost |\n",
+        scenes, sensor.table.substr(std::string(kSettingsTable).size()), grid.heading());
     for (std::size_t i = 0; i < choices.size(); ++i)
       fmt::print("{}", row(choices[i].cells, trials, 2 * i));
     std::fflush(stdout);
@@ -150,9 +153,11 @@ void print_real_images(const FilterGrid& grid, const std::vector<TrialRobot>& ro
                            static_cast<std::uint32_t>(i));
     });
   });
-  fmt::print("\n## Robots in real images, {} tries\n{}| links | farther % | median | 99 % | greatest | with "
-             "rejected: 99 % | greatest | false 0 | lost |\n",
-             scenes, grid.heading());
+  fmt::print(
+      "\n## Robots in real images, {} tries\n{}| links | farther % | median | 99 % | greatest | "
+      "with "
+      "rejected: 99 % | greatest | false 0 | lost |\n",
+      scenes, grid.heading());
   std::vector<RealRow> rows(choices.size());
   tbb::parallel_for(std::size_t{0}, choices.size(), [&](std::size_t c) {
     tbb::this_task_arena::isolate([&] {
@@ -170,8 +175,8 @@ void print_real_images(const FilterGrid& grid, const std::vector<TrialRobot>& ro
   });
   for (std::size_t c = 0; c < choices.size(); ++c) {
     RealRow& r = rows[c];
-    fmt::print("{}| {} | {:.1f} | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {} | {} |\n", choices[c].cells,
-               r.farther.links, r.farther.share_percent(), r.farther.at_mm(0.5),
+    fmt::print("{}| {} | {:.1f} | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {} | {} |\n",
+               choices[c].cells, r.farther.links, r.farther.share_percent(), r.farther.at_mm(0.5),
                r.farther.at_mm(0.99), r.farther.at_mm(1), r.farther_rejected.at_mm(0.99),
                r.farther_rejected.at_mm(1), r.zeros, r.lost);
   }

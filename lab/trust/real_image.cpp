@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "berth/render/robot_renderer.hpp"
-#include "berth/image_distance/evaluate.hpp"
 #include "berth/files/png.hpp"
+#include "berth/image_distance/evaluate.hpp"
+#include "berth/render/robot_renderer.hpp"
 #include "sim/drawn_obstacles.hpp"
 #include "sim/drawn_scene.hpp"
 #include "sim/sensor_model.hpp"

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <limits>
 
-#include "berth/render/robot_renderer.hpp"
-#include "berth/image_distance/rejected_distances.hpp"
 #include "berth/image_distance/evaluate.hpp"
+#include "berth/image_distance/rejected_distances.hpp"
+#include "berth/render/robot_renderer.hpp"
 #include "berth/self_filter/self_filter.hpp"
 #include "lab/trust/scene_images.hpp"
 #include "sim/other_metric.hpp"

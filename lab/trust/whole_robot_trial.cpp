@@ -178,10 +178,10 @@ std::vector<WholeRobotCondition> whole_robot_conditions() {
   add("clean images, ideal filter", MeasuredFilter::ideal);
   add("clean images, default filter", MeasuredFilter::berth);
   add("sensor, default filter", MeasuredFilter::berth).image = sim::kKinectErrors;
-  // What calibration finds with this sensor and drawn robots (docs/calibration.md): settings, and what
-  // is left of the pose's error.
-  WholeRobotCondition& calibrated =
-      add("sensor, after calibration: 1 mm and 0.05° off, filter 2 cm, 2 cm", MeasuredFilter::berth);
+  // What calibration finds with this sensor and drawn robots (docs/calibration.md): settings, and
+  // what is left of the pose's error.
+  WholeRobotCondition& calibrated = add(
+      "sensor, after calibration: 1 mm and 0.05° off, filter 2 cm, 2 cm", MeasuredFilter::berth);
   calibrated.image = sim::kKinectErrors;
   calibrated.pose = {.offset_m = 0.001, .angle_rad = 0.0009};
   calibrated.self_filter = narrow_filter();

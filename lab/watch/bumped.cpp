@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "berth/render/robot_renderer.hpp"
 #include "berth/watch/frame_displacement.hpp"
 #include "berth/watch/pose_watch.hpp"
-#include "berth/render/robot_renderer.hpp"
 #include "lab/watch/hidden_image.hpp"
 #include "sim/sensor_model.hpp"
 
@@ -72,7 +72,8 @@ void each_bumped_second(const OpenCamera& camera, const Bump& bump, int nth, con
     for (const Eigen::Vector3d& direction : directions()) {
       const Pose X_CC = Eigen::Translation3d(bump.offset_m * direction) *
                         Pose(Eigen::AngleAxisd(bump.angle_rad, direction));
-      take(Second{images, believed.robot(camera.at_exposure[k], X_CC), camera.at_exposure[k], X_CC});
+      take(
+          Second{images, believed.robot(camera.at_exposure[k], X_CC), camera.at_exposure[k], X_CC});
     }
   }
 }
@@ -99,16 +100,21 @@ SeenThroughs seen_throughs(const Second& second) {
 FrameDisplacement displacement_of(const OpenCamera& camera, const Pose& X_CC) {
   const RobotModel& model = camera.view->robot()->model();
   const CameraMount& mount = camera.view->mount();
-  return {model, camera.view->robot()->meshes(), mount.camera, *model.find_link(mount.parent_link),
-          mount.X_PC * X_CC, 0};
+  return {model,
+          camera.view->robot()->meshes(),
+          mount.camera,
+          *model.find_link(mount.parent_link),
+          mount.X_PC * X_CC,
+          0};
 }
 
 /// Whether T or D raises an alarm within the second.
 bool is_watch_alarm(const OpenCamera& camera, const Second& second, const WatchSettings& rule) {
   const FrameDisplacement displacement = displacement_of(camera, second.X_CC);
-  PoseWatch watch(rule, [&](DepthView depth_m, const JointState& joints, const std::stop_token& stop) {
-    return displacement.measure(depth_m, joints, stop);
-  });
+  PoseWatch watch(rule,
+                  [&](DepthView depth_m, const JointState& joints, const std::stop_token& stop) {
+                    return displacement.measure(depth_m, joints, stop);
+                  });
   JointState joints = second.joints;
   for (std::size_t i = 0; i < second.images.size(); ++i) {
     joints.stamp_s = static_cast<double>(i) / kFramesPerSecond;
@@ -183,9 +189,9 @@ bool is_alarm(const SeenThroughs& frames, const WatchSettings& rule) {
 }
 
 double alarm_share(const std::vector<SeenThroughs>& seconds, const WatchSettings& rule) {
-  const auto alarms = std::count_if(seconds.begin(), seconds.end(), [&](const SeenThroughs& frames) {
-    return is_alarm(frames, rule);
-  });
+  const auto alarms =
+      std::count_if(seconds.begin(), seconds.end(),
+                    [&](const SeenThroughs& frames) { return is_alarm(frames, rule); });
   return static_cast<double>(alarms) / static_cast<double>(seconds.size());
 }
 

@@ -1,11 +1,11 @@
-// What T, and T and D together, say of cameras that were bumped, and of cameras that were not while somebody hides the
-// robot: one second at 30 Hz of each.
+// What T, and T and D together, say of cameras that were bumped, and of cameras that were not while
+// somebody hides the robot: one second at 30 Hz of each.
 #pragma once
 
 #include <vector>
 
-#include "berth/watch/watch_settings.hpp"
 #include "berth/scene/open_scene.hpp"
+#include "berth/watch/watch_settings.hpp"
 
 namespace berth::lab {
 

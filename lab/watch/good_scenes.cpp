@@ -21,8 +21,8 @@ void move_camera(OpenScene& scene, std::size_t c, double offset_m, double angle_
   sim::Random random(300 + seed);
   CameraMount mount = scene.cameras[c].view->mount();
   const Eigen::Vector3d offset = offset_m * direction(random);
-  mount.X_PC = mount.X_PC * Eigen::Translation3d(offset) *
-               Eigen::AngleAxisd(angle_rad, direction(random));
+  mount.X_PC =
+      mount.X_PC * Eigen::Translation3d(offset) * Eigen::AngleAxisd(angle_rad, direction(random));
   set_mount(scene, scene.cameras[c], mount);
 }
 

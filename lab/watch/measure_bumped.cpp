@@ -38,7 +38,8 @@ void print_row(const Measured& camera, const WatchSettings& rule) {
   fmt::print("| {} | {:.1f} % | {} of {} | {:.0f} % | {:.0f} % | {:.0f} % | {} | {:.0f} of {} |\n",
              camera.name, 100 * rule.max_seen_through, rule.agreeing_frames, rule.frames,
              100 * alarm_share(camera.by_2_cm, rule), 100 * alarm_share(camera.by_5_cm, rule),
-             100 * alarm_share(camera.by_2_deg, rule), is_alarm(camera.own, rule) ? "alarm" : "none",
+             100 * alarm_share(camera.by_2_deg, rule),
+             is_alarm(camera.own, rule) ? "alarm" : "none",
              alarm_share(camera.hidden, rule) * static_cast<double>(camera.hidden.size()),
              camera.hidden.size());
 }
@@ -47,18 +48,28 @@ void print_camera(const Measured& camera) {
   double hidden = -1;
   for (const SeenThroughs& second : camera.hidden) hidden = std::max(hidden, greatest(second));
   const WatchSettings learned = learned_limits(camera.own, {});
-  fmt::print("\n{}: greatest T {:.2f} % of its own frames, {:.2f} % with people; learned limit {:.2f} %\n\n",
-             camera.name, 100 * greatest(camera.own), 100 * hidden,
-             100 * learned.max_seen_through);
-  fmt::print("| camera | limit | frames | 2 cm | 5 cm | 2 deg | own frames | people |\n"
-             "| --- | --- | --- | --- | --- | --- | --- | --- |\n");
+  fmt::print(
+      "\n{}: greatest T {:.2f} % of its own frames, {:.2f} % with people; learned limit {:.2f} "
+      "%\n\n",
+      camera.name, 100 * greatest(camera.own), 100 * hidden, 100 * learned.max_seen_through);
+  fmt::print(
+      "| camera | limit | frames | 2 cm | 5 cm | 2 deg | own frames | people |\n"
+      "| --- | --- | --- | --- | --- | --- | --- | --- |\n");
   WatchSettings rule = learned;
   for (const double limit : {0.01, 0.015, 0.02, 0.025, 0.03, 0.035, 0.04, 0.06}) {
     rule.max_seen_through = limit;
     print_row(camera, rule);
   }
-  for (const auto& [agreeing, frames] : {std::pair{1, 1}, {2, 3}, {5, 5}, {6, 9}, {8, 10}, {8, 15},
-                                         {10, 15}, {14, 15}, {20, 30}, {30, 30}}) {
+  for (const auto& [agreeing, frames] : {std::pair{1, 1},
+                                         {2, 3},
+                                         {5, 5},
+                                         {6, 9},
+                                         {8, 10},
+                                         {8, 15},
+                                         {10, 15},
+                                         {14, 15},
+                                         {20, 30},
+                                         {30, 30}}) {
     rule = learned;
     rule.agreeing_frames = agreeing;
     rule.frames = frames;
@@ -93,8 +104,9 @@ int run(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   const OpenScene scene = open_scene(scene_file);
   if (whole_watch) {
-    fmt::print("| camera | T | D | 2 cm | 2 degrees | 1 degree | not bumped | people |\n"
-               "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
+    fmt::print(
+        "| camera | T | D | 2 cm | 2 degrees | 1 degree | not bumped | people |\n"
+        "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
     for (const OpenCamera& camera : scene.cameras) print_whole_watch(camera, nth, draws);
     return 0;
   }

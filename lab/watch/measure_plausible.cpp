@@ -1,5 +1,5 @@
-// measure_plausible: which simple mistakes in a scene are found and named right, and how often there
-// is an alarm for nothing.
+// measure_plausible: which simple mistakes in a scene are found and named right, and how often
+// there is an alarm for nothing.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -74,9 +74,10 @@ void print_good(const OpenScene& scene, const std::string& name, int draws, cons
 }
 
 void print_scene(const OpenScene& scene, int draws, bool says) {
-  fmt::print("\n{}\n\n| | found | named right | named wrong | at the surface, single images |\n"
-             "| --- | ---: | ---: | ---: | ---: |\n",
-             scene.file.parent_path().filename().string());
+  fmt::print(
+      "\n{}\n\n| | found | named right | named wrong | at the surface, single images |\n"
+      "| --- | ---: | ---: | ---: | ---: |\n",
+      scene.file.parent_path().filename().string());
   for (const MadeMistake& mistake : mistakes_in(scene)) {
     Count count;
     if (says) fmt::print(stderr, "{}\n", mistake.name);
@@ -98,7 +99,8 @@ void print_scene(const OpenScene& scene, int draws, bool says) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app{"Which simple mistakes in a scene are found and named, and what is found for nothing"};
+  CLI::App app{
+      "Which simple mistakes in a scene are found and named, and what is found for nothing"};
   std::vector<std::string> files;
   int draws = 50;
   bool says = false;

@@ -121,8 +121,7 @@ void add_depths(const OpenScene& scene, Mistakes& all) {
 void add_cameras(Mistakes& all) {
   for (const double factor : {0.5, 2.0, 1.3}) {
     all.push_back({fmt::format("focal length times {}", factor),
-                   factor == 1.3 ? "" : "focal length",
-                   other_mount([factor](CameraMount& mount) {
+                   factor == 1.3 ? "" : "focal length", other_mount([factor](CameraMount& mount) {
                      mount.camera.fx_px *= factor;
                      mount.camera.fy_px *= factor;
                    })});
@@ -140,9 +139,8 @@ void add_poses(Mistakes& all) {
                    mount.X_PC.linear() = mirror * mount.X_PC.linear() * mirror;
                    mount.X_PC.translation().y() *= -1;
                  })});
-  all.push_back({"`y` with the wrong sign", "pose's y", other_mount([](CameraMount& mount) {
-                   mount.X_PC.translation().y() *= -1;
-                 })});
+  all.push_back({"`y` with the wrong sign", "pose's y",
+                 other_mount([](CameraMount& mount) { mount.X_PC.translation().y() *= -1; })});
   all.push_back({"pose the other way round", "in the camera's frame",
                  other_mount([](CameraMount& mount) { mount.X_PC = mount.X_PC.inverse(); })});
   all.push_back({"quaternion conjugated", "rotation were the other way round",
@@ -162,11 +160,11 @@ void add_images(const OpenScene& scene, Mistakes& all) {
   if (scene.cameras.size() > 1) {
     all.push_back({"another camera's images", "of camera", swap_poses});
   }
-  all.push_back({"dead camera: one depth", "are the same",
-                 each_reading([](float) { return 1.5F; })});
+  all.push_back(
+      {"dead camera: one depth", "are the same", each_reading([](float) { return 1.5F; })});
   all.push_back({"dead camera: one image", "do not change", freeze});
-  all.push_back({"dead camera: no reading", "hardly a pixel",
-                 each_reading([](float) { return kNoDepth; })});
+  all.push_back(
+      {"dead camera: no reading", "hardly a pixel", each_reading([](float) { return kNoDepth; })});
 }
 
 void add_joints(const OpenScene& scene, Mistakes& all) {
@@ -177,8 +175,7 @@ void add_joints(const OpenScene& scene, Mistakes& all) {
     }
   };
   all.push_back({"joints in degrees", "joints were in degrees", each_position(degrees)});
-  all.push_back({"joints 2 and 3 swapped",
-                 fmt::format("{} and {}", joints[1].name, joints[2].name),
+  all.push_back({"joints 2 and 3 swapped", fmt::format("{} and {}", joints[1].name, joints[2].name),
                  each_position([](auto& position) { std::swap(position[1], position[2]); })});
   all.push_back({"joints in reverse order", "order were the other way round",
                  each_position([](auto& position) { std::ranges::reverse(position); })});

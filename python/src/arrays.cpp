@@ -86,7 +86,9 @@ DepthInput depth_of(const py::object& depth, std::optional<double> scale_m) {
   const DepthUnits units;
   copy_rows<float>(
       array,
-      [&](float z_m) { return reading_or_none(static_cast<double>(z_m) * scale_m.value_or(1), units); },
+      [&](float z_m) {
+        return reading_or_none(static_cast<double>(z_m) * scale_m.value_or(1), units);
+      },
       input);
   return input;
 }
@@ -95,14 +97,16 @@ Pose pose_of(const py::object& pose, const char* name) {
   const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(pose);
   if (!array || array.ndim() != 2 || array.shape(0) != 4 || array.shape(1) != 4) {
     PyErr_Clear();
-    throw std::invalid_argument(fmt::format("{}: no matrix of 4 x 4 numbers; expected a pose", name));
+    throw std::invalid_argument(
+        fmt::format("{}: no matrix of 4 x 4 numbers; expected a pose", name));
   }
   Eigen::Matrix4d matrix;
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < 4; ++j) matrix(i, j) = array.at(i, j);
   }
   if (matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1)) {
-    throw std::invalid_argument(fmt::format("{}: the last row is not 0 0 0 1; expected a pose", name));
+    throw std::invalid_argument(
+        fmt::format("{}: the last row is not 0 0 0 1; expected a pose", name));
   }
   return Pose(matrix);
 }
@@ -120,7 +124,8 @@ JointState joints_of(const RobotModel& model, const py::object& joints, double s
   JointState state;
   state.stamp_s = stamp_s;
   if (!py::isinstance<py::dict>(joints)) {
-    const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(joints);
+    const auto array =
+        py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(joints);
     if (!array || array.ndim() != 1) {
       PyErr_Clear();
       throw std::invalid_argument("joints: expected a row of numbers, or a dict of them by name");

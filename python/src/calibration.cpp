@@ -2,9 +2,9 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "arrays.hpp"
-#include "berth/scene/calibrate_scene.hpp"
 #include "berth/reports/calibration_json.hpp"
 #include "berth/reports/calibration_table.hpp"
+#include "berth/scene/calibrate_scene.hpp"
 #include "bindings.hpp"
 
 namespace berth::python {
@@ -18,13 +18,13 @@ struct CalibrationHandle {
   SceneCalibration calibration;
 
   CalibrationReport report() const {
-    return {&material.calibration_data, &calibration.found, calibration.filters, settings.correct_depth,
-            calibration.warnings};
+    return {&material.calibration_data, &calibration.found, calibration.filters,
+            settings.correct_depth, calibration.warnings};
   }
 };
 
-std::shared_ptr<CalibrationHandle> calibrate_file(const std::filesystem::path& file, bool joint_zeros,
-                                                  bool correct_depth) {
+std::shared_ptr<CalibrationHandle> calibrate_file(const std::filesystem::path& file,
+                                                  bool joint_zeros, bool correct_depth) {
   const auto pause = [] {
     const py::gil_scoped_acquire acquire;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -87,10 +87,12 @@ void bind_calibration(py::module_& m) {
           "List[str]: what makes the result worse than it could be")
       .def("write", &write, py::arg("new_scene"),
            "Writes the user's scene file with what was found to another file.")
-      .def("to_json", [](const H& h) { return calibration_json(h.report()); },
-           "As `berth calibrate --format json`.")
-      .def("table", [](const H& h) { return calibration_table(h.report()); },
-           "As `berth calibrate` prints it.");
+      .def(
+          "to_json", [](const H& h) { return calibration_json(h.report()); },
+          "As `berth calibrate --format json`.")
+      .def(
+          "table", [](const H& h) { return calibration_table(h.report()); },
+          "As `berth calibrate` prints it.");
   m.def("calibrate", &calibrate_file, py::arg("scene_file"), py::arg("joint_zeros") = false,
         py::arg("correct_depth") = false,
         "Calibration of a scene file: its cameras' poses and clocks, and settings that fit them.\n"

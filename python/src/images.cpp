@@ -2,8 +2,8 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "arrays.hpp"
-#include "berth/image_distance/evaluate.hpp"
 #include "berth/files/png.hpp"
+#include "berth/image_distance/evaluate.hpp"
 #include "berth/pipeline/robot.hpp"
 #include "berth/render/robot_renderer.hpp"
 #include "berth/self_filter/self_filter.hpp"
@@ -39,17 +39,18 @@ RobotImage robot_image(const Camera& camera, const py::object& depth_m, const py
   const DepthInput depth = depth_of(depth_m, {});
   require_size(camera, depth.view.width, depth.view.height, "robot_depth_m");
   if (link_id.ndim() != 2) throw std::invalid_argument("link_id: expected rows and columns");
-  require_size(camera, static_cast<int>(link_id.shape(1)), static_cast<int>(link_id.shape(0)), "link_id");
+  require_size(camera, static_cast<int>(link_id.shape(1)), static_cast<int>(link_id.shape(0)),
+               "link_id");
   robot.depth_m = DepthImage(camera.width_px, camera.height_px, kNoDepth);
   robot.link_id = Image<LinkId>(camera.width_px, camera.height_px, kNoLink);
   for (int v = 0; v < camera.height_px; ++v) {
     for (int u = 0; u < camera.width_px; ++u) {
       const LinkId id = link_id.at(v, u);
       if ((id == kNoLink) != std::isnan(depth.view(u, v))) {
-        throw std::invalid_argument(
-            fmt::format("link_id: {} at ({}, {}), where robot_depth_m is {}; expected 0 exactly where "
-                        "there is no depth",
-                        id, u, v, depth.view(u, v)));
+        throw std::invalid_argument(fmt::format(
+            "link_id: {} at ({}, {}), where robot_depth_m is {}; expected 0 exactly where "
+            "there is no depth",
+            id, u, v, depth.view(u, v)));
       }
       robot.depth_m(u, v) = depth.view(u, v);
       robot.link_id(u, v) = id;
@@ -71,9 +72,9 @@ py::tuple render(const RobotModel& model, const py::object& joints, const Camera
   return py::make_tuple(owned(std::move(image.depth_m)), owned(std::move(image.link_id)));
 }
 
-py::tuple filter(const py::object& depth, const py::object& robot_depth_m, const py::object& link_id,
-                 const Camera& camera, const SelfFilterSettings& settings,
-                 std::optional<double> depth_scale) {
+py::tuple filter(const py::object& depth, const py::object& robot_depth_m,
+                 const py::object& link_id, const Camera& camera,
+                 const SelfFilterSettings& settings, std::optional<double> depth_scale) {
   validate(settings);
   const DepthInput input = depth_of(depth, depth_scale);
   require_size(camera, input.view.width, input.view.height, "depth");
@@ -106,8 +107,8 @@ py::list evaluate_images(const py::object& robot_depth_m, const py::object& link
   const RobotImage robot = robot_image(camera, robot_depth_m, link_id);
   for (const LinkId id : robot.link_id.pixels()) {
     if (id <= link_count || id == kEnvironmentLink) continue;
-    throw std::invalid_argument(
-        fmt::format("link_id: {}; expected numbers up to link_count, which is {}, or 65535", id, link_count));
+    throw std::invalid_argument(fmt::format(
+        "link_id: {}; expected numbers up to link_count, which is {}, or 65535", id, link_count));
   }
   const DepthInput obstacles = depth_of(obstacle_depth_m, {});
   require_size(camera, obstacles.view.width, obstacles.view.height, "obstacle_depth_m");
@@ -120,9 +121,7 @@ py::list evaluate_images(const py::object& robot_depth_m, const py::object& link
     evaluate(chosen, {camera, robot, link_count, searchable, settings}, workspace, distances);
   }
   py::list links;
-  const auto point = [](const Eigen::Vector3f& p) {
-    return py::array_t<float>(3, p.data());
-  };
+  const auto point = [](const Eigen::Vector3f& p) { return py::array_t<float>(3, p.data()); };
   for (const LinkDistance& link : distances.links) {
     links.append(py::dict(
         py::arg("status") = link.status, py::arg("distance_m") = link.distance_m,
@@ -171,7 +170,8 @@ void bind_images(py::module_& m) {
         "For berth.io.write_depth.");
   m.def("evaluate", &evaluate_images, py::arg("robot_depth_m"), py::arg("link_id"),
         py::arg("obstacle_depth_m"), py::arg("camera"), py::arg("link_count"),
-        py::arg("method") = "exact", py::arg("range_m") = 1.0, py::arg("tolerance_m") = std::nullopt,
+        py::arg("method") = "exact", py::arg("range_m") = 1.0,
+        py::arg("tolerance_m") = std::nullopt,
         "The distances between the links in one image and what is in another, up to range_m, by\n"
         "a method that compares images: exact, brute_force or lattice. exact may stop once it\n"
         "knows a distance to tolerance_m. One dict for each link, in frame C.");

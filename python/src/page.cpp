@@ -19,8 +19,8 @@ std::vector<std::filesystem::path> package_page_folders() {
 }
 
 std::unique_ptr<app::LivePage> make_page(const std::shared_ptr<Robot>& robot,
-                                         const std::vector<std::shared_ptr<MountedCamera>>& views, int port,
-                                         const std::string& bind) {
+                                         const std::vector<std::shared_ptr<MountedCamera>>& views,
+                                         int port, const std::string& bind) {
   std::vector<app::PageCamera> cameras;
   for (const auto& view : views) cameras.push_back({view->mount().name, view->camera()});
   return std::make_unique<app::LivePage>(robot, cameras, app::PageAddress{bind, port},
@@ -43,7 +43,8 @@ void bind_page(py::module_& m) {
       .def("show", &show, py::arg("result"), py::arg("frames"),
            "Shows a result and the frames that it is about, one or None for each view. Waits for\n"
            "no browser: one that is slower misses some.");
-  m.def("view", &make_page, py::arg("robot"), py::arg("views"), py::arg("port") = 8080, py::arg("bind") = "127.0.0.1",
+  m.def("view", &make_page, py::arg("robot"), py::arg("views"), py::arg("port") = 8080,
+        py::arg("bind") = "127.0.0.1",
         "Serves a page that shows the robot and what these views see. port 0 takes any that is\n"
         "free; with another address than this computer's own the URL has a token.");
 }

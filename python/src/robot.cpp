@@ -37,8 +37,8 @@ std::shared_ptr<RobotModel> load(const std::filesystem::path& urdf,
                                  const std::vector<std::string>& environment_links,
                                  const std::vector<std::string>& ignore_links,
                                  const std::optional<std::string>& urdf_text) {
-  const RobotSettings settings{urdf,         package_paths, geometry_of(geometry), environment_links,
-                               ignore_links, urdf_text};
+  const RobotSettings settings{
+      urdf, package_paths, geometry_of(geometry), environment_links, ignore_links, urdf_text};
   const py::gil_scoped_release release;
   return std::make_shared<RobotModel>(load_robot(settings));
 }
@@ -113,12 +113,14 @@ void bind_robot(py::module_& m) {
         py::arg("package_paths") = std::map<std::string, std::filesystem::path>{},
         py::arg("geometry") = "visual", py::arg("environment_links") = std::vector<std::string>{},
         py::arg("ignore_links") = std::vector<std::string>{}, py::arg("urdf_text") = std::nullopt,
-        "Loads a URDF and its meshes. Links in environment_links are environment: filtered out of the\n"
+        "Loads a URDF and its meshes. Links in environment_links are environment: filtered out of "
+        "the\n"
         "images, not evaluated. geometry: visual or collision. Raises FileNotFoundError or\n"
         "ValueError that names file, place, value and what was expected.");
   py::class_<Robot, std::shared_ptr<Robot>>(
       m, "Robot", "A robot, and how requests about it are answered. Constant; share it.")
-      .def(py::init(&make_robot), py::arg("model"), py::arg_v("evaluation", EvaluationSettings{}, "EvaluationSettings()"),
+      .def(py::init(&make_robot), py::arg("model"),
+           py::arg_v("evaluation", EvaluationSettings{}, "EvaluationSettings()"),
            py::arg_v("time", TimeSettings{}, "TimeSettings()"))
       .def_property_readonly("model", &Robot::model, py::return_value_policy::reference_internal,
                              "RobotModel: its links and joints")

@@ -93,16 +93,19 @@ void bind_scene(py::module_& m) {
           "Result: of the robot as it stood then, against the newest image of each camera, or\n"
           "that one image where the scene's method compares images");
   py::class_<SceneIterator>(m, "SceneIterator", "A run of a scene.")
-      .def("__iter__", [](SceneIterator& self) -> SceneIterator& { return self; },
-           py::return_value_policy::reference)
+      .def(
+          "__iter__", [](SceneIterator& self) -> SceneIterator& { return self; },
+          py::return_value_policy::reference)
       .def("__next__", &SceneIterator::next);
-  py::class_<SceneHandle>(m, "Scene",
-                          "A scene file and all that it names, read and checked. Iterating over it\n"
-                          "runs it, each time anew.")
+  py::class_<SceneHandle>(
+      m, "Scene",
+      "A scene file and all that it names, read and checked. Iterating over it\n"
+      "runs it, each time anew.")
       .def_property_readonly(
           "file", [](const SceneHandle& h) { return h.scene->file.string(); }, "str: its path")
       .def_property_readonly(
-          "robot", [](const SceneHandle& h) { return std::const_pointer_cast<Robot>(h.scene->robot); },
+          "robot",
+          [](const SceneHandle& h) { return std::const_pointer_cast<Robot>(h.scene->robot); },
           "Robot: with the scene's evaluation settings")
       .def_property_readonly("views", &views, "List[MountedCamera]: one for each camera")
       .def("__len__", [](const SceneHandle& h) { return h.scene->frame_count; })

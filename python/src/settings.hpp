@@ -87,7 +87,8 @@ void set_setting(const std::string& group, const std::string& name, const py::ha
     visit_settings(settings, [&](const Setting& setting, const auto&) {
       names += (names.empty() ? "" : ", ") + std::string(setting.name);
     });
-    throw py::type_error(fmt::format("{}: \"{}\" is no setting; expected one of {}", group, name, names));
+    throw py::type_error(
+        fmt::format("{}: \"{}\" is no setting; expected one of {}", group, name, names));
   }
   settings = changed;
 }
@@ -139,14 +140,17 @@ void bind_settings(py::module_& m, const char* name, const std::string& group, c
         text.c_str());
   });
   settings.def("as_dict", &dict_of<Settings>, "as_dict(self) -> Dict[str, object]\n\nAll by name.");
-  settings.def("__repr__", [name = std::string(name)](const Settings& own) {
-    std::string text;
-    visit_settings(own, [&](const Setting& setting, const auto& value) {
-      text += fmt::format("{}{}={}", text.empty() ? "" : ", ", setting.name,
-                          std::string(py::repr(value_of(value))));
-    });
-    return name + "(" + text + ")";
-  }, "__repr__(self) -> str");
+  settings.def(
+      "__repr__",
+      [name = std::string(name)](const Settings& own) {
+        std::string text;
+        visit_settings(own, [&](const Setting& setting, const auto& value) {
+          text += fmt::format("{}{}={}", text.empty() ? "" : ", ", setting.name,
+                              std::string(py::repr(value_of(value))));
+        });
+        return name + "(" + text + ")";
+      },
+      "__repr__(self) -> str");
 }
 
 }  // namespace berth::python

@@ -1,8 +1,8 @@
 #include <string>
 
 #include "berth/types/camera_status.hpp"
-#include "berth/types/result_status.hpp"
 #include "berth/types/obstacle_image.hpp"
+#include "berth/types/result_status.hpp"
 #include "berth/types/space_pair.hpp"
 #include "berth/types/time_status.hpp"
 #include "bindings.hpp"

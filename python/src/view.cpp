@@ -13,11 +13,12 @@ namespace berth::python {
 namespace {
 
 std::shared_ptr<MountedCamera> make_view(std::shared_ptr<Robot> robot, const Camera& camera,
-                                const std::string& parent_link, const py::object& X_PC,
-                                const SelfFilterSettings& self_filter, const SensorSettings& sensor,
-                                const SpaceSettings& space, const WatchSettings& watch,
-                                const std::map<std::string, double>& link_padding_m,
-                                const std::string& name) {
+                                         const std::string& parent_link, const py::object& X_PC,
+                                         const SelfFilterSettings& self_filter,
+                                         const SensorSettings& sensor, const SpaceSettings& space,
+                                         const WatchSettings& watch,
+                                         const std::map<std::string, double>& link_padding_m,
+                                         const std::string& name) {
   CameraSettings settings{self_filter, link_padding_m, sensor, space, watch};
   CameraMount mount{camera, parent_link, pose_of(X_PC, "X_PC"), name};
   return std::make_shared<MountedCamera>(std::move(robot), std::move(mount), std::move(settings));
@@ -26,7 +27,8 @@ std::shared_ptr<MountedCamera> make_view(std::shared_ptr<Robot> robot, const Cam
 /// An observer that several threads may call, one after another.
 class SharedObserver {
  public:
-  explicit SharedObserver(const std::shared_ptr<MountedCamera>& view) : view_(view), observer_(view) {}
+  explicit SharedObserver(const std::shared_ptr<MountedCamera>& view)
+      : view_(view), observer_(view) {}
 
   std::shared_ptr<Frame> observe(const py::object& depth, const py::object& joints, double stamp_s,
                                  std::optional<double> depth_scale, double clock_offset_s) {
@@ -68,9 +70,7 @@ class SharedObserver {
 /// An array that looks into an image of a frame and keeps the frame.
 template <class Get>
 auto image_of(const Get& get) {
-  return [get](const py::object& self) {
-    return array_of(get(self.cast<const Frame&>()), self);
-  };
+  return [get](const py::object& self) { return array_of(get(self.cast<const Frame&>()), self); };
 }
 
 void bind_camera(py::module_& m) {
@@ -90,8 +90,9 @@ void bind_camera(py::module_& m) {
       .def_readonly("cx_px", &Camera::cx_px, "float: column of the optical axis")
       .def_readonly("cy_px", &Camera::cy_px, "float: row of the optical axis")
       .def("__repr__", [](const Camera& c) {
-        return fmt::format("Camera(width_px={}, height_px={}, fx_px={}, fy_px={}, cx_px={}, cy_px={})",
-                           c.width_px, c.height_px, c.fx_px, c.fy_px, c.cx_px, c.cy_px);
+        return fmt::format(
+            "Camera(width_px={}, height_px={}, fx_px={}, fy_px={}, cx_px={}, cy_px={})", c.width_px,
+            c.height_px, c.fx_px, c.fy_px, c.cx_px, c.cy_px);
       });
   m.def("read_camera_info", &read_camera_info, py::arg("file"),
         "The intrinsics of a ROS camera_info file (YAML) of rectified images.");
@@ -111,15 +112,15 @@ void bind_frame(py::module_& m) {
       .def_property_readonly(
           "X_BC", [](const Frame& f) { return array_of(f.X_BC); },
           "numpy.ndarray: the camera's pose in the robot's root frame, 4 x 4")
-      .def_property_readonly("robot_depth_m",
-                             image_of([](const Frame& f) -> auto& { return f.robot.depth_m; }),
-                             "numpy.ndarray: the robot's surface, rows x columns, float32; NaN elsewhere")
-      .def_property_readonly("link_id",
-                             image_of([](const Frame& f) -> auto& { return f.robot.link_id; }),
-                             "numpy.ndarray: i + 1 where link_names[i] is seen, 65535 for environment, else 0")
-      .def_property_readonly("obstacle_depth_m",
-                             image_of([](const Frame& f) -> auto& { return f.obstacles.depth_m; }),
-                             "numpy.ndarray: what is left without the robot, float32; NaN elsewhere")
+      .def_property_readonly(
+          "robot_depth_m", image_of([](const Frame& f) -> auto& { return f.robot.depth_m; }),
+          "numpy.ndarray: the robot's surface, rows x columns, float32; NaN elsewhere")
+      .def_property_readonly(
+          "link_id", image_of([](const Frame& f) -> auto& { return f.robot.link_id; }),
+          "numpy.ndarray: i + 1 where link_names[i] is seen, 65535 for environment, else 0")
+      .def_property_readonly(
+          "obstacle_depth_m", image_of([](const Frame& f) -> auto& { return f.obstacles.depth_m; }),
+          "numpy.ndarray: what is left without the robot, float32; NaN elsewhere")
       .def_property_readonly("fate",
                              image_of([](const Frame& f) -> auto& { return f.obstacles.fate; }),
                              "numpy.ndarray: what became of each pixel, numbers of PixelFate")
@@ -135,10 +136,12 @@ void bind_frame(py::module_& m) {
 
 void bind_view(py::module_& m) {
   bind_camera(m);
-  py::class_<MountedCamera, std::shared_ptr<MountedCamera>>(m, "MountedCamera", "One camera that sees the robot. Constant; share it.")
+  py::class_<MountedCamera, std::shared_ptr<MountedCamera>>(
+      m, "MountedCamera", "One camera that sees the robot. Constant; share it.")
       .def(py::init(&make_view), py::arg("robot"), py::arg("camera"), py::arg("parent_link"),
            py::arg("X_PC"), py::arg_v("self_filter", SelfFilterSettings{}, "SelfFilterSettings()"),
-           py::arg_v("sensor", SensorSettings{}, "SensorSettings()"), py::arg_v("space", SpaceSettings{}, "SpaceSettings()"),
+           py::arg_v("sensor", SensorSettings{}, "SensorSettings()"),
+           py::arg_v("space", SpaceSettings{}, "SpaceSettings()"),
            py::arg_v("watch", CameraSettings{}.watch, "WatchSettings(tell_only=True)"),
            py::arg("link_padding_m") = std::map<std::string, double>{}, py::arg("name") = "camera",
            "X_PC is the pose, 4 x 4, of the camera's optical frame C in the frame P of\n"

@@ -27,9 +27,9 @@
 // expected. Trouble with time is no exception but a status of the result (TimeStatus).
 #pragma once
 
+#include "berth/pipeline/mounted_camera.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "berth/pipeline/query.hpp"
 #include "berth/pipeline/robot.hpp"
-#include "berth/pipeline/mounted_camera.hpp"
 #include "berth/robot/joint_buffer.hpp"
 #include "berth/robot/robot_model.hpp"

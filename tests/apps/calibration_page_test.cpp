@@ -122,10 +122,9 @@ TEST(CalibrationPage, ARefusedPoseProposesNothing) {
   small.found().halves_m = std::nan("");
   small.proposal = {};
   const Page page(small.report());
-  EXPECT_EQ(
-      page.texts("//p[@class='lead refused']"),
-      Texts{"The scene's pose stays: the images agree by 0.20 "
-            "of 2."});
+  EXPECT_EQ(page.texts("//p[@class='lead refused']"),
+            Texts{"The scene's pose stays: the images agree by 0.20 "
+                  "of 2."});
   EXPECT_TRUE(page.has("None are proposed"));
   EXPECT_EQ(page.pictures().size(), 5);
   EXPECT_FALSE(page.has("not known at the clock"));
@@ -139,7 +138,8 @@ TEST(CalibrationPage, FramesWithoutReadingsOrRobotAreShown) {
   EXPECT_EQ(no_readings.pictures().size(), 6);
   EXPECT_TRUE(no_readings.has("In frame 0 only 0 % of the robot has readings"));
 
-  for (CalibrationFrame& frame : small.camera.frames) frame.depth_m = DepthImage(160, 120, kNoDepth);
+  for (CalibrationFrame& frame : small.camera.frames)
+    frame.depth_m = DepthImage(160, 120, kNoDepth);
   small.found().X_PC.translation().x() = 50;
   small.found().before = small.found().after = {std::nan(""), std::nan(""), std::nan("")};
   const Page no_robot(small.report());

@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "apps/berth/calibration_frames.hpp"
-#include "apps/berth/residual_colors.hpp"
 #include "apps/berth/flying_pixels_at_robot.hpp"
+#include "apps/berth/residual_colors.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace berth::app {

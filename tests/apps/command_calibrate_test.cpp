@@ -58,9 +58,8 @@ TEST(CalibrateCommand, TheNewSceneOpensAndRunsAndTheOldOneStays) {
   const DrawnCell cell = small_cell();
   const std::string scene_before = read_file_bytes(cell.scene());
   std::filesystem::create_directory(cell / "calibrated");
-  const Outcome outcome = run_berth(
-      cell.folder(), {"calibrate", "cell/scene.yaml", "--out", "calibrated/new.yaml", "--report",
-                      "report"});
+  const Outcome outcome = run_berth(cell.folder(), {"calibrate", "cell/scene.yaml", "--out",
+                                                    "calibrated/new.yaml", "--report", "report"});
   ASSERT_EQ(outcome.exit_status, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
   EXPECT_NE(outcome.out.find("camera"), std::string::npos);
@@ -86,10 +85,9 @@ TEST(CalibrateCommand, TheNewSceneOpensAndRunsAndTheOldOneStays) {
 
 TEST(CalibrateCommand, JsonIsOneLineWithTheKeysOfItsFormat) {
   const DrawnCell cell = small_cell();
-  const Json json = json_of(run_berth(
-      cell.folder(),
-      {"calibrate", "cell/scene.yaml", "--out", "new.yaml", "--format", "json", "--joint-zeros",
-       "--correct-depth", "--threads", "1"}));
+  const Json json = json_of(
+      run_berth(cell.folder(), {"calibrate", "cell/scene.yaml", "--out", "new.yaml", "--format",
+                                "json", "--joint-zeros", "--correct-depth", "--threads", "1"}));
   EXPECT_EQ(json.at("schema"), "berth/calibration/1");
   EXPECT_EQ(json.at("frames_used"), 3);
   EXPECT_TRUE(json.at("joint_offsets").is_object());
@@ -149,7 +147,8 @@ TEST(CalibrateCommand, WhatCannotBeCalibratedIsRefusedAndNothingIsWritten) {
 
   const std::string joints = read_file_bytes(cell / "cell/joints.csv");
   std::string still = joints.substr(0, joints.find('\n') + 1);
-  const std::string row = joints.substr(still.size(), joints.find('\n', still.size()) - still.size());
+  const std::string row =
+      joints.substr(still.size(), joints.find('\n', still.size()) - still.size());
   const std::string positions = row.substr(row.find(','));
   for (int f = 0; f < 3; ++f) still += fmt::format("{}{}\n", f, positions);
   cell.write("cell/joints.csv", still);

@@ -23,7 +23,8 @@ TEST(CommandImplausible, OneOfTwoCamerasIsSaidAndTheOtherAnswers) {
   const Outcome outcome = scene.berth({"run", "scene.yaml", "--method", "mesh"});
   EXPECT_EQ(outcome.exit_status, 0) << outcome.err;
   EXPECT_NE(outcome.err.find("camera wrong: the robot is not where it should be"),
-            std::string::npos) << outcome.err;
+            std::string::npos)
+      << outcome.err;
   EXPECT_NE(outcome.err.find("depth_scale were 0.001"), std::string::npos) << outcome.err;
   EXPECT_EQ(outcome.err.find("camera front: "), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.out.find("wrong (implausible"), std::string::npos) << outcome.out;

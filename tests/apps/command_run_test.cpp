@@ -26,12 +26,12 @@ TEST(Run, JsonHasTheKeysOfTheSchemaAndNoOthers) {
   ASSERT_EQ(frames.size(), 3U);
   for (int i = 0; i < 3; ++i) {
     const Json& frame = frames[i];
-    EXPECT_EQ(keys_of(frame),
-              (std::set<std::string>{"schema", "frame", "stamp_s", "joints_stamp_s", "status", "time",
-                                     "method", "range_m", "nearest", "pairs", "cameras", "links"}));
+    EXPECT_EQ(keys_of(frame), (std::set<std::string>{"schema", "frame", "stamp_s", "joints_stamp_s",
+                                                     "status", "time", "method", "range_m",
+                                                     "nearest", "pairs", "cameras", "links"}));
     EXPECT_EQ(keys_of(frame["cameras"][0]),
-              (std::set<std::string>{"camera", "frame", "stamp_s", "age_s", "status", "seen_through",
-                                     "displacement_m", "at_robot", "self_filter"}));
+              (std::set<std::string>{"camera", "frame", "stamp_s", "age_s", "status",
+                                     "seen_through", "displacement_m", "at_robot", "self_filter"}));
     EXPECT_EQ(frame["status"], "ok");
     EXPECT_EQ(keys_of(frame["time"]),
               (std::set<std::string>{"status", "frame_age_s", "joints_age_s", "skew_s"}));
@@ -46,13 +46,26 @@ TEST(Run, JsonHasTheKeysOfTheSchemaAndNoOthers) {
     EXPECT_EQ(frame["range_m"], 2);
     EXPECT_GT(frame["pairs"].get<int>(), 0);
     for (const Json& link : frame["links"]) {
-      EXPECT_EQ(keys_of(link), (std::set<std::string>{
-                                   "id", "link", "is_moved", "status", "distance_m",
-                                   "lower_bound_m", "robot_point_base_m", "obstacle_point_base_m",
-                                   "camera", "obstacle_pixel", "obstacle_is", "occupied",
-                                   "mean_direction_base", "mean_direction_camera", "mean_count", "robot_point_camera_m",
-                                   "obstacle_point_camera_m", "robot_pixel", "robot_pixels",
-                                   "visibility"}));
+      EXPECT_EQ(keys_of(link), (std::set<std::string>{"id",
+                                                      "link",
+                                                      "is_moved",
+                                                      "status",
+                                                      "distance_m",
+                                                      "lower_bound_m",
+                                                      "robot_point_base_m",
+                                                      "obstacle_point_base_m",
+                                                      "camera",
+                                                      "obstacle_pixel",
+                                                      "obstacle_is",
+                                                      "occupied",
+                                                      "mean_direction_base",
+                                                      "mean_direction_camera",
+                                                      "mean_count",
+                                                      "robot_point_camera_m",
+                                                      "obstacle_point_camera_m",
+                                                      "robot_pixel",
+                                                      "robot_pixels",
+                                                      "visibility"}));
     }
   }
 }

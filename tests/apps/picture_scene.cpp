@@ -209,12 +209,8 @@ LinkResult closest_pair(const RobotImage& robot, const DepthImage& obstacles, Li
 }  // namespace
 
 PictureInput PictureScene::input() const {
-  return {sensor_depth_m,
-          &robot,
-          &obstacles,
-          &links,
-          kRange_m,
-          "A made-up frame: an arm, a person, two boxes"};
+  return {sensor_depth_m, &robot,   &obstacles,
+          &links,         kRange_m, "A made-up frame: an arm, a person, two boxes"};
 }
 
 PictureScene make_picture_scene(int width_px, int height_px, int links) {
@@ -226,8 +222,8 @@ PictureScene make_picture_scene(int width_px, int height_px, int links) {
   for (int id = 1; id <= links; ++id) {
     scene.links.push_back(
         closest_pair(scene.robot, scene.obstacles.depth_m, static_cast<LinkId>(id)));
-    scene.links.back().link = links > 16 ? fmt::format("segment_{}_of_the_snake_link", id)
-                                         : fmt::format("link_{}", id);
+    scene.links.back().link =
+        links > 16 ? fmt::format("segment_{}_of_the_snake_link", id) : fmt::format("link_{}", id);
   }
   LinkResult far;
   far.id = scene.links.front().id;

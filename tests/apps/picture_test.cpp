@@ -80,9 +80,7 @@ struct OneLink {
     link.image.robot_pixel = {60, 60};
     link.obstacle_pixel = {80, 60};
   }
-  PictureInput input() const {
-    return {sensor_depth_m, nullptr, nullptr, &links, 1.0, ""};
-  }
+  PictureInput input() const { return {sensor_depth_m, nullptr, nullptr, &links, 1.0, ""}; }
   PictureInput without_distances() const {
     return {sensor_depth_m, nullptr, nullptr, nullptr, 1.0, ""};
   }

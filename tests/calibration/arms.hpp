@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "berth/render/robot_renderer.hpp"
 #include "berth/calibration/calibrate.hpp"
+#include "berth/render/robot_renderer.hpp"
 #include "sim/drawn_calibration_data.hpp"
 
 namespace berth {
@@ -16,7 +16,8 @@ struct Arm {
   explicit Arm(const RobotSettings& settings)
       : model(load_robot(settings)), meshes(build_link_meshes(model)) {}
 
-  sim::DrawnCalibrationData draw(const sim::DrawnCalibrationSettings& settings, std::uint32_t seed) const {
+  sim::DrawnCalibrationData draw(const sim::DrawnCalibrationSettings& settings,
+                                 std::uint32_t seed) const {
     return sim::draw_calibration_data(model, meshes, settings, seed);
   }
 };

@@ -95,7 +95,8 @@ TEST(CalibrateRules, ACameraThatSeesNoRobotIsRefused) {
   expect_refused(drawn);
   // And one that looks away, so that the robot is never in the image.
   DrawnCalibrationData away = draw_small(1, 3);
-  away.camera->X_PC = away.camera->X_PC * Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitY());
+  away.camera->X_PC =
+      away.camera->X_PC * Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitY());
   EXPECT_TRUE(expect_refused(away).starts_with(
       "nothing of the robot is seen where the scene has the camera, in any of its 3 frames, and no "
       "pose was found that explains the images: the best agrees by "));
@@ -163,8 +164,8 @@ DepthImage room_m(const Camera& camera, const Pose& X_BC) {
   for (int v = 0; v < camera.height_px; ++v) {
     for (int u = 0; u < camera.width_px; ++u) {
       const Eigen::Vector3d ray =
-          X_BC.linear() * Eigen::Vector3d((u - camera.cx_px) / camera.fx_px,
-                                          (v - camera.cy_px) / camera.fy_px, 1);
+          X_BC.linear() *
+          Eigen::Vector3d((u - camera.cx_px) / camera.fx_px, (v - camera.cy_px) / camera.fy_px, 1);
       double z_m = 100;
       for (int i = 0; i < 3; ++i) {
         const double wall_m = (ray[i] > 0 ? high[i] : low[i]) - X_BC.translation()[i];

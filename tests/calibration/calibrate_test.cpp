@@ -32,7 +32,8 @@ TEST(Calibrate, ThePoseComesBackFromFiveCentimetresAndDegrees) {
     EXPECT_EQ(camera.clock_offset_s, 0);
     EXPECT_EQ(std::count(camera.not_determined.begin(), camera.not_determined.end(), "pose"), 0);
     EXPECT_EQ(
-        std::count(camera.not_determined.begin(), camera.not_determined.end(), "clock_offset_s"), 1);
+        std::count(camera.not_determined.begin(), camera.not_determined.end(), "clock_offset_s"),
+        1);
     EXPECT_TRUE(found.joint_offsets.empty());
   }
   std::sort(errors_m.begin(), errors_m.end());
@@ -101,7 +102,8 @@ TEST(Calibrate, TheClocksOffsetIsFound) {
 }
 
 TEST(Calibrate, AnOffsetThatTheSceneHasIsBuiltUpon) {
-  DrawnCalibrationData drawn = bundled_arm().draw({.moves = true, .errors = {.clock_offset_s = 0.045}}, 2);
+  DrawnCalibrationData drawn =
+      bundled_arm().draw({.moves = true, .errors = {.clock_offset_s = 0.045}}, 2);
   // The stamps stay; what is believed of the joints goes with the offset.
   drawn.camera->clock_offset_s = 0.030;
   for (CalibrationFrame& frame : drawn.camera->frames) {

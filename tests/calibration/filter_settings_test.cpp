@@ -7,8 +7,8 @@
 
 #include "berth/render/robot_renderer.hpp"
 #include "berth/robot/kinematics.hpp"
-#include "tests/calibration/arms.hpp"
 #include "sim/sensor_model.hpp"
+#include "tests/calibration/arms.hpp"
 
 namespace berth {
 namespace {
@@ -49,8 +49,9 @@ class FilterProposalOf : public ::testing::Test {
       for (int v = 0; v < depth_m.height(); ++v) {
         for (int u = 0; u < depth_m.width(); ++u) {
           if (!is_arm(robot.link_id(u, v))) continue;
-          const PixelRect near = clip({u - width_px, v - width_px, u + width_px + 1, v + width_px + 1},
-                                      depth_m.width(), depth_m.height());
+          const PixelRect near =
+              clip({u - width_px, v - width_px, u + width_px + 1, v + width_px + 1},
+                   depth_m.width(), depth_m.height());
           for (int b = near.v_begin; b < near.v_end; ++b) {
             for (int a = near.u_begin; a < near.u_end; ++a) {
               if (std::hypot(a - u, b - v) > width_px || robot.link_id(a, b) != kNoLink) continue;

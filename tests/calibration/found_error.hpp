@@ -33,7 +33,8 @@ inline std::vector<double> joint_offsets(const RobotModel& model, const Calibrat
 }
 
 /// In the mean over the robot's points.
-inline double robot_error_m(const sim::DrawnCalibrationData& drawn, const CalibrationResult& found) {
+inline double robot_error_m(const sim::DrawnCalibrationData& drawn,
+                            const CalibrationResult& found) {
   return lab::robot_points_apart_m(drawn, found.cameras[0].X_PC,
                                    joint_offsets(*drawn.calibration_data.model, found));
 }

@@ -36,7 +36,8 @@ TEST(JointZeros, ToldOnesAreRightAndTheFirstAndTheLastAreNeverTold) {
 }
 
 TEST(JointZeros, WhereTheyAreRightWhatIsToldIsNothing) {
-  sim::DrawnCalibrationData drawn = bundled_arm().draw({.width_px = 320, .height_px = 240, .poses = 10}, 3);
+  sim::DrawnCalibrationData drawn =
+      bundled_arm().draw({.width_px = 320, .height_px = 240, .poses = 10}, 3);
   const CalibrationResult found = calibrate(drawn.calibration_data, {.joint_zeros = true});
   for (const auto& [joint, offset] : found.joint_offsets) {
     EXPECT_NEAR(offset, 0, 0.3 * kDegree) << joint;

@@ -20,8 +20,7 @@ class Recording : public ::testing::TestWithParam<const char*> {
   }
 
   void expect_good(const SceneFile& start, const lab::Calibrated& calibrated) const {
-    const lab::Judgement judged =
-        lab::judge(lab::with_result(start, calibrated), folder_);
+    const lab::Judgement judged = lab::judge(lab::with_result(start, calibrated), folder_);
     SCOPED_TRACE(lab::text_of(judged));
     EXPECT_EQ(judged.too_far, 0);
     EXPECT_GT(judged.checked + judged.estimates, 15);
@@ -58,8 +57,7 @@ TEST_P(Recording, StartsThatAreOffComeBackAndTheirSettingsAreGood) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, Recording,
-                         ::testing::Values("xarm7_realsense", "lbr_med7_zed2i"),
+INSTANTIATE_TEST_SUITE_P(Both, Recording, ::testing::Values("xarm7_realsense", "lbr_med7_zed2i"),
                          [](const auto& one) { return std::string(one.param); });
 
 }  // namespace

@@ -44,8 +44,7 @@ TEST(Uncertainty, ATurnAboutADistantMiddleMovesTheCamera) {
   EXPECT_NEAR(found.xyz_m.y(), 0.003, 1e-6);
   EXPECT_LT(found.xyz_m.z(), 1e-5);
   // In the parent's axes, not the camera's.
-  fitted.estimate.cameras[0].X_PC =
-      Pose(Eigen::AngleAxisd(EIGEN_PI / 2, Eigen::Vector3d::UnitY()));
+  fitted.estimate.cameras[0].X_PC = Pose(Eigen::AngleAxisd(EIGEN_PI / 2, Eigen::Vector3d::UnitY()));
   EXPECT_LT(deviation_of(fitted, fitted, fitted, 0).xyz_m.x(), 1e-5);
 }
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "sim/drawn_obstacles.hpp"
-#include "tests/support/thinned.hpp"
 #include "tests/distance/plain_distance.hpp"
+#include "tests/support/thinned.hpp"
 
 namespace berth::testing {
 namespace {
@@ -221,8 +221,8 @@ TEST(MeshCertified, AtEveryRange) {
     for (const float range_m : {0.01f, 0.05f, 0.2f, 3.0f}) {
       const auto found = prepared.ask({range_m, 1e-3});
       for (std::size_t i = 0; i < found.size(); ++i) {
-        expect_certified(space, i, found[i].occupied, plain_pixel_distance(world, i, false, range_m),
-                         range_m);
+        expect_certified(space, i, found[i].occupied,
+                         plain_pixel_distance(world, i, false, range_m), range_m);
         expect_certified(space, i, found[i].nearest, plain_pixel_distance(world, i, true, range_m),
                          range_m);
       }

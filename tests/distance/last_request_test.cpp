@@ -141,8 +141,7 @@ TEST(LastRequest, AnotherSpaceOrRobotIsANewStart) {
     const MeshWorld world = small_world(seed);
     const PreparedWorld prepared(world);
     Requester requester{&prepared, std::move(workspace), {}};
-    expect_agree(requester.ask(world.pose, {.deadline_us = 0}),
-                 ask_anew(prepared, world.pose, {}));
+    expect_agree(requester.ask(world.pose, {.deadline_us = 0}), ask_anew(prepared, world.pose, {}));
     requester.ask(world.pose, {});
     workspace = std::move(requester.workspace);
   }

@@ -44,9 +44,9 @@ MeshWorldView draw_view(sim::Random& random, const MeshWorldSettings& settings) 
 
 PixelFate draw_fate(sim::Random& random) {
   constexpr PixelFate kFates[] = {
-      PixelFate::edge,       PixelFate::flying_patch,   PixelFate::speckle,
-      PixelFate::padding,    PixelFate::dilation, PixelFate::averaged,
-      PixelFate::background, PixelFate::hole,     PixelFate::outside_region};
+      PixelFate::edge,       PixelFate::flying_patch, PixelFate::speckle,
+      PixelFate::padding,    PixelFate::dilation,     PixelFate::averaged,
+      PixelFate::background, PixelFate::hole,         PixelFate::outside_region};
   return kFates[random.whole(0, 8)];
 }
 
@@ -106,7 +106,8 @@ PreparedWorld::PreparedWorld(const MeshWorld& world)
   std::vector<PosedSpace> posed;
   for (std::size_t k = 0; k < world.views.size(); ++k) {
     const MeshWorldView& view = world.views[k];
-    build_camera_space(view.camera, view.sensor_depth_m, view.obstacles, world.settings, spaces_[k]);
+    build_camera_space(view.camera, view.sensor_depth_m, view.obstacles, world.settings,
+                       spaces_[k]);
     posed.push_back({&spaces_[k], view.X_BC, view.age_s});
   }
   space_.assign(posed);

@@ -17,9 +17,9 @@ double own_of_reading(const MeshWorldView& view, const SpaceSettings& settings, 
   const double obstacle_m = view.obstacles.depth_m(u, v);
   const PixelFate fate = view.obstacles.fate(u, v);
   if (fate == PixelFate::background) {
-    return std::isnan(sensed_m)
-               ? 0
-               : std::min(obstacle_m - settings.free_space_margin_m, sensed_m + settings.behind_robot_m);
+    return std::isnan(sensed_m) ? 0
+                                : std::min(obstacle_m - settings.free_space_margin_m,
+                                           sensed_m + settings.behind_robot_m);
   }
   if (is_kept(fate)) return obstacle_m - settings.free_space_margin_m;
   const bool is_robot = fate == PixelFate::robot || fate == PixelFate::environment ||
@@ -108,7 +108,8 @@ bool PlainSpace::is_reading(std::size_t k, const Eigen::Vector3d& p_B, double sl
       const double y = std::floor(v + dv + 0.5);
       if (x < 0 || y < 0 || x >= view.camera.width_px || y >= view.camera.height_px) continue;
       const double near_m = view.obstacles.depth_m(static_cast<int>(x), static_cast<int>(y));
-      if (near_m - slack_m <= p_C.z() && p_C.z() <= near_m + world_.settings.surface_thickness_m + slack_m) {
+      if (near_m - slack_m <= p_C.z() &&
+          p_C.z() <= near_m + world_.settings.surface_thickness_m + slack_m) {
         return true;
       }
     }
@@ -120,7 +121,8 @@ bool PlainSpace::is_behind(std::size_t k, const Eigen::Vector3d& p_B) const {
   const MeshWorldView& view = world_.views[k];
   const Eigen::Vector3d p_C = view.X_BC.inverse() * p_B;
   const auto pixel = plain_pixel(view.camera, p_C);
-  return pixel && p_C.z() > view.obstacles.depth_m(pixel->u, pixel->v) + world_.settings.surface_thickness_m;
+  return pixel &&
+         p_C.z() > view.obstacles.depth_m(pixel->u, pixel->v) + world_.settings.surface_thickness_m;
 }
 
 bool PlainSpace::is_free(std::size_t k, const Eigen::Vector3d& p_B) const {
@@ -188,7 +190,9 @@ double plain_pixel_distance(const MeshWorld& world, std::size_t link, bool to_sh
         if (std::isnan(near_m)) continue;
         std::array<Eigen::Vector3d, 8> chunk_m;
         for (int i = 0; i < 8; ++i) {
-          const double z = !(i & 4) ? near_m : to_shadow ? kFar_m : near_m + world.settings.surface_thickness_m;
+          const double z = !(i & 4)    ? near_m
+                           : to_shadow ? kFar_m
+                                       : near_m + world.settings.surface_thickness_m;
           chunk_m[i] = {z * (u + (i & 1) - 0.5 - view.camera.cx_px) / view.camera.fx_px,
                         z * (v + (i >> 1 & 1) - 0.5 - view.camera.cy_px) / view.camera.fy_px, z};
         }

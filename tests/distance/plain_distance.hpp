@@ -28,8 +28,8 @@ class PlainSpace {
   std::vector<Image<double>> free_m_;
 };
 
-/// The least distance from a link's triangles to all surface layers, or to all that lies behind a reading:
-/// every triangle against every pixel; the range where none is nearer.
+/// The least distance from a link's triangles to all surface layers, or to all that lies behind a
+/// reading: every triangle against every pixel; the range where none is nearer.
 double plain_pixel_distance(const MeshWorld& world, std::size_t link, bool to_shadow,
                             double range_m);
 

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "tests/support/only_target.hpp"
-#include "tests/support/thinned.hpp"
 #include "tests/distance/agreement.hpp"
 #include "tests/distance/mesh_world.hpp"
+#include "tests/support/only_target.hpp"
+#include "tests/support/thinned.hpp"
 
 namespace berth::testing {
 namespace {

@@ -33,7 +33,8 @@ std::vector<fs::path> documents() {
   return files;
 }
 
-/// The name that a page on the flying pixels gives a heading: small letters, digits, - and _, - for a blank.
+/// The name that a page on the flying pixels gives a heading: small letters, digits, - and _, - for
+/// a blank.
 std::string anchor_of(const std::string& heading) {
   std::string anchor;
   for (const unsigned char c : heading) {

@@ -74,7 +74,8 @@ TEST(DepthRows, TheDepthErrorsDerivativesAreRight) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     EXPECT_NEAR((by_offset[i].residual_m - rows[i].residual_m) / 1e-3, rows[i].per_depth_offset,
                 1e-3);
-    EXPECT_NEAR((by_scale[i].residual_m - rows[i].residual_m) / 1e-3, rows[i].per_depth_scale, 1e-3);
+    EXPECT_NEAR((by_scale[i].residual_m - rows[i].residual_m) / 1e-3, rows[i].per_depth_scale,
+                1e-3);
     EXPECT_EQ(rows[i].per_dilation, 0);
   }
 }

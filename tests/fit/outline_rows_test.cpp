@@ -11,7 +11,6 @@ constexpr PixelRect kPlate{40, 30, 80, 60};
 /// A pixel's width at the plate.
 constexpr double kPixel_m = 0.01;
 
-
 /// Of a plate that stands `by_px` to the right, wider by `wider_px` on each side.
 DepthImage moved_plate(int by_px, int wider_px = 0) {
   return sensed(plate({kPlate.u_begin + by_px - wider_px, kPlate.v_begin - wider_px,
@@ -27,8 +26,8 @@ struct Found {
 Found look(const RobotImage& robot, const DepthImage& depth_m, const CameraEstimate& estimate = {},
            int step = 1) {
   Found found;
-  found.count = append_outline_rows(kHandMadeCamera, depth_m, robot, estimate, step, {10, 0.05},
-                                    found.rows);
+  found.count =
+      append_outline_rows(kHandMadeCamera, depth_m, robot, estimate, step, {10, 0.05}, found.rows);
   return found;
 }
 
@@ -123,7 +122,8 @@ TEST(OutlineRows, TheDilationIsTakenOffInTheSensorsPixels) {
   for (const int step : {1, 3}) {
     const CameraEstimate estimate{.dilation_px = 3.0 * step};
     for (const FitRow& row : look(robot, wider, estimate, step).rows) {
-      const bool is_side = std::abs(std::abs(row.per_move.dot(Eigen::Vector3d::UnitX())) - 1) < 1e-6;
+      const bool is_side =
+          std::abs(std::abs(row.per_move.dot(Eigen::Vector3d::UnitX())) - 1) < 1e-6;
       EXPECT_TRUE(!is_side || std::abs(row.residual_m) < 1e-6) << row.residual_m;
       EXPECT_NEAR(row.per_dilation, -kPixel_m / step, 1e-9);
     }

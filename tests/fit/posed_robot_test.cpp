@@ -41,8 +41,13 @@ RobotModel chain() {
     Link link;
     link.name = "link_" + std::to_string(model.links.size());
     link.parent = model.links.size() - 1;
-    link.joint = {link.name, part.type, some_pose(random),
-                  sim::draw_point(random, 1).normalized(), part.position, part.multiplier, 0.1};
+    link.joint = {link.name,
+                  part.type,
+                  some_pose(random),
+                  sim::draw_point(random, 1).normalized(),
+                  part.position,
+                  part.multiplier,
+                  0.1};
     if (!part.position) link.joint.offset = 0;
     model.links.push_back(link);
   }
@@ -79,7 +84,8 @@ class PosedRobotOf : public ::testing::TestWithParam<std::size_t> {
 
   /// How it moves there when `shift` changes an estimate.
   template <class Shift>
-  Eigen::Vector3d measured(std::size_t link, const Eigen::Vector3d& p_L_m, const Shift& shift) const {
+  Eigen::Vector3d measured(std::size_t link, const Eigen::Vector3d& p_L_m,
+                           const Shift& shift) const {
     constexpr double kStep = 1e-4;
     CalibrationEstimate before = estimate_;
     CalibrationEstimate after = estimate_;
@@ -90,8 +96,8 @@ class PosedRobotOf : public ::testing::TestWithParam<std::size_t> {
 
   RobotModel model_ = chain();
   /// At a constant speed each, so that speeds are exact.
-  JointTrajectory joints_{model_, "test", {"turn", "slide", "wrist"},
-                          {{0, {0.1, 0.2, 0.3}}, {10, {4.1, 1.2, -7.7}}}};
+  JointTrajectory joints_{
+      model_, "test", {"turn", "slide", "wrist"}, {{0, {0.1, 0.2, 0.3}}, {10, {4.1, 1.2, -7.7}}}};
   CalibrationCamera camera_;
   CalibrationFrame frame_;
   CalibrationData data_;
@@ -121,9 +127,9 @@ TEST_P(PosedRobotOf, TheClockMovesItsPointsAsTheirTwistsSay) {
     const auto posed = pose(estimate_, {.per_second = true});
     ASSERT_TRUE(posed);
     for (std::size_t link = 0; link < model_.links.size(); ++link) {
-      const Eigen::Vector3d expected = measured(
-          link, kPoint_L_m,
-          [](double by, CalibrationEstimate& e) { e.cameras[0].clock_shift_s += by; });
+      const Eigen::Vector3d expected =
+          measured(link, kPoint_L_m,
+                   [](double by, CalibrationEstimate& e) { e.cameras[0].clock_shift_s += by; });
       const Eigen::Vector3d p_C_m = point_C_m(estimate_, link, kPoint_L_m);
       EXPECT_LT((posed->per_second[link].at(p_C_m) - expected).norm(), kClose)
           << "link " << link << ", shift " << shift_s;

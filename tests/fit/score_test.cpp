@@ -13,8 +13,7 @@ class ScoreOf : public ::testing::Test {
   /// With the camera moved by this much before the truth.
   CalibrationEstimate off_by(double offset_m, double angle_rad, std::uint32_t seed = 1) const {
     CalibrationEstimate estimate = start_of(drawn_.calibration_data);
-    estimate.cameras[0].X_PC =
-        sim::miscalibrated(drawn_.X_PC_true, offset_m, angle_rad, seed);
+    estimate.cameras[0].X_PC = sim::miscalibrated(drawn_.X_PC_true, offset_m, angle_rad, seed);
     return estimate;
   }
   Score of(const CalibrationEstimate& estimate, const ScoreSettings& settings = {}) {
@@ -66,11 +65,9 @@ TEST_F(ScoreOf, WhatIsSeenThroughCountsAgainstItMoreThanWhatIsHidden) {
 
 TEST_F(ScoreOf, APoseThatShowsLittleOfTheRobotCountsAsIfItShowedMore) {
   const Score all = of(off_by(0, 0), {.outline_reach_px = 0});
-  const Score little =
-      of(off_by(0, 0), {.outline_reach_px = 0, .least_pixels = 2 * all.pixels});
+  const Score little = of(off_by(0, 0), {.outline_reach_px = 0, .least_pixels = 2 * all.pixels});
   EXPECT_NEAR(little.value, all.value / 2, 1e-9);
-  const Score as_before =
-      of(off_by(0, 0), {.outline_reach_px = 0, .least_pixels = all.pixels / 2});
+  const Score as_before = of(off_by(0, 0), {.outline_reach_px = 0, .least_pixels = all.pixels / 2});
   EXPECT_EQ(as_before.value, all.value);
 }
 

@@ -51,7 +51,8 @@ void answer(Method method, const sim::ImagePair& images, DepthView obstacle_dept
            workspace.evaluate, out);
 }
 
-LinkDistances answer(Method method, const sim::ImagePair& images, const ImageDistanceSettings& settings) {
+LinkDistances answer(Method method, const sim::ImagePair& images,
+                     const ImageDistanceSettings& settings) {
   AnswerWorkspace workspace;
   LinkDistances out;
   answer(method, images, images.obstacle_depth_m, settings, workspace, out);

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "berth/image_distance/evaluate.hpp"
-#include "tests/support/image_settings.hpp"
 #include "sim/random_images.hpp"
+#include "tests/support/image_settings.hpp"
 
 namespace berth::testing {
 
@@ -32,7 +32,8 @@ struct AnswerWorkspace {
 void answer(Method method, const sim::ImagePair& images, DepthView obstacle_depth_m,
             const ImageDistanceSettings& settings, AnswerWorkspace& workspace, LinkDistances& out);
 /// With a fresh tree and workspace.
-LinkDistances answer(Method method, const sim::ImagePair& images, const ImageDistanceSettings& settings);
+LinkDistances answer(Method method, const sim::ImagePair& images,
+                     const ImageDistanceSettings& settings);
 /// Without mean directions.
 LinkDistances answer(Method method, const sim::ImagePair& images, double range_m = 1.0);
 

@@ -168,9 +168,10 @@ TEST_P(ExactAnswer, AMirroredSceneHasTheSameDistances) {
 bool identical(float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
 TEST_P(Answer, AUsedWorkspaceGivesTheAnswerOfAFreshOne) {
-  const sim::ImagePair scenes[] = {sim::random_images(1, 160, 120, 8), sim::random_images(2, 65, 200, 3),
-                              sim::empty_images(9, 5, 1),         sim::random_images(4, 160, 120, 8),
-                              sim::random_images(1, 160, 120, 8), sim::random_images(7, 20, 20, 64)};
+  const sim::ImagePair scenes[] = {
+      sim::random_images(1, 160, 120, 8), sim::random_images(2, 65, 200, 3),
+      sim::empty_images(9, 5, 1),         sim::random_images(4, 160, 120, 8),
+      sim::random_images(1, 160, 120, 8), sim::random_images(7, 20, 20, 64)};
   AnswerWorkspace workspace;
   LinkDistances out;
   for (const sim::ImagePair& images : scenes) {
@@ -205,7 +206,8 @@ TEST_P(Answer, ARangeThatIsNoLengthIsRefusedByName) {
       FAIL() << range_m;
     } catch (const std::invalid_argument& error) {
       EXPECT_NE(std::string(error.what()).find("range_m"), std::string::npos);
-      EXPECT_NE(std::string(error.what()).find(fmt::format("range_m: {};", range_m)), std::string::npos);
+      EXPECT_NE(std::string(error.what()).find(fmt::format("range_m: {};", range_m)),
+                std::string::npos);
     }
   }
 }

@@ -112,7 +112,8 @@ LinkDistance search_link(const ImageRequest& request, std::int64_t& pairs) {
 
 }  // namespace
 
-LinkDistances plain_gl_lattice(const sim::ImagePair& images, const ImageDistanceSettings& settings) {
+LinkDistances plain_gl_lattice(const sim::ImagePair& images,
+                               const ImageDistanceSettings& settings) {
   LinkDistances found;
   const auto range_m = static_cast<float>(settings.range_m);
   for (int i = 1; i <= images.link_count; ++i) {

@@ -10,14 +10,16 @@ INSTANTIATE_TEST_SUITE_P(Methods, SteadyState, ::testing::Values(Method::exact, 
                          method_test_name);
 
 TEST_P(SteadyState, NothingIsAllocatedOnceTheSceneWasSeen) {
-  const sim::ImagePair images[] = {sim::random_images(1, 160, 120, 8), sim::random_images(2, 160, 120, 8)};
+  const sim::ImagePair images[] = {sim::random_images(1, 160, 120, 8),
+                                   sim::random_images(2, 160, 120, 8)};
   SearchableDepth obstacles;
   EvaluateWorkspace workspace;
   LinkDistances out;
   const auto answer_both = [&] {
     for (const sim::ImagePair& pair : images) {
       obstacles.build(pair.obstacle_depth_m);
-      evaluate(GetParam(), {pair.camera, pair.robot, 8, obstacles, image_settings(1.0, true)}, workspace, out);
+      evaluate(GetParam(), {pair.camera, pair.robot, 8, obstacles, image_settings(1.0, true)},
+               workspace, out);
     }
   };
   answer_both();

@@ -188,8 +188,9 @@ TEST_P(BruteForceWithARegion, TellsThePairThatLiesInTheCube) {
   EXPECT_EQ(link.obstacle_pixel, (Pixel{45, 30}));
 }
 
-Surveillance surveillance_of(const sim::ImagePair& images, const Metric& metric, DepthView obstacle_m,
-                             SearchPattern pattern, Shrinking shrinking = Shrinking::per_link) {
+Surveillance surveillance_of(const sim::ImagePair& images, const Metric& metric,
+                             DepthView obstacle_m, SearchPattern pattern,
+                             Shrinking shrinking = Shrinking::per_link) {
   return berth::surveillance_of(
       {images.camera, images.robot, images.link_count, SearchableDepth(obstacle_m),
        settings_with({.search_pattern = pattern, .shrinking = shrinking}, 0.9)},

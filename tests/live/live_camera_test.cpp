@@ -24,7 +24,8 @@ class Live : public ::testing::Test {
   double stamp_s(std::size_t i) const { return source().source.stamps_s[i]; }
   void push(std::size_t i) { camera_->push(stamp_s(i), source().read_depth(i)); }
   void push_joints_until(double time_s) {
-    push_joints(scene_, joints_.buffer().newest_stamp_s() > 0 ? joints_.buffer().newest_stamp_s() : -1,
+    push_joints(scene_,
+                joints_.buffer().newest_stamp_s() > 0 ? joints_.buffer().newest_stamp_s() : -1,
                 time_s, joints_);
     camera_->joints_came();
   }

@@ -100,7 +100,9 @@ TEST_F(AskedScene, AnyJointsAreThoseOfABufferThatHasThem) {
   EXPECT_TRUE(std::isnan(timeless.time.frame_age_s));
   EXPECT_EQ(with_time.ask({frames_, {}, now_s + 10}).time.status, TimeStatus::stale_frame);
   joints.position.pop_back();
-  expect_parts(error_message<std::invalid_argument>([&] { with_time.ask({frames_, joints}); }),
+  expect_parts(error_message<std::invalid_argument>([&] {
+                 with_time.ask({frames_, joints});
+               }),
                {"6", "7"});
 }
 

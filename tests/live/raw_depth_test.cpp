@@ -82,8 +82,7 @@ TEST_F(RawImage, RowsMayBeLongerThanTheirPixelsAndBeginAnywhere) {
 
 TEST_F(RawImage, OffsetAndLimitsHoldForBothEncodings) {
   const DepthUnits units{.offset_m = -0.1, .near_m = 0.3, .far_m = 2};
-  expect_same(read(raw(kMillimetres), units),
-              {kNoDepth, kNoDepth, 0.9F, kNoDepth, kNoDepth, 0.3F});
+  expect_same(read(raw(kMillimetres), units), {kNoDepth, kNoDepth, 0.9F, kNoDepth, kNoDepth, 0.3F});
   expect_same(read(raw(std::vector<float>{0, kNoDepth, 1, 2.5F, kInfinity, 0.05F}), units),
               {kNoDepth, kNoDepth, 0.9F, kNoDepth, kNoDepth, kNoDepth});
   EXPECT_TRUE(std::isnan(read(raw(std::vector<float>{0, 0, 0, 0, 0, 0}), {.offset_m = 1})[0]))
@@ -97,7 +96,8 @@ TEST_F(RawImage, WhatIsWrongIsNamed) {
     return refusal(image);
   };
   expect_parts(changed([](RawDepth& i) { i.encoding = "rgb8"; }), {"rgb8", "16UC1 or 32FC1"});
-  expect_parts(changed([](RawDepth& i) { i.is_bigendian = true; }), {"big-endian", "little-endian"});
+  expect_parts(changed([](RawDepth& i) { i.is_bigendian = true; }),
+               {"big-endian", "little-endian"});
   expect_parts(changed([](RawDepth& i) { i.width_px = 2; }), {"2 x 2", "camera_info", "3 x 2"});
   expect_parts(changed([](RawDepth& i) { i.row_bytes = 5; }), {"5 bytes", "at least 6"});
   expect_parts(changed([](RawDepth& i) { i.bytes = i.bytes.first(11); }), {"11 bytes", "12"});

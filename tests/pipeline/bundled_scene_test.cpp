@@ -7,10 +7,10 @@
 #include <map>
 #include <sstream>
 
-#include "berth/scene/open_scene.hpp"
 #include "berth/image_distance/brute_force.hpp"
 #include "berth/image_distance/image_query.hpp"
 #include "berth/pipeline/observer.hpp"
+#include "berth/scene/open_scene.hpp"
 
 namespace berth {
 namespace {
@@ -90,8 +90,11 @@ TEST(BundledScene, BruteForceGivesTheSameDistances) {
   const Result exact = query.ask(frame);
   const SearchableDepth obstacles(frame.obstacles.depth_m);
   LinkDistances brute;
-  brute_force({camera.view->camera(), frame.robot, camera.view->robot()->model().link_count(),
-               obstacles, {}},
+  brute_force({camera.view->camera(),
+               frame.robot,
+               camera.view->robot()->model().link_count(),
+               obstacles,
+               {}},
               brute);
   ASSERT_EQ(brute.links.size(), exact.links.size());
   for (std::size_t i = 0; i < brute.links.size(); ++i) {

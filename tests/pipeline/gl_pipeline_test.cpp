@@ -1,10 +1,10 @@
 // The two clocks on OpenGL, against those of the CPU.
-#include "berth/scene/open_scene.hpp"
+#include "berth/image_distance/image_method.hpp"
 #include "berth/image_distance/image_query.hpp"
 #include "berth/image_distance/opengl/gl_image_query.hpp"
 #include "berth/image_distance/opengl/gl_observer.hpp"
 #include "berth/pipeline/observer.hpp"
-#include "berth/image_distance/image_method.hpp"
+#include "berth/scene/open_scene.hpp"
 #include "tests/pipeline/flying_pixels.hpp"
 #include "tests/support/error_message.hpp"
 #include "tests/support/gl_test.hpp"

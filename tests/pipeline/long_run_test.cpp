@@ -52,8 +52,8 @@ std::shared_ptr<const MountedCamera> make_view() {
   mount.X_PC.translation() << 2, 0, 0.5;
   CameraSettings settings;
   settings.watch.min_at_robot = 0;  // the images show no robot
-  return std::make_shared<const MountedCamera>(
-      std::make_shared<const Robot>(make_robot()), mount, settings);
+  return std::make_shared<const MountedCamera>(std::make_shared<const Robot>(make_robot()), mount,
+                                               settings);
 }
 
 JointState joints_of(int pose) {

@@ -14,8 +14,8 @@ class MadeUpImage : public ::testing::Test {
  protected:
   /// Of a wall behind the robot, which nothing shows.
   const Result& ask(const CameraSettings& settings) {
-    const auto view =
-        std::make_shared<const MountedCamera>(scene_.robot, scene_.cameras[0].view->mount(), settings);
+    const auto view = std::make_shared<const MountedCamera>(
+        scene_.robot, scene_.cameras[0].view->mount(), settings);
     const Camera& camera = view->camera();
     Observer(view).observe(DepthImage(camera.width_px, camera.height_px, 10.0F),
                            scene_.cameras[0].at_exposure[0], frame_);

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
+#include "berth/pipeline/frame_set.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "berth/scene/open_scene.hpp"
-#include "berth/pipeline/frame_set.hpp"
 #include "tests/pipeline/any_query.hpp"
 #include "tests/support/error_message.hpp"
 #include "tests/support/view_with.hpp"
@@ -25,7 +25,7 @@ class MovedCamera : public ::testing::Test {
 
   /// As the bundled camera, but believed to be turned by so much.
   std::shared_ptr<const MountedCamera> view_of(double turn_rad,
-                                      const WatchSettings& watch = kEachFrame) const {
+                                               const WatchSettings& watch = kEachFrame) const {
     CameraMount mount = camera_.view->mount();
     mount.X_PC.rotate(Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitY()));
     CameraSettings settings;
@@ -36,8 +36,7 @@ class MovedCamera : public ::testing::Test {
     observer.observe(depth_m_, camera_.at_exposure[kFrame], frame, time);
     return frame;
   }
-  static void expect_withheld(const Result& result,
-                              TimeStatus status = TimeStatus::camera_moved) {
+  static void expect_withheld(const Result& result, TimeStatus status = TimeStatus::camera_moved) {
     EXPECT_EQ(result.status, ResultStatus::stale);
     EXPECT_EQ(result.time.status, status) << name_of(result.time.status);
     ASSERT_FALSE(result.links.empty());
@@ -192,8 +191,7 @@ TEST_F(MovedCamera, NothingIsLearnedFromIt) {
 
 TEST_F(MovedCamera, BadSettingsAreRefusedByTheView) {
   const auto refusal = [&](const WatchSettings& watch) {
-    return error_message<std::invalid_argument>(
-        [&] { Observer observer(view_of(0, watch)); });
+    return error_message<std::invalid_argument>([&] { Observer observer(view_of(0, watch)); });
   };
   expect_parts(refusal({.max_seen_through = 2}), {"watch.max_seen_through: 2"});
   expect_parts(refusal({.max_displacement_m = -0.02}), {"watch.max_displacement_m: -0.02"});

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
+#include "berth/pipeline/frame_set.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "berth/scene/open_scene.hpp"
-#include "berth/pipeline/frame_set.hpp"
 #include "tests/pipeline/any_query.hpp"
 #include "tests/support/error_message.hpp"
 #include "tests/support/view_with.hpp"
@@ -29,7 +29,7 @@ class Queries : public ::testing::Test {
 
   /// As the bundled camera, but believed to be turned by so much.
   std::shared_ptr<const MountedCamera> view_named(const std::string& name, double turn_rad = 0,
-                                         const WatchSettings& watch = {}) const {
+                                                  const WatchSettings& watch = {}) const {
     CameraMount mount = camera_.view->mount();
     mount.name = name;
     mount.X_PC.rotate(Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitY()));
@@ -66,10 +66,12 @@ TEST_F(Queries, AResultIsDegradedWhereACameraIsNotInItAndStaleWhereNoneIs) {
   Query query(robot_);
   EXPECT_EQ(query.ask({left_, {}, now_s}).status, ResultStatus::ok);
   EXPECT_EQ(query.ask({Frames{&left_, &right_}, {}, now_s}).status, ResultStatus::ok);
-  const std::pair<const Frame*, CameraStatus> others[] = {
-      {nullptr, CameraStatus::no_frame},  {&old, CameraStatus::too_old},
-      {&stale, CameraStatus::stale},      {&moved, CameraStatus::moved},
-      {&implausible, CameraStatus::implausible}, {&blind, CameraStatus::blind}};
+  const std::pair<const Frame*, CameraStatus> others[] = {{nullptr, CameraStatus::no_frame},
+                                                          {&old, CameraStatus::too_old},
+                                                          {&stale, CameraStatus::stale},
+                                                          {&moved, CameraStatus::moved},
+                                                          {&implausible, CameraStatus::implausible},
+                                                          {&blind, CameraStatus::blind}};
   for (const auto& [frame, status] : others) {
     SCOPED_TRACE(name_of(status));
     const Result beside_left = query.ask({Frames{&left_, frame}, {}, now_s});

@@ -5,14 +5,14 @@
 
 #include <cmath>
 
-#include "berth/scene/open_scene.hpp"
 #include "berth/files/png.hpp"
 #include "berth/image_distance/image_query.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "berth/pipeline/query.hpp"
+#include "berth/scene/open_scene.hpp"
 #include "lab/filter/expected_ranges.hpp"
-#include "tests/support/view_with.hpp"
 #include "tests/support/data_folder.hpp"
+#include "tests/support/view_with.hpp"
 
 namespace berth {
 namespace {
@@ -79,7 +79,8 @@ TEST_P(Recording, NoLinkIsTooFarAndMostAreInTheirRange) {
                  names[link.id - 1], link.distance_m, min_m, max_m,
                  is_checked ? "checked" : "estimate", is_inside ? "" : "  <- outside");
       EXPECT_EQ(link.status, LinkStatus::ok) << "frame " << i << ", " << names[link.id - 1];
-      EXPECT_LE(link.distance_m, max_m + lab::kFarMargin_m) << "frame " << i << ", " << names[link.id - 1];
+      EXPECT_LE(link.distance_m, max_m + lab::kFarMargin_m)
+          << "frame " << i << ", " << names[link.id - 1];
       free_links_at_contact += min_m >= 0.05 && link.distance_m < 0.03;
       checked += is_checked;
       inside += is_checked && is_inside;
@@ -106,7 +107,8 @@ TEST_P(Recording, NoLinkIsTooFarFromReadingsAsAWhole) {
     for (const LinkResult& link : query.ask({frame}).links) {
       const lab::ExpectedRange& range = ranges.at({static_cast<int>(i), names[link.id - 1]});
       const float distance_m = link.occupied.distance_m;
-      EXPECT_LE(distance_m, range.max_m + lab::kFarMargin_m) << "frame " << i << ", " << names[link.id - 1];
+      EXPECT_LE(distance_m, range.max_m + lab::kFarMargin_m)
+          << "frame " << i << ", " << names[link.id - 1];
       EXPECT_LE(link.distance_m, distance_m);
       ++rows;
       inside += distance_m >= range.min_m && distance_m <= range.max_m;
@@ -117,7 +119,8 @@ TEST_P(Recording, NoLinkIsTooFarFromReadingsAsAWhole) {
 }
 
 /// The camera again, its view with these rules.
-std::shared_ptr<const MountedCamera> with_rules(const OpenCamera& camera, const SensorSettings& rules) {
+std::shared_ptr<const MountedCamera> with_rules(const OpenCamera& camera,
+                                                const SensorSettings& rules) {
   CameraSettings settings = camera.view->settings();
   settings.sensor = rules;
   return testing::view_with(*camera.view, settings);

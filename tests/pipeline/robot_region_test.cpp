@@ -1,10 +1,10 @@
 // The robot-shaped region of surveillance in the pipeline.
 #include <gtest/gtest.h>
 
-#include "berth/render/robot_renderer.hpp"
-#include "berth/scene/open_scene.hpp"
 #include "berth/image_distance/image_query.hpp"
 #include "berth/pipeline/observer.hpp"
+#include "berth/render/robot_renderer.hpp"
+#include "berth/scene/open_scene.hpp"
 #include "tests/support/view_with.hpp"
 
 namespace berth {

@@ -2,11 +2,11 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "berth/scene/open_scene.hpp"
 #include "berth/image_distance/image_query.hpp"
+#include "berth/pipeline/frame_set.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "berth/pipeline/query.hpp"
-#include "berth/pipeline/frame_set.hpp"
+#include "berth/scene/open_scene.hpp"
 #include "tests/pipeline/flying_pixels.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/view_with.hpp"
@@ -83,7 +83,8 @@ TEST(SteadyState, TheRunningRobotsWayAllocatesNothingOnceItsBufferIsFull) {
   const OpenCamera& camera = scene.cameras.front();
   const DepthImage depth_m = camera.read_depth(3);
   std::vector<std::string> names;
-  for (const MovableJoint& joint : camera.view->robot()->model().joints) names.push_back(joint.name);
+  for (const MovableJoint& joint : camera.view->robot()->model().joints)
+    names.push_back(joint.name);
   JointBuffer joints(camera.view->robot()->model(), 50);
   Observer observer(camera.view);
   Query query(scene.robot);

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "berth/scene/open_scene.hpp"
 #include "berth/pipeline/observer.hpp"
+#include "berth/scene/open_scene.hpp"
 #include "tests/pipeline/any_query.hpp"
 #include "tests/support/view_with.hpp"
 
@@ -114,7 +114,8 @@ TEST_P(RunningRobot, AStaleFrameGivesNoAnswerHoweverOftenItIsAsked) {
   ASSERT_EQ(observe(10.2), TimeStatus::ok);
   EXPECT_TRUE(all_ok(query_.ask(frame_, {}, 10.349)));
   for (const double now_s : {10.351, 11.0, 1e9, kNaN}) {
-    expect_withheld(query_.ask(frame_, {}, now_s), TimeStatus::stale_frame, view_->robot()->model().link_count());
+    expect_withheld(query_.ask(frame_, {}, now_s), TimeStatus::stale_frame,
+                    view_->robot()->model().link_count());
   }
   expect_withheld(query_.ask(frame_, {}, 10.194), TimeStatus::frame_in_future,
                   view_->robot()->model().link_count());
@@ -136,7 +137,8 @@ TEST_P(RunningRobot, AnExposureThatTheJointsDoNotReachLeavesNothingOfTheFrameBef
   ASSERT_EQ(observe(10.4), TimeStatus::ok);
   ASSERT_TRUE(all_ok(query_.ask(frame_)));
   EXPECT_EQ(observe(10.52), TimeStatus::extrapolated_too_far);
-  expect_withheld(query_.ask(frame_), TimeStatus::extrapolated_too_far, view_->robot()->model().link_count());
+  expect_withheld(query_.ask(frame_), TimeStatus::extrapolated_too_far,
+                  view_->robot()->model().link_count());
   expect_withheld(query_.ask(frame_, camera_.at_exposure[3]), TimeStatus::extrapolated_too_far,
                   view_->robot()->model().link_count());
   EXPECT_EQ(query_.ask(frame_).cameras[0].stamp_s, 10.52);
@@ -162,7 +164,8 @@ TEST_P(RunningRobot, StampsThatGoBackRepeatOrJumpCostTheirFrame) {
   EXPECT_EQ(observe(10.3), TimeStatus::ok);
   EXPECT_EQ(observe(10.3), TimeStatus::stamp_went_back) << "the same image again";
   EXPECT_EQ(observe(10.2), TimeStatus::stamp_went_back);
-  expect_withheld(query_.ask(frame_), TimeStatus::stamp_went_back, view_->robot()->model().link_count());
+  expect_withheld(query_.ask(frame_), TimeStatus::stamp_went_back,
+                  view_->robot()->model().link_count());
   EXPECT_EQ(observe(10.2 + kPeriod_s), TimeStatus::ok) << "judged by the frame before alone";
   EXPECT_EQ(observe(1e9), TimeStatus::stamp_jumped);
   EXPECT_EQ(observe(10.4), TimeStatus::stamp_went_back);
@@ -178,7 +181,8 @@ TEST_P(RunningRobot, AMissingJointIsTheStatusOfFramesAndRequests) {
   expect_withheld(query_.ask(frame_, buffer_, 10.45), TimeStatus::missing_joint,
                   view_->robot()->model().link_count());
   EXPECT_EQ(observe(10.52), TimeStatus::missing_joint);
-  expect_withheld(query_.ask(frame_, {}, 10.53), TimeStatus::missing_joint, view_->robot()->model().link_count());
+  expect_withheld(query_.ask(frame_, {}, 10.53), TimeStatus::missing_joint,
+                  view_->robot()->model().link_count());
   const JointBuffer empty(view_->robot()->model(), 2);
   expect_withheld(query_.ask(frame_, empty, 10.45), TimeStatus::no_joints,
                   view_->robot()->model().link_count());

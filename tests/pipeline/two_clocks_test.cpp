@@ -3,10 +3,10 @@
 
 #include <thread>
 
-#include "berth/render/robot_renderer.hpp"
-#include "berth/scene/open_scene.hpp"
 #include "berth/image_distance/evaluate.hpp"
 #include "berth/pipeline/observer.hpp"
+#include "berth/render/robot_renderer.hpp"
+#include "berth/scene/open_scene.hpp"
 #include "tests/pipeline/any_query.hpp"
 #include "tests/support/view_with.hpp"
 

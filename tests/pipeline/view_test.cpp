@@ -58,9 +58,9 @@ TEST(MountedCamera, APoseThatNobodySetIsRefused) {
 TEST(MountedCamera, ACameraWithoutSizeOrFocusIsRefused) {
   const Eigen::Matrix3d straight = Eigen::Matrix3d::Identity();
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const Camera& wrong : {Camera{}, Camera{0, 48, 50, 50, 31.5, 23.5},
-                              Camera{64, 48, 0, 50, 31.5, 23.5}, Camera{64, 48, 50, -50, 31.5, 23.5},
-                              Camera{64, 48, 50, 50, nan, 23.5}}) {
+  for (const Camera& wrong :
+       {Camera{}, Camera{0, 48, 50, 50, 31.5, 23.5}, Camera{64, 48, 0, 50, 31.5, 23.5},
+        Camera{64, 48, 50, -50, 31.5, 23.5}, Camera{64, 48, 50, 50, nan, 23.5}}) {
     const std::string message = refusal(wrong, straight);
     EXPECT_NE(message.find("expected a size and focal lengths above 0"), std::string::npos)
         << message;

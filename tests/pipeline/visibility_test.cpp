@@ -3,8 +3,8 @@
 
 #include <thread>
 
-#include "berth/scene/open_scene.hpp"
 #include "berth/pipeline/observer.hpp"
+#include "berth/scene/open_scene.hpp"
 #include "tests/pipeline/any_query.hpp"
 #include "tests/pipeline/flying_pixels.hpp"
 #include "tests/support/view_with.hpp"

@@ -217,7 +217,8 @@ TEST_F(WholeRobot, LookAheadIsItsPosesAndSaysWhichComesNearerFirst) {
   };
   EXPECT_EQ(first_nearer(least_m + 1e-6), nearest_pose);
   EXPECT_THROW(first_nearer(std::nan("")), std::invalid_argument);
-  const Result& late = looking_ahead.ask({.frames = frame, .now_s = frame.stamp_s + 1, .ahead = path});
+  const Result& late =
+      looking_ahead.ask({.frames = frame, .now_s = frame.stamp_s + 1, .ahead = path});
   EXPECT_TRUE(late.ahead.poses.empty()) << "a stale result tells nothing of what is ahead";
   EXPECT_FALSE(late.ahead.first_nearer.has_value());
 }
@@ -248,8 +249,9 @@ TEST_F(WholeRobot, WhatIsAttachedIsPartOfItsLinkOrALinkOfItsOwn) {
   EXPECT_THROW(attach(*with_tool, tool), std::invalid_argument);
   EXPECT_THROW(detach(*view_->robot(), "tool"), std::invalid_argument);
   tool.link = "nowhere";
-  EXPECT_NE(error_message<std::invalid_argument>([&] { attach(*view_->robot(), tool); })
-                .find("link \"nowhere\" is no evaluated link"),
+  EXPECT_NE(error_message<std::invalid_argument>([&] {
+              attach(*view_->robot(), tool);
+            }).find("link \"nowhere\" is no evaluated link"),
             std::string::npos);
 }
 

@@ -10,8 +10,8 @@ namespace berth {
 namespace {
 
 /// All sentences, a line each.
-std::string advice_on(const testing::SmallCalibrationData& small, const CalibrationCoverage& coverage,
-                      bool corrects_depth = false) {
+std::string advice_on(const testing::SmallCalibrationData& small,
+                      const CalibrationCoverage& coverage, bool corrects_depth = false) {
   CalibrationReport report = small.report();
   report.corrects_depth = corrects_depth;
   std::string text;

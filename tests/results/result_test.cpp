@@ -42,8 +42,8 @@ LinkResult ok_link() {
   return link;
 }
 
-/// Of three links that compares images, with one camera whose frame C is the base frame B turned and
-/// moved.
+/// Of three links that compares images, with one camera whose frame C is the base frame B turned
+/// and moved.
 Result image_result() {
   Result result;
   result.status = ResultStatus::ok;
@@ -165,9 +165,9 @@ TEST(ResultJson, AWithheldResultHasNulls) {
   EXPECT_TRUE(json["nearest"].is_null());
   for (const Json& link : json["links"]) {
     EXPECT_EQ(link["status"], "stale");
-    for (const char* key : {"distance_m", "lower_bound_m", "robot_point_base_m",
-                            "obstacle_point_base_m", "camera", "obstacle_pixel", "obstacle_is",
-                            "mean_direction_base"}) {
+    for (const char* key :
+         {"distance_m", "lower_bound_m", "robot_point_base_m", "obstacle_point_base_m", "camera",
+          "obstacle_pixel", "obstacle_is", "mean_direction_base"}) {
       ASSERT_TRUE(link.contains(key)) << key;
       EXPECT_TRUE(link[key].is_null()) << key;
     }

@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "berth/robot/primitives.hpp"
-#include "tests/support/error_message.hpp"
 #include "tests/robot/mesh_writing.hpp"
 #include "tests/robot/robot_text.hpp"
+#include "tests/support/error_message.hpp"
 
 namespace berth {
 namespace {
@@ -212,10 +212,9 @@ TEST(Urdf, TheTextMayComeFromNoFile) {
   const RobotModel model =
       load_robot({.urdf = "robot_description", .urdf_text = robot_xml(box_link_xml("base"))});
   EXPECT_EQ(model.link_count(), 1);
-  expect_parts(error_message([] {
-                 load_robot({.urdf = "robot_description", .urdf_text = "<robot>"});
-               }),
-               {"robot_description"});
+  expect_parts(
+      error_message([] { load_robot({.urdf = "robot_description", .urdf_text = "<robot>"}); }),
+      {"robot_description"});
 }
 
 TEST(Urdf, EnvironmentAndIgnoredLinksAreNotCounted) {

@@ -13,9 +13,9 @@
 namespace berth {
 namespace {
 
+using sim::DrawnMount;
 using testing::CellLines;
 using testing::DrawnCell;
-using sim::DrawnMount;
 
 const std::string kArmFolder = BERTH_SOURCE_DIR "/data/bundled/arm";
 
@@ -27,8 +27,8 @@ DrawnCell right_cell(CellLines lines = {}, DrawnMount mount = DrawnMount::root) 
 /// Of the scene as it is: nothing is fitted. new.yaml and its background are there afterwards.
 std::vector<CalibratedBackground> calibrate_cell(const DrawnCell& cell) {
   SceneChange change;
-  const auto calibrated =
-      calibrate_backgrounds(open_scene(cell.scene()), cell / "new.yaml", [] {}, change);
+  const auto calibrated = calibrate_backgrounds(
+      open_scene(cell.scene()), cell / "new.yaml", [] {}, change);
   write_backgrounds(calibrated);
   write_rewritten_scene(cell.scene(), change, cell / "new.yaml");
   return calibrated;
@@ -105,11 +105,13 @@ TEST(CalibrateBackground, TheScenesOwnNumberOfImagesStays) {
   EXPECT_GE(share_of_two, calibrate_cell(right_cell())[0].known_share());
   const DrawnCell many = right_cell({.more = "sensor: {background_frames: 9}\n"});
   SceneChange change;
-  expect_parts(error_message([&] {
-                 calibrate_backgrounds(open_scene(many.scene()), many / "new.yaml", [] {}, change);
-               }),
-               {"scene.yaml: camera camera: no background was learned from its 4 images; expected a "
-                "place that 9 of them (sensor.background_frames) show alike"});
+  expect_parts(
+      error_message([&] {
+        calibrate_backgrounds(
+            open_scene(many.scene()), many / "new.yaml", [] {}, change);
+      }),
+      {"scene.yaml: camera camera: no background was learned from its 4 images; expected a "
+       "place that 9 of them (sensor.background_frames) show alike"});
 }
 
 TEST(CalibrateBackground, ACopyOfTheSceneElsewhereLeadsToTheSameFile) {

@@ -25,7 +25,7 @@ struct Calibrated {
   SceneCalibration calibration;
 
   Calibrated(const sim::DrawnCalibrationSettings& drawn, std::uint32_t seed, const CellLines& lines,
-         const CalibrateSceneSettings& settings = {})
+             const CalibrateSceneSettings& settings = {})
       : cell(kArm, drawn, seed, lines),
         scene(open_scene(cell.scene())),
         material(make_calibration_data(scene)),
@@ -42,7 +42,8 @@ TEST(CalibrateScene, TheNewSceneHasPoseSettingsAndWatch) {
   const Calibrated calibrated(kSmall, 2, {});
   const CameraCalibration& found = calibrated.calibration.found.cameras[0];
   ASSERT_EQ(found.refused, "");
-  EXPECT_LT((found.X_PC.translation() - calibrated.cell.drawn.X_PC_true.translation()).norm(), 0.02);
+  EXPECT_LT((found.X_PC.translation() - calibrated.cell.drawn.X_PC_true.translation()).norm(),
+            0.02);
   const SceneFile scene = calibrated.rewritten();
   const SceneCamera& camera = scene.cameras[0];
   EXPECT_TRUE(camera.X_PC.isApprox(found.X_PC, 1e-8));
@@ -74,9 +75,11 @@ TEST(CalibrateScene, JointOffsetsAreAddedToOldOnes) {
   settings.width_px = 640;
   settings.height_px = 480;
   // joints.csv is right, so that the offset is wrong.
-  Calibrated calibrated(settings, 1, {.offset_m = 0.01, .angle_rad = 0.01,
-                              .more = "joint_offsets: {arm_joint_2: 0.02, arm_joint_1: 0.0}\n"},
-                {.fit = {.joint_zeros = true}});
+  Calibrated calibrated(settings, 1,
+                        {.offset_m = 0.01,
+                         .angle_rad = 0.01,
+                         .more = "joint_offsets: {arm_joint_2: 0.02, arm_joint_1: 0.0}\n"},
+                        {.fit = {.joint_zeros = true}});
   const auto& found = calibrated.calibration.found.joint_offsets;
   const auto& changed = calibrated.calibration.change.joint_offsets;
   EXPECT_EQ(changed.size(), found.size());
@@ -96,7 +99,7 @@ TEST(CalibrateScene, ACorrectedDepthIsWhatTheNewSceneReads) {
   sim::DrawnCalibrationSettings settings = kSmall;
   settings.errors.depth_share = 0.02;
   const Calibrated calibrated(settings, 2, {.depth_scale_m = 0.0005, .depth_offset_m = 0.1},
-                      {.fit = {}, .correct_depth = true});
+                              {.fit = {}, .correct_depth = true});
   const CameraCalibration& found = calibrated.calibration.found.cameras[0];
   ASSERT_EQ(found.refused, "");
   ASSERT_NE(found.depth.scale, 1);

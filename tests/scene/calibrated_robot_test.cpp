@@ -11,7 +11,8 @@ namespace berth {
 namespace {
 
 /// The largest |reading - model| on the robot; NaN where no robot is drawn.
-double worst_residual_m(const testing::SmallCalibrationData& small, std::size_t frame, CalibrationSide side) {
+double worst_residual_m(const testing::SmallCalibrationData& small, std::size_t frame,
+                        CalibrationSide side) {
   CalibratedRobot calibrated(small.calibration_data, small.result, 0);
   const RobotImage* robot = calibrated.draw(frame, side);
   double worst = std::nan("");

@@ -12,24 +12,27 @@ SceneFile scene_with(const std::string& settings) {
   return parse_scene("scene.yaml",
                      "robot: {urdf: r.urdf}\n"
                      "cameras:\n"
-                     "  - {name: c, info: i.yaml, pose: {parent: b, xyz: [0, 0, 0], rpy: [0, 0, 0]}, depth: [d.png]}\n"
+                     "  - {name: c, info: i.yaml, pose: {parent: b, xyz: [0, 0, 0], rpy: [0, 0, "
+                     "0]}, depth: [d.png]}\n"
                      "joints: j.csv\n" +
                          settings);
 }
 
 TEST(FormerSettings, AreReadAndToldWithTheirNewName) {
-  const SceneFile scene =
-      scene_with("space: {slab_m: 0.05}\nself_filter: {island_radius_m: 0.01}\nseparation: {hidden: stop}\n");
+  const SceneFile scene = scene_with(
+      "space: {slab_m: 0.05}\nself_filter: {island_radius_m: 0.01}\nseparation: {hidden: stop}\n");
   const CameraSettings& camera = scene.cameras.front().settings;
   EXPECT_EQ(camera.space.surface_thickness_m, 0.05);
   EXPECT_EQ(camera.self_filter.flying_patch_radius_m, 0.01);
   EXPECT_EQ(scene.separation->unknown, UnknownPolicy::stop);
   EXPECT_EQ(scene.warnings,
-            (std::vector<std::string>{
-                "scene.yaml:5: slab_m is called surface_thickness_m now; the former name is read for one version more",
-                "scene.yaml:6: island_radius_m is called flying_patch_radius_m now; the former name is read for one "
-                "version more",
-                "scene.yaml:7: hidden is called unknown now; the former name is read for one version more"}));
+            (std::vector<std::string>{"scene.yaml:5: slab_m is called surface_thickness_m now; the "
+                                      "former name is read for one version more",
+                                      "scene.yaml:6: island_radius_m is called "
+                                      "flying_patch_radius_m now; the former name is read for one "
+                                      "version more",
+                                      "scene.yaml:7: hidden is called unknown now; the former name "
+                                      "is read for one version more"}));
 }
 
 TEST(FormerSettings, NewNamesGiveNoWarning) {

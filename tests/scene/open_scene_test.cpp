@@ -106,7 +106,8 @@ TEST(ReopenedScene, SharesRobotAndImages) {
   EXPECT_EQ(scene.frame_count, before.frame_count);
   EXPECT_EQ(scene.cameras[0].kept_depth_m, before.cameras[0].kept_depth_m);
   EXPECT_EQ(scene.cameras[0].view->settings().self_filter.padding_m, 0.05);
-  EXPECT_EQ(scene.cameras[0].view->mount().X_PC.translation(), changed.cameras[0].X_PC.translation());
+  EXPECT_EQ(scene.cameras[0].view->mount().X_PC.translation(),
+            changed.cameras[0].X_PC.translation());
 }
 
 TEST(ReopenedScene, IsThatOfTheChangedFile) {

@@ -248,8 +248,8 @@ TEST_F(RewrittenScene, NeverOverwritesItsScene) {
   const SceneChange change = full_change("a");
   fs::create_symlink(file, folder_ / "cell/symbolic.yaml");
   fs::create_hard_link(file, folder_ / "cell/hard.yaml");
-  for (const char* same :
-       {"cell/scene.yaml", "calibrated/../cell/scene.yaml", "cell/symbolic.yaml", "cell/hard.yaml"}) {
+  for (const char* same : {"cell/scene.yaml", "calibrated/../cell/scene.yaml", "cell/symbolic.yaml",
+                           "cell/hard.yaml"}) {
     expect_parts(
         error_message([&] { write_rewritten_scene(file, change, folder_ / same); }),
         {(folder_ / same).string() + ": is the same file as " + file.string() + "; expected"});

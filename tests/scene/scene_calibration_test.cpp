@@ -65,7 +65,9 @@ TEST_F(CalibrationScene, FivePosesAreGood) {
 }
 
 TEST_F(CalibrationScene, AnArmThatNeverMovesIsRefused) {
-  EXPECT_EQ(error_message([&] { make_calibration_data(open({0.5, 0.5, 0.505})); }),
+  EXPECT_EQ(error_message([&] {
+              make_calibration_data(open({0.5, 0.5, 0.505}));
+            }),
             scene_file() +
                 ": camera front: the arm never moves in its 3 frames; expected five poses that "
                 "differ by some tenths of a radian");
@@ -77,7 +79,8 @@ TEST_F(CalibrationScene, AnArmThatNeverMovesIsRefused) {
 
 TEST_F(CalibrationScene, FramesWithoutJointAnglesAreRefused) {
   OpenScene scene = open({0, 0.5, 1});
-  for (FrameTime& time : scene.cameras[0].exposure_time) time.status = TimeStatus::extrapolated_too_far;
+  for (FrameTime& time : scene.cameras[0].exposure_time)
+    time.status = TimeStatus::extrapolated_too_far;
   EXPECT_EQ(error_message([&] { make_calibration_data(scene); }),
             scene_file() +
                 ": camera front: no frame has joint angles; expected five poses of the arm at "
@@ -85,8 +88,7 @@ TEST_F(CalibrationScene, FramesWithoutJointAnglesAreRefused) {
 }
 
 TEST_F(CalibrationScene, FramesThatAreLeftOutAreCounted) {
-  const OpenScene scene =
-      open({0, 0.2, 0.4, 0.6, 0.8, 1}, "    stamps: [0, 1, 2, 3, 4, 100]\n");
+  const OpenScene scene = open({0, 0.2, 0.4, 0.6, 0.8, 1}, "    stamps: [0, 1, 2, 3, 4, 100]\n");
   const SceneCalibrationData material = make_calibration_data(scene);
   EXPECT_EQ(material.warnings,
             Lines{"camera front: 1 of 6 frames are not used: there are no joint angles for their "
@@ -134,8 +136,7 @@ TEST_F(CalibrationScene, FramesOfOnePoseAreTakenOnce) {
 }
 
 TEST_F(CalibrationScene, TheJointsAreThoseAtTheClockThatTheSceneBelieves) {
-  const OpenScene scene =
-      open({0, 1, 2}, "    stamps: [0.5, 1, 1.5]\n    clock_offset_s: 0.25\n");
+  const OpenScene scene = open({0, 1, 2}, "    stamps: [0.5, 1, 1.5]\n    clock_offset_s: 0.25\n");
   const SceneCalibrationData material = make_calibration_data(scene);
   const CalibrationCamera& camera = *material.cameras[0];
   EXPECT_EQ(camera.clock_offset_s, 0.25);

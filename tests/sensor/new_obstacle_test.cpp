@@ -51,7 +51,8 @@ class NewObstacle {
  public:
   explicit NewObstacle(std::uint32_t seed)
       : random_(seed), scene_(random_scene(seed)), settings_(random_rules(random_)) {
-    // Learned from images with all of the robot and its flying pixels in them, which no filter took out.
+    // Learned from images with all of the robot and its flying pixels in them, which no filter took
+    // out.
     const RobotImage no_robot{
         DepthImage(scene_.camera.width_px, scene_.camera.height_px, kNoDepth),
         Image<LinkId>(scene_.camera.width_px, scene_.camera.height_px, kNoLink)};

@@ -24,7 +24,8 @@ constexpr int kMostSpeckle_px = 60;
 constexpr int kFrames = 3;
 /// A distance to what is left of the thing may be larger by this much.
 constexpr double kBound_m = 0.005;
-/// What is nearer to the robot's visible surface than this may be a flying patch of the self filter.
+/// What is nearer to the robot's visible surface than this may be a flying patch of the self
+/// filter.
 constexpr double kClearance_m = 0.1;
 
 struct Shape {

@@ -10,11 +10,11 @@
 #include "berth/image_distance/image_query.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "berth/pipeline/query.hpp"
+#include "berth/robot/link_twists.hpp"
 #include "berth/scene/open_scene.hpp"
+#include "berth/separation/camera_uncertainty.hpp"
 #include "berth/separation/link_speed.hpp"
 #include "berth/separation/protective_distance.hpp"
-#include "berth/robot/link_twists.hpp"
-#include "berth/separation/camera_uncertainty.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/error_message.hpp"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/support/thinned.hpp"
 #include "tests/distance/plain_distance.hpp"
+#include "tests/support/thinned.hpp"
 
 namespace berth::testing {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "tests/space/plain_view_space.hpp"
 #include "sim/random.hpp"
+#include "tests/space/plain_view_space.hpp"
 
 namespace berth::testing {
 namespace {

@@ -6,8 +6,8 @@
 #include <Eigen/Geometry>
 #include <string>
 
-#include "berth/render/robot_renderer.hpp"
 #include "berth/files/png.hpp"
+#include "berth/render/robot_renderer.hpp"
 #include "sim/drawn_calibration_data.hpp"
 #include "sim/sensor_model.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -97,8 +97,8 @@ class DrawnCell {
         "    depth_offset_m: {10}\n"
         "joints: joints.csv\n"
         "evaluation: {{method: exact, range_m: 1}}\n{11}",
-        arm_folder.string(), model.links[drawn.camera->parent].name, p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w(),
-        lines.depth_scale_m, lines.depth_offset_m, lines.more);
+        arm_folder.string(), model.links[drawn.camera->parent].name, p.x(), p.y(), p.z(), q.x(),
+        q.y(), q.z(), q.w(), lines.depth_scale_m, lines.depth_offset_m, lines.more);
   }
 
   TemporaryFolder folder_;

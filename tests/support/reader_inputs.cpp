@@ -5,10 +5,10 @@
 #include "berth/files/camera_info.hpp"
 #include "berth/files/joints_csv.hpp"
 #include "berth/files/png.hpp"
-#include "berth/scene/scene_file.hpp"
 #include "berth/robot/joint_trajectory.hpp"
 #include "berth/robot/kinematics.hpp"
 #include "berth/robot/mesh_file/mesh_file.hpp"
+#include "berth/scene/scene_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace berth {

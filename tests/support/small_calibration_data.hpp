@@ -1,5 +1,5 @@
-// A calibration of a few pixels: an arm of two boxes before a wall, seen by one camera whose pose the
-// scene has wrong and a calibration, made up, has right.
+// A calibration of a few pixels: an arm of two boxes before a wall, seen by one camera whose pose
+// the scene has wrong and a calibration, made up, has right.
 #pragma once
 
 #include <memory>

@@ -7,13 +7,15 @@
 
 namespace berth::testing {
 
-inline std::shared_ptr<const MountedCamera> view_with(const MountedCamera& view, const CameraSettings& settings) {
+inline std::shared_ptr<const MountedCamera> view_with(const MountedCamera& view,
+                                                      const CameraSettings& settings) {
   return std::make_shared<const MountedCamera>(view.robot(), view.mount(), settings);
 }
 
 /// Of a robot of its own.
-inline std::shared_ptr<const MountedCamera> view_with(const MountedCamera& view, const EvaluationSettings& evaluation,
-                                             const CameraSettings& settings) {
+inline std::shared_ptr<const MountedCamera> view_with(const MountedCamera& view,
+                                                      const EvaluationSettings& evaluation,
+                                                      const CameraSettings& settings) {
   return std::make_shared<const MountedCamera>(
       std::make_shared<const Robot>(view.robot()->model(), evaluation), view.mount(), settings);
 }

@@ -39,10 +39,10 @@ PixelFate draw_fate(Random& random, bool has_reading) {
     constexpr std::array kFates = {PixelFate::no_reading, PixelFate::background, PixelFate::hole};
     return kFates[random.whole(0, 2)];
   }
-  constexpr std::array kFates = {PixelFate::obstacle,       PixelFate::robot,   PixelFate::padding,
-                                 PixelFate::dilation,       PixelFate::edge,    PixelFate::flying_patch,
-                                 PixelFate::outside_region, PixelFate::speckle, PixelFate::averaged,
-                                 PixelFate::background};
+  constexpr std::array kFates = {
+      PixelFate::obstacle, PixelFate::robot,        PixelFate::padding,        PixelFate::dilation,
+      PixelFate::edge,     PixelFate::flying_patch, PixelFate::outside_region, PixelFate::speckle,
+      PixelFate::averaged, PixelFate::background};
   return kFates[random.whole(0, 9)];
 }
 

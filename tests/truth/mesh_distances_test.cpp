@@ -101,7 +101,8 @@ class Judge {
     ++pairs;
     if (pair.is_known()) {
       const double undecided_m =
-          pair.obstacle_is == ObstacleKind::unknown && request.tolerance_m < 0.001 ? kUndecided_m : 0;
+          pair.obstacle_is == ObstacleKind::unknown && request.tolerance_m < 0.001 ? kUndecided_m
+                                                                                   : 0;
       const double tolerance_m = std::max(request.tolerance_m, 20e-6) + kRounding_m + undecided_m;
       wide += pair.distance_m - pair.lower_bound_m > tolerance_m;
     } else {
@@ -119,7 +120,8 @@ class Judge {
     ASSERT_LT(pair.camera, static_cast<int>(space_.views().size()));
     EXPECT_TRUE(is_in_pixel(pair, obstacle_B)) << "not in its pixel";
     if (pair.obstacle_is == ObstacleKind::occupied) {
-      EXPECT_TRUE(is_in_depths(pair, obstacle_B, 0, space_.settings().surface_thickness_m)) << "not in its surface layer";
+      EXPECT_TRUE(is_in_depths(pair, obstacle_B, 0, space_.settings().surface_thickness_m))
+          << "not in its surface layer";
     } else {
       EXPECT_TRUE(is_in_depths(pair, obstacle_B, space_.settings().surface_thickness_m,
                                std::numeric_limits<double>::infinity()))

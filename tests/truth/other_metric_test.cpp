@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "berth/image_distance/brute_force.hpp"
-#include "tests/support/image_settings.hpp"
 #include "sim/random.hpp"
 #include "sim/random_images.hpp"
+#include "tests/support/image_settings.hpp"
 
 namespace berth::sim {
 namespace {
@@ -63,9 +63,9 @@ TEST(OtherMetric, TheHiddenRayIsNeverFartherThanItsReadingNorThanHirtsPoint) {
     const auto reading_m = distances_m(OtherMetric::reading);
     const auto ray_m = distances_m(OtherMetric::hidden_ray);
     LinkDistances hirt;
-    brute_force(
-        {images.camera, images.robot, 3, SearchableDepth(images.obstacle_depth_m), testing::image_settings(9)},
-        hirt);
+    brute_force({images.camera, images.robot, 3, SearchableDepth(images.obstacle_depth_m),
+                 testing::image_settings(9)},
+                hirt);
     for (int i = 0; i < 3; ++i) {
       if (hirt.links[i].status != LinkStatus::ok) continue;
       EXPECT_LE(*ray_m[i], *reading_m[i] + 1e-9);

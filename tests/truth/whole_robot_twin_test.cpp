@@ -164,7 +164,8 @@ TEST(WholeRobotTwinOnPaper, ABoxBeforeAWall) {
 }
 
 TEST(WholeRobotTwinOnPaper, ABoxBehindAWallIsHidden) {
-  const TwinDistance twin = distance_of_box(0, 1, PointSpace({wall_at(0.7)}, {.surface_thickness_m = 0.05}));
+  const TwinDistance twin =
+      distance_of_box(0, 1, PointSpace({wall_at(0.7)}, {.surface_thickness_m = 0.05}));
   expect_near(twin.nearest, 0);
   EXPECT_LE(twin.reading.lower_m, 0.15);
   EXPECT_GE(twin.reading.upper_m, 0.15);

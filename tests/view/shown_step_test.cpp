@@ -3,9 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "berth/pipeline/frame_set.hpp"
 #include "berth/results/result_json.hpp"
 #include "berth/scene/scene_run.hpp"
-#include "berth/pipeline/frame_set.hpp"
 
 namespace berth::app {
 namespace {

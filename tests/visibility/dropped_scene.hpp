@@ -17,7 +17,8 @@ struct DroppedScene {
 };
 
 inline DroppedScene dropped_scene(std::uint32_t seed) {
-  DroppedScene scene{sim::random_images(seed, kDroppedWidth_px, kDroppedHeight_px, kDroppedLinks), {}, {}};
+  DroppedScene scene{
+      sim::random_images(seed, kDroppedWidth_px, kDroppedHeight_px, kDroppedLinks), {}, {}};
   scene.sensor_depth_m = scene.images.obstacle_depth_m;
   scene.obstacles.depth_m = scene.images.obstacle_depth_m;
   scene.obstacles.fate.resize(kDroppedWidth_px, kDroppedHeight_px, PixelFate::obstacle);

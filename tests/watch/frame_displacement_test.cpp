@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/calibration/arms.hpp"
 #include "sim/sensor_model.hpp"
+#include "tests/calibration/arms.hpp"
 
 namespace berth {
 namespace {
@@ -45,8 +45,7 @@ TEST_F(FrameDisplacementOf, AKnownBiasIsNoDisplacement) {
 
 TEST_F(FrameDisplacementOf, AFrameWithoutRobotTellsNothing) {
   const CalibrationFrame& frame = drawn_.camera->frames[0];
-  const Pose away =
-      drawn_.X_PC_true * Eigen::AngleAxisd(EIGEN_PI, Eigen::Vector3d::UnitY());
+  const Pose away = drawn_.X_PC_true * Eigen::AngleAxisd(EIGEN_PI, Eigen::Vector3d::UnitY());
   EXPECT_FALSE(at(away).measure(frame.depth_m, frame.joints));
   const DepthImage blind(640, 480, kNoDepth);
   EXPECT_FALSE(at(drawn_.X_PC_true).measure(blind, frame.joints));

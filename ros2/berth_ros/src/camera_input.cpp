@@ -16,12 +16,8 @@ bool is_same(const berth::Camera& a, const berth::Camera& b) {
 }  // namespace
 
 berth::RawDepth raw_of(const sensor_msgs::msg::Image& image) {
-  return {image.data,
-          static_cast<int>(image.width),
-          static_cast<int>(image.height),
-          image.step,
-          image.encoding,
-          image.is_bigendian != 0};
+  return {image.data,     static_cast<int>(image.width), static_cast<int>(image.height), image.step,
+          image.encoding, image.is_bigendian != 0};
 }
 
 berth::Camera camera_of(const sensor_msgs::msg::CameraInfo& info, bool is_rectified) {
@@ -42,12 +38,15 @@ berth::Camera camera_of(const sensor_msgs::msg::CameraInfo& info, bool is_rectif
   }
   berth::Camera camera{static_cast<int>(info.width), static_cast<int>(info.height), 0, 0, 0, 0};
   if (is_rectified) {
-    camera.fx_px = info.p[0], camera.fy_px = info.p[5], camera.cx_px = info.p[2], camera.cy_px = info.p[6];
+    camera.fx_px = info.p[0], camera.fy_px = info.p[5], camera.cx_px = info.p[2],
+    camera.cy_px = info.p[6];
   } else {
-    camera.fx_px = info.k[0], camera.fy_px = info.k[4], camera.cx_px = info.k[2], camera.cy_px = info.k[5];
+    camera.fx_px = info.k[0], camera.fy_px = info.k[4], camera.cx_px = info.k[2],
+    camera.cy_px = info.k[5];
   }
   if (info.width == 0 || info.height == 0 || !(camera.fx_px > 0) || !(camera.fy_px > 0)) {
-    throw std::invalid_argument("camera_info has no intrinsics; expected those of a calibrated camera");
+    throw std::invalid_argument(
+        "camera_info has no intrinsics; expected those of a calibrated camera");
   }
   return camera;
 }

@@ -1,6 +1,7 @@
 // One camera of a node: its topics, its pose, and the frames made of its images.
 #pragma once
 
+#include <tf2_ros/buffer.h>
 #include <image_transport/image_transport.hpp>
 #include <memory>
 #include <mutex>
@@ -9,7 +10,6 @@
 #include <sensor_msgs/msg/camera_info.hpp>
 #include <sensor_msgs/msg/image.hpp>
 #include <string>
-#include <tf2_ros/buffer.h>
 
 #include "berth/live/live_camera.hpp"
 #include "berth/live/raw_depth.hpp"
@@ -39,15 +39,16 @@ struct CameraReport {
 class CameraInput {
  public:
   using ImageMessage = sensor_msgs::msg::Image;
-  using OnFrame = std::function<void(const berth::Frame&, const std::shared_ptr<const ImageMessage>&)>;
+  using OnFrame =
+      std::function<void(const berth::Frame&, const std::shared_ptr<const ImageMessage>&)>;
 
   /// `on_frame` is called in the camera's own thread.
   CameraInput(rclcpp::Node& node, CameraSettings settings, StampClock& clock,
               const tf2_ros::Buffer& tf, OnFrame on_frame);
 
   /// From now on frames are of this robot, whose joints these are; null: there is none.
-  void use(std::shared_ptr<const berth::Robot> robot, std::shared_ptr<const berth::JointIntake> joints,
-           const berth::CameraSettings& view);
+  void use(std::shared_ptr<const berth::Robot> robot,
+           std::shared_ptr<const berth::JointIntake> joints, const berth::CameraSettings& view);
   void joints_came();
   /// Null where there is none of this robot.
   std::shared_ptr<const berth::Frame> newest(const berth::Robot* robot) const;

@@ -29,8 +29,8 @@ std::optional<berth::CameraMount> mount_from_tf(const tf2_ros::Buffer& tf,
   berth::CameraMount mount;
   mount.parent_link = link_above(tf, model, optical_frame);
   try {
-    const auto transform = tf.lookupTransform(mount.parent_link, optical_frame,
-                                              tf2::timeFromSec(stamp.seconds()));
+    const auto transform =
+        tf.lookupTransform(mount.parent_link, optical_frame, tf2::timeFromSec(stamp.seconds()));
     mount.X_PC = tf2::transformToEigen(transform);
     return mount;
   } catch (const tf2::TransformException& error) {

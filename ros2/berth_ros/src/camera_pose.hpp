@@ -1,8 +1,8 @@
 #pragma once
 
+#include <tf2_ros/buffer.h>
 #include <optional>
 #include <string>
-#include <tf2_ros/buffer.h>
 
 #include "berth/pipeline/mounted_camera.hpp"
 #include "berth/robot/robot_model.hpp"

@@ -22,8 +22,8 @@ namespace {
 std::string row_of(const std::string& name, const std::vector<double>& times_us) {
   const berth::RequestTiming timing = berth::timing_of(times_us);
   char text[160];
-  std::snprintf(text, sizeof text, "| %s | %d | %.2f | %.2f | %.2f |\n", name.c_str(), timing.repeat,
-                timing.p50_us / 1e3, timing.p99_us / 1e3, timing.max_us / 1e3);
+  std::snprintf(text, sizeof text, "| %s | %d | %.2f | %.2f | %.2f |\n", name.c_str(),
+                timing.repeat, timing.p50_us / 1e3, timing.p99_us / 1e3, timing.max_us / 1e3);
   return text;
 }
 
@@ -74,8 +74,10 @@ class LatencyProbeNode : public rclcpp::Node {
         scene_.joints_at(scene_time_s(elapsed_s()), joints_);
         messages_.publish_joints(joints_, now());
       }
-      const double until_s = std::min(next_joint_s, *std::min_element(next_image_s.begin(), next_image_s.end()));
-      std::this_thread::sleep_for(std::chrono::duration<double>(std::max(0.0, until_s - elapsed_s())));
+      const double until_s =
+          std::min(next_joint_s, *std::min_element(next_image_s.begin(), next_image_s.end()));
+      std::this_thread::sleep_for(
+          std::chrono::duration<double>(std::max(0.0, until_s - elapsed_s())));
     }
     finish();
   }
@@ -99,9 +101,12 @@ class LatencyProbeNode : public rclcpp::Node {
 
   void finish() {
     const std::lock_guard lock(mutex_);
-    std::printf("%ld results, %ld stale\n| in | new ones | median, ms | 99 %% | greatest |\n"
-                "| --- | ---: | ---: | ---: | ---: |\n", results_, stale_);
-    for (const auto& [name, times_us] : times_us_) std::fputs(row_of(name, times_us).c_str(), stdout);
+    std::printf(
+        "%ld results, %ld stale\n| in | new ones | median, ms | 99 %% | greatest |\n"
+        "| --- | ---: | ---: | ---: | ---: |\n",
+        results_, stale_);
+    for (const auto& [name, times_us] : times_us_)
+      std::fputs(row_of(name, times_us).c_str(), stdout);
     std::fflush(stdout);
     rclcpp::shutdown();
   }

@@ -13,8 +13,7 @@ using diagnostic_updater::DiagnosticStatusWrapper;
 /// How many a second since the report before.
 double rate_since(std::int64_t count, const rclcpp::Time& now, std::int64_t& before,
                   rclcpp::Time& before_at) {
-  const double passed_s =
-      before_at.nanoseconds() == 0 ? 0 : (now - before_at).seconds();
+  const double passed_s = before_at.nanoseconds() == 0 ? 0 : (now - before_at).seconds();
   const double rate = passed_s > 0 ? (count - before) / passed_s : 0;
   before = count;
   before_at = now;
@@ -23,8 +22,7 @@ double rate_since(std::int64_t count, const rclcpp::Time& now, std::int64_t& bef
 
 }  // namespace
 
-LiveNode::LiveNode(const std::string& name, const rclcpp::NodeOptions& options,
-                   bool has_one_camera)
+LiveNode::LiveNode(const std::string& name, const rclcpp::NodeOptions& options, bool has_one_camera)
     : Node(name, options),
       diagnostics_(this),
       settings_(*this, has_one_camera),
@@ -38,7 +36,8 @@ LiveNode::LiveNode(const std::string& name, const rclcpp::NodeOptions& options,
     camera_names_.push_back(cameras[i].name);
     inputs_.push_back(std::make_unique<CameraInput>(
         *this, cameras[i], clock_, tf_,
-        [this, i](const berth::Frame& frame, const std::shared_ptr<const sensor_msgs::msg::Image>& image) {
+        [this, i](const berth::Frame& frame,
+                  const std::shared_ptr<const sensor_msgs::msg::Image>& image) {
           on_frame(i, frame, image);
         }));
   }
@@ -47,7 +46,8 @@ LiveNode::LiveNode(const std::string& name, const rclcpp::NodeOptions& options,
   reported_joints_at_ = rclcpp::Time(0, 0, get_clock()->get_clock_type());
   diagnostics_.setHardwareID("berth");
   diagnostics_.add("robot", [this](DiagnosticStatusWrapper& status) { report_robot(status); });
-  diagnostics_.add("joint states", [this](DiagnosticStatusWrapper& status) { report_joints(status); });
+  diagnostics_.add("joint states",
+                   [this](DiagnosticStatusWrapper& status) { report_joints(status); });
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     diagnostics_.add("camera " + camera_names_[i],
                      [this, i](DiagnosticStatusWrapper& status) { report_camera(i, status); });
@@ -141,8 +141,9 @@ void LiveNode::rebuild() {
           *model_, settings_.evaluation(),
           scene ? berth::attachments_of(*scene) : std::vector<berth::Attachment>());
       // Settings change no joints: those that came stay.
-      made.joints = live_.joints ? live_.joints
-                                 : std::make_shared<berth::JointIntake>(*model_, settings_.joint_settings());
+      made.joints = live_.joints
+                        ? live_.joints
+                        : std::make_shared<berth::JointIntake>(*model_, settings_.joint_settings());
     }
     live_ = made;
   } catch (const std::exception& error) {
@@ -219,8 +220,8 @@ void LiveNode::report_joints(DiagnosticStatusWrapper& status) {
 void LiveNode::report_camera(std::size_t camera, DiagnosticStatusWrapper& status) {
   const CameraReport report = inputs_[camera]->report();
   const rclcpp::Time now = this->now();
-  status.add("images a second",
-             rate_since(report.counts.images, now, reported_images_[camera], reported_images_at_[camera]));
+  status.add("images a second", rate_since(report.counts.images, now, reported_images_[camera],
+                                           reported_images_at_[camera]));
   status.add("dropped", report.counts.dropped);
   status.add("refused", report.refused);
   status.add("stale", report.counts.stale);
@@ -254,12 +255,12 @@ void LiveNode::report_camera(std::size_t camera, DiagnosticStatusWrapper& status
     return status.summary(DiagnosticStatus::WARN, "the robot is hidden");
   }
   if (state.status == berth::CameraStatus::unconfirmed) {
-    return status.summary(DiagnosticStatus::WARN, "the robot is not where it should be in the images");
+    return status.summary(DiagnosticStatus::WARN,
+                          "the robot is not where it should be in the images");
   }
   if (state.status == berth::CameraStatus::ok) return status.summary(DiagnosticStatus::OK, "ok");
-  const std::string_view why = state.status == berth::CameraStatus::stale
-                                   ? name_of(state.time)
-                                   : name_of(state.status);
+  const std::string_view why =
+      state.status == berth::CameraStatus::stale ? name_of(state.time) : name_of(state.status);
   status.summary(DiagnosticStatus::ERROR, "not used: " + std::string(why));
 }
 

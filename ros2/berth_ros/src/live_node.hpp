@@ -1,6 +1,8 @@
 // What both nodes have: settings, the robot's model and joints, cameras, diagnostics of these.
 #pragma once
 
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
 #include <diagnostic_updater/diagnostic_updater.hpp>
 #include <memory>
 #include <mutex>
@@ -8,8 +10,6 @@
 #include <sensor_msgs/msg/joint_state.hpp>
 #include <std_msgs/msg/string.hpp>
 #include <string>
-#include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
 #include <vector>
 
 #include "camera_input.hpp"

@@ -17,15 +17,16 @@ ParameterDescriptor described(const std::string& text, bool is_read_only = true)
   return descriptor;
 }
 
-constexpr std::array<const char*, 7> kGroups = {"self_filter", "sensor", "space", "watch",
-                                                "evaluation", "time", "separation"};
+constexpr std::array<const char*, 7> kGroups = {"self_filter", "sensor", "space",     "watch",
+                                                "evaluation",  "time",   "separation"};
 constexpr const char* kMonitor = "separation.monitor";
 
 /// All overrides NAME: number below a prefix, declared.
 std::map<std::string, double> declare_numbers(rclcpp::Node& node, const std::string& prefix,
                                               const std::string& sentence) {
   std::map<std::string, double> numbers;
-  for (const auto& [name, value] : node.get_node_parameters_interface()->get_parameter_overrides()) {
+  for (const auto& [name, value] :
+       node.get_node_parameters_interface()->get_parameter_overrides()) {
     if (name.rfind(prefix + ".", 0) != 0) continue;
     numbers[name.substr(prefix.size() + 1)] =
         node.declare_parameter(name, rclcpp::ParameterType::PARAMETER_DOUBLE, described(sentence))
@@ -61,8 +62,9 @@ PoseSource pose_source_of(const std::string& text) {
 
 NodeSettings::NodeSettings(rclcpp::Node& node, bool has_one_camera) {
   const std::string scene = node.declare_parameter(
-      "scene", "", described("a scene file: robot, cameras and settings; parameters go over it. "
-                             "Its time: is about its recording and not heeded"));
+      "scene", "",
+      described("a scene file: robot, cameras and settings; parameters go over it. "
+                "Its time: is about its recording and not heeded"));
   if (!scene.empty()) scene_ = berth::read_scene(scene);
   if (scene_) judge_scene(node);
   declare_robot(node);
@@ -86,8 +88,8 @@ void NodeSettings::judge_scene(const rclcpp::Node& node) const {
   }
   const berth::Method method = scene_->evaluation.method;
   if (method == berth::Method::mesh) return;
-  throw std::invalid_argument(scene_->file.string() + ": evaluation.method: " +
-                              std::string(name_of(method)) +
+  throw std::invalid_argument(scene_->file.string() +
+                              ": evaluation.method: " + std::string(name_of(method)) +
                               "; expected mesh, the only method of the nodes");
 }
 
@@ -108,8 +110,9 @@ void NodeSettings::declare_robot(rclcpp::Node& node) {
   robot_.environment_links = node.declare_parameter(
       "environment_links", robot_.environment_links,
       described("links that are environment: taken out of the images, not evaluated"));
-  robot_.ignore_links = node.declare_parameter(
-      "ignore_links", robot_.ignore_links, described("links that are neither taken out nor evaluated"));
+  robot_.ignore_links =
+      node.declare_parameter("ignore_links", robot_.ignore_links,
+                             described("links that are neither taken out nor evaluated"));
 }
 
 void NodeSettings::declare_joints(rclcpp::Node& node) {
@@ -125,8 +128,8 @@ void NodeSettings::declare_joints(rclcpp::Node& node) {
        declare_numbers(node, "joint_offsets", "added to this joint's positions, rad or m")) {
     joints_.offsets[joint] = value;
   }
-  for (const auto& [joint, value] :
-       declare_numbers(node, "fixed_joints", "the position of a joint that nobody tells, rad or m")) {
+  for (const auto& [joint, value] : declare_numbers(
+           node, "fixed_joints", "the position of a joint that nobody tells, rad or m")) {
     joints_.fixed[joint] = value;
   }
 }
@@ -161,9 +164,8 @@ void NodeSettings::declare_cameras(rclcpp::Node& node, bool has_one_camera) {
   names = node.declare_parameter(
       "cameras", names, described("names of the cameras: NAME/depth_image, NAME/camera_info"));
   if (names.empty() || names.size() > berth::kMostCameras) {
-    throw std::invalid_argument("cameras: " + std::to_string(names.size()) +
-                                "; expected 1 to " + std::to_string(berth::kMostCameras) +
-                                " names");
+    throw std::invalid_argument("cameras: " + std::to_string(names.size()) + "; expected 1 to " +
+                                std::to_string(berth::kMostCameras) + " names");
   }
   for (const std::string& name : names) declare_camera(node, name, false);
 }

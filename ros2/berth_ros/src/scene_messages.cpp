@@ -68,10 +68,11 @@ PlayedScene::PlayedScene(const std::string& file)
 
 std::size_t PlayedScene::frame_at(std::size_t camera, double time_s) const {
   const auto& exposures = scene_.cameras[camera].at_exposure;
-  const auto nearest = std::min_element(
-      exposures.begin(), exposures.end(), [&](const berth::JointState& a, const berth::JointState& b) {
-        return std::abs(a.stamp_s - time_s) < std::abs(b.stamp_s - time_s);
-      });
+  const auto nearest =
+      std::min_element(exposures.begin(), exposures.end(),
+                       [&](const berth::JointState& a, const berth::JointState& b) {
+                         return std::abs(a.stamp_s - time_s) < std::abs(b.stamp_s - time_s);
+                       });
   return static_cast<std::size_t>(nearest - exposures.begin());
 }
 
@@ -105,16 +106,19 @@ void SceneMessages::add_camera(rclcpp::Node& node, const berth::OpenCamera& came
   made.camera_info = info_of(camera.view->camera());
   made.camera_info.header.frame_id = frame_of(camera);
   for (std::size_t i = 0; i < source.depth.size(); ++i) {
-    made.images.push_back(image_of(camera.read_depth(i), source.depth_scale_m, source.depth_offset_m));
+    made.images.push_back(
+        image_of(camera.read_depth(i), source.depth_scale_m, source.depth_offset_m));
     made.images.back().header.frame_id = frame_of(camera);
   }
-  geometry_msgs::msg::TransformStamped& mount = mounts_.emplace_back(tf2::eigenToTransform(source.X_PC));
+  geometry_msgs::msg::TransformStamped& mount =
+      mounts_.emplace_back(tf2::eigenToTransform(source.X_PC));
   mount.header.stamp = node.now();
   mount.header.frame_id = source.parent_link;
   mount.child_frame_id = frame_of(camera);
 }
 
-void SceneMessages::publish_image(std::size_t camera, std::size_t frame, const rclcpp::Time& stamp) {
+void SceneMessages::publish_image(std::size_t camera, std::size_t frame,
+                                  const rclcpp::Time& stamp) {
   Camera& from = cameras_[camera];
   from.camera_info.header.stamp = stamp;
   from.info->publish(from.camera_info);

@@ -1,13 +1,13 @@
 // A scene as the messages of a robot and its cameras: what the player and the latency probe share.
 #pragma once
 
+#include <tf2_ros/static_transform_broadcaster.h>
 #include <rclcpp/rclcpp.hpp>
 #include <sensor_msgs/msg/camera_info.hpp>
 #include <sensor_msgs/msg/image.hpp>
 #include <sensor_msgs/msg/joint_state.hpp>
 #include <std_msgs/msg/string.hpp>
 #include <string>
-#include <tf2_ros/static_transform_broadcaster.h>
 #include <vector>
 
 #include "berth/scene/open_scene.hpp"

@@ -14,7 +14,8 @@ class SelfFilterNode : public LiveNode {
   explicit SelfFilterNode(const rclcpp::NodeOptions& options)
       : LiveNode("self_filter_node", options, true) {
     const rclcpp::QoS qos = rclcpp::SensorDataQoS();
-    world_depth_ = image_transport::create_publisher(this, "world_depth", qos.get_rmw_qos_profile());
+    world_depth_ =
+        image_transport::create_publisher(this, "world_depth", qos.get_rmw_qos_profile());
     robot_mask_ = create_publisher<Image>("robot_mask", qos);
     robot_depth_ = create_publisher<Image>("robot_depth", qos);
     listen();
@@ -29,7 +30,8 @@ class SelfFilterNode : public LiveNode {
     // Without the robot's pose nobody knows which pixels are the robot's: no image is better.
     if (frame.time.status != berth::TimeStatus::ok || !frame.watch.is_trusted()) return;
     const berth::Camera& camera = frame.view->camera();
-    if (world_depth_.getNumSubscribers() > 0) world_depth_.publish(without_robot(frame, *image, camera));
+    if (world_depth_.getNumSubscribers() > 0)
+      world_depth_.publish(without_robot(frame, *image, camera));
     if (robot_mask_->get_subscription_count() > 0) robot_mask_->publish(mask_of(frame, *image));
     if (robot_depth_->get_subscription_count() > 0) robot_depth_->publish(robot_of(frame, *image));
   }
@@ -37,7 +39,8 @@ class SelfFilterNode : public LiveNode {
   std::shared_ptr<Image> without_robot(const berth::Frame& frame, const Image& image,
                                        const berth::Camera& camera) const {
     auto out = std::make_shared<Image>(image);
-    berth::write_raw_obstacles(raw_of(image), camera, frame.obstacles, camera_settings().units, out->data);
+    berth::write_raw_obstacles(raw_of(image), camera, frame.obstacles, camera_settings().units,
+                               out->data);
     return out;
   }
 

@@ -84,8 +84,9 @@ rcl_interfaces::msg::ParameterDescriptor descriptor_of(const berth::Setting& set
   if constexpr (std::is_same_v<T, bool>) {
   } else if constexpr (std::is_enum_v<T>) {
     for (const T one : all_of(T{})) {
-      descriptor.additional_constraints += (descriptor.additional_constraints.empty() ? "one of " : ", ") +
-                                           std::string(name_of(one));
+      descriptor.additional_constraints +=
+          (descriptor.additional_constraints.empty() ? "one of " : ", ") +
+          std::string(name_of(one));
     }
   } else if constexpr (std::is_integral_v<T>) {
     auto& range = descriptor.integer_range.emplace_back();

@@ -32,8 +32,8 @@ class PlannedVelocity {
 class SpeedMonitor {
  public:
   /// Throws as berth::SeparationMonitor does.
-  SpeedMonitor(std::shared_ptr<const berth::Robot> robot,
-               const berth::SeparationSettings& settings, double velocity_window_s);
+  SpeedMonitor(std::shared_ptr<const berth::Robot> robot, const berth::SeparationSettings& settings,
+               double velocity_window_s);
 
   /// Sets Result::separation, and what is about speeds in `out`. Velocities are those of `planned`
   /// where any came, else those of the joints.

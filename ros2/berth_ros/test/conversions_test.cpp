@@ -59,9 +59,8 @@ TEST(Parameters, EachSettingComesBack) {
 
 TEST(Parameters, AnUnknownNameIsRefusedWithThoseThatThereAre) {
   berth::UnknownPolicy policy{};
-  const std::string why = error_of([&] {
-    assign_parameter("separation.camera", rclcpp::ParameterValue("stopp"), policy);
-  });
+  const std::string why = error_of(
+      [&] { assign_parameter("separation.camera", rclcpp::ParameterValue("stopp"), policy); });
   EXPECT_NE(why.find("stopp"), std::string::npos);
   EXPECT_NE(why.find("one of stop, assume_range, ignore"), std::string::npos);
 }
@@ -212,7 +211,8 @@ TEST(Result, OfNoRobotIsStale) {
   EXPECT_EQ(out.header.stamp.sec, 103);
 }
 
-LinkDistance link(const std::string& name, std::uint8_t status, float distance_m, bool is_moved = true) {
+LinkDistance link(const std::string& name, std::uint8_t status, float distance_m,
+                  bool is_moved = true) {
   LinkDistance link;
   link.link = name;
   link.status = status;
@@ -233,11 +233,10 @@ berth_msgs::msg::Separation separation_of(const std::vector<LinkDistance>& links
 }
 
 TEST(Separation, IsTheLeastBoundOfTheLinksThatMove) {
-  const auto out = separation_of({link("base", LinkDistance::OK, 0.0F, false),
-                                  link("arm", LinkDistance::OK, 0.4F),
-                                  link("hand", LinkDistance::OK, 0.3F),
-                                  link("tool", LinkDistance::NONE_IN_RANGE, 1.0F)},
-                                 "hand");
+  const auto out = separation_of(
+      {link("base", LinkDistance::OK, 0.0F, false), link("arm", LinkDistance::OK, 0.4F),
+       link("hand", LinkDistance::OK, 0.3F), link("tool", LinkDistance::NONE_IN_RANGE, 1.0F)},
+      "hand");
   EXPECT_TRUE(out.has_distance);
   EXPECT_FLOAT_EQ(out.distance_m, 0.3F);
   EXPECT_EQ(out.link, "hand");
@@ -255,7 +254,8 @@ TEST(Separation, HasTheRangeWhereNoLinkIsNearAnything) {
 TEST(Separation, WhatIsNotKnownIsNeverFar) {
   for (const std::uint8_t status : {LinkDistance::NOT_VISIBLE, LinkDistance::CUT_SHORT,
                                     LinkDistance::STALE, LinkDistance::NOT_SEEN}) {
-    const auto out = separation_of({link("arm", LinkDistance::OK, 0.4F), link("hand", status, 0.5F)});
+    const auto out =
+        separation_of({link("arm", LinkDistance::OK, 0.4F), link("hand", status, 0.5F)});
     EXPECT_FALSE(out.has_distance) << int{status};
     EXPECT_TRUE(std::isnan(out.distance_m));
     EXPECT_EQ(out.link, "hand");

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 
-#include "berth/fit/compare_estimates.hpp"
 #include "berth/calibration/fit_camera.hpp"
-#include "berth/fit/score.hpp"
 #include "berth/calibration/uncertainty.hpp"
+#include "berth/fit/compare_estimates.hpp"
+#include "berth/fit/score.hpp"
 
 namespace berth {
 namespace {
@@ -40,8 +40,8 @@ CalibrationData alone(const CalibrationData& calibration_data, std::size_t camer
 }
 
 /// Joint zeros, with all cameras at once. Starts from and writes `estimate`.
-void find_joint_zeros(const CalibrationData& calibration_data, FitPriors priors, CalibrationEstimate& estimate,
-                      CalibrationResult& result) {
+void find_joint_zeros(const CalibrationData& calibration_data, FitPriors priors,
+                      CalibrationEstimate& estimate, CalibrationResult& result) {
   FrameDrawer drawer(calibration_data, {2, 1});
   const std::size_t joints = calibration_data.model->joints.size();
   priors.joints.assign(joints, kJointPrior);
@@ -65,7 +65,8 @@ void find_joint_zeros(const CalibrationData& calibration_data, FitPriors priors,
 /// Tells of one camera what the estimate of all says.
 class CameraReport {
  public:
-  CameraReport(const CalibrationData& calibration_data, std::size_t camera, const CalibrationEstimate& estimate)
+  CameraReport(const CalibrationData& calibration_data, std::size_t camera,
+               const CalibrationEstimate& estimate)
       : one_(alone(calibration_data, camera)),
         source_(*calibration_data.cameras[camera]),
         drawer_(one_, {2, 1}),
@@ -97,10 +98,11 @@ class CameraReport {
       out_.is_found = false;
       refuse(unexplained());
     } else if (out_.score_after < out_.score_before) {
-      refuse(fmt::format("the best one found, {:.1f} mm from it, agrees with the images by {:.3f} of "
-                         "2, the scene's own by {:.3f}",
-                         1000 * displacement_m(drawer_, 2, estimate_, start_)[0],
-                         out_.score_after, out_.score_before));
+      refuse(
+          fmt::format("the best one found, {:.1f} mm from it, agrees with the images by {:.3f} of "
+                      "2, the scene's own by {:.3f}",
+                      1000 * displacement_m(drawer_, 2, estimate_, start_)[0], out_.score_after,
+                      out_.score_before));
       out_.score_after = out_.score_before;
     } else {
       measure_uncertainty();
@@ -109,14 +111,16 @@ class CameraReport {
 
   std::string unexplained() {
     const std::string best = fmt::format(
-        "no pose was found that explains the images: the best agrees by {:.2f} of 2; expected {:.1f} "
+        "no pose was found that explains the images: the best agrees by {:.2f} of 2; expected "
+        "{:.1f} "
         "at least",
         out_.score_after, kLeastScore);
     if (score(drawer_, start_, kLastScore).pixels > 0) return best;
-    return fmt::format("nothing of the robot is seen where the scene has the camera, in any of its {} "
-                       "frames, and {}; expected a camera that sees parts of the robot, and its pose "
-                       "to within 20 cm and 15 degrees",
-                       source_.frames.size(), best);
+    return fmt::format(
+        "nothing of the robot is seen where the scene has the camera, in any of its {} "
+        "frames, and {}; expected a camera that sees parts of the robot, and its pose "
+        "to within 20 cm and 15 degrees",
+        source_.frames.size(), best);
   }
 
   void refuse(std::string why) {
@@ -129,9 +133,8 @@ class CameraReport {
     FitPriors priors = priors_of(source_);
     const FitResult whole = refine(drawer_, estimate_, priors);
     const FitResult even = refine(drawer_, estimate_, priors, FrameChoice::even);
-    const FitResult odd = source_.frames.size() > 1
-                              ? refine(drawer_, estimate_, priors, FrameChoice::odd)
-                              : even;
+    const FitResult odd =
+        source_.frames.size() > 1 ? refine(drawer_, estimate_, priors, FrameChoice::odd) : even;
     out_.halves_m = source_.frames.size() > 1
                         ? displacement_m(drawer_, 2, even.estimate, odd.estimate)[0]
                         : std::numeric_limits<double>::quiet_NaN();
@@ -167,7 +170,8 @@ DepthImage corrected(const DepthImage& depth_m, const DepthError& error) {
   return out;
 }
 
-CalibrationResult calibrate(const CalibrationData& calibration_data, const CalibrationSettings& settings) {
+CalibrationResult calibrate(const CalibrationData& calibration_data,
+                            const CalibrationSettings& settings) {
   CalibrationEstimate estimate = start_of(calibration_data);
   FitPriors priors;
   for (std::size_t c = 0; c < calibration_data.cameras.size(); ++c) {

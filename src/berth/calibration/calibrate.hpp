@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "berth/fit/residual_spread.hpp"
 #include "berth/fit/calibration_data.hpp"
+#include "berth/fit/residual_spread.hpp"
 
 namespace berth {
 
@@ -44,8 +44,8 @@ struct CameraCalibration {
   ResidualSpread before;
   /// With depth's error taken out.
   ResidualSpread after;
-  /// How well model and images agree, at the scene's pose and at the one that is told; 2 is perfect.
-  /// Where none was found, that of the best that was tried.
+  /// How well model and images agree, at the scene's pose and at the one that is told; 2 is
+  /// perfect. Where none was found, that of the best that was tried.
   double score_before = 0;
   double score_after = 0;
   /// Numbers of the frames that were used.
@@ -76,8 +76,9 @@ struct CalibrationSettings {
   std::function<void()> pause = [] {};
 };
 
-/// Fits all cameras of the calibration, on all threads that TBB gives. Each camera needs one frame at
-/// least. The result depends neither on threads nor on time.
-CalibrationResult calibrate(const CalibrationData& calibration_data, const CalibrationSettings& settings = {});
+/// Fits all cameras of the calibration, on all threads that TBB gives. Each camera needs one frame
+/// at least. The result depends neither on threads nor on time.
+CalibrationResult calibrate(const CalibrationData& calibration_data,
+                            const CalibrationSettings& settings = {});
 
 }  // namespace berth

@@ -68,8 +68,7 @@ Score typical_size(FrameDrawer& drawer, const CalibrationEstimate& start,
 
 std::vector<CalibrationEstimate> search_coarsely(FrameDrawer& drawer,
                                                  const CalibrationEstimate& start,
-                                                 const CoarseSearch& search,
-                                                 double least_pixels) {
+                                                 const CoarseSearch& search, double least_pixels) {
   std::mt19937 random(kSeed);
   std::vector<Tried> best{{start, 0}};
   for (int round = 0; round < search.rounds; ++round) {
@@ -83,9 +82,10 @@ std::vector<CalibrationEstimate> search_coarsely(FrameDrawer& drawer,
     for (int i = 0; i < search.tries; ++i) {
       const CalibrationEstimate& from = best[i % best.size()].estimate;
       const CalibrationEstimate to =
-          round == 0 ? turned(from, search, random)
-                     : moved(from, Eigen::Vector3d::Constant(shrink * kLaterTurn * search.reach_rad),
-                             Eigen::Vector3d::Constant(shrink * search.reach_m), random);
+          round == 0
+              ? turned(from, search, random)
+              : moved(from, Eigen::Vector3d::Constant(shrink * kLaterTurn * search.reach_rad),
+                      Eigen::Vector3d::Constant(shrink * search.reach_m), random);
       tried.push_back({to, score_of(to)});
     }
     const bool is_last = round + 1 == search.rounds;

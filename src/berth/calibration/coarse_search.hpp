@@ -30,7 +30,6 @@ Score typical_size(FrameDrawer& drawer, const CalibrationEstimate& start,
 /// the best of them first. Depends on its arguments alone.
 std::vector<CalibrationEstimate> search_coarsely(FrameDrawer& drawer,
                                                  const CalibrationEstimate& start,
-                                                 const CoarseSearch& search,
-                                                 double least_pixels);
+                                                 const CoarseSearch& search, double least_pixels);
 
 }  // namespace berth

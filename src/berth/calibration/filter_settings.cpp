@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "berth/calibration/found_estimate.hpp"
+#include "berth/calibration/swallowed.hpp"
 #include "berth/fit/frame_drawer.hpp"
 #include "berth/fit/outline_rows.hpp"
 #include "berth/fit/robot_pixels.hpp"
-#include "berth/calibration/swallowed.hpp"
 #include "berth/self_filter/self_filter.hpp"
 #include "berth/sensor/sensor_rules.hpp"
 
@@ -40,7 +40,8 @@ struct ProposedCamera {
 
 class Proposer {
  public:
-  Proposer(const Camera& camera, const SelfFilterSettings& self_filter, const SensorSettings& sensor)
+  Proposer(const Camera& camera, const SelfFilterSettings& self_filter,
+           const SensorSettings& sensor)
       : camera_(camera), self_filter_(self_filter), sensor_(sensor) {
     self_filter_.robot_region_scale = 0;
     sensor_.average_frames = 0;

@@ -23,8 +23,8 @@ struct ProposedSetting {
 /// What stands out of the image with the proposed settings, far from the robot, at one depth.
 struct SmallestObstacle {
   double depth_m = 0;
-  /// A rod of 30 cm and a fingertip of 7 cm, upright: the least width of which at least half is kept
-  /// in nine of ten places; NaN where 3 cm are swallowed, too, or no image has room for them.
+  /// A rod of 30 cm and a fingertip of 7 cm, upright: the least width of which at least half is
+  /// kept in nine of ten places; NaN where 3 cm are swallowed, too, or no image has room for them.
   double rod_width_m = 0;
   double finger_width_m = 0;
 };
@@ -33,8 +33,8 @@ struct SmallestObstacle {
 struct FilterProposal {
   std::vector<ProposedSetting> self_filter;
   std::vector<ProposedSetting> sensor;
-  /// Readings of the robot lie behind the model by this, in the median. What stands before the robot
-  /// by less than tolerance_m and this is taken for the robot.
+  /// Readings of the robot lie behind the model by this, in the median. What stands before the
+  /// robot by less than tolerance_m and this is taken for the robot.
   double bias_m = 0;
   /// Readings that the settings leave, within 10 cm of the robot, where no other frame shows the
   /// same: pixels of all frames, and of the largest blob.

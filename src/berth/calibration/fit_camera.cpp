@@ -12,8 +12,7 @@ namespace {
 constexpr int kSearchWidth_px = 160;
 
 std::vector<FitRound> near_rounds(int step) {
-  return {{step, 8, 0.10, 0.08, 48, 0.08},
-          {step, 6, 0.06, 0.05, 32, 0.06}};
+  return {{step, 8, 0.10, 0.08, 48, 0.08}, {step, 6, 0.06, 0.05, 32, 0.06}};
 }
 
 const std::vector<FitRound> kLastRounds{{2, 5, 0.04, 0.03, 16, 0.05}, {1, 4, 0.03, 0.02, 12, 0.05}};
@@ -36,7 +35,11 @@ class PlaceSearch {
  public:
   PlaceSearch(FrameDrawer& drawer, const FitPriors& priors, const std::vector<int>& steps,
               const std::function<void()>& pause)
-      : drawer_(drawer), near_(priors), steps_(steps), pause_(pause), start_(start_of(drawer.calibration_data())) {
+      : drawer_(drawer),
+        near_(priors),
+        steps_(steps),
+        pause_(pause),
+        start_(start_of(drawer.calibration_data())) {
     // Sensor faults of a few millimetres must not explain decimetres.
     near_.depth_offset_m = 0;
     near_.depth_scale = 0;
@@ -80,7 +83,8 @@ std::vector<int> camera_steps(int width_px) {
 
 FitResult fit_camera(FrameDrawer& drawer, const FitPriors& priors,
                      const std::function<void()>& pause) {
-  const std::vector<int> steps = camera_steps(drawer.calibration_data().cameras[0]->camera.width_px);
+  const std::vector<int> steps =
+      camera_steps(drawer.calibration_data().cameras[0]->camera.width_px);
   PlaceSearch search(drawer, priors, steps, pause);
   Place place = search.run({});
   if (place.score < kGoodScore) {

@@ -9,8 +9,8 @@ namespace berth {
 /// The pose of one camera, from wherever it is believed to be: a fit from there, and from the best
 /// places of a coarse search; the one that explains the images best. `drawer` has one camera and
 /// the steps of camera_steps(). `pause` is called now and then; to stop, it throws.
-FitResult fit_camera(FrameDrawer& drawer, const FitPriors& priors,
-                     const std::function<void()>& pause = [] {});
+FitResult fit_camera(
+    FrameDrawer& drawer, const FitPriors& priors, const std::function<void()>& pause = [] {});
 
 /// The last rounds of a fit, from a place that is known well already.
 FitResult refine(FrameDrawer& drawer, const CalibrationEstimate& start, const FitPriors& priors,

@@ -6,9 +6,10 @@
 
 namespace berth {
 
-/// What was found of one camera, about where its calibration started. `one` has that camera alone. The
-/// depth's error is left out, since it is not taken out of the images by itself.
-inline CalibrationEstimate found_estimate(const CalibrationData& one, const CameraCalibration& found,
+/// What was found of one camera, about where its calibration started. `one` has that camera alone.
+/// The depth's error is left out, since it is not taken out of the images by itself.
+inline CalibrationEstimate found_estimate(const CalibrationData& one,
+                                          const CameraCalibration& found,
                                           const CalibrationResult& all) {
   CalibrationEstimate estimate;
   CameraEstimate& camera = estimate.cameras.emplace_back();

@@ -59,9 +59,9 @@ std::vector<EnvironmentChange> moved_environment(const CalibrationData& calibrat
     if (calibration_data.model->is_moved(one.cameras[0]->parent)) continue;
     const std::vector<CalibrationFrame>& frames = one.cameras[0]->frames;
     std::vector<DepthImage> beside(frames.size());
-    FrameDrawer(one, {kStep}).draw(
-        kStep, found_estimate(one, found.cameras[c], found), {}, FrameChoice::all,
-        [&](const DrawnFrame& drawn) { beside[drawn.frame_index] = beside_robot(drawn); });
+    FrameDrawer(one, {kStep})
+        .draw(kStep, found_estimate(one, found.cameras[c], found), {}, FrameChoice::all,
+              [&](const DrawnFrame& drawn) { beside[drawn.frame_index] = beside_robot(drawn); });
     for (std::size_t f = 0; f + 1 < frames.size(); ++f) {
       if (beside[f].pixels().size() != beside[f + 1].pixels().size()) continue;
       const double share = changed_share(beside[f], beside[f + 1]);

@@ -16,8 +16,8 @@ struct EnvironmentChange {
   double share = 0;
 };
 
-/// The changes by which a calibration is disturbed: more than kMostChanged of the pixels that lie 10 cm
-/// and more beside the robot in both frames differ by more than 10 cm (times z^2 beyond 1 m).
+/// The changes by which a calibration is disturbed: more than kMostChanged of the pixels that lie
+/// 10 cm and more beside the robot in both frames differ by more than 10 cm (times z^2 beyond 1 m).
 /// None of a camera that moves with the robot: all that is beside the robot moves before it.
 std::vector<EnvironmentChange> moved_environment(const CalibrationData& calibration_data,
                                                  const CalibrationResult& found);

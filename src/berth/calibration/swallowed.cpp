@@ -120,7 +120,8 @@ std::vector<Thing> spread(const FilteredCamera& view, double width_m, double len
   std::vector<Thing> things;
   for (double v = 0; v < camera.height_px; v += camera.fy_px * length_m / depth_m + room_px) {
     // Not a whole number, so that edges fall anywhere between pixels.
-    for (double u = 0; u < camera.width_px; u += room_px + camera.fx_px * width_m / depth_m + 0.37) {
+    for (double u = 0; u < camera.width_px;
+         u += room_px + camera.fx_px * width_m / depth_m + 0.37) {
       const Thing thing = thing_at(camera, u, v, width_m, length_m, depth_m);
       if (!is_inside(camera, thing.pixels) || !has_background(view, thing)) continue;
       const PixelRect near = clip(grown(thing.pixels, room_px), camera.width_px, camera.height_px);
@@ -143,7 +144,8 @@ struct KeptCount {
     for (const bool one : which) kept += one;
   }
   bool is_enough() const {
-    return places >= kLeastPlaces && static_cast<double>(kept) >= kPlacesShare * static_cast<double>(places);
+    return places >= kLeastPlaces &&
+           static_cast<double>(kept) >= kPlacesShare * static_cast<double>(places);
   }
 };
 
@@ -172,13 +174,15 @@ std::vector<Thing> beside(const FilteredCamera& view, double gap_m) {
   };
   for (int v = 0; v < camera.height_px; v += kRowStep_px) {
     for (int u = 1; u + 1 < camera.width_px; ++u) {
-      const bool begins = view.robot->link_id(u, v) != kNoLink && view.robot->link_id(u - 1, v) == kNoLink;
-      const bool ends = view.robot->link_id(u, v) != kNoLink && view.robot->link_id(u + 1, v) == kNoLink;
+      const bool begins =
+          view.robot->link_id(u, v) != kNoLink && view.robot->link_id(u - 1, v) == kNoLink;
+      const bool ends =
+          view.robot->link_id(u, v) != kNoLink && view.robot->link_id(u + 1, v) == kNoLink;
       if (!begins && !ends) continue;
       const double z_m = view.robot->depth_m(u, v);
       const double off_px = camera.fx_px * (begins ? gap_m + kRodWidth_m : gap_m) / z_m;
-      const Thing rod = thing_at(camera, u + (begins ? -off_px : off_px), v, kRodWidth_m,
-                                 kFingerLength_m, z_m);
+      const Thing rod =
+          thing_at(camera, u + (begins ? -off_px : off_px), v, kRodWidth_m, kFingerLength_m, z_m);
       const int gap_px = static_cast<int>(0.8 * camera.fx_px * gap_m / z_m);
       const PixelRect near = grown(rod.pixels, gap_px);
       if (!is_inside(camera, near) || !has_background(view, rod)) continue;

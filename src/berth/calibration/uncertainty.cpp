@@ -30,7 +30,8 @@ Eigen::VectorXd difference(const CameraEstimate& from, const CameraEstimate& to,
 
 /// How many times the equations' variance the halves' difference has. Each half has twice the
 /// variance of the whole, their difference four times.
-double excess(const Eigen::VectorXd& halves, const Eigen::VectorXd& variance, int first, int count) {
+double excess(const Eigen::VectorXd& halves, const Eigen::VectorXd& variance, int first,
+              int count) {
   double sum = 0;
   for (int i = first; i < first + count; ++i) sum += halves[i] * halves[i] / (4 * variance[i]);
   return std::max(1.0, sum / count);

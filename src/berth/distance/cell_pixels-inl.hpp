@@ -45,8 +45,8 @@ struct CellPixels {
 };
 
 /// The pixels i, i + 1, ... of a cell.
-HWY_INLINE Chunks pixel_chunks(const SearchedCamera& view, const ImageCell& cell, int i, Lanes depth,
-                               Lanes end) {
+HWY_INLINE Chunks pixel_chunks(const SearchedCamera& view, const ImageCell& cell, int i,
+                               Lanes depth, Lanes end) {
   const Lanes place = count_up(static_cast<float>(i));
   const Lanes row = hn::Floor((place * Lanes(0.125f)).v);
   const Lanes u = place - row * Lanes(8.0f) + Lanes(static_cast<float>(8 * cell.u));
@@ -80,9 +80,9 @@ inline void load_pixels(const ViewSearch& search, const ImageCell& cell, const C
     const LaneMask valid =
         both(both(d >= Lanes(parent.d), d <= Lanes(parent_hi_m)), d <= Lanes(view.far_m));
     const Lanes depth = select(valid, d, Lanes(1.0f));
-    const Lanes end = search.to_shadow
-                          ? Lanes(view.far_m)
-                          : least(depth + Lanes(surface_thickness_m), greatest(depth, Lanes(view.far_m)));
+    const Lanes end = search.to_shadow ? Lanes(view.far_m)
+                                       : least(depth + Lanes(surface_thickness_m),
+                                               greatest(depth, Lanes(view.far_m)));
     store(depth, out.depth_m + i);
     store(end, out.end_m + i);
     store(select(valid, Lanes(-HUGE_VALF), Lanes(HUGE_VALF)), out.bound_m + i);
@@ -91,8 +91,8 @@ inline void load_pixels(const ViewSearch& search, const ImageCell& cell, const C
 
 /// Where a pixel was nearest to a patch, its neighbours are about as near: what lies before a plane
 /// there is bounded by it.
-HWY_INLINE void bound_by_plane(const SearchedCamera& view, const ImageCell& cell, const Plane& plane,
-                               CellPixels& pixels) {
+HWY_INLINE void bound_by_plane(const SearchedCamera& view, const ImageCell& cell,
+                               const Plane& plane, CellPixels& pixels) {
   for (int i = 0; i < 64; i += kLanes) {
     const Chunks chunks =
         pixel_chunks(view, cell, i, load(pixels.depth_m + i), load(pixels.end_m + i));

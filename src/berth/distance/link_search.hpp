@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "berth/distance/convex_pair.hpp"
-#include "berth/space/unknown_space.hpp"
 #include "berth/distance/item_heap.hpp"
 #include "berth/distance/robot_patches.hpp"
+#include "berth/space/unknown_space.hpp"
 
 namespace berth::mesh {
 
@@ -97,8 +97,8 @@ struct LinkSearch {
 ConvexPair triangle_pair(const LinkSearch& search, const Pose& X_FL, int triangle,
                          std::span<const Eigen::Vector3d> body_corners_m);
 
-/// Searches on among the pixels of all views: for their surface layers, or with `to_shadow` for all that
-/// lies behind their readings. Ends when the search is done, or after about `steps` patches.
+/// Searches on among the pixels of all views: for their surface layers, or with `to_shadow` for all
+/// that lies behind their readings. Ends when the search is done, or after about `steps` patches.
 void search_views(const UnknownSpace& space, bool to_shadow, int steps, LinkSearch& search);
 
 /// The same among the cubes of unknown space.

@@ -39,8 +39,8 @@ TileSum sum_of(const DepthView& depth_m, const PixelRect& rect) {
 }
 
 Eigen::Vector3f point_C_m(const Camera& camera, double u, double v, double z) {
-  return Eigen::Vector3d((u - camera.cx_px) * z / camera.fx_px, (v - camera.cy_px) * z / camera.fy_px,
-                         z)
+  return Eigen::Vector3d((u - camera.cx_px) * z / camera.fx_px,
+                         (v - camera.cy_px) * z / camera.fy_px, z)
       .cast<float>();
 }
 
@@ -99,8 +99,8 @@ void add_far_tiles(const ReadingTiles& tiles, std::size_t first, const Eigen::Ve
   }
 }
 
-void add_pixels(const DirectionCamera& view, Pixel corner, const Eigen::Vector3f& p, float range2_m2,
-                Sum& sum) {
+void add_pixels(const DirectionCamera& view, Pixel corner, const Eigen::Vector3f& p,
+                float range2_m2, Sum& sum) {
   const int u_end = std::min(corner.u + ReadingTiles::kTilePx, view.obstacle_depth_m.width);
   const int v_end = std::min(corner.v + ReadingTiles::kTilePx, view.obstacle_depth_m.height);
   for (int v = corner.v; v < v_end; ++v) {

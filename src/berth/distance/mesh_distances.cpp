@@ -69,8 +69,8 @@ void take_reading(const LinkSearch& reading, LinkSearch& nearest) {
   nearest.best_is_hidden = false;
 }
 
-/// The last answer's pixel as it is in the new image, its surface layer or with `to_shadow` all behind its
-/// reading, against the whole link.
+/// The last answer's pixel as it is in the new image, its surface layer or with `to_shadow` all
+/// behind its reading, against the whole link.
 void guess(const UnknownSpace& space, const SpacePair& last, bool to_shadow, LinkSearch& search) {
   if (search.link->empty() || last.camera < 0 ||
       last.camera >= static_cast<int>(space.views().size())) {

@@ -3,10 +3,10 @@
 #include <memory>
 #include <vector>
 
-#include "berth/space/unknown_space.hpp"
 #include "berth/distance/robot_patches.hpp"
 #include "berth/distance/settings.hpp"
 #include "berth/robot/kinematics.hpp"
+#include "berth/space/unknown_space.hpp"
 #include "berth/types/space_pair.hpp"
 
 namespace berth {

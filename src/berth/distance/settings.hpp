@@ -36,13 +36,16 @@ void visit_settings(Settings& s, Visitor&& visit) {
          "0 for exact",
          "mesh exact"},
         s.tolerance_m);
-  visit({"deadline_us", {.may_be_infinite = true},
+  visit({"deadline_us",
+         {.may_be_infinite = true},
          "the search stops after so many microseconds, mean directions not counted, and tells what "
          "it knows by then: distance and lower bound",
          "mesh exact"},
         s.deadline_us);
-  visit({"min_seen_share", {.most = 1},
-         "a link of whose surface the cameras see a smaller share is not_seen", "mesh"},
+  visit({"min_seen_share",
+         {.most = 1},
+         "a link of whose surface the cameras see a smaller share is not_seen",
+         "mesh"},
         s.min_seen_share);
 }
 

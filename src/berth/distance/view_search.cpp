@@ -46,9 +46,11 @@ void split_cell(ViewSearch& search, const Item& item, const ImageCell& cell, con
       const Lanes end =
           search.to_shadow
               ? far
-              : greatest(depth, least(select(valid, hi, Lanes(1.0f)) +
-                                          Lanes(static_cast<float>(view.space->settings.surface_thickness_m)),
-                                      far));
+              : greatest(
+                    depth,
+                    least(select(valid, hi, Lanes(1.0f)) +
+                              Lanes(static_cast<float>(view.space->settings.surface_thickness_m)),
+                          far));
       const Lanes du(view.per_column), u0(view.first_column), dv(view.per_row), v0(view.first_row);
       const Chunks chunks{u * du + u0, (u + Lanes(side_px)) * du + u0,
                           v * dv + v0, (v + Lanes(side_px)) * dv + v0,

@@ -15,8 +15,8 @@ std::vector<std::filesystem::path> glob_files(const std::filesystem::path& folde
 /// The pattern that only `text` itself matches.
 std::string escape_glob(const std::string& text);
 
-/// Whether looking for the pattern's files is quick wherever it stands: wildcards in two parts of the
-/// path at most, and eight stars.
+/// Whether looking for the pattern's files is quick wherever it stands: wildcards in two parts of
+/// the path at most, and eight stars.
 bool is_quick_pattern(const std::string& pattern);
 
 }  // namespace berth

@@ -26,7 +26,8 @@ std::string read_file_bytes(const fs::path& file) {
   const fs::file_status status = fs::status(file, error);
   if (fs::is_directory(status)) fail(file, "is a folder", "a file");
   if (error == std::errc::no_such_file_or_directory) {
-    throw MissingFile(fmt::format("{}: {}; expected a readable file", file.string(), error.message()));
+    throw MissingFile(
+        fmt::format("{}: {}; expected a readable file", file.string(), error.message()));
   }
   if (error) fail(file, error.message(), "a readable file");
   if (!fs::is_regular_file(status)) fail(file, "is a pipe or device", "a regular file");

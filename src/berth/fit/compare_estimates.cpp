@@ -22,9 +22,11 @@ std::vector<double> displacement_m(FrameDrawer& drawer, int step, const Calibrat
     double count = 0;
   };
   std::vector<std::vector<Sum>> sums(calibration_data.cameras.size());
-  for (std::size_t c = 0; c < sums.size(); ++c) sums[c].resize(calibration_data.cameras[c]->frames.size());
+  for (std::size_t c = 0; c < sums.size(); ++c)
+    sums[c].resize(calibration_data.cameras[c]->frames.size());
   drawer.draw(step, a, {}, FrameChoice::all, [&](const DrawnFrame& drawn) {
-    const CalibrationFrame& frame = calibration_data.cameras[drawn.camera_index]->frames[drawn.frame_index];
+    const CalibrationFrame& frame =
+        calibration_data.cameras[drawn.camera_index]->frames[drawn.frame_index];
     const auto other = pose_robot(calibration_data, drawn.camera_index, frame, b, {});
     if (!other) return;
     std::vector<Pose> X_CC(calibration_data.model->links.size());
@@ -35,7 +37,8 @@ std::vector<double> displacement_m(FrameDrawer& drawer, int step, const Calibrat
     Sum& sum = sums[drawn.camera_index][drawn.frame_index];
     each_robot_pixel(drawn.camera, drawn.robot, [&](int u, int v, LinkId id) {
       const Eigen::Vector3d p_C_m = point_at(drawn.camera, u, v, drawn.robot.depth_m(u, v));
-      sum.length_m += (X_CC[calibration_data.model->evaluated_links[id - 1]] * p_C_m - p_C_m).norm();
+      sum.length_m +=
+          (X_CC[calibration_data.model->evaluated_links[id - 1]] * p_C_m - p_C_m).norm();
       sum.count += 1;
     });
   });

@@ -43,7 +43,8 @@ struct Equations {
 
 class Fit {
  public:
-  Fit(FrameDrawer& drawer, const CalibrationEstimate& start, const FitPriors& priors, FrameChoice choice)
+  Fit(FrameDrawer& drawer, const CalibrationEstimate& start, const FitPriors& priors,
+      FrameChoice choice)
       : drawer_(drawer), start_(start), priors_(priors), choice_(choice) {
     result_.estimate = start;
     cameras_ = static_cast<Eigen::Index>(start.cameras.size());
@@ -71,7 +72,8 @@ class Fit {
     result_.pivot_C_m.assign(start_.cameras.size(), Eigen::Vector3d(0, 0, 1));
     std::vector<std::vector<Eigen::Vector4d>> parts(start_.cameras.size());
     for (std::size_t c = 0; c < parts.size(); ++c) {
-      parts[c].assign(drawer_.calibration_data().cameras[c]->frames.size(), Eigen::Vector4d::Zero());
+      parts[c].assign(drawer_.calibration_data().cameras[c]->frames.size(),
+                      Eigen::Vector4d::Zero());
     }
     drawer_.draw(step, start_, {}, choice_, [&](const DrawnFrame& drawn) {
       Eigen::Vector4d& sum = parts[drawn.camera_index][drawn.frame_index];
@@ -162,7 +164,8 @@ class Fit {
     for (const FitRow& row : rows) {
       const double z_m = row.p_C_m.z();
       const double deviation_m = kDepthDeviation_m * std::max(1.0, z_m * z_m);
-      add_row(drawn, row, depth_count / (deviation_m * deviation_m) * tukey(row.residual_m, round.depth_cut_m),
+      add_row(drawn, row,
+              depth_count / (deviation_m * deviation_m) * tukey(row.residual_m, round.depth_cut_m),
               equations);
     }
     rows.clear();
@@ -171,13 +174,13 @@ class Fit {
                         {reach, round.outline_band_m}, rows);
     const double outline_count = drawn.step / kOutlinePixelsPerRow;
     for (const FitRow& row : rows) {
-      const double deviation_m = kOutlineDeviation_m + kOutlineDeviation_px *
-                                                           std::max(1.0, 0.5 * drawn.step) *
-                                                           row.p_C_m.z() / (drawn.camera.fx_px * drawn.step);
-      add_row(drawn, row,
-              outline_count / (deviation_m * deviation_m) *
-                  tukey(row.residual_m, round.outline_cut_m),
-              equations);
+      const double deviation_m =
+          kOutlineDeviation_m + kOutlineDeviation_px * std::max(1.0, 0.5 * drawn.step) *
+                                    row.p_C_m.z() / (drawn.camera.fx_px * drawn.step);
+      add_row(
+          drawn, row,
+          outline_count / (deviation_m * deviation_m) * tukey(row.residual_m, round.outline_cut_m),
+          equations);
     }
     return equations;
   }
@@ -210,8 +213,8 @@ class Fit {
       auto part = change.segment<kCameraUnknowns>(c * kCameraUnknowns);
       const double turn = part.segment<3>(kRotation).norm();
       const double move = part.segment<3>(kMove).norm();
-      const double shrink =
-          std::min({1.0, kMostTurn_rad / std::max(turn, 1e-12), kMostMove_m / std::max(move, 1e-12)});
+      const double shrink = std::min(
+          {1.0, kMostTurn_rad / std::max(turn, 1e-12), kMostMove_m / std::max(move, 1e-12)});
       part *= shrink;
       farthest = std::max({farthest, shrink * turn, shrink * move});
       move_robot(part.segment<3>(kRotation), part.segment<3>(kMove), result_.pivot_C_m[c], camera);
@@ -242,10 +245,10 @@ class Fit {
 void move_robot(const Eigen::Vector3d& rotation_C, const Eigen::Vector3d& move_C_m,
                 const Eigen::Vector3d& pivot_C_m, CameraEstimate& camera) {
   const double angle = rotation_C.norm();
-  const Eigen::AngleAxisd turn(angle, angle > 0 ? (rotation_C / angle).eval()
-                                                : Eigen::Vector3d::UnitX());
-  const Pose moved = Eigen::Translation3d(pivot_C_m + move_C_m) * turn *
-                     Eigen::Translation3d(-pivot_C_m);
+  const Eigen::AngleAxisd turn(angle,
+                               angle > 0 ? (rotation_C / angle).eval() : Eigen::Vector3d::UnitX());
+  const Pose moved =
+      Eigen::Translation3d(pivot_C_m + move_C_m) * turn * Eigen::Translation3d(-pivot_C_m);
   camera.X_PC = camera.X_PC * moved.inverse();
 }
 

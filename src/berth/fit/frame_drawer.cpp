@@ -32,8 +32,9 @@ FrameDrawer::FrameDrawer(const CalibrationData& calibration_data, const std::vec
 
 FrameDrawer::~FrameDrawer() = default;
 
-void FrameDrawer::draw(int step, const CalibrationEstimate& estimate, const PosedRobotRequest& request,
-                       FrameChoice choice, const std::function<void(const DrawnFrame&)>& take) {
+void FrameDrawer::draw(int step, const CalibrationEstimate& estimate,
+                       const PosedRobotRequest& request, FrameChoice choice,
+                       const std::function<void(const DrawnFrame&)>& take) {
   const std::vector<ImageLevel>& levels = levels_.at(step);
   std::vector<std::pair<std::size_t, std::size_t>> chosen;
   for (std::size_t c = 0; c < levels.size(); ++c) {
@@ -43,8 +44,7 @@ void FrameDrawer::draw(int step, const CalibrationEstimate& estimate, const Pose
   }
   const auto draw_one = [&](const std::pair<std::size_t, std::size_t>& which) {
     const auto [c, f] = which;
-    const auto posed =
-        pose_robot(data_, c, data_.cameras[c]->frames[f], estimate, request);
+    const auto posed = pose_robot(data_, c, data_.cameras[c]->frames[f], estimate, request);
     if (!posed) return;
     Drawings& drawings = scratch_->drawings.local();
     auto found = drawings.find({step, c});

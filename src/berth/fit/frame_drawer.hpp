@@ -35,7 +35,8 @@ struct DrawnFrame {
 /// Draws frames on all threads that TBB gives. One for each thread that asks.
 class FrameDrawer {
  public:
-  /// `calibration_data` has to outlive it. Frames are drawn at these steps; no others may be asked for.
+  /// `calibration_data` has to outlive it. Frames are drawn at these steps; no others may be asked
+  /// for.
   FrameDrawer(const CalibrationData& calibration_data, const std::vector<int>& steps);
   ~FrameDrawer();
 

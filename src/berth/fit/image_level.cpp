@@ -8,12 +8,8 @@ int middle_of(int step) { return step / 2; }
 
 Camera thinned(const Camera& camera, int step) {
   const double middle = middle_of(step);
-  return {camera.width_px / step,
-          camera.height_px / step,
-          camera.fx_px / step,
-          camera.fy_px / step,
-          (camera.cx_px - middle) / step,
-          (camera.cy_px - middle) / step};
+  return {camera.width_px / step, camera.height_px / step,        camera.fx_px / step,
+          camera.fy_px / step,    (camera.cx_px - middle) / step, (camera.cy_px - middle) / step};
 }
 
 DepthImage thinned(const DepthImage& depth_m, int step) {

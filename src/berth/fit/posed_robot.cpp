@@ -7,8 +7,8 @@ namespace {
 constexpr double kHalfStep_s = 0.005;
 
 /// Where the joints were `shift_s` after the frame's exposure, as it is believed to be.
-bool joints_at(const CalibrationData& calibration_data, const CalibrationFrame& frame, double clock_offset_s,
-               double shift_s, JointState& joints) {
+bool joints_at(const CalibrationData& calibration_data, const CalibrationFrame& frame,
+               double clock_offset_s, double shift_s, JointState& joints) {
   if (!calibration_data.joints || shift_s == 0) {
     joints = frame.joints;
     return true;
@@ -18,8 +18,9 @@ bool joints_at(const CalibrationData& calibration_data, const CalibrationFrame& 
 }
 
 /// rad/s or m/s; 0 for all where the time lies at the end of the samples.
-std::vector<double> joint_speeds(const CalibrationData& calibration_data, const CalibrationFrame& frame,
-                                 double clock_offset_s, double shift_s) {
+std::vector<double> joint_speeds(const CalibrationData& calibration_data,
+                                 const CalibrationFrame& frame, double clock_offset_s,
+                                 double shift_s) {
   JointState before;
   JointState after;
   std::vector<double> speeds(frame.joints.position.size(), 0.0);
@@ -64,8 +65,9 @@ Twist seen_from(const Pose& X_BC, const Twist& twist_B, const Twist& camera_B) {
 
 }  // namespace
 
-std::optional<PosedRobot> pose_robot(const CalibrationData& calibration_data, std::size_t camera_index,
-                                     const CalibrationFrame& frame, const CalibrationEstimate& estimate,
+std::optional<PosedRobot> pose_robot(const CalibrationData& calibration_data,
+                                     std::size_t camera_index, const CalibrationFrame& frame,
+                                     const CalibrationEstimate& estimate,
                                      const PosedRobotRequest& request) {
   const RobotModel& model = *calibration_data.model;
   const CalibrationCamera& camera = *calibration_data.cameras[camera_index];

@@ -5,13 +5,14 @@
 #include <optional>
 #include <vector>
 
-#include "berth/fit/estimate.hpp"
 #include "berth/fit/calibration_data.hpp"
+#include "berth/fit/estimate.hpp"
 #include "berth/robot/kinematics.hpp"
 
 namespace berth {
 
-/// A velocity of a rigid body in the camera's frame C: a point p_C of it moves by turn x p_C + move.
+/// A velocity of a rigid body in the camera's frame C: a point p_C of it moves by turn x p_C +
+/// move.
 struct Twist {
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();
   Eigen::Vector3d move = Eigen::Vector3d::Zero();
@@ -42,7 +43,8 @@ struct PosedRobotRequest {
 
 /// Nothing where the shifted time lies outside of the joints' samples.
 std::optional<PosedRobot> pose_robot(const CalibrationData& calibration_data, std::size_t camera,
-                                     const CalibrationFrame& frame, const CalibrationEstimate& estimate,
+                                     const CalibrationFrame& frame,
+                                     const CalibrationEstimate& estimate,
                                      const PosedRobotRequest& request);
 
 }  // namespace berth

@@ -66,10 +66,11 @@ void add_outline(const DrawnFrame& drawn, const CameraEstimate& estimate,
 }  // namespace
 
 Score score(FrameDrawer& drawer, const CalibrationEstimate& estimate, const ScoreSettings& settings,
-             FrameChoice choice) {
+            FrameChoice choice) {
   const CalibrationData& calibration_data = drawer.calibration_data();
   std::vector<std::vector<Sum>> parts(calibration_data.cameras.size());
-  for (std::size_t c = 0; c < parts.size(); ++c) parts[c].resize(calibration_data.cameras[c]->frames.size());
+  for (std::size_t c = 0; c < parts.size(); ++c)
+    parts[c].resize(calibration_data.cameras[c]->frames.size());
   drawer.draw(settings.step, estimate, {}, choice, [&](const DrawnFrame& drawn) {
     Sum& sum = parts[drawn.camera_index][drawn.frame_index];
     const CameraEstimate& camera = estimate.cameras[drawn.camera_index];

@@ -29,6 +29,6 @@ struct Score {
 /// through the model, -1/4 where something stands before it. With outlines, that and the mean of
 /// how well those agree are added. -2 where no frame shows the robot.
 Score score(FrameDrawer& drawer, const CalibrationEstimate& estimate, const ScoreSettings& settings,
-             FrameChoice choice = FrameChoice::all);
+            FrameChoice choice = FrameChoice::all);
 
 }  // namespace berth

@@ -15,12 +15,12 @@ struct CpuFunction {
 };
 
 constexpr std::array<CpuFunction, 3> kOnCpu = {{
-    {Method::exact,
-     [](const ImageRequest& q, EvaluateWorkspace& w, LinkDistances& out) { exact(q, w.exact, out); }},
+    {Method::exact, [](const ImageRequest& q, EvaluateWorkspace& w,
+                       LinkDistances& out) { exact(q, w.exact, out); }},
     {Method::brute_force,
      [](const ImageRequest& q, EvaluateWorkspace&, LinkDistances& out) { brute_force(q, out); }},
-    {Method::lattice,
-     [](const ImageRequest& q, EvaluateWorkspace& w, LinkDistances& out) { lattice(q, w.lattice, out); }},
+    {Method::lattice, [](const ImageRequest& q, EvaluateWorkspace& w,
+                         LinkDistances& out) { lattice(q, w.lattice, out); }},
 }};
 
 }  // namespace

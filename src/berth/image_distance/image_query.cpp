@@ -65,8 +65,8 @@ const Result& ImageQuery::ask(const Frame& frame, const RequestedJoints& joints,
   TimeStatus joints_status = TimeStatus::ok;
   const JointState* state = joints.read(now_s, parts_->newest, joints_status);
   const std::optional<double> stamp_s = state ? std::optional(state->stamp_s) : std::nullopt;
-  const CameraState camera = camera_state(&frame, now_s.value_or(frame.stamp_s),
-                                          parts_->robot->settings().time);
+  const CameraState camera =
+      camera_state(&frame, now_s.value_or(frame.stamp_s), parts_->robot->settings().time);
   Result& result = parts_->result;
   result.cameras.front().self_filter = frame.obstacles.count;
   if (!begin_image_result(*parts_->robot, frame, camera, stamp_s, joints_status, now_s, result)) {
@@ -83,9 +83,9 @@ const Result& ImageQuery::ask(const Frame& frame, const RequestedJoints& joints,
 }
 
 const Result& ImageQuery::Parts::evaluate(const Frame& frame, const AskedRobot& asked) {
-  method->evaluate({frame.view->camera(), asked.image, robot->model().link_count(), searchable,
-                     settings},
-                    distances);
+  method->evaluate(
+      {frame.view->camera(), asked.image, robot->model().link_count(), searchable, settings},
+      distances);
   tell_image_distances(distances, frame.X_BC, result);
   tell_image_visibility(*robot, frame, asked, distances, tell, result);
   return result;

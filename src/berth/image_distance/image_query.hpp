@@ -26,8 +26,8 @@ class ImageQuery {
   ImageQuery(ImageQuery&&) noexcept;
   ImageQuery& operator=(ImageQuery&&) noexcept;
 
-  /// Builds what requests search of this frame, so that the first of them needs not. The frame stays
-  /// as it is while it is asked.
+  /// Builds what requests search of this frame, so that the first of them needs not. The frame
+  /// stays as it is while it is asked.
   void prepare(const Frame& frame);
 
   /// The robot as it stood at the exposure, or at other joint angles: then its image is rendered

@@ -1,7 +1,7 @@
 #include "berth/image_distance/image_result.hpp"
 
-#include "berth/pipeline/frame_space.hpp"
 #include "berth/pipeline/frame_set.hpp"
+#include "berth/pipeline/frame_space.hpp"
 #include "berth/pipeline/mounted_camera.hpp"
 #include "berth/visibility/sample_points.hpp"
 
@@ -61,8 +61,7 @@ void tell_image_distances(const LinkDistances& distances, const Pose& X_BC, Resu
     link.robot_point_B_m = (X_BC * from.robot_point_C_m.cast<double>()).cast<float>();
     link.obstacle_point_B_m = (X_BC * from.obstacle_point_C_m.cast<double>()).cast<float>();
     link.mean_direction_C = from.mean_direction_C;
-    link.mean_direction_B =
-        (X_BC.linear() * from.mean_direction_C.cast<double>()).cast<float>();
+    link.mean_direction_B = (X_BC.linear() * from.mean_direction_C.cast<double>()).cast<float>();
   }
   find_nearest(out);
 }
@@ -80,8 +79,9 @@ void tell_image_visibility(const Robot& robot, const Frame& frame, const AskedRo
     workspace.rejected_depth.build(frame.space->rejected.depth_m);
     workspace.rejected_number = frame.number;
   }
-  find_rejected_distances(view.camera(), asked.image, frame.space->rejected, workspace.rejected_depth,
-                          distances, range_m, workspace.rejected, workspace.links);
+  find_rejected_distances(view.camera(), asked.image, frame.space->rejected,
+                          workspace.rejected_depth, distances, range_m, workspace.rejected,
+                          workspace.links);
   for (std::size_t i = 0; i < out.links.size(); ++i) out.links[i].visibility = workspace.links[i];
 }
 

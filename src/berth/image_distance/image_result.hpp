@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "berth/image_distance/rejected_distances.hpp"
 #include "berth/image_distance/image_visibility.hpp"
 #include "berth/image_distance/method.hpp"
+#include "berth/image_distance/rejected_distances.hpp"
 #include "berth/image_distance/settings.hpp"
 #include "berth/pipeline/frame.hpp"
 #include "berth/pipeline/query.hpp"

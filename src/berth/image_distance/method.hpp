@@ -9,17 +9,25 @@ namespace berth {
 
 /// The ways to find distances: the whole robot against what all cameras see (`mesh`, the product's
 /// own way), or one image of the robot against one of the obstacles. Those with gl_ run on OpenGL.
-enum class Method : std::uint8_t { mesh, exact, brute_force, lattice, gl_exact, gl_lattice, gl_hybrid };
+enum class Method : std::uint8_t {
+  mesh,
+  exact,
+  brute_force,
+  lattice,
+  gl_exact,
+  gl_lattice,
+  gl_hybrid
+};
 
 /// By enumerator.
 inline constexpr std::array<std::string_view, 7> kMethodNames = {
     "mesh", "exact", "brute_force", "lattice", "gl_exact", "gl_lattice", "gl_hybrid"};
-inline constexpr std::array kMethods = {Method::mesh,        Method::exact,    Method::brute_force,
-                                        Method::lattice,     Method::gl_exact, Method::gl_lattice,
+inline constexpr std::array kMethods = {Method::mesh,     Method::exact,    Method::brute_force,
+                                        Method::lattice,  Method::gl_exact, Method::gl_lattice,
                                         Method::gl_hybrid};
 /// Those that compare one image of the robot with one of the obstacles.
-inline constexpr std::array kImageMethods = {Method::exact,    Method::brute_force,
-                                             Method::lattice,  Method::gl_exact,
+inline constexpr std::array kImageMethods = {Method::exact,      Method::brute_force,
+                                             Method::lattice,    Method::gl_exact,
                                              Method::gl_lattice, Method::gl_hybrid};
 inline constexpr std::array kCpuMethods = {Method::exact, Method::brute_force, Method::lattice};
 

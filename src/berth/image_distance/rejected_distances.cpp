@@ -6,10 +6,9 @@
 namespace berth {
 
 void find_rejected_distances(const Camera& camera, const RobotImage& robot,
-                             const RejectedImage& rejected,
-                             const SearchableDepth& searchable, const LinkDistances& distances,
-                             double range_m, RejectedWorkspace& workspace,
-                             std::vector<LinkVisibility>& out) {
+                             const RejectedImage& rejected, const SearchableDepth& searchable,
+                             const LinkDistances& distances, double range_m,
+                             RejectedWorkspace& workspace, std::vector<LinkVisibility>& out) {
   assert(out.size() == distances.links.size());
   const bool has_any = !rejected.extent.empty();
   if (has_any) {

@@ -16,11 +16,11 @@ struct RejectedWorkspace {
 };
 
 /// Writes the rejected distance of out[i], the link with the id i + 1. `distances` are the answer
-/// for `robot` within range_m; `searchable` is that of rejected.depth_m, with its tree. Allocates nothing once the workspace has grown to the scene.
+/// for `robot` within range_m; `searchable` is that of rejected.depth_m, with its tree. Allocates
+/// nothing once the workspace has grown to the scene.
 void find_rejected_distances(const Camera& camera, const RobotImage& robot,
-                             const RejectedImage& rejected,
-                             const SearchableDepth& searchable, const LinkDistances& distances,
-                             double range_m, RejectedWorkspace& workspace,
-                             std::vector<LinkVisibility>& out);
+                             const RejectedImage& rejected, const SearchableDepth& searchable,
+                             const LinkDistances& distances, double range_m,
+                             RejectedWorkspace& workspace, std::vector<LinkVisibility>& out);
 
 }  // namespace berth

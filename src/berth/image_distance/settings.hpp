@@ -47,18 +47,22 @@ inline constexpr int kMaxTilePx = 64;
 template <SettingsOf<ImageSettings> Settings, class Visitor>
 void visit_settings(Settings& s, Visitor&& visit) {
   constexpr Domain kPixels{.least = 1, .most = kMaxLatticePx};
-  visit({"region", {},
+  visit({"region",
+         {},
          "where obstacles of a robot pixel are looked for; without it image for brute_force, "
          "cube_projection for lattice",
          "brute_force lattice"},
         s.surveillance.region);
-  visit({"depth_interval", {},
+  visit({"depth_interval",
+         {},
          "whether obstacles in front of the cube around a robot pixel count: in gray_area they do",
          "brute_force lattice"},
         s.surveillance.depth_interval);
   visit({"search_pattern", {}, "the order of obstacle pixels", "brute_force lattice"},
         s.surveillance.search_pattern);
-  visit({"shrinking", {}, "whether the region shrinks with a link's closest pair",
+  visit({"shrinking",
+         {},
+         "whether the region shrinks with a link's closest pair",
          "brute_force lattice"},
         s.surveillance.shrinking);
   visit({"step_x", kPixels, "tries every so many columns of obstacle pixels",
@@ -73,8 +77,10 @@ void visit_settings(Settings& s, Visitor&& visit) {
   visit({"final_grid_radius_px", kPixels, "radius within which all robot pixels are tried last",
          "lattice gl_lattice gl_hybrid"},
         s.lattice.final_grid_radius_px);
-  visit({"tile_px", {.least = 1, .most = kMaxTilePx},
-         "size of the tiles of which one robot pixel each is tried first", "gl_lattice"},
+  visit({"tile_px",
+         {.least = 1, .most = kMaxTilePx},
+         "size of the tiles of which one robot pixel each is tried first",
+         "gl_lattice"},
         s.lattice.tile_px);
 }
 

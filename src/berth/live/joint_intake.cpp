@@ -37,8 +37,8 @@ void require_joints(const std::vector<std::string>& names, std::string_view key,
 JointIntake::JointIntake(const RobotModel& model, JointIntakeSettings settings)
     : settings_(std::move(settings)), buffer_(model, settings_.capacity) {
   if (!(settings_.max_hold_s >= 0)) {
-    throw std::invalid_argument(fmt::format("max_hold_s: {}; expected a number of at least 0",
-                                            settings_.max_hold_s));
+    throw std::invalid_argument(
+        fmt::format("max_hold_s: {}; expected a number of at least 0", settings_.max_hold_s));
   }
   for (const MovableJoint& joint : model.joints) {
     names_.push_back(joint.name);
@@ -64,9 +64,9 @@ void JointIntake::restart() {
 TimeStatus JointIntake::push(double stamp_s, std::span<const std::string> names,
                              std::span<const double> positions) {
   if (names.size() != positions.size()) {
-    throw std::invalid_argument(fmt::format(
-        "joint message: {} names and {} positions; expected equally many", names.size(),
-        positions.size()));
+    throw std::invalid_argument(
+        fmt::format("joint message: {} names and {} positions; expected equally many", names.size(),
+                    positions.size()));
   }
   if (!std::isfinite(stamp_s)) return TimeStatus::stamp_jumped;
   const std::lock_guard lock(mutex_);
@@ -173,7 +173,8 @@ bool JointIntake::emit(double stamp_s) {
       whole_[i] = series.position[k];
     } else {
       const double share = (stamp_s - after[-1]) / (after[0] - after[-1]);
-      whole_[i] = joint_between(series.position[k - 1], series.position[k], share, is_continuous_[i]);
+      whole_[i] =
+          joint_between(series.position[k - 1], series.position[k], share, is_continuous_[i]);
     }
   }
   buffer_.push(stamp_s, names_, whole_);

@@ -20,8 +20,8 @@ double steady_now_s() {
 
 void validate(const LiveCameraSettings& settings) {
   if (!std::isfinite(settings.clock_offset_s)) {
-    throw std::invalid_argument(fmt::format("clock_offset_s: {}; expected a finite number",
-                                            settings.clock_offset_s));
+    throw std::invalid_argument(
+        fmt::format("clock_offset_s: {}; expected a finite number", settings.clock_offset_s));
   }
   if (!(settings.max_wait_s >= 0 && settings.max_wait_s <= kLongestWait_s)) {
     throw std::invalid_argument(fmt::format("max_wait_s: {}; expected a number from 0 to {}",
@@ -33,10 +33,7 @@ void validate(const LiveCameraSettings& settings) {
 
 LiveCamera::LiveCamera(std::shared_ptr<const MountedCamera> view, const JointIntake& joints,
                        LiveCameraSettings settings, OnFrame on_frame)
-    : view_(std::move(view)),
-      joints_(joints),
-      settings_(settings),
-      on_frame_(std::move(on_frame)) {
+    : view_(std::move(view)), joints_(joints), settings_(settings), on_frame_(std::move(on_frame)) {
   validate(settings_);
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }

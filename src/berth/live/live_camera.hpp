@@ -31,10 +31,10 @@ inline constexpr std::size_t kMostWaitingImages = 3;
 
 /// What became of a camera's images.
 struct LiveCameraCounts {
-  std::int64_t images = 0;    ///< that were observed
-  std::int64_t dropped = 0;   ///< that were not, since newer ones had come
-  std::int64_t stale = 0;  ///< whose time was not ok
-  double last_wait_s = 0;     ///< of the newest image, for its joints
+  std::int64_t images = 0;   ///< that were observed
+  std::int64_t dropped = 0;  ///< that were not, since newer ones had come
+  std::int64_t stale = 0;    ///< whose time was not ok
+  double last_wait_s = 0;    ///< of the newest image, for its joints
   double longest_wait_s = 0;
   double last_observe_s = 0;  ///< how long it took to observe the newest image
 };

@@ -33,8 +33,8 @@ struct Exposure {
 /// The first step of each observer: writes `out`. Whether its time is ok; if not, the joints are
 /// not looked at and the poses are unset. Throws std::invalid_argument unless the image has the
 /// camera's size, and for wrong joints.
-bool begin_exposure(const std::shared_ptr<const MountedCamera>& view, DepthView depth_m, const JointState& at_exposure,
-                    FrameTime time, Exposure& out);
+bool begin_exposure(const std::shared_ptr<const MountedCamera>& view, DepthView depth_m,
+                    const JointState& at_exposure, FrameTime time, Exposure& out);
 
 /// Throws std::invalid_argument unless the image has the camera's size.
 void require_size(const Camera& camera, DepthView depth_m);

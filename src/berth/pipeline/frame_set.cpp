@@ -1,8 +1,8 @@
 #include "berth/pipeline/frame_set.hpp"
 
-#include "berth/pipeline/frame_space.hpp"
 #include <algorithm>
 #include <cassert>
+#include "berth/pipeline/frame_space.hpp"
 
 #include "berth/pipeline/mounted_camera.hpp"
 
@@ -69,7 +69,8 @@ void FrameSet::assign(std::span<const Frame* const> frames, const TimeSettings& 
                              ? std::numeric_limits<double>::infinity()
                              : newest_->stamp_s - frame.stamp_s;
     posed_.push_back({&frame.space->seen, frame.X_BC, age_s});
-    if (frame.space->has_rejected_space) posed_rejected_.push_back({&frame.space->rejected_space, frame.X_BC, 0});
+    if (frame.space->has_rejected_space)
+      posed_rejected_.push_back({&frame.space->rejected_space, frame.X_BC, 0});
   }
   space_.assign(posed_);
   rejected_.assign(posed_rejected_);
@@ -84,15 +85,14 @@ Timeliness timeliness_of(const FrameSet& frames, std::optional<double> now_s,
   for (const CameraState& camera : frames.cameras()) {
     if (camera.status == CameraStatus::no_frame || !(camera.stamp_s >= newest_s)) continue;
     newest_s = camera.stamp_s;
-    time.status =
-        camera.status == CameraStatus::too_old ? TimeStatus::stale_frame : camera.time;
+    time.status = camera.status == CameraStatus::too_old ? TimeStatus::stale_frame : camera.time;
     if (now_s) time.frame_age_s = time.joints_age_s = *now_s - camera.stamp_s;
   }
   return time;
 }
 
-Timeliness timeliness_of(const FrameSet& frames, double joints_stamp_s,
-                         std::optional<double> now_s, const TimeSettings& settings) {
+Timeliness timeliness_of(const FrameSet& frames, double joints_stamp_s, std::optional<double> now_s,
+                         const TimeSettings& settings) {
   if (frames.newest()) return timeliness_of(*frames.newest(), joints_stamp_s, now_s, settings);
   Timeliness time = timeliness_of(frames, now_s, settings);
   if (now_s) time.joints_age_s = *now_s - joints_stamp_s;

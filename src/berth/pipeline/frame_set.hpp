@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "berth/space/unknown_space.hpp"
 #include "berth/pipeline/camera_state.hpp"
 #include "berth/pipeline/frame.hpp"
 #include "berth/pipeline/timeliness.hpp"
+#include "berth/space/unknown_space.hpp"
 #include "berth/types/camera_status.hpp"
 
 namespace berth {
@@ -17,11 +17,11 @@ namespace berth {
 /// may ask it, and what one of them finds out about unknown space is kept for all.
 class FrameSet {
  public:
-  /// Camera k's newest frame, or null where it has none yet. Each belongs to another MountedCamera of one
-  /// robot, whose method is `mesh`, and has to outlive the requests. A frame that is stale, of
-  /// a camera that moved or is implausible, or too old at `now_s`, is left out: its readings are not known any more, and what it would have
-  /// seen free is hidden again. Without now_s the newest stamp is taken for now. Nobody may ask
-  /// meanwhile. Reuses its memory.
+  /// Camera k's newest frame, or null where it has none yet. Each belongs to another MountedCamera
+  /// of one robot, whose method is `mesh`, and has to outlive the requests. A frame that is stale,
+  /// of a camera that moved or is implausible, or too old at `now_s`, is left out: its readings are
+  /// not known any more, and what it would have seen free is hidden again. Without now_s the newest
+  /// stamp is taken for now. Nobody may ask meanwhile. Reuses its memory.
   void assign(std::span<const Frame* const> frames, const TimeSettings& settings,
               std::optional<double> now_s = {});
 
@@ -53,7 +53,7 @@ Timeliness timeliness_of(const FrameSet& frames, std::optional<double> now_s,
                          const TimeSettings& settings);
 
 /// The same for joints of another stamp.
-Timeliness timeliness_of(const FrameSet& frames, double joints_stamp_s,
-                         std::optional<double> now_s, const TimeSettings& settings);
+Timeliness timeliness_of(const FrameSet& frames, double joints_stamp_s, std::optional<double> now_s,
+                         const TimeSettings& settings);
 
 }  // namespace berth

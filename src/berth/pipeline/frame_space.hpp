@@ -1,4 +1,5 @@
-// Inside pipeline/ and for who looks into a frame: what one image says of the space before the camera.
+// Inside pipeline/ and for who looks into a frame: what one image says of the space before the
+// camera.
 #pragma once
 
 #include "berth/distance/mean_directions.hpp"

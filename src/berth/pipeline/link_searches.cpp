@@ -32,8 +32,8 @@ LinkSearches::LinkSearches(std::shared_ptr<const Robot> robot) : robot_(std::mov
 
 void LinkSearches::ask(const FrameSet& frames, const RobotPose& pose,
                        std::vector<WholeLinkDistance>& out) {
-  mesh_distances(*robot_->patches(), pose, frames.space(),
-                 request_of(robot_->settings().distance), workspace_, out);
+  mesh_distances(*robot_->patches(), pose, frames.space(), request_of(robot_->settings().distance),
+                 workspace_, out);
 }
 
 void LinkSearches::ask(const FrameSet& frames, const RobotPose& pose, Result& out) {
@@ -75,9 +75,8 @@ void LinkSearches::tell_mean_directions(const FrameSet& frames, Result& out) {
   }
   for (LinkResult& link : out.links) {
     if (!link.has_distance()) continue;
-    const MeanDirection mean =
-        mean_direction(direction_views_, link.robot_point_B_m.cast<double>(),
-                       robot_->settings().distance.range_m);
+    const MeanDirection mean = mean_direction(direction_views_, link.robot_point_B_m.cast<double>(),
+                                              robot_->settings().distance.range_m);
     link.mean_count = mean.count;
     if (mean.count == 0) continue;
     link.mean_direction_B = mean.direction_B;
@@ -92,10 +91,10 @@ void LinkSearches::tell_visibility(const FrameSet& frames, const RobotPose& pose
   for (const int k : frames.used()) {
     const Frame& frame = *frames.frames()[k];
     const MountedCamera& view = *frame.view;
-    views_.push_back({{view.camera(), frame.robot, frame.obstacles,
-                       tolerance_of(view.settings().self_filter)},
-                      frame.space->seen.sensor_depth_m,
-                      frame.X_BC.inverse()});
+    views_.push_back(
+        {{view.camera(), frame.robot, frame.obstacles, tolerance_of(view.settings().self_filter)},
+         frame.space->seen.sensor_depth_m,
+         frame.X_BC.inverse()});
   }
   const DistanceSettings& settings = robot_->settings().distance;
   const SamplePoints& points = robot_->sample_points();

@@ -86,7 +86,8 @@ void require_camera(const Camera& camera) {
 
 }  // namespace
 
-MountedCamera::MountedCamera(std::shared_ptr<const Robot> robot, CameraMount mount, CameraSettings settings)
+MountedCamera::MountedCamera(std::shared_ptr<const Robot> robot, CameraMount mount,
+                             CameraSettings settings)
     : robot_(std::move(robot)),
       mount_(std::move(mount)),
       settings_(std::move(settings)),
@@ -108,7 +109,8 @@ MountedCamera::MountedCamera(std::shared_ptr<const Robot> robot, CameraMount mou
   if (region_scale > 0) region_meshes_ = build_link_meshes(robot_region(model, region_scale));
 }
 
-std::shared_ptr<const MountedCamera> with_robot(const MountedCamera& view, std::shared_ptr<const Robot> robot) {
+std::shared_ptr<const MountedCamera> with_robot(const MountedCamera& view,
+                                                std::shared_ptr<const Robot> robot) {
   return std::make_shared<const MountedCamera>(std::move(robot), view.mount(), view.settings());
 }
 

@@ -4,12 +4,12 @@
 #include <memory>
 #include <string>
 
-#include "berth/watch/watch_settings.hpp"
-#include "berth/space/settings.hpp"
 #include "berth/pipeline/robot.hpp"
 #include "berth/self_filter/settings.hpp"
 #include "berth/sensor/settings.hpp"
+#include "berth/space/settings.hpp"
 #include "berth/types/camera.hpp"
+#include "berth/watch/watch_settings.hpp"
 
 namespace berth {
 
@@ -59,7 +59,8 @@ class MountedCamera {
   /// Throws std::invalid_argument that names the setting, its value and what was expected: an
   /// unknown link, a pose that is not one, a camera without size, a value outside its domain, a
   /// background for a camera that moves with the robot.
-  MountedCamera(std::shared_ptr<const Robot> robot, CameraMount mount, CameraSettings settings = {});
+  MountedCamera(std::shared_ptr<const Robot> robot, CameraMount mount,
+                CameraSettings settings = {});
 
   const std::shared_ptr<const Robot>& robot() const { return robot_; }
   const CameraMount& mount() const { return mount_; }
@@ -79,6 +80,7 @@ class MountedCamera {
 };
 
 /// The same camera on a robot that has taken something up or put it down.
-std::shared_ptr<const MountedCamera> with_robot(const MountedCamera& view, std::shared_ptr<const Robot> robot);
+std::shared_ptr<const MountedCamera> with_robot(const MountedCamera& view,
+                                                std::shared_ptr<const Robot> robot);
 
 }  // namespace berth

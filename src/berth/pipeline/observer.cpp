@@ -70,8 +70,8 @@ void Observer::observe(DepthView depth_m, const JointState& at_exposure, Frame& 
   parts_->renderer.render(frame.pose, frame.X_BC, frame.robot);
   frame.watch = parts_->watch.look(depth_m, frame.robot, at_exposure);
   parts_->filter(depth_m, frame);
-  apply_sensor_rules(depth_m, frame.robot, parts_->background, parts_->view->settings().sensor, parts_->sensor,
-                     frame.obstacles);
+  apply_sensor_rules(depth_m, frame.robot, parts_->background, parts_->view->settings().sensor,
+                     parts_->sensor, frame.obstacles);
   prepare_frame(depth_m, frame);
 }
 
@@ -82,8 +82,7 @@ void Observer::Parts::filter(DepthView depth_m, Frame& frame) {
     return;
   }
   region_renderer->render(frame.pose, frame.X_BC, region);
-  self_filter(view->camera(), depth_m, frame.robot, region, settings, workspace,
-              frame.obstacles);
+  self_filter(view->camera(), depth_m, frame.robot, region, settings, workspace, frame.obstacles);
 }
 
 void Observer::observe(DepthView depth_m, double stamp_s, const JointBuffer& joints, Frame& frame,
@@ -110,7 +109,8 @@ void Observer::learn_background(DepthView depth_m, const Frame& frame) {
   const SensorSettings& settings = parts_->background_settings();
   // Without its robot, or with the robot elsewhere, the image would give the arm for a background.
   if (frame.time.status != TimeStatus::ok || !frame.watch.is_trusted()) return;
-  parts_->background.learn(parts_->view->camera(), depth_m, frame.robot, frame.obstacles.fate, settings);
+  parts_->background.learn(parts_->view->camera(), depth_m, frame.robot, frame.obstacles.fate,
+                           settings);
 }
 
 DepthImage Observer::background_m() const {

@@ -39,10 +39,10 @@ class Observer {
 
   /// Learns what the image shows beside the robot as background of later frames (Background).
   /// `frame` is what observe made of `depth_m`; one whose joints are not known (its time is not ok)
-  /// or whose camera has moved or is implausible is passed over. Use images of the place as it is meant to be: somebody who stands still in
-  /// them becomes background too, and later counts as an obstacle wherever the robot hides the
-  /// place. Throws std::invalid_argument where SensorSettings::background_frames is 0, and for a
-  /// wrong size.
+  /// or whose camera has moved or is implausible is passed over. Use images of the place as it is
+  /// meant to be: somebody who stands still in them becomes background too, and later counts as an
+  /// obstacle wherever the robot hides the place. Throws std::invalid_argument where
+  /// SensorSettings::background_frames is 0, and for a wrong size.
   void learn_background(DepthView depth_m, const Frame& frame);
 
   /// What was learned; NaN where it is not known yet. Throws as learn_background does where the

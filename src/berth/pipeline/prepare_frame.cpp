@@ -23,7 +23,8 @@ void prepare_space(DepthView sensor_depth_m, Frame& frame) {
   frame.is_blind = is_blind(frame.obstacles);
   frame.space->has_rejected_space = !frame.space->rejected.extent.empty();
   if (frame.space->has_rejected_space) {
-    build_reading_space(camera, frame.space->rejected.depth_m, settings, frame.space->rejected_space);
+    build_reading_space(camera, frame.space->rejected.depth_m, settings,
+                        frame.space->rejected_space);
   }
 }
 

@@ -37,8 +37,8 @@ void withhold(Result& result) {
     link.occupied = {};
     link.lower_bound_m = link.occupied.lower_bound_m = kNaN;
     link.status = LinkStatus::stale;
-    link.robot_point_C_m = link.obstacle_point_C_m = link.mean_direction_B =
-        link.mean_direction_C = unset_point();
+    link.robot_point_C_m = link.obstacle_point_C_m = link.mean_direction_B = link.mean_direction_C =
+        unset_point();
     link.mean_count = 0;
     link.visibility = {};
     link.visibility.id = link.id;

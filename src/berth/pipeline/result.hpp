@@ -15,11 +15,11 @@
 #include "berth/robot/kinematics.hpp"
 #include "berth/types/camera.hpp"
 #include "berth/types/camera_status.hpp"
-#include "berth/types/setting.hpp"
-#include "berth/types/result_status.hpp"
 #include "berth/types/link_visibility.hpp"
 #include "berth/types/obstacle_image.hpp"
+#include "berth/types/result_status.hpp"
 #include "berth/types/separation.hpp"
+#include "berth/types/setting.hpp"
 #include "berth/types/space_pair.hpp"
 #include "berth/types/time_status.hpp"
 
@@ -170,8 +170,10 @@ struct ObstacleOf {
 /// The fields of a closest pair, but what it leads to.
 template <class Visitor>
 void visit_fields(const SpacePair& p, Visitor&& visit) {
-  visit({"distance_m", "the distance from the link to the nearest obstacle of this kind"}, p.distance_m);
-  visit({"lower_bound_m", "no obstacle of this kind is nearer than this, certified"}, p.lower_bound_m);
+  visit({"distance_m", "the distance from the link to the nearest obstacle of this kind"},
+        p.distance_m);
+  visit({"lower_bound_m", "no obstacle of this kind is nearer than this, certified"},
+        p.lower_bound_m);
   visit({"robot_point_base_m", "the link's closest point, in the robot's root frame"},
         p.robot_point_B_m);
   visit({"obstacle_point_base_m", "the obstacle's closest point, in the robot's root frame"},
@@ -195,12 +197,14 @@ template <class Visitor>
 void visit_fields(const LinkVisibility& v, Visitor&& visit) {
   visit({"surface", "how much of the link's surface is seen"}, v.surface);
   visit({"space", "how much of the space around the link, up to its distance, is seen"}, v.space);
-  visit({"space_unknown", "the share of the space around the link of which no camera can tell anything"},
+  visit({"space_unknown",
+         "the share of the space around the link of which no camera can tell anything"},
         v.space_unknown);
   visit({"rejected_distance_m",
          "the distance to readings that a rule rejected, where they are nearer"},
         v.rejected_distance_m);
-  visit({"rejected_pixel", "the pixel of the nearest reading that a rule rejected"}, v.rejected_pixel);
+  visit({"rejected_pixel", "the pixel of the nearest reading that a rule rejected"},
+        v.rejected_pixel);
 }
 
 /// The fields of one link. `result` is the one that it belongs to.
@@ -211,8 +215,9 @@ void visit_fields(const LinkResult& l, const Result& result, Visitor&& visit) {
   visit({"is_moved", "whether a joint moves the link"}, l.is_moved);
   visit({"status", "what is known of the link"}, l.status);
   visit_fields(static_cast<const SpacePair&>(l), visit);
-  visit({"obstacle_is", "whether the obstacle's point is occupied, or unknown: hidden, and seen "
-                        "free by no camera"},
+  visit({"obstacle_is",
+         "whether the obstacle's point is occupied, or unknown: hidden, and seen "
+         "free by no camera"},
         ObstacleOf{l});
   visit({"occupied", "the closest pair to surfaces that a camera measured, alone"}, l.occupied);
   visit({"mean_direction_base", "the mean of the unit vectors to what is near"},
@@ -221,8 +226,9 @@ void visit_fields(const LinkResult& l, const Result& result, Visitor&& visit) {
   if (result.cameras.size() == 1) {
     visit({"robot_point_camera_m", "the link's closest point, in the camera's optical frame"},
           l.robot_point_C_m);
-    visit({"obstacle_point_camera_m", "the obstacle's closest point, in the camera's optical frame"},
-          l.obstacle_point_C_m);
+    visit(
+        {"obstacle_point_camera_m", "the obstacle's closest point, in the camera's optical frame"},
+        l.obstacle_point_C_m);
     visit({"mean_direction_camera", "the mean direction, in the camera's optical frame"},
           l.mean_direction_C);
   }
@@ -253,7 +259,8 @@ void visit_fields(const CameraResult& c, Visitor&& visit) {
   visit({"frame", "the number of its newest image"}, c.frame);
   visit({"stamp_s", "when the newest image was exposed"}, c.stamp_s);
   visit({"age_s", "how old the newest image is at the request"}, c.age_s);
-  visit({"status", "whether the newest image is used, or why not"}, static_cast<const CameraState&>(c));
+  visit({"status", "whether the newest image is used, or why not"},
+        static_cast<const CameraState&>(c));
   visit({"seen_through", "the share of the robot's pixels that show what is behind it"},
         c.watch.seen_through);
   visit({"displacement_m", "by how much the robot must be moved to fit the image"},

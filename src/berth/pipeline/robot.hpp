@@ -27,10 +27,11 @@ struct EvaluationSettings {
 
 template <class Settings, class Visitor>
 void visit_visibility(Settings& s, Visitor&& visit) {
-  visit({"visibility",
-         {},
-         "whether to tell how much of each link and of the space around its answer the cameras see"},
-        s.visibility);
+  visit(
+      {"visibility",
+       {},
+       "whether to tell how much of each link and of the space around its answer the cameras see"},
+      s.visibility);
 }
 
 /// The list of these settings but `time`, which has a list of its own.
@@ -78,7 +79,8 @@ class Robot {
 /// Throws as with_attachment does, and for a name that is attached already.
 std::shared_ptr<const Robot> attach(const Robot& robot, const Attachment& attachment);
 
-/// And once it has put it down. Throws std::invalid_argument where nothing of this name is attached.
+/// And once it has put it down. Throws std::invalid_argument where nothing of this name is
+/// attached.
 std::shared_ptr<const Robot> detach(const Robot& robot, const std::string& name);
 
 /// The same robot, asked otherwise; `robot` itself where the settings are the same. Throws as its

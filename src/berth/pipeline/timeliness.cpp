@@ -26,8 +26,8 @@ Timeliness timeliness_of(const Exposure& frame, std::optional<double> now_s,
   time.status = frame.time.status;
   time.skew_s = frame.time.skew_s;
   if (time.status == TimeStatus::ok && !frame.watch.is_trusted()) {
-    time.status = frame.watch.is_implausible ? TimeStatus::camera_implausible
-                                             : TimeStatus::camera_moved;
+    time.status =
+        frame.watch.is_implausible ? TimeStatus::camera_implausible : TimeStatus::camera_moved;
   }
   if (!now_s) return time;
   time.frame_age_s = time.joints_age_s = *now_s - frame.stamp_s;

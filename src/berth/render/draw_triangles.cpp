@@ -80,7 +80,8 @@ namespace berth {
 
 HWY_EXPORT(draw);
 
-void draw_triangles(std::span<const TriangleBlock> blocks, const LinkInImage& view, Canvas& canvas) {
+void draw_triangles(std::span<const TriangleBlock> blocks, const LinkInImage& view,
+                    Canvas& canvas) {
   HWY_DYNAMIC_DISPATCH(draw)(blocks, view, canvas);
 }
 

@@ -129,8 +129,8 @@ class Advisor {
     return gaps;
   }
 
-  void add_side(const CoveredRange& seen, const char* low_side, const char* high_side, const char* extent,
-                std::vector<std::string>& gaps) const {
+  void add_side(const CoveredRange& seen, const char* low_side, const char* high_side,
+                const char* extent, std::vector<std::string>& gaps) const {
     if (!(seen.high - seen.low < kWideEnough)) return;
     gaps.push_back(fmt::format(
         "with the arm farther {} in the image: so far it was only seen between {:.0f} % and {:.0f} "

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "berth/reports/calibration_report.hpp"
 #include "berth/reports/calibration_coverage.hpp"
+#include "berth/reports/calibration_report.hpp"
 
 namespace berth {
 

@@ -77,8 +77,8 @@ CalibrationCoverage coverage_of(const CalibrationReport& report, std::size_t cam
     std::vector<int> link_px(model.evaluated_links.size(), 0);
     const CalibrationFrame& frame = calibrated.source().frames[k];
     FrameCoverage& seen = coverage.frames.emplace_back(
-        look_at(frame.depth_m, *robot, calibrated.residual_m(k, CalibrationSide::after, *robot), readings,
-                link_px));
+        look_at(frame.depth_m, *robot, calibrated.residual_m(k, CalibrationSide::after, *robot),
+                readings, link_px));
     seen.number = frame.number;
     for (std::size_t i = 0; i < link_px.size(); ++i) {
       if (link_px[i] >= kLeastLink_px) ++coverage.frames_with_link[i];

@@ -48,7 +48,8 @@ void add_camera(const CalibrationReport& report, std::size_t index, Text out) {
   const CalibrationCoverage coverage = coverage_of(report, index);
   fmt::format_to(out, "{}: {}\n", camera.camera, headline(camera));
   add_residuals(camera, out);
-  fmt::format_to(out, "  clock offset: {}\n", clock_text(camera, *report.calibration_data->cameras[index]));
+  fmt::format_to(out, "  clock offset: {}\n",
+                 clock_text(camera, *report.calibration_data->cameras[index]));
   fmt::format_to(out, "  depth: {}\n",
                  depth_text(camera, coverage.median_depth_m, report.corrects_depth));
   if (!proposal.self_filter.empty() || !proposal.sensor.empty())

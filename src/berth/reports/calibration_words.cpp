@@ -98,7 +98,7 @@ std::vector<std::string> open_questions(const CameraCalibration& camera) {
         "Not determined: how much of the depth's error is an offset and how much a scale.");
   } else if (!has_offset || !has_scale) {
     sentences.emplace_back(fmt::format("Not determined: the {} of the depth's error.",
-                                    has_offset ? "scale" : "offset"));
+                                       has_offset ? "scale" : "offset"));
   }
   return sentences;
 }

@@ -26,9 +26,7 @@ inline Json json_value(float value) {
 }
 inline Json json_value(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
-inline Json json_value(const Pixel& pixel) {
-  return pixel.u < 0 ? Json() : Json{pixel.u, pixel.v};
-}
+inline Json json_value(const Pixel& pixel) { return pixel.u < 0 ? Json() : Json{pixel.u, pixel.v}; }
 
 inline Json json_value(const Eigen::Vector3f& p) {
   return p.allFinite() ? Json{json_value(p.x()), json_value(p.y()), json_value(p.z())} : Json();

@@ -131,9 +131,10 @@ Json link_json(const LinkResult& link, const Result& result) {
 }
 
 Json separation_json(const LinkSeparation& link) {
-  return {{"speed_m_s", json_value(link.speed_m_s)},     {"distance_m", json_value(link.distance_m)},
-          {"required_m", json_value(link.required_m)},   {"margin_m", json_value(link.margin_m)},
-          {"speed_scale", json_value(link.speed_scale)}, {"reason", old_name(link.reason)}};
+  return {
+      {"speed_m_s", json_value(link.speed_m_s)},     {"distance_m", json_value(link.distance_m)},
+      {"required_m", json_value(link.required_m)},   {"margin_m", json_value(link.margin_m)},
+      {"speed_scale", json_value(link.speed_scale)}, {"reason", old_name(link.reason)}};
 }
 
 Json separation_json(const Result& result) {

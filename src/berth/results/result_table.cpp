@@ -105,7 +105,8 @@ std::string result_table(const Result& result) {
           : Line{"distance [m]", "to what is", "to occupied [m]", "camera", "obstacle pixel"};
   lines.front().insert(lines.front().end(), columns.begin(), columns.end());
   if (result.has_visibility) lines.front().push_back("seen");
-  const bool has_any_rejected = std::ranges::any_of(result.links, has_rejected, &LinkResult::visibility);
+  const bool has_any_rejected =
+      std::ranges::any_of(result.links, has_rejected, &LinkResult::visibility);
   if (has_any_rejected) lines.front().push_back("rejected [m]");
   if (result.separation) lines.front().insert(lines.front().end(), {"needs [m]", "may go"});
   for (const std::size_t i : moved_first(result)) {

@@ -7,8 +7,7 @@
 namespace berth {
 namespace {
 
-std::string near_text(const Result& result, const LinkSeparation& link,
-                      std::string_view what) {
+std::string near_text(const Result& result, const LinkSeparation& link, std::string_view what) {
   return fmt::format("{} is {:.3f} m from {}; at {:.2f} m/s it needs {:.3f} m",
                      result.links[link.id - 1].link, std::floor(1e3 * link.distance_m) / 1e3, what,
                      link.speed_m_s, link.required_m);

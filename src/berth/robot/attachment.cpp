@@ -17,9 +17,9 @@ std::size_t find_evaluated(const RobotModel& model, const Attachment& attachment
   if (index && model.links[*index].role == LinkRole::evaluated) return *index;
   // Also a link without geometry, such as a tool's frame, may hold something.
   if (index && attachment.is_link && model.links[*index].role == LinkRole::ignored) return *index;
-  fail(attachment, fmt::format("link \"{}\" is no evaluated link of robot \"{}\"; expected one of {}",
-                               attachment.link, model.name,
-                               fmt::join(model.evaluated_link_names(), ", ")));
+  fail(attachment,
+       fmt::format("link \"{}\" is no evaluated link of robot \"{}\"; expected one of {}",
+                   attachment.link, model.name, fmt::join(model.evaluated_link_names(), ", ")));
 }
 
 }  // namespace

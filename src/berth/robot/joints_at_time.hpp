@@ -34,8 +34,8 @@ void visit_settings(Settings& s, Visitor&& visit) {
 /// No limit but that nothing is extrapolated: for recordings whose joints are rare.
 inline constexpr JointTimeLimits kOnlyBetweenSamples{std::numeric_limits<double>::infinity(), 0};
 
-/// One joint on the line between two positions: `share` is 0 at `before`, 1 at `after`. A continuous
-/// joint takes the shorter way round.
+/// One joint on the line between two positions: `share` is 0 at `before`, 1 at `after`. A
+/// continuous joint takes the shorter way round.
 double joint_between(double before, double after, double share, bool is_continuous);
 
 /// The joints at `time_s`: linear between the two samples around it or, within the limit, beyond

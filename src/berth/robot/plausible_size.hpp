@@ -8,8 +8,8 @@
 namespace berth {
 
 /// Refuses what is no robot's size: a link to evaluate that reaches farther than 100 m from its
-/// origin, as one in millimetres does; environment or a joint farther than 100 km from its parent, and
-/// what is not finite. A link of points alone, which no camera sees. Throws std::runtime_error
+/// origin, as one in millimetres does; environment or a joint farther than 100 km from its parent,
+/// and what is not finite. A link of points alone, which no camera sees. Throws std::runtime_error
 /// that names the URDF, the link, the value and what was expected.
 void require_plausible_size(const std::filesystem::path& urdf, const RobotModel& model);
 

@@ -100,11 +100,11 @@ struct RobotSettings {
   std::optional<std::string> urdf_text = {};
 };
 
-/// Loads a URDF and its meshes. Evaluated are the links that have geometry and are neither environment
-/// nor ignored; their ids follow the tree, parents first. Throws std::runtime_error that names the
-/// file, the link or joint, the value and what was expected: URDF missing, invalid, with a loop,
-/// without a root or with two, a joint type other than fixed, revolute, continuous and prismatic, a
-/// mesh that is missing, unreadable or empty, an unknown link in the settings.
+/// Loads a URDF and its meshes. Evaluated are the links that have geometry and are neither
+/// environment nor ignored; their ids follow the tree, parents first. Throws std::runtime_error
+/// that names the file, the link or joint, the value and what was expected: URDF missing, invalid,
+/// with a loop, without a root or with two, a joint type other than fixed, revolute, continuous and
+/// prismatic, a mesh that is missing, unreadable or empty, an unknown link in the settings.
 RobotModel load_robot(const RobotSettings& settings);
 
 }  // namespace berth

@@ -15,7 +15,8 @@ struct TriangleMesh {
 
   bool empty() const { return triangles.empty(); }
 
-  // In a source, since most of berth includes this, and Eigen's part of them takes half a second to compile.
+  // In a source, since most of berth includes this, and Eigen's part of them takes half a second to
+  // compile.
   Eigen::AlignedBox3f bounding_box_m() const;
 
   /// Appends `other`, each of its vertices moved by `X`, which may scale.

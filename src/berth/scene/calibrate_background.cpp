@@ -42,7 +42,8 @@ void require_free_place(const OpenScene& scene, const fs::path& file) {
     }
     for (const fs::path& image : camera.source.depth) {
       if (!is_same_place(image.parent_path(), fs::absolute(file).parent_path())) continue;
-      fail(fmt::format("would lie among the images of camera {}, and could be taken for one", name));
+      fail(
+          fmt::format("would lie among the images of camera {}, and could be taken for one", name));
     }
   }
 }
@@ -103,8 +104,9 @@ std::vector<std::string> require_backgrounds(const OpenScene& scene, const fs::p
   std::vector<std::string> carried;
   for (const OpenCamera& camera : scene.cameras) {
     if (is_carried(scene, camera)) {
-      carried.push_back(fmt::format("camera {}: moves with link \"{}\", so that it has no background",
-                                    camera.source.name, camera.source.parent_link));
+      carried.push_back(
+          fmt::format("camera {}: moves with link \"{}\", so that it has no background",
+                      camera.source.name, camera.source.parent_link));
     } else {
       require_free_place(scene, background_file(new_file, camera.source.name));
     }
@@ -115,9 +117,10 @@ std::vector<std::string> require_backgrounds(const OpenScene& scene, const fs::p
       scene.file.string(), carried[0], scene.robot->model().links.front().name));
 }
 
-std::vector<CalibratedBackground> calibrate_backgrounds(const OpenScene& scene, const fs::path& new_file,
-                                                const std::function<void()>& pause,
-                                                SceneChange& change) {
+std::vector<CalibratedBackground> calibrate_backgrounds(const OpenScene& scene,
+                                                        const fs::path& new_file,
+                                                        const std::function<void()>& pause,
+                                                        SceneChange& change) {
   const OpenScene learning = open_learning(scene, new_file, pause, change);
   std::vector<CalibratedBackground> backgrounds;
   for (const OpenCamera& camera : learning.cameras) {
@@ -127,7 +130,8 @@ std::vector<CalibratedBackground> calibrate_backgrounds(const OpenScene& scene, 
         CalibratedBackground{name, background_file(new_file, name), learn(camera, pause)});
     if (calibrated.known_share() == 0) {
       throw std::runtime_error(fmt::format(
-          "{}: camera {}: no background was learned from its {} images; expected a place that {} of "
+          "{}: camera {}: no background was learned from its {} images; expected a place that {} "
+          "of "
           "them (sensor.background_frames) show alike, with the robot {:g} m away from it",
           scene.file.string(), name, camera.source.depth.size(),
           camera.view->settings().sensor.background_frames,

@@ -36,15 +36,15 @@ std::vector<std::string> require_backgrounds(const OpenScene& scene,
 /// where the scene has none. `pause` is called before each image. Throws as rewritten_scene and
 /// open_scene do, and where so few images agree that nothing is known. Writes nothing.
 std::vector<CalibratedBackground> calibrate_backgrounds(const OpenScene& scene,
-                                                const std::filesystem::path& new_file,
-                                                const std::function<void()>& pause,
-                                                SceneChange& change);
+                                                        const std::filesystem::path& new_file,
+                                                        const std::function<void()>& pause,
+                                                        SceneChange& change);
 
 /// A sentence for each camera whose background was learned before.
 std::vector<std::string> older_backgrounds(const OpenScene& scene);
 
-/// Each file is complete afterwards, or as it was before. Throws std::runtime_error where one cannot
-/// be written.
+/// Each file is complete afterwards, or as it was before. Throws std::runtime_error where one
+/// cannot be written.
 void write_backgrounds(const std::vector<CalibratedBackground>& backgrounds);
 
 }  // namespace berth

@@ -7,11 +7,11 @@
 #include <limits>
 #include <stdexcept>
 
-#include "berth/watch/frame_displacement.hpp"
 #include "berth/calibration/moved_environment.hpp"
-#include "berth/watch/seen_through.hpp"
-#include "berth/scene/plausibility.hpp"
 #include "berth/scene/calibrated_robot.hpp"
+#include "berth/scene/plausibility.hpp"
+#include "berth/watch/frame_displacement.hpp"
+#include "berth/watch/seen_through.hpp"
 
 namespace berth {
 namespace {
@@ -43,8 +43,9 @@ WatchSettings normal_range(const CalibrationData& calibration_data, std::size_t 
                            double bias_m) {
   CalibratedRobot calibrated(calibration_data, result, camera);
   const CalibrationCamera& source = calibrated.source();
-  const FrameDisplacement displacement(*calibration_data.model, calibration_data.meshes, source.camera,
-                                       source.parent, calibrated.found().X_PC, bias_m);
+  const FrameDisplacement displacement(*calibration_data.model, calibration_data.meshes,
+                                       source.camera, source.parent, calibrated.found().X_PC,
+                                       bias_m);
   std::vector<double> seen_through;
   std::vector<double> displacement_m;
   for (std::size_t k = 0; k < source.frames.size(); ++k) {
@@ -112,9 +113,11 @@ void warn_of_changes(const std::vector<EnvironmentChange>& changes, const std::s
       camera, greatest->before, greatest->after, 100 * greatest->share));
 }
 
-std::vector<std::string> warnings_of(const SceneCalibrationData& material, const CalibrationResult& found) {
+std::vector<std::string> warnings_of(const SceneCalibrationData& material,
+                                     const CalibrationResult& found) {
   std::vector<std::string> warnings = material.warnings;
-  const std::vector<EnvironmentChange> changes = moved_environment(material.calibration_data, found);
+  const std::vector<EnvironmentChange> changes =
+      moved_environment(material.calibration_data, found);
   for (const CameraCalibration& camera : found.cameras) {
     warn_of_changes(changes, camera.camera, warnings);
   }

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "berth/watch/watch_settings.hpp"
 #include "berth/scene/rewrite_scene.hpp"
 #include "berth/scene/scene_calibration.hpp"
+#include "berth/watch/watch_settings.hpp"
 
 namespace berth {
 

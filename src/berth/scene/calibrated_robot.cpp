@@ -4,8 +4,8 @@
 
 namespace berth {
 
-CalibratedRobot::CalibratedRobot(const CalibrationData& calibration_data, const CalibrationResult& result,
-                         std::size_t camera)
+CalibratedRobot::CalibratedRobot(const CalibrationData& calibration_data,
+                                 const CalibrationResult& result, std::size_t camera)
     : data_(calibration_data),
       result_(result),
       camera_(camera),
@@ -25,7 +25,7 @@ const RobotImage* CalibratedRobot::draw(std::size_t frame, CalibrationSide side)
 }
 
 DepthImage CalibratedRobot::residual_m(std::size_t frame, CalibrationSide side,
-                                   const RobotImage& robot) const {
+                                       const RobotImage& robot) const {
   const DepthImage& reading_m = source().frames[frame].depth_m;
   const DepthError error = side == CalibrationSide::before ? DepthError{} : found().depth;
   DepthImage residual_m(reading_m.width(), reading_m.height(), kNoDepth);

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "berth/calibration/calibrate.hpp"
-#include "berth/fit/robot_pixels.hpp"
 #include "berth/fit/calibration_data.hpp"
+#include "berth/fit/robot_pixels.hpp"
 #include "berth/render/robot_renderer.hpp"
 
 namespace berth {
@@ -16,7 +16,8 @@ enum class CalibrationSide { before, after };
 class CalibratedRobot {
  public:
   /// `calibration_data` and `result` have to outlive it.
-  CalibratedRobot(const CalibrationData& calibration_data, const CalibrationResult& result, std::size_t camera);
+  CalibratedRobot(const CalibrationData& calibration_data, const CalibrationResult& result,
+                  std::size_t camera);
 
   /// Where the joints were, by what was believed or found; none where the clock that was found lies
   /// outside of what is known of them.

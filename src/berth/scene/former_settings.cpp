@@ -30,9 +30,9 @@ void tell_group(const YamlValue& group, std::vector<std::string>& told) {
   for (const auto& [key, value] : group.entries()) {
     const auto found = std::ranges::find(kRenamed, key, &Renamed::former);
     if (found == kRenamed.end()) continue;
-    told.push_back(fmt::format(
-        "{}:{}: {} is called {} now; the former name is read for one version more",
-        value.place().file.string(), value.place().line, found->former, found->name));
+    told.push_back(
+        fmt::format("{}:{}: {} is called {} now; the former name is read for one version more",
+                    value.place().file.string(), value.place().line, found->former, found->name));
   }
 }
 

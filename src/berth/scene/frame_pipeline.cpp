@@ -2,10 +2,10 @@
 
 #include <optional>
 
+#include "berth/image_distance/image_method.hpp"
 #include "berth/image_distance/image_query.hpp"
 #include "berth/pipeline/frame_pool.hpp"
 #include "berth/pipeline/observer.hpp"
-#include "berth/image_distance/image_method.hpp"
 
 namespace berth {
 namespace {
@@ -13,8 +13,7 @@ namespace {
 class CpuPipeline : public FramePipeline {
  public:
   CpuPipeline(const OpenScene& scene, const OpenCamera& camera, GlBackend* gl)
-      : observer_(camera.view),
-        has_background_(camera.view->settings().sensor.has_background()) {
+      : observer_(camera.view), has_background_(camera.view->settings().sensor.has_background()) {
     if (scene.joins_cameras()) return;
     query_.emplace(scene.robot, scene.method, scene.image_settings,
                    gl ? gl->make_method(scene.method) : make_image_method(scene.method));

@@ -22,7 +22,8 @@ class FramePipeline {
   virtual const Result& ask() = 0;
   virtual const Exposure& exposure() const = 0;
   /// Tells in the last frame and those after it what somebody else found out of whether the camera
-  /// stands where it should; null: it does. Nothing waits for the pipeline's own watch from then on.
+  /// stands where it should; null: it does. Nothing waits for the pipeline's own watch from then
+  /// on.
   virtual void tell_watch(const CameraWatch* found) {
     is_told_ = true;
     found_ = found ? std::optional(*found) : std::nullopt;

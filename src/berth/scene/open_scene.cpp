@@ -135,8 +135,9 @@ OpenCamera& add_camera(const SceneFile& source, const Camera& pinhole, OpenScene
   OpenCamera& camera = scene.cameras.emplace_back();
   camera.source = from;
   const CameraMount mount{pinhole, from.parent_link, from.X_PC, from.name};
-  camera.view = with_file_named(
-      source, [&] { return std::make_shared<const MountedCamera>(scene.robot, mount, from.settings); });
+  camera.view = with_file_named(source, [&] {
+    return std::make_shared<const MountedCamera>(scene.robot, mount, from.settings);
+  });
   find_joints(*scene.joints, camera);
   if (from.background) {
     camera.background_m = read_depth_png(*from.background, pinhole, kBackgroundScale_m);
@@ -208,8 +209,8 @@ OpenScene reopen_scene(const OpenScene& before, const SceneFile& changed) {
                      ? before.joints
                      : std::make_shared<const JointTrajectory>(
                            read_trajectory(before.robot->model(), changed));
-  scene.robot = with_file_named(
-      changed, [&] { return with_settings(before.robot, changed.evaluation); });
+  scene.robot =
+      with_file_named(changed, [&] { return with_settings(before.robot, changed.evaluation); });
   take_method(changed, scene);
   scene.separation = checked_separation(changed);
   scene.frame_count = before.frame_count;

@@ -72,8 +72,8 @@ OpenScene open_scene(
 OpenScene open_scene(const std::filesystem::path& file);
 
 /// open_scene(changed) where `changed` differs from the file of `before` in settings of requests
-/// and cameras, in poses, clocks and joint offsets alone: robot and images are those of `before`, so
-/// that it takes a moment. Throws as open_scene does.
+/// and cameras, in poses, clocks and joint offsets alone: robot and images are those of `before`,
+/// so that it takes a moment. Throws as open_scene does.
 OpenScene reopen_scene(const OpenScene& before, const SceneFile& changed);
 
 }  // namespace berth

@@ -68,9 +68,8 @@ bool does_robot_move(const CameraBelief& given) {
   constexpr double kMoved = 0.01;  // rad or m
   const std::vector<double>& first = given.positions.front();
   return std::ranges::any_of(given.positions, [&](const std::vector<double>& positions) {
-    return !std::ranges::equal(positions, first, [](double a, double b) {
-      return std::abs(a - b) < kMoved;
-    });
+    return !std::ranges::equal(positions, first,
+                               [](double a, double b) { return std::abs(a - b) < kMoved; });
   });
 }
 
@@ -127,10 +126,12 @@ void explain(const OpenScene& scene, RobotInImages& images, CameraPlausibility& 
 
 std::string counted_text(const RobotReadings& readings, std::size_t frames) {
   const int seen = with_reading(readings);
-  if (seen == 0) return fmt::format("in {} of its images no pixel of the robot has a reading", frames);
+  if (seen == 0)
+    return fmt::format("in {} of its images no pixel of the robot has a reading", frames);
   const auto percent = [seen](int count) { return 100.0 * count / seen; };
   return fmt::format(
-      "of the robot's readings in {} of its images {:.0f} % lie at its surface, {:.0f} % behind it, "
+      "of the robot's readings in {} of its images {:.0f} % lie at its surface, {:.0f} % behind "
+      "it, "
       "{:.0f} % before it",
       frames, percent(readings.at_surface), percent(readings.behind),
       percent(readings.before + readings.hidden));
@@ -157,7 +158,8 @@ CameraPlausibility find_implausible(const OpenScene& scene, std::size_t number) 
 
 std::vector<CameraPlausibility> find_implausible(const OpenScene& scene) {
   std::vector<CameraPlausibility> cameras;
-  for (std::size_t c = 0; c < scene.cameras.size(); ++c) cameras.push_back(find_implausible(scene, c));
+  for (std::size_t c = 0; c < scene.cameras.size(); ++c)
+    cameras.push_back(find_implausible(scene, c));
   return cameras;
 }
 
@@ -169,10 +171,10 @@ std::string text_of(const CameraPlausibility& camera) {
         camera.camera, 100 * camera.readings.hidden_share(), camera.frames);
   }
   if (!camera.is_implausible) return {};
-  std::string text =
-      fmt::format("camera {}: the robot is not where it should be: {}; expected most of them at its "
-                  "surface",
-                  camera.camera, counted_text(camera.readings, camera.frames));
+  std::string text = fmt::format(
+      "camera {}: the robot is not where it should be: {}; expected most of them at its "
+      "surface",
+      camera.camera, counted_text(camera.readings, camera.frames));
   if (!camera.dead.empty()) return text + fmt::format(". The camera is dead: {}", camera.dead);
   if (camera.as_if.empty()) return text + ". No simple mistake explains it";
   return text + fmt::format(". {:.0f} % would, as if {}", 100 * camera.share_then, camera.as_if);

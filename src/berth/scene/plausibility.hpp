@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "berth/watch/seen_through.hpp"
 #include "berth/scene/open_scene.hpp"
+#include "berth/watch/seen_through.hpp"
 
 namespace berth {
 
@@ -37,9 +37,9 @@ inline constexpr double kFits = 0.6;
 inline constexpr double kLeastGain = 0.3;
 
 /// Looks at some images of each camera. A camera is implausible where fewer of the robot's readings
-/// than WatchSettings::min_at_robot lie at its surface, where one simple mistake explains where they
-/// lie much better than the scene does, or where it is dead. One whose min_at_robot is 0 is not
-/// looked at. Throws std::runtime_error where an image cannot be read again.
+/// than WatchSettings::min_at_robot lie at its surface, where one simple mistake explains where
+/// they lie much better than the scene does, or where it is dead. One whose min_at_robot is 0 is
+/// not looked at. Throws std::runtime_error where an image cannot be read again.
 std::vector<CameraPlausibility> find_implausible(const OpenScene& scene);
 
 /// The same of one camera.

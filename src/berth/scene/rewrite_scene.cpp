@@ -44,7 +44,9 @@ void move_paths(const YamlScalars& scene, const fs::path& from_file, const fs::p
                 YamlScalars& changed) {
   const PathMove move(from_file, to_file);
   for (const auto& [place, text] : scene) {
-    const auto names_file = [&path = place](const YamlPath& known) { return is_place(path, known); };
+    const auto names_file = [&path = place](const YamlPath& known) {
+      return is_place(path, known);
+    };
     if (std::none_of(kPlacesOfPaths.begin(), kPlacesOfPaths.end(), names_file)) continue;
     const std::string moved =
         is_place(place, kPlaceOfPattern) ? move.pattern(text) : move.path(text).string();
@@ -137,7 +139,8 @@ void require_same_files(const SceneFile& found, const SceneFile& expected) {
     const std::string where = fmt::format("cameras[{}].", i);
     const SceneCamera& camera = expected.cameras[i];
     same(where + "info", found.cameras[i].info, camera.info);
-    if (camera.background) same(where + "background", found.cameras[i].background.value(), *camera.background);
+    if (camera.background)
+      same(where + "background", found.cameras[i].background.value(), *camera.background);
     if (found.cameras[i].depth.size() != camera.depth.size()) {
       throw_bad_file({expected.file, 0, where + "depth"},
                      fmt::format("would be {} images", found.cameras[i].depth.size()),

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "berth/render/robot_renderer.hpp"
 #include "berth/files/png.hpp"
+#include "berth/render/robot_renderer.hpp"
 #include "berth/robot/kinematics.hpp"
 
 namespace berth {
@@ -58,8 +58,10 @@ const DepthImage& RobotInImages::depth_m(std::size_t camera, std::size_t frame) 
   if (is_new && is_there) {
     const SceneCamera& source = from.source;
     const bool has_limits = source.near_m > 0 || std::isfinite(source.far_m);
-    place->second = !has_limits ? from.read_depth(frame) : read_depth_png(source.depth[frame], own, source.depth_scale_m, 0,
-                                   std::numeric_limits<double>::infinity(), source.depth_offset_m);
+    place->second = !has_limits ? from.read_depth(frame)
+                                : read_depth_png(source.depth[frame], own, source.depth_scale_m, 0,
+                                                 std::numeric_limits<double>::infinity(),
+                                                 source.depth_offset_m);
   }
   return place->second;
 }

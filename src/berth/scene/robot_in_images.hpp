@@ -4,9 +4,9 @@
 #include <map>
 #include <vector>
 
-#include "berth/watch/seen_through.hpp"
 #include "berth/render/robot_renderer.hpp"
 #include "berth/scene/open_scene.hpp"
+#include "berth/watch/seen_through.hpp"
 
 namespace berth {
 
@@ -51,8 +51,8 @@ class RobotInImages {
   const DepthImage& depth_m(std::size_t camera, std::size_t frame);
 
  private:
-  RobotReadings readings(const CameraBelief& belief, const MountedCamera& view, RobotRenderer& renderer,
-                         std::size_t i);
+  RobotReadings readings(const CameraBelief& belief, const MountedCamera& view,
+                         RobotRenderer& renderer, std::size_t i);
 
   const OpenScene& scene_;
   std::size_t camera_;

@@ -76,8 +76,8 @@ void require_movement(const OpenScene& scene, const OpenCamera& camera,
   }
   double farthest = 0;
   for (const std::size_t f : usable) {
-    farthest = std::max(farthest,
-                        farthest_joint(camera.at_exposure[usable[0]], camera.at_exposure[f]));
+    farthest =
+        std::max(farthest, farthest_joint(camera.at_exposure[usable[0]], camera.at_exposure[f]));
   }
   if (farthest >= kStandsStill) return;
   fail(scene, camera.source.name,
@@ -90,19 +90,22 @@ void warn(const OpenCamera& camera, const std::vector<std::size_t>& usable,
           std::vector<std::string>& warnings) {
   const std::size_t missing = camera.source.depth.size() - usable.size();
   if (missing > 0) {
-    warnings.push_back(fmt::format("camera {}: {} of {} frames are not used: there are no joint "
-                                   "angles for their stamps",
-                                   camera.source.name, missing, camera.source.depth.size()));
+    warnings.push_back(
+        fmt::format("camera {}: {} of {} frames are not used: there are no joint "
+                    "angles for their stamps",
+                    camera.source.name, missing, camera.source.depth.size()));
   }
   const std::size_t poses = count_poses(camera, usable);
   if (poses < kLeastPoses) {
-    warnings.push_back(fmt::format("camera {}: only {} different poses of the arm: the result is "
-                                   "not checked by other poses; take five or more",
-                                   camera.source.name, poses));
+    warnings.push_back(
+        fmt::format("camera {}: only {} different poses of the arm: the result is "
+                    "not checked by other poses; take five or more",
+                    camera.source.name, poses));
   } else if (poses < kGoodPoses) {
-    warnings.push_back(fmt::format("camera {}: {} different poses of the arm; five or more are "
-                                   "better",
-                                   camera.source.name, poses));
+    warnings.push_back(
+        fmt::format("camera {}: {} different poses of the arm; five or more are "
+                    "better",
+                    camera.source.name, poses));
   }
 }
 

@@ -87,10 +87,9 @@ Pose read_pose(const YamlMap& pose) {
 }
 
 SceneCamera read_scene_camera(const YamlValue& value, const CameraSettings& settings) {
-  const YamlMap map(value,
-                    {"name", "info", "pose", "depth", "depth_scale", "depth_offset_m", "stamps", "near_m", "far_m", "clock_offset_s", "background",
-                     "self_filter",
-                     "sensor", "space", "watch"});
+  const YamlMap map(
+      value, {"name", "info", "pose", "depth", "depth_scale", "depth_offset_m", "stamps", "near_m",
+              "far_m", "clock_offset_s", "background", "self_filter", "sensor", "space", "watch"});
   const YamlMap pose(map.at("pose"), {"parent", "xyz", "quaternion_xyzw", "rpy"});
   SceneCamera camera;
   camera.name = read_name(map.at("name"));

@@ -1,8 +1,8 @@
 // Inside scene/ only: one entry of a scene's cameras.
 #pragma once
 
-#include "berth/scene/scene_file.hpp"
 #include "berth/files/yaml_value.hpp"
+#include "berth/scene/scene_file.hpp"
 
 namespace berth {
 

@@ -137,9 +137,8 @@ SceneFile read_scene(const std::filesystem::path& file) {
 SceneFile parse_scene(const std::filesystem::path& file, const std::string& text) {
   const YamlValue document = parse_yaml(file, text);
   const YamlMap map(
-      document,
-      {"robot", "cameras", "attached", "joints", "joint_offsets", "fixed_joints", "self_filter",
-       "sensor", "space", "watch", "evaluation", "time", "separation"});
+      document, {"robot", "cameras", "attached", "joints", "joint_offsets", "fixed_joints",
+                 "self_filter", "sensor", "space", "watch", "evaluation", "time", "separation"});
   SceneFile scene;
   scene.file = file;
   scene.warnings = former_names_in(document);

@@ -40,7 +40,8 @@ SceneRun::SceneRun(const OpenScene& scene, SingleSteps)
   for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
     pipelines_[i]->tell_watch(nullptr);
     if (!scene.cameras[i].view->settings().sensor.has_background()) continue;
-    if (scene.cameras[i].background_m) pipelines_[i]->set_background(*scene.cameras[i].background_m);
+    if (scene.cameras[i].background_m)
+      pipelines_[i]->set_background(*scene.cameras[i].background_m);
   }
 }
 

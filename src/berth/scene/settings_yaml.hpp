@@ -33,7 +33,7 @@ inline void read_setting(const YamlValue& value, const Domain& domain, double& o
                            : value.non_negative();
 }
 template <class Enum>
-  requires std::is_enum_v<Enum>
+requires std::is_enum_v<Enum>
 void read_setting(const YamlValue& value, const Domain&, Enum& out) {
   out = read_enum<Enum>(value);
 }

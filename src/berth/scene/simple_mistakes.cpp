@@ -97,8 +97,7 @@ class Mistakes {
              with_rotation(q * X_body_optical));
     add_pose("the pose were turned from x forward to the optical frame twice",
              with_rotation(q * X_body_optical.conjugate()));
-    add_pose("the camera stood on its head",
-             with_rotation(q * Eigen::Quaterniond(0, 0, 0, 1)));
+    add_pose("the camera stood on its head", with_rotation(q * Eigen::Quaterniond(0, 0, 0, 1)));
     for (int axis = 0; axis < 2; ++axis) {
       Eigen::Matrix3d mirror = Eigen::Matrix3d::Identity();
       mirror(axis, axis) = -1;
@@ -110,9 +109,8 @@ class Mistakes {
   }
 
   void add_images() {
-    add("the images were mirrored from left to right", [](CameraBelief& belief) {
-      belief.is_mirrored = true;
-    });
+    add("the images were mirrored from left to right",
+        [](CameraBelief& belief) { belief.is_mirrored = true; });
     for (std::size_t c = 0; c < scene_.cameras.size(); ++c) {
       if (c == given_.images_of) continue;
       add(fmt::format("the images were those of camera {}", name_of(c)),
@@ -150,8 +148,7 @@ class Mistakes {
       };
     };
     add("the joints were in degrees", scaled(kDegree_rad));
-    add("the joints had been turned from degrees to radians twice",
-        scaled(1 / kDegree_rad));
+    add("the joints had been turned from degrees to radians twice", scaled(1 / kDegree_rad));
   }
 
   void add_joint_orders() {

@@ -14,9 +14,9 @@ struct SimpleMistake {
   CameraBelief corrected;
 };
 
-/// All that are tried for a camera of this scene: depth in other units, another focal length, a pose
-/// in other units, axes, order or direction, images that are mirrored, another camera's, or one frame
-/// early or late, joints in other units or another order.
+/// All that are tried for a camera of this scene: depth in other units, another focal length, a
+/// pose in other units, axes, order or direction, images that are mirrored, another camera's, or
+/// one frame early or late, joints in other units or another order.
 std::vector<SimpleMistake> simple_mistakes(const OpenScene& scene, const RobotInImages& images);
 
 }  // namespace berth

@@ -88,8 +88,9 @@ class Walk {
 
 }  // namespace
 
-void drop_flying_patches(DepthView sensor_depth_m, const RobotImage& robot, const Tolerance& tolerance,
-                  float jump_m, FlyingPatchWorkspace& workspace, ObstacleImage& out) {
+void drop_flying_patches(DepthView sensor_depth_m, const RobotImage& robot,
+                         const Tolerance& tolerance, float jump_m, FlyingPatchWorkspace& workspace,
+                         ObstacleImage& out) {
   workspace.seam.clear();
   append_seam(sensor_depth_m, robot, tolerance, jump_m, out.fate, workspace.state, workspace.seam);
   Walk walk(sensor_depth_m, jump_m, workspace, out);

@@ -21,18 +21,19 @@ struct FlyingPatchWorkspace {
   std::vector<Pixel> open;
 };
 
-/// Gives leftovers of the robot's own image among the obstacles the fate `flying_patch`, and takes their
-/// depths. Leftovers are pieces of obstacles, joined by depth (8 neighbours, joined.hpp), that lie
-/// wholly in the neighbourhood and hang on the robot's own readings (append_seam). A camera that
-/// smooths draws its flying pixels out from the arm, without a step. What stands behind the arm and shows
-/// but a rim is small and near, too, but a step away: it is kept. So is a piece that leaves the
-/// neighbourhood anywhere, as an arm that reaches in does.
+/// Gives leftovers of the robot's own image among the obstacles the fate `flying_patch`, and takes
+/// their depths. Leftovers are pieces of obstacles, joined by depth (8 neighbours, joined.hpp),
+/// that lie wholly in the neighbourhood and hang on the robot's own readings (append_seam). A
+/// camera that smooths draws its flying pixels out from the arm, without a step. What stands behind
+/// the arm and shows but a rim is small and near, too, but a step away: it is kept. So is a piece
+/// that leaves the neighbourhood anywhere, as an arm that reaches in does.
 ///
-/// What cannot be told from flying pixels is a small thing that touches the robot's outline at its depth,
-/// within jump_m; it is dropped.
+/// What cannot be told from flying pixels is a small thing that touches the robot's outline at its
+/// depth, within jump_m; it is dropped.
 ///
 /// Only what hangs is walked, and only until it leaves.
-void drop_flying_patches(DepthView sensor_depth_m, const RobotImage& robot, const Tolerance& tolerance,
-                  float jump_m, FlyingPatchWorkspace& workspace, ObstacleImage& out);
+void drop_flying_patches(DepthView sensor_depth_m, const RobotImage& robot,
+                         const Tolerance& tolerance, float jump_m, FlyingPatchWorkspace& workspace,
+                         ObstacleImage& out);
 
 }  // namespace berth

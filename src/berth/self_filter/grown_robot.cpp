@@ -72,7 +72,8 @@ GrownRobot::Radius GrownRobot::radius_of(LinkId id, float depth_m) const {
   }
   const bool is_flying_patch = grown_ == PixelFate::flying_patch;
   if (is_flying_patch && id == kEnvironmentLink) return {0, 0};
-  const double padding_m = is_flying_patch ? settings_->flying_patch_radius_m : settings_->padding_of(id);
+  const double padding_m =
+      is_flying_patch ? settings_->flying_patch_radius_m : settings_->padding_of(id);
   const double longest_px = std::max(camera_->width_px, camera_->height_px);
   return {std::min(longest_px, padding_m * camera_->fx_px / depth_m),
           std::min(longest_px, padding_m * camera_->fy_px / depth_m)};

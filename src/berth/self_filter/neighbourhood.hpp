@@ -8,8 +8,8 @@
 
 namespace berth {
 
-/// Where padding of flying_patch_radius_m would reach. Found tile by tile, when it is asked for: few
-/// tiles have obstacles that hang on the robot.
+/// Where padding of flying_patch_radius_m would reach. Found tile by tile, when it is asked for:
+/// few tiles have obstacles that hang on the robot.
 class Neighbourhood {
  public:
   /// As GrownRobot::begin, which says what the discs are.

@@ -41,7 +41,8 @@ HWY_INLINE std::uint64_t outline_bits(D d, const OutlineRow& row, int u, int lef
   const auto goes_on = [&](int i, int step) HWY_ATTR {
     const auto next_m = hn::LoadU(d, row.depth_m[i] + u + step);
     auto environment_goes_on = own_environment;
-    if (has_environment) environment_goes_on = hn::And(own_environment, belongs_to(d, z, next_m, tolerance));
+    if (has_environment)
+      environment_goes_on = hn::And(own_environment, belongs_to(d, z, next_m, tolerance));
     if (!has_links) return environment_goes_on;
     const auto next_environment = is_environment(d, row.link_id[i] + u + step);
     const auto link_goes_on = hn::AndNot(next_environment, hn::Le(next_m, most));

@@ -10,14 +10,14 @@
 
 namespace berth {
 
-/// The pixels of the robot's outline: those where a link ends against the background, environment, or a
-/// deeper part of the robot, or where its surface turns away by more than 45 degrees (deeper by
-/// more than a pixel's angle of its depth): a calibration error moves the sensor's image of it
+/// The pixels of the robot's outline: those where a link ends against the background, environment,
+/// or a deeper part of the robot, or where its surface turns away by more than 45 degrees (deeper
+/// by more than a pixel's angle of its depth): a calibration error moves the sensor's image of it
 /// sideways, and there sideways means deeper. At the image's border the outline goes on outside.
 ///
-/// Environment has an outline only where it ends against the background, or against what is deeper by
-/// more than the tolerance there. A table that the camera sees at a flat angle turns away all over:
-/// if all of it were outline, it would take the lower part of what stands on it.
+/// Environment has an outline only where it ends against the background, or against what is deeper
+/// by more than the tolerance there. A table that the camera sees at a flat angle turns away all
+/// over: if all of it were outline, it would take the lower part of what stands on it.
 class Outline {
  public:
   /// `robot` has to outlive the outline.

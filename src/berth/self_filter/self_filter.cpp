@@ -52,8 +52,9 @@ class Filter {
     tbb::parallel_for(0, grid_.rows(), [this](int tile_row) { look_around(tile_row); });
     add_counts();
     if (has_flying_patches()) {
-      drop_flying_patches(sensor_depth_m_, robot_, tolerance_, static_cast<float>(settings_.flying_patch_jump_m),
-                   workspace_.flying_patches, out_);
+      drop_flying_patches(sensor_depth_m_, robot_, tolerance_,
+                          static_cast<float>(settings_.flying_patch_jump_m),
+                          workspace_.flying_patches, out_);
     }
   }
 

@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "berth/self_filter/grown_robot.hpp"
 #include "berth/self_filter/flying_patches.hpp"
+#include "berth/self_filter/grown_robot.hpp"
 #include "berth/self_filter/settings.hpp"
 #include "berth/types/camera.hpp"
 #include "berth/types/obstacle_image.hpp"
@@ -32,8 +32,8 @@ void self_filter(const Camera& camera, DepthView sensor_depth_m, const RobotImag
                  ObstacleImage& out);
 
 /// The same, and then ignores what is left where `region`, the image of robot_region() at the same
-/// pose, shows nothing: last of all rules, since flying patches have to see where a piece goes. Throws
-/// std::invalid_argument if settings.robot_region_scale asks for no region.
+/// pose, shows nothing: last of all rules, since flying patches have to see where a piece goes.
+/// Throws std::invalid_argument if settings.robot_region_scale asks for no region.
 void self_filter(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,
                  const RobotImage& region, const SelfFilterSettings& settings,
                  SelfFilterWorkspace& workspace, ObstacleImage& out);

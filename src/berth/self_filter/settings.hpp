@@ -24,22 +24,23 @@ struct SelfFilterSettings {
   /// Padding of single links: link_padding_m[i] is that of the link with the id i + 1; where the
   /// list ends or holds NaN, padding_m.
   std::vector<double> link_padding_m;
-  /// Padding of all environment (environment links); none: padding_m. Environment pads around its outline
-  /// only, and has no flying patches: a thing that stands on a table stays.
+  /// Padding of all environment (environment links); none: padding_m. Environment pads around its
+  /// outline only, and has no flying patches: a thing that stands on a table stays.
   std::optional<double> environment_padding_m;
   /// The silhouette also grows by this number of pixels.
   int dilation_px = 0;
   /// Padding and dilation take what lies behind the robot's outline by no more than this: a camera
-  /// that smooths draws flying pixels from the arm to what is behind it. Farther behind they take only what
-  /// is on no surface (discs.hpp), as mixed pixels are: a thing that is seen there is one.
+  /// that smooths draws flying pixels from the arm to what is behind it. Farther behind they take
+  /// only what is on no surface (discs.hpp), as mixed pixels are: a thing that is seen there is
+  /// one.
   double padding_depth_m = 0.3;
   /// A mixed pixel lies between two flat neighbours, more than this from each; 0 turns the rule
   /// off.
   double edge_jump_m = 0.03;
-  /// A camera that smooths draws flying pixels from the robot's outline. Pieces of readings, joined by steps
-  /// in depth of up to flying_patch_jump_m max(1, z^2), are taken for such flying pixels if steps lead from the
-  /// robot's own readings to them and they lie wholly where padding of this length would reach; 0
-  /// turns the rule off.
+  /// A camera that smooths draws flying pixels from the robot's outline. Pieces of readings, joined
+  /// by steps in depth of up to flying_patch_jump_m max(1, z^2), are taken for such flying pixels
+  /// if steps lead from the robot's own readings to them and they lie wholly where padding of this
+  /// length would reach; 0 turns the rule off.
   double flying_patch_radius_m = 0.07;
   double flying_patch_jump_m = 0.03;
   /// The robot-shaped region of surveillance (Hirt 3.1.1): obstacles that are not seen through the

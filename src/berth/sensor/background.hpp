@@ -38,7 +38,8 @@ class Background {
 
   /// Puts the background where F has no depth: behind the robot, in its padding, at dropped pixels
   /// and where there is no reading. Such a pixel's fate is `background`. It is not put where a
-  /// reading lies farther away than it, since what was there is gone then, and not onto environment.
+  /// reading lies farther away than it, since what was there is gone then, and not onto
+  /// environment.
   void complete(DepthView sensor_depth_m, const SensorSettings& settings, ObstacleImage& out) const;
 
  private:

@@ -14,8 +14,6 @@ std::string_view SensorSettings::first_rule() const {
   return {};
 }
 
-void validate(const SensorSettings& settings) {
-  visit_settings(settings, SettingCheck{"sensor"});
-}
+void validate(const SensorSettings& settings) { visit_settings(settings, SettingCheck{"sensor"}); }
 
 }  // namespace berth

@@ -52,8 +52,9 @@ inline constexpr int kMostAverageFrames = 100;
 /// The list of these settings.
 template <SettingsOf<SensorSettings> Settings, class Visitor>
 void visit_settings(Settings& s, Visitor&& visit) {
-  visit({"noise_m", kNotNegative, "two readings of one surface at z differ by up to this times "
-                                  "max(1, z²)"},
+  visit({"noise_m", kNotNegative,
+         "two readings of one surface at z differ by up to this times "
+         "max(1, z²)"},
         s.noise_m);
   visit({"speckle_px", kNotNegative, "blobs of fewer pixels are dropped; 0 and 1 are off"},
         s.speckle_px);
@@ -61,7 +62,8 @@ void visit_settings(Settings& s, Visitor&& visit) {
          "two neighbouring pixels are of one blob where their depths differ by no more than this "
          "times max(1, z²)"},
         s.speckle_jump_m);
-  visit({"average_frames", {.most = kMostAverageFrames},
+  visit({"average_frames",
+         {.most = kMostAverageFrames},
          "a reading moves to the mean of this many of its pixel's last ones where that is nearer; "
          "0 and 1 are off"},
         s.average_frames);

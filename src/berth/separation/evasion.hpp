@@ -44,9 +44,10 @@ struct Evasion {
   std::vector<double> backward;
 };
 
-/// Repulsive vectors (Flacco, Kroeger, De Luca and Khatib 2012) from berth's results: the least distance gives the length, the mean direction (Hirt 2.2.5) the direction,
-/// where it is asked for. **It reacts to what is near and promises nothing**: not that there is
-/// room to give way, nor that it is in time. One for each thread; once made, nothing allocates.
+/// Repulsive vectors (Flacco, Kroeger, De Luca and Khatib 2012) from berth's results: the least
+/// distance gives the length, the mean direction (Hirt 2.2.5) the direction, where it is asked for.
+/// **It reacts to what is near and promises nothing**: not that there is room to give way, nor that
+/// it is in time. One for each thread; once made, nothing allocates.
 class Evader {
  public:
   /// `end_effector` is an evaluated link. Throws std::invalid_argument that names the setting or

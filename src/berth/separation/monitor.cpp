@@ -111,8 +111,8 @@ SeparationMonitor::Parts::Parts(std::shared_ptr<const Robot> of, SeparationSetti
   twists.resize(model.links.size());
 }
 
-const Separation& SeparationMonitor::Parts::update(const Result& result, std::span<const double> velocity,
-                                            double now_s) {
+const Separation& SeparationMonitor::Parts::update(const Result& result,
+                                                   std::span<const double> velocity, double now_s) {
   out.reason = begin(result, velocity);
   out.link = kNoLink;
   out.camera = -1;
@@ -126,7 +126,7 @@ const Separation& SeparationMonitor::Parts::update(const Result& result, std::sp
 }
 
 SeparationReason SeparationMonitor::Parts::begin(const Result& result,
-                                          std::span<const double> velocity) {
+                                                 std::span<const double> velocity) {
   out.reaction_time_s = kNaN;
   for (LinkSeparation& link : out.links) {
     link.speed_m_s = link.distance_m = link.required_m = link.margin_m = kNaN;
@@ -175,39 +175,39 @@ void SeparationMonitor::Parts::update_link(const Result& result, double robot_m_
   LinkSeparation& link = out.links[i];
   NearLink near = near_link(settings, result.links[i], robot->settings().distance.range_m);
   if (out.camera >= 0) {
-    near =
-        with_unknown(near, settings.camera, settings.assumed_range_m, SeparationReason::camera);
+    near = with_unknown(near, settings.camera, settings.assumed_range_m, SeparationReason::camera);
   }
-  const ProtectiveTerms terms{out.reaction_time_s, settings.camera_uncertainty_m.value_or(
-                                                        camera_uncertainty(result, i))};
+  const ProtectiveTerms terms{
+      out.reaction_time_s, settings.camera_uncertainty_m.value_or(camera_uncertainty(result, i))};
   const LinkSpeed speed{link.speed_m_s, robot_m_s};
   link.distance_m = near.distance_m;
   link.required_m = protective_distance_m(settings, terms, speed);
   link.margin_m = link.distance_m - link.required_m;
   link.speed_scale = greatest_speed_scale(settings, terms, speed, link.distance_m);
   link.reason = link.speed_scale < 1 ? near.reason : SeparationReason::none;
-  rising_scale = greatest_speed_scale(settings, terms, speed,
-                                       link.distance_m - settings.release_m, rising_scale);
+  rising_scale = greatest_speed_scale(settings, terms, speed, link.distance_m - settings.release_m,
+                                      rising_scale);
 }
 
 std::optional<double> SeparationMonitor::Parts::speed_towards(const Result& result,
-                                                       std::size_t i) const {
+                                                              std::size_t i) const {
   if (!settings.directed_speed) return {};
   const std::size_t index = robot->model().evaluated_links[i];
   const LinkResult& link = result.links[i];
   const Eigen::Vector3d way_B = (link.obstacle_point_B_m - link.robot_point_B_m).cast<double>();
   // NaN where there is no pair in the base frame, 0 where they touch.
   if (!(way_B.norm() > 0)) return {};
-  return greatest_speed_along_m_s(hulls[i], result.pose.X_BL[index], twists[index], way_B.normalized());
+  return greatest_speed_along_m_s(hulls[i], result.pose.X_BL[index], twists[index],
+                                  way_B.normalized());
 }
 
-double SeparationMonitor::Parts::camera_uncertainty(const Result& result,
-                                             std::size_t i) const {
+double SeparationMonitor::Parts::camera_uncertainty(const Result& result, std::size_t i) const {
   const LinkResult& link = result.links[i];
   const bool has_point = link.obstacle_point_B_m.allFinite();
   const Eigen::Vector3d p_B =
-      has_point ? Eigen::Vector3d(link.obstacle_point_B_m.cast<double>())
-                : Eigen::Vector3d(result.pose.X_BL[robot->model().evaluated_links[i]].translation());
+      has_point
+          ? Eigen::Vector3d(link.obstacle_point_B_m.cast<double>())
+          : Eigen::Vector3d(result.pose.X_BL[robot->model().evaluated_links[i]].translation());
   double greatest_m = 0;
   for (const CameraResult& camera : result.cameras) {
     if (!camera.mounted || !is_used(camera.status)) continue;
@@ -226,8 +226,8 @@ void SeparationMonitor::Parts::decide(double now_s) {
   }
   out.speed_scale = held < settings.least_scale ? 0 : held;
   out.state = out.speed_scale >= 1  ? SeparationState::clear
-               : out.speed_scale > 0 ? SeparationState::reduced
-                                      : SeparationState::stop;
+              : out.speed_scale > 0 ? SeparationState::reduced
+                                    : SeparationState::stop;
 }
 
 }  // namespace berth

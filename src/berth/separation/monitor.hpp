@@ -25,10 +25,10 @@ class SeparationMonitor {
   SeparationMonitor(SeparationMonitor&&) noexcept;
   SeparationMonitor& operator=(SeparationMonitor&&) noexcept;
 
-  /// Valid until the next update. `velocity` are the joints' velocities (rad/s or m/s) at the joints
-  /// that the result is about: as measured, or those that the program wants, if it obeys the scale.
-  /// One that is missing or not finite stops the robot. `now_s` is on the clock of the stamps. Until
-  /// it has had room for SeparationSettings::hold_s, the robot is stopped.
+  /// Valid until the next update. `velocity` are the joints' velocities (rad/s or m/s) at the
+  /// joints that the result is about: as measured, or those that the program wants, if it obeys the
+  /// scale. One that is missing or not finite stops the robot. `now_s` is on the clock of the
+  /// stamps. Until it has had room for SeparationSettings::hold_s, the robot is stopped.
   const Separation& update(const Result& result, std::span<const double> velocity, double now_s);
 
   const SeparationSettings& settings() const;

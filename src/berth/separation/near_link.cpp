@@ -16,7 +16,7 @@ SeparationReason reason_of(const LinkResult& link) {
   }
   if (!link.has_distance()) return SeparationReason::range;
   return link.obstacle_is == ObstacleKind::unknown ? SeparationReason::unknown
-                                                    : SeparationReason::occupied;
+                                                   : SeparationReason::occupied;
 }
 
 /// To what is seen alone.

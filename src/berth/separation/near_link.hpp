@@ -3,8 +3,8 @@
 #pragma once
 
 #include "berth/pipeline/result.hpp"
-#include "berth/types/separation.hpp"
 #include "berth/separation/settings.hpp"
+#include "berth/types/separation.hpp"
 
 namespace berth {
 

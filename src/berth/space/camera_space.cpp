@@ -16,8 +16,8 @@ void copy(DepthView from, DepthImage& to) {
 }  // namespace
 
 void build_camera_space(const Camera& camera, DepthView sensor_depth_m,
-                      const ObstacleImage& obstacles, const SpaceSettings& settings,
-                      CameraSpace& out) {
+                        const ObstacleImage& obstacles, const SpaceSettings& settings,
+                        CameraSpace& out) {
   assert(sensor_depth_m.width == camera.width_px && sensor_depth_m.height == camera.height_px);
   build_reading_space(camera, obstacles.depth_m, settings, out);
   if (out.is_empty()) return;

@@ -40,8 +40,8 @@ struct CameraSpace {
 /// self filter made of it, which `out` goes on to refer to; both have the camera's size. Throws
 /// std::invalid_argument for bad settings.
 void build_camera_space(const Camera& camera, DepthView sensor_depth_m,
-                      const ObstacleImage& obstacles, const SpaceSettings& settings,
-                      CameraSpace& out);
+                        const ObstacleImage& obstacles, const SpaceSettings& settings,
+                        CameraSpace& out);
 
 /// The same for requests about readings alone (MeshRequest::hidden is false): such a view frees
 /// nothing.

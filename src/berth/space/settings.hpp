@@ -40,8 +40,9 @@ struct SpaceSettings {
 /// The list of these settings.
 template <SettingsOf<SpaceSettings> Settings, class Visitor>
 void visit_settings(Settings& s, Visitor&& visit) {
-  visit({"surface_thickness_m", kNotNegative, "how thick a surface is that the camera measured; what lies deeper "
-                               "is hidden"},
+  visit({"surface_thickness_m", kNotNegative,
+         "how thick a surface is that the camera measured; what lies deeper "
+         "is hidden"},
         s.surface_thickness_m);
   visit({"free_space_margin_m", kNotNegative,
          "a reading frees what is nearer to the camera than it by more than this"},
@@ -49,7 +50,8 @@ void visit_settings(Settings& s, Visitor&& visit) {
   visit({"behind_robot_m", kNotNegative,
          "where the camera sees the robot, what is up to this far behind it is free as well"},
         s.behind_robot_m);
-  visit({"no_reading", {},
+  visit({"no_reading",
+         {},
          "what a pixel without a reading says of its line of sight: free is for a camera that sees "
          "no background within its range"},
         s.no_reading);

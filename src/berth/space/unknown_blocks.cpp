@@ -167,8 +167,8 @@ HWY_INLINE std::uint64_t frees_all(const FreeingCamera& view, const Projection& 
 }
 
 /// Which of kLanes cubes may hold something hidden.
-HWY_INLINE std::uint64_t possible_of(std::span<const FreeingCamera> views, const CubePoints& centres,
-                                     float reach_m, float half_m) {
+HWY_INLINE std::uint64_t possible_of(std::span<const FreeingCamera> views,
+                                     const CubePoints& centres, float reach_m, float half_m) {
   Projection cubes[UnknownSpace::kMostViews];
   std::uint64_t hides[UnknownSpace::kMostViews];
   std::uint64_t hidden_once = 0, hidden_twice = 0;

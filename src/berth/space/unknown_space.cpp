@@ -4,8 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "berth/space/unknown_blocks.hpp"
 #include "berth/space/serial_number.hpp"
+#include "berth/space/unknown_blocks.hpp"
 
 namespace berth {
 namespace {
@@ -75,8 +75,8 @@ std::optional<HidingPixel> UnknownSpace::hiding_pixel(const Eigen::Vector3d& p_B
     const Eigen::Vector3d p_C = views_[k].X_CB * p_B;
     const auto pixel = pixel_of(space.camera, p_C);
     if (!pixel) continue;
-    const double surface_end_m =
-        static_cast<double>(space.obstacle_depth_m(pixel->u, pixel->v)) + space.settings.surface_thickness_m;
+    const double surface_end_m = static_cast<double>(space.obstacle_depth_m(pixel->u, pixel->v)) +
+                                 space.settings.surface_thickness_m;
     if (!(p_C.z() > surface_end_m)) continue;
     bool is_free = false;
     for (std::size_t j = 0; j < views_.size() && !is_free; ++j) {

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "berth/space/camera_space.hpp"
 #include "berth/space/cubes.hpp"
 #include "berth/space/free_depth.hpp"
-#include "berth/space/camera_space.hpp"
 
 namespace berth {
 
@@ -51,9 +51,9 @@ class UnknownSpace {
   UnknownSpace();
 
   /// Begins anew with these views, which have to outlive it; reuses its memory. Nobody may ask
-  /// meanwhile. A view whose age is above its free_space_max_age_s frees nothing; a lesser one shrinks
-  /// what it frees (age_own_free_depth). Throws std::invalid_argument for more than kMostViews, an
-  /// age below 0 or a pose that is not finite.
+  /// meanwhile. A view whose age is above its free_space_max_age_s frees nothing; a lesser one
+  /// shrinks what it frees (age_own_free_depth). Throws std::invalid_argument for more than
+  /// kMostViews, an age below 0 or a pose that is not finite.
   void assign(std::span<const PosedSpace> views);
 
   std::span<const FreeingCamera> views() const { return views_; }
@@ -61,8 +61,8 @@ class UnknownSpace {
   /// Another one after each assign(), and no other object's.
   std::uint64_t serial_number() const { return serial_number_; }
 
-  /// Who hides this point, if it is hidden: behind the surface layer of its pixel in some view, and seen
-  /// free by no other one (definition 5).
+  /// Who hides this point, if it is hidden: behind the surface layer of its pixel in some view, and
+  /// seen free by no other one (definition 5).
   std::optional<HidingPixel> hiding_pixel(const Eigen::Vector3d& p_B) const;
 
   /// Which of the 64 cubes that `cube`, of a level above 0, consists of may hold a hidden point:

@@ -9,9 +9,9 @@
 
 namespace berth {
 
-/// Intrinsics as in a ROS camera_info or in OpenCV: integer coordinates are pixel **centres**, so pixel
-/// (u, v) covers [u - 1/2, u + 1/2] x [v - 1/2, v + 1/2]. The optical frame (REP 103) has z forward,
-/// x right, y down. A point p_C projects to u = fx p.x / p.z + cx.
+/// Intrinsics as in a ROS camera_info or in OpenCV: integer coordinates are pixel **centres**, so
+/// pixel (u, v) covers [u - 1/2, u + 1/2] x [v - 1/2, v + 1/2]. The optical frame (REP 103) has z
+/// forward, x right, y down. A point p_C projects to u = fx p.x / p.z + cx.
 struct Camera {
   int width_px = 0;
   int height_px = 0;
@@ -20,7 +20,8 @@ struct Camera {
   double cx_px = 0;
   double cy_px = 0;
 
-  /// The thesis puts a pixel's **corner** at (u, v): its formulas hold with these two (Hirt 2.10 to 2.18).
+  /// The thesis puts a pixel's **corner** at (u, v): its formulas hold with these two (Hirt 2.10
+  /// to 2.18).
   double corner_cx_px() const { return cx_px + 0.5; }
   double corner_cy_px() const { return cy_px + 0.5; }
 };

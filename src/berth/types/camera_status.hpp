@@ -15,8 +15,8 @@ struct CameraWatch {
   bool is_on = false;
   /// It does not: its frames are not used.
   bool has_moved = false;
-  /// The robot is not where it should be in its images, from the first one on or since some of them:
-  /// something that it is told by is wrong. Its frames are not used.
+  /// The robot is not where it should be in its images, from the first one on or since some of
+  /// them: something that it is told by is wrong. Its frames are not used.
   bool is_implausible = false;
   /// The same where it is only told (WatchSettings::tell_only): its frames are used.
   bool is_unconfirmed = false;
@@ -53,8 +53,7 @@ enum class CameraStatus : std::uint8_t {
 };
 /// By enumerator.
 inline constexpr std::array<std::string_view, 9> kCameraStatusNames = {
-    "ok", "no_frame", "stale", "too_old", "blind", "moved", "implausible", "hidden",
-    "unconfirmed"};
+    "ok", "no_frame", "stale", "too_old", "blind", "moved", "implausible", "hidden", "unconfirmed"};
 
 constexpr std::string_view name_of(CameraStatus status) {
   return kCameraStatusNames[static_cast<std::size_t>(status)];

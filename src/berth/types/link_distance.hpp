@@ -27,7 +27,8 @@ struct LinkDistance {
   float lower_bound_m = std::numeric_limits<float>::quiet_NaN();
   Pixel robot_pixel;
   Pixel obstacle_pixel;
-  /// In the camera's optical frame C. The minimum distance vector is obstacle_point_C_m - robot_point_C_m.
+  /// In the camera's optical frame C. The minimum distance vector is obstacle_point_C_m -
+  /// robot_point_C_m.
   Eigen::Vector3f robot_point_C_m = unset_point();
   Eigen::Vector3f obstacle_point_C_m = unset_point();
   /// Mean of the unit vectors from robot_pixel to the mean_count obstacle pixels in its region of

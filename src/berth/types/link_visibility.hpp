@@ -13,7 +13,8 @@ namespace berth {
 enum class Sight : std::uint8_t {
   seen,                 ///< nothing stands before it
   hidden_by_obstacles,  ///< an obstacle stands before it
-  hidden_by_robot,  ///< a link, the point's own included, or environment of the URDF stands before it
+  hidden_by_robot,  ///< a link, the point's own included, or environment of the URDF stands before
+                    ///< it
   no_reading,       ///< its pixel has no reading, or the self filter dropped one that was there
   outside_image,    ///< it projects beside the image, or lies behind the camera
 };
@@ -49,9 +50,9 @@ struct LinkVisibility {
   /// obstacle already (the gray area, Hirt 2.14).
   float space_unknown = std::numeric_limits<float>::quiet_NaN();
   /// The least distance, as in LinkDistance, to readings that were dropped only because they are
-  /// few and near the robot (PixelFate::flying_patch) or few (speckle), and the pixel of the nearest. Set
-  /// if that is within the range and nearer than the link's distance; then take it instead wherever
-  /// a small thing may come near the robot. Else NaN and (-1, -1).
+  /// few and near the robot (PixelFate::flying_patch) or few (speckle), and the pixel of the
+  /// nearest. Set if that is within the range and nearer than the link's distance; then take it
+  /// instead wherever a small thing may come near the robot. Else NaN and (-1, -1).
   float rejected_distance_m = std::numeric_limits<float>::quiet_NaN();
   Pixel rejected_pixel;
 };

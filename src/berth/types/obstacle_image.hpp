@@ -18,7 +18,7 @@ enum class PixelFate : std::uint8_t {
   padding,         ///< within the link's metric padding beside the robot, and not in front of it
   dilation,        ///< within the silhouette grown by a number of pixels, and not in front of it
   edge,            ///< a mixed pixel at a depth edge
-  flying_patch,          ///< in a small patch of readings that grows out of the robot's outline and stays
+  flying_patch,    ///< in a small patch of readings that grows out of the robot's outline and stays
                    ///< near the robot: the camera smeared it there
   outside_region,  ///< not seen through the enlarged robot, where
                    ///< SelfFilterSettings::robot_region_scale is set
@@ -34,8 +34,8 @@ inline constexpr int kSelfFilterFateCount = 9;
 
 /// By enumerator.
 inline constexpr std::array<std::string_view, kPixelFateCount> kPixelFateNames = {
-    "obstacle", "no_reading",     "robot",   "environment", "padding",    "dilation", "edge",
-    "flying_patch",   "outside_region", "speckle", "averaged",    "background", "hole"};
+    "obstacle",     "no_reading",     "robot",   "environment", "padding",    "dilation", "edge",
+    "flying_patch", "outside_region", "speckle", "averaged",    "background", "hole"};
 
 constexpr std::string_view name_of(PixelFate fate) {
   return kPixelFateNames[static_cast<std::size_t>(fate)];

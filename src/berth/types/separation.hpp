@@ -41,8 +41,8 @@ enum class SeparationReason : std::uint8_t {
 };
 /// By enumerator.
 inline constexpr std::array<std::string_view, 11> kSeparationReasonNames = {
-    "none",     "occupied", "unknown",   "rejected", "range", "cut_short",
-    "not_seen", "camera",  "stale", "velocity", "hold"};
+    "none",     "occupied", "unknown", "rejected", "range", "cut_short",
+    "not_seen", "camera",   "stale",   "velocity", "hold"};
 
 constexpr std::string_view name_of(SeparationReason reason) {
   return kSeparationReasonNames[static_cast<std::size_t>(reason)];

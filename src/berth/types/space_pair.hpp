@@ -7,8 +7,8 @@
 #include <limits>
 #include <string_view>
 
-#include "berth/types/robot_image.hpp"
 #include "berth/types/image.hpp"
+#include "berth/types/robot_image.hpp"
 
 namespace berth {
 
@@ -48,8 +48,8 @@ struct SpacePair {
   bool is_known() const { return camera >= 0; }
 };
 
-/// The two answers for one link. `occupied.distance_m` is never below `nearest.distance_m` where both
-/// are known.
+/// The two answers for one link. `occupied.distance_m` is never below `nearest.distance_m` where
+/// both are known.
 struct WholeLinkDistance {
   LinkId id = kNoLink;
   /// To what is occupied or unknown.

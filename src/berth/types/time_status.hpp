@@ -27,9 +27,18 @@ enum class TimeStatus : std::uint8_t {
 inline constexpr int kTimeStatusCount = 13;
 /// By enumerator.
 inline constexpr std::array<std::string_view, kTimeStatusCount> kTimeStatusNames = {
-    "ok",          "no_joints",       "missing_joint", "extrapolated_too_far",
-    "skewed",      "stamp_went_back", "stamp_jumped",  "frame_in_future",
-    "stale_frame", "stale_joints",    "no_frame",      "camera_moved",
+    "ok",
+    "no_joints",
+    "missing_joint",
+    "extrapolated_too_far",
+    "skewed",
+    "stamp_went_back",
+    "stamp_jumped",
+    "frame_in_future",
+    "stale_frame",
+    "stale_joints",
+    "no_frame",
+    "camera_moved",
     "camera_implausible"};
 
 constexpr std::string_view name_of(TimeStatus status) {

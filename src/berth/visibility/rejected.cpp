@@ -6,7 +6,9 @@
 namespace berth {
 namespace {
 
-bool is_rejected(PixelFate fate) { return fate == PixelFate::flying_patch || fate == PixelFate::speckle; }
+bool is_rejected(PixelFate fate) {
+  return fate == PixelFate::flying_patch || fate == PixelFate::speckle;
+}
 
 void add(Pixel p, PixelRect& extent) {
   if (extent.empty()) {
@@ -36,7 +38,8 @@ void find_rejected(DepthView sensor_depth_m, const ObstacleImage& obstacles, Rej
   const int width = sensor_depth_m.width, height = sensor_depth_m.height;
   assert(obstacles.fate.width() == width && obstacles.fate.height() == height);
   clear_rejected(width, height, out);
-  if (obstacles.count_of(PixelFate::flying_patch) + obstacles.count_of(PixelFate::speckle) == 0) return;
+  if (obstacles.count_of(PixelFate::flying_patch) + obstacles.count_of(PixelFate::speckle) == 0)
+    return;
   for (int v = 0; v < height; ++v) {
     const PixelFate* fate = obstacles.fate.row(v);
     // Most rows have none, and counting goes in vectors.

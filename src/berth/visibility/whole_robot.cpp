@@ -83,8 +83,8 @@ void find_whole_robot_visibility(const RobotModel& model, const SamplePoints& po
   out.resize(points.surface.size());
   for (std::size_t i = 0; i < out.size(); ++i) {
     const Pose& X_BL = pose.X_BL[model.evaluated_links[i]];
-    const SightCount space = count_in_ball(views, distances[i].nearest, points.surface[i], X_BL,
-                                           points.unit_ball);
+    const SightCount space =
+        count_in_ball(views, distances[i].nearest, points.surface[i], X_BL, points.unit_ball);
     out[i] = {};
     out[i].id = static_cast<LinkId>(i + 1);
     out[i].surface = count_on_surface(views, points.surface[i], X_BL).shares();

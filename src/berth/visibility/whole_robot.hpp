@@ -31,8 +31,8 @@ bool is_seen(std::span<const SeeingCamera> views, const std::vector<SurfacePoint
 
 /// Writes the shares of surface and space of out[i], the link with the id i + 1: a point counts by
 /// the view that knows most of it, in the order of Sight. `distances` are those
-/// of the whole robot at `pose`. The ball of a link without a distance lies around the points of its
-/// surface in turn, with its lower bound for a radius. Allocates nothing once `out` has grown.
+/// of the whole robot at `pose`. The ball of a link without a distance lies around the points of
+/// its surface in turn, with its lower bound for a radius. Allocates nothing once `out` has grown.
 void find_whole_robot_visibility(const RobotModel& model, const SamplePoints& points,
                                  const RobotPose& pose, std::span<const SeeingCamera> views,
                                  std::span<const WholeLinkDistance> distances,

@@ -24,9 +24,8 @@ const std::vector<FitRound> kRounds{{4, 6, 0.10, 0.08, 48, 0.08}, {2, 5, 0.05, 0
 }  // namespace
 
 FrameDisplacement::FrameDisplacement(const RobotModel& model,
-                                     std::shared_ptr<const LinkMeshes> meshes,
-                                     const Camera& camera, std::size_t parent, const Pose& X_PC,
-                                     double bias_m)
+                                     std::shared_ptr<const LinkMeshes> meshes, const Camera& camera,
+                                     std::size_t parent, const Pose& X_PC, double bias_m)
     : model_(&model),
       meshes_(std::move(meshes)),
       camera_(camera),

@@ -18,8 +18,8 @@ class FrameDisplacement {
                     const Camera& camera, std::size_t parent, const Pose& X_PC, double bias_m);
 
   /// The mean way of the robot's visible points, in m, from where the camera's pose has them to
-  /// where they fit the image best; 0 where the image agrees hardly better there. Nothing where the image shows too little of the
-  /// robot, or `stop` was requested before the fit began.
+  /// where they fit the image best; 0 where the image agrees hardly better there. Nothing where the
+  /// image shows too little of the robot, or `stop` was requested before the fit began.
   std::optional<double> measure(DepthView depth_m, const JointState& joints,
                                 const std::stop_token& stop = {}) const;
 

@@ -11,7 +11,8 @@ namespace berth {
 
 /// D of one frame: by how much, on the average, points of the robot have to be moved for it to fit
 /// the image, in m; none where the frame does not tell. Called on a thread of its own, for one
-/// frame at a time; must not throw. Should return, whatever it has, soon after `stop` was requested.
+/// frame at a time; must not throw. Should return, whatever it has, soon after `stop` was
+/// requested.
 using MeasureDisplacement = std::function<std::optional<double>(
     DepthView depth_m, const JointState& at_exposure, std::stop_token stop)>;
 

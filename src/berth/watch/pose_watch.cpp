@@ -41,8 +41,7 @@ const CameraWatch& PoseWatch::look(DepthView depth_m, const RobotImage& robot,
   judge_place(readings);
   if (!state_.is_on) return state_;
   const bool tells = readings.tells();
-  state_.seen_through =
-      tells ? readings.seen_through() : std::numeric_limits<double>::quiet_NaN();
+  state_.seen_through = tells ? readings.seen_through() : std::numeric_limits<double>::quiet_NaN();
   if (tells && settings_.max_seen_through > 0) {
     by_seen_through_.add(state_.seen_through > settings_.max_seen_through);
   }

@@ -2,14 +2,14 @@
 
 #include <optional>
 
-#include "berth/watch/agreement.hpp"
-#include "berth/watch/displacement_check.hpp"
-#include "berth/watch/seen_through.hpp"
-#include "berth/watch/watch_settings.hpp"
 #include "berth/types/camera_status.hpp"
 #include "berth/types/image.hpp"
 #include "berth/types/joint_state.hpp"
 #include "berth/types/robot_image.hpp"
+#include "berth/watch/agreement.hpp"
+#include "berth/watch/displacement_check.hpp"
+#include "berth/watch/seen_through.hpp"
+#include "berth/watch/watch_settings.hpp"
 
 namespace berth {
 
@@ -27,8 +27,9 @@ inline constexpr double kMostHiddenForDisplacement = 0.4;
 /// thread.
 class PoseWatch {
  public:
-  /// Throws std::invalid_argument for settings outside of their domain, and where max_displacement_m
-  /// is set and nothing measures D. The thread that measures is there only where both are given.
+  /// Throws std::invalid_argument for settings outside of their domain, and where
+  /// max_displacement_m is set and nothing measures D. The thread that measures is there only where
+  /// both are given.
   explicit PoseWatch(const WatchSettings& settings, MeasureDisplacement measure = {});
 
   /// Judges one frame: the camera's image, the robot as it should be seen in it, the joints at its

@@ -14,8 +14,7 @@ double share(int part, int all) {
 /// Every so many rows, whole: next to each other, pixels cost less than on a grid of points, since
 /// memory comes in lines of 16.
 int row_step(const PixelRect& rect) {
-  const std::int64_t pixels =
-      std::int64_t{rect.u_end - rect.u_begin} * (rect.v_end - rect.v_begin);
+  const std::int64_t pixels = std::int64_t{rect.u_end - rect.u_begin} * (rect.v_end - rect.v_begin);
   return static_cast<int>((pixels + kMostReadPixels - 1) / kMostReadPixels);
 }
 

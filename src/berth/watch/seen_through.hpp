@@ -12,8 +12,8 @@ inline constexpr float kSeenThrough_m = 0.05F;
 inline constexpr float kHidden_m = 0.2F;
 
 /// What a depth image says at the pixels where the robot should be, counted in some of the rows.
-/// Environment is left out: its many pixels hide what the arm's few say, and a table that is seen at a
-/// flat angle says little of a camera that moved sideways.
+/// Environment is left out: its many pixels hide what the arm's few say, and a table that is seen
+/// at a flat angle says little of a camera that moved sideways.
 struct RobotReadings {
   /// Within kSeenThrough_m of the robot's surface.
   int at_surface = 0;

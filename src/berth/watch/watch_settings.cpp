@@ -20,7 +20,8 @@ double greatest(std::span<const double> values) {
 void validate(const WatchSettings& settings) {
   visit_settings(settings, SettingCheck{"watch"});
   // With half of them or fewer, the same frames could say both.
-  if (settings.agreeing_frames > settings.frames || 2 * settings.agreeing_frames <= settings.frames) {
+  if (settings.agreeing_frames > settings.frames ||
+      2 * settings.agreeing_frames <= settings.frames) {
     throw_bad_setting("watch", "agreeing_frames", settings.agreeing_frames,
                       "more than half of watch.frames, " + std::to_string(settings.frames) +
                           ", and no more than all");

@@ -7,7 +7,8 @@
 namespace berth {
 
 /// When a camera counts as implausible, and when as moved. The latter is off by default: what is
-/// normal is learnt from frames of the camera as it is meant to stand (learned_limits), by calibration.
+/// normal is learnt from frames of the camera as it is meant to stand (learned_limits), by
+/// calibration.
 struct WatchSettings {
   /// A frame in which a smaller share of the robot's readings lies at its surface
   /// (RobotReadings::at_robot) speaks for an implausible camera; 0 is off. The default lies in the
@@ -21,8 +22,8 @@ struct WatchSettings {
   double max_seen_through = 0;
   /// D of a frame (MeasureDisplacement) above this does too; 0 is off.
   double max_displacement_m = 0;
-  /// How far readings of the robot lie behind its surface while all is well, in the median: an error
-  /// of the camera's depth, not of its place.
+  /// How far readings of the robot lie behind its surface while all is well, in the median: an
+  /// error of the camera's depth, not of its place.
   double bias_m = 0;
   /// So many of this many last frames have to agree, for a camera to count as moved by T, and to
   /// count as back in its place.
@@ -42,15 +43,19 @@ inline constexpr int kMostWatchedFrames = 1000;
 /// The list of these settings.
 template <SettingsOf<WatchSettings> Settings, class Visitor>
 void visit_settings(Settings& s, Visitor&& visit) {
-  visit({"min_at_robot", {.most = 1},
-         "a camera is implausible where a smaller share of the robot's readings lies within 5 cm of "
-         "its surface, or where one simple mistake explains where they lie; 0 is off"},
-        s.min_at_robot);
-  visit({"tell_only", {},
+  visit(
+      {"min_at_robot",
+       {.most = 1},
+       "a camera is implausible where a smaller share of the robot's readings lies within 5 cm of "
+       "its surface, or where one simple mistake explains where they lie; 0 is off"},
+      s.min_at_robot);
+  visit({"tell_only",
+         {},
          "whether the images of an implausible camera are used all the same: then its status is "
          "unconfirmed"},
         s.tell_only);
-  visit({"max_seen_through", {.most = 1},
+  visit({"max_seen_through",
+         {.most = 1},
          "a camera counts as moved where a larger share of the robot's readings lies 5 cm or more "
          "behind its surface; 0 is off"},
         s.max_seen_through);
@@ -58,14 +63,17 @@ void visit_settings(Settings& s, Visitor&& visit) {
          "a camera counts as moved where the robot fits the image better when it is moved by more "
          "than this; 0 is off"},
         s.max_displacement_m);
-  visit({"bias_m", {.least = -0.1, .most = 0.1},
+  visit({"bias_m",
+         {.least = -0.1, .most = 0.1},
          "how far readings of the robot lie behind its surface while the camera stands well"},
         s.bias_m);
-  visit({"agreeing_frames", {.least = 1, .most = kMostWatchedFrames},
+  visit({"agreeing_frames",
+         {.least = 1, .most = kMostWatchedFrames},
          "so many of the last `frames` have to say moved, and to say that all is well again; more "
          "than half of them"},
         s.agreeing_frames);
-  visit({"frames", {.least = 1, .most = kMostWatchedFrames},
+  visit({"frames",
+         {.least = 1, .most = kMostWatchedFrames},
          "how many of the last frames are remembered that show enough of the robot"},
         s.frames);
   visit({"check_every_s", kNotNegative,
@@ -77,8 +85,9 @@ void visit_settings(Settings& s, Visitor&& visit) {
 void validate(const WatchSettings& settings);
 
 /// The limits of a camera for which T and D were these in frames taken as it is meant to stand, NaN
-/// where a frame did not tell; off where none told. They are above what was seen by a factor, and never so low that a person
-/// before the arm raises an alarm (figures in tests/watch/bumped_test.cpp).
+/// where a frame did not tell; off where none told. They are above what was seen by a factor, and
+/// never so low that a person before the arm raises an alarm (figures in
+/// tests/watch/bumped_test.cpp).
 WatchSettings learned_limits(std::span<const double> seen_through,
                              std::span<const double> displacement_m);
 

@@ -75,9 +75,10 @@ TEST(AlignedBound, IsNeverAboveTheComputedDistanceOfAnyPair) {
     const RandomTile robot(sample, scale_m);
     const RandomTile obstacle(sample, scale_m);
     const Axes axes = random_axes(sample, metric, robot);
-    const AlignedBox robot_box = simd::AlignedCamera(metric, axes, robot.tile, {0, 0}).box_of(~0ULL);
+    const AlignedBox robot_box =
+        simd::AlignedCamera(metric, axes, robot.tile, {0, 0}).box_of(~0ULL);
     const simd::AlignedCamera view(metric, axes, obstacle.tile,
-                                 {robot.tile.box.depth_lo_m, robot.tile.box.depth_hi_m});
+                                   {robot.tile.box.depth_lo_m, robot.tile.box.depth_hi_m});
     for (int o = 0; o < kTilePixels; o += 5) {
       const AlignedBox pixel = view.box_of(1ULL << o);
       float gap_m2 = 0;

@@ -7,9 +7,9 @@
 #include "berth/image_distance/brute_force.hpp"
 #include "berth/image_distance/exact/exact.hpp"
 #include "sim/random_images.hpp"
-#include "tests/support/thinned.hpp"
 #include "tests/image_distance/exact/smooth_images.hpp"
 #include "tests/support/image_settings.hpp"
+#include "tests/support/thinned.hpp"
 
 namespace berth::testing {
 namespace {
@@ -25,11 +25,8 @@ LinkDistances ask(const sim::ImagePair& images, const ImageDistanceSettings& set
 
 LinkDistances truth(const sim::ImagePair& images, double range_m) {
   LinkDistances out;
-  brute_force({images.camera,
-               images.robot,
-               images.link_count,
-               SearchableDepth(images.obstacle_depth_m),
-               image_settings(range_m)},
+  brute_force({images.camera, images.robot, images.link_count,
+               SearchableDepth(images.obstacle_depth_m), image_settings(range_m)},
               out);
   return out;
 }
@@ -76,7 +73,7 @@ void expect_certified(const LinkDistances& found, const LinkDistances& true_link
 
 std::vector<sim::ImagePair> all_kinds() {
   std::vector<sim::ImagePair> kinds = {tilted_plates(0.3, 120, 90), ball_in_shell(120, 90),
-                                  bowl_in_shell(120, 90)};
+                                       bowl_in_shell(120, 90)};
   for (std::uint32_t seed = 0; seed < thinned(12u); ++seed)
     kinds.push_back(sim::random_images(seed, 130, 94, 5));
   return kinds;
@@ -104,7 +101,8 @@ TEST(Certified, AtEveryDeadline) {
     for (double deadline_us = 0; deadline_us < 4000; deadline_us = deadline_us * 1.3 + 2) {
       SCOPED_TRACE(deadline_us);
       expect_certified(ask(images, image_settings(1.0, false, 0, deadline_us)), true_links, 1.0f);
-      expect_certified(ask(images, image_settings(1.0, false, 1e-3, deadline_us)), true_links, 1.0f);
+      expect_certified(ask(images, image_settings(1.0, false, 1e-3, deadline_us)), true_links,
+                       1.0f);
     }
   }
 }
@@ -114,7 +112,8 @@ TEST(Certified, AtEveryRangeAndDeadline) {
   for (const float range_m : {0.01f, 0.1f, 0.3f, 0.6f}) {
     const LinkDistances true_links = truth(images, range_m);
     for (double deadline_us = 0; deadline_us < 1000; deadline_us = deadline_us * 1.5 + 3) {
-      expect_certified(ask(images, image_settings(range_m, false, 0, deadline_us)), true_links, range_m);
+      expect_certified(ask(images, image_settings(range_m, false, 0, deadline_us)), true_links,
+                       range_m);
     }
   }
 }
@@ -144,7 +143,8 @@ TEST(Certified, WithNoTimeAtAllThereIsStillAPairAndABound) {
 
 TEST(Certified, AToleranceSavesWorkWhereAllPairsTie) {
   const sim::ImagePair images = tilted_plates(0.3, 320, 240);
-  EXPECT_LT(ask(images, image_settings(1.0, false, 1e-3)).pairs, ask(images, image_settings(1.0, false)).pairs);
+  EXPECT_LT(ask(images, image_settings(1.0, false, 1e-3)).pairs,
+            ask(images, image_settings(1.0, false)).pairs);
 }
 
 TEST(Certified, ContactIsKnownAtOnce) {

@@ -5,12 +5,12 @@
 #include <tbb/global_control.h>
 
 #include "berth/image_distance/brute_force.hpp"
-#include "tests/support/error_message.hpp"
-#include "tests/support/only_target.hpp"
 #include "sim/random_images.hpp"
-#include "tests/support/thinned.hpp"
 #include "tests/image_distance/exact/smooth_images.hpp"
+#include "tests/support/error_message.hpp"
 #include "tests/support/image_settings.hpp"
+#include "tests/support/only_target.hpp"
+#include "tests/support/thinned.hpp"
 
 namespace berth::testing {
 namespace {
@@ -24,11 +24,8 @@ void ask(const sim::ImagePair& images, ExactWorkspace& workspace, LinkDistances&
 
 LinkDistances true_answer(const sim::ImagePair& images) {
   LinkDistances out;
-  brute_force({images.camera,
-               images.robot,
-               images.link_count,
-               SearchableDepth(images.obstacle_depth_m),
-               image_settings(1.0, false)},
+  brute_force({images.camera, images.robot, images.link_count,
+               SearchableDepth(images.obstacle_depth_m), image_settings(1.0, false)},
               out);
   return out;
 }
@@ -112,7 +109,8 @@ TEST(Exact, ThreadsChangeNothing) {
     return fresh_answer(images);
   };
   for (const sim::ImagePair& images :
-       {sim::random_images(7, 240, 180, 8), sim::random_images(9, 160, 120, 40), bowl_in_shell(160, 120)}) {
+       {sim::random_images(7, 240, 180, 8), sim::random_images(9, 160, 120, 40),
+        bowl_in_shell(160, 120)}) {
     const LinkDistances one = with_threads(1, images);
     for (int i = 0; i < 5; ++i) {
       const LinkDistances two = with_threads(2, images);

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <random>
 
-#include "tests/support/only_target.hpp"
 #include "tests/image_distance/mean_direction/plain_mean.hpp"
+#include "tests/support/only_target.hpp"
 
 namespace berth::testing {
 namespace {

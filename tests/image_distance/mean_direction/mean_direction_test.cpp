@@ -58,8 +58,8 @@ TEST(MeanDirection, IsFilledOnlyWhereAskedFor) {
   EvaluateWorkspace workspace;
   LinkDistances out;
   for (const bool asked : {true, false}) {
-    evaluate(Method::exact, {images.camera, images.robot, 1, obstacles, image_settings(1.0, asked)}, workspace,
-             out);
+    evaluate(Method::exact, {images.camera, images.robot, 1, obstacles, image_settings(1.0, asked)},
+             workspace, out);
     EXPECT_EQ(out.links[0].mean_count, asked ? 1 : 0);
   }
 }

@@ -11,8 +11,9 @@ LinkDistances with_mean(const sim::ImagePair& images, double range_m) {
   SearchableDepth obstacles;
   obstacles.build(images.obstacle_depth_m);
   DirectionWorkspace workspace;
-  fill_mean_directions({images.camera, images.robot, images.link_count, obstacles, image_settings(range_m, true)},
-                       workspace, found);
+  fill_mean_directions(
+      {images.camera, images.robot, images.link_count, obstacles, image_settings(range_m, true)},
+      workspace, found);
   return found;
 }
 

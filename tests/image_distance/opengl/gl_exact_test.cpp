@@ -33,7 +33,8 @@ TEST_F(GlExactTest, MeanDirectionsAreThoseOfTheCpu) {
 }
 
 TEST_F(GlExactTest, WithoutMeanDirectionsThereAreNone) {
-  const LinkDistances found = answer(Method::gl_exact, sim::random_images(1, 90, 70, 3), image_settings(1.0, false));
+  const LinkDistances found =
+      answer(Method::gl_exact, sim::random_images(1, 90, 70, 3), image_settings(1.0, false));
   for (const LinkDistance& link : found.links) {
     EXPECT_TRUE(link.mean_direction_C.array().isNaN().all());
     EXPECT_EQ(link.mean_count, 0);
@@ -66,8 +67,7 @@ TEST_F(GlExactTest, AMethodOfTheCpuIsRefused) {
   const SearchableDepth obstacles(images.obstacle_depth_m);
   const ImageDistanceSettings settings;
   const ImageRequest request{images.camera, images.robot, 1, obstacles, settings};
-  EXPECT_THROW(shared_gl()->evaluator.evaluate(Method::exact, request, out),
-               std::invalid_argument);
+  EXPECT_THROW(shared_gl()->evaluator.evaluate(Method::exact, request, out), std::invalid_argument);
 }
 
 TEST_F(GlExactTest, TwoContextsInTwoThreadsGiveTheirOwnAnswers) {
@@ -79,11 +79,8 @@ TEST_F(GlExactTest, TwoContextsInTwoThreadsGiveTheirOwnAnswers) {
       for (std::uint32_t seed = first_seed; seed < first_seed + 6; ++seed) {
         const sim::ImagePair images = sim::random_images(seed, 100, 80, 4);
         evaluator.evaluate(Method::gl_exact,
-                           {images.camera,
-                            images.robot,
-                            images.link_count,
-                            SearchableDepth(images.obstacle_depth_m),
-                            image_settings(1.0, false)},
+                           {images.camera, images.robot, images.link_count,
+                            SearchableDepth(images.obstacle_depth_m), image_settings(1.0, false)},
                            found);
         const LinkDistances truth = answer(Method::brute_force, images);
         for (std::size_t i = 0; i < truth.links.size(); ++i) {

@@ -4,15 +4,15 @@
 
 #include <algorithm>
 
-#include "berth/scene/open_scene.hpp"
 #include "berth/image_distance/evaluate.hpp"
+#include "berth/image_distance/opengl/gl_evaluate.hpp"
 #include "berth/image_distance/opengl/gl_frame_images.hpp"
 #include "berth/image_distance/opengl/gl_observer.hpp"
-#include "berth/pipeline/observer.hpp"
-#include "berth/self_filter/self_filter.hpp"
 #include "berth/image_distance/opengl/gl_robot_renderer.hpp"
 #include "berth/image_distance/opengl/gl_self_filter.hpp"
-#include "berth/image_distance/opengl/gl_evaluate.hpp"
+#include "berth/pipeline/observer.hpp"
+#include "berth/scene/open_scene.hpp"
+#include "berth/self_filter/self_filter.hpp"
 #include "tests/image_distance/opengl/robot_difference.hpp"
 #include "tests/support/data_folder.hpp"
 #include "tests/support/gl_test.hpp"
@@ -158,8 +158,8 @@ TEST_P(GlSceneTest, OnePassFiltersAsTheRulesForSinglePixelsDo) {
   upload_for(view->camera()).send(depth_m, sensor_depth_m);
   const GlTexture filtered = depth_texture_for(view->camera());
   GlRobotRenderer renderer(view->robot()->model(), view->camera());
-  renderer.render_and_filter(gl.pose, gl.X_BC, {}, sensor_depth_m, tolerance_of(settings), gl.images->robot,
-                             filtered);
+  renderer.render_and_filter(gl.pose, gl.X_BC, {}, sensor_depth_m, tolerance_of(settings),
+                             gl.images->robot, filtered);
   DepthImage in_pass;
   read_back(filtered, in_pass);
   int differ = 0;

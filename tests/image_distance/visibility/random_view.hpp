@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <memory>
 
+#include "berth/image_distance/image_visibility.hpp"
 #include "berth/render/robot_renderer.hpp"
 #include "berth/self_filter/self_filter.hpp"
-#include "berth/image_distance/image_visibility.hpp"
 #include "sim/embree_renderer.hpp"
 #include "tests/image_distance/visibility/plain_definition.hpp"
 

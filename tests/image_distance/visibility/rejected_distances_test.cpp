@@ -4,24 +4,22 @@
 #include <gtest/gtest.h>
 
 #include "berth/image_distance/brute_force.hpp"
-#include "tests/visibility/dropped_scene.hpp"
 #include "tests/support/image_settings.hpp"
+#include "tests/visibility/dropped_scene.hpp"
 
 namespace berth::testing {
 namespace {
 
 LinkDistances distances_to(const DroppedScene& scene, const DepthImage& depth_m, double range_m) {
   LinkDistances distances;
-  brute_force({scene.images.camera,
-               scene.images.robot,
-               kDroppedLinks,
-               SearchableDepth(depth_m),
+  brute_force({scene.images.camera, scene.images.robot, kDroppedLinks, SearchableDepth(depth_m),
                image_settings(range_m)},
               distances);
   return distances;
 }
 
-TEST(RejectedDistances, TheNearerOfBothDistancesIsThatOfTheImageFromWhichNothingRejectedWasDropped) {
+TEST(RejectedDistances,
+     TheNearerOfBothDistancesIsThatOfTheImageFromWhichNothingRejectedWasDropped) {
   int rejected_readings = 0, none = 0;
   RejectedImage rejected;
   SearchableDepth searchable;

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "berth/self_filter/self_filter.hpp"
 #include "berth/image_distance/image_visibility.hpp"
+#include "berth/self_filter/self_filter.hpp"
 #include "tests/render/small_robot.hpp"
 
 namespace berth {

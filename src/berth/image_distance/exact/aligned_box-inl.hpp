@@ -39,7 +39,7 @@ HWY_INLINE Lanes raised_to(Lanes least, Lanes x) {
 class AlignedCamera {
  public:
   HWY_INLINE AlignedCamera(const Metric& metric, const Axes& axes, const LeafTile& tile,
-                         Interval<float> raise_m)
+                           Interval<float> raise_m)
       : tile_(tile), raise_m_(raise_m), is_raised_(tile.box.depth_lo_m < raise_m.hi) {
     const TileCorner corner = tile_corner(metric, tile.u, tile.v);
     for (int k = 0; k < 3; ++k) rate_[k] = rate_along(axes, k, corner);

@@ -190,7 +190,7 @@ inline void search_leaf(Search& search, const LeafTile& robot_tile, const LeafTi
 inline void search_leaf_aligned(Search& search, const AlignedTile& aligned,
                                 const LeafTile& robot_tile, const LeafTile& obstacle_tile) {
   const AlignedCamera view(search.input.metric, aligned.axes, obstacle_tile,
-                         {robot_tile.box.depth_lo_m, robot_tile.box.depth_hi_m});
+                           {robot_tile.box.depth_lo_m, robot_tile.box.depth_hi_m});
   if (view.pixels_near(aligned.box, search.limit_m2) == 0) return;
   Pixels robot;
   Pixels obstacle;

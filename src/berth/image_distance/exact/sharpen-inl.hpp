@@ -71,7 +71,7 @@ inline void sharpen(Search& search, const RobotTiles::Node& robot, const LeafTil
   AlignedBoxes& boxes = search.aligned.boxes;
   if (!boxes.is_made) make_boxes(search, robot, boxes);
   const AlignedCamera view(search.input.metric, boxes.axes, obstacle,
-                         {robot.box.depth_lo_m, robot.box.depth_hi_m});
+                           {robot.box.depth_lo_m, robot.box.depth_hi_m});
   const AlignedBox box = view.box_of(~std::uint64_t{0});
   bounds.may_improve = 0;
   for (int i = 0; i < kNodeChildren; i += kLanes) {

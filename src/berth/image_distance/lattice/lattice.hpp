@@ -1,8 +1,8 @@
 #pragma once
 
+#include "berth/image_distance/image_request.hpp"
 #include "berth/image_distance/lattice/link_lattice.hpp"
 #include "berth/image_distance/lattice/link_pixels.hpp"
-#include "berth/image_distance/image_request.hpp"
 #include "berth/types/link_distance.hpp"
 
 namespace berth {

@@ -2,9 +2,9 @@
 
 #include <vector>
 
+#include "berth/image_distance/image_request.hpp"
 #include "berth/image_distance/mean_direction/direction_sum.hpp"
 #include "berth/image_distance/mean_direction/tile_means.hpp"
-#include "berth/image_distance/image_request.hpp"
 #include "berth/types/link_distance.hpp"
 
 namespace berth {

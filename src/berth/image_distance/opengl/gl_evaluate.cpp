@@ -59,8 +59,8 @@ void GlEvaluator::evaluate(Method method, const ImageRequest& request, LinkDista
     return;
   }
   uploaded->upload.send(request.robot, uploaded->robot);
-  evaluate(method, request.camera, uploaded->robot, uploaded->obstacle_depth_m,
-           request.link_count, request.settings, out);
+  evaluate(method, request.camera, uploaded->robot, uploaded->obstacle_depth_m, request.link_count,
+           request.settings, out);
 }
 
 }  // namespace berth

@@ -20,8 +20,8 @@ class GlEvaluator {
   /// As evaluate() of distance/, with images that are on the GPU already. Throws
   /// std::invalid_argument for bad settings or a method that does not run on OpenGL.
   void evaluate(Method method, const Camera& camera, const GlRobotImage& robot,
-                const GlTexture& obstacle_depth_m, int link_count, const ImageDistanceSettings& settings,
-                LinkDistances& out);
+                const GlTexture& obstacle_depth_m, int link_count,
+                const ImageDistanceSettings& settings, LinkDistances& out);
 
   /// The same with images of this program's memory: uploads them first.
   void evaluate(Method method, const ImageRequest& request, LinkDistances& out);

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "berth/image_distance/settings.hpp"
 #include "berth/image_distance/opengl/gl_images.hpp"
 #include "berth/image_distance/opengl/gl_link_answers.hpp"
 #include "berth/image_distance/opengl/gl_program.hpp"
+#include "berth/image_distance/settings.hpp"
 #include "berth/types/camera.hpp"
 
 namespace berth {

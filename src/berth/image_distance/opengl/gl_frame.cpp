@@ -1,8 +1,8 @@
 #include "berth/image_distance/opengl/gl_frame.hpp"
 
 #include "berth/image_distance/opengl/gl_frame_images.hpp"
-#include "berth/pipeline/prepare_frame.hpp"
 #include "berth/pipeline/mounted_camera.hpp"
+#include "berth/pipeline/prepare_frame.hpp"
 
 namespace berth {
 

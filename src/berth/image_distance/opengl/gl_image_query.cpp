@@ -83,8 +83,9 @@ const Result& GlImageQuery::ask(const GlFrame& frame, std::optional<double> now_
   parts_->evaluate(frame, frame.images->robot);
   if (!parts_->robot->settings().visibility) return parts_->result;
   read_back(frame, parts_->seen);
-  tell_image_visibility(*parts_->robot, parts_->seen, {parts_->seen.pose, parts_->seen.X_BC, parts_->seen.robot}, parts_->distances, parts_->tell,
-                        parts_->result);
+  tell_image_visibility(*parts_->robot, parts_->seen,
+                        {parts_->seen.pose, parts_->seen.X_BC, parts_->seen.robot},
+                        parts_->distances, parts_->tell, parts_->result);
   return parts_->result;
 }
 
@@ -97,8 +98,9 @@ const Result& GlImageQuery::ask(const GlFrame& frame, const JointState& joints,
   if (!parts_->robot->settings().visibility) return parts_->result;
   read_back(frame, parts_->seen);
   read_back(parts_->asked_on_gl, parts_->asked);
-  tell_image_visibility(*parts_->robot, parts_->seen, {parts_->result.pose, frame.X_BC, parts_->asked}, parts_->distances, parts_->tell,
-                        parts_->result);
+  tell_image_visibility(*parts_->robot, parts_->seen,
+                        {parts_->result.pose, frame.X_BC, parts_->asked}, parts_->distances,
+                        parts_->tell, parts_->result);
   return parts_->result;
 }
 
@@ -121,7 +123,7 @@ void GlImageQuery::Parts::render(const RobotPose& pose, const GlFrame& frame) {
 
 void GlImageQuery::Parts::evaluate(const GlFrame& frame, const GlRobotImage& of_robot) {
   evaluator.evaluate(method, frame.view->camera(), of_robot, frame.images->obstacles.depth_m,
-                      robot->model().link_count(), settings, distances);
+                     robot->model().link_count(), settings, distances);
   tell_image_distances(distances, frame.X_BC, result);
 }
 

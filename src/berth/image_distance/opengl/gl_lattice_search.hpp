@@ -1,10 +1,10 @@
 #pragma once
 
-#include "berth/image_distance/search_pattern.hpp"
-#include "berth/image_distance/settings.hpp"
 #include "berth/image_distance/opengl/gl_link_answers.hpp"
 #include "berth/image_distance/opengl/gl_program.hpp"
 #include "berth/image_distance/opengl/gl_texture.hpp"
+#include "berth/image_distance/search_pattern.hpp"
+#include "berth/image_distance/settings.hpp"
 #include "berth/types/camera.hpp"
 
 namespace berth {

@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-#include "berth/image_distance/settings.hpp"
 #include "berth/image_distance/opengl/gl_buffer.hpp"
 #include "berth/image_distance/opengl/gl_program.hpp"
+#include "berth/image_distance/settings.hpp"
 #include "berth/types/camera.hpp"
 #include "berth/types/link_distance.hpp"
 
@@ -53,11 +53,12 @@ class GlLinkAnswers {
   /// Sums the mean directions if the settings ask for them, waits for the GPU, and writes the
   /// links; distances and points are computed here from the pixels that the GPU found, by the
   /// metric of distance/. `certifies`: whether no pair can be closer than those.
-  void finish(const GlTexture& obstacle_depth_m, const ImageDistanceSettings& settings, bool certifies,
-              LinkDistances& out);
+  void finish(const GlTexture& obstacle_depth_m, const ImageDistanceSettings& settings,
+              bool certifies, LinkDistances& out);
 
  private:
-  void read_link(int link, const ImageDistanceSettings& settings, bool certifies, LinkDistance& out);
+  void read_link(int link, const ImageDistanceSettings& settings, bool certifies,
+                 LinkDistance& out);
   void read_direction(int link, LinkDistance& out);
 
   Camera camera_;

@@ -73,12 +73,13 @@ void GlObserver::observe(DepthView depth_m, const JointState& at_exposure, GlFra
 void GlObserver::Parts::apply_filter(GlFrame& frame) {
   const SelfFilterSettings& settings = view->settings().self_filter;
   if (!region_renderer) {
-    filter.filter(view->camera(), frame.images->sensor_depth_m, frame.images->robot, settings, frame.images->obstacles);
+    filter.filter(view->camera(), frame.images->sensor_depth_m, frame.images->robot, settings,
+                  frame.images->obstacles);
     return;
   }
   region_renderer->render(frame.pose, frame.X_BC, region);
-  filter.filter(view->camera(), frame.images->sensor_depth_m, frame.images->robot, region.link_id, settings,
-                 frame.images->obstacles);
+  filter.filter(view->camera(), frame.images->sensor_depth_m, frame.images->robot, region.link_id,
+                settings, frame.images->obstacles);
 }
 
 std::array<std::int64_t, kPixelFateCount> GlObserver::fate_counts() {

@@ -15,8 +15,8 @@ namespace berth {
 /// the context that is current when it is made, and to its thread.
 class GlObserver {
  public:
-  /// Throws std::invalid_argument where a rule of the view's SensorSettings is on, or its watch: they
-  /// run on the CPU alone.
+  /// Throws std::invalid_argument where a rule of the view's SensorSettings is on, or its watch:
+  /// they run on the CPU alone.
   explicit GlObserver(std::shared_ptr<const MountedCamera> view);
   ~GlObserver();
 

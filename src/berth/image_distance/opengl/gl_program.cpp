@@ -149,7 +149,8 @@ void GlProgram::set(std::string_view uniform, const Eigen::Vector2d& value) {
   if (Input* input = find(uniform, GL_DOUBLE_VEC2)) {
     glProgramUniform2dv(name_, input->place, 1, value.data());
   }
-}void GlProgram::set(std::string_view uniform, const Eigen::Vector4d& value) {
+}
+void GlProgram::set(std::string_view uniform, const Eigen::Vector4d& value) {
   if (Input* input = find(uniform, GL_DOUBLE_VEC4)) {
     glProgramUniform4dv(name_, input->place, 1, value.data());
   }

@@ -26,8 +26,8 @@ class GlRobotRenderer {
 
   /// Draws R and I (Hirt 2.2.1) on `image`, which has the camera's size: at each pixel's centre the
   /// nearest triangle; of two links at the same depth the smaller id; nothing nearer than 0.1 mm.
-  /// Outlines are right within 0.01 px. Throws std::invalid_argument where X_BC is not finite or the
-  /// enlargement would make links smaller, and then leaves `image` as it was.
+  /// Outlines are right within 0.01 px. Throws std::invalid_argument where X_BC is not finite or
+  /// the enlargement would make links smaller, and then leaves `image` as it was.
   void render(const RobotPose& pose, const Pose& X_BC, const GlEnlargement& enlargement,
               const GlRobotImage& image);
   void render(const RobotPose& pose, const Pose& X_BC, const GlRobotImage& image) {

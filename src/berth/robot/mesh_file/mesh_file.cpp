@@ -16,10 +16,10 @@
 #include <string>
 #include <utility>
 
+#include "berth/files/read_file.hpp"
 #include "berth/robot/mesh_file/collada_guard.hpp"
 #include "berth/robot/mesh_file/obj_polygons.hpp"
 #include "berth/robot/mesh_file/polygon_reader.hpp"
-#include "berth/files/read_file.hpp"
 #include "berth/robot/mesh_file/stl_guard.hpp"
 
 namespace berth {
