@@ -1,5 +1,7 @@
 # What nobody waits for is compiled in two thirds of the time: arguments, text, pages, tests.
 set(BERTH_COLD $<$<CONFIG:Release>:-O1>)
+# Without contraction of a * b + c all instruction sets compute the same bits.
+set(BERTH_VECTOR -ffp-contract=off)
 
 # berth_sanitize(<target>)
 function(berth_sanitize target)
@@ -10,9 +12,9 @@ function(berth_sanitize target)
 endfunction()
 
 # berth_precompiled_headers(<name> <options> <header>...): what many sources include, read once for all of them, with what nearly
-# all include. GCC 12 takes -O1 or -O3 from these headers, and not from the source's command: each kind of code has its own. Vector
-# code has none: there GCC 12 took a * b + c for one operation, and ended a search in a crash. No source needs them: the preset
-# `tsan` compiles without.
+# all include. GCC 12 takes -O1 or -O3 from these headers, and not from the source's command: each kind of code has its own. Sources
+# that name Highway have none: there GCC 12 took a * b + c for one operation, and ended a search in a crash. No source needs them:
+# the preset `tsan` compiles without.
 function(berth_precompiled_headers name options)
   add_library(${name} OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp)
   target_compile_features(${name} PRIVATE cxx_std_20)
@@ -25,11 +27,12 @@ function(berth_precompiled_headers name options)
     <optional> <span> <stdexcept> <string> <string_view> <utility> <vector> ${ARGN})
 endfunction()
 berth_precompiled_headers(berth_precompiled_hot "")
+berth_precompiled_headers(berth_precompiled_vector "${BERTH_VECTOR}")
 # For those who open scenes and tell of them.
 berth_precompiled_headers(berth_precompiled_cold "${BERTH_COLD}" <berth/scene/scene_run.hpp>)
 
-# berth_compile_options(<target> [HOT | COLD | TEST | OWN]): what all of berth is compiled with. HOT: what a loop waits for. COLD:
-# what nobody waits for. TEST: COLD, with GoogleTest. OWN: COLD, with precompiled headers of the target's own.
+# berth_compile_options(<target> [HOT | VECTOR | COLD | TEST | OWN]): what all of berth is compiled with. HOT: what a loop
+# waits for. VECTOR: the same with sources that name Highway. COLD: what nobody waits for. TEST: COLD, with GoogleTest. OWN: COLD, with precompiled headers of the target's own.
 function(berth_compile_options target)
   set(kind HOT ${ARGN})
   list(GET kind -1 kind)
@@ -38,7 +41,9 @@ function(berth_compile_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor
                          $<$<BOOL:${BERTH_WARNINGS_AS_ERRORS}>:-Werror>)
   berth_sanitize(${target})
-  if(NOT kind STREQUAL "HOT")
+  if(kind STREQUAL "VECTOR")
+    target_compile_options(${target} PRIVATE ${BERTH_VECTOR})
+  elseif(NOT kind STREQUAL "HOT")
     target_compile_options(${target} PRIVATE ${BERTH_COLD})
   endif()
   if(kind STREQUAL "OWN")
@@ -57,11 +62,11 @@ function(berth_compile_options target)
   endforeach()
 endfunction()
 
-# berth_library(<folder> SOURCES ... DEPENDS ... USES ... [COMPONENT opengl] [COLD]): one target for each folder of src/berth.
+# berth_library(<folder> SOURCES ... DEPENDS ... USES ... [COMPONENT opengl] [COLD | VECTOR]): one target for each folder of src/berth.
 # DEPENDS are libraries that its headers need, USES are those that only its sources need. COMPONENT: users get it only where
 # they ask find_package for it.
 function(berth_library folder)
-  cmake_parse_arguments(ARG "COLD" "COMPONENT" "SOURCES;DEPENDS;USES" ${ARGN})
+  cmake_parse_arguments(ARG "COLD;VECTOR" "COMPONENT" "SOURCES;DEPENDS;USES" ${ARGN})
   add_library(berth_${folder} ${ARG_SOURCES})
   add_library(berth::${folder} ALIAS berth_${folder})
   set_target_properties(berth_${folder} PROPERTIES EXPORT_NAME ${folder} VERSION ${PROJECT_VERSION}
@@ -71,6 +76,9 @@ function(berth_library folder)
   target_link_libraries(berth_${folder} PUBLIC ${ARG_DEPENDS} PRIVATE ${ARG_USES})
   if(ARG_COLD)
     berth_compile_options(berth_${folder} COLD)
+  elseif(ARG_VECTOR)
+    berth_compile_options(berth_${folder} VECTOR)
+    berth_vector_code(berth_${folder})
   else()
     berth_compile_options(berth_${folder})
   endif()
@@ -121,14 +129,11 @@ function(berth_test name)
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 COST ${ARG_COST} LABELS "${label}")
 endfunction()
 
-# berth_vector_code(<folder>): its sources compile parts of themselves once for each instruction set (Highway). Without
-# contraction of a * b + c all of them compute the same bits. Vectors without a fixed size (SVE, RVV) cannot be members of
+# berth_vector_code(<target>): its sources compile parts of themselves once for each instruction set (Highway). Vectors without a fixed size (SVE, RVV) cannot be members of
 # a struct; such machines use NEON. Processors with SSSE3 and without SSE4 (2006, 2007) use one lane: a tenth of the time to compile.
-function(berth_vector_code folder)
-  target_link_libraries(berth_${folder} PRIVATE berth::vector)
-  set_target_properties(berth_${folder} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)
-  target_compile_options(berth_${folder} PRIVATE -ffp-contract=off)
-  target_compile_definitions(berth_${folder} PRIVATE
+function(berth_vector_code target)
+  target_link_libraries(${target} PRIVATE berth::vector)
+  target_compile_definitions(${target} PRIVATE
     "HWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128|HWY_RVV|HWY_SSSE3)"
     $<$<BOOL:${BERTH_SCALAR}>:HWY_COMPILE_ONLY_SCALAR>)
 endfunction()

@@ -87,8 +87,8 @@ std::string unit_of(std::string_view name) {
   return end == "m" ? "M" : end == "px" ? "PX" : end == "us" ? "US" : "N";
 }
 
-void add_setting(CLI::App& command, const Setting& setting, const auto& value,
-                 EvaluationArguments& arguments) {
+CLI::Option* add_setting(CLI::App& command, const Setting& setting, const auto& value,
+                         EvaluationArguments& arguments) {
   using T = typename ValueOf<std::remove_cvref_t<decltype(value)>>::Type;
   std::string what(setting.sentence);
   what = setting.methods.empty() ? fmt::format("{}{}", char(std::toupper(what[0])), what.substr(1))
@@ -113,9 +113,11 @@ void add_setting(CLI::App& command, const Setting& setting, const auto& value,
       }
     });
   }
+  return option;
 }
 
-/// Three images without meshes cannot be asked by method mesh.
+/// Three images without meshes cannot be asked by method mesh. Where they can, the help leaves out
+/// what belongs to the other methods alone.
 void add_evaluation(CLI::App& command, bool has_mesh, EvaluationArguments& arguments) {
   std::vector<std::string> methods;
   for (const Method method : kMethods) {
@@ -123,14 +125,19 @@ void add_evaluation(CLI::App& command, bool has_mesh, EvaluationArguments& argum
   }
   command
       .add_option("--method", arguments.method,
-                  fmt::format("How to find the distances (default: {})", methods.front()))
+                  fmt::format("How to find the distances (default: {}){}", methods.front(),
+                              has_mesh ? "; settings of the others: berth evaluate --help" : ""))
       ->check(CLI::IsMember(methods));
   const ImageDistanceSettings defaults;
-  const auto add = [&](const Setting& setting, const auto& value) {
-    add_setting(command, setting, value, arguments);
-  };
-  visit_settings(static_cast<const DistanceSettings&>(defaults), add);
-  visit_settings(static_cast<const ImageSettings&>(defaults), add);
+  visit_settings(static_cast<const DistanceSettings&>(defaults),
+                 [&](const Setting& setting, const auto& value) {
+                   add_setting(command, setting, value, arguments);
+                 });
+  visit_settings(static_cast<const ImageSettings&>(defaults),
+                 [&](const Setting& setting, const auto& value) {
+                   CLI::Option* option = add_setting(command, setting, value, arguments);
+                   if (has_mesh) option->group("");
+                 });
 }
 
 void add_visibility(CLI::App& command, EvaluationArguments& arguments) {

@@ -113,6 +113,16 @@ TEST(Usage, HelpNamesEveryCommand) {
   }
 }
 
+TEST(Usage, SettingsOfMethodsThatCompareImagesAreToldByEvaluateAlone) {
+  const TemporaryFolder folder;
+  const std::string run = run_berth(folder / "", {"run", "--help"}).out;
+  EXPECT_NE(run.find("--tolerance-m"), std::string::npos);
+  EXPECT_NE(run.find("berth evaluate --help"), std::string::npos);
+  EXPECT_EQ(run.find("--search-pattern"), std::string::npos);
+  EXPECT_NE(run_berth(folder / "", {"evaluate", "--help"}).out.find("--search-pattern"),
+            std::string::npos);
+}
+
 TEST(Usage, VersionIsANumber) {
   const TemporaryFolder folder;
   const Outcome outcome = run_berth(folder / "", {"--version"});
