@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "apps/support/threads_argument.hpp"
+#include "apps/support/command_options.hpp"
 #include "berth/files/number.hpp"
 #include "berth/types/setting.hpp"
 

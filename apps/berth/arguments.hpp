@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "apps/support/backend_arguments.hpp"
+#include "berth/scene/backend.hpp"
 #include "berth/scene/scene_evaluation.hpp"
 
 namespace CLI {

@@ -4,6 +4,7 @@
 
 #include "apps/berth/arguments.hpp"
 #include "apps/berth/commands.hpp"
+#include "apps/support/command_options.hpp"
 #include "apps/support/program.hpp"
 
 namespace berth::app {

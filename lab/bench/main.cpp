@@ -1,7 +1,7 @@
 // berth_bench: measures berth beside what else a user could take.
 #include <CLI/CLI.hpp>
 
-#include "apps/support/backend_arguments.hpp"
+#include "apps/support/command_options.hpp"
 #include "apps/support/data_folders.hpp"
 #include "apps/support/program.hpp"
 #include "lab/bench/bench.hpp"

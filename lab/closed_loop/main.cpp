@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "apps/support/command_options.hpp"
 #include "apps/support/interrupt.hpp"
 #include "apps/support/program.hpp"
 #include "berth/files/file_bytes.hpp"

@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <thread>
 
-#include "apps/support/backend_arguments.hpp"
+#include "apps/support/command_options.hpp"
 #include "apps/support/data_folders.hpp"
 #include "apps/support/interrupt.hpp"
 #include "apps/support/program.hpp"
-#include "apps/support/threads_argument.hpp"
 #include "lab/thesis/study.hpp"
 
 namespace {

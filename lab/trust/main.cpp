@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "apps/support/command_options.hpp"
 #include "apps/support/program.hpp"
 #include "lab/trust/look.hpp"
 #include "lab/trust/real_image.hpp"
