@@ -66,7 +66,7 @@ class Advisor {
 
   void advise_refused() {
     if (found_.score_before >= kGoodScore) {
-      say("Keep the scene's pose: the images agree with it. Teach in again once the camera was "
+      say("Keep the scene's pose: the images agree with it. Calibrate again once the camera was "
           "moved.");
       return;
     }
