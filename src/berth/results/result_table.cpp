@@ -95,15 +95,24 @@ std::vector<std::size_t> moved_first(const Result& result) {
   return order;
 }
 
+struct Columns {
+  Line names;
+  Line (*cells)(const LinkResult& link, const Result& result);
+};
+
+Columns columns_of(const Result& result) {
+  if (result.compares_images) {
+    return {{"distance [m]", "robot pixel", "obstacle pixel", "robot pixels"}, image_line};
+  }
+  return {{"distance [m]", "to what is", "to occupied [m]", "camera", "obstacle pixel"}, mesh_line};
+}
+
 }  // namespace
 
 std::string result_table(const Result& result) {
   std::vector<Line> lines = {{"link", "status"}};
-  const Line columns =
-      result.compares_images
-          ? Line{"distance [m]", "robot pixel", "obstacle pixel", "robot pixels"}
-          : Line{"distance [m]", "to what is", "to occupied [m]", "camera", "obstacle pixel"};
-  lines.front().insert(lines.front().end(), columns.begin(), columns.end());
+  const Columns columns = columns_of(result);
+  lines.front().insert(lines.front().end(), columns.names.begin(), columns.names.end());
   if (result.has_visibility) lines.front().push_back("seen");
   const bool has_any_rejected =
       std::ranges::any_of(result.links, has_rejected, &LinkResult::visibility);
@@ -112,7 +121,7 @@ std::string result_table(const Result& result) {
   for (const std::size_t i : moved_first(result)) {
     const LinkResult& link = result.links[i];
     Line& line = lines.emplace_back(Line{link.link, std::string(name_of(link.status))});
-    const Line cells = result.compares_images ? image_line(link, result) : mesh_line(link, result);
+    const Line cells = columns.cells(link, result);
     line.insert(line.end(), cells.begin(), cells.end());
     if (result.has_visibility) line.push_back(seen_text(link.visibility));
     if (has_any_rejected) line.push_back(rejected_text(link.visibility));

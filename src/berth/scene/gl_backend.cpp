@@ -1,5 +1,6 @@
 #include "berth/scene/gl_backend.hpp"
 
+#include <functional>
 #include <optional>
 
 #include "berth/image_distance/image_query.hpp"
@@ -19,8 +20,10 @@ class GlPipeline : public FramePipeline {
     if (scene.joins_cameras()) return;
     if (runs_on_opengl(scene.method)) {
       gl_query_.emplace(scene.robot, scene.method, scene.image_settings);
+      ask_ = [this]() -> const Result& { return gl_query_->ask(gl_frame_); };
     } else {
       query_.emplace(scene.robot, scene.method, scene.image_settings);
+      ask_ = [this]() -> const Result& { return query_->ask(*frame_); };
     }
   }
 
@@ -29,9 +32,7 @@ class GlPipeline : public FramePipeline {
     mark(gl_frame_);
     if (query_) query_->prepare(*frame());
   }
-  const Result& ask() override {
-    return gl_query_ ? gl_query_->ask(gl_frame_) : query_->ask(*frame_);
-  }
+  const Result& ask() override { return ask_(); }
   const Exposure& exposure() const override { return gl_frame_; }
   std::array<std::int64_t, kPixelFateCount> fate_counts() override {
     return observer_.fate_counts();
@@ -47,6 +48,7 @@ class GlPipeline : public FramePipeline {
   GlObserver observer_;
   std::optional<ImageQuery> query_;
   std::optional<GlImageQuery> gl_query_;
+  std::function<const Result&()> ask_;
   GlFrame gl_frame_;
   FramePool pool_;
   std::shared_ptr<Frame> frame_;

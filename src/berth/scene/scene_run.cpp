@@ -53,10 +53,17 @@ SceneRun::SceneRun(const OpenScene& scene, const BackendChoice& where,
       steps_(scene_steps(scene)),
       kept_(scene.cameras.size()) {
   make_pipelines(where);
-  if (!scene.joins_cameras()) return;
+  if (!scene.joins_cameras()) {
+    ask_ = [this](bool) -> const Result& { return pipelines_[step().camera]->ask(); };
+    return;
+  }
   std::vector<std::string> names;
   for (const OpenCamera& camera : scene.cameras) names.push_back(camera.source.name);
   query_.emplace(scene.robot, std::move(names));
+  ask_ = [this](bool anew) -> const Result& {
+    if (anew) query_->forget();
+    return query_->ask({.frames = kept_});
+  };
 }
 
 SceneRun::~SceneRun() = default;
@@ -122,8 +129,7 @@ bool SceneRun::next() {
   if (step_ == steps_.size()) return false;
   ++step_;
   if (observed_ >= step_) return true;
-  const std::size_t known = steps_known_at(scene_, steps_, step_ - 1);
-  while (observed_ < known) observe(steps_[observed_++]);
+  while (observed_ < step().known) observe(steps_[observed_++]);
   keep_frames();
   return true;
 }
@@ -138,7 +144,7 @@ SceneRun::Asked SceneRun::asked() const {
 
 void SceneRun::go_to(std::size_t step, const Result* found) {
   step_ = step + 1;
-  observed_ = steps_known_at(scene_, steps_, step);
+  observed_ = steps_[step].known;
   const auto [first, count] = asked();
   std::vector<bool> has_image(scene_.cameras.size());
   for (std::size_t i = observed_; i-- > 0;) {
@@ -169,9 +175,8 @@ Result SceneRun::ask(int repeat) {
   std::vector<double> times_us;
   const Result* result = nullptr;
   for (int i = 0; i < std::max(1, repeat); ++i) {
-    if (i > 0 && query_) query_->forget();
     const auto start = std::chrono::steady_clock::now();
-    result = query_ ? &query_->ask({.frames = kept_}) : &pipelines_[step().camera]->ask();
+    result = &ask_(i > 0);
     const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
     times_us.push_back(took.count());
   }

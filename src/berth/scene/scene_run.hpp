@@ -124,6 +124,8 @@ class SceneRun {
   std::vector<std::shared_ptr<const Frame>> kept_;
   /// Only where one result is that of all cameras.
   std::optional<Query> query_;
+  /// The step's result; `anew`: with nothing known of one before.
+  std::function<const Result&(bool anew)> ask_;
   /// Where the scene asks for them, one for each camera; where cameras are joined the first serves.
   std::vector<SeparationMonitor> monitors_;
   std::vector<double> velocity_;
