@@ -105,13 +105,12 @@ void SceneRun::begin_background(std::size_t i, const std::function<void()>& befo
   });
 }
 
-void SceneRun::observe(const ImageStep& step) {
-  const OpenCamera& camera = scene_.cameras[step.camera];
-  Newest& newest = newest_[step.camera];
-  newest.number = step.frame;
-  newest.depth_m = camera.read_depth(step.frame);
-  pipelines_[step.camera]->observe(newest.depth_m, camera.at_exposure[step.frame],
-                                   camera.exposure_time[step.frame]);
+void SceneRun::observe(std::size_t of, std::size_t frame) {
+  const OpenCamera& camera = scene_.cameras[of];
+  Newest& newest = newest_[of];
+  newest.number = frame;
+  newest.depth_m = camera.read_depth(frame);
+  pipelines_[of]->observe(newest.depth_m, camera.at_exposure[frame], camera.exposure_time[frame]);
 }
 
 void SceneRun::observe_alone(const ImageStep& step) {
@@ -121,7 +120,7 @@ void SceneRun::observe_alone(const ImageStep& step) {
   const auto memory = static_cast<std::size_t>(std::max(1, sensor.average_frames));
   const bool goes_on = before && *before + 1 == step.frame;
   std::size_t first = goes_on ? step.frame : step.frame + 1 - std::min(memory, step.frame + 1);
-  for (; first <= step.frame; ++first) observe({step.camera, first, step.stamp_s});
+  for (; first <= step.frame; ++first) observe(step.camera, first);
 }
 
 bool SceneRun::next() {
@@ -129,7 +128,9 @@ bool SceneRun::next() {
   if (step_ == steps_.size()) return false;
   ++step_;
   if (observed_ >= step_) return true;
-  while (observed_ < step().known) observe(steps_[observed_++]);
+  for (; observed_ < step().known; ++observed_) {
+    observe(steps_[observed_].camera, steps_[observed_].frame);
+  }
   keep_frames();
   return true;
 }

@@ -104,7 +104,7 @@ class SceneRun {
   void make_pipelines(const BackendChoice& where);
   void make_monitors();
   void begin_background(std::size_t camera, const std::function<void()>& before_image);
-  void observe(const ImageStep& step);
+  void observe(std::size_t camera, std::size_t frame);
   /// As if all images before it had been observed.
   void observe_alone(const ImageStep& step);
   void keep_frames();
