@@ -235,7 +235,7 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
       ->type_name("DIR");
   add_evaluation(command, true, arguments.evaluation);
   add_visibility(command, arguments.evaluation);
-  command.add_option("--repeat", arguments.repeat, "Ask each request so often, and tell the times")
+  command.add_option("--repeat", arguments.repeat, "Repeat each request so often, and tell the times")
       ->check(CLI::Range(1, 1000000000))
       ->type_name("N");
   add_backend_options(command, "Where images are rendered and filtered", arguments.where);

@@ -15,7 +15,7 @@ const settled = async (page) => {
     await page.waitForTimeout(700);
   }
 };
-const ask = (number) => (page) => page.locator(`#requests button:nth-child(${number})`).dispatchEvent("click");
+const ask = (number) => (page) => page.locator(`#questions button:nth-child(${number})`).dispatchEvent("click");
 const camera = (number) => (page) => page.locator(`#picture-tabs button:nth-child(${number})`).dispatchEvent("click");
 
 async function shoot(name, doings, options = {}) {

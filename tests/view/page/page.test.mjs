@@ -130,10 +130,10 @@ test("two pages show the same image and settings", async () => {
   await two.close();
 });
 
-test("each request has its answer a click away", async () => {
+test("each question has its answer a click away", async () => {
   const page = await open(berth.url);
   await until(page, () => document.querySelector("#progress").classList.contains("done"));
-  const ask = (number) => click(page, `#requests button:nth-child(${number})`);
+  const ask = (number) => click(page, `#questions button:nth-child(${number})`);
   await ask(1);
   assert.equal(await page.locator("details[data-group=pose]").getAttribute("open"), "");
   assert.match(await text(page, "#legend"), /behind it/);
@@ -154,7 +154,7 @@ test("a scene of another method is shown with method mesh, and says so", async (
   const page = await open();
   assert.equal(await text(page, "#scene-note"), "method mesh is shown; the file says exact");
   assert.equal(await page.locator("[id='evaluation.method']").count(), 0);
-  await click(page, "#requests button:nth-child(5)");
+  await click(page, "#questions button:nth-child(5)");
   assert.match(await text(page, "#legend"), /unknown space/);
   await page.close();
   const all = await open(berth.url);

@@ -235,7 +235,7 @@ function nearestOfAll(): { step: number; link: string } | undefined {
   return best;
 }
 
-const requests: [string, string, () => void][] = [
+const questions: [string, string, () => void][] = [
   ["Is the pose right?", "Readings coloured by how they fit the robot, and the camera's pose", () => {
     setLayers({ ...usual, filtered: true, distances: false, coloring: "fit" });
     if (isLive()) return;
@@ -268,7 +268,7 @@ const requests: [string, string, () => void][] = [
   }],
 ];
 
-byId("requests").append(...requests.map(([textContent, title, onclick]) => make("button", { textContent, title, onclick })));
+byId("questions").append(...questions.map(([textContent, title, onclick]) => make("button", { textContent, title, onclick })));
 makeLayers();
 byId("speed-key").append(
   ...([["slower", slowColor], ["stop", stopColor]] as const).map(([text, color]) => {
