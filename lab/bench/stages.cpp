@@ -32,7 +32,7 @@ class Stages {
         view_(camera_.view),
         renderer_(view_->robot()->meshes(), view_->camera()),
         rays_(view_->robot()->model(), view_->camera()),
-        observer_(view_),
+        observer_(view_, {}, frame_use(recording.scene.method)),
         query_(view_->robot(), recording.scene.method, recording.scene.image_settings),
         settings_(settings_of(*view_->robot(), recording.scene.image_settings)) {
     settings_.mean_direction = false;

@@ -9,6 +9,11 @@
 
 namespace berth::lab {
 
+/// What an observer's frames are for, where MethodQuery is asked about them.
+inline FrameUse frame_use(Method method) {
+  return compares_images(method) ? FrameUse::image_query : FrameUse::any_query;
+}
+
 class MethodQuery {
  public:
   /// Throws std::invalid_argument for a method that runs on OpenGL.

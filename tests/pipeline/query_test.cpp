@@ -240,6 +240,25 @@ TEST_F(Queries, NoCameraAndNineAreRefused) {
   EXPECT_EQ(refusal(8), "");
 }
 
+TEST_F(Queries, AFrameForImagesAloneHasTheirResultAndNoOther) {
+  Observer observer(view_named("left"), {}, FrameUse::image_query);
+  Frame frame;
+  observe(3, frame, view_named("left"));  // what this one says of space must not stay
+  observer.observe(camera_.read_depth(17), camera_.at_exposure[17], frame);
+  testing::AnyQuery images(robot_, Method::exact);
+  const std::vector<float> expected = testing::distances_of(images.ask(left_));
+  EXPECT_EQ(testing::distances_of(images.ask(frame)), expected);
+  Query query(robot_);
+  query.ask({left_});
+  const auto refusal = [&] {
+    return error_message<std::invalid_argument>([&] { query.ask({frame}); });
+  };
+  EXPECT_EQ(refusal(),
+            "frames: camera left: observed for methods that compare images alone; expected a frame "
+            "for any query");
+  EXPECT_EQ(refusal(), refusal());
+}
+
 TEST_F(Queries, ABufferOfJointsNeedsTheTimeOfTheRequest) {
   const JointBuffer joints(robot_->model(), 2);
   const std::string expected =

@@ -9,6 +9,10 @@ Frame::~Frame() = default;
 Frame::Frame(Frame&&) noexcept = default;
 Frame& Frame::operator=(Frame&&) noexcept = default;
 
+bool Frame::is_for_any_query() const {
+  return !view || time.status != TimeStatus::ok || !space->seen.is_empty();
+}
+
 void clear_images(const Camera& camera, Frame& frame) {
   const int width = camera.width_px, height = camera.height_px;
   frame.robot.depth_m.resize(width, height, kNoDepth);
@@ -19,8 +23,7 @@ void clear_images(const Camera& camera, Frame& frame) {
   frame.obstacles.count = {};
   frame.obstacles.count[static_cast<std::size_t>(PixelFate::no_reading)] = width * height;
   clear_rejected(width, height, frame.space->rejected);
-  frame.space->seen.obstacle_depth_m = {};
-  frame.space->has_rejected_space = false;
+  clear_space(*frame.space);
 }
 
 }  // namespace berth

@@ -10,6 +10,10 @@ namespace berth {
 
 struct FrameSpace;
 
+/// Which requests a frame is made ready for. ImageQuery alone needs less of it: what the image says
+/// of space is left out.
+enum class FrameUse { any_query, image_query };
+
 /// What one depth image tells, ready for any number of requests; constant while it is asked.
 struct Frame : Exposure {
   Frame();
@@ -25,6 +29,9 @@ struct Frame : Exposure {
   /// Whether a smaller share than kLeastReadOfImage of the sensor's pixels has a reading: a camera
   /// that is covered, or failed.
   bool is_blind = false;
+
+  /// Whether Query may be asked about it: it was observed for that, or its time is not ok.
+  bool is_for_any_query() const;
 };
 
 /// Of an image's pixels. One whose range is short, or who stands outdoors, still reads many more.

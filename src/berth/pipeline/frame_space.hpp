@@ -19,4 +19,10 @@ struct FrameSpace {
   bool has_rejected_space = false;
 };
 
+/// Nothing stays of the space of an image before.
+inline void clear_space(FrameSpace& space) {
+  space.seen.obstacle_depth_m = {};
+  space.has_rejected_space = false;
+}
+
 }  // namespace berth

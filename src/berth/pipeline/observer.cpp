@@ -30,8 +30,9 @@ MeasureDisplacement displacement_of(const MountedCamera& view, MeasureDisplaceme
 
 /// Scratch memory, and what is remembered from image to image.
 struct Observer::Parts {
-  Parts(std::shared_ptr<const MountedCamera> of, MeasureDisplacement measure)
+  Parts(std::shared_ptr<const MountedCamera> of, MeasureDisplacement measure, FrameUse for_what)
       : view(std::move(of)),
+        use(for_what),
         renderer(view->robot()->meshes(), view->camera()),
         watch(view->settings().watch, displacement_of(*view, std::move(measure))) {
     if (view->region_meshes()) region_renderer.emplace(view->region_meshes(), view->camera());
@@ -41,6 +42,7 @@ struct Observer::Parts {
   const SensorSettings& background_settings() const;
 
   std::shared_ptr<const MountedCamera> view;
+  FrameUse use;
   RobotRenderer renderer;
   /// Of the robot-shaped region, where there is one.
   std::optional<RobotRenderer> region_renderer;
@@ -53,8 +55,9 @@ struct Observer::Parts {
   JointState at_exposure;
 };
 
-Observer::Observer(std::shared_ptr<const MountedCamera> view, MeasureDisplacement measure)
-    : parts_(std::make_unique<Parts>(std::move(view), std::move(measure))) {}
+Observer::Observer(std::shared_ptr<const MountedCamera> view, MeasureDisplacement measure,
+                   FrameUse use)
+    : parts_(std::make_unique<Parts>(std::move(view), std::move(measure), use)) {}
 
 Observer::~Observer() = default;
 Observer::Observer(Observer&&) noexcept = default;
@@ -72,7 +75,7 @@ void Observer::observe(DepthView depth_m, const JointState& at_exposure, Frame& 
   parts_->filter(depth_m, frame);
   apply_sensor_rules(depth_m, frame.robot, parts_->background, parts_->view->settings().sensor,
                      parts_->sensor, frame.obstacles);
-  prepare_frame(depth_m, frame);
+  prepare_frame(depth_m, parts_->use, frame);
 }
 
 void Observer::Parts::filter(DepthView depth_m, Frame& frame) {

@@ -14,8 +14,9 @@ namespace berth {
 class Observer {
  public:
   /// `measure` is how the view's WatchSettings::max_displacement_m is watched; without it, as
-  /// FrameDisplacement does.
-  explicit Observer(std::shared_ptr<const MountedCamera> view, MeasureDisplacement measure = {});
+  /// FrameDisplacement does. `use` is what the frames are for.
+  explicit Observer(std::shared_ptr<const MountedCamera> view, MeasureDisplacement measure = {},
+                    FrameUse use = FrameUse::any_query);
   ~Observer();
   Observer(Observer&&) noexcept;
   Observer& operator=(Observer&&) noexcept;

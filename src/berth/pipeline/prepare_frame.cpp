@@ -20,7 +20,6 @@ void prepare_space(DepthView sensor_depth_m, Frame& frame) {
   if (frame.view->robot()->settings().distance.mean_direction) {
     build_reading_tiles(camera, frame.obstacles.depth_m, frame.space->reading_tiles);
   }
-  frame.is_blind = is_blind(frame.obstacles);
   frame.space->has_rejected_space = !frame.space->rejected.extent.empty();
   if (frame.space->has_rejected_space) {
     build_reading_space(camera, frame.space->rejected.depth_m, settings,
@@ -30,14 +29,19 @@ void prepare_space(DepthView sensor_depth_m, Frame& frame) {
 
 }  // namespace
 
-void prepare_frame(DepthView sensor_depth_m, Frame& frame) {
+void prepare_frame(DepthView sensor_depth_m, FrameUse use, Frame& frame) {
   const EvaluationSettings& settings = frame.view->robot()->settings();
   if (settings.visibility) {
     find_rejected(sensor_depth_m, frame.obstacles, frame.space->rejected);
   } else {
     clear_rejected(sensor_depth_m.width, sensor_depth_m.height, frame.space->rejected);
   }
-  prepare_space(sensor_depth_m, frame);
+  frame.is_blind = is_blind(frame.obstacles);
+  if (use == FrameUse::any_query) {
+    prepare_space(sensor_depth_m, frame);
+  } else {
+    clear_space(*frame.space);
+  }
 }
 
 }  // namespace berth

@@ -25,6 +25,16 @@ double newest_stamp_s(std::span<const Frame* const> frames) {
 /// Of a frame that another image may take the place of, at the same address.
 std::uint64_t number_of(const Frame* frame) { return frame ? frame->number : 0; }
 
+void require_space(std::span<const Frame* const> frames) {
+  for (const Frame* frame : frames) {
+    if (!frame || frame->is_for_any_query()) continue;
+    throw std::invalid_argument(fmt::format(
+        "frames: camera {}: observed for methods that compare images alone; expected a frame for "
+        "any query",
+        frame->view->mount().name));
+  }
+}
+
 void require_length(double limit_m) {
   if (std::isfinite(limit_m) && limit_m >= 0) return;
   throw std::invalid_argument(fmt::format(
@@ -128,6 +138,7 @@ void Query::tell_ahead(const Request& request) {
 
 const Result& Query::ask(const Request& request) {
   require_length(request.nearer_than_m);
+  require_space(request.frames.get());
   TimeStatus joints_status = TimeStatus::ok;
   const JointState* joints = request.joints.read(request.now_s, newest_, joints_status);
   const std::span<const Frame* const> frames = request.frames.get();

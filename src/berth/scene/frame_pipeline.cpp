@@ -13,7 +13,9 @@ namespace {
 class CpuPipeline : public FramePipeline {
  public:
   CpuPipeline(const OpenScene& scene, const OpenCamera& camera, GlBackend* gl)
-      : observer_(camera.view), has_background_(camera.view->settings().sensor.has_background()) {
+      : observer_(camera.view, {},
+                  scene.joins_cameras() ? FrameUse::any_query : FrameUse::image_query),
+        has_background_(camera.view->settings().sensor.has_background()) {
     if (scene.joins_cameras()) return;
     query_.emplace(scene.robot, scene.method, scene.image_settings,
                    gl ? gl->make_method(scene.method) : make_image_method(scene.method));

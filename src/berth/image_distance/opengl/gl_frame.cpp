@@ -11,14 +11,14 @@ GlFrame::~GlFrame() = default;
 GlFrame::GlFrame(GlFrame&&) noexcept = default;
 GlFrame& GlFrame::operator=(GlFrame&&) noexcept = default;
 
-void read_back(const GlFrame& frame, Frame& out) {
+void read_back(const GlFrame& frame, Frame& out, FrameUse use) {
   static_cast<Exposure&>(out) = frame;
   if (frame.time.status != TimeStatus::ok) return clear_images(frame.view->camera(), out);
   read_back(frame.images->robot, out.robot);
   read_back(frame.images->obstacles, out.obstacles);
   DepthImage sensor_depth_m;
   read_back(frame.images->sensor_depth_m, sensor_depth_m);
-  prepare_frame(sensor_depth_m, out);
+  prepare_frame(sensor_depth_m, use, out);
 }
 
 }  // namespace berth

@@ -20,6 +20,6 @@ struct GlFrame : Exposure {
 };
 
 /// All of it in this program's memory, whose images `out` reuses.
-void read_back(const GlFrame& frame, Frame& out);
+void read_back(const GlFrame& frame, Frame& out, FrameUse use = FrameUse::any_query);
 
 }  // namespace berth

@@ -82,7 +82,7 @@ const Result& GlImageQuery::ask(const GlFrame& frame, std::optional<double> now_
   parts_->result.pose.X_BL = frame.pose.X_BL;
   parts_->evaluate(frame, frame.images->robot);
   if (!parts_->robot->settings().visibility) return parts_->result;
-  read_back(frame, parts_->seen);
+  read_back(frame, parts_->seen, FrameUse::image_query);
   tell_image_visibility(*parts_->robot, parts_->seen,
                         {parts_->seen.pose, parts_->seen.X_BC, parts_->seen.robot},
                         parts_->distances, parts_->tell, parts_->result);
@@ -96,7 +96,7 @@ const Result& GlImageQuery::ask(const GlFrame& frame, const JointState& joints,
   parts_->render(parts_->result.pose, frame);
   parts_->evaluate(frame, parts_->asked_on_gl);
   if (!parts_->robot->settings().visibility) return parts_->result;
-  read_back(frame, parts_->seen);
+  read_back(frame, parts_->seen, FrameUse::image_query);
   read_back(parts_->asked_on_gl, parts_->asked);
   tell_image_visibility(*parts_->robot, parts_->seen,
                         {parts_->result.pose, frame.X_BC, parts_->asked}, parts_->distances,
