@@ -12,7 +12,7 @@ mkdir -p build/ros2
 touch build/ros2/COLCON_IGNORE
 paths=(--build-base build/ros2/build --install-base build/ros2/install)
 colcon --log-base build/ros2/log build "${paths[@]}" --base-paths . ros2 --packages-select berth berth_msgs berth_ros \
-  --event-handlers console_direct+ --cmake-args -DCMAKE_BUILD_TYPE=Release -DBERTH_JOIN_SOURCES=ON
+  --event-handlers console_direct+ --cmake-args -DCMAKE_BUILD_TYPE=Release
 set +u  # colcon's own scripts read variables that nobody set
 . build/ros2/install/setup.bash
 set -u
