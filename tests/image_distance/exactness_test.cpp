@@ -68,12 +68,13 @@ TEST_P(Exactness, HoldsForRandomScenes) {
   }
 }
 
-/// With every 11th robot pixel only, since brute force has to finish too.
+/// With every 11th robot pixel only (thinned: every 110th), since brute force has to finish too.
 TEST_P(Exactness, HoldsForAVgaScene) {
+  constexpr int kEvery = 11 * (10 / thinned(10));
   sim::ImagePair images = sim::random_images(500, 640, 480, 8);
   for (int v = 0; v < 480; ++v) {
     for (int u = 0; u < 640; ++u) {
-      if ((3 * u + 7 * v) % 11 != 0) put_robot(images, u, v, kNoDepth, kNoLink);
+      if ((3 * u + 7 * v) % kEvery != 0) put_robot(images, u, v, kNoDepth, kNoLink);
     }
   }
   expect_as_brute_force(images);
