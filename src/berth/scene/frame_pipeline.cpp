@@ -12,14 +12,9 @@ namespace {
 
 class CpuPipeline : public FramePipeline {
  public:
-  CpuPipeline(const OpenScene& scene, const OpenCamera& camera, GlBackend* gl)
-      : observer_(camera.view, {},
-                  scene.joins_cameras() ? FrameUse::any_query : FrameUse::image_query),
-        has_background_(camera.view->settings().sensor.has_background()) {
-    if (scene.joins_cameras()) return;
-    query_.emplace(scene.robot, scene.method, scene.image_settings,
-                   gl ? gl->make_method(scene.method) : make_image_method(scene.method));
-  }
+  explicit CpuPipeline(const OpenCamera& camera, FrameUse use = FrameUse::any_query)
+      : observer_(camera.view, {}, use),
+        has_background_(camera.view->settings().sensor.has_background()) {}
 
   void observe(DepthView depth_m, const JointState& at_exposure, FrameTime time) override {
     // Given back first, so that its memory serves again where nobody else holds it.
@@ -28,13 +23,11 @@ class CpuPipeline : public FramePipeline {
     observer_.observe(depth_m, at_exposure, *frame_, time);
     if (!is_told()) observer_.finish_watch(*frame_);
     mark(*frame_);
-    if (query_) query_->prepare(*frame_);
   }
   void tell_watch(const CameraWatch* found) override {
     FramePipeline::tell_watch(found);
     if (frame_) put_watch(*frame_);
   }
-  const Result& ask() override { return query_->ask(*frame_); }
   const Exposure& exposure() const override { return *frame_; }
   std::array<std::int64_t, kPixelFateCount> fate_counts() override {
     return frame_->obstacles.count;
@@ -51,16 +44,37 @@ class CpuPipeline : public FramePipeline {
  private:
   Observer observer_;
   bool has_background_;
-  std::optional<ImageQuery> query_;
   FramePool pool_;
+
+ protected:
   std::shared_ptr<Frame> frame_;
+};
+
+/// The same for a method that compares images.
+class CpuImagePipeline : public CpuPipeline {
+ public:
+  CpuImagePipeline(const OpenScene& scene, const OpenCamera& camera,
+                   std::unique_ptr<ImageMethod> method)
+      : CpuPipeline(camera, FrameUse::image_query),
+        query_(scene.robot, scene.method, scene.image_settings, std::move(method)) {}
+
+  void observe(DepthView depth_m, const JointState& at_exposure, FrameTime time) override {
+    CpuPipeline::observe(depth_m, at_exposure, time);
+    query_.prepare(*frame_);
+  }
+  const Result& ask() override { return query_.ask(*frame_); }
+
+ private:
+  ImageQuery query_;
 };
 
 }  // namespace
 
 std::unique_ptr<FramePipeline> make_cpu_pipeline(const OpenScene& scene, const OpenCamera& camera,
                                                  GlBackend* gl) {
-  return std::make_unique<CpuPipeline>(scene, camera, gl);
+  if (scene.joins_cameras()) return std::make_unique<CpuPipeline>(camera);
+  return std::make_unique<CpuImagePipeline>(
+      scene, camera, gl ? gl->make_method(scene.method) : make_image_method(scene.method));
 }
 
 }  // namespace berth

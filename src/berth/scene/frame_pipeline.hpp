@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 
 #include "berth/pipeline/frame.hpp"
 #include "berth/pipeline/result.hpp"
@@ -17,9 +18,11 @@ class FramePipeline {
   virtual ~FramePipeline() = default;
 
   virtual void observe(DepthView depth_m, const JointState& at_exposure, FrameTime time) = 0;
-  /// The rest is about the last image. Where the scene's method compares images, its result at the
-  /// joint angles of its exposure:
-  virtual const Result& ask() = 0;
+  /// The rest is about the last image. Its result at the joint angles of its exposure; only where
+  /// the scene's method compares images.
+  virtual const Result& ask() {
+    throw std::logic_error("cameras that are joined are not asked alone");
+  }
   virtual const Exposure& exposure() const = 0;
   /// Tells in the last frame and those after it what somebody else found out of whether the camera
   /// stands where it should; null: it does. Nothing waits for the pipeline's own watch from then

@@ -1,8 +1,5 @@
 #include "berth/scene/gl_backend.hpp"
 
-#include <functional>
-#include <optional>
-
 #include "berth/image_distance/image_query.hpp"
 #include "berth/image_distance/opengl/gl_context.hpp"
 #include "berth/image_distance/opengl/gl_image_query.hpp"
@@ -15,24 +12,13 @@ namespace {
 
 class GlPipeline : public FramePipeline {
  public:
-  GlPipeline(const OpenScene& scene, const OpenCamera& camera)
-      : observer_(camera.view), gl_frame_(camera.view->camera()) {
-    if (scene.joins_cameras()) return;
-    if (runs_on_opengl(scene.method)) {
-      gl_query_.emplace(scene.robot, scene.method, scene.image_settings);
-      ask_ = [this]() -> const Result& { return gl_query_->ask(gl_frame_); };
-    } else {
-      query_.emplace(scene.robot, scene.method, scene.image_settings);
-      ask_ = [this]() -> const Result& { return query_->ask(*frame_); };
-    }
-  }
+  explicit GlPipeline(const OpenCamera& camera)
+      : observer_(camera.view), gl_frame_(camera.view->camera()) {}
 
   void observe(DepthView depth_m, const JointState& at_exposure, FrameTime time) override {
     observer_.observe(depth_m, at_exposure, gl_frame_, time);
     mark(gl_frame_);
-    if (query_) query_->prepare(*frame());
   }
-  const Result& ask() override { return ask_(); }
   const Exposure& exposure() const override { return gl_frame_; }
   std::array<std::int64_t, kPixelFateCount> fate_counts() override {
     return observer_.fate_counts();
@@ -46,12 +32,39 @@ class GlPipeline : public FramePipeline {
 
  private:
   GlObserver observer_;
-  std::optional<ImageQuery> query_;
-  std::optional<GlImageQuery> gl_query_;
-  std::function<const Result&()> ask_;
-  GlFrame gl_frame_;
   FramePool pool_;
+
+ protected:
+  GlFrame gl_frame_;
   std::shared_ptr<Frame> frame_;
+};
+
+/// The same for a method that compares images on the processor.
+class ReadBackPipeline : public GlPipeline {
+ public:
+  ReadBackPipeline(const OpenScene& scene, const OpenCamera& camera)
+      : GlPipeline(camera), query_(scene.robot, scene.method, scene.image_settings) {}
+
+  void observe(DepthView depth_m, const JointState& at_exposure, FrameTime time) override {
+    GlPipeline::observe(depth_m, at_exposure, time);
+    query_.prepare(*frame());
+  }
+  const Result& ask() override { return query_.ask(*frame_); }
+
+ private:
+  ImageQuery query_;
+};
+
+/// The same for one that compares them on OpenGL.
+class GlImagePipeline : public GlPipeline {
+ public:
+  GlImagePipeline(const OpenScene& scene, const OpenCamera& camera)
+      : GlPipeline(camera), query_(scene.robot, scene.method, scene.image_settings) {}
+
+  const Result& ask() override { return query_.ask(gl_frame_); }
+
+ private:
+  GlImageQuery query_;
 };
 
 class OpenGl : public GlBackend {
@@ -62,7 +75,9 @@ class OpenGl : public GlBackend {
   void check(const std::string& what) override { context_.check(what); }
   std::unique_ptr<FramePipeline> make_pipeline(const OpenScene& scene,
                                                const OpenCamera& camera) override {
-    return std::make_unique<GlPipeline>(scene, camera);
+    if (scene.joins_cameras()) return std::make_unique<GlPipeline>(camera);
+    if (runs_on_opengl(scene.method)) return std::make_unique<GlImagePipeline>(scene, camera);
+    return std::make_unique<ReadBackPipeline>(scene, camera);
   }
   std::unique_ptr<ImageMethod> make_method(Method method) override {
     return make_gl_method(method);
