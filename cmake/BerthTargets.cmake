@@ -45,7 +45,8 @@ function(berth_compile_options target)
     target_compile_options(${target} PRIVATE ${BERTH_VECTOR})
   elseif(NOT kind STREQUAL "HOT")
     # GCC 12 takes a moved std::string for one that is too short, where std's headers are precompiled.
-    target_compile_options(${target} PRIVATE ${BERTH_COLD} $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds>)
+    target_compile_options(${target} PRIVATE ${BERTH_COLD}
+                           $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds -Wno-stringop-overflow -Wno-restrict>)
   endif()
   if(kind STREQUAL "OWN")
     return()
