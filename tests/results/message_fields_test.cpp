@@ -128,7 +128,7 @@ TEST(MessageFields, OfAResult) {
       {"gl_renderer", "only methods that compare images have it"},
       {"pairs", "only methods that compare images have it"}};
   const Exception only_in_message[] = {
-      {"request_stamp", "a listener does not know when it was asked"}};
+      {"question_stamp", "a listener does not know when it was asked"}};
   expect_same_fields("LinkDistances", listed, only_listed, only_in_message);
 }
 
