@@ -12,9 +12,8 @@ namespace {
 
 class CpuPipeline : public FramePipeline {
  public:
-  explicit CpuPipeline(const OpenCamera& camera, FrameUse use = FrameUse::any_query)
-      : observer_(camera.view, {}, use),
-        has_background_(camera.view->settings().sensor.has_background()) {}
+  explicit CpuPipeline(const OpenCamera& camera)
+      : observer_(camera.view), has_background_(camera.view->settings().sensor.has_background()) {}
 
   void observe(DepthView depth_m, const JointState& at_exposure, FrameTime time) override {
     // Given back first, so that its memory serves again where nobody else holds it.
@@ -50,12 +49,13 @@ class CpuPipeline : public FramePipeline {
   std::shared_ptr<Frame> frame_;
 };
 
-/// The same for a method that compares images.
+/// The same for a method that compares images. Its frames serve any query: who runs a scene may ask
+/// them what he likes.
 class CpuImagePipeline : public CpuPipeline {
  public:
   CpuImagePipeline(const OpenScene& scene, const OpenCamera& camera,
                    std::unique_ptr<ImageMethod> method)
-      : CpuPipeline(camera, FrameUse::image_query),
+      : CpuPipeline(camera),
         query_(scene.robot, scene.method, scene.image_settings, std::move(method)) {}
 
   void observe(DepthView depth_m, const JointState& at_exposure, FrameTime time) override {
