@@ -7,7 +7,7 @@ import berth
 scene = berth.open_scene(os.environ["BERTH_SOURCE_DIR"] + "/data/bundled/one_camera.yaml")
 page = berth.view(scene.robot, scene.views, port=0)
 print(page.url, flush=True)
-steps = [(step.answer, step.frame) for step in scene]
+steps = [(step.result, step.frame) for step in scene]
 try:
     page.show(steps[0][0], [])
 except ValueError as error:
