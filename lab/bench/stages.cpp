@@ -6,6 +6,7 @@
 #include "apps/support/interrupt.hpp"
 #include "apps/support/progress_bar.hpp"
 #include "berth/image_distance/image_method.hpp"
+#include "berth/image_distance/image_result.hpp"
 #include "berth/image_distance/image_visibility.hpp"
 #include "berth/image_distance/mean_direction/mean_direction.hpp"
 #include "berth/pipeline/observer.hpp"
