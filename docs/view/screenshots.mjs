@@ -1,5 +1,5 @@
 // Makes the pictures of docs/view.md: ctest's Page tests say which variables it needs.
-//     BERTH=build/release/berth BERTH_PAGE_WORK=build/release/apps/view/page CHROMIUM=/usr/bin/chromium node docs/view/screenshots.mjs
+//     BERTH=$PWD/build/release/berth BERTH_PAGE_WORK=$PWD/build/release/apps/view/page CHROMIUM=/usr/bin/chromium node docs/view/screenshots.mjs
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { openPage, startBerth, startBrowser, temporaryFolder, until } from "../../tests/view/page/browser.mjs";
