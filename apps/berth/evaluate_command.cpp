@@ -66,7 +66,7 @@ ThreeImages read_images(const EvaluateArguments& arguments) {
 /// The method, wherever it runs.
 struct Evaluator {
   Evaluator(Method named, const BackendChoice& where)
-      : gl(runs_on_opengl(named) ? open_gl_backend(where.gl_device) : nullptr),
+      : gl(needed_gl_backend(named, where)),
         method(gl ? gl->make_method(named) : make_image_method(named)) {}
 
   std::unique_ptr<GlBackend> gl;

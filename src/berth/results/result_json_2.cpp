@@ -78,7 +78,11 @@ bool has_base(const Result& result) {
   return result.cameras.size() == 1 && result.cameras.front().X_BC.matrix().allFinite();
 }
 
-void add_image_pair(const LinkResult& link, const Result& result, Json& json) {
+Json mean_direction_json(const LinkResult& link) {
+  return link.mean_count > 0 ? json_value(link.mean_direction_C) : Json();
+}
+
+void add_image_points(const LinkResult& link, const Result& result, Json& json) {
   const bool ok = link.status == LinkStatus::ok;
   json["robot_pixel"] = ok ? json_value(link.image.robot_pixel) : Json();
   json["obstacle_pixel"] = json_value(link.obstacle_pixel);
@@ -97,6 +101,13 @@ Json reading_json(const SpacePair& pair, const Result& result) {
           {"obstacle_point_base_m", json_value(pair.obstacle_point_B_m)}};
 }
 
+void add_image_pair(const LinkResult& link, const Result& result, Json& json) {
+  add_image_points(link, result, json);
+  json["mean_direction"] = mean_direction_json(link);
+  json["mean_count"] = link.mean_count;
+  json["robot_pixels"] = link.image.robot_pixels;
+}
+
 void add_space_pair(const LinkResult& link, const Result& result, Json& json) {
   json["camera"] = camera_name(link, result);
   json["obstacle_pixel"] = json_value(link.obstacle_pixel);
@@ -109,6 +120,9 @@ void add_space_pair(const LinkResult& link, const Result& result, Json& json) {
   json["obstacle_point_base_m"] = json_value(link.obstacle_point_B_m);
   json["reading_distance_m"] = json_value(link.occupied.distance_m);
   if (link.status != LinkStatus::stale) json["reading"] = reading_json(link.occupied, result);
+  json["mean_direction"] = mean_direction_json(link);
+  json["mean_direction_base"] = json_value(link.mean_direction_B);
+  json["mean_count"] = link.mean_count;
 }
 
 Json link_json(const LinkResult& link, const Result& result) {
@@ -122,10 +136,6 @@ Json link_json(const LinkResult& link, const Result& result) {
   } else {
     add_space_pair(link, result, json);
   }
-  json["mean_direction"] = link.mean_count > 0 ? json_value(link.mean_direction_C) : Json();
-  if (!result.compares_images) json["mean_direction_base"] = json_value(link.mean_direction_B);
-  json["mean_count"] = link.mean_count;
-  if (result.compares_images) json["robot_pixels"] = link.image.robot_pixels;
   if (result.has_visibility) json["visibility"] = visibility_json(link.visibility);
   return json;
 }

@@ -37,6 +37,9 @@ class FramePipeline {
   /// The images in this program's memory; read back from the GPU at each call. Nothing writes to it
   /// while somebody holds it.
   virtual std::shared_ptr<const Frame> frame() = 0;
+  /// The same for who holds the newest frame of each camera; null where that would cost a reading
+  /// back that no result needs.
+  virtual std::shared_ptr<const Frame> kept() { return frame(); }
   /// Takes these images as background, where the view's settings ask for one.
   virtual void learn_background(DepthView, const Frame&) {}
   /// Begins with this one.

@@ -50,6 +50,7 @@ class ReadBackPipeline : public GlPipeline {
     query_.prepare(*frame());
   }
   const Result& ask() override { return query_.ask(*frame_); }
+  std::shared_ptr<const Frame> kept() override { return nullptr; }
 
  private:
   ImageQuery query_;
@@ -62,6 +63,7 @@ class GlImagePipeline : public GlPipeline {
       : GlPipeline(camera), query_(scene.robot, scene.method, scene.image_settings) {}
 
   const Result& ask() override { return query_.ask(gl_frame_); }
+  std::shared_ptr<const Frame> kept() override { return nullptr; }
 
  private:
   GlImageQuery query_;

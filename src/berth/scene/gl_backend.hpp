@@ -5,6 +5,7 @@
 #include <string>
 
 #include "berth/image_distance/image_method.hpp"
+#include "berth/scene/backend.hpp"
 #include "berth/scene/open_scene.hpp"
 
 namespace berth {
@@ -30,5 +31,11 @@ class GlBackend {
 /// Throws std::runtime_error where the device, OpenGL or berth's own part for it is not there.
 /// `device` is as GlContext takes it.
 std::unique_ptr<GlBackend> open_gl_backend(const std::string& device);
+
+/// The same where this method, or the choice, needs OpenGL; else null.
+inline std::unique_ptr<GlBackend> needed_gl_backend(Method method, const BackendChoice& where) {
+  const bool is_needed = where.backend == Backend::opengl || runs_on_opengl(method);
+  return is_needed ? open_gl_backend(where.gl_device) : nullptr;
+}
 
 }  // namespace berth

@@ -69,15 +69,13 @@ SceneRun::SceneRun(const OpenScene& scene, const BackendChoice& where,
 SceneRun::~SceneRun() = default;
 
 void SceneRun::make_pipelines(const BackendChoice& where) {
-  const bool on_gl = where.backend == Backend::opengl;
-  const bool asks_gl = runs_on_opengl(scene_.method);
-  if (on_gl || asks_gl) gl_ = open_gl_backend(where.gl_device);
+  gl_ = needed_gl_backend(scene_.method, where);
   for (std::size_t i = 0; i < scene_.cameras.size(); ++i) {
     const OpenCamera& camera = scene_.cameras[i];
     try {
-      pipelines_.push_back(on_gl
+      pipelines_.push_back(where.backend == Backend::opengl
                                ? gl_->make_pipeline(scene_, camera)
-                               : make_cpu_pipeline(scene_, camera, asks_gl ? gl_.get() : nullptr));
+                               : make_cpu_pipeline(scene_, camera, gl_.get()));
     } catch (const std::invalid_argument& error) {
       throw std::runtime_error(fmt::format("{}: {}", scene_.file.string(), error.what()));
     }
@@ -139,14 +137,10 @@ std::optional<DepthImage> SceneRun::background_m(std::size_t camera) const {
   return pipelines_[camera]->background_m();
 }
 
-SceneRun::Asked SceneRun::asked() const {
-  return query_ ? Asked{0, scene_.cameras.size()} : Asked{step().camera, 1};
-}
-
 void SceneRun::go_to(std::size_t step, const Result* found) {
   step_ = step + 1;
   observed_ = steps_[step].known;
-  const auto [first, count] = asked();
+  const std::size_t first = steps_[step].first_camera, count = steps_[step].camera_count;
   std::vector<bool> has_image(scene_.cameras.size());
   for (std::size_t i = observed_; i-- > 0;) {
     const ImageStep& at = steps_[i];
@@ -164,9 +158,8 @@ void SceneRun::go_to(std::size_t step, const Result* found) {
 }
 
 void SceneRun::keep_frames() {
-  if (!query_ && gl_) return;
   for (std::size_t c = 0; c < kept_.size(); ++c) {
-    kept_[c] = newest_[c].number ? pipelines_[c]->frame() : nullptr;
+    kept_[c] = newest_[c].number ? pipelines_[c]->kept() : nullptr;
   }
 }
 
@@ -193,7 +186,7 @@ void SceneRun::tell_scene(Result& result) {
   result.stamp_s = step().stamp_s;
   if (gl_) result.gl_renderer = gl_->renderer();
   for (std::size_t i = 0; i < result.cameras.size(); ++i) {
-    const std::size_t c = asked().first + i;
+    const std::size_t c = step().first_camera + i;
     if (!newest_[c].number) continue;
     result.cameras[i].frame = static_cast<int>(*newest_[c].number);
     result.cameras[i].self_filter = pipelines_[c]->fate_counts();
@@ -203,7 +196,7 @@ void SceneRun::tell_scene(Result& result) {
 void SceneRun::monitor(Result& result) {
   if (monitors_.empty()) return;
   scene_.joints->velocity(result.joints_stamp_s, velocity_);
-  SeparationMonitor& own = monitors_[asked().first];
+  SeparationMonitor& own = monitors_[step().first_camera];
   result.separation = own.update(result, velocity_, result.stamp_s);
 }
 

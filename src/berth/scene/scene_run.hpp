@@ -93,14 +93,7 @@ class SceneRun {
     DepthImage depth_m;
   };
 
-  /// The cameras of one result: all where they are joined, else that of the step.
-  struct Asked {
-    std::size_t first;
-    std::size_t count;
-  };
-
   const ImageStep& step() const { return steps_[step_ - 1]; }
-  Asked asked() const;
   void make_pipelines(const BackendChoice& where);
   void make_monitors();
   void begin_background(std::size_t camera, const std::function<void()>& before_image);

@@ -17,6 +17,9 @@ struct ImageStep {
   std::size_t result;
   /// How many steps its result knows: where cameras are joined all up to the last one of its stamp.
   std::size_t known;
+  /// The cameras of its result: where cameras are joined all, else its own.
+  std::size_t first_camera;
+  std::size_t camera_count;
 };
 
 /// All of them: with method `mesh` in the order of their stamps, else camera by camera.
