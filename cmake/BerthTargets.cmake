@@ -32,7 +32,8 @@ berth_precompiled_headers(berth_precompiled_vector "${BERTH_VECTOR}")
 berth_precompiled_headers(berth_precompiled_cold "${BERTH_COLD}" <berth/scene/scene_run.hpp>)
 
 # berth_compile_options(<target> [HOT | VECTOR | COLD | TEST | OWN]): what all of berth is compiled with. HOT: what a loop
-# waits for. VECTOR: the same with sources that name Highway. COLD: what nobody waits for. TEST: COLD, with GoogleTest. OWN: COLD, with precompiled headers of the target's own.
+# waits for. VECTOR: the same with sources that name Highway. COLD: what nobody waits for. TEST: COLD, with GoogleTest. OWN: COLD,
+# with precompiled headers of the target's own.
 function(berth_compile_options target)
   set(kind HOT ${ARGN})
   list(GET kind -1 kind)

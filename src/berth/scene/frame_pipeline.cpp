@@ -27,7 +27,6 @@ class CpuPipeline : public FramePipeline {
     FramePipeline::tell_watch(found);
     if (frame_) put_watch(*frame_);
   }
-  const Exposure& exposure() const override { return *frame_; }
   std::array<std::int64_t, kPixelFateCount> fate_counts() override {
     return frame_->obstacles.count;
   }

@@ -23,7 +23,6 @@ class FramePipeline {
   virtual const Result& ask() {
     throw std::logic_error("cameras that are joined are not asked alone");
   }
-  virtual const Exposure& exposure() const = 0;
   /// Tells in the last frame and those after it what somebody else found out of whether the camera
   /// stands where it should; null: it does. Nothing waits for the pipeline's own watch from then
   /// on.

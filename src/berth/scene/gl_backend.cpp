@@ -19,7 +19,6 @@ class GlPipeline : public FramePipeline {
     observer_.observe(depth_m, at_exposure, gl_frame_, time);
     mark(gl_frame_);
   }
-  const Exposure& exposure() const override { return gl_frame_; }
   std::array<std::int64_t, kPixelFateCount> fate_counts() override {
     return observer_.fate_counts();
   }
