@@ -12,9 +12,17 @@
 
 namespace tbb {
 
+/// The loop counts down what is still to be done in a frame of its own, below `frame`, and what counts to zero may be another
+/// thread. The caller waits for that, and then uses the same stack again: told as an order, or it is reported as a race.
+inline void come_after_what_was_below(char* frame) {
+  constexpr int kDepth = 4096, kCounter = 8;
+  for (int below = 0; below < kDepth; below += kCounter)
+    __tsan_acquire(frame - below);
+}
+
 /// Calls loop(body') with a body' that is `body` between begin and end of the loop.
 template <class Body, class Loop>
-void in_order_with_the_caller(const Body& body, const Loop& loop) {
+[[gnu::noinline]] void in_order_with_the_caller(const Body& body, const Loop& loop) {
   char begin, end;
   __tsan_release(&begin);
   loop([&](const auto& part) {
@@ -23,6 +31,7 @@ void in_order_with_the_caller(const Body& body, const Loop& loop) {
     __tsan_release(&end);
   });
   __tsan_acquire(&end);
+  come_after_what_was_below(static_cast<char*>(__builtin_frame_address(0)));
 }
 
 template <class Index, class Body, class... Partitioner>
