@@ -101,7 +101,7 @@ TEST_P(GlLattices, AreExactWhereTheLastStepHasAllPixelsOfTheLink) {
     SCOPED_TRACE(seed);
     const sim::ImagePair images = sim::random_images(seed, 60, 44, 3);
     ImageDistanceSettings settings;
-    settings.range_m = 100;
+    settings.range_m = 50;
     settings.mean_direction = false;
     settings.lattice = {1, 1, 200, 200, 16};
     expect_same_answer(answer(Method::brute_force, images, 100),

@@ -8,7 +8,7 @@ void validate(const DistanceSettings& settings) {
 
 void validate(const MeshRequest& request) {
   const SettingCheck check{"evaluation"};
-  check({"range_m", kAboveZero, ""}, request.range_m);
+  check({"range_m", kRange, ""}, request.range_m);
   check({"tolerance_m", kNotNegative, ""}, request.tolerance_m);
   check({"deadline_us", {.may_be_infinite = true}, ""}, request.deadline_us);
 }

@@ -6,6 +6,10 @@
 
 namespace berth {
 
+/// A search for more does not end in any time that somebody waits: the space that it looks through
+/// grows with the third power. No depth camera sees so far.
+inline constexpr Domain kRange{.is_open = true, .most = 50};
+
 /// What is asked of every way to find distances.
 struct DistanceSettings {
   /// L: a distance above it is no answer. For images the half side of the region of surveillance
@@ -28,7 +32,7 @@ struct DistanceSettings {
 /// The list of these settings.
 template <SettingsOf<DistanceSettings> Settings, class Visitor>
 void visit_settings(Settings& s, Visitor&& visit) {
-  visit({"range_m", kAboveZero, "distances are looked for up to here"}, s.range_m);
+  visit({"range_m", kRange, "distances are looked for up to here"}, s.range_m);
   visit({"mean_direction", {}, "whether to give the mean direction of what is near each link"},
         s.mean_direction);
   visit({"tolerance_m", kNotNegative,

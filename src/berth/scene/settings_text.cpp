@@ -31,10 +31,15 @@ std::string names_text() {
 
 /// Such as "above 0", "1 to 64", "0, or 1 and more".
 std::string domain_text(const Domain& domain) {
-  const std::string range = std::isfinite(domain.most)
-                                ? fmt::format("{} to {}", domain.least, domain.most)
-                            : domain.is_open ? fmt::format("above {}", domain.least)
-                                             : fmt::format("{} and more", domain.least);
+  const bool has_most = std::isfinite(domain.most);
+  std::string range;
+  if (domain.is_open) {
+    range = fmt::format("above {}", domain.least);
+    if (has_most) range += fmt::format(", up to {}", domain.most);
+  } else {
+    range = has_most ? fmt::format("{} to {}", domain.least, domain.most)
+                     : fmt::format("{} and more", domain.least);
+  }
   return domain.has_off ? "0, or " + range : range;
 }
 

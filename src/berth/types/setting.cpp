@@ -16,7 +16,8 @@ bool Domain::holds(double value) const {
 std::string Domain::text(bool is_whole) const {
   const char* what = is_whole ? "a whole number" : may_be_infinite ? "a number" : "a finite number";
   std::string text = fmt::format("{} {} {}", what, is_open ? "above" : "of at least", least);
-  if (std::isfinite(most)) text = fmt::format("{} from {} to {}", what, least, most);
+  if (std::isfinite(most) && is_open) text += fmt::format(" up to {}", most);
+  if (std::isfinite(most) && !is_open) text = fmt::format("{} from {} to {}", what, least, most);
   return has_off ? text + ", or 0 (off)" : text;
 }
 
