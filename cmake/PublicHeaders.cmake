@@ -8,10 +8,14 @@ set(BERTH_PUBLIC_HEADERS
   berth/types/joint_state.hpp
   berth/types/setting.hpp
   berth/files/camera_info.hpp
+  berth/files/edit_distance.hpp
   berth/files/joints_csv.hpp
   berth/robot/joint_buffer.hpp
   berth/robot/joint_trajectory.hpp
   berth/robot/kinematics.hpp
+  berth/robot/mesh_file/mesh_file.hpp
+  berth/robot/package_path.hpp
+  berth/robot/primitives.hpp
   berth/robot/robot_model.hpp
   berth/pipeline/camera_state.hpp
   berth/pipeline/frame.hpp
@@ -21,6 +25,7 @@ set(BERTH_PUBLIC_HEADERS
   berth/pipeline/request.hpp
   berth/pipeline/result.hpp
   berth/pipeline/robot.hpp
+  berth/pipeline/space_map.hpp
   berth/pipeline/mounted_camera.hpp
   berth/live/joint_intake.hpp
   berth/live/live_camera.hpp

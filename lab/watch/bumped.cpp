@@ -112,7 +112,8 @@ FrameDisplacement displacement_of(const OpenCamera& camera, const Pose& X_CC) {
 bool is_watch_alarm(const OpenCamera& camera, const Second& second, const WatchSettings& rule) {
   const FrameDisplacement displacement = displacement_of(camera, second.X_CC);
   PoseWatch watch(rule,
-                  [&](DepthView depth_m, const JointState& joints, const std::stop_token& stop) {
+                  [&](DepthView depth_m, const JointState& joints, const Pose&,
+                      const std::stop_token& stop) {
                     return displacement.measure(depth_m, joints, stop);
                   });
   JointState joints = second.joints;

@@ -38,7 +38,11 @@ class SharedQuery {
     const std::vector<JointState> poses = many_joints_of(robot_->model(), ahead);
     const py::gil_scoped_release release;
     const std::lock_guard lock(mutex_);
-    return owned(query_.ask({frames, requested, now_s, poses, nearer_than_m}));
+    return owned(query_.ask({.frames = frames,
+                             .joints = requested,
+                             .now_s = now_s,
+                             .ahead = poses,
+                             .nearer_than_m = nearer_than_m}));
   }
 
   void forget() {

@@ -18,11 +18,12 @@ class PlainSpace {
   /// In the surface layer of view k's pixel, give or take `slack_m` along the camera's axis.
   bool is_reading(std::size_t k, const Eigen::Vector3d& p_B, double slack_m = 0) const;
   bool is_hidden(const Eigen::Vector3d& p_B) const;
+  /// View k sees it free.
+  bool is_free(std::size_t k, const Eigen::Vector3d& p_B) const;
   const MeshWorld& world() const { return world_; }
 
  private:
   bool is_behind(std::size_t k, const Eigen::Vector3d& p_B) const;
-  bool is_free(std::size_t k, const Eigen::Vector3d& p_B) const;
 
   const MeshWorld& world_;
   std::vector<Image<double>> free_m_;

@@ -124,9 +124,32 @@ TEST_F(Intake, ARobotWhoseJointsAreAllFixedStandsStill) {
   EXPECT_EQ(joints_.position, (Positions{2, 3, 1}));
 }
 
+TEST_F(Intake, APositionThatNoRobotHasIsRefusedByName) {
+  RobotModel model = arm_and_gripper();
+  model.joints[0].lower = -3;
+  model.joints[0].upper = 3;
+  model.joints[2].lower = 0;
+  model.joints[2].upper = 0.04;
+  JointIntake intake(model, {});
+  const auto why = [&](const std::string& joint, double position) {
+    return error_message<std::invalid_argument>(
+        [&] { intake.push(1, Names{joint}, Positions{position}); });
+  };
+  expect_parts(why("shoulder", kNaN), {"joint shoulder: nan", "-9.3 to 9.3"});
+  expect_parts(why("shoulder", 1e9), {"joint shoulder: 1000000000", "-9.3 to 9.3"});
+  expect_parts(why("shoulder", -57.3), {"joint shoulder: -57.3"});
+  expect_parts(why("finger", 40), {"joint finger: 40", "-1 to 1.04"});
+  expect_parts(why("wrist", 1e9), {"joint wrist", "-1000000 to 1000000"});
+  EXPECT_EQ(intake.waiting_for(), "shoulder") << "nothing was taken";
+  for (const double turned : {-9.2, 6.28, 9.2}) {
+    EXPECT_EQ(intake.push(turned, Names{"shoulder"}, Positions{turned}), TimeStatus::ok)
+        << "a robot may go beyond limits that its URDF has too narrow";
+  }
+  EXPECT_EQ(intake.push(1, Names{"wrist"}, Positions{5e5}), TimeStatus::ok);
+}
+
 TEST_F(Intake, WhatIsOfNoUseIsPassedOverAndSaid) {
   EXPECT_EQ(intake_->push(1, Names{"other"}, Positions{1}), TimeStatus::missing_joint);
-  EXPECT_EQ(gripper(1, kNaN), TimeStatus::missing_joint);
   EXPECT_EQ(gripper(kNaN, 1), TimeStatus::stamp_jumped);
   EXPECT_EQ(gripper(1, 1), TimeStatus::ok);
   EXPECT_EQ(gripper(1, 2), TimeStatus::stamp_went_back);

@@ -17,8 +17,9 @@ class Live : public ::testing::Test {
  protected:
   Live() : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml")) {}
 
-  void start(const LiveCameraSettings& settings, LiveCamera::OnFrame on_frame = {}) {
-    camera_.emplace(source().view, joints_, settings, std::move(on_frame));
+  void start(const LiveCameraSettings& settings, LiveCamera::OnFrame on_frame = {},
+             FindPlace find_place = {}) {
+    camera_.emplace(source().view, joints_, settings, std::move(on_frame), std::move(find_place));
   }
   const OpenCamera& source() const { return scene_.cameras.front(); }
   double stamp_s(std::size_t i) const { return source().source.stamps_s[i]; }
@@ -27,7 +28,7 @@ class Live : public ::testing::Test {
     push_joints(scene_,
                 joints_.buffer().newest_stamp_s() > 0 ? joints_.buffer().newest_stamp_s() : -1,
                 time_s, joints_);
-    camera_->joints_came();
+    camera_->look_again();
   }
   bool observed(std::int64_t images) {
     return comes_true([&] { return camera_->counts().images >= images; });
@@ -73,6 +74,32 @@ TEST_F(Live, AnImageThatWaitedTooLongSaysSo) {
   push(2);
   ASSERT_TRUE(observed(3));
   EXPECT_EQ(camera_->newest()->time.status, TimeStatus::ok) << "and goes on once joints come";
+}
+
+TEST_F(Live, AnImageWaitsForThePlaceOfItsCamera) {
+  Pose X_PC = source().view->mount().X_PC;
+  X_PC.translation().x() += 0.1;
+  std::atomic<bool> is_known = false;
+  start({.max_wait_s = kPatient_s}, {},
+        [&](double) { return is_known ? std::optional(PlaceAtExposure{X_PC}) : std::nullopt; });
+  push_joints_until(stamp_s(3));
+  push(2);
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_FALSE(camera_->newest());
+  is_known = true;
+  camera_->look_again();
+  ASSERT_TRUE(observed(1));
+  EXPECT_EQ(camera_->newest()->time.status, TimeStatus::ok);
+  EXPECT_EQ(camera_->newest()->X_PC.matrix(), X_PC.matrix());
+}
+
+TEST_F(Live, AnImageWhosePlaceDoesNotBecomeKnownSaysSo) {
+  start({.max_wait_s = 0.01}, {}, [](double) { return std::optional<PlaceAtExposure>(); });
+  push_joints_until(stamp_s(3));
+  push(2);
+  ASSERT_TRUE(observed(1));
+  EXPECT_EQ(camera_->newest()->time.status, TimeStatus::stale_pose);
+  EXPECT_EQ(camera_->counts().stale, 1);
 }
 
 TEST_F(Live, OfImagesThatWaitTheOldestAreDropped) {

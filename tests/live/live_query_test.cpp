@@ -201,7 +201,7 @@ TEST_F(AskedScene, MemoryStaysAsItIsOnceWarm) {
       camera.push(time_s, std::move(copy));
       for (int k = 0; k < 20; ++k, time_s += 0.001) {
         joints.push(time_s, names, from.at_exposure[(i + k) % from.at_exposure.size()].position);
-        camera.joints_came();
+        camera.look_again();
       }
       ASSERT_TRUE(comes_true([&] { return camera.counts().images > images; }));
       const LiveFrames newest = {camera.newest()};

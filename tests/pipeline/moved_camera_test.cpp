@@ -151,12 +151,12 @@ TEST_F(MovedCamera, AStaleFrameSaysWhatIsWrongWithItsTime) {
 TEST_F(MovedCamera, TheDisplacementIsToldOnceItIsFinished) {
   const WatchSettings settings{.max_displacement_m = 0.02, .check_every_s = 0};
   double measured_m = 0.05;
-  Observer observer(view_of(0, settings),
-                    [&](DepthView depth_m, const JointState& at_exposure, std::stop_token) {
-                      EXPECT_EQ(depth_m.width, 640);
-                      EXPECT_EQ(at_exposure.stamp_s, camera_.at_exposure[kFrame].stamp_s);
-                      return std::optional(measured_m);
-                    });
+  Observer observer(view_of(0, settings), [&](DepthView depth_m, const JointState& at_exposure,
+                                              const Pose&, std::stop_token) {
+    EXPECT_EQ(depth_m.width, 640);
+    EXPECT_EQ(at_exposure.stamp_s, camera_.at_exposure[kFrame].stamp_s);
+    return std::optional(measured_m);
+  });
   Frame frame;
   for (const bool has_moved : {false, true}) {
     observe(observer, frame);

@@ -163,6 +163,8 @@ struct Told {
     result.cameras.resize(1);
     result.cameras[0].camera = "left";
     result.cameras[0].status = CameraStatus::too_old;
+    result.cameras[0].age_s = 0.3;
+    result.time = {TimeStatus::stale_frame, 0.2};
     Separation& separation = result.separation.emplace();
     separation.state = state;
     separation.reason = reason;
@@ -174,6 +176,29 @@ struct Told {
   }
   std::string text() const { return separation_text(result); }
 };
+
+TEST(StatusText, NamesTheCause) {
+  Result result;
+  result.time = {TimeStatus::stale_joints, 0.1, 0.3104};
+  EXPECT_EQ(status_text(result), "stale: the joint states are 0.310 s old");
+  for (int i = 1; i < kTimeStatusCount; ++i) {
+    result.time.status = static_cast<TimeStatus>(i);
+    EXPECT_GT(status_text(result).size(), std::string("stale: ").size()) << i;
+  }
+  result.status = ResultStatus::ok;
+  EXPECT_EQ(status_text(result), "ok");
+  result.status = ResultStatus::degraded;
+  result.cameras.resize(3);
+  result.cameras[0].status = CameraStatus::hidden;
+  result.cameras[1].camera = "left";
+  result.cameras[1].status = CameraStatus::too_old;
+  result.cameras[1].age_s = 0.42;
+  result.cameras[2].camera = "top";
+  result.cameras[2].status = CameraStatus::stale;
+  result.cameras[2].time = TimeStatus::skewed;
+  EXPECT_EQ(status_text(result),
+            "degraded: camera left is too_old (0.42 s), camera top is stale (skewed)");
+}
 
 TEST(SeparationText, SaysWhatAndWhy) {
   using enum SeparationState;
@@ -188,8 +213,8 @@ TEST(SeparationText, SaysWhatAndWhy) {
   EXPECT_NE(Told(reduced, R::range).text().find("the end of the range"), std::string::npos);
   EXPECT_NE(Told(reduced, R::cut_short).text().find("the deadline"), std::string::npos);
   EXPECT_EQ(Told(stop, R::not_seen).text(), "stop: hand is 41 % unseen");
-  EXPECT_EQ(Told(stop, R::camera).text(), "stop: camera left cannot be relied on (too_old)");
-  EXPECT_EQ(Told(stop, R::stale).text(), "stop: there is no answer in time");
+  EXPECT_EQ(Told(stop, R::camera).text(), "stop: camera left is too_old (0.30 s)");
+  EXPECT_EQ(Told(stop, R::stale).text(), "stop: stale: the newest image is 0.200 s old");
   EXPECT_EQ(Told(stop, R::velocity).text(), "stop: the robot's velocity is not known");
   EXPECT_EQ(Told(stop, R::hold).text(), "stop: there has not been room for long enough");
   Told unknown(stop, R::not_seen);

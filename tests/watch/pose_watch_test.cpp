@@ -141,7 +141,7 @@ struct Displacements {
   std::vector<double> stamps_s;
 
   MeasureDisplacement function() {
-    return [this](DepthView, const JointState& at_exposure, std::stop_token) {
+    return [this](DepthView, const JointState& at_exposure, const Pose&, std::stop_token) {
       const double value_m = values_m[stamps_s.size() % values_m.size()];
       stamps_s.push_back(at_exposure.stamp_s);
       return std::isnan(value_m) ? std::nullopt : std::optional(value_m);
@@ -191,7 +191,7 @@ TEST(PoseWatch, ARobotThatIsNearerThanItShouldBeIsNoHiddenOne) {
 class SlowMeasurement {
  public:
   MeasureDisplacement function() {
-    return [this](DepthView depth_m, const JointState& at_exposure,
+    return [this](DepthView depth_m, const JointState& at_exposure, const Pose&,
                   std::stop_token stop) -> std::optional<double> {
       std::unique_lock lock(mutex_);
       has_begun = true;

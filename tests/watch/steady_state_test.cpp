@@ -13,7 +13,7 @@ TEST(SteadyState, AWatchAllocatesNothingOnceItHasSeenTheImages) {
   JointState at_exposure{0, {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7}};
   const WatchSettings settings{
       .max_seen_through = 0.03, .max_displacement_m = 0.01, .check_every_s = 0};
-  PoseWatch watch(settings, [](DepthView, const JointState&, std::stop_token) { return 0.001; });
+  PoseWatch watch(settings, [](DepthView, const JointState&, const Pose&, std::stop_token) { return 0.001; });
   const auto go_on = [&] {
     at_exposure.stamp_s += 0.03;
     watch.look(depth_m, robot, at_exposure);

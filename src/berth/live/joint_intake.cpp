@@ -43,6 +43,10 @@ JointIntake::JointIntake(const RobotModel& model, JointIntakeSettings settings)
   for (const MovableJoint& joint : model.joints) {
     names_.push_back(joint.name);
     is_continuous_.push_back(joint.type == JointType::continuous);
+    const bool has_limits = joint.upper > joint.lower;
+    const double beyond = joint.type == JointType::prismatic ? kBeyondLimit_m : kBeyondLimit_rad;
+    least_.push_back(has_limits ? std::max(-kMostPosition, joint.lower - beyond) : -kMostPosition);
+    most_.push_back(has_limits ? std::min(kMostPosition, joint.upper + beyond) : kMostPosition);
     offset_.push_back(value_of(settings_.offsets, joint.name, 0));
     fixed_.push_back(
         value_of(settings_.fixed, joint.name, std::numeric_limits<double>::quiet_NaN()));
@@ -95,8 +99,16 @@ void JointIntake::find_told(std::span<const std::string> names, std::span<const 
     const auto found = std::find(names.begin(), names.end(), names_[i]);
     if (found == names.end()) continue;
     const double position = positions[found - names.begin()] + offset_[i];
-    if (std::isfinite(position)) told_.push_back({i, position});
+    require_possible(i, position);
+    told_.push_back({i, position});
   }
+}
+
+void JointIntake::require_possible(std::size_t joint, double position) const {
+  // So is NaN.
+  if (position >= least_[joint] && position <= most_[joint]) return;
+  throw std::invalid_argument(fmt::format("joint {}: {}; expected a number from {} to {}",
+                                          names_[joint], position, least_[joint], most_[joint]));
 }
 
 bool JointIntake::append(std::size_t joint, double stamp_s, double position) {

@@ -35,12 +35,14 @@ class JointIntake {
   JointIntake(const RobotModel& model, JointIntakeSettings settings);
 
   /// Takes one message; positions in rad or m, one for each name, in any order. Names that are no
-  /// joints of the robot, and positions that are not finite, are passed over. Statuses:
+  /// joints of the robot are passed over. Statuses:
   /// missing_joint where no joint of the robot is left, stamp_jumped for a stamp that is not
   /// finite, stamp_went_back for one that is not above the last of any of these joints. One that
   /// lies more than kClockSetBack_s before it is no late message but a clock that was set back (a
   /// bag that begins again): all that was known is forgotten, and the message is taken.
-  /// Throws std::invalid_argument where names and positions are not equally many.
+  /// Throws std::invalid_argument that names the joint, and takes nothing, for a position that is
+  /// not finite or that no robot has: more than a kBeyondLimit outside of the URDF's limits, or
+  /// more than kMostPosition; and where names and positions are not equally many.
   TimeStatus push(double stamp_s, std::span<const std::string> names,
                   std::span<const double> positions);
 
@@ -53,6 +55,12 @@ class JointIntake {
   int restarts() const;
 
   static constexpr double kClockSetBack_s = 1;
+  /// A whole turn in rad, and 1 m: the limits of some URDFs are narrower than those of the robot,
+  /// by a turn at most. What lies beyond is in degrees or mm, or nonsense.
+  static constexpr double kBeyondLimit_rad = 6.3;
+  static constexpr double kBeyondLimit_m = 1;
+  /// rad or m, where there are no limits.
+  static constexpr double kMostPosition = 1e6;
 
  private:
   /// One joint's messages that are not in whole samples yet, and the one before them.
@@ -69,6 +77,7 @@ class JointIntake {
   };
 
   void find_told(std::span<const std::string> names, std::span<const double> positions);
+  void require_possible(std::size_t joint, double position) const;
   bool append(std::size_t joint, double stamp_s, double position);
   void restart();
   std::size_t slowest() const;
@@ -80,6 +89,9 @@ class JointIntake {
   JointIntakeSettings settings_;
   std::vector<std::string> names_;
   std::vector<bool> is_continuous_;
+  /// Positions that a robot may have.
+  std::vector<double> least_;
+  std::vector<double> most_;
   std::vector<double> offset_;
   /// NaN for joints that are told.
   std::vector<double> fixed_;

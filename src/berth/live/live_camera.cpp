@@ -32,8 +32,12 @@ void validate(const LiveCameraSettings& settings) {
 }  // namespace
 
 LiveCamera::LiveCamera(std::shared_ptr<const MountedCamera> view, const JointIntake& joints,
-                       LiveCameraSettings settings, OnFrame on_frame)
-    : view_(std::move(view)), joints_(joints), settings_(settings), on_frame_(std::move(on_frame)) {
+                       LiveCameraSettings settings, OnFrame on_frame, FindPlace find_place)
+    : view_(std::move(view)),
+      joints_(joints),
+      settings_(settings),
+      on_frame_(std::move(on_frame)),
+      find_place_(std::move(find_place)) {
   validate(settings_);
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
@@ -62,8 +66,8 @@ DepthImage LiveCamera::spare_image() {
   return image;
 }
 
-void LiveCamera::joints_came() {
-  // Taken, so that the thread is not between its look at the joints and its sleep.
+void LiveCamera::look_again() {
+  // Taken, so that the thread is not between its look at joints and place and its sleep.
   { const std::lock_guard lock(mutex_); }
   changed_.notify_one();
 }
@@ -82,9 +86,13 @@ bool LiveCamera::has_joints(const Waiting& image) const {
   return joints_.buffer().newest_stamp_s() >= image.stamp_s + settings_.clock_offset_s;
 }
 
+std::optional<PlaceAtExposure> LiveCamera::place_of(const Waiting& image) const {
+  return find_place_ ? find_place_(image.stamp_s) : PlaceAtExposure{};
+}
+
 bool LiveCamera::is_ready(const Waiting& image) const {
   // No joints will ever lie behind a stamp that is no number.
-  return !std::isfinite(image.stamp_s) || has_joints(image) ||
+  return !std::isfinite(image.stamp_s) || (has_joints(image) && place_of(image)) ||
          steady_now_s() >= image.since_s + settings_.max_wait_s;
 }
 
@@ -120,7 +128,7 @@ void LiveCamera::run(const std::stop_token& stop) {
     const double begin_s = steady_now_s();
     const std::shared_ptr<Frame> frame = pool_.take();
     observer.observe(image->depth_m, image->stamp_s, joints_.buffer(), *frame,
-                     settings_.clock_offset_s);
+                     settings_.clock_offset_s, place_of(*image));
     keep(*image, frame, begin_s);
     if (on_frame_) on_frame_(*frame, image->depth_m, image->with);
     const std::lock_guard lock(mutex_);

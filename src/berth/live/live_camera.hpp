@@ -21,8 +21,9 @@ namespace berth {
 struct LiveCameraSettings {
   /// The joints' clock at an exposure is the image's stamp plus this.
   double clock_offset_s = 0;
-  /// An image waits so long, by this computer's steady clock, for the joints around its exposure.
-  /// Then it is observed without them, and its status says what is missing. At most 60.
+  /// An image waits so long, by this computer's steady clock, for the joints around its exposure,
+  /// and for the place of its camera. Then it is observed without them, and its status says what is
+  /// missing. At most 60.
   double max_wait_s = 0.1;
 };
 
@@ -39,6 +40,11 @@ struct LiveCameraCounts {
   double last_observe_s = 0;  ///< how long it took to observe the newest image
 };
 
+/// Where a camera and the robot's root were at an exposure, for those that move otherwise than by
+/// the robot's joints; none as long as that is not known. Called by several threads at a time; must
+/// not throw, nor call the LiveCamera.
+using FindPlace = std::function<std::optional<PlaceAtExposure>(double stamp_s)>;
+
 /// A running camera: images come from any thread, wait for the joints around their exposure, and a
 /// thread of its own makes frames of them.
 class LiveCamera {
@@ -48,9 +54,10 @@ class LiveCamera {
       std::function<void(const Frame&, DepthView depth_m, const std::shared_ptr<const void>& with)>;
 
   /// `joints` outlives it. `on_frame` is called in the camera's thread, after newest() has the
-  /// frame; it must not throw. Throws std::invalid_argument for a setting outside of its domain.
+  /// frame; it must not throw. Without `find_place` the camera stands as its mount says, and the
+  /// root stands still. Throws std::invalid_argument for a setting outside of its domain.
   LiveCamera(std::shared_ptr<const MountedCamera> view, const JointIntake& joints,
-             LiveCameraSettings settings = {}, OnFrame on_frame = {});
+             LiveCameraSettings settings = {}, OnFrame on_frame = {}, FindPlace find_place = {});
   /// Ends the thread; images that wait are dropped.
   ~LiveCamera();
   LiveCamera(const LiveCamera&) = delete;
@@ -61,8 +68,9 @@ class LiveCamera {
   void push(double stamp_s, DepthImage depth_m, std::shared_ptr<const void> with = {});
   /// An image whose memory is not used any more, of any size and content: fill it and push it.
   DepthImage spare_image();
-  /// To be called after each JointIntake::push: an image may wait for it.
-  void joints_came();
+  /// To be called after each JointIntake::push, and when places may have become known: an image may
+  /// wait for it.
+  void look_again();
 
   const std::shared_ptr<const MountedCamera>& view() const { return view_; }
   /// Null before the first one. Constant, and kept for who holds it.
@@ -84,11 +92,13 @@ class LiveCamera {
   /// Whether the joints after its exposure are there, or it has waited long enough.
   bool is_ready(const Waiting& image) const;
   bool has_joints(const Waiting& image) const;
+  std::optional<PlaceAtExposure> place_of(const Waiting& image) const;
 
   std::shared_ptr<const MountedCamera> view_;
   const JointIntake& joints_;
   LiveCameraSettings settings_;
   OnFrame on_frame_;
+  FindPlace find_place_;
   FramePool pool_;
   mutable std::mutex mutex_;
   std::condition_variable_any changed_;

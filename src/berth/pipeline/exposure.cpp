@@ -10,7 +10,8 @@
 namespace berth {
 
 bool begin_exposure(const std::shared_ptr<const MountedCamera>& view, DepthView depth_m,
-                    const JointState& at_exposure, FrameTime time, Exposure& out) {
+                    const JointState& at_exposure, FrameTime time, const PlaceAtExposure& place,
+                    Exposure& out) {
   require_size(view->camera(), depth_m);
   static std::atomic<std::uint64_t> exposures{0};
   out.view = view;
@@ -19,12 +20,14 @@ bool begin_exposure(const std::shared_ptr<const MountedCamera>& view, DepthView 
   out.time = time;
   out.watch = {};
   if (time.status != TimeStatus::ok) {
-    out.X_BC = unset_pose();
+    out.X_PC = out.X_BC = out.X_WB = unset_pose();
     out.pose.X_BL.clear();
     return false;
   }
   forward_kinematics(view->robot()->model(), at_exposure.position, out.pose);
-  out.X_BC = view->camera_pose(out.pose);
+  out.X_PC = place.X_PC.value_or(view->mount().X_PC);
+  out.X_BC = view->camera_pose(out.pose, out.X_PC);
+  out.X_WB = place.X_WB;
   return true;
 }
 

@@ -15,7 +15,9 @@ CameraState camera_state(const Exposure& exposure, double now_s, const TimeSetti
   state.age_s = now_s - exposure.stamp_s;
   state.time = exposure.time.status;
   state.watch = exposure.watch;
-  if (state.time != TimeStatus::ok) {
+  if (state.time == TimeStatus::stale_pose) {
+    state.status = CameraStatus::stale_pose;
+  } else if (state.time != TimeStatus::ok) {
     state.status = CameraStatus::stale;
   } else if (exposure.watch.is_implausible) {
     state.status = CameraStatus::implausible;
@@ -43,8 +45,18 @@ CameraState camera_state(const Frame* frame, double now_s, const TimeSettings& s
   return state;
 }
 
+namespace {
+
+/// In the root where it stands at X_WB now. One that did not move keeps its numbers to the bit.
+Pose posed_now(const Frame& frame, const Pose& X_WB) {
+  if (X_WB.matrix() == frame.X_WB.matrix()) return frame.X_BC;
+  return X_WB.inverse() * frame.X_WB * frame.X_BC;
+}
+
+}  // namespace
+
 void FrameSet::assign(std::span<const Frame* const> frames, const TimeSettings& settings,
-                      std::optional<double> now_s) {
+                      std::optional<double> now_s, const std::optional<Pose>& X_WB) {
   frames_.assign(frames.begin(), frames.end());
   cameras_.clear();
   used_.clear();
@@ -61,16 +73,18 @@ void FrameSet::assign(std::span<const Frame* const> frames, const TimeSettings& 
     used_.push_back(static_cast<int>(k));
     if (!newest_ || frames_[k]->stamp_s > newest_->stamp_s) newest_ = frames_[k];
   }
+  X_BC_.assign(frames_.size(), unset_pose());
   for (const int k : used_) {
     const Frame& frame = *frames_[k];
+    X_BC_[k] = posed_now(frame, X_WB.value_or(newest_->X_WB));
     assert(!frame.space->seen.is_empty());
     // Of age without end: its readings count, and it frees nothing.
     const double age_s = cameras_[k].status == CameraStatus::blind
                              ? std::numeric_limits<double>::infinity()
                              : newest_->stamp_s - frame.stamp_s;
-    posed_.push_back({&frame.space->seen, frame.X_BC, age_s});
+    posed_.push_back({&frame.space->seen, X_BC_[k], age_s});
     if (frame.space->has_rejected_space)
-      posed_rejected_.push_back({&frame.space->rejected_space, frame.X_BC, 0});
+      posed_rejected_.push_back({&frame.space->rejected_space, X_BC_[k], 0});
   }
   space_.assign(posed_);
   rejected_.assign(posed_rejected_);

@@ -21,15 +21,18 @@ class FrameSet {
   /// of one robot, whose method is `mesh`, and has to outlive the requests. A frame that is stale,
   /// of a camera that moved or is implausible, or too old at `now_s`, is left out: its readings are
   /// not known any more, and what it would have seen free is hidden again. Without now_s the newest
-  /// stamp is taken for now. Nobody may ask meanwhile. Reuses its memory.
+  /// stamp is taken for now. X_WB is where the robot's root stands in the requests; none: where it
+  /// stood at the newest exposure that is used. Nobody may ask meanwhile. Reuses its memory.
   void assign(std::span<const Frame* const> frames, const TimeSettings& settings,
-              std::optional<double> now_s = {});
+              std::optional<double> now_s = {}, const std::optional<Pose>& X_WB = {});
 
   /// frames()[k] and cameras()[k] belong to camera k.
   std::span<const Frame* const> frames() const { return frames_; }
   const std::vector<CameraState>& cameras() const { return cameras_; }
   /// Of all that are used; null where none is.
   const Frame* newest() const { return newest_; }
+  /// Where camera k stood, in the root link as the requests have it. Unset unless it is used.
+  const Pose& X_BC(std::size_t k) const { return X_BC_[k]; }
   /// Its view i is frames()[used()[i]].
   const UnknownSpace& space() const { return space_; }
   const std::vector<int>& used() const { return used_; }
@@ -40,6 +43,7 @@ class FrameSet {
   std::vector<const Frame*> frames_;
   std::vector<CameraState> cameras_;
   std::vector<int> used_;
+  std::vector<Pose> X_BC_;
   std::vector<PosedSpace> posed_;
   std::vector<PosedSpace> posed_rejected_;
   const Frame* newest_ = nullptr;

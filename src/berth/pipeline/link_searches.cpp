@@ -60,7 +60,7 @@ void LinkSearches::tell_distances(const FrameSet& frames, Result& out) const {
     link.mean_direction_B = link.mean_direction_C = unset_point();
     link.mean_count = 0;
     if (!link.is_known()) continue;
-    const Pose X_CB = frames.frames()[link.camera]->X_BC.inverse();
+    const Pose X_CB = frames.X_BC(link.camera).inverse();
     link.robot_point_C_m = (X_CB * link.robot_point_B_m.cast<double>()).cast<float>();
     link.obstacle_point_C_m = (X_CB * link.obstacle_point_B_m.cast<double>()).cast<float>();
   }
@@ -70,8 +70,8 @@ void LinkSearches::tell_mean_directions(const FrameSet& frames, Result& out) {
   direction_views_.clear();
   for (const int k : frames.used()) {
     const Frame& frame = *frames.frames()[k];
-    direction_views_.push_back(
-        {frame.view->camera(), frame.obstacles.depth_m, frame.space->reading_tiles, frame.X_BC});
+    direction_views_.push_back({frame.view->camera(), frame.obstacles.depth_m,
+                                frame.space->reading_tiles, frames.X_BC(k)});
   }
   for (LinkResult& link : out.links) {
     if (!link.has_distance()) continue;
@@ -80,7 +80,7 @@ void LinkSearches::tell_mean_directions(const FrameSet& frames, Result& out) {
     link.mean_count = mean.count;
     if (mean.count == 0) continue;
     link.mean_direction_B = mean.direction_B;
-    const Pose& X_BC = frames.frames()[link.camera]->X_BC;
+    const Pose& X_BC = frames.X_BC(link.camera);
     link.mean_direction_C =
         (X_BC.linear().transpose() * mean.direction_B.cast<double>()).cast<float>();
   }
@@ -94,7 +94,7 @@ void LinkSearches::tell_visibility(const FrameSet& frames, const RobotPose& pose
     views_.push_back(
         {{view.camera(), frame.robot, frame.obstacles, tolerance_of(view.settings().self_filter)},
          frame.space->seen.sensor_depth_m,
-         frame.X_BC.inverse()});
+         frames.X_BC(k).inverse()});
   }
   const DistanceSettings& settings = robot_->settings().distance;
   const SamplePoints& points = robot_->sample_points();

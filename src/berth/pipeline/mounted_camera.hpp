@@ -69,7 +69,11 @@ class MountedCamera {
   /// Those of robot_region(); null where SelfFilterSettings::robot_region_scale is 0.
   const std::shared_ptr<const LinkMeshes>& region_meshes() const { return region_meshes_; }
   /// The camera's pose X_BC in the robot's root link, with the robot in this pose.
-  Pose camera_pose(const RobotPose& pose) const { return pose.X_BL[parent_] * mount_.X_PC; }
+  Pose camera_pose(const RobotPose& pose) const { return camera_pose(pose, mount_.X_PC); }
+  /// The same for a camera that has moved on its parent link.
+  Pose camera_pose(const RobotPose& pose, const Pose& X_PC) const {
+    return pose.X_BL[parent_] * X_PC;
+  }
 
  private:
   std::shared_ptr<const Robot> robot_;

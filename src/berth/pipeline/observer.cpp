@@ -14,14 +14,15 @@
 namespace berth {
 namespace {
 
-/// Where nobody gave another way, and the view's settings ask for one.
+/// Where nobody gave another way, and the view's settings ask for one. `view` has to outlive it.
 MeasureDisplacement displacement_of(const MountedCamera& view, MeasureDisplacement given) {
   if (given || !(view.settings().watch.max_displacement_m > 0)) return given;
-  const RobotModel& model = view.robot()->model();
-  const FrameDisplacement displacement(model, view.robot()->meshes(), view.camera(),
-                                       *model.find_link(view.mount().parent_link),
-                                       view.mount().X_PC, view.settings().watch.bias_m);
-  return [displacement](DepthView depth_m, const JointState& joints, const std::stop_token& stop) {
+  return [&view](DepthView depth_m, const JointState& joints, const Pose& X_PC,
+                 const std::stop_token& stop) {
+    const RobotModel& model = view.robot()->model();
+    const FrameDisplacement displacement(model, view.robot()->meshes(), view.camera(),
+                                         *model.find_link(view.mount().parent_link), X_PC,
+                                         view.settings().watch.bias_m);
     return displacement.measure(depth_m, joints, stop);
   };
 }
@@ -64,14 +65,14 @@ Observer::Observer(Observer&&) noexcept = default;
 Observer& Observer::operator=(Observer&&) noexcept = default;
 
 void Observer::observe(DepthView depth_m, const JointState& at_exposure, Frame& frame,
-                       FrameTime time) {
+                       FrameTime time, const PlaceAtExposure& place) {
   const Camera& camera = parts_->view->camera();
-  if (!begin_exposure(parts_->view, depth_m, at_exposure, time, frame)) {
+  if (!begin_exposure(parts_->view, depth_m, at_exposure, time, place, frame)) {
     frame.watch = parts_->watch.pass_over();
     return clear_images(camera, frame);
   }
   parts_->renderer.render(frame.pose, frame.X_BC, frame.robot);
-  frame.watch = parts_->watch.look(depth_m, frame.robot, at_exposure);
+  frame.watch = parts_->watch.look(depth_m, frame.robot, at_exposure, frame.X_PC);
   parts_->filter(depth_m, frame);
   apply_sensor_rules(depth_m, frame.robot, parts_->background, parts_->view->settings().sensor,
                      parts_->sensor, frame.obstacles);
@@ -89,13 +90,17 @@ void Observer::Parts::filter(DepthView depth_m, Frame& frame) {
 }
 
 void Observer::observe(DepthView depth_m, double stamp_s, const JointBuffer& joints, Frame& frame,
-                       double clock_offset_s) {
+                       double clock_offset_s, const std::optional<PlaceAtExposure>& place) {
   const TimeSettings& settings = parts_->view->robot()->settings().time;
   const TimeStatus stamp = parts_->clock.next(stamp_s, settings);
   FrameTime time = joints.at(stamp_s + clock_offset_s, settings.joints, parts_->at_exposure);
   parts_->at_exposure.stamp_s = stamp_s;
-  if (stamp != TimeStatus::ok) time.status = stamp;
-  observe(depth_m, parts_->at_exposure, frame, time);
+  if (stamp != TimeStatus::ok) {
+    time.status = stamp;
+  } else if (!place && time.status == TimeStatus::ok) {
+    time.status = TimeStatus::stale_pose;
+  }
+  observe(depth_m, parts_->at_exposure, frame, time, place.value_or(PlaceAtExposure{}));
 }
 
 void Observer::finish_watch(Frame& frame) { frame.watch = parts_->watch.wait(); }

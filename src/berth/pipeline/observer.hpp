@@ -26,13 +26,15 @@ class Observer {
   /// there is no reading. Throws std::invalid_argument for a wrong size or wrong joints and then
   /// leaves no valid frame. `time` is how the joints were found (joints_at_time); where it is not
   /// ok they are not looked at, and nothing stays in `frame` but the stamp and this.
-  void observe(DepthView depth_m, const JointState& at_exposure, Frame& frame, FrameTime time = {});
+  void observe(DepthView depth_m, const JointState& at_exposure, Frame& frame, FrameTime time = {},
+               const PlaceAtExposure& place = {});
 
   /// The same for a running camera and robot: the joints are those of the buffer at the exposure,
   /// and stamps have to go forward from call to call (FrameClock). The joints' clock at an exposure
-  /// is its stamp plus `clock_offset_s`.
+  /// is its stamp plus `clock_offset_s`. Without a place its time is stale_pose.
   void observe(DepthView depth_m, double stamp_s, const JointBuffer& joints, Frame& frame,
-               double clock_offset_s = 0);
+               double clock_offset_s = 0,
+               const std::optional<PlaceAtExposure>& place = PlaceAtExposure{});
 
   /// Waits for what the watch measures in the background, and tells it in `frame`, the last one:
   /// for recordings, where nothing is to depend on how long it took.

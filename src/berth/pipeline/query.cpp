@@ -35,6 +35,8 @@ void require_space(std::span<const Frame* const> frames) {
   }
 }
 
+bool is_unset(const std::optional<Pose>& X_WB) { return X_WB && !X_WB->matrix().allFinite(); }
+
 void require_length(double limit_m) {
   if (std::isfinite(limit_m) && limit_m >= 0) return;
   throw std::invalid_argument(fmt::format(
@@ -86,13 +88,20 @@ bool Query::has_changed(std::span<const Frame* const> frames) const {
   return !std::ranges::equal(cameras_, before_, {}, &CameraState::status, &CameraState::status);
 }
 
-void Query::update_frames(std::span<const Frame* const> frames, double now_s) {
+bool Query::has_moved(const std::optional<Pose>& X_WB) const {
+  if (X_WB.has_value() != X_WB_.has_value()) return true;
+  return X_WB && X_WB->matrix() != X_WB_->matrix();
+}
+
+void Query::update_frames(std::span<const Frame* const> frames, double now_s,
+                          const std::optional<Pose>& X_WB) {
   const TimeSettings& settings = robot_->settings().time;
   before_.swap(cameras_);
   cameras_.clear();
   for (const Frame* frame : frames) cameras_.push_back(camera_state(frame, now_s, settings));
-  if (!has_changed(frames)) return;
-  set_->assign(frames, settings, now_s);
+  if (!has_changed(frames) && !has_moved(X_WB)) return;
+  X_WB_ = X_WB;
+  set_->assign(frames, settings, now_s, is_unset(X_WB) ? std::nullopt : X_WB);
   numbers_.clear();
   for (const Frame* frame : frames) numbers_.push_back(number_of(frame));
 }
@@ -122,6 +131,7 @@ void Query::tell_cameras() {
     CameraResult& camera = result_.cameras[k];
     const Frame* frame = set_->frames()[k];
     tell_camera(frame, cameras_[k], camera);
+    if (is_used(cameras_[k].status)) camera.X_BC = set_->X_BC(k);
     if (camera.has_frame) camera.self_filter = frame->obstacles.count;
     if (!camera.has_frame && k < camera_names_.size()) camera.camera = camera_names_[k];
   }
@@ -142,11 +152,14 @@ const Result& Query::ask(const Request& request) {
   TimeStatus joints_status = TimeStatus::ok;
   const JointState* joints = request.joints.read(request.now_s, newest_, joints_status);
   const std::span<const Frame* const> frames = request.frames.get();
-  update_frames(frames, request.now_s.value_or(newest_stamp_s(frames)));
+  update_frames(frames, request.now_s.value_or(newest_stamp_s(frames)), request.X_WB);
   tell_cameras();
   result_.stamp_s =
       set_->newest() ? set_->newest()->stamp_s : std::numeric_limits<double>::quiet_NaN();
   result_.time = find_pose(joints, joints_status, request.now_s);
+  if (result_.time.status == TimeStatus::ok && is_unset(request.X_WB)) {
+    result_.time.status = TimeStatus::stale_pose;
+  }
   if (result_.time.status != TimeStatus::ok) {
     withhold(result_);
   } else {

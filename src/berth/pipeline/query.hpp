@@ -41,7 +41,9 @@ class Query {
 
  private:
   /// Assembles the frames anew where one of them, or what may be done with it, has changed.
-  void update_frames(std::span<const Frame* const> frames, double now_s);
+  void update_frames(std::span<const Frame* const> frames, double now_s,
+                     const std::optional<Pose>& X_WB);
+  bool has_moved(const std::optional<Pose>& X_WB) const;
   bool has_changed(std::span<const Frame* const> frames) const;
   /// Judges stamps and joints, and tells the pose that is asked about.
   Timeliness find_pose(const JointState* joints, TimeStatus joints_status,
@@ -53,6 +55,7 @@ class Query {
   std::vector<std::string> camera_names_;
   std::unique_ptr<FrameSet> set_;
   std::vector<std::uint64_t> numbers_;
+  std::optional<Pose> X_WB_;
   std::vector<CameraState> cameras_;
   std::vector<CameraState> before_;
   JointState newest_;

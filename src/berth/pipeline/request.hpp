@@ -64,6 +64,9 @@ struct Request {
   /// The time of the request: ages are told and judged by TimeSettings. Without it no age is known,
   /// and the frames are judged at the newest of their stamps. A JointBuffer needs it.
   std::optional<double> now_s = std::nullopt;
+  /// Where the robot's root stands in the frame of PlaceAtExposure::X_WB; none: where it stood at
+  /// the newest exposure that is used. With a pose that is not finite the result is stale_pose.
+  std::optional<Pose> X_WB = std::nullopt;
   /// Joint angles that the robot may take next: Result::ahead tells their distances.
   std::span<const JointState> ahead = {};
   /// Result::ahead tells the first of these poses that may be nearer than this.

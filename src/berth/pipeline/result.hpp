@@ -71,7 +71,8 @@ struct CameraResult : CameraState {
   int frame = -1;
   /// Whether it has given an image.
   bool has_frame = false;
-  /// The pose of the optical frame C in the robot's root frame B at that image's exposure.
+  /// Where the optical frame C was at that image's exposure, in the robot's root frame B: where
+  /// that root stands in the request, if the image is used.
   Pose X_BC = unset_pose();
   /// Pixels of that image by PixelFate.
   std::array<std::int64_t, kPixelFateCount> self_filter = {};

@@ -19,11 +19,6 @@ std::string seen_text_of(const Result& result, LinkId id) {
   return fmt::format("{} is {:.0f} % unseen", link.link, 100 * (1 - link.visibility.surface.seen));
 }
 
-std::string camera_text(const Result& result, int camera) {
-  const CameraResult& lost = result.cameras[camera];
-  return fmt::format("camera {} cannot be relied on ({})", lost.camera, name_of(lost.status));
-}
-
 std::string why(const Result& result) {
   const Separation& separation = *result.separation;
   const auto near = [&](std::string_view what) {
@@ -45,9 +40,9 @@ std::string why(const Result& result) {
     case SeparationReason::not_seen:
       return seen_text_of(result, separation.link);
     case SeparationReason::camera:
-      return camera_text(result, separation.camera);
+      return camera_text(result.cameras[separation.camera]);
     case SeparationReason::stale:
-      return "there is no answer in time";
+      return status_text(result);
     case SeparationReason::velocity:
       return "the robot's velocity is not known";
     case SeparationReason::hold:

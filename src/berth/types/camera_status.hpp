@@ -50,10 +50,12 @@ enum class CameraStatus : std::uint8_t {
   /// the robot is not where it should be in its images, and nobody asked for that to be refused
   /// (WatchSettings::tell_only): used
   unconfirmed,
+  stale_pose,  ///< nobody knows where it stood at the exposure: not used
 };
 /// By enumerator.
-inline constexpr std::array<std::string_view, 9> kCameraStatusNames = {
-    "ok", "no_frame", "stale", "too_old", "blind", "moved", "implausible", "hidden", "unconfirmed"};
+inline constexpr std::array<std::string_view, 10> kCameraStatusNames = {
+    "ok",    "no_frame",    "stale",  "too_old",     "blind",
+    "moved", "implausible", "hidden", "unconfirmed", "stale_pose"};
 
 constexpr std::string_view name_of(CameraStatus status) {
   return kCameraStatusNames[static_cast<std::size_t>(status)];

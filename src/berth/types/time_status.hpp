@@ -23,8 +23,9 @@ enum class TimeStatus : std::uint8_t {
   no_frame,         ///< no camera has given a frame yet
   camera_moved,     ///< the camera does not stand where it should (CameraStatus::moved)
   camera_implausible,  ///< the robot is not where it should be (CameraStatus::implausible)
+  stale_pose,          ///< nobody knows where the camera stood at the exposure
 };
-inline constexpr int kTimeStatusCount = 13;
+inline constexpr int kTimeStatusCount = 14;
 /// By enumerator.
 inline constexpr std::array<std::string_view, kTimeStatusCount> kTimeStatusNames = {
     "ok",
@@ -39,7 +40,8 @@ inline constexpr std::array<std::string_view, kTimeStatusCount> kTimeStatusNames
     "stale_joints",
     "no_frame",
     "camera_moved",
-    "camera_implausible"};
+    "camera_implausible",
+    "stale_pose"};
 
 constexpr std::string_view name_of(TimeStatus status) {
   return kTimeStatusNames[static_cast<std::size_t>(status)];

@@ -17,11 +17,12 @@ void copy(DepthView from, DepthImage& to) {
 DisplacementCheck::DisplacementCheck(MeasureDisplacement measure)
     : measure_(std::move(measure)), thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
-bool DisplacementCheck::start(DepthView depth_m, const JointState& at_exposure) {
+bool DisplacementCheck::start(DepthView depth_m, const JointState& at_exposure, const Pose& X_PC) {
   const std::lock_guard lock(mutex_);
   if (step_ != Step::idle) return false;
   copy(depth_m, depth_m_);
   at_exposure_ = at_exposure;
+  X_PC_ = X_PC;
   step_ = Step::asked;
   changed_.notify_all();
   return true;
@@ -43,7 +44,7 @@ void DisplacementCheck::run(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (changed_.wait(lock, stop, [this] { return step_ == Step::asked; })) {
     lock.unlock();
-    const std::optional<double> result = measure_(depth_m_, at_exposure_, stop);
+    const std::optional<double> result = measure_(depth_m_, at_exposure_, X_PC_, stop);
     lock.lock();
     result_ = result;
     step_ = Step::done;

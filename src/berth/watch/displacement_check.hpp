@@ -18,7 +18,7 @@ class DisplacementCheck {
 
   /// Begins with copies of these, in memory that is made once. False, and nothing else, while one
   /// is measured, or its result was not taken.
-  bool start(DepthView depth_m, const JointState& at_exposure);
+  bool start(DepthView depth_m, const JointState& at_exposure, const Pose& X_PC);
 
   /// The result once it is there, once: the inner one is none where the frame did not tell.
   std::optional<std::optional<double>> take();
@@ -38,6 +38,7 @@ class DisplacementCheck {
   /// The thread's while a frame is measured, else the others'.
   DepthImage depth_m_;
   JointState at_exposure_;
+  Pose X_PC_ = Pose::Identity();
   std::optional<double> result_;
   /// The last member: it ends before the others do.
   std::jthread thread_;

@@ -35,7 +35,7 @@ PoseWatch::PoseWatch(const WatchSettings& settings, MeasureDisplacement measure)
 }
 
 const CameraWatch& PoseWatch::look(DepthView depth_m, const RobotImage& robot,
-                                   const JointState& at_exposure) {
+                                   const JointState& at_exposure, const Pose& X_PC) {
   if (!state_.is_on && settings_.min_at_robot == 0) return state_;
   const RobotReadings readings = read_robot(depth_m, robot, settings_.bias_m);
   judge_place(readings);
@@ -47,7 +47,7 @@ const CameraWatch& PoseWatch::look(DepthView depth_m, const RobotImage& robot,
   }
   take_displacement();
   if (check_ && tells_displacement(readings) && is_due(at_exposure.stamp_s) &&
-      check_->start(depth_m, at_exposure)) {
+      check_->start(depth_m, at_exposure, X_PC)) {
     begun_s_ = at_exposure.stamp_s;
   }
   return state_;

@@ -34,9 +34,10 @@ class PoseWatch {
 
   /// Judges one frame: the camera's image, the robot as it should be seen in it, the joints at its
   /// exposure. Takes D of an earlier frame where it is there, and begins with this frame's where it
-  /// is due. Allocates nothing after the first frame that D was begun of.
-  const CameraWatch& look(DepthView depth_m, const RobotImage& robot,
-                          const JointState& at_exposure);
+  /// is due, for a camera that stood at X_PC. Allocates nothing after the first frame that D was
+  /// begun of.
+  const CameraWatch& look(DepthView depth_m, const RobotImage& robot, const JointState& at_exposure,
+                          const Pose& X_PC = unset_pose());
 
   /// A frame that was not observed, since its joints are not known: no verdict.
   const CameraWatch& pass_over();

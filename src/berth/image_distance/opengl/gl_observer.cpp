@@ -63,7 +63,7 @@ GlObserver::~GlObserver() = default;
 
 void GlObserver::observe(DepthView depth_m, const JointState& at_exposure, GlFrame& frame,
                          FrameTime time) {
-  parts_->has_images = begin_exposure(parts_->view, depth_m, at_exposure, time, frame);
+  parts_->has_images = begin_exposure(parts_->view, depth_m, at_exposure, time, {}, frame);
   if (!parts_->has_images) return;
   parts_->upload.send(depth_m, frame.images->sensor_depth_m);
   parts_->renderer.render(frame.pose, frame.X_BC, frame.images->robot);
