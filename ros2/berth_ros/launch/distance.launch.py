@@ -34,8 +34,11 @@ def distance_node(context):
         return LaunchConfiguration(name).perform(context)
 
     given = {"use_sim_time": argument("use_sim_time").lower() == "true"}
+    files = [os.path.abspath(argument(name)) for name in ("scene", "parameters") if argument(name)]
+    for file in files:
+        if not os.path.isfile(file):
+            raise FileNotFoundError(f"{file}: there is no such file")
     if argument("scene"):
-        given["scene"] = os.path.abspath(argument("scene"))
-    files = [argument("parameters")] if argument("parameters") else []
+        given["scene"] = files.pop(0)
     return [Node(package="berth_ros", executable="distance_node", namespace=argument("namespace"),
                  parameters=[*files, given], output="screen")]

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "camera_pose.hpp"
-
 namespace berth_ros {
 namespace {
 
@@ -51,22 +49,28 @@ berth::Camera camera_of(const sensor_msgs::msg::CameraInfo& info, bool is_rectif
   return camera;
 }
 
-CameraInput::CameraInput(rclcpp::Node& node, CameraSettings settings, StampClock& clock,
-                         const tf2_ros::Buffer& tf, OnFrame on_frame)
-    : logger_(node.get_logger().get_child(settings.name)),
-      settings_(std::move(settings)),
+CameraInput::CameraInput(rclcpp_lifecycle::LifecycleNode& node, rclcpp::Node& images,
+                         CameraSettings settings, std::string world_frame, StampClock& clock,
+                         const Transforms& transforms, OnFrame on_frame)
+    : settings_(std::move(settings)),
+      world_frame_(std::move(world_frame)),
       clock_(clock),
-      tf_(tf),
+      transforms_(transforms),
       on_frame_(std::move(on_frame)),
-      group_(node.create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive)) {
+      group_(node.create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive)),
+      image_group_(images.create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive)) {
+  rclcpp::QoS qos = rclcpp::SensorDataQoS().keep_last(1);
+  if (settings_.is_reliable) qos.reliable();
   rclcpp::SubscriptionOptions options;
+  options.qos_overriding_options = rclcpp::QosOverridingOptions::with_default_policies();
   options.callback_group = group_;
-  const rclcpp::QoS qos = rclcpp::SensorDataQoS().keep_last(1);
   info_ = node.create_subscription<sensor_msgs::msg::CameraInfo>(
       settings_.topic_prefix + "camera_info", qos,
       [this](const sensor_msgs::msg::CameraInfo::ConstSharedPtr& info) { on_info(info); }, options);
+  options.callback_group = image_group_;
   image_ = image_transport::create_subscription(
-      &node, settings_.topic_prefix + "depth_image",
+      &images,
+      node.get_node_topics_interface()->resolve_topic_name(settings_.topic_prefix + "depth_image"),
       [this](const ImageMessage::ConstSharedPtr& image) { on_image(image); },
       settings_.image_transport, qos.get_rmw_qos_profile(), options);
 }
@@ -84,9 +88,9 @@ void CameraInput::use(std::shared_ptr<const berth::Robot> robot,
   mount_.reset();
 }
 
-void CameraInput::joints_came() {
+void CameraInput::look_again() {
   const std::lock_guard lock(mutex_);
-  if (live_) live_->joints_came();
+  if (live_) live_->look_again();
 }
 
 std::shared_ptr<const berth::Frame> CameraInput::newest(const berth::Robot* robot) const {
@@ -96,8 +100,12 @@ std::shared_ptr<const berth::Frame> CameraInput::newest(const berth::Robot* robo
 }
 
 CameraReport CameraInput::report() const {
-  const std::lock_guard lock(mutex_);
   CameraReport report;
+  {
+    const std::lock_guard lock(place_mutex_);
+    report.pose_trouble = place_trouble_;
+  }
+  const std::lock_guard lock(mutex_);
   report.trouble = trouble_;
   report.pose_from = !mount_ ? "nowhere yet" : takes_scene_pose_ ? "scene" : "TF";
   if (live_) {
@@ -106,12 +114,12 @@ CameraReport CameraInput::report() const {
   }
   report.refused = refused_;
   report.mounts = mounts_;
+  report.rate = rate_;
   return report;
 }
 
 void CameraInput::refuse(const std::string& why) {
   ++refused_;
-  if (why != trouble_) RCLCPP_WARN(logger_, "%s", why.c_str());
   trouble_ = why;
 }
 
@@ -130,56 +138,101 @@ void CameraInput::take_info(const sensor_msgs::msg::CameraInfo& info) {
   const std::lock_guard lock(mutex_);
   try {
     const berth::Camera camera = camera_of(info, settings_.is_rectified);
-    if (camera_ && is_same(camera, *camera_)) return;
+    const std::string& frame_id = info.header.frame_id;
+    if (camera_ && is_same(camera, *camera_) && (frame_id.empty() || frame_id == frame_id_)) return;
     camera_ = camera;
+    frame_id_ = frame_id;
+    mount_.reset();
+    info_trouble_.clear();
     trouble_ = "no image yet";
   } catch (const std::invalid_argument& error) {
     camera_.reset();
-    refuse(error.what());
+    info_trouble_ = error.what();
+    refuse(info_trouble_);
   }
   before = std::move(live_);
 }
 
-bool CameraInput::find_mount(const ImageMessage& image) {
-  std::optional<berth::CameraMount> mount;
-  std::string why;
+void CameraInput::require_frame_id(const ImageMessage& image) {
+  const std::string& frame_id = image.header.frame_id;
+  if (frame_id_.empty()) frame_id_ = frame_id;
+  if (frame_id == frame_id_) return;
+  throw std::invalid_argument("an image of the frame \"" + frame_id + "\"; expected \"" +
+                              frame_id_ + "\", that of camera_info or of the images before");
+}
+
+void CameraInput::find_mount(const ImageMessage& image) {
+  std::string why = "the image has no frame_id; expected the camera's optical frame";
   if (settings_.pose_source != PoseSource::scene && !takes_scene_pose_) {
-    mount = mount_from_tf(tf_, robot_->model(), image.header.frame_id, image.header.stamp, why);
+    berth::CameraMount mount;
+    mount.parent_link = transforms_.link_above(robot_->model(), image.header.frame_id);
+    std::optional<ToldPose> told;
+    if (!image.header.frame_id.empty()) {
+      told = transforms_.newest(mount.parent_link, image.header.frame_id, why);
+    }
+    if (told) {
+      mount.X_PC = told->X_PF;
+      // What moves is placed image by image.
+      const bool is_same = mount_ && mount_->parent_link == mount.parent_link &&
+                           (!told->is_static || is_same_place(mount_->X_PC, mount.X_PC));
+      if (!is_same) mount_at(mount);
+      return;
+    }
   }
-  if (!mount && settings_.pose_source != PoseSource::tf && settings_.scene_mount) {
+  if (settings_.pose_source != PoseSource::tf && settings_.scene_mount) {
     takes_scene_pose_ = true;
-    mount = settings_.scene_mount;
+    if (!mount_) mount_at(*settings_.scene_mount);
+    return;
   }
-  // A mount that TF told once holds on: what is fixed needs no new word.
-  if (!mount) {
-    if (!mount_) refuse(why);
-    return mount_.has_value();
-  }
-  if (mount_ && is_same_mount(*mount_, *mount)) return true;
+  throw std::invalid_argument(why);
+}
+
+void CameraInput::mount_at(const berth::CameraMount& mount) {
   mount_ = mount;
   ++mounts_;
   retired_ = std::move(live_);
-  return true;
 }
 
-bool CameraInput::make_ready(const ImageMessage& image) {
-  if (!robot_) {
-    refuse("an image came, and there is no robot model yet");
-    return false;
-  }
-  if (!find_mount(image)) return false;
-  if (live_) return true;
+void CameraInput::make_live(const ImageMessage& image) {
   berth::CameraMount mount = *mount_;
   mount.camera = *camera_;
   mount.name = settings_.name;
   const auto view = std::make_shared<const berth::MountedCamera>(robot_, mount, settings_.view);
+  const PlaceSource source{takes_scene_pose_ ? std::string() : image.header.frame_id,
+                           mount.parent_link, robot_->model().links.front().name,
+                           robot_->settings().time.max_joints_age_s};
   live_ = std::make_unique<berth::LiveCamera>(
       view, *joints_, settings_.live,
       [this, kept = joints_](const berth::Frame& frame, berth::DepthView,
                              const std::shared_ptr<const void>& with) {
         on_frame_(frame, std::static_pointer_cast<const ImageMessage>(with));
-      });
-  return true;
+      },
+      [this, source](double stamp_s) { return place_at(source, stamp_s); });
+}
+
+std::optional<berth::PlaceAtExposure> CameraInput::place_at(const PlaceSource& source,
+                                                            double stamp_s) const {
+  berth::PlaceAtExposure place;
+  const rclcpp::Time stamp(clock_.stamp(stamp_s + settings_.live.clock_offset_s));
+  std::string why;
+  const auto find = [&](const std::string& parent, const std::string& frame, auto& out) {
+    const auto told = transforms_.at(parent, frame, stamp, source.max_gap_s, why);
+    if (told) out = told->X_PF;
+    return told.has_value();
+  };
+  const bool is_found = (source.optical_frame.empty() ||
+                         find(source.parent_link, source.optical_frame, place.X_PC)) &&
+                        (world_frame_.empty() || find(world_frame_, source.root_link, place.X_WB));
+  const std::lock_guard lock(place_mutex_);
+  place_trouble_ = why;
+  return is_found ? std::optional(place) : std::nullopt;
+}
+
+void CameraInput::make_ready(const ImageMessage& image) {
+  if (!robot_) throw std::invalid_argument("an image came, and there is no robot model yet");
+  require_frame_id(image);
+  find_mount(image);
+  if (!live_) make_live(image);
 }
 
 void CameraInput::on_image(const std::shared_ptr<const ImageMessage>& image) {
@@ -193,12 +246,13 @@ void CameraInput::take_image(const std::shared_ptr<const ImageMessage>& image) {
   const std::lock_guard lock(mutex_);
   if (!camera_) {
     // Of both that come together either may be first.
-    if (early_image_) refuse("images come, and no camera_info that is right");
+    if (early_image_) refuse(info_trouble_);
     early_image_ = image;
     return;
   }
   try {
-    if (!make_ready(*image)) return;
+    rate_.add(rclcpp::Time(image->header.stamp).seconds());
+    make_ready(*image);
     berth::DepthImage depth_m = live_->spare_image();
     berth::read_raw_depth(raw_of(*image), *camera_, settings_.units, depth_m);
     live_->push(clock_.seconds(image->header.stamp), std::move(depth_m), image);

@@ -1,7 +1,6 @@
 // One camera of a node: its topics, its pose, and the frames made of its images.
 #pragma once
 
-#include <tf2_ros/buffer.h>
 #include <image_transport/image_transport.hpp>
 #include <memory>
 #include <mutex>
@@ -13,8 +12,10 @@
 
 #include "berth/live/live_camera.hpp"
 #include "berth/live/raw_depth.hpp"
+#include "image_rate.hpp"
 #include "node_settings.hpp"
 #include "stamp_clock.hpp"
+#include "transforms.hpp"
 
 namespace berth_ros {
 
@@ -25,14 +26,17 @@ berth::Camera camera_of(const sensor_msgs::msg::CameraInfo& info, bool is_rectif
 /// The message's pixels, which it keeps.
 berth::RawDepth raw_of(const sensor_msgs::msg::Image& image);
 
-/// How a camera stands, for diagnostics.
+/// How a camera stands, for diagnostics and the log.
 struct CameraReport {
-  /// Empty where all is well.
+  /// Why its images are not taken; empty where they are.
   std::string trouble;
+  /// Why its pose at an exposure was not known last; empty where it was.
+  std::string pose_trouble;
   std::string pose_from;
   berth::LiveCameraCounts counts;
   std::int64_t refused = 0;
   std::int64_t mounts = 0;
+  ImageRate rate;
   std::shared_ptr<const berth::Frame> newest;
 };
 
@@ -42,49 +46,74 @@ class CameraInput {
   using OnFrame =
       std::function<void(const berth::Frame&, const std::shared_ptr<const ImageMessage>&)>;
 
-  /// `on_frame` is called in the camera's own thread.
-  CameraInput(rclcpp::Node& node, CameraSettings settings, StampClock& clock,
-              const tf2_ros::Buffer& tf, OnFrame on_frame);
+  /// `on_frame` is called in the camera's own thread. Images come by `images`, a plain node, since
+  /// image_transport knows no other. Frames are placed in `world_frame` where it is not empty.
+  CameraInput(rclcpp_lifecycle::LifecycleNode& node, rclcpp::Node& images, CameraSettings settings,
+              std::string world_frame, StampClock& clock, const Transforms& transforms,
+              OnFrame on_frame);
 
   /// From now on frames are of this robot, whose joints these are; null: there is none.
   void use(std::shared_ptr<const berth::Robot> robot,
            std::shared_ptr<const berth::JointIntake> joints, const berth::CameraSettings& view);
-  void joints_came();
+  /// To be called when joint states or transforms came: an image may wait for them.
+  void look_again();
   /// Null where there is none of this robot.
   std::shared_ptr<const berth::Frame> newest(const berth::Robot* robot) const;
   const CameraSettings& settings() const { return settings_; }
   CameraReport report() const;
 
  private:
+  /// What a LiveCamera finds its place by, which does not change with it.
+  struct PlaceSource {
+    /// Empty: the camera stands as the scene file says.
+    std::string optical_frame;
+    std::string parent_link;
+    std::string root_link;
+    double max_gap_s = 0;
+  };
+
   void on_info(const std::shared_ptr<const sensor_msgs::msg::CameraInfo>& info);
   void take_info(const sensor_msgs::msg::CameraInfo& info);
   void on_image(const std::shared_ptr<const ImageMessage>& image);
   void take_image(const std::shared_ptr<const ImageMessage>& image);
-  /// Makes live_ where all that it needs is known; else says in trouble_ what is not.
-  bool make_ready(const ImageMessage& image);
-  bool find_mount(const ImageMessage& image);
+  /// Throws std::invalid_argument unless image, camera_info and the images before have one frame.
+  void require_frame_id(const ImageMessage& image);
+  /// Makes live_ where all that it needs is known; else throws std::invalid_argument.
+  void make_ready(const ImageMessage& image);
+  void find_mount(const ImageMessage& image);
+  void mount_at(const berth::CameraMount& mount);
+  void make_live(const ImageMessage& image);
+  std::optional<berth::PlaceAtExposure> place_at(const PlaceSource& source, double stamp_s) const;
   void refuse(const std::string& why);
 
-  rclcpp::Logger logger_;
   CameraSettings settings_;
+  std::string world_frame_;
   StampClock& clock_;
-  const tf2_ros::Buffer& tf_;
+  const Transforms& transforms_;
   OnFrame on_frame_;
   mutable std::mutex mutex_;
   std::shared_ptr<const berth::Robot> robot_;
   std::shared_ptr<const berth::JointIntake> joints_;
   std::optional<berth::Camera> camera_;
+  /// Of camera_info; empty where that has none: then the first image decides.
+  std::string frame_id_;
   /// The newest one that came before any camera_info.
   std::shared_ptr<const ImageMessage> early_image_;
   std::optional<berth::CameraMount> mount_;
   bool takes_scene_pose_ = false;
-  std::string trouble_ = "no camera_info yet";
+  std::string info_trouble_ = "no camera_info yet";
+  std::string trouble_ = info_trouble_;
   std::int64_t refused_ = 0;
   std::int64_t mounts_ = 0;
+  ImageRate rate_;
   std::unique_ptr<berth::LiveCamera> live_;
   /// Of a mount that holds no more; to be ended without the mutex.
   std::unique_ptr<berth::LiveCamera> retired_;
+  /// Of its own: a LiveCamera asks for places while somebody pushes images into it.
+  mutable std::mutex place_mutex_;
+  mutable std::string place_trouble_;
   rclcpp::CallbackGroup::SharedPtr group_;
+  rclcpp::CallbackGroup::SharedPtr image_group_;
   rclcpp::Subscription<sensor_msgs::msg::CameraInfo>::SharedPtr info_;
   image_transport::Subscriber image_;
 };

@@ -9,9 +9,11 @@
 #include <visualization_msgs/msg/marker_array.hpp>
 
 #include "berth/pipeline/query.hpp"
+#include "berth/results/result_text.hpp"
 #include "live_node.hpp"
 #include "markers.hpp"
 #include "nodes.hpp"
+#include "planner_topics.hpp"
 #include "question_times.hpp"
 #include "result_messages.hpp"
 #include "speed_monitor.hpp"
@@ -41,39 +43,62 @@ class DistanceNode : public LiveNode {
  public:
   explicit DistanceNode(const rclcpp::NodeOptions& options)
       : LiveNode("distance_node", options, false) {
-    const rclcpp::QoS qos = rclcpp::QoS(10);
-    distances_ = create_publisher<berth_msgs::msg::LinkDistances>("distances", qos);
-    at_exposure_ = create_publisher<berth_msgs::msg::LinkDistances>("distances_at_exposure", qos);
-    separation_ = create_publisher<berth_msgs::msg::Separation>("separation", qos);
-    speed_scale_ = create_publisher<std_msgs::msg::Float64>("speed_scale", qos);
-    markers_ = create_publisher<visualization_msgs::msg::MarkerArray>("markers", qos);
     diagnostics_.add("questions", [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
       report_questions(status);
     });
-    const double question_hz = declare_parameter(
-        "question_rate_hz", 100.0, rate("questions a second; 0: one for each joint state", 1000));
-    const double marker_hz =
-        declare_parameter("marker_rate_hz", 10.0, rate("markers a second; 0: none", 100));
+    question_hz_ = declare_parameter("question_rate_hz", 100.0,
+                                     rate("questions a second; 0: one for each joint state", 1000));
+    marker_hz_ = declare_parameter("marker_rate_hz", 10.0, rate("markers a second; 0: none", 100));
     velocity_window_s_ = declare_parameter(
         "velocity_window_s", 0.02,
         described_number("over how long a time of joint states velocities are measured, where no "
                          "planned_joint_states come"));
-    asks_on_joints_ = question_hz == 0;
-    group_ = create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive);
-    if (question_hz > 0) question_timer_ = timer(question_hz, [this] { ask(); });
-    if (marker_hz > 0) marker_timer_ = timer(marker_hz, [this] { show(); });
-    rclcpp::SubscriptionOptions with_group;
-    with_group.callback_group = group_;
-    planned_subscription_ = create_subscription<sensor_msgs::msg::JointState>(
-        "planned_joint_states", rclcpp::SensorDataQoS().keep_last(1),
-        [this](const sensor_msgs::msg::JointState& message) { on_plan(message); }, with_group);
-    listen();
+    planners_.emplace(*this, clock_, [this] { return space_now(); });
+    begin();
   }
   /// Cameras' threads and callbacks use what is below.
   ~DistanceNode() override { stop(); }
 
  private:
   using LinkDistances = berth_msgs::msg::LinkDistances;
+
+  void configure_outputs() override {
+    const rclcpp::QoS qos = rclcpp::QoS(10);
+    distances_ = create_publisher<LinkDistances>("distances", qos);
+    at_exposure_ = create_publisher<LinkDistances>("distances_at_exposure", qos);
+    separation_ = create_publisher<berth_msgs::msg::Separation>("separation", qos);
+    speed_scale_ = create_publisher<std_msgs::msg::Float64>("speed_scale", qos);
+    markers_ = create_publisher<visualization_msgs::msg::MarkerArray>("markers", qos);
+    group_ = create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive);
+    rclcpp::SubscriptionOptions with_group;
+    with_group.callback_group = group_;
+    planned_subscription_ = create_subscription<sensor_msgs::msg::JointState>(
+        "planned_joint_states", rclcpp::SensorDataQoS().keep_last(1),
+        [this](const sensor_msgs::msg::JointState& message) { on_plan(message); }, with_group);
+    planners_->configure();
+  }
+  void activate_outputs() override {
+    if (question_hz_ > 0) question_timer_ = timer(question_hz_, [this] { ask(); });
+    if (marker_hz_ > 0) marker_timer_ = timer(marker_hz_, [this] { show(); });
+    planners_->activate();
+  }
+  void deactivate_outputs() override {
+    question_timer_.reset();
+    marker_timer_.reset();
+    planners_->deactivate();
+    // Who obeys the scale must not keep the last one.
+    const std::lock_guard lock(answer_mutex_);
+    publish_answer();
+  }
+  void clean_outputs() override {
+    planners_->clean();
+    planned_subscription_.reset();
+    distances_.reset();
+    at_exposure_.reset();
+    separation_.reset();
+    speed_scale_.reset();
+    markers_.reset();
+  }
 
   template <class Call>
   rclcpp::TimerBase::SharedPtr timer(double hz, Call call) {
@@ -82,7 +107,7 @@ class DistanceNode : public LiveNode {
   }
 
   void on_joints() override {
-    if (asks_on_joints_) ask();
+    if (question_hz_ == 0) ask();
   }
   void on_robot() override {
     const LiveRobot now = live();
@@ -94,7 +119,7 @@ class DistanceNode : public LiveNode {
     monitor_.reset();
     planned_ = {};
     const std::optional<berth::SeparationSettings> separation = separation_settings();
-    is_monitored_ = separation.has_value();
+    may_be_degraded_ = separation && separation->camera != berth::UnknownPolicy::stop;
     if (!now.robot) return;
     if (separation) monitor_.emplace(now.robot, *separation, velocity_window_s_);
     query_.emplace(now.robot, camera_names());
@@ -102,47 +127,80 @@ class DistanceNode : public LiveNode {
   }
 
   void ask() {
+    const std::lock_guard lock(answer_mutex_);
+    if (is_active()) publish_answer();
+  }
+
+  /// One at a time, so that nothing comes after the last stop.
+  void publish_answer() {
     const auto begin = std::chrono::steady_clock::now();
     auto message = std::make_unique<LinkDistances>();
-    bool is_told = false;
+    bool is_monitored = false;
     {
       const std::lock_guard lock(query_mutex_);
-      const LiveFrames frames = robot_.robot ? this->frames(*robot_.robot) : LiveFrames();
-      // Later than any image and any joint state that it asks about.
-      const rclcpp::Time now = this->now();
-      if (query_) {
-        const berth::JointBuffer& joints = robot_.joints->buffer();
-        const double now_s = clock_.seconds(now);
-        result_ = query_->ask({.frames = frames, .joints = joints, .now_s = now_s});
-        to_message(result_, base_frame(), now, clock_, *message);
-        if (monitor_) {
-          monitor_->update(result_, joints, planned_, now_s, separation_message_);
-        } else {
-          say_unmonitored(separation_message_);
-        }
+      if (query_ && is_answering()) {
+        answer(*message);
       } else {
-        say_no_robot(camera_names(), now, *message);
-        if (is_monitored_) {
-          say_stop("there is no robot model", separation_message_);
-        } else {
-          say_unmonitored(separation_message_);
-        }
+        say_nothing(*message);
       }
-      to_message(*message, separation_message_);
-      is_told = is_monitored_;
+      is_monitored = separation_message_.state != berth_msgs::msg::Separation::UNMONITORED;
       last_status_ = message->status;
-      last_time_status_ = message->time_status;
+      last_text_ = separation_message_.text;
       if (marker_timer_) last_ = *message;
     }
     distances_->publish(std::move(message));
     separation_->publish(separation_message_);
-    if (is_told) {
+    if (is_monitored) {
       std_msgs::msg::Float64 scale;
       scale.data = separation_message_.speed_scale;
       speed_scale_->publish(scale);
     }
     const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - begin;
     times_.add(took.count());
+  }
+
+  void answer(LinkDistances& message) {
+    const LiveFrames frames = this->frames(*robot_.robot);
+    const berth::JointBuffer& joints = robot_.joints->buffer();
+    // Later than any image and any joint state that it asks about.
+    const rclcpp::Time now = this->now();
+    const double now_s = clock_.seconds(now);
+    result_ = query_->ask({.frames = frames,
+                           .joints = joints,
+                           .now_s = now_s,
+                           .X_WB = root_at(*robot_.robot, joints.newest_stamp_s())});
+    to_message(result_, base_frame(), now, clock_, message);
+    if (monitor_) {
+      monitor_->update(result_, joints, planned_, now_s, separation_message_);
+    } else {
+      say_unmonitored(separation_message_);
+      if (result_.status != berth::ResultStatus::ok) {
+        separation_message_.text = berth::status_text(result_);
+      }
+    }
+    to_message(message, may_be_degraded_, separation_message_);
+  }
+
+  /// There is no robot model yet, or the node is not to answer.
+  void say_nothing(LinkDistances& message) {
+    const std::string why = is_answering() ? "there is no robot model"
+                            : is_active()  ? "the node is disabled"
+                                           : "the node is not active";
+    say_no_robot(camera_names(), now(), message);
+    // Also before the robot is known: who obeys the scale must not wait for a first one.
+    if (separation_settings()) {
+      say_stop(why, separation_message_);
+    } else {
+      say_unmonitored(separation_message_);
+      separation_message_.text = "stale: " + why;
+    }
+    to_message(message, false, separation_message_);
+  }
+
+  std::optional<SpaceNow> space_now() {
+    const LiveRobot now = live();
+    if (!now.robot || !is_answering()) return {};
+    return SpaceNow{now.robot, frames(*now.robot), clock_.seconds(this->now())};
   }
 
   void on_plan(const sensor_msgs::msg::JointState& message) {
@@ -202,32 +260,31 @@ class DistanceNode : public LiveNode {
     status.add("99 %, us", times->p99_us);
     status.add("greatest, us", times->max_us);
     std::uint8_t result = 0;
-    std::uint8_t time = 0;
+    std::string text;
     {
       const std::lock_guard lock(query_mutex_);
       result = last_status_;
-      time = last_time_status_;
+      text = last_text_;
     }
     if (result == LinkDistances::OK) return status.summary(DiagnosticStatus::OK, "answered");
-    if (result == LinkDistances::DEGRADED) {
-      return status.summary(DiagnosticStatus::WARN, "answered without a camera");
-    }
-    const std::string why = time < berth::kTimeStatusCount
-                                ? std::string(berth::kTimeStatusNames[time])
-                                : "no robot model";
-    status.summary(DiagnosticStatus::ERROR, "no distances: " + why);
+    const bool has_distances = result == LinkDistances::DEGRADED;
+    status.summary(has_distances ? DiagnosticStatus::WARN : DiagnosticStatus::ERROR, text);
   }
 
-  rclcpp::Publisher<LinkDistances>::SharedPtr distances_;
-  rclcpp::Publisher<LinkDistances>::SharedPtr at_exposure_;
-  rclcpp::Publisher<berth_msgs::msg::Separation>::SharedPtr separation_;
-  rclcpp::Publisher<std_msgs::msg::Float64>::SharedPtr speed_scale_;
+  template <class Message>
+  using Publisher = typename rclcpp_lifecycle::LifecyclePublisher<Message>::SharedPtr;
+  Publisher<LinkDistances> distances_;
+  Publisher<LinkDistances> at_exposure_;
+  Publisher<berth_msgs::msg::Separation> separation_;
+  Publisher<std_msgs::msg::Float64> speed_scale_;
   rclcpp::Subscription<sensor_msgs::msg::JointState>::SharedPtr planned_subscription_;
-  rclcpp::Publisher<visualization_msgs::msg::MarkerArray>::SharedPtr markers_;
+  Publisher<visualization_msgs::msg::MarkerArray> markers_;
   static constexpr std::size_t kRecent = 4;
   /// Of each camera, for distances_at_exposure.
   std::vector<std::deque<std::shared_ptr<const berth::Frame>>> recent_;
-  bool asks_on_joints_ = false;
+  double question_hz_ = 0;
+  double marker_hz_ = 0;
+  std::mutex answer_mutex_;
   std::mutex query_mutex_;
   LiveRobot robot_;
   std::optional<berth::Query> query_;
@@ -237,11 +294,13 @@ class DistanceNode : public LiveNode {
   /// For markers, where there are any.
   LinkDistances last_;
   std::uint8_t last_status_ = LinkDistances::STALE;
-  std::uint8_t last_time_status_ = LinkDistances::TIME_NO_ROBOT;
+  std::string last_text_;
   berth_msgs::msg::Separation separation_message_;
   double velocity_window_s_ = 0;
-  bool is_monitored_ = false;
+  /// What the monitor does without a camera was chosen by the user.
+  bool may_be_degraded_ = false;
   std::optional<SpeedMonitor> monitor_;
+  std::optional<PlannerTopics> planners_;
   PlannedVelocity planned_;
   QuestionTimes times_;
   rclcpp::CallbackGroup::SharedPtr group_;
@@ -249,7 +308,8 @@ class DistanceNode : public LiveNode {
   rclcpp::TimerBase::SharedPtr marker_timer_;
 };
 
-std::shared_ptr<rclcpp::Node> make_distance_node(const rclcpp::NodeOptions& options) {
+std::shared_ptr<rclcpp_lifecycle::LifecycleNode> make_distance_node(
+    const rclcpp::NodeOptions& options) {
   return std::make_shared<DistanceNode>(options);
 }
 

@@ -1,6 +1,11 @@
 #include "live_node.hpp"
 
+#include <algorithm>
+#include <chrono>
+#include <lifecycle_msgs/msg/state.hpp>
+
 #include "berth/pipeline/camera_state.hpp"
+#include "berth/results/result_text.hpp"
 #include "berth/scene/open_scene.hpp"
 #include "robot_description.hpp"
 
@@ -9,6 +14,13 @@ namespace {
 
 using diagnostic_msgs::msg::DiagnosticStatus;
 using diagnostic_updater::DiagnosticStatusWrapper;
+
+/// Often enough to see what is lost for two images.
+constexpr std::chrono::milliseconds kWatchPeriod{50};
+
+double steady_now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 /// How many a second since the report before.
 double rate_since(std::int64_t count, const rclcpp::Time& now, std::int64_t& before,
@@ -20,46 +32,144 @@ double rate_since(std::int64_t count, const rclcpp::Time& now, std::int64_t& bef
   return rate;
 }
 
+bool waits_for_joints(const CameraReport& report) {
+  using berth::TimeStatus;
+  if (!report.trouble.empty() || !report.newest) return false;
+  const TimeStatus status = report.newest->time.status;
+  return status == TimeStatus::no_joints || status == TimeStatus::missing_joint ||
+         status == TimeStatus::extrapolated_too_far || status == TimeStatus::skewed;
+}
+
+std::string in_ms(double seconds) { return std::to_string(std::lround(1e3 * seconds)) + " ms"; }
+
 }  // namespace
 
 LiveNode::LiveNode(const std::string& name, const rclcpp::NodeOptions& options, bool has_one_camera)
-    : Node(name, options),
+    : LifecycleNode(name, options),
       diagnostics_(this),
-      settings_(*this, has_one_camera),
-      tf_(get_clock()),
-      joints_group_(create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive)),
-      robot_group_(create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive)) {
-  // Its thread of its own hears TF while callbacks of the node run.
-  tf_listener_ = std::make_unique<tf2_ros::TransformListener>(tf_);
-  const std::vector<CameraSettings> cameras = settings_.cameras();
-  for (std::size_t i = 0; i < cameras.size(); ++i) {
-    camera_names_.push_back(cameras[i].name);
-    inputs_.push_back(std::make_unique<CameraInput>(
-        *this, cameras[i], clock_, tf_,
-        [this, i](const berth::Frame& frame,
-                  const std::shared_ptr<const sensor_msgs::msg::Image>& image) {
-          on_frame(i, frame, image);
-        }));
-  }
-  reported_images_.resize(cameras.size());
-  reported_images_at_.resize(cameras.size(), rclcpp::Time(0, 0, get_clock()->get_clock_type()));
-  reported_joints_at_ = rclcpp::Time(0, 0, get_clock()->get_clock_type());
+      has_one_camera_(has_one_camera),
+      settings_(*this, has_one_camera) {
+  for (const CameraSettings& camera : settings_.cameras()) camera_names_.push_back(camera.name);
   diagnostics_.setHardwareID("berth");
   diagnostics_.add("robot", [this](DiagnosticStatusWrapper& status) { report_robot(status); });
   diagnostics_.add("joint states",
                    [this](DiagnosticStatusWrapper& status) { report_joints(status); });
-  for (std::size_t i = 0; i < cameras.size(); ++i) {
+  for (std::size_t i = 0; i < camera_names_.size(); ++i) {
     diagnostics_.add("camera " + camera_names_[i],
                      [this, i](DiagnosticStatusWrapper& status) { report_camera(i, status); });
   }
 }
 
+void LiveNode::begin() {
+  rcl_interfaces::msg::ParameterDescriptor descriptor;
+  descriptor.description =
+      "whether the node configures and activates itself; else a lifecycle manager does";
+  descriptor.read_only = true;
+  const bool starts_itself = declare_parameter("autostart", true, descriptor);
+  attachments_.emplace(*this, [this](const Attachments::List& list) { use_attached(list); });
+  follow_moveit();
+  NodeSettings::require_declared(*this, has_one_camera_);
+  enable_ = create_service<std_srvs::srv::SetBool>(
+      "~/set_enabled", [this](const std::shared_ptr<std_srvs::srv::SetBool::Request>& request,
+                              const std::shared_ptr<std_srvs::srv::SetBool::Response>& response) {
+        is_enabled_ = request->data;
+        response->success = true;
+        response->message = request->data ? "enabled" : "disabled: no distances, and a stop";
+        RCLCPP_INFO(get_logger(), "%s", response->message.c_str());
+      });
+  if (!starts_itself) return;
+  const bool is_configured = configure().id() == lifecycle_msgs::msg::State::PRIMARY_STATE_INACTIVE;
+  if (!is_configured) throw std::runtime_error(robot_trouble_);
+  activate();
+}
+
+void LiveNode::follow_moveit() {
+  rcl_interfaces::msg::ParameterDescriptor descriptor;
+  descriptor.description =
+      "whether what MoveIt has attached to the robot (monitored_planning_scene) is the robot's";
+  descriptor.read_only = true;
+  if (!declare_parameter("follow_moveit", false, descriptor)) return;
+#ifdef BERTH_ROS_MOVEIT
+  moveit_.emplace(*this, *attachments_);
+#else
+  throw std::invalid_argument(
+      "follow_moveit: true; expected false, since moveit_msgs was not installed where berth_ros "
+      "was built");
+#endif
+}
+
+LiveNode::CallbackReturn LiveNode::on_configure(const State&) {
+  try {
+    configure_outputs();
+    make_cameras();
+    listen();
+    return CallbackReturn::SUCCESS;
+  } catch (const std::exception& error) {
+    robot_trouble_ = error.what();
+    RCLCPP_ERROR(get_logger(), "%s", error.what());
+    stop();
+    clean_outputs();
+    return CallbackReturn::FAILURE;
+  }
+}
+
+LiveNode::CallbackReturn LiveNode::on_activate(const State& before) {
+  LifecycleNode::on_activate(before);
+  is_active_ = true;
+  activate_outputs();
+  return CallbackReturn::SUCCESS;
+}
+
+LiveNode::CallbackReturn LiveNode::on_deactivate(const State& before) {
+  is_active_ = false;
+  deactivate_outputs();
+  LifecycleNode::on_deactivate(before);
+  return CallbackReturn::SUCCESS;
+}
+
+LiveNode::CallbackReturn LiveNode::on_cleanup(const State&) {
+  stop();
+  clean_outputs();
+  return CallbackReturn::SUCCESS;
+}
+
+LiveNode::CallbackReturn LiveNode::on_shutdown(const State& before) {
+  if (is_active_) on_deactivate(before);
+  return on_cleanup(before);
+}
+
+void LiveNode::make_cameras() {
+  const std::vector<CameraSettings> cameras = settings_.cameras();
+  const rclcpp::Time never(0, 0, get_clock()->get_clock_type());
+  reported_images_.assign(cameras.size(), 0);
+  reported_images_at_.assign(cameras.size(), never);
+  reported_joints_at_ = never;
+  robot_trouble_ = "no robot_description yet";
+  joint_trouble_ = "no joint state yet";
+  log_.emplace(get_logger(), steady_now_s());
+  transforms_.emplace(*this, [this] { on_transforms(); });
+  images_ = std::make_unique<ImageNode>(*this, std::max<std::size_t>(2, cameras.size()));
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    inputs_.push_back(std::make_unique<CameraInput>(
+        *this, images_->node(), cameras[i], settings_.world_frame(), clock_, *transforms_,
+        [this, i](const berth::Frame& frame,
+                  const std::shared_ptr<const sensor_msgs::msg::Image>& image) {
+          if (is_answering()) on_frame(i, frame, image);
+        }));
+  }
+  has_inputs_ = true;
+}
+
 void LiveNode::listen() {
+  joints_group_ = create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive);
+  robot_group_ = create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive);
+  watch_group_ = create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive);
   if (!settings_.urdf_path().empty()) {
     load_model([&] { return load_urdf_file(settings_.robot_settings()); });
     // Nobody can mend a file for a node that has read it.
     if (!live().robot) throw std::runtime_error(robot_trouble_);
   } else {
+    on_robot();
     rclcpp::SubscriptionOptions options;
     options.callback_group = robot_group_;
     // Within a process, Humble has no transient local.
@@ -70,9 +180,18 @@ void LiveNode::listen() {
   }
   rclcpp::SubscriptionOptions options;
   options.callback_group = joints_group_;
+  options.qos_overriding_options = rclcpp::QosOverridingOptions::with_default_policies();
   joint_subscription_ = create_subscription<sensor_msgs::msg::JointState>(
       "joint_states", rclcpp::SensorDataQoS().keep_last(50),
       [this](const sensor_msgs::msg::JointState& state) { on_joint_state(state); }, options);
+  take_parameters();
+  watch_timer_ = create_wall_timer(
+      kWatchPeriod, [this] { watch(); }, watch_group_);
+  on_images();
+  images_->spin();
+}
+
+void LiveNode::take_parameters() {
   // Humble has no callback after the fact. Nobody else refuses these parameters.
   parameters_ = add_on_set_parameters_callback([this](const auto& changes) {
     rcl_interfaces::msg::SetParametersResult result;
@@ -88,12 +207,21 @@ void LiveNode::listen() {
 }
 
 void LiveNode::stop() {
+  watch_timer_.reset();
   description_subscription_.reset();
   joint_subscription_.reset();
   parameters_.reset();
-  // First all threads, then the cameras: a frame of one asks for those of all.
+  has_inputs_ = false;
+  // First no image comes any more, then all threads end, then the cameras: a frame of one asks for
+  // those of all.
+  images_.reset();
   for (const auto& input : inputs_) input->use(nullptr, nullptr, {});
   inputs_.clear();
+  transforms_.reset();
+  const std::lock_guard lock(mutex_);
+  model_.reset();
+  description_.clear();
+  live_ = {};
 }
 
 LiveRobot LiveNode::live() const {
@@ -107,20 +235,46 @@ LiveFrames LiveNode::frames(const berth::Robot& robot) const {
   return frames;
 }
 
+std::optional<berth::Pose> LiveNode::root_at(const berth::Robot& robot, double stamp_s) {
+  if (settings_.world_frame().empty()) return std::nullopt;
+  const std::string& world = settings_.world_frame();
+  const std::string& root = robot.model().links.front().name;
+  const double max_age_s = robot.settings().time.max_joints_age_s;
+  const rclcpp::Time stamp(clock_.stamp(stamp_s), RCL_ROS_TIME);
+  std::string why;
+  auto told = transforms_->at(world, root, stamp, max_age_s, why);
+  if (!told) {
+    // As joints are, where it is when it was told last.
+    told = transforms_->newest(world, root, why);
+    const bool is_old = told && !told->is_static && (stamp - told->stamp).seconds() > max_age_s;
+    if (is_old) told.reset();
+  }
+  return told ? told->X_PF : berth::unset_pose();
+}
+
+void LiveNode::on_transforms() {
+  if (!has_inputs_) return;
+  for (const auto& input : inputs_) input->look_again();
+}
+
 void LiveNode::load_model(const std::function<berth::RobotModel()>& load) {
   std::optional<berth::RobotModel> model;
   std::string trouble;
+  std::vector<std::string> lost;
   try {
     model = load();
   } catch (const std::exception& error) {
     trouble = error.what();
-    RCLCPP_ERROR(get_logger(), "%s", error.what());
   }
   {
     const std::lock_guard lock(mutex_);
     model_ = std::move(model);
     robot_trouble_ = trouble;
     live_.joints.reset();
+    if (model_) lost = attachments_->keep_those_of(*model_);
+  }
+  for (const std::string& name : lost) {
+    RCLCPP_WARN(get_logger(), "detached %s: the new robot does not have its link", name.c_str());
   }
   rebuild();
 }
@@ -131,27 +285,44 @@ void LiveNode::on_description(const std_msgs::msg::String& description) {
   load_model([&] { return load_description(description_, settings_.robot_settings()); });
 }
 
+LiveRobot LiveNode::make_robot(const Attachments::List& attached) const {
+  const auto& scene = settings_.scene();
+  Attachments::List all = scene ? berth::attachments_of(*scene) : Attachments::List();
+  all.insert(all.end(), attached.begin(), attached.end());
+  LiveRobot made;
+  made.robot = std::make_shared<const berth::Robot>(*model_, settings_.evaluation(), all);
+  // Neither settings nor what is attached changes joints: those that came stay.
+  made.joints = live_.joints
+                    ? live_.joints
+                    : std::make_shared<berth::JointIntake>(*model_, settings_.joint_settings());
+  return made;
+}
+
+void LiveNode::use_attached(const Attachments::List& attached) {
+  LiveRobot made;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!model_) throw std::runtime_error("there is no robot model yet");
+    live_ = made = make_robot(attached);
+  }
+  use(made);
+}
+
 void LiveNode::rebuild() {
   LiveRobot made;
   try {
     const std::lock_guard lock(mutex_);
-    if (model_) {
-      const auto& scene = settings_.scene();
-      made.robot = std::make_shared<const berth::Robot>(
-          *model_, settings_.evaluation(),
-          scene ? berth::attachments_of(*scene) : std::vector<berth::Attachment>());
-      // Settings change no joints: those that came stay.
-      made.joints = live_.joints
-                        ? live_.joints
-                        : std::make_shared<berth::JointIntake>(*model_, settings_.joint_settings());
-    }
+    if (model_) made = make_robot(attachments_->list());
     live_ = made;
   } catch (const std::exception& error) {
-    RCLCPP_ERROR(get_logger(), "%s", error.what());
     const std::lock_guard lock(mutex_);
     robot_trouble_ = error.what();
-    live_ = made = {};
+    live_ = {};
   }
+  use(made);
+}
+
+void LiveNode::use(const LiveRobot& made) {
   const std::vector<CameraSettings> cameras = settings_.cameras();
   for (std::size_t i = 0; i < inputs_.size(); ++i) {
     inputs_[i]->use(made.robot, made.joints, cameras[i].view);
@@ -180,13 +351,81 @@ void LiveNode::on_joint_state(const sensor_msgs::msg::JointState& state) {
     joint_trouble_ = trouble;
     if (!trouble.empty()) ++refused_joint_messages_;
   }
-  for (const auto& input : inputs_) input->joints_came();
+  for (const auto& input : inputs_) input->look_again();
   on_joints();
+}
+
+void LiveNode::watch() {
+  const double now_s = steady_now_s();
+  const LiveRobot robot = live();
+  log_->tell("robot", robot_trouble(), now_s);
+  // What else is missing is told once this is there.
+  if (!robot.robot) return;
+  const double clock_s = clock_.seconds(this->now());
+  {
+    const double age_s = clock_s - robot.joints->buffer().newest_stamp_s();
+    const std::lock_guard lock(mutex_);
+    if (age_s > oldest_joints_s_) oldest_joints_s_ = age_s;
+  }
+  const std::string joints = joint_trouble(robot, clock_s);
+  log_->tell("joint states", joints, now_s);
+  for (std::size_t i = 0; i < inputs_.size(); ++i) {
+    const CameraReport report = inputs_[i]->report();
+    const std::string name = "camera " + camera_names_[i];
+    log_->tell("images of " + name, report.rate.trouble(), now_s);
+    // Without joints no image can be used: one line tells of both.
+    if (!joints.empty() && waits_for_joints(report)) continue;
+    log_->tell(name, camera_trouble(report, robot, clock_s), now_s, !report.pose_trouble.empty());
+  }
+}
+
+std::string LiveNode::robot_trouble() const {
+  const std::lock_guard lock(mutex_);
+  return live_.robot ? "" : robot_trouble_;
+}
+
+std::string LiveNode::joint_trouble(const LiveRobot& robot, double now_s) const {
+  if (!robot.joints) return "no robot model yet";
+  const double max_age_s = robot.robot->settings().time.max_joints_age_s;
+  const double age_s = now_s - robot.joints->buffer().newest_stamp_s();
+  const std::string waiting_for(robot.joints->waiting_for());
+  const std::lock_guard lock(mutex_);
+  // NaN, which is no limit's, too.
+  if (!(age_s <= max_age_s + 1)) {
+    if (!joint_trouble_.empty()) return joint_trouble_;
+    return "no new joint states" +
+           (waiting_for.empty() ? "" : " (waiting for joint " + waiting_for + ")");
+  }
+  if (!joint_trouble_.empty()) return "the newest message was refused: " + joint_trouble_;
+  if (age_s <= max_age_s) return "";
+  return "the newest are up to " + in_ms(age_s) + " old; time.max_joints_age_s allows " +
+         in_ms(max_age_s);
+}
+
+std::string LiveNode::camera_trouble(const CameraReport& report, const LiveRobot& robot,
+                                     double now_s) const {
+  if (!report.trouble.empty()) return report.trouble;
+  if (!robot.robot) return "no robot model yet";
+  if (!report.newest) return "no image observed yet";
+  berth::CameraResult camera;
+  static_cast<berth::CameraState&>(camera) =
+      berth::camera_state(report.newest.get(), now_s, robot.robot->settings().time);
+  camera.camera = report.newest->view->mount().name;
+  // The line begins with the camera's name.
+  std::string trouble = berth::camera_text(camera);
+  const std::string name = "camera " + camera.camera + " ";
+  if (trouble.rfind(name, 0) == 0) trouble.erase(0, name.size());
+  // Images that wait for transforms may also be dropped for newer ones, until the last one is old.
+  const bool lacks_pose = !trouble.empty() && !report.pose_trouble.empty();
+  return lacks_pose ? trouble + ": " + report.pose_trouble : trouble;
 }
 
 void LiveNode::report_robot(DiagnosticStatusWrapper& status) {
   const std::lock_guard lock(mutex_);
-  if (!live_.robot) return status.summary(DiagnosticStatus::ERROR, robot_trouble_);
+  if (!live_.robot) {
+    return status.summary(DiagnosticStatus::ERROR,
+                          is_active_ ? robot_trouble_ : "the node is not active");
+  }
   status.summary(DiagnosticStatus::OK, "loaded");
   status.add("robot", live_.robot->model().name);
   status.add("links evaluated", live_.robot->model().link_count());
@@ -196,32 +435,43 @@ void LiveNode::report_robot(DiagnosticStatusWrapper& status) {
 void LiveNode::report_joints(DiagnosticStatusWrapper& status) {
   const LiveRobot robot = live();
   const rclcpp::Time now = this->now();
-  const std::lock_guard lock(mutex_);
-  const double rate = rate_since(joint_messages_, now, reported_joints_, reported_joints_at_);
-  status.add("messages a second", rate);
-  status.add("refused", refused_joint_messages_);
+  double oldest_s = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    status.add("messages a second",
+               rate_since(joint_messages_, now, reported_joints_, reported_joints_at_));
+    status.add("refused", refused_joint_messages_);
+    oldest_s = std::exchange(oldest_joints_s_, 0);
+  }
   if (!robot.joints) return status.summary(DiagnosticStatus::WARN, "no robot model yet");
   const double age_s = clock_.seconds(now) - robot.joints->buffer().newest_stamp_s();
+  const double max_age_s = robot.robot->settings().time.max_joints_age_s;
   const std::string waiting_for(robot.joints->waiting_for());
   status.add("age of the newest whole sample, s", age_s);
+  status.add("greatest age since the last report, s", oldest_s);
   status.add("clock was set back", robot.joints->restarts());
   if (!waiting_for.empty()) status.add("waiting for joint", waiting_for);
-  // NaN, which is no limit's, too.
-  if (!(age_s <= robot.robot->settings().time.max_joints_age_s + 1)) {
-    const std::string of = waiting_for.empty() ? "" : " (waiting for joint " + waiting_for + ")";
-    status.summary(DiagnosticStatus::ERROR, "no new joint states" + of);
-  } else if (!joint_trouble_.empty()) {
-    status.summary(DiagnosticStatus::WARN, "the newest message was refused: " + joint_trouble_);
-  } else {
-    status.summary(DiagnosticStatus::OK, "coming");
+  const std::string trouble = joint_trouble(robot, clock_.seconds(now));
+  if (!(age_s <= max_age_s + 1)) return status.summary(DiagnosticStatus::ERROR, trouble);
+  if (!trouble.empty()) return status.summary(DiagnosticStatus::WARN, trouble);
+  if (oldest_s > max_age_s) {
+    return status.summary(DiagnosticStatus::WARN, "now and then they are " + in_ms(oldest_s) +
+                                                      " old; time.max_joints_age_s allows " +
+                                                      in_ms(max_age_s));
   }
+  status.summary(DiagnosticStatus::OK, "coming");
 }
 
 void LiveNode::report_camera(std::size_t camera, DiagnosticStatusWrapper& status) {
+  if (!has_inputs_) return status.summary(DiagnosticStatus::WARN, "the node is not configured");
   const CameraReport report = inputs_[camera]->report();
   const rclcpp::Time now = this->now();
   status.add("images a second", rate_since(report.counts.images, now, reported_images_[camera],
                                            reported_images_at_[camera]));
+  if (report.rate.is_known()) {
+    status.add("images a second that the camera sends", report.rate.sent_hz());
+    status.add("images a second that arrive", report.rate.arrived_hz());
+  }
   status.add("dropped", report.counts.dropped);
   status.add("refused", report.refused);
   status.add("stale", report.counts.stale);
@@ -230,19 +480,34 @@ void LiveNode::report_camera(std::size_t camera, DiagnosticStatusWrapper& status
   status.add("observed in, ms", 1e3 * report.counts.last_observe_s);
   status.add("pose from", report.pose_from);
   status.add("poses so far", report.mounts);
-  if (!report.trouble.empty()) return status.summary(DiagnosticStatus::ERROR, report.trouble);
-  if (!report.newest) return status.summary(DiagnosticStatus::WARN, "no image observed yet");
-  const berth::Frame& frame = *report.newest;
+  const LiveRobot robot = live();
+  if (report.newest && robot.robot) report_frame(*report.newest, *robot.robot, status);
+  const double now_s = clock_.seconds(now);
+  const std::string trouble = camera_trouble(report, robot, now_s);
+  if (trouble.empty()) {
+    const std::string lost = report.rate.trouble();
+    return lost.empty() ? status.summary(DiagnosticStatus::OK, "ok")
+                        : status.summary(DiagnosticStatus::WARN, lost);
+  }
+  const bool is_lost =
+      !report.trouble.empty() || !report.newest || !robot.robot ||
+      !berth::is_used(
+          berth::camera_state(report.newest.get(), now_s, robot.robot->settings().time).status);
+  const bool is_waiting = report.trouble.empty() && (!report.newest || !robot.robot);
+  status.summary(is_lost && !is_waiting ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN,
+                 trouble);
+}
+
+void LiveNode::report_frame(const berth::Frame& frame, const berth::Robot& robot,
+                            DiagnosticStatusWrapper& status) {
   const auto pixels = static_cast<double>(frame.obstacles.fate.pixels().size());
   for (int i = 0; pixels > 0 && i < berth::kPixelFateCount; ++i) {
     const auto fate = static_cast<berth::PixelFate>(i);
     if (frame.obstacles.count[i] == 0) continue;
     status.add("share of pixels: " + std::string(name_of(fate)), frame.obstacles.count[i] / pixels);
   }
-  const LiveRobot robot = live();
-  if (!robot.robot) return status.summary(DiagnosticStatus::WARN, "no robot model");
   const berth::CameraState state =
-      berth::camera_state(&frame, clock_.seconds(now), robot.robot->settings().time);
+      berth::camera_state(&frame, clock_.seconds(this->now()), robot.settings().time);
   status.add("age of the newest image, s", state.age_s);
   if (state.watch.is_on) {
     status.add("seen through the robot", state.watch.seen_through);
@@ -251,17 +516,6 @@ void LiveNode::report_camera(std::size_t camera, DiagnosticStatusWrapper& status
   if (state.watch.is_implausible) {
     status.add("share of readings at the robot's surface", state.watch.at_robot);
   }
-  if (state.status == berth::CameraStatus::hidden) {
-    return status.summary(DiagnosticStatus::WARN, "the robot is hidden");
-  }
-  if (state.status == berth::CameraStatus::unconfirmed) {
-    return status.summary(DiagnosticStatus::WARN,
-                          "the robot is not where it should be in the images");
-  }
-  if (state.status == berth::CameraStatus::ok) return status.summary(DiagnosticStatus::OK, "ok");
-  const std::string_view why =
-      state.status == berth::CameraStatus::stale ? name_of(state.time) : name_of(state.status);
-  status.summary(DiagnosticStatus::ERROR, "not used: " + std::string(why));
 }
 
 }  // namespace berth_ros

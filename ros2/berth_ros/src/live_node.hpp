@@ -1,20 +1,28 @@
 // What both nodes have: settings, the robot's model and joints, cameras, diagnostics of these.
 #pragma once
 
-#include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
+#include <atomic>
 #include <diagnostic_updater/diagnostic_updater.hpp>
 #include <memory>
 #include <mutex>
-#include <rclcpp/rclcpp.hpp>
+#include <rclcpp_lifecycle/lifecycle_node.hpp>
 #include <sensor_msgs/msg/joint_state.hpp>
 #include <std_msgs/msg/string.hpp>
+#include <std_srvs/srv/set_bool.hpp>
 #include <string>
 #include <vector>
 
+#include "attachments.hpp"
 #include "camera_input.hpp"
+#include "image_node.hpp"
 #include "node_settings.hpp"
 #include "stamp_clock.hpp"
+#include "status_log.hpp"
+#include "transforms.hpp"
+
+#ifdef BERTH_ROS_MOVEIT
+#include "moveit_attached.hpp"
+#endif
 
 namespace berth_ros {
 
@@ -27,13 +35,38 @@ struct LiveRobot {
   std::shared_ptr<berth::JointIntake> joints;
 };
 
-class LiveNode : public rclcpp::Node {
- protected:
-  LiveNode(const std::string& name, const rclcpp::NodeOptions& options, bool has_one_camera);
-  /// Begins to listen. To be called at the end of the constructor of who derives, since callbacks
-  /// call what follows.
-  void listen();
+/// A lifecycle node: configured it listens, active it answers. With the parameter `autostart` it
+/// goes there by itself.
+class LiveNode : public rclcpp_lifecycle::LifecycleNode {
+ public:
+  using State = rclcpp_lifecycle::State;
+  using CallbackReturn = rclcpp_lifecycle::node_interfaces::LifecycleNodeInterface::CallbackReturn;
 
+  CallbackReturn on_configure(const State& before) final;
+  CallbackReturn on_activate(const State& before) final;
+  CallbackReturn on_deactivate(const State& before) final;
+  CallbackReturn on_cleanup(const State& before) final;
+  CallbackReturn on_shutdown(const State& before) final;
+
+ protected:
+  /// Throws std::exception for a bad file or parameter.
+  LiveNode(const std::string& name, const rclcpp::NodeOptions& options, bool has_one_camera);
+  /// To be called at the end of the constructor of who derives, once its parameters are declared:
+  /// refuses those that nobody declared, and starts by itself where that is asked for.
+  void begin();
+  /// Ends the cameras' threads and what calls back; to be called first by the destructor of who
+  /// derives.
+  void stop();
+
+  /// Makes publishers and what else is needed; before any callback.
+  virtual void configure_outputs() = 0;
+  /// The images' node is there, and spins after this.
+  virtual void on_images() {}
+  virtual void activate_outputs() {}
+  /// The last moment at which something can be said.
+  virtual void deactivate_outputs() {}
+  /// No callback runs any more.
+  virtual void clean_outputs() = 0;
   /// A frame was observed, in its camera's thread.
   virtual void on_frame(std::size_t camera, const berth::Frame& frame,
                         const std::shared_ptr<const sensor_msgs::msg::Image>& image) = 0;
@@ -41,10 +74,9 @@ class LiveNode : public rclcpp::Node {
   /// The robot is another one, or there is none any more.
   virtual void on_robot() {}
 
-  /// Ends the cameras' threads and what calls back; to be called first by the destructor of who
-  /// derives.
-  void stop();
-
+  /// Whether the node is active, and nobody has disabled it.
+  bool is_answering() const { return is_active_ && is_enabled_; }
+  bool is_active() const { return is_active_; }
   LiveRobot live() const;
   /// None: nothing is monitored.
   std::optional<berth::SeparationSettings> separation_settings() const {
@@ -52,37 +84,73 @@ class LiveNode : public rclcpp::Node {
   }
   /// The newest of each camera of this robot.
   LiveFrames frames(const berth::Robot& robot) const;
+  /// Where the robot's root stands at this time: none where it does not move, not finite where
+  /// nobody knows.
+  std::optional<berth::Pose> root_at(const berth::Robot& robot, double stamp_s);
   const std::vector<std::string>& camera_names() const { return camera_names_; }
   /// Of a node with one camera.
   const CameraSettings& camera_settings() const { return inputs_.front()->settings(); }
+  ImageNode& images() { return *images_; }
 
   StampClock clock_;
   diagnostic_updater::Updater diagnostics_;
 
  private:
+  void listen();
+  /// Where the parameter asks for it. Throws where this build cannot.
+  void follow_moveit();
+  void make_cameras();
+  void take_parameters();
   void on_description(const std_msgs::msg::String& description);
   void on_joint_state(const sensor_msgs::msg::JointState& state);
+  void on_transforms();
   /// Makes robot and cameras anew of model_ and settings_; or says in robot_trouble_ why not.
   void rebuild();
+  /// The same with these attached. Throws std::exception, and changes nothing, where that cannot
+  /// be.
+  void use_attached(const Attachments::List& attached);
+  /// To be called with the mutex, where there is a model.
+  LiveRobot make_robot(const Attachments::List& attached) const;
+  void use(const LiveRobot& made);
   void load_model(const std::function<berth::RobotModel()>& load);
+  /// Tells the log how all stands.
+  void watch();
+  std::string robot_trouble() const;
+  std::string joint_trouble(const LiveRobot& robot, double now_s) const;
+  std::string camera_trouble(const CameraReport& report, const LiveRobot& robot,
+                             double now_s) const;
   void report_robot(diagnostic_updater::DiagnosticStatusWrapper& status);
   void report_joints(diagnostic_updater::DiagnosticStatusWrapper& status);
   void report_camera(std::size_t camera, diagnostic_updater::DiagnosticStatusWrapper& status);
+  void report_frame(const berth::Frame& frame, const berth::Robot& robot,
+                    diagnostic_updater::DiagnosticStatusWrapper& status);
 
+  bool has_one_camera_;
   NodeSettings settings_;
   std::vector<std::string> camera_names_;
-  tf2_ros::Buffer tf_;
-  std::unique_ptr<tf2_ros::TransformListener> tf_listener_;
+  std::atomic<bool> is_active_ = false;
+  std::atomic<bool> is_enabled_ = true;
 
   mutable std::mutex mutex_;
   std::optional<berth::RobotModel> model_;
   std::string description_;
-  std::string robot_trouble_ = "no robot_description yet";
+  std::string robot_trouble_;
   LiveRobot live_;
   std::int64_t joint_messages_ = 0;
   std::int64_t refused_joint_messages_ = 0;
-  std::string joint_trouble_ = "no joint state yet";
+  std::string joint_trouble_;
+  /// The greatest age of the newest joints since the last report, as it was sampled.
+  double oldest_joints_s_ = 0;
+  std::optional<Transforms> transforms_;
+  std::unique_ptr<ImageNode> images_;
   std::vector<std::unique_ptr<CameraInput>> inputs_;
+  /// The inputs may be looped over by callbacks of transforms before all are made.
+  std::atomic<bool> has_inputs_ = false;
+  std::optional<StatusLog> log_;
+  std::optional<Attachments> attachments_;
+#ifdef BERTH_ROS_MOVEIT
+  std::optional<MoveItAttached> moveit_;
+#endif
   std::vector<std::int64_t> reported_images_;
   std::int64_t reported_joints_ = 0;
   rclcpp::Time reported_joints_at_;
@@ -90,8 +158,11 @@ class LiveNode : public rclcpp::Node {
 
   rclcpp::CallbackGroup::SharedPtr joints_group_;
   rclcpp::CallbackGroup::SharedPtr robot_group_;
+  rclcpp::CallbackGroup::SharedPtr watch_group_;
   rclcpp::Subscription<std_msgs::msg::String>::SharedPtr description_subscription_;
   rclcpp::Subscription<sensor_msgs::msg::JointState>::SharedPtr joint_subscription_;
+  rclcpp::Service<std_srvs::srv::SetBool>::SharedPtr enable_;
+  rclcpp::TimerBase::SharedPtr watch_timer_;
   OnSetParametersCallbackHandle::SharedPtr parameters_;
 };
 

@@ -33,11 +33,12 @@ struct CameraSettings {
   std::string image_transport = "raw";
   /// The images are rectified: camera_info's P counts, and its distortion does not.
   bool is_rectified = false;
+  bool is_reliable = false;
   /// Their robot is taken out already.
   bool is_filtered = false;
   berth::DepthUnits units;
   berth::LiveCameraSettings live;
-  berth::CameraSettings view = berth::settings_of_real_camera();
+  berth::CameraSettings view;
   PoseSource pose_source = PoseSource::automatic;
   /// Of the scene file.
   std::optional<berth::CameraMount> scene_mount;
@@ -49,11 +50,13 @@ class NodeSettings {
   /// Reads the scene file where `scene` names one. `camera_names` is the default of `cameras`;
   /// with one unnamed camera (self_filter_node) topics have no prefix. Throws std::runtime_error
   /// and std::invalid_argument for bad files and values.
-  NodeSettings(rclcpp::Node& node, bool has_one_camera);
+  NodeSettings(SettingNode& node, bool has_one_camera);
 
   const std::optional<berth::SceneFile>& scene() const { return scene_; }
   /// Empty: the URDF comes as a message.
   const std::string& urdf_path() const { return urdf_path_; }
+  /// Empty: the robot's base stands still.
+  const std::string& world_frame() const { return world_frame_; }
   /// What the robot's model is loaded by, but for the URDF's text.
   berth::RobotSettings robot_settings() const { return robot_; }
   berth::JointIntakeSettings joint_settings() const { return joints_; }
@@ -62,6 +65,11 @@ class NodeSettings {
   /// None: nothing is monitored.
   std::optional<berth::SeparationSettings> separation() const { return separation_of(given_); }
 
+  /// Throws std::invalid_argument for a parameter that somebody gave and nobody declared, with the
+  /// nearest name; to be called once all are declared. Those of the other node pass, since a file
+  /// may be for both.
+  static void require_declared(SettingNode& node, bool has_one_camera);
+
   /// Throws std::invalid_argument where settings with these changes would be refused.
   void check(const std::vector<rclcpp::Parameter>& changes) const;
   /// Whether any of them is a setting of robot or cameras, so that those have to be made anew.
@@ -69,13 +77,14 @@ class NodeSettings {
 
  private:
   /// Tells what it warns of. Throws where its distances are not found by method mesh.
-  void judge_scene(const rclcpp::Node& node) const;
-  void declare_robot(rclcpp::Node& node);
-  void declare_joints(rclcpp::Node& node);
-  void declare_evaluation(rclcpp::Node& node);
-  void declare_separation(rclcpp::Node& node);
-  void declare_cameras(rclcpp::Node& node, bool has_one_camera);
-  void declare_camera(rclcpp::Node& node, const std::string& name, bool has_one_camera);
+  void judge_scene(const SettingNode& node) const;
+  void warn_unwatched(const SettingNode& node) const;
+  void declare_robot(SettingNode& node);
+  void declare_joints(SettingNode& node);
+  void declare_evaluation(SettingNode& node);
+  void declare_separation(SettingNode& node);
+  void declare_cameras(SettingNode& node, bool has_one_camera);
+  void declare_camera(SettingNode& node, const std::string& name, bool has_one_camera);
   bool is_setting(const std::string& name) const;
   GivenParameters with(const std::vector<rclcpp::Parameter>& changes) const;
   /// The scene file's, else the defaults.
@@ -86,6 +95,7 @@ class NodeSettings {
 
   std::optional<berth::SceneFile> scene_;
   std::string urdf_path_;
+  std::string world_frame_;
   berth::RobotSettings robot_;
   berth::JointIntakeSettings joints_;
   std::vector<CameraSettings> cameras_;

@@ -124,7 +124,8 @@ void say_no_robot(const std::vector<std::string>& camera_names, const rclcpp::Ti
   }
 }
 
-void to_message(const LinkDistances& distances, berth_msgs::msg::Separation& out) {
+void to_message(const LinkDistances& distances, bool may_be_degraded,
+                berth_msgs::msg::Separation& out) {
   out.header = distances.header;
   out.status = distances.status;
   out.time_status = distances.time_status;
@@ -139,6 +140,8 @@ void to_message(const LinkDistances& distances, berth_msgs::msg::Separation& out
     const auto status = static_cast<berth::CameraStatus>(camera.status);
     if (berth::is_used(status)) out.frame_age_s = std::fmax(out.frame_age_s, camera.age_s);
   }
+  // Distances may be larger than with the camera that is lost.
+  if (distances.status == LinkDistances::DEGRADED && !may_be_degraded) return;
   float bound_m = std::numeric_limits<float>::infinity();
   const LinkDistance* nearest = nullptr;
   for (const LinkDistance& link : distances.links) {

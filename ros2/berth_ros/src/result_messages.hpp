@@ -20,7 +20,9 @@ void to_message(const berth::Result& result, const std::string& base_frame, cons
 void say_no_robot(const std::vector<std::string>& camera_names, const rclcpp::Time& now,
                   berth_msgs::msg::LinkDistances& out);
 
-/// The least distance of the links that a joint moves.
-void to_message(const berth_msgs::msg::LinkDistances& distances, berth_msgs::msg::Separation& out);
+/// The least distance of the links that a joint moves. A degraded result has one only with
+/// `may_be_degraded`.
+void to_message(const berth_msgs::msg::LinkDistances& distances, bool may_be_degraded,
+                berth_msgs::msg::Separation& out);
 
 }  // namespace berth_ros

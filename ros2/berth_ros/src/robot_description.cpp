@@ -6,6 +6,8 @@
 #include <regex>
 #include <sstream>
 
+#include "berth/robot/package_path.hpp"
+
 namespace berth_ros {
 namespace {
 
@@ -36,6 +38,12 @@ berth::RobotModel load_urdf_file(berth::RobotSettings settings) {
   text << std::ifstream(settings.urdf).rdbuf();
   add_packages(text.str(), settings);
   return berth::load_robot(settings);
+}
+
+std::filesystem::path mesh_file_of(const std::string& resource) {
+  berth::RobotSettings settings;
+  add_packages(resource, settings);
+  return berth::resolve_mesh_path(resource, "an attached mesh", settings.package_paths);
 }
 
 }  // namespace berth_ros

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "berth/robot/robot_model.hpp"
@@ -12,5 +13,9 @@ berth::RobotModel load_description(const std::string& urdf, berth::RobotSettings
 
 /// The same for settings.urdf, a file.
 berth::RobotModel load_urdf_file(berth::RobotSettings settings);
+
+/// The file of a mesh: package://NAME/..., file://... or a path. Throws std::runtime_error where
+/// nobody knows the package.
+std::filesystem::path mesh_file_of(const std::string& resource);
 
 }  // namespace berth_ros

@@ -9,7 +9,7 @@ int main(int argc, char** argv) {
     rclcpp::init(argc, argv);
     rclcpp::executors::MultiThreadedExecutor executor;
     const auto node = berth_ros::BERTH_ROS_MAKE_NODE(rclcpp::NodeOptions());
-    executor.add_node(node);
+    executor.add_node(node->get_node_base_interface());
     executor.spin();
     rclcpp::shutdown();
   } catch (const std::exception& error) {

@@ -13,17 +13,27 @@ class SelfFilterNode : public LiveNode {
  public:
   explicit SelfFilterNode(const rclcpp::NodeOptions& options)
       : LiveNode("self_filter_node", options, true) {
-    const rclcpp::QoS qos = rclcpp::SensorDataQoS();
-    world_depth_ =
-        image_transport::create_publisher(this, "world_depth", qos.get_rmw_qos_profile());
-    robot_mask_ = create_publisher<Image>("robot_mask", qos);
-    robot_depth_ = create_publisher<Image>("robot_depth", qos);
-    listen();
+    begin();
   }
   ~SelfFilterNode() override { stop(); }
 
  private:
   using Image = sensor_msgs::msg::Image;
+
+  void configure_outputs() override {
+    robot_mask_ = create_publisher<Image>("robot_mask", rclcpp::SensorDataQoS());
+    robot_depth_ = create_publisher<Image>("robot_depth", rclcpp::SensorDataQoS());
+  }
+  void on_images() override {
+    world_depth_ = image_transport::create_publisher(
+        &images().node(), get_node_topics_interface()->resolve_topic_name("world_depth"),
+        rclcpp::SensorDataQoS().get_rmw_qos_profile());
+  }
+  void clean_outputs() override {
+    world_depth_ = {};
+    robot_mask_.reset();
+    robot_depth_.reset();
+  }
 
   void on_frame(std::size_t, const berth::Frame& frame,
                 const std::shared_ptr<const Image>& image) override {
@@ -75,11 +85,12 @@ class SelfFilterNode : public LiveNode {
   }
 
   image_transport::Publisher world_depth_;
-  rclcpp::Publisher<Image>::SharedPtr robot_mask_;
-  rclcpp::Publisher<Image>::SharedPtr robot_depth_;
+  rclcpp_lifecycle::LifecyclePublisher<Image>::SharedPtr robot_mask_;
+  rclcpp_lifecycle::LifecyclePublisher<Image>::SharedPtr robot_depth_;
 };
 
-std::shared_ptr<rclcpp::Node> make_self_filter_node(const rclcpp::NodeOptions& options) {
+std::shared_ptr<rclcpp_lifecycle::LifecycleNode> make_self_filter_node(
+    const rclcpp::NodeOptions& options) {
   return std::make_shared<SelfFilterNode>(options);
 }
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <rclcpp/rclcpp.hpp>
+#include <rclcpp_lifecycle/lifecycle_node.hpp>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -14,6 +14,9 @@
 #include "berth/types/setting.hpp"
 
 namespace berth_ros {
+
+/// The nodes that have settings.
+using SettingNode = rclcpp_lifecycle::LifecycleNode;
 
 /// The parameters that somebody gave, by name: at the start or later. All others are at their
 /// defaults, and a scene file may say otherwise.
@@ -38,7 +41,14 @@ rclcpp::ParameterValue parameter_of(const T& value) {
   }
 }
 
-/// The other way. Throws std::invalid_argument for a name that no enumerator has.
+/// A number that was written without a point is one too.
+inline double number_of(const rclcpp::ParameterValue& value) {
+  const bool is_whole = value.get_type() == rclcpp::ParameterType::PARAMETER_INTEGER;
+  return is_whole ? static_cast<double>(value.get<std::int64_t>()) : value.get<double>();
+}
+
+/// The other way. Throws std::invalid_argument for a name that no enumerator has, and
+/// rclcpp::ParameterTypeException for a value of another type.
 template <class T>
 void assign_parameter(const std::string& name, const rclcpp::ParameterValue& value, T& out) {
   if constexpr (std::is_same_v<T, bool>) {
@@ -57,14 +67,14 @@ void assign_parameter(const std::string& name, const rclcpp::ParameterValue& val
   } else if constexpr (std::is_integral_v<T>) {
     out = static_cast<T>(value.get<std::int64_t>());
   } else if constexpr (std::is_floating_point_v<T>) {
-    out = value.get<double>();
+    out = number_of(value);
   } else if constexpr (std::is_enum_v<typename T::value_type>) {
     if (value.get<std::string>().empty()) {
       out.reset();
     } else {
       assign_parameter(name, value, out.emplace());
     }
-  } else if (std::isnan(value.get<double>())) {
+  } else if (std::isnan(number_of(value))) {
     out.reset();
   } else {
     assign_parameter(name, value, out.emplace());
@@ -108,19 +118,32 @@ rcl_interfaces::msg::ParameterDescriptor descriptor_of(const berth::Setting& set
   return descriptor;
 }
 
-/// Declares `group`.NAME for each setting. With `only_given`, those alone that somebody gave: what
-/// a single camera overrides.
+/// Declares `group`.NAME for each setting.
 template <class Settings>
-void declare_settings(rclcpp::Node& node, const std::string& group, const Settings& defaults,
-                      bool only_given, GivenParameters& given) {
+void declare_settings(SettingNode& node, const std::string& group, const Settings& defaults,
+                      GivenParameters& given) {
   const auto& overrides = node.get_node_parameters_interface()->get_parameter_overrides();
   visit_settings(defaults, [&](const berth::Setting& setting, const auto& value) {
     const std::string name = group + "." + std::string(setting.name);
-    const bool is_given = overrides.count(name) > 0;
-    if (only_given && !is_given) return;
     const rclcpp::ParameterValue now =
         node.declare_parameter(name, parameter_of(value), descriptor_of(setting, value));
-    if (is_given) given[name] = now;
+    if (overrides.count(name) > 0) given[name] = now;
+  });
+}
+
+/// The same for what a single camera overrides: not set, where that of all cameras counts.
+template <class Settings>
+void declare_own_settings(SettingNode& node, const std::string& group, const Settings& defaults,
+                          GivenParameters& given) {
+  const auto& overrides = node.get_node_parameters_interface()->get_parameter_overrides();
+  visit_settings(defaults, [&](const berth::Setting& setting, const auto& value) {
+    const std::string name = group + "." + std::string(setting.name);
+    auto descriptor = descriptor_of(setting, value);
+    descriptor.description += "; not set: as for all cameras";
+    descriptor.dynamic_typing = true;
+    const rclcpp::ParameterValue now =
+        node.declare_parameter(name, rclcpp::ParameterValue(), descriptor);
+    if (overrides.count(name) > 0) given[name] = now;
   });
 }
 
@@ -130,7 +153,9 @@ void apply_given(const GivenParameters& given, const std::string& group, Setting
   visit_settings(settings, [&](const berth::Setting& setting, auto& value) {
     const std::string name = group + "." + std::string(setting.name);
     const auto found = given.find(name);
-    if (found != given.end()) assign_parameter(name, found->second, value);
+    const bool is_set = found != given.end() &&
+                        found->second.get_type() != rclcpp::ParameterType::PARAMETER_NOT_SET;
+    if (is_set) assign_parameter(name, found->second, value);
   });
 }
 

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "camera_input.hpp"
-#include "camera_pose.hpp"
 #include "markers.hpp"
 #include "result_messages.hpp"
 #include "setting_parameters.hpp"
 #include "speed_monitor.hpp"
+#include "transforms.hpp"
 
 namespace berth_ros {
 namespace {
@@ -98,21 +98,36 @@ TEST(CameraInfo, WhatIsNoPinholeCameraIsRefusedByName) {
   EXPECT_NE(why([](auto& i) { i.width = 0; }).find("intrinsics"), std::string::npos);
 }
 
-TEST(CameraPose, ATenthOfAMillimetreIsTheSamePlace) {
-  berth::CameraMount a;
-  a.parent_link = "base";
-  a.X_PC = berth::Pose::Identity();
-  berth::CameraMount b = a;
-  b.X_PC.translation().x() += 0.00009;
-  EXPECT_TRUE(is_same_mount(a, b));
-  b.X_PC.translation().x() += 0.0001;
-  EXPECT_FALSE(is_same_mount(a, b));
+TEST(Places, ATenthOfAMillimetreIsTheSame) {
+  const berth::Pose a = berth::Pose::Identity();
+  berth::Pose b = a;
+  b.translation().x() += 0.00009;
+  EXPECT_TRUE(is_same_place(a, b));
+  b.translation().x() += 0.0001;
+  EXPECT_FALSE(is_same_place(a, b));
   b = a;
-  b.X_PC.rotate(Eigen::AngleAxisd(0.001, Eigen::Vector3d::UnitZ()));
-  EXPECT_FALSE(is_same_mount(a, b));
-  b = a;
-  b.parent_link = "hand";
-  EXPECT_FALSE(is_same_mount(a, b));
+  b.rotate(Eigen::AngleAxisd(0.001, Eigen::Vector3d::UnitZ()));
+  EXPECT_FALSE(is_same_place(a, b));
+}
+
+TEST(ImageRate, TellsHowManyOfThoseThatWereSentArrive) {
+  ImageRate all, half, few, young;
+  for (int i = 0; i < 400; ++i) {
+    const double stamp_s = 1.7e9 + i / 30.0;
+    all.add(stamp_s);
+    if (i % 4 < 2) half.add(stamp_s);
+    if (i % 10 < 2) few.add(stamp_s);
+    if (i < 50) young.add(stamp_s);
+  }
+  EXPECT_NEAR(all.sent_hz(), 30, 0.1);
+  EXPECT_EQ(all.trouble(), "");
+  EXPECT_NEAR(half.sent_hz(), 30, 0.1);
+  EXPECT_NEAR(half.arrived_hz(), 15, 0.5);
+  EXPECT_NE(half.trouble().find("15 of 30 images a second arrive"), std::string::npos);
+  EXPECT_NEAR(few.sent_hz(), 30, 0.1);
+  EXPECT_NEAR(few.arrived_hz(), 6, 0.5);
+  EXPECT_FALSE(young.is_known());
+  EXPECT_EQ(young.trouble(), "");
 }
 
 berth::Result result() {
@@ -223,12 +238,15 @@ LinkDistance link(const std::string& name, std::uint8_t status, float distance_m
 }
 
 berth_msgs::msg::Separation separation_of(const std::vector<LinkDistance>& links,
-                                          const std::string& nearest = "") {
+                                          const std::string& nearest = "",
+                                          std::uint8_t status = LinkDistances::OK,
+                                          bool may_be_degraded = false) {
   LinkDistances distances;
+  distances.status = status;
   distances.links = links;
   distances.nearest = nearest;
   berth_msgs::msg::Separation out;
-  to_message(distances, out);
+  to_message(distances, may_be_degraded, out);
   return out;
 }
 
@@ -264,6 +282,15 @@ TEST(Separation, WhatIsNotKnownIsNeverFar) {
   EXPECT_FALSE(separation_of({}).has_distance);
   EXPECT_FALSE(separation_of({link("base", LinkDistance::OK, 1, false)}).has_distance);
   EXPECT_FALSE(separation_of({link("arm", LinkDistance::OK, kNaN)}).has_distance) << "no bound";
+}
+
+TEST(Separation, OfADegradedResultThereIsADistanceOnlyWhereThatIsWanted) {
+  const std::vector<LinkDistance> links = {link("arm", LinkDistance::OK, 0.4F)};
+  EXPECT_TRUE(separation_of(links, "arm", LinkDistances::OK).has_distance);
+  const auto lost = separation_of(links, "arm", LinkDistances::DEGRADED);
+  EXPECT_FALSE(lost.has_distance) << "it may be larger than with the camera that is lost";
+  EXPECT_TRUE(std::isnan(lost.distance_m));
+  EXPECT_TRUE(separation_of(links, "arm", LinkDistances::DEGRADED, true).has_distance);
 }
 
 TEST(PlannedVelocity, IsInTheRobotsOrderAndNotOld) {

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdio>
+#include <string>
+
+namespace berth_ros {
+
+/// How many images a second a camera sends, and how many arrive, by the stamps of those that do:
+/// most gaps between stamps are one period, and one that is longer holds images that were lost.
+class ImageRate {
+ public:
+  void add(double stamp_s) {
+    const double gap_s = stamp_s - newest_s_;
+    if (count_ > 0 && !(gap_s > 0 && gap_s < kPause_s)) count_ = 0;
+    if (count_ > 0) gaps_s_[(count_ - 1) % gaps_s_.size()] = gap_s;
+    newest_s_ = stamp_s;
+    ++count_;
+  }
+  /// Whether it has seen enough to tell.
+  bool is_known() const { return count_ > gaps_s_.size(); }
+  double sent_hz() const { return 1 / period_s(); }
+  double arrived_hz() const { return static_cast<double>(gaps_s_.size()) / sum_s(); }
+  /// Empty unless a tenth of them is lost.
+  std::string trouble() const {
+    if (!is_known() || arrived_hz() > 0.9 * sent_hz()) return "";
+    char text[256];
+    std::snprintf(text, sizeof text,
+                  "%.0f of %.0f images a second arrive: the DDS receive buffer may be too small "
+                  "(berth's ROS page, \"Images that get lost\")",
+                  arrived_hz(), sent_hz());
+    return text;
+  }
+
+ private:
+  /// A camera that stops, or a bag that begins again, loses no image: it is counted anew.
+  static constexpr double kPause_s = 0.5;
+
+  double sum_s() const {
+    double sum_s = 0;
+    for (const double gap_s : gaps_s_) sum_s += gap_s;
+    return sum_s;
+  }
+  /// A fifth of the gaps is shorter: where four of five images are lost, one in five still follows
+  /// the one before.
+  double period_s() const {
+    std::array<double, 64> sorted_s = gaps_s_;
+    std::sort(sorted_s.begin(), sorted_s.end());
+    return sorted_s[sorted_s.size() / 5];
+  }
+
+  std::array<double, 64> gaps_s_ = {};
+  double newest_s_ = 0;
+  std::size_t count_ = 0;
+};
+
+}  // namespace berth_ros
