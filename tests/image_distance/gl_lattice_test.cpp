@@ -104,7 +104,7 @@ TEST_P(GlLattices, AreExactWhereTheLastStepHasAllPixelsOfTheLink) {
     settings.range_m = 50;
     settings.mean_direction = false;
     settings.lattice = {1, 1, 200, 200, 16};
-    expect_same_answer(answer(Method::brute_force, images, 100),
+    expect_same_answer(answer(Method::brute_force, images, 50),
                        answer(GetParam(), images, settings), images);
   }
 }

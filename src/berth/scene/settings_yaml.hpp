@@ -26,11 +26,15 @@ Enum read_enum(const YamlValue& value) {
 inline void read_setting(const YamlValue& value, const Domain&, bool& out) {
   out = value.boolean();
 }
-inline void read_setting(const YamlValue& value, const Domain&, int& out) { out = value.count(); }
+inline void read_setting(const YamlValue& value, const Domain& domain, int& out) {
+  out = value.count();
+  if (!domain.holds(out)) value.fail(domain.text(true));
+}
 inline void read_setting(const YamlValue& value, const Domain& domain, double& out) {
   out = domain.is_open     ? value.positive()
         : domain.least < 0 ? value.number()
                            : value.non_negative();
+  if (!domain.holds(out)) value.fail(domain.text(false));
 }
 template <class Enum>
 requires std::is_enum_v<Enum>

@@ -72,7 +72,7 @@ TEST(Lattice, IsExactWhereTheLastStepHasAllPixelsOfTheLink) {
     const sim::ImagePair images = sim::random_images(seed, 90, 70, 4);
     ImageDistanceSettings settings = settings_with({1, 1, 200, 200});
     settings.range_m = 50;
-    const LinkDistances truth = answer(Method::brute_force, images, 100);
+    const LinkDistances truth = answer(Method::brute_force, images, 50);
     const LinkDistances found = answer(Method::lattice, images, settings);
     for (std::size_t i = 0; i < truth.links.size(); ++i) {
       ASSERT_EQ(found.links[i].status, truth.links[i].status);
