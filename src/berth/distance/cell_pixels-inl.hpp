@@ -14,8 +14,8 @@ HWY_BEFORE_NAMESPACE();
 namespace berth::mesh {
 namespace HWY_NAMESPACE {
 
-/// The leaf's triangles against one pixel; returns from where they came nearest.
-inline Heading search_pixel(ViewSearch& search, int leaf, const ImageCell& pixel) {
+/// The leaf's triangles against one pixel.
+inline LeafFound search_pixel(ViewSearch& search, int leaf, const ImageCell& pixel) {
   const SearchedCamera& view = search.views[pixel.view];
   const Chunk c = chunk_of(search, pixel);
   if (!(c.d <= c.e)) return {};
@@ -115,30 +115,32 @@ HWY_INLINE void bound_one_by_one(const ViewSearch& search, int leaf, const Image
   }
 }
 
-/// The pixels of a cell, the nearest first.
-inline void search_pixels(ViewSearch& search, int leaf, const ImageCell& cell, CellPixels& pixels) {
+/// The pixels of a cell, the nearest first; returns how near none of them comes.
+inline float search_pixels(ViewSearch& search, int leaf, const ImageCell& cell,
+                           CellPixels& pixels) {
   const SearchedCamera& view = search.views[cell.view];
   bound_one_by_one(search, leaf, cell, pixels);
+  float searched_m = HUGE_VALF;
   while (true) {
     const float least_m = pixels.least_bound_m();
-    if (!(least_m < search.link.limit_m())) return;
+    if (!(least_m < search.link.limit_m())) return std::min(least_m, searched_m);
     int nearest = 0;
     while (pixels.bound_m[nearest] != least_m) ++nearest;
     pixels.bound_m[nearest] = HUGE_VALF;
-    const Heading n = search_pixel(
+    const LeafFound found = search_pixel(
         search, leaf,
         {cell.view, ImageCell::kPixelLevel, 0, 8 * cell.u + nearest % 8, 8 * cell.v + nearest / 8});
-    const float along_m = least_along(search.link, view.frame, leaf, n) - view.frame.error_m;
-    bound_by_plane(view, cell, {n, along_m}, pixels);
+    searched_m = std::min(searched_m, found.lower_m);
+    const float along_m =
+        least_along(search.link, view.frame, leaf, found.heading) - view.frame.error_m;
+    bound_by_plane(view, cell, {found.heading, along_m}, pixels);
   }
 }
 
-/// Calls add(bound, patch) for the children of a patch that may be near enough to the pixels of a
-/// cell that still count.
-template <class Add>
-HWY_INLINE void bound_children_by_pixels(const ViewSearch& search, const Item& item,
-                                         const ImageCell& cell, const Chunk& chunk,
-                                         const CellPixels& pixels, Add add) {
+/// Makes the children of an item's patch fresh that may be near enough to the pixels of a cell that
+/// still count.
+HWY_INLINE void part_patch_by_pixels(const ViewSearch& search, Item& item, const ImageCell& cell,
+                                     const Chunk& chunk, const CellPixels& pixels, Fresh& fresh) {
   const SearchedCamera& view = search.views[cell.view];
   const int below = level_of(item.patch) - 1;
   const PatchLevel& level = search.link.link->levels[below];
@@ -146,7 +148,14 @@ HWY_INLINE void bound_children_by_pixels(const ViewSearch& search, const Item& i
   const int count = std::min(16, level.count - begin);
   const Lanes limit(search.link.limit_m());
   std::uint64_t near = 0;
-  for (int i = 0; i < 64; i += kLanes) near |= bits_of(load(pixels.bound_m + i) < limit) << i;
+  Lanes others(HUGE_VALF);
+  for (int i = 0; i < 64; i += kLanes) {
+    const Lanes bound = load(pixels.bound_m + i);
+    near |= std::uint64_t{bits_of(bound < limit)} << i;
+    others = least(others, select(bound < limit, Lanes(HUGE_VALF), bound));
+  }
+  const Lanes of_others(least_lane(others));
+  Parting parting{item, search.link.limit_m()};
   for (int i = 0; i < count; i += kLanes) {
     const Patches patches = load_patches(level, begin + i, view.frame.motion);
     const Vectors n = direction(patches.centre, nearest_in<2>(broadcast(chunk), patches.centre)).n;
@@ -166,25 +175,34 @@ HWY_INLINE void bound_children_by_pixels(const ViewSearch& search, const Item& i
     }
     const int rest = count - i;
     const std::uint32_t valid = rest >= 32 ? ~0u : (1u << rest) - 1;
-    add_below(along - reach - Lanes(view.frame.error_m), search.link.limit_m(), valid,
-              [&](int lane, float bound_m) { add(bound_m, patch_of(below, begin + i + lane)); });
+    parting.part(least(along - reach - Lanes(view.frame.error_m), of_others), i, valid,
+                 [&](int lane, float bound_m) {
+                   fresh.add(bound_m, patch_of(below, begin + i + lane), item.space);
+                 });
   }
+  parting.end(16);
 }
 
 /// A cell of pixels and a patch: the pixels that count against its children, or against a leaf.
-inline void expand_pixels(ViewSearch& search, const Item& item, const ImageCell& cell,
+inline void expand_pixels(ViewSearch& search, Item& item, const ImageCell& cell,
                           const Chunk& chunk, Fresh& fresh) {
   const SearchedCamera& view = search.views[cell.view];
   const Plane plane = plane_towards(search, view, item.patch, chunk);
-  if (!(hn::GetLane(bound_of(plane, broadcast(chunk)).v) < search.link.limit_m())) return;
+  const float chunk_m = hn::GetLane(bound_of(plane, broadcast(chunk)).v);
+  item.bound_m = std::max(item.bound_m, chunk_m);
+  if (!(chunk_m < search.link.limit_m())) return;
   CellPixels pixels;
   load_pixels(search, cell, chunk, pixels);
   bound_by_plane(view, cell, plane, pixels);
-  if (!(pixels.least_bound_m() < search.link.limit_m())) return;
-  if (level_of(item.patch) == 0) return search_pixels(search, index_of(item.patch), cell, pixels);
-  bound_children_by_pixels(
-      search, item, cell, chunk, pixels,
-      [&](float bound_m, std::uint32_t patch) { fresh.add(bound_m, patch, item.space); });
+  const float pixels_m = pixels.least_bound_m();
+  item.bound_m = std::max(item.bound_m, pixels_m);
+  if (!(pixels_m < search.link.limit_m())) return;
+  if (level_of(item.patch) == 0) {
+    item.bound_m = std::max(item.bound_m,
+                            search_pixels(search, index_of(item.patch), cell, pixels));
+  } else {
+    part_patch_by_pixels(search, item, cell, chunk, pixels, fresh);
+  }
 }
 
 }  // namespace HWY_NAMESPACE

@@ -8,10 +8,14 @@ namespace berth::mesh {
 
 /// A patch of a link and a piece of space, and a distance that no two of their points go below.
 struct Item {
-  float bound_m;
+  float bound_m = 0;
   /// Among cubes the whole link is meant, and this is a leaf that may be near.
-  std::uint32_t patch;
-  std::uint64_t space;
+  std::uint32_t patch = 0;
+  std::uint64_t space = 0;
+  /// The children that were not gone into, one bit each: they are what the item stands for.
+  std::uint64_t left = ~std::uint64_t{0};
+  /// Of each search's own: how the item is taken apart.
+  std::uint32_t way = 0;
 };
 
 /// What is still to be searched, the least bound first. Vector code of all instruction sets uses
@@ -25,8 +29,31 @@ class ItemHeap {
   }
   void push(const Item& item);
   Item pop();
+  const std::vector<Item>& items() const { return items_; }
 
  private:
+  std::vector<Item> items_;
+};
+
+/// What a search left aside since something else was nearer. From request to request all of space
+/// stays in it: a request goes on where the one before ended. A link that moves by d comes nearer
+/// to anything by d at most, so that all bounds fall alike, and are told less the sum of all d.
+class Front {
+ public:
+  void clear();
+  bool empty() const { return items_.empty(); }
+  std::size_t size() const { return items_.size(); }
+  /// How far the link has moved since clear(), at most.
+  float drift_m() const { return drift_m_; }
+  void move(float moved_m) { drift_m_ += moved_m; }
+  void put(const Item& item);
+  /// Moves all items whose bounds are below the limit by now to the heap.
+  void take_below(float limit_m, ItemHeap& heap);
+
+ private:
+  float drift_m_ = 0;
+  /// The items' bounds plus the drift when they were put here.
+  std::vector<float> level_m_;
   std::vector<Item> items_;
 };
 

@@ -6,7 +6,7 @@
 namespace berth::mesh {
 
 float moved_at_most_m(const LinkPatches& link, const Pose& X_BL_before, const Pose& X_BL) {
-  if (link.empty()) return 0;
+  if (link.empty() || X_BL.matrix() == X_BL_before.matrix()) return 0;
   constexpr double kRounding_m = 1e-6;
   const PatchLevel& top = link.levels.back();
   const Eigen::Vector3d centre_L_m(top.centre_m[0][0], top.centre_m[1][0], top.centre_m[2][0]);

@@ -29,16 +29,18 @@ HWY_INLINE SearchFrame make_frame(const Pose& X_FL, float reach_m) {
   return {X_FL, motion_of(X_FL), rounding_m(reach_m)};
 }
 
-/// One triangle against a body in doubles.
+/// One triangle against a body in doubles; returns how near it does not come.
 template <class Found>
-void search_pair(LinkSearch& search, const Pose& X_FL, int triangle, float error_m,
+float search_pair(LinkSearch& search, const Pose& X_FL, int triangle, float error_m,
                  const Eigen::Vector3d (&body_corners_m)[8], Found found) {
   const ConvexPair pair = triangle_pair(search, X_FL, triangle, body_corners_m);
   const float distance_m = static_cast<float>(pair.distance_m) + error_m;
-  if (!(distance_m < search.best_m)) return;
+  const float lower_m = static_cast<float>(pair.distance_m) - error_m;
+  if (!(distance_m < search.best_m)) return lower_m;
   search.best_m = distance_m;
   search.best_triangle = std::min(triangle, search.link->triangle_count - 1);
   found(Eigen::Vector3f(pair.b_m.cast<float>()));
+  return lower_m;
 }
 
 /// The direction from a body to the triangle that came nearest to it.
@@ -47,6 +49,13 @@ struct Heading {
 };
 
 HWY_INLINE Vectors broadcast(const Heading& n) { return {Lanes(n.x), Lanes(n.y), Lanes(n.z)}; }
+
+/// What came of a leaf's triangles against a body: the direction from where they came nearest, and
+/// how near none of them comes.
+struct LeafFound {
+  Heading heading;
+  float lower_m = HUGE_VALF;
+};
 
 /// The least n . v of all points of a leaf's triangles.
 HWY_INLINE float least_along(const LinkSearch& search, const SearchFrame& frame, int leaf,
@@ -64,12 +73,12 @@ HWY_INLINE float least_along(const LinkSearch& search, const SearchFrame& frame,
 /// below. Pairs for which that does not end the search are left to closest_points(). Calls
 /// found(triangle, distance, point of the body) for each pair that is better than the best.
 template <class Bodies, class Found>
-HWY_INLINE Heading search_leaf(LinkSearch& search, const SearchFrame& frame, int index,
+HWY_INLINE LeafFound search_leaf(LinkSearch& search, const SearchFrame& frame, int index,
                                const Bodies& body, const Eigen::Vector3d (&body_corners_m)[8],
                                Found found) {
   constexpr int kRounds = 4;
   const Lanes third(1.0f / 3);
-  Heading heading;
+  LeafFound leaf;
   float heading_m = HUGE_VALF;
   for (int first = 16 * index; first < 16 * (index + 1); first += kLanes) {
     const Triangles t = load_triangles(*search.link, first, frame.motion);
@@ -91,7 +100,7 @@ HWY_INLINE Heading search_leaf(LinkSearch& search, const SearchFrame& frame, int
         store(to.n.x, n[0]);
         store(to.n.y, n[1]);
         store(to.n.z, n[2]);
-        heading = {n[0][lane], n[1][lane], n[2][lane]};
+        leaf.heading = {n[0][lane], n[1][lane], n[2][lane]};
       }
       if (least_m + frame.error_m < search.best_m) {
         const std::uint32_t bits = bits_of(to.length <= Lanes(least_m));
@@ -107,12 +116,17 @@ HWY_INLINE Heading search_leaf(LinkSearch& search, const SearchFrame& frame, int
       open = bits_of(lower < Lanes(search.limit_m()));
       if (open == 0) break;
     }
+    alignas(64) float lower_m[kLanes];
+    store(lower, lower_m);
     for (; open != 0; open &= open - 1) {
-      search_pair(search, frame.X_FL, first + __builtin_ctz(open), frame.error_m, body_corners_m,
-                  found);
+      const int lane = __builtin_ctz(open);
+      lower_m[lane] =
+          std::max(lower_m[lane], search_pair(search, frame.X_FL, first + lane, frame.error_m,
+                                              body_corners_m, found));
     }
+    leaf.lower_m = std::min(leaf.lower_m, least_lane(load(lower_m)));
   }
-  return heading;
+  return leaf;
 }
 
 /// Makes `children` of an item, all with bounds below the limit, wait their turn; the best of them
@@ -120,43 +134,67 @@ HWY_INLINE Heading search_leaf(LinkSearch& search, const SearchFrame& frame, int
 struct Fresh {
   Item items[128];
   int count = 0;
+  /// The item itself has its turn again, with the bound that it has now.
+  bool again = false;
   void add(float bound_m, std::uint32_t patch, std::uint64_t space) {
     items[count++] = {bound_m > 0 ? bound_m : 0, patch, space};
   }
 };
 
-/// Adds the lanes whose bound is below the limit.
-template <class Add>
-HWY_INLINE void add_below(Lanes bound, float limit_m, std::uint32_t valid, Add add) {
-  std::uint32_t bits = bits_of(bound < Lanes(limit_m)) & valid;
-  if (bits == 0) return;
-  alignas(64) float bound_m[kLanes];
-  store(bound, bound_m);
-  for (; bits != 0; bits &= bits - 1) {
-    const int lane = __builtin_ctz(bits);
-    add(lane, bound_m[lane]);
-  }
-}
+/// An item that is being taken apart: those children whose bounds are below the limit leave it, and
+/// the rest bound it.
+struct Parting {
+  Item& item;
+  float limit_m;
+  float least_left_m = HUGE_VALF;
 
-/// Calls add(bound, patch) for the children of a patch that may be near enough to a body.
-template <class Bodies, class Add>
-HWY_INLINE void bound_children(const LinkSearch& search, const SearchFrame& frame,
-                               std::uint32_t patch, const Bodies& body, Add add) {
-  const int below = level_of(patch) - 1;
+  /// Children first to first + kLanes - 1, of which there are those that are `valid`.
+  template <class Add>
+  HWY_INLINE void part(Lanes bound, int first, std::uint32_t valid, Add add) {
+    constexpr std::uint64_t kAll = kLanes >= 64 ? ~0ull : (1ull << kLanes) - 1;
+    const std::uint32_t there = valid & static_cast<std::uint32_t>(item.left >> first & kAll);
+    std::uint32_t below = bits_of(bound < Lanes(limit_m)) & there;
+    item.left &= ~((kAll & ~static_cast<std::uint64_t>(there & ~below)) << first);
+    if (there == 0) return;
+    alignas(64) float bound_m[kLanes];
+    store(bound, bound_m);
+    for (std::uint32_t rest = there & ~below; rest != 0; rest &= rest - 1)
+      least_left_m = std::min(least_left_m, bound_m[__builtin_ctz(rest)]);
+    for (; below != 0; below &= below - 1) {
+      const int lane = __builtin_ctz(below);
+      add(lane, bound_m[lane]);
+    }
+  }
+  /// There are `count` children.
+  HWY_INLINE void end(int count) {
+    if (count < 64) item.left &= (std::uint64_t{1} << count) - 1;
+    item.bound_m = std::max(item.bound_m, least_left_m);
+  }
+};
+
+/// Makes the children of an item's patch fresh that may be near enough to a body.
+template <class Bodies>
+HWY_INLINE void part_patch(const LinkSearch& search, const SearchFrame& frame, Item& item,
+                           const Bodies& body, Fresh& fresh) {
+  const int below = level_of(item.patch) - 1;
   const PatchLevel& level = search.link->levels[below];
-  const int begin = 16 * index_of(patch);
+  const int begin = 16 * index_of(item.patch);
+  Parting parting{item, search.limit_m()};
   const int count = std::min(16, level.count - begin);
   for (int i = 0; i < count; i += kLanes) {
     const Lanes bound =
         patch_bound(load_patches(level, begin + i, frame.motion), body) - Lanes(frame.error_m);
     const int left = count - i;
     const std::uint32_t valid = left >= 32 ? ~0u : (1u << left) - 1;
-    add_below(bound, search.limit_m(), valid,
-              [&](int lane, float bound_m) { add(bound_m, patch_of(below, begin + i + lane)); });
+    parting.part(bound, i, valid, [&](int lane, float bound_m) {
+      fresh.add(bound_m, patch_of(below, begin + i + lane), item.space);
+    });
   }
+  parting.end(16);
 }
 
-/// Takes items until the search is done, at most `steps`.
+/// Takes items until the search is done, at most `steps`. expand(item, fresh) leaves in the item
+/// what did not become fresh, with a bound that holds for it.
 template <class Expand>
 HWY_INLINE void search_best_first(LinkSearch& search, int steps, Expand expand) {
   bool has_next = false;
@@ -168,6 +206,11 @@ HWY_INLINE void search_best_first(LinkSearch& search, int steps, Expand expand) 
     }
     Fresh fresh;
     expand(next, fresh);
+    if (fresh.again) {
+      search.items.push(next);
+    } else if (next.left != 0) {
+      search.put_aside(next);
+    }
     int best = -1;
     for (int i = 0; i < fresh.count; ++i) {
       if (best < 0 || fresh.items[i].bound_m < fresh.items[best].bound_m) best = i;
@@ -176,7 +219,11 @@ HWY_INLINE void search_best_first(LinkSearch& search, int steps, Expand expand) 
                (!search.is_known() || fresh.items[best].bound_m <= search.items.least_bound_m());
     for (int i = 0; i < fresh.count; ++i) {
       if (i == best && has_next) continue;
-      if (fresh.items[i].bound_m < search.limit_m()) search.items.push(fresh.items[i]);
+      if (fresh.items[i].bound_m < search.limit_m()) {
+        search.items.push(fresh.items[i]);
+      } else {
+        search.put_aside(fresh.items[i]);
+      }
     }
     if (has_next) next = fresh.items[best];
   }

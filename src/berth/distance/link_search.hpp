@@ -52,10 +52,22 @@ class CornerStore {
     float squared_m2 = 0;
     /// The leaf that is nearest to it.
     int leaf = 0;
+    /// LinkSearch::request, since a link that moves is at another distance.
+    std::uint32_t request = 0;
   };
 
-  void clear() { corners_.assign(kCount, {}); }
-  Corner& at(std::uint64_t key) { return corners_[(key * 0x9E3779B97F4A7C15u) >> 53]; }
+  CornerStore() = default;
+  /// A copy asks again.
+  CornerStore(const CornerStore&) {}
+  CornerStore& operator=(const CornerStore&) {
+    corners_.assign(corners_.size(), {});
+    return *this;
+  }
+
+  Corner& at(std::uint64_t key) {
+    if (corners_.empty()) corners_.resize(kCount);
+    return corners_[(key * 0x9E3779B97F4A7C15u) >> 53];
+  }
 
  private:
   static constexpr std::size_t kCount = std::size_t{1} << 11;
@@ -63,6 +75,10 @@ class CornerStore {
 };
 
 struct LinkSearch {
+  /// How far a link may move until its front is begun anew: what lies so far behind the range is
+  /// in it, too.
+  static constexpr float kRoom_m = 0.1f;
+
   const LinkPatches* link = nullptr;
   Pose X_BL = Pose::Identity();
   float range_m = 0;
@@ -77,13 +93,31 @@ struct LinkSearch {
   std::uint64_t best_pixel = 0;
   Eigen::Vector3f best_point_B_m;
   bool best_is_hidden = false;
+  /// The points of the last request's pair, if it found one.
+  Eigen::Vector3d robot_point_L_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d obstacle_point_B_m = Eigen::Vector3d::Zero();
 
+  /// Counts the requests.
+  std::uint32_t request = 0;
   ItemHeap items;
+  /// Nothing in it is nearer than limit_m(), but for what is in given_up_m.
+  Front front;
+  /// known_range_m() when it was begun.
+  float front_range_m = 0;
+  /// Some of that lies where there are no cubes: nothing is known of it.
+  bool is_beyond_cubes = false;
   CornerStore corners;
   /// The least bound of what was too small to be searched on.
   float given_up_m = std::numeric_limits<float>::infinity();
 
   bool is_known() const { return best_triangle >= 0; }
+  /// Of what lies farther off nothing is known.
+  float known_range_m() const { return range_m + kRoom_m; }
+  /// Leaves an item aside for this request.
+  void put_aside(Item item) {
+    item.bound_m = std::min(item.bound_m, known_range_m());
+    front.put(item);
+  }
   /// Nothing is looked for from here on. Without a pair, a tolerance could miss those in range.
   float limit_m() const { return is_known() ? best_m - tolerance_m : range_m; }
   bool is_done() const { return std::max(items.least_bound_m(), known_bound_m) >= limit_m(); }
@@ -107,7 +141,15 @@ void search_cubes(const UnknownSpace& space, int steps, LinkSearch& search);
 /// Takes a point for the best obstacle if it is hidden and nearer than that.
 void try_hidden_point(const UnknownSpace& space, const Eigen::Vector3f& p_B_m, LinkSearch& search);
 
-/// Both start with the whole link and all of space.
+/// Nothing is in heap and front, and what is put there reaches known_range_m().
+inline void begin_front(LinkSearch& search) {
+  search.items.clear();
+  search.front.clear();
+  search.front_range_m = search.known_range_m();
+  search.is_beyond_cubes = false;
+}
+
+/// Both start with the whole link and all of space, and an empty front.
 void start_in_views(const UnknownSpace& space, LinkSearch& search);
 void start_in_cubes(LinkSearch& search);
 

@@ -33,6 +33,8 @@ using mesh::LinkSearch;
 struct LinkState {
   LinkSearch reading;
   LinkSearch nearest;
+  /// Whether `nearest` goes on where it ended.
+  bool goes_on = false;
   /// The last answer's pair.
   SpacePair last;
 };
@@ -48,15 +50,38 @@ struct Asked {
   bool is_shadow() const { return space.views().size() < 2; }
 };
 
+/// The pair of the request before is a pair of this one, too. Else there is none.
+void keep_pair(LinkSearch& search) {
+  constexpr float kRounding_m = 1e-6f;
+  const double apart_m =
+      (search.X_BL * search.robot_point_L_m - search.obstacle_point_B_m).norm();
+  search.best_m = static_cast<float>(apart_m) + kRounding_m;
+  if (search.is_known() && search.best_m < search.range_m) return;
+  search.best_m = search.range_m;
+  search.best_triangle = -1;
+  search.best_is_hidden = false;
+}
+
+/// Goes on with the front of the request before, since when the link has moved by `moved_m` at
+/// most. Returns whether there is one that reaches far enough.
+bool keep_front(float moved_m, LinkSearch& search) {
+  // It becomes finer and never coarser.
+  constexpr std::size_t kMostItems = std::size_t{1} << 14;
+  for (const mesh::Item& item : search.items.items()) search.front.put(item);
+  search.items.clear();
+  search.front.move(moved_m);
+  if (search.front.empty() || search.front.size() > kMostItems) return false;
+  return search.range_m <= search.front_range_m - search.front.drift_m();
+}
+
 void start(const LinkPatches& patches, const Pose& X_BL, const MeshRequest& request,
            LinkSearch& search) {
+  ++search.request;
+  search.given_up_m = std::numeric_limits<float>::infinity();
   search.link = &patches;
   search.X_BL = X_BL;
   search.range_m = static_cast<float>(request.range_m);
   search.tolerance_m = std::max(static_cast<float>(request.tolerance_m), kFinestTolerance_m);
-  search.best_m = search.range_m;
-  search.best_triangle = -1;
-  search.best_is_hidden = false;
   search.known_bound_m = 0;
 }
 
@@ -98,7 +123,9 @@ void guess(const UnknownSpace& space, const SpacePair& last, bool to_shadow, Lin
 
 void start_nearest(const Asked& asked, LinkState& link) {
   take_reading(link.reading, link.nearest);
-  if (asked.is_shadow()) {
+  if (link.goes_on) {
+    link.nearest.front.take_below(link.nearest.limit_m(), link.nearest.items);
+  } else if (asked.is_shadow()) {
     guess(asked.space, link.last, true, link.nearest);
     mesh::start_in_views(asked.space, link.nearest);
   } else {
@@ -107,6 +134,7 @@ void start_nearest(const Asked& asked, LinkState& link) {
     }
     mesh::start_in_cubes(link.nearest);
   }
+  if (link.nearest.is_beyond_cubes) link.nearest.given_up_m = 0;
 }
 
 void search_nearest(const Asked& asked, int steps, LinkState& link) {
@@ -155,20 +183,16 @@ Turn widest_of(const Asked& asked, std::vector<LinkState>& links) {
   return widest;
 }
 
-/// Goes on where the least is known, until everything is or time is over. What is not finished the
-/// next request has to begin anew: if this one is asked `again`, each search that has its turn
-/// goes on to its end, so that all links are known after a few requests.
-void search_until(const Asked& asked, Clock::time_point deadline, bool again,
-                  std::vector<LinkState>& links) {
+/// Goes on where the least is known, until everything is or time is over.
+void search_until(const Asked& asked, Clock::time_point deadline, std::vector<LinkState>& links) {
   constexpr int kSteps = 8;
   if (asked.request.unknown) {
     for (LinkState& link : links) {
       if (!link.reading.link->empty()) start_nearest(asked, link);
     }
   }
-  Turn turn;
   do {
-    if (!again || turn.gap_m() == 0) turn = widest_of(asked, links);
+    const Turn turn = widest_of(asked, links);
     if (turn.link == nullptr) return;
     if (turn.is_reading) {
       mesh::search_views(asked.space, false, kSteps, turn.link->reading);
@@ -225,7 +249,7 @@ void set_hidden_pair(const UnknownSpace& space, const LinkSearch& search, SpaceP
   pair.obstacle_pixel = hiding->pixel;
 }
 
-SpacePair answer_of(const UnknownSpace& space, bool is_shadow, const LinkSearch& search) {
+SpacePair answer_of(const UnknownSpace& space, bool is_shadow, LinkSearch& search) {
   SpacePair pair;
   pair.lower_bound_m = search.lower_bound_m();
   if (!search.is_known()) return pair;
@@ -234,6 +258,9 @@ SpacePair answer_of(const UnknownSpace& space, bool is_shadow, const LinkSearch&
   } else {
     set_pixel_pair(space, search, pair);
   }
+  search.robot_point_L_m = search.X_BL.inverse() * pair.robot_point_B_m.cast<double>();
+  search.obstacle_point_B_m = pair.obstacle_point_B_m.cast<double>();
+  if (!pair.is_known()) search.best_triangle = -1;
   return pair;
 }
 
@@ -252,7 +279,7 @@ void reconcile(WholeLinkDistance& link) {
   }
 }
 
-WholeLinkDistance answer_of(const Asked& asked, LinkId id, const LinkState& link) {
+WholeLinkDistance answer_of(const Asked& asked, LinkId id, LinkState& link) {
   WholeLinkDistance out;
   out.id = id;
   if (link.reading.link->empty()) {
@@ -280,6 +307,12 @@ struct MeshWorkspace::State {
 
 MeshWorkspace::MeshWorkspace() : state_(std::make_unique<State>()) {}
 MeshWorkspace::~MeshWorkspace() = default;
+MeshWorkspace::MeshWorkspace(const MeshWorkspace& other)
+    : state_(std::make_unique<State>(*other.state_)) {}
+MeshWorkspace& MeshWorkspace::operator=(const MeshWorkspace& other) {
+  *state_ = *other.state_;
+  return *this;
+}
 MeshWorkspace::MeshWorkspace(MeshWorkspace&&) noexcept = default;
 MeshWorkspace& MeshWorkspace::operator=(MeshWorkspace&&) noexcept = default;
 void MeshWorkspace::forget() { state_->last.links.clear(); }
@@ -292,11 +325,19 @@ bool is_about(const mesh::LastRequest& last, const RobotPatches& robot, const Un
 }
 
 /// What no link can have come nearer than since the last request.
-void recall(const mesh::LastLink& last, LinkState& link) {
-  const float moved_m = mesh::moved_at_most_m(*link.reading.link, last.X_BL, link.reading.X_BL);
+void recall(const mesh::LastLink& last, float moved_m, LinkState& link) {
   const float range_m = link.reading.range_m;
   link.reading.known_bound_m = std::clamp(last.reading_bound_m - moved_m, 0.0f, range_m);
   link.nearest.known_bound_m = std::clamp(last.nearest_bound_m - moved_m, 0.0f, range_m);
+}
+
+/// Goes on from the request before, which was about the same space. Returns whether the search of
+/// readings does.
+bool go_on(const mesh::LastLink& last, LinkState& link) {
+  const float moved_m = mesh::moved_at_most_m(*link.reading.link, last.X_BL, link.reading.X_BL);
+  recall(last, moved_m, link);
+  link.goes_on = keep_front(moved_m, link.nearest);
+  return keep_front(moved_m, link.reading);
 }
 
 void remember(const RobotPatches& robot, const UnknownSpace& space, bool hidden,
@@ -312,9 +353,8 @@ void remember(const RobotPatches& robot, const UnknownSpace& space, bool hidden,
   }
 }
 
-/// With the last answer's pairs for a first guess. Returns whether the last request was about the
-/// same space.
-bool start_links(const RobotPatches& robot, const RobotPose& pose, const Asked& asked,
+/// With the last answer's pairs for a first guess.
+void start_links(const RobotPatches& robot, const RobotPose& pose, const Asked& asked,
                  const mesh::LastRequest& last, const std::vector<WholeLinkDistance>& last_answer,
                  std::vector<LinkState>& links) {
   const bool is_same = is_about(last, robot, asked.space);
@@ -324,13 +364,22 @@ bool start_links(const RobotPatches& robot, const RobotPose& pose, const Asked& 
     const Pose& X_BL = pose.X_BL[robot.links[i].link];
     start(robot.links[i], X_BL, asked.request, link.reading);
     start(robot.links[i], X_BL, asked.request, link.nearest);
-    if (is_same) recall(last.links[i], link);
+    link.goes_on = false;
+    const bool reading_goes_on = is_same && go_on(last.links[i], link);
+    for (auto& [search, goes_on] : {std::pair<LinkSearch&, bool>{link.reading, reading_goes_on},
+                                    {link.nearest, link.goes_on}}) {
+      if (!goes_on) search.best_triangle = -1;
+      keep_pair(search);
+    }
     const WholeLinkDistance guessed = i < last_answer.size() ? last_answer[i] : WholeLinkDistance{};
     link.last = guessed.nearest;
-    guess(asked.space, guessed.occupied, false, link.reading);
-    mesh::start_in_views(asked.space, link.reading);
+    if (reading_goes_on) {
+      link.reading.front.take_below(link.reading.limit_m(), link.reading.items);
+    } else {
+      guess(asked.space, guessed.occupied, false, link.reading);
+      mesh::start_in_views(asked.space, link.reading);
+    }
   }
-  return is_same;
 }
 
 }  // namespace
@@ -342,10 +391,10 @@ void mesh_distances(const RobotPatches& robot, const RobotPose& pose, const Unkn
   validate(request);
   const Asked asked{space, request};
   std::vector<LinkState>& links = workspace.state_->links;
-  const bool again = start_links(robot, pose, asked, workspace.state_->last, out, links);
+  start_links(robot, pose, asked, workspace.state_->last, out, links);
   if (request.deadline_us) {
     const std::chrono::duration<double, std::micro> wait(std::min(*request.deadline_us, 1e12));
-    search_until(asked, begin + std::chrono::duration_cast<Clock::duration>(wait), again, links);
+    search_until(asked, begin + std::chrono::duration_cast<Clock::duration>(wait), links);
   } else {
     tbb::parallel_for(std::size_t{0}, links.size(),
                       [&](std::size_t i) { search_to_the_end(asked, links[i]); });

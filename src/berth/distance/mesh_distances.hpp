@@ -18,6 +18,9 @@ class MeshWorkspace {
  public:
   MeshWorkspace();
   ~MeshWorkspace();
+  /// The copy goes on from the same request.
+  MeshWorkspace(const MeshWorkspace& other);
+  MeshWorkspace& operator=(const MeshWorkspace& other);
   MeshWorkspace(MeshWorkspace&&) noexcept;
   MeshWorkspace& operator=(MeshWorkspace&&) noexcept;
 

@@ -22,7 +22,7 @@ struct SearchedCamera {
   SearchFrame frame;
   /// Pixel border u, at u - 1/2, has the slope x / z = u per_column + first_column.
   float per_column, first_column, per_row, first_row;
-  /// Behind it is nothing within the range.
+  /// Behind it is nothing within LinkSearch::known_range_m().
   float far_m;
 };
 
@@ -32,7 +32,8 @@ inline SearchedCamera make_view(const FreeingCamera& view, const LinkSearch& sea
   const PatchLevel& top = search.link->levels.back();
   const Eigen::Vector3d centre_L_m(top.centre_m[0][0], top.centre_m[1][0], top.centre_m[2][0]);
   const double radius_m = top.half_height_m[0] + top.radius_m[0];
-  const double reach_m = centre_L_m.norm() + X_CL.translation().norm() + radius_m + search.range_m;
+  const double known_m = radius_m + search.known_range_m();
+  const double reach_m = centre_L_m.norm() + X_CL.translation().norm() + known_m;
   SearchedCamera out;
   out.space = view.space;
   out.frame = make_frame(X_CL, static_cast<float>(reach_m));
@@ -40,7 +41,7 @@ inline SearchedCamera make_view(const FreeingCamera& view, const LinkSearch& sea
   out.first_column = static_cast<float>((-0.5 - camera.cx_px) / camera.fx_px);
   out.per_row = static_cast<float>(1 / camera.fy_px);
   out.first_row = static_cast<float>((-0.5 - camera.cy_px) / camera.fy_px);
-  out.far_m = static_cast<float>((X_CL * centre_L_m).z() + radius_m + search.range_m);
+  out.far_m = static_cast<float>((X_CL * centre_L_m).z() + known_m);
   return out;
 }
 

@@ -26,8 +26,9 @@ struct CubeSearch {
   float error_m;
 };
 
-/// Marks an item whose bound is that of its own corners, not of the cube that it is a child of.
-constexpr std::uint32_t kSharp = 1u << 31;
+/// Marks a cube of which some children are gone. Item::way is the request of which an item's bound
+/// is that of its own corners, not of the cube that it is a child of.
+constexpr std::uint32_t kOpened = 1u << 31;
 
 /// The level from which on down a cube's corners tell more than patches do.
 constexpr int kGreatestByCorners = 4;
@@ -48,7 +49,7 @@ CubeCorners exact_corners(CubeSearch& search, const Cube& cube, float bound_m, i
   for (int i = 0; i < 8; ++i) {
     const std::uint64_t key = corner(i).key();
     const CornerStore::Corner& kept = search.link.corners.at(key);
-    if (kept.key == key) {
+    if (kept.key == key && kept.request == search.link.request) {
       corners.squared_m2[i] = kept.squared_m2;
       hint = kept.leaf;
     } else {
@@ -67,7 +68,7 @@ CubeCorners exact_corners(CubeSearch& search, const Cube& cube, float bound_m, i
     const float distance_m = unknown.distance[k].lower_m;
     corners.squared_m2[i] = distance_m * distance_m;
     hint = unknown.distance[k].triangle / LinkPatches::kChildren;
-    search.link.corners.at(key) = {key, corners.squared_m2[i], hint};
+    search.link.corners.at(key) = {key, corners.squared_m2[i], hint, search.link.request};
   }
   return corners;
 }
@@ -151,51 +152,72 @@ HWY_INLINE void bound_by_patches(const CubeSearch& search, const Cube& cube, std
   }
 }
 
-void expand(CubeSearch& search, const Item& item, Fresh& fresh) {
+/// The best points of a cube that has its turn for the first time.
+void try_cube(CubeSearch& search, const Cube& cube, const CubeCorners& corners, int hint) {
+  const auto edge_m = static_cast<float>(cube.edge_m());
+  if (centre_distance_m(corners, edge_m) < search.link.best_m) {
+    try_point(search, cube.corner_m().array() + cube.edge_m() / 2, hint);
+  }
+  try_nearest(search, cube, hint);
+}
+
+/// Makes those children fresh that may be near enough.
+void part_cube(Item& item, const Cube& cube, const float (&child_bounds_m)[64], float limit_m,
+               int hint, Fresh& fresh) {
+  float least_left_m = HUGE_VALF;
+  for (std::uint64_t left = item.left; left != 0; left &= left - 1) {
+    const int i = __builtin_ctzll(left);
+    if (child_bounds_m[i] < limit_m) {
+      item.left &= ~(std::uint64_t{1} << i);
+      fresh.add(std::max(child_bounds_m[i], item.bound_m), static_cast<std::uint32_t>(hint),
+                cube.child(i).key());
+    } else {
+      least_left_m = std::min(least_left_m, child_bounds_m[i]);
+    }
+  }
+  item.patch = static_cast<std::uint32_t>(hint) | kOpened;
+  item.bound_m = std::max(item.bound_m, least_left_m);
+}
+
+void expand(CubeSearch& search, Item& item, Fresh& fresh) {
   LinkSearch& link = search.link;
   const Cube cube = Cube::of_key(item.space);
-  const std::uint64_t possible = cube.level == 0 ? 1 : search.space.block(cube);
-  if (possible == 0) return;
-  int hint = static_cast<int>(item.patch & ~kSharp);
-  float bound_m = item.bound_m;
+  if (cube.level > 0) item.left &= search.space.block(cube);
+  if (item.left == 0) return;
+  const bool is_opened = (item.patch & kOpened) != 0;
+  int hint = static_cast<int>(item.patch & ~kOpened);
   alignas(64) float child_bounds_m[64];
-  if (cube.level <= kGreatestByCorners) {
-    const auto edge_m = static_cast<float>(cube.edge_m());
-    const CubeCorners corners = corners_of(search, cube, bound_m, hint);
-    if ((item.patch & kSharp) == 0) {
-      bound_m = std::max(bound_m, least_distance_m(corners, edge_m));
-      if (!(bound_m < link.limit_m())) return;
-      if (bound_m > link.items.least_bound_m()) {
-        fresh.add(bound_m, static_cast<std::uint32_t>(hint) | kSharp, item.space);
-        return;
-      }
-    }
-    if (centre_distance_m(corners, edge_m) < link.best_m) {
-      try_point(search, cube.corner_m().array() + cube.edge_m() / 2, hint);
-    }
-    try_nearest(search, cube, hint);
-    if (!(bound_m < link.limit_m())) return;
-    if (cube.level == 0) {
-      link.given_up_m = std::min(link.given_up_m, bound_m);
-      return;
-    }
-    bound_child_cubes(corners, edge_m, possible, child_bounds_m);
-  } else {
-    bound_by_patches(search, cube, possible, child_bounds_m);
+  if (cube.level > kGreatestByCorners) {
+    bound_by_patches(search, cube, item.left, child_bounds_m);
+    return part_cube(item, cube, child_bounds_m, link.limit_m(), hint, fresh);
   }
-  for (std::uint64_t left = possible; left != 0; left &= left - 1) {
-    const int i = __builtin_ctzll(left);
-    if (!(child_bounds_m[i] < link.limit_m())) continue;
-    fresh.add(std::max(child_bounds_m[i], bound_m), static_cast<std::uint32_t>(hint),
-              cube.child(i).key());
+  const auto edge_m = static_cast<float>(cube.edge_m());
+  const CubeCorners corners = corners_of(search, cube, item.bound_m, hint);
+  if (!is_opened) {
+    item.patch = static_cast<std::uint32_t>(hint);
+    if (item.way != link.request) {
+      item.way = link.request;
+      item.bound_m = std::max(item.bound_m, least_distance_m(corners, edge_m));
+      if (!(item.bound_m < link.limit_m())) return;
+      fresh.again = item.bound_m > link.items.least_bound_m();
+      if (fresh.again) return;
+    }
+    try_cube(search, cube, corners, hint);
+    if (!(item.bound_m < link.limit_m())) return;
   }
+  if (cube.level == 0) {
+    link.given_up_m = std::min(link.given_up_m, item.bound_m);
+    return;
+  }
+  bound_child_cubes(corners, edge_m, item.left, child_bounds_m);
+  part_cube(item, cube, child_bounds_m, link.limit_m(), hint, fresh);
 }
 
 CubeSearch make_search(const UnknownSpace& space, LinkSearch& link) {
   const PatchLevel& top = link.link->levels.back();
   const Eigen::Vector3d centre_L_m(top.centre_m[0][0], top.centre_m[1][0], top.centre_m[2][0]);
   const double reach_m = centre_L_m.norm() + link.X_BL.translation().norm() + top.half_height_m[0] +
-                         top.radius_m[0] + link.range_m;
+                         top.radius_m[0] + link.known_range_m();
   const float error_m = rounding_m(static_cast<float>(reach_m));
   return {link, space, link.X_BL.inverse(), NearestPointSearch(*link.link, error_m), error_m};
 }
@@ -203,7 +225,7 @@ CubeSearch make_search(const UnknownSpace& space, LinkSearch& link) {
 void search_in_cubes(const UnknownSpace& space, int steps, LinkSearch& link) {
   CubeSearch search = make_search(space, link);
   search_best_first(link, steps,
-                    [&](const Item& item, Fresh& fresh) HWY_ATTR { expand(search, item, fresh); });
+                    [&](Item& item, Fresh& fresh) HWY_ATTR { expand(search, item, fresh); });
 }
 
 void try_point_of(const UnknownSpace& space, const Eigen::Vector3f& p_B_m, LinkSearch& link) {
@@ -230,23 +252,20 @@ void try_hidden_point(const UnknownSpace& space, const Eigen::Vector3f& p_B_m, L
 }
 
 void start_in_cubes(LinkSearch& search) {
-  search.items.clear();
-  search.corners.clear();
-  search.given_up_m = std::numeric_limits<float>::infinity();
+  begin_front(search);
   if (search.link->empty()) return;
   const int top_level = static_cast<int>(search.link->levels.size()) - 1;
   const PatchLevel& top = search.link->levels[top_level];
   const Eigen::Vector3d centre_B_m =
       search.X_BL * Eigen::Vector3d(top.centre_m[0][0], top.centre_m[1][0], top.centre_m[2][0]);
-  const double reach_m = static_cast<double>(top.half_height_m[0]) + top.radius_m[0] +
-                         std::max(0.0f, search.limit_m());
+  const double reach_m =
+      static_cast<double>(top.half_height_m[0]) + top.radius_m[0] + search.known_range_m();
   constexpr int kSide = Cube::kCount >> 2 * Cube::kTopLevel;
   int begin[3], end[3];
   for (int i = 0; i < 3; ++i) {
     begin[i] = top_cube_at(centre_B_m[i] - reach_m);
     end[i] = top_cube_at(centre_B_m[i] + reach_m) + 1;
-    // Beyond all cubes nothing is known.
-    if (begin[i] < 0 || end[i] > kSide) search.given_up_m = 0;
+    search.is_beyond_cubes |= begin[i] < 0 || end[i] > kSide;
     begin[i] = std::clamp(begin[i], 0, kSide);
     end[i] = std::clamp(end[i], 0, kSide);
   }
@@ -259,7 +278,8 @@ void start_in_cubes(LinkSearch& search) {
         const Eigen::Vector3d nearest_m = centre_B_m.cwiseMax(low_m).cwiseMin(high_m);
         const double bound_m =
             (nearest_m - centre_B_m).norm() - top.half_height_m[0] - top.radius_m[0] - 1e-5;
-        search.items.push({static_cast<float>(std::max(bound_m, 0.0)), 0, cube.key()});
+        search.items.push(
+            {.bound_m = static_cast<float>(std::max(bound_m, 0.0)), .space = cube.key()});
       }
     }
   }
