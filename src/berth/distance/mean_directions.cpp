@@ -1,42 +1,166 @@
 #include "berth/distance/mean_directions.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstring>
+#include <limits>
 
+#ifndef BERTH_MEAN_DIRECTIONS_SUMS
+#define BERTH_MEAN_DIRECTIONS_SUMS
 namespace berth {
-namespace {
-
-constexpr int kTilesAtOnce = 8;
-constexpr float kNearest = 0.25F;
-
-/// What a tile's readings add up to.
+/// What a tile's readings add up to; u and v count from the tile's first pixel.
 struct TileSum {
   float count = 0;
   float z = 0;
   float uz = 0;
   float vz = 0;
-  float least_z = std::numeric_limits<float>::infinity();
+  float least_z = 0;
   float greatest_z = 0;
 };
+/// Unit vectors in frame C.
+struct DirectionSum {
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  double count = 0;
+};
+}  // namespace berth
+#endif
 
-TileSum sum_of(const DepthView& depth_m, const PixelRect& rect) {
-  TileSum sum;
-  for (int v = rect.v_begin; v < rect.v_end; ++v) {
-    const float* row = depth_m.row(v);
-    for (int u = rect.u_begin; u < rect.u_end; ++u) {
-      const float z = row[u];
-      if (std::isnan(z)) continue;
-      sum.count += 1;
-      sum.z += z;
-      sum.uz += static_cast<float>(u) * z;
-      sum.vz += static_cast<float>(v) * z;
-      sum.least_z = std::min(sum.least_z, z);
-      sum.greatest_z = std::max(sum.greatest_z, z);
+// Compiles the rest of this file once for each instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "berth/distance/mean_directions.cpp"
+#include "hwy/foreach_target.h"
+
+#include "berth/vector/lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace berth {
+namespace HWY_NAMESPACE {
+
+constexpr int kTilePx = ReadingTiles::kTilePx;
+constexpr int kTilePixels = kTilePx * kTilePx;
+
+/// Some of a tile's pixels: where they lie in it, and their depths.
+struct TilePixels {
+  Lanes u, v, z;
+  LaneMask has_reading;
+};
+
+/// The depths of a tile, NaN beyond the image's end.
+struct TileDepths {
+  alignas(64) float depth_m[kTilePixels];
+
+  HWY_INLINE TileDepths(const DepthView& image_m, Pixel corner) {
+    const int width = std::min(kTilePx, image_m.width - corner.u);
+    const int height = std::min(kTilePx, image_m.height - corner.v);
+    if (width < kTilePx || height < kTilePx) std::fill_n(depth_m, kTilePixels, kNoDepth);
+    for (int v = 0; v < height; ++v) {
+      std::memcpy(depth_m + kTilePx * v, image_m.row(corner.v + v) + corner.u,
+                  sizeof(float) * width);
     }
   }
-  return sum;
+  HWY_INLINE TilePixels pixels(int first) const {
+    const Lanes place = count_up(static_cast<float>(first));
+    const Lanes v = hn::Floor((place * Lanes(1.0f / kTilePx)).v);
+    const Lanes z = load(depth_m + first);
+    return {place - v * Lanes(kTilePx), v, z, hn::Eq(z.v, z.v)};
+  }
+};
+
+HWY_INLINE Lanes where(LaneMask mask, Lanes x) { return hn::IfThenElseZero(mask, x.v); }
+
+TileSum sum_of_tile(const DepthView& depth_m, Pixel corner) {
+  const TileDepths tile(depth_m, corner);
+  Lanes count(0.0f), sum_z(0.0f), sum_uz(0.0f), sum_vz(0.0f), least_z(HUGE_VALF), greatest_z(0.0f);
+  for (int i = 0; i < kTilePixels; i += kLanes) {
+    const TilePixels pixels = tile.pixels(i);
+    const Lanes z = where(pixels.has_reading, pixels.z);
+    count = count + where(pixels.has_reading, Lanes(1.0f));
+    sum_z = sum_z + z;
+    sum_uz = mul_add(pixels.u, z, sum_uz);
+    sum_vz = mul_add(pixels.v, z, sum_vz);
+    least_z = least(least_z, nan_to_infinity(pixels.z));
+    greatest_z = greatest(greatest_z, z);
+  }
+  return {sum_of_lanes(count),  sum_of_lanes(sum_z), sum_of_lanes(sum_uz),
+          sum_of_lanes(sum_vz), least_lane(least_z), greatest_lane(greatest_z)};
 }
+
+/// Sums of what lies on all lanes.
+struct LaneSums {
+  Lanes x, y, z, count;
+
+  /// Ways with their squares, each as often as its weight says.
+  HWY_INLINE void add(Lanes way_x, Lanes way_y, Lanes way_z, Lanes square, Lanes weight) {
+    const Lanes scale = weight / root(greatest(square, Lanes(1e-12f)));
+    x = mul_add(way_x, scale, x);
+    y = mul_add(way_y, scale, y);
+    z = mul_add(way_z, scale, z);
+    count = count + weight;
+  }
+};
+
+/// A tile that is near, pixel by pixel.
+HWY_INLINE void add_pixels(const DirectionCamera& view, Pixel corner, const Eigen::Vector3f& p,
+                           Lanes range2, LaneSums& sums) {
+  const Camera& camera = view.camera;
+  const TileDepths tile(view.obstacle_depth_m, corner);
+  const Lanes du(static_cast<float>(1 / camera.fx_px)), dv(static_cast<float>(1 / camera.fy_px));
+  const Lanes u0(static_cast<float>((corner.u - camera.cx_px) / camera.fx_px));
+  const Lanes v0(static_cast<float>((corner.v - camera.cy_px) / camera.fy_px));
+  for (int i = 0; i < kTilePixels; i += kLanes) {
+    const TilePixels pixels = tile.pixels(i);
+    const Lanes depth = where(pixels.has_reading, pixels.z);
+    const Lanes x = mul_add(pixels.u, du, u0) * depth - Lanes(p.x());
+    const Lanes y = mul_add(pixels.v, dv, v0) * depth - Lanes(p.y());
+    const Lanes z = depth - Lanes(p.z());
+    const Lanes square = mul_add(x, x, mul_add(y, y, z * z));
+    const LaneMask counts =
+        both(pixels.has_reading, both(square <= range2, square > Lanes(0.0f)));
+    sums.add(x, y, z, square, where(counts, Lanes(1.0f)));
+  }
+}
+
+DirectionSum sum_of_view(const DirectionCamera& view, const Eigen::Vector3f& p, float range_m) {
+  constexpr float kNearest = 0.25F;
+  const ReadingTiles& tiles = view.tiles;
+  const Lanes range2(range_m * range_m);
+  const Lanes none(0.0f);
+  LaneSums sums{none, none, none, none};
+  for (std::size_t first = 0; first < tiles.count.size(); first += kLanes) {
+    const Lanes x = load(&tiles.x_m[first]) - Lanes(p.x());
+    const Lanes y = load(&tiles.y_m[first]) - Lanes(p.y());
+    const Lanes z = load(&tiles.z_m[first]) - Lanes(p.z());
+    const Lanes count = load(&tiles.count[first]);
+    const Lanes radius = load(&tiles.radius_m[first]);
+    const Lanes square = mul_add(x, x, mul_add(y, y, z * z));
+    const Lanes reach = radius + Lanes(range_m);
+    const LaneMask in_reach = both(count > Lanes(0.0f), square <= reach * reach);
+    if (bits_of(in_reach) == 0) continue;
+    const Lanes near = radius * Lanes(1 / kNearest);
+    const LaneMask is_near = square < near * near;
+    const LaneMask is_far = hn::AndNot(is_near, square <= range2);
+    sums.add(x, y, z, square, where(is_far, count));
+    for (std::uint64_t bits = bits_of(both(is_near, in_reach)); bits != 0; bits &= bits - 1)
+      add_pixels(view, tiles.corner[first + __builtin_ctzll(bits)], p, range2, sums);
+  }
+  return {{sum_of_lanes(sums.x), sum_of_lanes(sums.y), sum_of_lanes(sums.z)},
+          sum_of_lanes(sums.count)};
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace berth
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace berth {
+
+HWY_EXPORT(sum_of_tile);
+HWY_EXPORT(sum_of_view);
+
+namespace {
+
+/// The most lanes that a vector has.
+constexpr int kTilesAtOnce = 16;
 
 Eigen::Vector3f point_C_m(const Camera& camera, double u, double v, double z) {
   return Eigen::Vector3d((u - camera.cx_px) * z / camera.fx_px,
@@ -61,79 +185,17 @@ float radius_m(const Camera& camera, const PixelRect& rect, const TileSum& sum,
 void add_tile(const Camera& camera, const PixelRect& rect, const TileSum& sum, ReadingTiles& out) {
   const float mean_z = sum.z / sum.count;
   const Eigen::Vector3f mean_C_m(
-      static_cast<float>((sum.uz - camera.cx_px * sum.z) / camera.fx_px) / sum.count,
-      static_cast<float>((sum.vz - camera.cy_px * sum.z) / camera.fy_px) / sum.count, mean_z);
+      static_cast<float>((sum.uz + (rect.u_begin - camera.cx_px) * sum.z) / camera.fx_px) /
+          sum.count,
+      static_cast<float>((sum.vz + (rect.v_begin - camera.cy_px) * sum.z) / camera.fy_px) /
+          sum.count,
+      mean_z);
   out.count.push_back(sum.count);
   out.x_m.push_back(mean_C_m.x());
   out.y_m.push_back(mean_C_m.y());
   out.z_m.push_back(mean_C_m.z());
   out.radius_m.push_back(radius_m(camera, rect, sum, mean_C_m));
   out.corner.push_back({rect.u_begin, rect.v_begin});
-}
-
-/// Sums by lane, so that a compiler may take them side by side.
-struct LaneSums {
-  std::array<float, kTilesAtOnce> x{}, y{}, z{}, count{};
-};
-
-struct Sum {
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
-  double count = 0;
-};
-
-void add_far_tiles(const ReadingTiles& tiles, std::size_t first, const Eigen::Vector3f& p,
-                   float range2_m2, LaneSums& sums, std::array<bool, kTilesAtOnce>& is_near) {
-  for (int i = 0; i < kTilesAtOnce; ++i) {
-    const std::size_t k = first + i;
-    const float x = tiles.x_m[k] - p.x(), y = tiles.y_m[k] - p.y(), z = tiles.z_m[k] - p.z();
-    const float square = x * x + y * y + z * z;
-    const bool within = square <= range2_m2;
-    const float least = tiles.radius_m[k] / kNearest;
-    is_near[i] = square < least * least;
-    const float weight = within && !is_near[i] ? tiles.count[k] : 0;
-    const float scale = weight / std::sqrt(std::max(square, 1e-12F));
-    sums.x[i] += x * scale;
-    sums.y[i] += y * scale;
-    sums.z[i] += z * scale;
-    sums.count[i] += weight;
-  }
-}
-
-void add_pixels(const DirectionCamera& view, Pixel corner, const Eigen::Vector3f& p,
-                float range2_m2, Sum& sum) {
-  const int u_end = std::min(corner.u + ReadingTiles::kTilePx, view.obstacle_depth_m.width);
-  const int v_end = std::min(corner.v + ReadingTiles::kTilePx, view.obstacle_depth_m.height);
-  for (int v = corner.v; v < v_end; ++v) {
-    for (int u = corner.u; u < u_end; ++u) {
-      const float depth_m = view.obstacle_depth_m(u, v);
-      if (std::isnan(depth_m)) continue;
-      const Eigen::Vector3f way = point_C_m(view.camera, u, v, depth_m) - p;
-      const float square = way.squaredNorm();
-      if (square > range2_m2 || square == 0) continue;
-      sum.direction += (way / std::sqrt(square)).cast<double>();
-      sum.count += 1;
-    }
-  }
-}
-
-/// In frame C.
-Sum sum_of_view(const DirectionCamera& view, const Eigen::Vector3f& p, float range2_m2) {
-  LaneSums lanes;
-  Sum sum;
-  std::array<bool, kTilesAtOnce> is_near{};
-  for (std::size_t first = 0; first < view.tiles.count.size(); first += kTilesAtOnce) {
-    add_far_tiles(view.tiles, first, p, range2_m2, lanes, is_near);
-    for (int i = 0; i < kTilesAtOnce; ++i) {
-      if (is_near[i] && view.tiles.count[first + i] > 0) {
-        add_pixels(view, view.tiles.corner[first + i], p, range2_m2, sum);
-      }
-    }
-  }
-  for (int i = 0; i < kTilesAtOnce; ++i) {
-    sum.direction += Eigen::Vector3d(lanes.x[i], lanes.y[i], lanes.z[i]);
-    sum.count += lanes.count[i];
-  }
-  return sum;
 }
 
 }  // namespace
@@ -146,7 +208,7 @@ void build_reading_tiles(const Camera& camera, DepthView obstacle_depth_m, Readi
     for (int u = 0; u < obstacle_depth_m.width; u += kPx) {
       const PixelRect rect =
           clip({u, v, u + kPx, v + kPx}, obstacle_depth_m.width, obstacle_depth_m.height);
-      const TileSum sum = sum_of(obstacle_depth_m, rect);
+      const TileSum sum = HWY_DYNAMIC_DISPATCH(sum_of_tile)(obstacle_depth_m, {u, v});
       if (sum.count > 0) add_tile(camera, rect, sum, out);
     }
   }
@@ -160,18 +222,19 @@ void build_reading_tiles(const Camera& camera, DepthView obstacle_depth_m, Readi
 
 MeanDirection mean_direction(std::span<const DirectionCamera> views, const Eigen::Vector3d& p_B_m,
                              double range_m) {
-  Sum all;
-  const auto range2_m2 = static_cast<float>(range_m * range_m);
+  DirectionSum all;
   for (const DirectionCamera& view : views) {
     const Eigen::Vector3f p_C_m = (view.X_BC.inverse() * p_B_m).cast<float>();
-    const Sum sum = sum_of_view(view, p_C_m, range2_m2);
+    const DirectionSum sum =
+        HWY_DYNAMIC_DISPATCH(sum_of_view)(view, p_C_m, static_cast<float>(range_m));
     all.direction += view.X_BC.linear() * sum.direction;
     all.count += sum.count;
   }
   MeanDirection mean;
-  mean.count = static_cast<std::int64_t>(all.count);
+  mean.count = static_cast<std::int64_t>(std::lround(all.count));
   mean.direction_B = (all.direction / all.count).cast<float>();
   return mean;
 }
 
 }  // namespace berth
+#endif  // HWY_ONCE

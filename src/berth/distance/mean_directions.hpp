@@ -12,7 +12,7 @@
 namespace berth {
 
 /// The readings of an obstacle image by tiles of 8 x 8 pixels, those without readings left out. In
-/// the optical frame C, metres; padded with empty tiles to a multiple of 8.
+/// the optical frame C, metres; padded with empty tiles to a multiple of 16.
 struct ReadingTiles {
   static constexpr int kTilePx = 8;
 
