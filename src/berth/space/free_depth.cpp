@@ -1,7 +1,6 @@
 #include "berth/space/free_depth.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -297,115 +296,6 @@ void find_free_depth(const DepthImage& own_m, DepthImage& out) {
     (own_m.row(v - 1), own_m.row(v), own_m.row(v + 1), width, row);
     row[0] = row[width - 1] = 0;
   }
-}
-
-namespace {
-
-/// The k of the greatest squares of 2^k pixels that fit into `pixels`, at least one.
-int level_of(int pixels) { return std::bit_width(static_cast<unsigned>(pixels)) - 1; }
-
-/// Makes `value` hold in all pixels of `rect`, by squares of the greatest size that fits.
-void hold_in(const PixelRect& rect, float value, std::vector<DepthImage>& levels) {
-  const int level = level_of(std::min(rect.u_end - rect.u_begin, rect.v_end - rect.v_begin));
-  const int side = 1 << level;
-  DepthImage& squares = levels[level];
-  for (int v = rect.v_begin;; v = std::min(v + side, rect.v_end - side)) {
-    for (int u = rect.u_begin;; u = std::min(u + side, rect.u_end - side)) {
-      squares(u, v) = std::min(squares(u, v), value);
-      if (u + side == rect.u_end) break;
-    }
-    if (v + side == rect.v_end) break;
-  }
-}
-
-void take_lesser(const float* from_m, int count, float* to_m) {
-  for (int i = 0; i < count; ++i) to_m[i] = from_m[i] < to_m[i] ? from_m[i] : to_m[i];
-}
-
-/// The same for many pixels side by side, from the one at (u, v) on: each one's value holds in all
-/// that are no more than `reach` from it, which lie in the image.
-void hold_around(const float* values, int count, int u, int v, int reach,
-                 std::vector<DepthImage>& levels) {
-  const int level = level_of(2 * reach + 1);
-  const int last = reach + 1 - (1 << level);
-  for (const int y : {v - reach, v + last}) {
-    for (const int x : {u - reach, u + last}) take_lesser(values, count, levels[level].row(y) + x);
-  }
-}
-
-/// Takes a row's pixels into the squares: those with one reach at once, but at the image's ends.
-void hold_row(const AgedRow& row, int v, std::vector<DepthImage>& levels) {
-  const int width = levels[0].width();
-  const int height = levels[0].height();
-  for (int u = 0; u < width;) {
-    const int reach = row.reach[u];
-    int end = u + 1;
-    while (end < width && row.reach[end] == reach) ++end;
-    const bool fits = v >= reach && v + reach < height && 2 * reach < width;
-    const int inner = fits ? std::clamp(reach, u, end) : end;
-    const int outer = fits ? std::clamp(width - reach, inner, end) : end;
-    if (outer > inner) {
-      hold_around(&row.left_m[inner], outer - inner, inner, v, reach, levels);
-    }
-    for (int at = u; at < end; ++at) {
-      if (at == inner) at = outer;
-      if (at == end) break;
-      hold_in(clip({at - reach, v - reach, at + reach + 1, v + reach + 1}, width, height),
-              row.left_m[at], levels);
-    }
-    u = end;
-  }
-}
-
-/// Each square's value holds in its four quarters.
-void hold_in_quarters(const DepthImage& squares, int half, DepthImage& quarters) {
-  const int columns = squares.width() - 2 * half + 1;
-  for (int v = 0; v + 2 * half <= squares.height(); ++v) {
-    for (const int y : {v, v + half}) {
-      for (const int x : {0, half}) take_lesser(squares.row(v), columns, quarters.row(y) + x);
-    }
-  }
-}
-
-}  // namespace
-
-void age_own_free_depth(const Camera& camera, const DepthImage& sensor_depth_m,
-                        const DepthImage& own_m, double moved_m, AgingWorkspace& workspace,
-                        DepthImage& out) {
-  const int width = own_m.width();
-  const int height = own_m.height();
-  out.resize(width, height, 0);
-  if (width == 0 || height == 0) return;
-  const double spread = std::max(camera.fx_px, camera.fy_px) * moved_m;
-  // A pixel without a reading keeps its value for itself.
-  const auto reach_of = [&](float sensed_m) {
-    const double pixels = std::min(spread / sensed_m, width + height + 0.0);
-    const int whole = std::isnan(pixels) ? 0 : static_cast<int>(pixels);
-    return whole + (whole < pixels ? 1 : 0);
-  };
-  float nearest_m = kEndless_m;
-  for (const float sensed_m : sensor_depth_m.pixels()) {
-    nearest_m = sensed_m < nearest_m ? sensed_m : nearest_m;
-  }
-  const int widest = std::min({2 * reach_of(nearest_m) + 1, width, height});
-  const auto level_count = static_cast<std::size_t>(level_of(widest)) + 1;
-  workspace.levels.resize(std::max(workspace.levels.size(), level_count));
-  for (std::size_t k = 0; k < level_count; ++k)
-    workspace.levels[k].resize(width, height, kEndless_m);
-  AgedRow& row = workspace.row;
-  row.left_m.resize(width);
-  row.reach.resize(width);
-  for (int v = 0; v < height; ++v) {
-    for (int u = 0; u < width; ++u) {
-      row.left_m[u] = std::max(0.0f, own_m(u, v) - static_cast<float>(moved_m));
-      row.reach[u] = reach_of(sensor_depth_m(u, v));
-    }
-    hold_row(row, v, workspace.levels);
-  }
-  for (std::size_t k = level_count - 1; k > 0; --k) {
-    hold_in_quarters(workspace.levels[k], 1 << (k - 1), workspace.levels[k - 1]);
-  }
-  out.pixels() = workspace.levels[0].pixels();
 }
 
 }  // namespace berth

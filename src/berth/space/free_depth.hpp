@@ -1,10 +1,8 @@
 // How far each pixel of a camera sees free space.
 #pragma once
 
-#include <vector>
-
 #include "berth/space/settings.hpp"
-#include "berth/types/camera.hpp"
+#include "berth/types/image.hpp"
 #include "berth/types/obstacle_image.hpp"
 
 namespace berth {
@@ -20,25 +18,5 @@ void find_own_free_depth(DepthView sensor_depth_m, const ObstacleImage& obstacle
 
 /// Free depth E (definition 2): the least of 3 x 3 pixels; 0 in the outermost ring.
 void find_free_depth(const DepthImage& own_m, DepthImage& out);
-
-/// What a row's pixels have left, and how many pixels beside them it holds.
-struct AgedRow {
-  std::vector<float> left_m;
-  std::vector<int> reach;
-};
-
-/// The memory of age_own_free_depth().
-struct AgingWorkspace {
-  /// levels[k]: values that hold in squares of 2^k x 2^k pixels, by their first pixel.
-  std::vector<DepthImage> levels;
-  AgedRow row;
-};
-
-/// What each pixel still frees after something may have moved by `moved_m`: that much less, and
-/// what a pixel with a reading S has left holds for all that are no more than
-/// ceil(f moved_m / S) pixels from it sideways, f the greater of both focal lengths.
-void age_own_free_depth(const Camera& camera, const DepthImage& sensor_depth_m,
-                        const DepthImage& own_m, double moved_m, AgingWorkspace& workspace,
-                        DepthImage& out);
 
 }  // namespace berth

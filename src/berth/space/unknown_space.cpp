@@ -35,7 +35,17 @@ bool is_seen_free(const FreeingCamera& view, const Eigen::Vector3d& p_B) {
 
 UnknownSpace::UnknownSpace() : slots_(kSlots), used_(kMostBlocks) {}
 
-void UnknownSpace::assign(std::span<const PosedSpace> views) {
+void UnknownSpace::age(const PosedSpace& posed, AgedSpace& aged, FreeingCamera& view) {
+  const CameraSpace& space = *posed.space;
+  age_own_free_depth(space.camera, space.sensor_depth_m, space.own_free_depth_m,
+                     space.settings.obstacle_speed_m_s * posed.age_s, aging_, aged.own_m);
+  find_free_depth(aged.own_m, aged.free_depth_m);
+  build_depth_windows(aged.free_depth_m, aged.windows);
+  view.free_depth_m = &aged.free_depth_m;
+  view.free_windows = &aged.windows;
+}
+
+void UnknownSpace::assign(std::span<const PosedSpace> views, const UnknownSpace* aged) {
   require(views.size() <= kMostViews, "more than 64 views, expected at most 64");
   for (const PosedSpace& view : views) {
     require(view.age_s >= 0, "age_s of a view, expected a number of at least 0");
@@ -50,23 +60,30 @@ void UnknownSpace::assign(std::span<const PosedSpace> views) {
   aged_.resize(std::max(aged_.size(), views.size()));
   for (std::size_t k = 0; k < views.size(); ++k) {
     const CameraSpace& space = *views[k].space;
-    FreeingCamera view{&space, views[k].X_BC, views[k].X_BC.inverse(), nullptr, nullptr};
-    if (!space.has_free_depth || views[k].age_s > space.settings.free_space_max_age_s) {
+    const double age_s = views[k].age_s;
+    FreeingCamera view{&space, views[k].X_BC, views[k].X_BC.inverse(), age_s, nullptr, nullptr};
+    const FreeingCamera* const same = aged ? aged->find_aged(space, age_s) : nullptr;
+    if (!space.has_free_depth || age_s > space.settings.free_space_max_age_s) {
       // Frees nothing.
-    } else if (views[k].age_s == 0 || views.size() < 2) {
+    } else if (age_s == 0 || views.size() < 2) {
       view.free_depth_m = &space.free_depth_m;
       view.free_windows = &space.free_windows;
+    } else if (same) {
+      view.free_depth_m = same->free_depth_m;
+      view.free_windows = same->free_windows;
     } else {
-      AgedSpace& aged = aged_[k];
-      age_own_free_depth(space.camera, space.sensor_depth_m, space.own_free_depth_m,
-                         space.settings.obstacle_speed_m_s * views[k].age_s, aging_, aged.own_m);
-      find_free_depth(aged.own_m, aged.free_depth_m);
-      build_depth_windows(aged.free_depth_m, aged.windows);
-      view.free_depth_m = &aged.free_depth_m;
-      view.free_windows = &aged.windows;
+      age(views[k], aged_[k], view);
     }
     views_.push_back(view);
   }
+}
+
+const FreeingCamera* UnknownSpace::find_aged(const CameraSpace& space, double age_s) const {
+  if (views_.size() < 2) return nullptr;
+  const auto same = std::ranges::find_if(views_, [&](const FreeingCamera& view) {
+    return view.space == &space && view.age_s == age_s && view.free_depth_m;
+  });
+  return same == views_.end() ? nullptr : &*same;
 }
 
 std::optional<HidingPixel> UnknownSpace::hiding_pixel(const Eigen::Vector3d& p_B) const {

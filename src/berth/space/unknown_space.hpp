@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "berth/space/aged_depth.hpp"
 #include "berth/space/camera_space.hpp"
 #include "berth/space/cubes.hpp"
 #include "berth/space/free_depth.hpp"
@@ -27,6 +28,7 @@ struct FreeingCamera {
   const CameraSpace* space = nullptr;
   Pose X_BC = Pose::Identity();
   Pose X_CB = Pose::Identity();
+  double age_s = 0;
   /// E at this age; null where the view frees nothing.
   const DepthImage* free_depth_m = nullptr;
   const DepthWindows* free_windows = nullptr;
@@ -53,8 +55,9 @@ class UnknownSpace {
   /// Begins anew with these views, which have to outlive it; reuses its memory. Nobody may ask
   /// meanwhile. A view whose age is above its free_space_max_age_s frees nothing; a lesser one
   /// shrinks what it frees (age_own_free_depth). Throws std::invalid_argument for more than
-  /// kMostViews, an age below 0 or a pose that is not finite.
-  void assign(std::span<const PosedSpace> views);
+  /// kMostViews, an age below 0 or a pose that is not finite. A view that `aged` has at the same
+  /// age is not aged again: `aged` has to outlive it then, unchanged.
+  void assign(std::span<const PosedSpace> views, const UnknownSpace* aged = nullptr);
 
   std::span<const FreeingCamera> views() const { return views_; }
 
@@ -83,6 +86,9 @@ class UnknownSpace {
     DepthImage free_depth_m;
     DepthWindows windows;
   };
+
+  void age(const PosedSpace& posed, AgedSpace& aged, FreeingCamera& view);
+  const FreeingCamera* find_aged(const CameraSpace& space, double age_s) const;
 
   std::uint64_t serial_number_ = 0;
   std::vector<FreeingCamera> views_;

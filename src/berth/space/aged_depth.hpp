@@ -1,0 +1,31 @@
+// What is left of free space after something may have moved.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "berth/types/camera.hpp"
+#include "berth/types/image.hpp"
+
+namespace berth {
+
+/// The memory of age_own_free_depth().
+struct AgingWorkspace {
+  /// How many pixels beside it each pixel holds, at most the number of rings and one.
+  Image<std::uint8_t> reach;
+  /// Bit r of a row: some pixel's reach is r.
+  std::vector<std::uint32_t> reaches;
+  /// Three rows of each ring, and a row to work on.
+  std::vector<float> rows;
+  /// levels[k]: values that hold in squares of 2^k x 2^k pixels, by their first pixel.
+  std::vector<DepthImage> levels;
+};
+
+/// What each pixel still frees after something may have moved by `moved_m`: that much less, and
+/// what a pixel with a reading S has left holds for all that are no more than
+/// ceil(f moved_m / S) pixels from it sideways, f the greater of both focal lengths.
+void age_own_free_depth(const Camera& camera, const DepthImage& sensor_depth_m,
+                        const DepthImage& own_m, double moved_m, AgingWorkspace& workspace,
+                        DepthImage& out);
+
+}  // namespace berth
