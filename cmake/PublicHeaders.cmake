@@ -21,6 +21,7 @@ set(BERTH_PUBLIC_HEADERS
   berth/pipeline/frame.hpp
   berth/pipeline/frame_pool.hpp
   berth/pipeline/observer.hpp
+  berth/pipeline/prepared_space.hpp
   berth/pipeline/query.hpp
   berth/pipeline/request.hpp
   berth/pipeline/result.hpp
@@ -29,6 +30,7 @@ set(BERTH_PUBLIC_HEADERS
   berth/pipeline/mounted_camera.hpp
   berth/live/joint_intake.hpp
   berth/live/live_camera.hpp
+  berth/live/live_space.hpp
   berth/live/raw_depth.hpp
   berth/separation/evasion.hpp
   berth/separation/monitor.hpp

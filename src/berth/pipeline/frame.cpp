@@ -1,6 +1,11 @@
 #include "berth/pipeline/frame.hpp"
 
+#include <fmt/format.h>
+
+#include <stdexcept>
+
 #include "berth/pipeline/frame_space.hpp"
+#include "berth/pipeline/mounted_camera.hpp"
 
 namespace berth {
 
@@ -11,6 +16,14 @@ Frame& Frame::operator=(Frame&&) noexcept = default;
 
 bool Frame::is_for_any_query() const {
   return !view || time.status != TimeStatus::ok || !space->seen.is_empty();
+}
+
+void require_space(const Frame& frame) {
+  if (frame.is_for_any_query()) return;
+  throw std::invalid_argument(fmt::format(
+      "frames: camera {}: observed for methods that compare images alone; expected a frame for "
+      "any query",
+      frame.view->mount().name));
 }
 
 void clear_images(const Camera& camera, Frame& frame) {

@@ -34,6 +34,9 @@ struct Frame : Exposure {
   bool is_for_any_query() const;
 };
 
+/// Throws std::invalid_argument for a frame that was observed for ImageQuery alone.
+void require_space(const Frame& frame);
+
 /// Of an image's pixels. One whose range is short, or who stands outdoors, still reads many more.
 inline constexpr double kLeastReadOfImage = 0.01;
 

@@ -56,7 +56,8 @@ Pose posed_now(const Frame& frame, const Pose& X_WB) {
 }  // namespace
 
 void FrameSet::assign(std::span<const Frame* const> frames, const TimeSettings& settings,
-                      std::optional<double> now_s, const std::optional<Pose>& X_WB) {
+                      std::optional<double> now_s, const std::optional<Pose>& X_WB,
+                      const FrameSet* aged) {
   frames_.assign(frames.begin(), frames.end());
   cameras_.clear();
   used_.clear();
@@ -86,8 +87,12 @@ void FrameSet::assign(std::span<const Frame* const> frames, const TimeSettings& 
     if (frame.space->has_rejected_space)
       posed_rejected_.push_back({&frame.space->rejected_space, X_BC_[k], 0});
   }
-  space_.assign(posed_);
+  space_.assign(posed_, aged ? &aged->space_ : nullptr);
   rejected_.assign(posed_rejected_);
+}
+
+bool FrameSet::is_posed_at(const Pose& X_WB) const {
+  return !newest_ || X_WB.matrix() == newest_->X_WB.matrix();
 }
 
 Timeliness timeliness_of(const FrameSet& frames, std::optional<double> now_s,

@@ -23,8 +23,14 @@ class FrameSet {
   /// not known any more, and what it would have seen free is hidden again. Without now_s the newest
   /// stamp is taken for now. X_WB is where the robot's root stands in the requests; none: where it
   /// stood at the newest exposure that is used. Nobody may ask meanwhile. Reuses its memory.
+  /// What `aged` has of the same frames at the same ages is taken from it, which then has to
+  /// outlive the requests.
   void assign(std::span<const Frame* const> frames, const TimeSettings& settings,
-              std::optional<double> now_s = {}, const std::optional<Pose>& X_WB = {});
+              std::optional<double> now_s = {}, const std::optional<Pose>& X_WB = {},
+              const FrameSet* aged = nullptr);
+
+  /// Whether it would be the same with this X_WB.
+  bool is_posed_at(const Pose& X_WB) const;
 
   /// frames()[k] and cameras()[k] belong to camera k.
   std::span<const Frame* const> frames() const { return frames_; }

@@ -50,6 +50,18 @@ void LinkSearches::forget() {
   rejected_.clear();
 }
 
+void LinkSearches::prepare(const FrameSet& frames, const RobotPose& pose) {
+  ask(frames, pose, found_);
+  if (robot_->settings().visibility) search_rejected(frames, pose);
+}
+
+void LinkSearches::go_on_from(const LinkSearches& prepared) {
+  workspace_ = prepared.workspace_;
+  found_ = prepared.found_;
+  rejected_workspace_ = prepared.rejected_workspace_;
+  rejected_ = prepared.rejected_;
+}
+
 void LinkSearches::tell_distances(const FrameSet& frames, Result& out) const {
   for (std::size_t i = 0; i < found_.size(); ++i) {
     LinkResult& link = out.links[i];
@@ -110,12 +122,17 @@ void LinkSearches::tell_visibility(const FrameSet& frames, const RobotPose& pose
   tell_rejected(frames, pose, out);
 }
 
-void LinkSearches::tell_rejected(const FrameSet& frames, const RobotPose& pose, Result& out) {
+void LinkSearches::search_rejected(const FrameSet& frames, const RobotPose& pose) {
+  rejected_.clear();
   if (frames.rejected().views().empty()) return;
   MeshRequest request = request_of(robot_->settings().distance);
   request.unknown = false;
   mesh_distances(*robot_->patches(), pose, frames.rejected(), request, rejected_workspace_,
                  rejected_);
+}
+
+void LinkSearches::tell_rejected(const FrameSet& frames, const RobotPose& pose, Result& out) {
+  search_rejected(frames, pose);
   for (std::size_t i = 0; i < rejected_.size(); ++i) {
     const SpacePair& dropped = rejected_[i].occupied;
     LinkResult& kept = out.links[i];

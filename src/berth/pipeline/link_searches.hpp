@@ -27,11 +27,17 @@ class LinkSearches {
   /// As Query::forget().
   void forget();
 
+  /// Searches for the robot in this pose, for others to go on from.
+  void prepare(const FrameSet& frames, const RobotPose& pose);
+  /// The next request goes on where `prepared` ended.
+  void go_on_from(const LinkSearches& prepared);
+
  private:
   void tell_distances(const FrameSet& frames, Result& out) const;
   void tell_mean_directions(const FrameSet& frames, Result& out);
   void tell_visibility(const FrameSet& frames, const RobotPose& pose, Result& out);
   void tell_rejected(const FrameSet& frames, const RobotPose& pose, Result& out);
+  void search_rejected(const FrameSet& frames, const RobotPose& pose);
 
   std::shared_ptr<const Robot> robot_;
   MeshWorkspace workspace_;

@@ -25,14 +25,10 @@ double newest_stamp_s(std::span<const Frame* const> frames) {
 /// Of a frame that another image may take the place of, at the same address.
 std::uint64_t number_of(const Frame* frame) { return frame ? frame->number : 0; }
 
-void require_space(std::span<const Frame* const> frames) {
-  for (const Frame* frame : frames) {
-    if (!frame || frame->is_for_any_query()) continue;
-    throw std::invalid_argument(fmt::format(
-        "frames: camera {}: observed for methods that compare images alone; expected a frame for "
-        "any query",
-        frame->view->mount().name));
-  }
+/// What it takes part in: readings, and free space.
+std::pair<bool, bool> use_of(const CameraState& camera) {
+  const bool is_in = is_used(camera.status);
+  return {is_in, is_in && camera.status != CameraStatus::blind};
 }
 
 bool is_unset(const std::optional<Pose>& X_WB) { return X_WB && !X_WB->matrix().allFinite(); }
@@ -73,8 +69,10 @@ void tell_camera(const Exposure* exposure, const CameraState& state, CameraResul
 Query::Query(std::shared_ptr<const Robot> robot, std::vector<std::string> camera_names)
     : robot_(std::move(robot)),
       camera_names_(std::move(camera_names)),
+      asked_(nullptr),
       set_(std::make_unique<FrameSet>()),
       searches_(std::make_unique<LinkSearches>(robot_)) {
+  asked_ = set_.get();
   begin_result(*robot_, result_);
 }
 
@@ -93,15 +91,34 @@ bool Query::has_moved(const std::optional<Pose>& X_WB) const {
   return X_WB && X_WB->matrix() != X_WB_->matrix();
 }
 
-void Query::update_frames(std::span<const Frame* const> frames, double now_s,
+bool Query::take_prepared(const std::shared_ptr<const PreparedSpace>& prepared,
+                          const std::optional<Pose>& X_WB) {
+  if (!prepared) return false;
+  const FrameSet& set = *prepared->set_;
+  if (!std::ranges::equal(cameras_, set.cameras(), {}, use_of, use_of)) return false;
+  if (X_WB && !set.is_posed_at(*X_WB)) return false;
+  if (asked_ == &set && prepared_ == prepared) return true;
+  asked_ = &set;
+  prepared_ = prepared;
+  searches_->go_on_from(*prepared->searches_);
+  return true;
+}
+
+void Query::update_frames(const NewestFrames& newest, double now_s,
                           const std::optional<Pose>& X_WB) {
   const TimeSettings& settings = robot_->settings().time;
+  const std::span<const Frame* const> frames = newest.get();
   before_.swap(cameras_);
   cameras_.clear();
   for (const Frame* frame : frames) cameras_.push_back(camera_state(frame, now_s, settings));
-  if (!has_changed(frames) && !has_moved(X_WB)) return;
+  if (take_prepared(newest.prepared(), X_WB)) return;
+  const bool is_same = asked_ == set_.get() && prepared_ == newest.prepared();
+  if (is_same && !has_changed(frames) && !has_moved(X_WB)) return;
   X_WB_ = X_WB;
-  set_->assign(frames, settings, now_s, is_unset(X_WB) ? std::nullopt : X_WB);
+  asked_ = set_.get();
+  prepared_ = newest.prepared();
+  set_->assign(frames, settings, now_s, is_unset(X_WB) ? std::nullopt : X_WB,
+               prepared_ ? prepared_->set_.get() : nullptr);
   numbers_.clear();
   for (const Frame* frame : frames) numbers_.push_back(number_of(frame));
 }
@@ -110,12 +127,12 @@ Timeliness Query::find_pose(const JointState* joints, TimeStatus joints_status,
                             std::optional<double> now_s) {
   const TimeSettings& settings = robot_->settings().time;
   if (!joints) {
-    const Timeliness time = timeliness_of(*set_, now_s, settings);
+    const Timeliness time = timeliness_of(*asked_, now_s, settings);
     result_.joints_stamp_s = result_.stamp_s;
-    if (time.status == TimeStatus::ok) result_.pose.X_BL = set_->newest()->pose.X_BL;
+    if (time.status == TimeStatus::ok) result_.pose.X_BL = asked_->newest()->pose.X_BL;
     return time;
   }
-  Timeliness time = timeliness_of(*set_, joints->stamp_s, now_s, settings);
+  Timeliness time = timeliness_of(*asked_, joints->stamp_s, now_s, settings);
   result_.joints_stamp_s = joints->stamp_s;
   if (joints_status != TimeStatus::ok) {
     time.status = joints_status;
@@ -129,9 +146,9 @@ void Query::tell_cameras() {
   result_.cameras.resize(cameras_.size());
   for (std::size_t k = 0; k < cameras_.size(); ++k) {
     CameraResult& camera = result_.cameras[k];
-    const Frame* frame = set_->frames()[k];
+    const Frame* frame = asked_->frames()[k];
     tell_camera(frame, cameras_[k], camera);
-    if (is_used(cameras_[k].status)) camera.X_BC = set_->X_BC(k);
+    if (is_used(cameras_[k].status)) camera.X_BC = asked_->X_BC(k);
     if (camera.has_frame) camera.self_filter = frame->obstacles.count;
     if (!camera.has_frame && k < camera_names_.size()) camera.camera = camera_names_[k];
   }
@@ -143,19 +160,21 @@ void Query::tell_ahead(const Request& request) {
     return result_.ahead.poses.clear();
   }
   if (!ahead_) ahead_ = std::make_unique<LookAheadSearch>(robot_);
-  ahead_->ask(*set_, request.ahead, request.nearer_than_m, result_.ahead);
+  ahead_->ask(*asked_, request.ahead, request.nearer_than_m, result_.ahead);
 }
 
 const Result& Query::ask(const Request& request) {
   require_length(request.nearer_than_m);
-  require_space(request.frames.get());
+  for (const Frame* frame : request.frames.get()) {
+    if (frame) require_space(*frame);
+  }
   TimeStatus joints_status = TimeStatus::ok;
   const JointState* joints = request.joints.read(request.now_s, newest_, joints_status);
   const std::span<const Frame* const> frames = request.frames.get();
-  update_frames(frames, request.now_s.value_or(newest_stamp_s(frames)), request.X_WB);
+  update_frames(request.frames, request.now_s.value_or(newest_stamp_s(frames)), request.X_WB);
   tell_cameras();
   result_.stamp_s =
-      set_->newest() ? set_->newest()->stamp_s : std::numeric_limits<double>::quiet_NaN();
+      asked_->newest() ? asked_->newest()->stamp_s : std::numeric_limits<double>::quiet_NaN();
   result_.time = find_pose(joints, joints_status, request.now_s);
   if (result_.time.status == TimeStatus::ok && is_unset(request.X_WB)) {
     result_.time.status = TimeStatus::stale_pose;
@@ -166,7 +185,7 @@ const Result& Query::ask(const Request& request) {
     result_.status = std::ranges::all_of(cameras_, is_relied_on, &CameraState::status)
                          ? ResultStatus::ok
                          : ResultStatus::degraded;
-    searches_->ask(*set_, result_.pose, result_);
+    searches_->ask(*asked_, result_.pose, result_);
     find_nearest(result_);
   }
   tell_ahead(request);

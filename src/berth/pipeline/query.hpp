@@ -37,11 +37,13 @@ class Query {
   void forget();
 
   /// What the frames of the last request leave of space.
-  const FrameSet& frames() const { return *set_; }
+  const FrameSet& frames() const { return *asked_; }
 
  private:
   /// Assembles the frames anew where one of them, or what may be done with it, has changed.
-  void update_frames(std::span<const Frame* const> frames, double now_s,
+  void update_frames(const NewestFrames& newest, double now_s, const std::optional<Pose>& X_WB);
+  /// Asks what was prepared, if it is as these cameras and this place of the root need it.
+  bool take_prepared(const std::shared_ptr<const PreparedSpace>& prepared,
                      const std::optional<Pose>& X_WB);
   bool has_moved(const std::optional<Pose>& X_WB) const;
   bool has_changed(std::span<const Frame* const> frames) const;
@@ -53,7 +55,10 @@ class Query {
 
   std::shared_ptr<const Robot> robot_;
   std::vector<std::string> camera_names_;
+  /// That of the requests: the query's own, or what `prepared_` holds.
+  const FrameSet* asked_;
   std::unique_ptr<FrameSet> set_;
+  std::shared_ptr<const PreparedSpace> prepared_;
   std::vector<std::uint64_t> numbers_;
   std::optional<Pose> X_WB_;
   std::vector<CameraState> cameras_;

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "berth/pipeline/frame.hpp"
+#include "berth/pipeline/prepared_space.hpp"
 #include "berth/robot/joint_buffer.hpp"
 #include "berth/types/joint_state.hpp"
 
@@ -23,8 +24,14 @@ class NewestFrames {
   NewestFrames(std::span<const std::shared_ptr<const Frame>> frames) { assign(frames); }
   NewestFrames(const std::vector<const Frame*>& frames) { assign(frames); }
   NewestFrames(const std::vector<std::shared_ptr<const Frame>>& frames) { assign(frames); }
+  /// All that can be done beforehand is done.
+  NewestFrames(std::shared_ptr<const PreparedSpace> prepared) : prepared_(std::move(prepared)) {
+    assign(prepared_->frames());
+  }
 
   std::span<const Frame* const> get() const { return {frames_.data(), count_}; }
+  /// Null unless it was made of one.
+  const std::shared_ptr<const PreparedSpace>& prepared() const { return prepared_; }
 
  private:
   /// Throws std::invalid_argument unless there are 1 to kMostCameras.
@@ -37,6 +44,7 @@ class NewestFrames {
 
   std::array<const Frame*, kMostCameras> frames_ = {};
   std::size_t count_ = 0;
+  std::shared_ptr<const PreparedSpace> prepared_;
 };
 
 /// The joints that are asked about: those of the newest exposure that is used, any others, or the

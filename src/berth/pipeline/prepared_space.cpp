@@ -1,0 +1,34 @@
+#include "berth/pipeline/prepared_space.hpp"
+
+#include "berth/pipeline/frame_set.hpp"
+#include "berth/pipeline/link_searches.hpp"
+
+namespace berth {
+
+PreparedSpace::PreparedSpace(std::shared_ptr<const Robot> robot, std::size_t cameras)
+    : robot_(std::move(robot)),
+      frames_(cameras),
+      set_(std::make_unique<FrameSet>()),
+      searches_(std::make_unique<LinkSearches>(robot_)) {
+  prepare(std::vector(frames_), nullptr);
+}
+
+PreparedSpace::~PreparedSpace() = default;
+
+void PreparedSpace::prepare(std::span<const std::shared_ptr<const Frame>> frames,
+                            const JointState* joints) {
+  asked_.clear();
+  for (const auto& frame : frames) {
+    if (frame) require_space(*frame);
+    asked_.push_back(frame.get());
+  }
+  frames_.assign(frames.begin(), frames.end());
+  set_->assign(asked_, robot_->settings().time);
+  searches_->forget();
+  if (!set_->newest()) return;
+  RobotPose pose = set_->newest()->pose;
+  if (joints) forward_kinematics(robot_->model(), joints->position, pose);
+  searches_->prepare(*set_, pose);
+}
+
+}  // namespace berth

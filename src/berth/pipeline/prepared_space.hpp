@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "berth/pipeline/frame.hpp"
+#include "berth/pipeline/robot.hpp"
+#include "berth/types/joint_state.hpp"
+
+namespace berth {
+
+class FrameSet;
+class LinkSearches;
+
+/// The newest frame of each camera with all that a request would have to do first: what their ages
+/// leave of free space, and how far a first search for each link got. Made in the images' thread;
+/// then constant, for any number of Query. Holds its frames.
+class PreparedSpace {
+ public:
+  /// Of `cameras` cameras (1 to kMostCameras), none of which has given a frame.
+  PreparedSpace(std::shared_ptr<const Robot> robot, std::size_t cameras);
+  ~PreparedSpace();
+  PreparedSpace(const PreparedSpace&) = delete;
+  PreparedSpace& operator=(const PreparedSpace&) = delete;
+
+  /// Camera k's newest frame, or null, as for Query::ask; the newest of their stamps is taken for
+  /// now. The first search is for the robot at `joints`; null: where it was at the newest exposure.
+  /// Nobody may ask meanwhile. Reuses its memory. Throws std::invalid_argument for a frame that was
+  /// observed for ImageQuery alone, and for wrong joints.
+  void prepare(std::span<const std::shared_ptr<const Frame>> frames, const JointState* joints);
+
+  std::span<const std::shared_ptr<const Frame>> frames() const { return frames_; }
+
+ private:
+  friend class Query;
+
+  std::shared_ptr<const Robot> robot_;
+  std::vector<std::shared_ptr<const Frame>> frames_;
+  std::vector<const Frame*> asked_;
+  std::unique_ptr<FrameSet> set_;
+  std::unique_ptr<LinkSearches> searches_;
+};
+
+}  // namespace berth
