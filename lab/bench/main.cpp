@@ -5,11 +5,13 @@
 #include "apps/support/data_folders.hpp"
 #include "apps/support/program.hpp"
 #include "lab/bench/bench.hpp"
+#include "lab/bench/stream.hpp"
 
 namespace {
 
 using berth::BackendChoice;
 using berth::lab::BenchSettings;
+using berth::lab::StreamSettings;
 
 void add_options(CLI::App& program, BenchSettings& settings, BackendChoice& where) {
   program.add_flag("--quick", settings.quick, "A thinned run of less than half a minute");
@@ -40,15 +42,50 @@ void add_options(CLI::App& program, BenchSettings& settings, BackendChoice& wher
   program.footer("Example:\n  berth_bench --quick --out bench_results --scene scene.yaml");
 }
 
+void add_stream_options(CLI::App& program, StreamSettings& stream) {
+  CLI::Option* const scene =
+      program
+          .add_option("--stream", stream.scene,
+                      "Nothing but this: play the scene to and fro in real time, and ask meanwhile")
+          ->type_name("SCENE.yaml");
+  program.add_option("--cameras", stream.cameras, "How many of the stream's cameras (default: all)")
+      ->check(CLI::Range(1, 8))
+      ->type_name("N")
+      ->needs(scene);
+  program.add_option("--rate", stream.rate_hz, "Requests a second of the stream (default: 1000)")
+      ->check(CLI::Range(1.0, 100000.0))
+      ->type_name("HZ")
+      ->needs(scene);
+  program.add_option("--seconds", stream.seconds, "How long the stream is asked (default: 10)")
+      ->check(CLI::Range(0.1, 3600.0))
+      ->type_name("S")
+      ->needs(scene);
+  program
+      .add_option("--speed", stream.speed,
+                  "How many times as fast as recorded the stream is played (default: 3)")
+      ->check(CLI::Range(0.01, 100.0))
+      ->type_name("X")
+      ->needs(scene);
+  program
+      .add_option_function<std::string>(
+          "--format", [&stream](const std::string& format) { stream.as_json = format == "json"; },
+          "What the stream prints: text, or one JSON object (default: text)")
+      ->check(CLI::IsMember({"text", "json"}))
+      ->needs(scene);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App program("Measures berth beside what else a user could take");
   BenchSettings settings;
   BackendChoice where;
+  StreamSettings stream;
   add_options(program, settings, where);
+  add_stream_options(program, stream);
   if (const auto status = berth::app::parse_command_line(program, argc, argv)) return *status;
   return berth::app::carry_out("berth_bench", 0, [&] {
+    if (!stream.scene.empty()) return berth::lab::run_stream(stream);
     settings.bundled_scene = berth::app::bundled_one_camera_file();
     if (where.backend == berth::Backend::opengl) settings.gl_device = where.gl_device;
     berth::lab::run_benchmarks(settings);

@@ -1,0 +1,246 @@
+#include "lab/bench/stream.hpp"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <thread>
+
+#include "berth/live/joint_intake.hpp"
+#include "berth/live/live_camera.hpp"
+#include "berth/live/live_space.hpp"
+#include "berth/pipeline/query.hpp"
+#include "berth/scene/open_scene.hpp"
+#include "lab/bench/statistics.hpp"
+
+namespace berth::lab {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double now_s() { return std::chrono::duration<double>(Clock::now().time_since_epoch()).count(); }
+
+void sleep_until(double time_s) {
+  std::this_thread::sleep_until(
+      Clock::time_point(std::chrono::duration_cast<Clock::duration>(
+          std::chrono::duration<double>(time_s))));
+}
+
+/// The scene's time as it goes to and fro, `speed` times as fast.
+struct Play {
+  double first_s, last_s, speed, begin_s;
+
+  double length_s() const { return (last_s - first_s) / speed; }
+  /// The scene's time at a time of the clock.
+  double scene_s(double time_s) const {
+    const double turns = (time_s - begin_s) / length_s();
+    const double part = turns - std::floor(turns);
+    const bool is_forth = std::fmod(std::floor(turns), 2) == 0;
+    return first_s + (is_forth ? part : 1 - part) * (last_s - first_s);
+  }
+  /// When the scene comes to a time in its n-th turn.
+  double time_s(double scene_s, int turn) const {
+    const double from_begin_s = (turn % 2 == 0 ? scene_s - first_s : last_s - scene_s) / speed;
+    return begin_s + turn * length_s() + from_begin_s;
+  }
+};
+
+struct Shown {
+  double time_s;
+  std::size_t camera;
+  std::size_t frame;
+};
+
+/// The images of all cameras in the order in which they come.
+std::vector<Shown> shown_images(const OpenScene& scene, std::size_t cameras, const Play& play,
+                                double seconds) {
+  std::vector<Shown> shown;
+  for (int turn = 0; turn * play.length_s() < seconds; ++turn) {
+    for (std::size_t k = 0; k < cameras; ++k) {
+      const auto& at_exposure = scene.cameras[k].at_exposure;
+      for (std::size_t i = 0; i < at_exposure.size(); ++i) {
+        const double time_s = play.time_s(at_exposure[i].stamp_s, turn);
+        if (time_s < play.begin_s + seconds) shown.push_back({time_s, k, i});
+      }
+    }
+  }
+  std::ranges::sort(shown, {}, &Shown::time_s);
+  return shown;
+}
+
+struct Measured {
+  std::int64_t answers = 0;
+  std::int64_t ok = 0;
+  double seconds = 0;
+  std::vector<double> ask_us;
+  std::vector<double> gap_m;
+  std::vector<double> exposure_to_answer_ms;
+  std::mutex images_mutex;
+  std::vector<double> image_ms;
+};
+
+class Stream {
+ public:
+  Stream(const OpenScene& scene, const StreamSettings& settings)
+      : scene_(scene),
+        settings_(settings),
+        joints_(scene.robot->model(), {}),
+        query_(scene.robot),
+        count_(settings.cameras == 0 ? scene.cameras.size() : settings.cameras),
+        space_(scene.robot, count_, joints_) {
+    for (std::size_t k = 0; k < count_; ++k) {
+      images_.emplace_back();
+      for (std::size_t i = 0; i < scene.cameras[k].at_exposure.size(); ++i) {
+        images_[k].push_back(scene.cameras[k].read_depth(i));
+      }
+      cameras_.push_back(std::make_unique<LiveCamera>(
+          scene.cameras[k].view, joints_, LiveCameraSettings{},
+          [this, k](const Frame&, DepthView, const std::shared_ptr<const void>&) { keep(k); }));
+    }
+  }
+
+  void run() {
+    // The images of the first turn come after everybody is ready.
+    play_ = {scene_.joints->first_s(), scene_.joints->last_s(), settings_.speed, now_s() + 0.2};
+    std::jthread feeding([this](const std::stop_token& stop) { feed(stop); });
+    ask();
+  }
+
+  const Measured& measured() const { return measured_; }
+
+ private:
+  void keep(std::size_t camera) {
+    space_.put(camera, cameras_[camera]->newest());
+    const std::lock_guard lock(measured_.images_mutex);
+    // Its own work, and that of the set before, since its own is still to be made.
+    const double work_s =
+        cameras_[camera]->counts().last_observe_s + space_.counts().last_prepare_s;
+    measured_.image_ms.push_back(1000 * work_s);
+  }
+
+  /// As a robot's and the cameras' drivers do.
+  void feed(const std::stop_token& stop) {
+    std::vector<std::string> names;
+    for (const MovableJoint& joint : scene_.robot->model().joints) names.push_back(joint.name);
+    const auto shown = shown_images(scene_, count_, play_, settings_.seconds + 1);
+    std::size_t next = 0;
+    JointState state;
+    for (std::int64_t i = -100; !stop.stop_requested(); ++i) {
+      const double time_s = play_.begin_s + static_cast<double>(i) / settings_.rate_hz;
+      sleep_until(time_s);
+      (void)scene_.joints->at(play_.scene_s(time_s), {}, state);
+      joints_.push(time_s, names, state.position);
+      for (const auto& camera : cameras_) camera->look_again();
+      for (; next < shown.size() && shown[next].time_s <= time_s; ++next) {
+        const Shown& image = shown[next];
+        DepthImage copy = cameras_[image.camera]->spare_image();
+        copy = images_[image.camera][image.frame];
+        cameras_[image.camera]->push(image.time_s, std::move(copy));
+      }
+    }
+  }
+
+  void ask() {
+    constexpr double kWarmUp_s = 1;
+    std::vector<double> known_s(count_, 0);
+    const double begin_s = play_.begin_s + kWarmUp_s;
+    const double end_s = begin_s + settings_.seconds;
+    double due_s = play_.begin_s;
+    while (due_s < end_s) {
+      sleep_until(due_s);
+      const double asked_s = now_s();
+      const Result& result =
+          query_.ask({.frames = space_.newest(), .joints = joints_.buffer(), .now_s = asked_s});
+      const double told_s = now_s();
+      if (due_s >= begin_s) take(result, asked_s, told_s, known_s);
+      // What is late does not make the next one late: its turn is left out.
+      const double turns = std::floor((now_s() - due_s) * settings_.rate_hz) + 1;
+      due_s += turns / settings_.rate_hz;
+    }
+    measured_.seconds = now_s() - begin_s;
+  }
+
+  void take(const Result& result, double asked_s, double told_s, std::vector<double>& known_s) {
+    ++measured_.answers;
+    measured_.ok += result.status == ResultStatus::ok;
+    measured_.ask_us.push_back(1e6 * (told_s - asked_s));
+    for (const LinkResult& link : result.links) {
+      if (link.has_distance()) measured_.gap_m.push_back(link.distance_m - link.lower_bound_m);
+    }
+    for (std::size_t k = 0; k < count_; ++k) {
+      const double stamp_s = result.cameras[k].stamp_s;
+      if (!(stamp_s > known_s[k])) continue;
+      if (known_s[k] > 0) measured_.exposure_to_answer_ms.push_back(1000 * (told_s - stamp_s));
+      known_s[k] = stamp_s;
+    }
+  }
+
+  const OpenScene& scene_;
+  const StreamSettings& settings_;
+  JointIntake joints_;
+  Query query_;
+  std::size_t count_;
+  LiveSpace space_;
+  std::vector<std::vector<DepthImage>> images_;
+  Measured measured_;
+  Play play_{};
+  /// The last member: their threads use the others.
+  std::vector<std::unique_ptr<LiveCamera>> cameras_;
+};
+
+nlohmann::ordered_json percentiles(const std::vector<double>& values,
+                                   std::initializer_list<std::pair<const char*, double>> shares) {
+  nlohmann::ordered_json out;
+  for (const auto& [name, share] : shares) {
+    const std::optional<double> value = percentile(values, share);
+    out[name] = value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+  }
+  return out;
+}
+
+nlohmann::ordered_json json_of(const Measured& m) {
+  nlohmann::ordered_json out;
+  out["answers_per_s"] = static_cast<double>(m.answers) / m.seconds;
+  out["ok_share"] = m.answers == 0 ? 0 : static_cast<double>(m.ok) / static_cast<double>(m.answers);
+  out["ask_us"] = percentiles(m.ask_us, {{"p50", 0.5}, {"p99", 0.99}, {"p999", 0.999}, {"max", 1}});
+  out["image_ms"] = percentiles(m.image_ms, {{"p50", 0.5}, {"p99", 0.99}});
+  out["exposure_to_answer_ms"] = percentiles(m.exposure_to_answer_ms, {{"p50", 0.5}, {"p99", 0.99}});
+  out["gap_m"] = percentiles(m.gap_m, {{"p50", 0.5}, {"p99", 0.99}, {"max", 1}});
+  return out;
+}
+
+void require(bool holds, const std::string& what) {
+  if (!holds) throw std::runtime_error(what);
+}
+
+}  // namespace
+
+void run_stream(const StreamSettings& settings) {
+  const OpenScene scene = open_scene(settings.scene);
+  const std::string file = settings.scene.string();
+  require(scene.joins_cameras(),
+          fmt::format("{}: evaluation.method compares images; expected mesh, for a stream", file));
+  require(settings.cameras <= static_cast<int>(scene.cameras.size()),
+          fmt::format("{}: has {} cameras; --cameras {} asks for more", file, scene.cameras.size(),
+                      settings.cameras));
+  require(scene.joints->last_s() > scene.joints->first_s(),
+          fmt::format("{}: the joints have a single time; expected a robot that is filmed over time",
+                      scene.joints->source()));
+  // Each thread works alone: images and requests have a core each.
+  const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
+  Stream stream(scene, settings);
+  stream.run();
+  const nlohmann::ordered_json out = json_of(stream.measured());
+  if (settings.as_json) {
+    fmt::print("{}\n", out.dump());
+    return;
+  }
+  for (const auto& [name, value] : out.items()) fmt::print("{}: {}\n", name, value.dump());
+}
+
+}  // namespace berth::lab
