@@ -1,6 +1,8 @@
 #include "lab/bench/stream.hpp"
 
 #include <fmt/format.h>
+#include <pthread.h>
+#include <sched.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
@@ -30,6 +32,31 @@ void sleep_until(double time_s) {
       Clock::time_point(std::chrono::duration_cast<Clock::duration>(
           std::chrono::duration<double>(time_s))));
 }
+
+/// The cores that this thread, and those that it begins from now on, may use.
+void use_cores(const cpu_set_t& cores) {
+  (void)pthread_setaffinity_np(pthread_self(), sizeof(cores), &cores);
+}
+
+/// The last core for who asks, the others for who makes images ready; all for both where there is
+/// only one.
+struct Cores {
+  cpu_set_t of_requests, of_images;
+
+  Cores() {
+    CPU_ZERO(&of_requests);
+    CPU_ZERO(&of_images);
+    (void)pthread_getaffinity_np(pthread_self(), sizeof(of_images), &of_images);
+    if (CPU_COUNT(&of_images) < 2) {
+      of_requests = of_images;
+      return;
+    }
+    int last = CPU_SETSIZE - 1;
+    while (!CPU_ISSET(last, &of_images)) --last;
+    CPU_SET(last, &of_requests);
+    CPU_CLR(last, &of_images);
+  }
+};
 
 /// The scene's time as it goes to and fro, `speed` times as fast.
 struct Play {
@@ -104,10 +131,11 @@ class Stream {
     }
   }
 
-  void run() {
+  void run(const cpu_set_t& cores_of_requests) {
     // The images of the first turn come after everybody is ready.
     play_ = {scene_.joints->first_s(), scene_.joints->last_s(), settings_.speed, now_s() + 0.2};
     std::jthread feeding([this](const std::stop_token& stop) { feed(stop); });
+    use_cores(cores_of_requests);
     ask();
   }
 
@@ -231,10 +259,12 @@ void run_stream(const StreamSettings& settings) {
   require(scene.joints->last_s() > scene.joints->first_s(),
           fmt::format("{}: the joints have a single time; expected a robot that is filmed over time",
                       scene.joints->source()));
-  // Each thread works alone: images and requests have a core each.
+  // Each thread works alone, on the images' cores or on the requests'.
   const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
+  const Cores cores;
+  use_cores(cores.of_images);
   Stream stream(scene, settings);
-  stream.run();
+  stream.run(cores.of_requests);
   const nlohmann::ordered_json out = json_of(stream.measured());
   if (settings.as_json) {
     fmt::print("{}\n", out.dump());

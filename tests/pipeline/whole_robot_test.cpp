@@ -199,23 +199,31 @@ TEST_F(WholeRobot, LookAheadIsItsPosesAndSaysWhichComesNearerFirst) {
   EXPECT_FALSE(found.first_nearer.has_value());
   Query query(view_->robot());
   float least_m = 1;
-  std::size_t nearest_pose = 0;
   for (std::size_t i = 0; i < path.size(); ++i) {
     const Result& result = query.ask({frame, path[i]});
     EXPECT_TRUE(result.ahead.poses.empty());
     for (std::size_t k = 0; k < result.links.size(); ++k) {
       const SpacePair& pair = found.poses[i][k].nearest;
       EXPECT_NEAR(pair.distance_m, result.links[k].distance_m, 0.0011);
-      if (pair.lower_bound_m >= least_m) continue;
-      least_m = pair.lower_bound_m;
-      nearest_pose = i;
+      least_m = std::min(least_m, pair.lower_bound_m);
     }
   }
+  const auto is_nearer = [](const std::vector<WholeLinkDistance>& links, double limit_m) {
+    return std::ranges::any_of(
+        links, [&](const WholeLinkDistance& link) { return link.nearest.lower_bound_m < limit_m; });
+  };
   const auto first_nearer = [&](double limit_m) {
     return looking_ahead.ask({.frames = frame, .ahead = path, .nearer_than_m = limit_m})
         .ahead.first_nearer;
   };
-  EXPECT_EQ(first_nearer(least_m + 1e-6), nearest_pose);
+  // Bounds may differ by the tolerance from request to request.
+  EXPECT_FALSE(first_nearer(least_m - 0.0011).has_value());
+  const LookAhead nearer =
+      looking_ahead.ask({.frames = frame, .ahead = path, .nearer_than_m = least_m + 0.0011}).ahead;
+  ASSERT_TRUE(nearer.first_nearer.has_value());
+  for (std::size_t i = 0; i <= *nearer.first_nearer; ++i) {
+    EXPECT_EQ(is_nearer(nearer.poses[i], least_m + 0.0011), i == *nearer.first_nearer) << i;
+  }
   EXPECT_THROW(first_nearer(std::nan("")), std::invalid_argument);
   const Result& late =
       looking_ahead.ask({.frames = frame, .now_s = frame.stamp_s + 1, .ahead = path});

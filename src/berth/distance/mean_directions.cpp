@@ -18,7 +18,7 @@ struct TileSum {
   float greatest_z = 0;
 };
 /// Unit vectors in frame C.
-struct DirectionSum {
+struct DirectionTotal {
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
   double count = 0;
 };
@@ -36,8 +36,8 @@ HWY_BEFORE_NAMESPACE();
 namespace berth {
 namespace HWY_NAMESPACE {
 
-constexpr int kTilePx = ReadingTiles::kTilePx;
-constexpr int kTilePixels = kTilePx * kTilePx;
+constexpr int kReadingTilePx = ReadingTiles::kTilePx;
+constexpr int kReadingTilePixels = kReadingTilePx * kReadingTilePx;
 
 /// Some of a tile's pixels: where they lie in it, and their depths.
 struct TilePixels {
@@ -47,22 +47,23 @@ struct TilePixels {
 
 /// The depths of a tile, NaN beyond the image's end.
 struct TileDepths {
-  alignas(64) float depth_m[kTilePixels];
+  alignas(64) float depth_m[kReadingTilePixels];
 
   HWY_INLINE TileDepths(const DepthView& image_m, Pixel corner) {
-    const int width = std::min(kTilePx, image_m.width - corner.u);
-    const int height = std::min(kTilePx, image_m.height - corner.v);
-    if (width < kTilePx || height < kTilePx) std::fill_n(depth_m, kTilePixels, kNoDepth);
+    const int width = std::min(kReadingTilePx, image_m.width - corner.u);
+    const int height = std::min(kReadingTilePx, image_m.height - corner.v);
+    if (width < kReadingTilePx || height < kReadingTilePx)
+      std::fill_n(depth_m, kReadingTilePixels, kNoDepth);
     for (int v = 0; v < height; ++v) {
-      std::memcpy(depth_m + kTilePx * v, image_m.row(corner.v + v) + corner.u,
+      std::memcpy(depth_m + kReadingTilePx * v, image_m.row(corner.v + v) + corner.u,
                   sizeof(float) * width);
     }
   }
   HWY_INLINE TilePixels pixels(int first) const {
     const Lanes place = count_up(static_cast<float>(first));
-    const Lanes v = hn::Floor((place * Lanes(1.0f / kTilePx)).v);
+    const Lanes v = hn::Floor((place * Lanes(1.0f / kReadingTilePx)).v);
     const Lanes z = load(depth_m + first);
-    return {place - v * Lanes(kTilePx), v, z, hn::Eq(z.v, z.v)};
+    return {place - v * Lanes(kReadingTilePx), v, z, hn::Eq(z.v, z.v)};
   }
 };
 
@@ -71,7 +72,7 @@ HWY_INLINE Lanes where(LaneMask mask, Lanes x) { return hn::IfThenElseZero(mask,
 TileSum sum_of_tile(const DepthView& depth_m, Pixel corner) {
   const TileDepths tile(depth_m, corner);
   Lanes count(0.0f), sum_z(0.0f), sum_uz(0.0f), sum_vz(0.0f), least_z(HUGE_VALF), greatest_z(0.0f);
-  for (int i = 0; i < kTilePixels; i += kLanes) {
+  for (int i = 0; i < kReadingTilePixels; i += kLanes) {
     const TilePixels pixels = tile.pixels(i);
     const Lanes z = where(pixels.has_reading, pixels.z);
     count = count + where(pixels.has_reading, Lanes(1.0f));
@@ -107,20 +108,19 @@ HWY_INLINE void add_pixels(const DirectionCamera& view, Pixel corner, const Eige
   const Lanes du(static_cast<float>(1 / camera.fx_px)), dv(static_cast<float>(1 / camera.fy_px));
   const Lanes u0(static_cast<float>((corner.u - camera.cx_px) / camera.fx_px));
   const Lanes v0(static_cast<float>((corner.v - camera.cy_px) / camera.fy_px));
-  for (int i = 0; i < kTilePixels; i += kLanes) {
+  for (int i = 0; i < kReadingTilePixels; i += kLanes) {
     const TilePixels pixels = tile.pixels(i);
     const Lanes depth = where(pixels.has_reading, pixels.z);
     const Lanes x = mul_add(pixels.u, du, u0) * depth - Lanes(p.x());
     const Lanes y = mul_add(pixels.v, dv, v0) * depth - Lanes(p.y());
     const Lanes z = depth - Lanes(p.z());
     const Lanes square = mul_add(x, x, mul_add(y, y, z * z));
-    const LaneMask counts =
-        both(pixels.has_reading, both(square <= range2, square > Lanes(0.0f)));
+    const LaneMask counts = both(pixels.has_reading, both(square <= range2, square > Lanes(0.0f)));
     sums.add(x, y, z, square, where(counts, Lanes(1.0f)));
   }
 }
 
-DirectionSum sum_of_view(const DirectionCamera& view, const Eigen::Vector3f& p, float range_m) {
+DirectionTotal sum_of_view(const DirectionCamera& view, const Eigen::Vector3f& p, float range_m) {
   constexpr float kNearest = 0.25F;
   const ReadingTiles& tiles = view.tiles;
   const Lanes range2(range_m * range_m);
@@ -222,10 +222,10 @@ void build_reading_tiles(const Camera& camera, DepthView obstacle_depth_m, Readi
 
 MeanDirection mean_direction(std::span<const DirectionCamera> views, const Eigen::Vector3d& p_B_m,
                              double range_m) {
-  DirectionSum all;
+  DirectionTotal all;
   for (const DirectionCamera& view : views) {
     const Eigen::Vector3f p_C_m = (view.X_BC.inverse() * p_B_m).cast<float>();
-    const DirectionSum sum =
+    const DirectionTotal sum =
         HWY_DYNAMIC_DISPATCH(sum_of_view)(view, p_C_m, static_cast<float>(range_m));
     all.direction += view.X_BC.linear() * sum.direction;
     all.count += sum.count;
