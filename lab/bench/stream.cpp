@@ -28,9 +28,8 @@ using Clock = std::chrono::steady_clock;
 double now_s() { return std::chrono::duration<double>(Clock::now().time_since_epoch()).count(); }
 
 void sleep_until(double time_s) {
-  std::this_thread::sleep_until(
-      Clock::time_point(std::chrono::duration_cast<Clock::duration>(
-          std::chrono::duration<double>(time_s))));
+  std::this_thread::sleep_until(Clock::time_point(
+      std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(time_s))));
 }
 
 /// The cores that this thread, and those that it begins from now on, may use.
@@ -111,15 +110,25 @@ struct Measured {
   std::vector<double> image_ms;
 };
 
+/// As a controller asks: a request has most of the time until the next one, unless the scene says
+/// how long it may take.
+std::shared_ptr<const Robot> robot_in_time(const OpenScene& scene, double rate_hz) {
+  constexpr double kShare = 0.6;
+  EvaluationSettings settings = scene.robot->settings();
+  if (!settings.distance.deadline_us) settings.distance.deadline_us = 1e6 * kShare / rate_hz;
+  return with_settings(scene.robot, settings);
+}
+
 class Stream {
  public:
   Stream(const OpenScene& scene, const StreamSettings& settings)
       : scene_(scene),
         settings_(settings),
         joints_(scene.robot->model(), {}),
-        query_(scene.robot),
+        robot_(robot_in_time(scene, settings.rate_hz)),
+        query_(robot_),
         count_(settings.cameras == 0 ? scene.cameras.size() : settings.cameras),
-        space_(scene.robot, count_, joints_) {
+        space_(robot_, count_, joints_) {
     for (std::size_t k = 0; k < count_; ++k) {
       images_.emplace_back();
       for (std::size_t i = 0; i < scene.cameras[k].at_exposure.size(); ++i) {
@@ -211,6 +220,7 @@ class Stream {
   const OpenScene& scene_;
   const StreamSettings& settings_;
   JointIntake joints_;
+  std::shared_ptr<const Robot> robot_;
   Query query_;
   std::size_t count_;
   LiveSpace space_;
@@ -237,7 +247,8 @@ nlohmann::ordered_json json_of(const Measured& m) {
   out["ok_share"] = m.answers == 0 ? 0 : static_cast<double>(m.ok) / static_cast<double>(m.answers);
   out["ask_us"] = percentiles(m.ask_us, {{"p50", 0.5}, {"p99", 0.99}, {"p999", 0.999}, {"max", 1}});
   out["image_ms"] = percentiles(m.image_ms, {{"p50", 0.5}, {"p99", 0.99}});
-  out["exposure_to_answer_ms"] = percentiles(m.exposure_to_answer_ms, {{"p50", 0.5}, {"p99", 0.99}});
+  out["exposure_to_answer_ms"] =
+      percentiles(m.exposure_to_answer_ms, {{"p50", 0.5}, {"p99", 0.99}});
   out["gap_m"] = percentiles(m.gap_m, {{"p50", 0.5}, {"p99", 0.99}, {"max", 1}});
   return out;
 }
@@ -256,9 +267,10 @@ void run_stream(const StreamSettings& settings) {
   require(settings.cameras <= static_cast<int>(scene.cameras.size()),
           fmt::format("{}: has {} cameras; --cameras {} asks for more", file, scene.cameras.size(),
                       settings.cameras));
-  require(scene.joints->last_s() > scene.joints->first_s(),
-          fmt::format("{}: the joints have a single time; expected a robot that is filmed over time",
-                      scene.joints->source()));
+  require(
+      scene.joints->last_s() > scene.joints->first_s(),
+      fmt::format("{}: the joints have a single time; expected a robot that is filmed over time",
+                  scene.joints->source()));
   // Each thread works alone, on the images' cores or on the requests'.
   const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
   const Cores cores;
