@@ -1,4 +1,4 @@
-#include "lab/bench/stream.hpp"
+#include "lab/stream/stream.hpp"
 
 #include <fmt/format.h>
 #include <pthread.h>
@@ -11,6 +11,7 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <string>
 #include <thread>
 
 #include "berth/live/joint_intake.hpp"
@@ -28,9 +29,8 @@ using Clock = std::chrono::steady_clock;
 double now_s() { return std::chrono::duration<double>(Clock::now().time_since_epoch()).count(); }
 
 void sleep_until(double time_s) {
-  std::this_thread::sleep_until(
-      Clock::time_point(std::chrono::duration_cast<Clock::duration>(
-          std::chrono::duration<double>(time_s))));
+  std::this_thread::sleep_until(Clock::time_point(
+      std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(time_s))));
 }
 
 /// The cores that this thread, and those that it begins from now on, may use.
@@ -237,7 +237,8 @@ nlohmann::ordered_json json_of(const Measured& m) {
   out["ok_share"] = m.answers == 0 ? 0 : static_cast<double>(m.ok) / static_cast<double>(m.answers);
   out["ask_us"] = percentiles(m.ask_us, {{"p50", 0.5}, {"p99", 0.99}, {"p999", 0.999}, {"max", 1}});
   out["image_ms"] = percentiles(m.image_ms, {{"p50", 0.5}, {"p99", 0.99}});
-  out["exposure_to_answer_ms"] = percentiles(m.exposure_to_answer_ms, {{"p50", 0.5}, {"p99", 0.99}});
+  out["exposure_to_answer_ms"] =
+      percentiles(m.exposure_to_answer_ms, {{"p50", 0.5}, {"p99", 0.99}});
   out["gap_m"] = percentiles(m.gap_m, {{"p50", 0.5}, {"p99", 0.99}, {"max", 1}});
   return out;
 }
@@ -248,7 +249,7 @@ void require(bool holds, const std::string& what) {
 
 }  // namespace
 
-void run_stream(const StreamSettings& settings) {
+std::string run_stream(const StreamSettings& settings) {
   const OpenScene scene = open_scene(settings.scene);
   const std::string file = settings.scene.string();
   require(scene.joins_cameras(),
@@ -256,9 +257,10 @@ void run_stream(const StreamSettings& settings) {
   require(settings.cameras <= static_cast<int>(scene.cameras.size()),
           fmt::format("{}: has {} cameras; --cameras {} asks for more", file, scene.cameras.size(),
                       settings.cameras));
-  require(scene.joints->last_s() > scene.joints->first_s(),
-          fmt::format("{}: the joints have a single time; expected a robot that is filmed over time",
-                      scene.joints->source()));
+  require(
+      scene.joints->last_s() > scene.joints->first_s(),
+      fmt::format("{}: the joints have a single time; expected a robot that is filmed over time",
+                  scene.joints->source()));
   // Each thread works alone, on the images' cores or on the requests'.
   const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
   const Cores cores;
@@ -266,11 +268,11 @@ void run_stream(const StreamSettings& settings) {
   Stream stream(scene, settings);
   stream.run(cores.of_requests);
   const nlohmann::ordered_json out = json_of(stream.measured());
-  if (settings.as_json) {
-    fmt::print("{}\n", out.dump());
-    return;
-  }
-  for (const auto& [name, value] : out.items()) fmt::print("{}: {}\n", name, value.dump());
+  if (settings.as_json) return out.dump() + "\n";
+  std::string lines;
+  for (const auto& [name, value] : out.items())
+    lines += fmt::format("{}: {}\n", name, value.dump());
+  return lines;
 }
 
 }  // namespace berth::lab
