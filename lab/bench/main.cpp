@@ -1,11 +1,13 @@
 // berth_bench: measures berth beside what else a user could take.
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 
 #include "apps/support/command_options.hpp"
 #include "apps/support/data_folders.hpp"
 #include "apps/support/program.hpp"
 #include "lab/bench/bench.hpp"
-#include "lab/bench/stream.hpp"
+#include "lab/stream/stream.hpp"
 
 namespace {
 
@@ -48,7 +50,8 @@ void add_stream_options(CLI::App& program, StreamSettings& stream) {
           .add_option("--stream", stream.scene,
                       "Nothing but this: play the scene to and fro in real time, and ask meanwhile")
           ->type_name("SCENE.yaml");
-  program.add_option("--cameras", stream.cameras, "How many of the stream's cameras (default: all)")
+  program
+      .add_option("--cameras", stream.cameras, "How many of the stream's cameras (default: all)")
       ->check(CLI::Range(1, 8))
       ->type_name("N")
       ->needs(scene);
@@ -85,7 +88,7 @@ int main(int argc, char** argv) {
   add_stream_options(program, stream);
   if (const auto status = berth::app::parse_command_line(program, argc, argv)) return *status;
   return berth::app::carry_out("berth_bench", 0, [&] {
-    if (!stream.scene.empty()) return berth::lab::run_stream(stream);
+    if (!stream.scene.empty()) return fmt::print("{}", berth::lab::run_stream(stream));
     settings.bundled_scene = berth::app::bundled_one_camera_file();
     if (where.backend == berth::Backend::opengl) settings.gl_device = where.gl_device;
     berth::lab::run_benchmarks(settings);

@@ -147,6 +147,31 @@ TEST(LastRequest, AnotherSpaceOrRobotIsANewStart) {
   }
 }
 
+TEST(LastRequest, UnknownSpaceThatIsLeftOutOnceIsBegunAnew) {
+  const MeshRequest readings{.unknown = false};
+  sim::Random random(11);
+  for (std::uint32_t seed = 0; seed < thinned(30u); ++seed) {
+    SCOPED_TRACE(seed);
+    const MeshWorld before = small_world(seed), after = small_world(seed + 1);
+    const PreparedWorld prepared_before(before), prepared(after);
+    const auto ask = [&](const PreparedWorld& seen, const RobotPose& pose,
+                         const MeshRequest& request, Requester& requester) {
+      mesh_distances(prepared.patches(), pose, seen.space(), request, requester.workspace,
+                     requester.answer);
+    };
+    Requester other_space{&prepared, {}, {}}, forgotten{&prepared, {}, {}};
+    ask(prepared_before, after.pose, {}, other_space);
+    ask(prepared, after.pose, readings, other_space);
+    ask(prepared, after.pose, {}, other_space);
+    expect_agree(other_space.answer, ask_anew(prepared, after.pose, {}));
+    ask(prepared, moved(after.pose, random, 0.3), {}, forgotten);
+    forgotten.workspace.forget();
+    ask(prepared, after.pose, readings, forgotten);
+    ask(prepared, after.pose, {}, forgotten);
+    expect_agree(forgotten.answer, ask_anew(prepared, after.pose, {}));
+  }
+}
+
 TEST(LastRequest, ASpaceThatBeginsAnewIsAnotherOne) {
   const MeshWorld near = small_world(2);
   const PreparedWorld prepared(near);

@@ -367,7 +367,11 @@ void start_links(const RobotPatches& robot, const RobotPose& pose, const Asked& 
     const bool reading_goes_on = is_same && go_on(last.links[i], link);
     for (auto& [search, goes_on] : {std::pair<LinkSearch&, bool>{link.reading, reading_goes_on},
                                     {link.nearest, link.goes_on}}) {
-      if (!goes_on) search.best_triangle = -1;
+      if (!goes_on) {
+        search.best_triangle = -1;
+        // Also where nobody searches it now: it would be taken for this request's the next time.
+        mesh::begin_front(search);
+      }
       keep_pair(search);
     }
     const WholeLinkDistance guessed = i < last_answer.size() ? last_answer[i] : WholeLinkDistance{};

@@ -1,4 +1,4 @@
-#include "lab/bench/stream.hpp"
+#include "lab/stream/stream.hpp"
 
 #include <fmt/format.h>
 #include <pthread.h>
@@ -11,6 +11,7 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <string>
 #include <thread>
 
 #include "berth/live/joint_intake.hpp"
@@ -259,7 +260,7 @@ void require(bool holds, const std::string& what) {
 
 }  // namespace
 
-void run_stream(const StreamSettings& settings) {
+std::string run_stream(const StreamSettings& settings) {
   const OpenScene scene = open_scene(settings.scene);
   const std::string file = settings.scene.string();
   require(scene.joins_cameras(),
@@ -278,11 +279,11 @@ void run_stream(const StreamSettings& settings) {
   Stream stream(scene, settings);
   stream.run(cores.of_requests);
   const nlohmann::ordered_json out = json_of(stream.measured());
-  if (settings.as_json) {
-    fmt::print("{}\n", out.dump());
-    return;
-  }
-  for (const auto& [name, value] : out.items()) fmt::print("{}: {}\n", name, value.dump());
+  if (settings.as_json) return out.dump() + "\n";
+  std::string lines;
+  for (const auto& [name, value] : out.items())
+    lines += fmt::format("{}: {}\n", name, value.dump());
+  return lines;
 }
 
 }  // namespace berth::lab

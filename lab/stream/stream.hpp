@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace berth::lab {
 
@@ -18,8 +19,9 @@ struct StreamSettings {
 };
 
 /// Plays the scene to and fro in real time: one thread gives joints, at the requests' rate, and
-/// images as a driver does, each camera has its thread, and one thread asks. Prints what came of
-/// it. Throws std::runtime_error where the scene cannot be read or played.
-void run_stream(const StreamSettings& settings);
+/// images as a driver does, each camera has its thread, and one thread asks. Returns what came
+/// of it, in lines or as one JSON object. Throws std::runtime_error where the scene cannot be read
+/// or played.
+std::string run_stream(const StreamSettings& settings);
 
 }  // namespace berth::lab

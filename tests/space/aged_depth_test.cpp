@@ -1,0 +1,153 @@
+// What age leaves of free depth, beside its definition pixel by pixel, to the bit.
+#include "berth/space/aged_depth.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/random.hpp"
+#include "tests/support/only_target.hpp"
+#include "tests/support/thinned.hpp"
+
+namespace berth::testing {
+namespace {
+
+/// Its pixels' readings, and what each frees.
+struct AgedCase {
+  Camera camera;
+  DepthImage sensed_m;
+  DepthImage own_m;
+  double moved_m = 0;
+};
+
+/// How many pixels beside it this reading holds.
+double reach_of(const AgedCase& asked, int u, int v) {
+  const double sensed_m = asked.sensed_m(u, v);
+  if (std::isnan(sensed_m)) return 0;
+  return std::ceil(std::max(asked.camera.fx_px, asked.camera.fy_px) * asked.moved_m / sensed_m);
+}
+
+DepthImage plain_aged(const AgedCase& asked) {
+  const int width = asked.own_m.width();
+  const int height = asked.own_m.height();
+  DepthImage out(width, height, std::numeric_limits<float>::max());
+  for (int v = 0; v < height; ++v) {
+    for (int u = 0; u < width; ++u) {
+      const float left_m = std::max(0.0F, asked.own_m(u, v) - static_cast<float>(asked.moved_m));
+      const int reach = static_cast<int>(std::min(reach_of(asked, u, v), 1.0 * width + height));
+      for (int y = std::max(0, v - reach); y <= std::min(height - 1, v + reach); ++y) {
+        for (int x = std::max(0, u - reach); x <= std::min(width - 1, u + reach); ++x) {
+          out(x, y) = std::min(out(x, y), left_m);
+        }
+      }
+    }
+  }
+  return out;
+}
+
+/// Readings from `near_m` to `far_m`, in patches, with holes and single pixels among them.
+AgedCase draw_case(sim::Random& random, int width, int height, double near_m, double far_m) {
+  AgedCase out;
+  out.camera = {width, height, random(20, 700), random(20, 700), 0.5 * width, 0.5 * height};
+  out.sensed_m = out.own_m = DepthImage(width, height, 0);
+  const int patch = random.whole(1, 9);
+  for (int v = 0; v < height; ++v) {
+    for (int u = 0; u < width; ++u) {
+      const bool is_first = u % patch == 0 && v % patch == 0;
+      float& sensed_m = out.sensed_m(u, v);
+      sensed_m = is_first || random.chance(0.02) ? static_cast<float>(random(near_m, far_m))
+                                                 : out.sensed_m(u - u % patch, v - v % patch);
+      if (random.chance(0.05)) sensed_m = kNoDepth;
+      const double before_m = std::isnan(sensed_m) ? 1 : sensed_m;
+      out.own_m(u, v) = static_cast<float>(before_m * random(0.9, 1.1));
+      if (random.chance(0.05)) out.own_m(u, v) = 0;
+      if (random.chance(0.05)) out.own_m(u, v) = std::numeric_limits<float>::max();
+    }
+  }
+  return out;
+}
+
+void expect_as_defined(const AgedCase& asked, AgingWorkspace& workspace) {
+  const DepthImage expected_m = plain_aged(asked);
+  DepthImage found_m;
+  age_own_free_depth(asked.camera, asked.sensed_m, asked.own_m, asked.moved_m, workspace, found_m);
+  ASSERT_EQ(found_m.width(), expected_m.width());
+  ASSERT_EQ(found_m.height(), expected_m.height());
+  for (int v = 0; v < expected_m.height(); ++v) {
+    for (int u = 0; u < expected_m.width(); ++u) {
+      ASSERT_EQ(found_m(u, v), expected_m(u, v)) << "pixel " << u << " " << v;
+    }
+  }
+}
+
+TEST(AgedDepth, IsThatOfTheDefinitionAtAllSizesAndReaches) {
+  sim::Random random(1);
+  AgingWorkspace workspace;
+  std::vector<int> with_reach(60);
+  for (int i = 0; i < thinned(300); ++i) {
+    const int width = i % 3 == 0 ? random.whole(1, 20) : random.whole(1, 90);
+    const int height = i % 3 == 1 ? random.whole(1, 4) : random.whole(1, 60);
+    const double near_m = i % 4 == 0 ? 0.002 : random(0.1, 0.5);
+    AgedCase asked = draw_case(random, width, height, near_m, near_m + random(0, 2));
+    asked.moved_m = i % 10 == 0 ? 0 : random(0, 0.1);
+    SCOPED_TRACE("case " + std::to_string(i) + ", " + std::to_string(width) + " x " +
+                 std::to_string(height));
+    expect_as_defined(asked, workspace);
+    if (HasFatalFailure()) return;
+    for (int v = 0; v < height; ++v) {
+      for (int u = 0; u < width; ++u) ++with_reach[std::min(reach_of(asked, u, v), 59.0)];
+    }
+  }
+  // Nothing of that is left out by chance.
+  EXPECT_EQ(std::ranges::count(with_reach, 0), 0);
+}
+
+TEST(AgedDepth, EachReachAloneReachesJustSoFar) {
+  constexpr int kSide = 151;
+  AgingWorkspace workspace;
+  for (int reach = 1; reach < 70; ++reach) {
+    SCOPED_TRACE(reach);
+    AgedCase asked{{kSide, kSide, 500, 400, 75, 75},
+                   DepthImage(kSide, kSide, kNoDepth),
+                   DepthImage(kSide, kSide, 5),
+                   0.02};
+    // 500 px x 0.02 m / S is this reach exactly; an odd one lies just beyond the number below.
+    asked.sensed_m(75, 75) = static_cast<float>(10.0 / reach);
+    if (reach % 2 == 1) asked.sensed_m(75, 75) = static_cast<float>(10.0 / (reach - 0.999));
+    asked.own_m(75, 75) = 1;
+    expect_as_defined(asked, workspace);
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST(AgedDepth, ASurfaceRightBeforeTheCameraHoldsForTheWholeImage) {
+  AgingWorkspace workspace;
+  AgedCase asked{{64, 48, 60, 60, 32, 24}, DepthImage(64, 48, 2), DepthImage(64, 48, 1.9F), 0.05};
+  asked.sensed_m(3, 40) = 0.01F;
+  asked.own_m(3, 40) = 0;
+  expect_as_defined(asked, workspace);
+  DepthImage found_m;
+  age_own_free_depth(asked.camera, asked.sensed_m, asked.own_m, asked.moved_m, workspace, found_m);
+  for (const float left_m : found_m.pixels()) ASSERT_EQ(left_m, 0);
+}
+
+TEST(AgedDepth, OnEveryInstructionSetAndWithMemoryOfAnyImageBefore) {
+  on_every_target([](const char* target) {
+    SCOPED_TRACE(target);
+    sim::Random random(2);
+    AgingWorkspace workspace;
+    for (int i = 0; i < thinned(40); ++i) {
+      const int width = random.whole(1, 100);
+      const int height = random.whole(1, 40);
+      AgedCase asked = draw_case(random, width, height, random.chance(0.3) ? 0.003 : 0.2, 2);
+      asked.moved_m = random(0, 0.1);
+      SCOPED_TRACE(i);
+      expect_as_defined(asked, workspace);
+    }
+  });
+}
+
+}  // namespace
+}  // namespace berth::testing
