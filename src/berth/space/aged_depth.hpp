@@ -17,6 +17,10 @@ struct AgingWorkspace {
   std::vector<std::uint32_t> reaches;
   /// Three rows of each ring, and a row to work on.
   std::vector<float> rows;
+  /// What each pixel of a row has left, and how many pixels beside it it holds; 0 where rings do
+  /// it.
+  std::vector<float> left_m;
+  std::vector<int> far_reach;
   /// levels[k]: values that hold in squares of 2^k x 2^k pixels, by their first pixel.
   std::vector<DepthImage> levels;
 };
