@@ -111,15 +111,25 @@ struct Measured {
   std::vector<double> image_ms;
 };
 
+/// As a controller asks: a request has most of the time until the next one, unless the scene says
+/// how long it may take.
+std::shared_ptr<const Robot> robot_in_time(const OpenScene& scene, double rate_hz) {
+  constexpr double kShare = 0.6;
+  EvaluationSettings settings = scene.robot->settings();
+  if (!settings.distance.deadline_us) settings.distance.deadline_us = 1e6 * kShare / rate_hz;
+  return with_settings(scene.robot, settings);
+}
+
 class Stream {
  public:
   Stream(const OpenScene& scene, const StreamSettings& settings)
       : scene_(scene),
         settings_(settings),
         joints_(scene.robot->model(), {}),
-        query_(scene.robot),
+        robot_(robot_in_time(scene, settings.rate_hz)),
+        query_(robot_),
         count_(settings.cameras == 0 ? scene.cameras.size() : settings.cameras),
-        space_(scene.robot, count_, joints_) {
+        space_(robot_, count_, joints_) {
     for (std::size_t k = 0; k < count_; ++k) {
       images_.emplace_back();
       for (std::size_t i = 0; i < scene.cameras[k].at_exposure.size(); ++i) {
@@ -211,6 +221,7 @@ class Stream {
   const OpenScene& scene_;
   const StreamSettings& settings_;
   JointIntake joints_;
+  std::shared_ptr<const Robot> robot_;
   Query query_;
   std::size_t count_;
   LiveSpace space_;

@@ -184,8 +184,8 @@ HWY_INLINE void part_patch_by_pixels(const ViewSearch& search, Item& item, const
 }
 
 /// A cell of pixels and a patch: the pixels that count against its children, or against a leaf.
-inline void expand_pixels(ViewSearch& search, Item& item, const ImageCell& cell,
-                          const Chunk& chunk, Fresh& fresh) {
+inline void expand_pixels(ViewSearch& search, Item& item, const ImageCell& cell, const Chunk& chunk,
+                          Fresh& fresh) {
   const SearchedCamera& view = search.views[cell.view];
   const Plane plane = plane_towards(search, view, item.patch, chunk);
   const float chunk_m = hn::GetLane(bound_of(plane, broadcast(chunk)).v);
@@ -198,8 +198,8 @@ inline void expand_pixels(ViewSearch& search, Item& item, const ImageCell& cell,
   item.bound_m = std::max(item.bound_m, pixels_m);
   if (!(pixels_m < search.link.limit_m())) return;
   if (level_of(item.patch) == 0) {
-    item.bound_m = std::max(item.bound_m,
-                            search_pixels(search, index_of(item.patch), cell, pixels));
+    item.bound_m =
+        std::max(item.bound_m, search_pixels(search, index_of(item.patch), cell, pixels));
   } else {
     part_patch_by_pixels(search, item, cell, chunk, pixels, fresh);
   }

@@ -32,7 +32,7 @@ HWY_INLINE SearchFrame make_frame(const Pose& X_FL, float reach_m) {
 /// One triangle against a body in doubles; returns how near it does not come.
 template <class Found>
 float search_pair(LinkSearch& search, const Pose& X_FL, int triangle, float error_m,
-                 const Eigen::Vector3d (&body_corners_m)[8], Found found) {
+                  const Eigen::Vector3d (&body_corners_m)[8], Found found) {
   const ConvexPair pair = triangle_pair(search, X_FL, triangle, body_corners_m);
   const float distance_m = static_cast<float>(pair.distance_m) + error_m;
   const float lower_m = static_cast<float>(pair.distance_m) - error_m;
@@ -74,8 +74,8 @@ HWY_INLINE float least_along(const LinkSearch& search, const SearchFrame& frame,
 /// found(triangle, distance, point of the body) for each pair that is better than the best.
 template <class Bodies, class Found>
 HWY_INLINE LeafFound search_leaf(LinkSearch& search, const SearchFrame& frame, int index,
-                               const Bodies& body, const Eigen::Vector3d (&body_corners_m)[8],
-                               Found found) {
+                                 const Bodies& body, const Eigen::Vector3d (&body_corners_m)[8],
+                                 Found found) {
   constexpr int kRounds = 4;
   const Lanes third(1.0f / 3);
   LeafFound leaf;
@@ -120,9 +120,8 @@ HWY_INLINE LeafFound search_leaf(LinkSearch& search, const SearchFrame& frame, i
     store(lower, lower_m);
     for (; open != 0; open &= open - 1) {
       const int lane = __builtin_ctz(open);
-      lower_m[lane] =
-          std::max(lower_m[lane], search_pair(search, frame.X_FL, first + lane, frame.error_m,
-                                              body_corners_m, found));
+      lower_m[lane] = std::max(lower_m[lane], search_pair(search, frame.X_FL, first + lane,
+                                                          frame.error_m, body_corners_m, found));
     }
     leaf.lower_m = std::min(leaf.lower_m, least_lane(load(lower_m)));
   }

@@ -53,8 +53,7 @@ struct Asked {
 /// The pair of the request before is a pair of this one, too. Else there is none.
 void keep_pair(LinkSearch& search) {
   constexpr float kRounding_m = 1e-6f;
-  const double apart_m =
-      (search.X_BL * search.robot_point_L_m - search.obstacle_point_B_m).norm();
+  const double apart_m = (search.X_BL * search.robot_point_L_m - search.obstacle_point_B_m).norm();
   search.best_m = static_cast<float>(apart_m) + kRounding_m;
   if (search.is_known() && search.best_m < search.range_m) return;
   search.best_m = search.range_m;

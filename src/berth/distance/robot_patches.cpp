@@ -160,6 +160,7 @@ LinkPatches make_link(const TriangleMesh& mesh) {
   for (const Triangle& triangle : triangles) {
     for (int k = 0; k < 9; ++k) link.corners_m[k].push_back(triangle.corners_m[k / 3][k % 3]);
   }
+  link.field = std::make_unique<const mesh::LinkField>(link.corners_m);
   return link;
 }
 

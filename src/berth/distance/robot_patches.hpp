@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "berth/distance/link_field.hpp"
 #include "berth/robot/robot_model.hpp"
 
 namespace berth {
@@ -38,6 +39,8 @@ struct LinkPatches {
   /// Coordinate k % 3 of corner k / 3 of each triangle, padded as the patches are.
   std::array<std::vector<float>, 9> corners_m;
   std::vector<PatchLevel> levels;
+  /// Null without triangles.
+  std::unique_ptr<const mesh::LinkField> field;
 
   bool empty() const { return triangle_count == 0; }
 };

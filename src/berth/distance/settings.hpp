@@ -42,8 +42,8 @@ void visit_settings(Settings& s, Visitor&& visit) {
         s.tolerance_m);
   visit({"deadline_us",
          {.may_be_infinite = true},
-         "the search stops after so many microseconds, mean directions not counted, and tells what "
-         "it knows by then: distance and lower bound",
+         "the search stops in time for a request to take so many microseconds, and tells what it "
+         "knows by then: distance and lower bound; exact does not count mean directions",
          "mesh exact"},
         s.deadline_us);
   visit({"min_seen_share",

@@ -9,6 +9,7 @@
 #include "hwy/foreach_target.h"
 
 #include "berth/distance/cube_corners-inl.hpp"
+#include "berth/distance/field_bound-inl.hpp"
 #include "berth/distance/leaf-inl.hpp"
 #include "berth/distance/nearest_point-inl.hpp"
 
@@ -71,6 +72,31 @@ CubeCorners exact_corners(CubeSearch& search, const Cube& cube, float bound_m, i
     search.link.corners.at(key) = {key, corners.squared_m2[i], hint, search.link.request};
   }
   return corners;
+}
+
+/// How near the link is to the corners of a cube at least, by its field: less than it is, and known
+/// sooner. All 0 where no grid tells.
+struct FieldCorners {
+  CubeCorners corners = {};
+  /// Of the grid; 0 where none tells.
+  float grid_edge_m = 0;
+};
+
+FieldCorners field_corners(const CubeSearch& search, const Cube& cube, float bound_m, int hint) {
+  const FieldGrid* const grid = search.link.link->field->grid_for(bound_m);
+  if (!grid) return {};
+  FieldCorners out;
+  for (int i = 0; i < 8; ++i) {
+    const Cube corner{cube.level, cube.x + (i & 1), cube.y + (i >> 1 & 1), cube.z + (i >> 2)};
+    const Eigen::Vector3f p_L_m = in_link(search, corner.corner_m());
+    const float bound_m2 = field_bound_m2(*grid, search.mesh, p_L_m, hint);
+    // Where a point lies is rounded in two frames.
+    const float rounded_m = std::sqrt(bound_m2) - 2 * search.error_m;
+    if (!(rounded_m > 0)) return {};
+    out.corners.squared_m2[i] = rounded_m * rounded_m;
+  }
+  out.grid_edge_m = grid->edge_m();
+  return out;
 }
 
 /// The greatest cubes at this distance of which what lies between the corners costs at most
@@ -179,6 +205,15 @@ void part_cube(Item& item, const Cube& cube, const float (&child_bounds_m)[64], 
   item.bound_m = std::max(item.bound_m, least_left_m);
 }
 
+/// A leaf of the mesh that is near to a cube's centre.
+int leaf_near(const CubeSearch& search, const Cube& cube, int hint) {
+  NearPoints centre;
+  centre.count = 1;
+  centre.p_L_m[0] = in_link(search, cube.corner_m().array() + cube.edge_m() / 2);
+  search.mesh.find(hint, static_cast<float>(cube.edge_m()) / 2, centre);
+  return centre.distance[0].triangle / LinkPatches::kChildren;
+}
+
 void expand(CubeSearch& search, Item& item, Fresh& fresh) {
   LinkSearch& link = search.link;
   const Cube cube = Cube::of_key(item.space);
@@ -192,7 +227,22 @@ void expand(CubeSearch& search, Item& item, Fresh& fresh) {
     return part_cube(item, cube, child_bounds_m, link.limit_m(), hint, fresh);
   }
   const auto edge_m = static_cast<float>(cube.edge_m());
-  const CubeCorners corners = corners_of(search, cube, item.bound_m, hint);
+  FieldCorners field;
+  if (item.way != link.request || cube.level == kGreatestByCorners) {
+    field = field_corners(search, cube, item.bound_m, hint);
+    if (!is_opened) {
+      item.bound_m = std::max(item.bound_m, least_distance_m(field.corners, edge_m));
+      if (!(item.bound_m < link.limit_m())) return;
+    }
+  }
+  CubeCorners corners;
+  // A grid so much finer than the cube tells of its children nearly what its own corners do.
+  if (field.grid_edge_m > 0 && 3 * field.grid_edge_m <= edge_m) {
+    corners = field.corners;
+    if (!is_opened) hint = leaf_near(search, cube, hint);
+  } else {
+    corners = corners_of(search, cube, item.bound_m, hint);
+  }
   if (!is_opened) {
     item.patch = static_cast<std::uint32_t>(hint);
     if (item.way != link.request) {

@@ -62,14 +62,14 @@ void part_cell(ViewSearch& search, Item& item, const ImageCell& cell, const Chun
                           depth,       end};
       const Lanes bound = select(in_reach, patch_bound(patch, chunks) - Lanes(view.frame.error_m),
                                  Lanes(HUGE_VALF));
-      parting.part(bound, DepthCells::kChildren * half + i, bits_of(valid),
-                   [&](int lane, float bound_m) {
-                     const int child = i + lane;
-                     fresh.add(bound_m, item.patch,
-                               ImageCell{cell.view, level, half, 4 * cell.u + child % 4,
-                                         4 * cell.v + child / 4}
-                                   .key());
-                   });
+      parting.part(
+          bound, DepthCells::kChildren * half + i, bits_of(valid), [&](int lane, float bound_m) {
+            const int child = i + lane;
+            fresh.add(
+                bound_m, item.patch,
+                ImageCell{cell.view, level, half, 4 * cell.u + child % 4, 4 * cell.v + child / 4}
+                    .key());
+          });
     }
   }
   parting.end(DepthCells::kChildren * halves);
@@ -97,9 +97,8 @@ void expand(ViewSearch& search, Item& item, Fresh& fresh) {
     return;
   }
   if (item.way == kWhole) {
-    const bool by_patch =
-        level > 0 &&
-        (is_pixel || is_greater(search.link.link->levels[level], index, search.to_shadow, chunk));
+    const bool by_patch = level > 0 && (is_pixel || is_greater(search.link.link->levels[level],
+                                                               index, search.to_shadow, chunk));
     item.way = by_patch ? kByPatch : kByCell;
   }
   if (item.way == kByPatch) {

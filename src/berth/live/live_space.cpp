@@ -17,8 +17,7 @@ double steady_now_s() {
 
 std::size_t require_count(std::size_t cameras) {
   if (cameras >= 1 && cameras <= kMostCameras) return cameras;
-  throw std::invalid_argument(
-      fmt::format("cameras: {}; expected 1 to {}", cameras, kMostCameras));
+  throw std::invalid_argument(fmt::format("cameras: {}; expected 1 to {}", cameras, kMostCameras));
 }
 
 }  // namespace
@@ -69,10 +68,12 @@ void LiveSpace::run(const std::stop_token& stop) {
 
 void LiveSpace::prepare(const std::vector<std::shared_ptr<const Frame>>& frames) {
   const double begin_s = steady_now_s();
-  const std::shared_ptr<PreparedSpace> space = pool_.take(
-      [&] { return std::make_unique<PreparedSpace>(robot_, frames.size()); });
+  const std::shared_ptr<PreparedSpace> space =
+      pool_.take([&] { return std::make_unique<PreparedSpace>(robot_, frames.size()); });
   const bool has_joints = joints_.buffer().newest(asked_) == TimeStatus::ok;
   space->prepare(frames, has_joints ? &asked_ : nullptr);
+  // The robot has gone on meanwhile.
+  if (joints_.buffer().newest(asked_) == TimeStatus::ok) space->search(asked_);
   const double took_s = steady_now_s() - begin_s;
   const std::lock_guard lock(mutex_);
   newest_ = space;

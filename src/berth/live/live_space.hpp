@@ -15,8 +15,8 @@ namespace berth {
 
 /// What became of the frames.
 struct LiveSpaceCounts {
-  std::int64_t prepared = 0;   ///< how many sets of frames were made ready
-  double last_prepare_s = 0;   ///< how long it took for the newest set
+  std::int64_t prepared = 0;  ///< how many sets of frames were made ready
+  double last_prepare_s = 0;  ///< how long it took for the newest set
   double most_prepare_s = 0;
 };
 

@@ -1,5 +1,7 @@
 #include "berth/pipeline/link_searches.hpp"
 
+#include <algorithm>
+
 #include "berth/pipeline/frame_space.hpp"
 #include "berth/pipeline/mounted_camera.hpp"
 
@@ -26,21 +28,38 @@ SpacePair in_frames(SpacePair pair, const FrameSet& frames) {
   return pair;
 }
 
+double us_since(LinkSearches::Clock::time_point begin) {
+  return std::chrono::duration<double, std::micro>(LinkSearches::Clock::now() - begin).count();
+}
+
 }  // namespace
 
 LinkSearches::LinkSearches(std::shared_ptr<const Robot> robot) : robot_(std::move(robot)) {}
 
-void LinkSearches::ask(const FrameSet& frames, const RobotPose& pose,
-                       std::vector<WholeLinkDistance>& out) {
-  mesh_distances(*robot_->patches(), pose, frames.space(), request_of(robot_->settings().distance),
-                 workspace_, out);
+void LinkSearches::search(const FrameSet& frames, const RobotPose& pose, const MeshRequest& request,
+                          std::vector<WholeLinkDistance>& out) {
+  mesh_distances(*robot_->patches(), pose, frames.space(), request, workspace_, out);
 }
 
-void LinkSearches::ask(const FrameSet& frames, const RobotPose& pose, Result& out) {
-  ask(frames, pose, found_);
+void LinkSearches::ask(const FrameSet& frames, const RobotPose& pose,
+                       std::vector<WholeLinkDistance>& out) {
+  search(frames, pose, request_of(robot_->settings().distance), out);
+}
+
+void LinkSearches::ask(const FrameSet& frames, const RobotPose& pose, Clock::time_point begin,
+                       Result& out) {
+  MeshRequest request = request_of(robot_->settings().distance);
+  // What follows the search takes about as long as it did the last time.
+  if (request.deadline_us) {
+    request.deadline_us = std::max(0.0, *request.deadline_us - us_since(begin) - after_search_us_);
+  }
+  search(frames, pose, request, found_);
+  const Clock::time_point searched = Clock::now();
   tell_distances(frames, out);
   if (robot_->settings().distance.mean_direction) tell_mean_directions(frames, out);
   tell_visibility(frames, pose, out);
+  constexpr double kForgotten = 0.95;
+  after_search_us_ = std::max(us_since(searched), kForgotten * after_search_us_);
 }
 
 void LinkSearches::forget() {
@@ -51,7 +70,9 @@ void LinkSearches::forget() {
 }
 
 void LinkSearches::prepare(const FrameSet& frames, const RobotPose& pose) {
-  ask(frames, pose, found_);
+  MeshRequest request = request_of(robot_->settings().distance);
+  request.deadline_us.reset();
+  search(frames, pose, request, found_);
   if (robot_->settings().visibility) search_rejected(frames, pose);
 }
 
@@ -111,15 +132,17 @@ void LinkSearches::tell_visibility(const FrameSet& frames, const RobotPose& pose
   const DistanceSettings& settings = robot_->settings().distance;
   const SamplePoints& points = robot_->sample_points();
   const RobotModel& model = robot_->model();
+  const bool tells = robot_->settings().visibility;
+  if (tells) find_whole_robot_visibility(model, points, pose, views_, found_, visibility_);
   for (std::size_t i = 0; i < out.links.size(); ++i) {
-    const Pose& X_BL = pose.X_BL[model.evaluated_links[i]];
-    if (is_seen(views_, points.surface[i], X_BL, settings.min_seen_share)) continue;
-    out.links[i].status = LinkStatus::not_seen;
+    if (tells) out.links[i].visibility = visibility_[i];
+    const bool has_seen =
+        tells ? visibility_[i].surface.seen >= settings.min_seen_share
+              : is_seen(views_, points.surface_lanes[i], pose.X_BL[model.evaluated_links[i]],
+                        settings.min_seen_share);
+    if (!has_seen) out.links[i].status = LinkStatus::not_seen;
   }
-  if (!robot_->settings().visibility) return;
-  find_whole_robot_visibility(model, points, pose, views_, found_, visibility_);
-  for (std::size_t i = 0; i < out.links.size(); ++i) out.links[i].visibility = visibility_[i];
-  tell_rejected(frames, pose, out);
+  if (tells) tell_rejected(frames, pose, out);
 }
 
 void LinkSearches::search_rejected(const FrameSet& frames, const RobotPose& pose) {
@@ -127,6 +150,8 @@ void LinkSearches::search_rejected(const FrameSet& frames, const RobotPose& pose
   if (frames.rejected().views().empty()) return;
   MeshRequest request = request_of(robot_->settings().distance);
   request.unknown = false;
+  // Few readings are rejected: a part of the time is enough.
+  if (request.deadline_us) request.deadline_us = *request.deadline_us / 8;
   mesh_distances(*robot_->patches(), pose, frames.rejected(), request, rejected_workspace_,
                  rejected_);
 }

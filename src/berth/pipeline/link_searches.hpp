@@ -1,6 +1,7 @@
 // Inside pipeline/ only: what a request finds out of each link.
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <vector>
 
@@ -16,10 +17,13 @@ namespace berth {
 /// One for each thread.
 class LinkSearches {
  public:
+  using Clock = std::chrono::steady_clock;
+
   explicit LinkSearches(std::shared_ptr<const Robot> robot);
 
-  /// Writes the links of `out` for the robot in this pose. At least one frame is used.
-  void ask(const FrameSet& frames, const RobotPose& pose, Result& out);
+  /// Writes the links of `out` for the robot in this pose. At least one frame is used. A deadline
+  /// counts from `begin` and holds for all that is told.
+  void ask(const FrameSet& frames, const RobotPose& pose, Clock::time_point begin, Result& out);
 
   /// Distances alone, of one pose of many.
   void ask(const FrameSet& frames, const RobotPose& pose, std::vector<WholeLinkDistance>& out);
@@ -27,12 +31,14 @@ class LinkSearches {
   /// As Query::forget().
   void forget();
 
-  /// Searches for the robot in this pose, for others to go on from.
+  /// Searches for the robot in this pose to the end, for others to go on from.
   void prepare(const FrameSet& frames, const RobotPose& pose);
   /// The next request goes on where `prepared` ended.
   void go_on_from(const LinkSearches& prepared);
 
  private:
+  void search(const FrameSet& frames, const RobotPose& pose, const MeshRequest& request,
+              std::vector<WholeLinkDistance>& out);
   void tell_distances(const FrameSet& frames, Result& out) const;
   void tell_mean_directions(const FrameSet& frames, Result& out);
   void tell_visibility(const FrameSet& frames, const RobotPose& pose, Result& out);
@@ -47,6 +53,8 @@ class LinkSearches {
   std::vector<SeeingCamera> views_;
   std::vector<DirectionCamera> direction_views_;
   std::vector<LinkVisibility> visibility_;
+  /// How long what follows a search takes.
+  double after_search_us_ = 0;
 };
 
 }  // namespace berth

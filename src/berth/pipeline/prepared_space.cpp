@@ -31,4 +31,11 @@ void PreparedSpace::prepare(std::span<const std::shared_ptr<const Frame>> frames
   searches_->prepare(*set_, pose);
 }
 
+void PreparedSpace::search(const JointState& joints) {
+  if (!set_->newest()) return;
+  RobotPose pose = set_->newest()->pose;
+  forward_kinematics(robot_->model(), joints.position, pose);
+  searches_->prepare(*set_, pose);
+}
+
 }  // namespace berth

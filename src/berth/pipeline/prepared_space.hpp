@@ -30,6 +30,10 @@ class PreparedSpace {
   /// observed for ImageQuery alone, and for wrong joints.
   void prepare(std::span<const std::shared_ptr<const Frame>> frames, const JointState* joints);
 
+  /// Searches on, for the robot at `joints` now: so that the next request has little left to do.
+  /// As prepare().
+  void search(const JointState& joints);
+
   std::span<const std::shared_ptr<const Frame>> frames() const { return frames_; }
 
  private:

@@ -164,6 +164,7 @@ void Query::tell_ahead(const Request& request) {
 }
 
 const Result& Query::ask(const Request& request) {
+  const LinkSearches::Clock::time_point begin = LinkSearches::Clock::now();
   require_length(request.nearer_than_m);
   for (const Frame* frame : request.frames.get()) {
     if (frame) require_space(*frame);
@@ -185,7 +186,7 @@ const Result& Query::ask(const Request& request) {
     result_.status = std::ranges::all_of(cameras_, is_relied_on, &CameraState::status)
                          ? ResultStatus::ok
                          : ResultStatus::degraded;
-    searches_->ask(*asked_, result_.pose, result_);
+    searches_->ask(*asked_, result_.pose, begin, result_);
     find_nearest(result_);
   }
   tell_ahead(request);

@@ -100,6 +100,20 @@ void take_least(const float* from, int width, float* x) {
       [&](int u) { x[u] = std::min(x[u], from[u]); });
 }
 
+/// out[i] is the least of the four rows' i-th.
+void take_least_of(const float* const (&rows)[4], int width, float* out) {
+  for_row(
+      0, width,
+      [&](int u) {
+        store(least(least(load(rows[0] + u), load(rows[1] + u)),
+                    least(load(rows[2] + u), load(rows[3] + u))),
+              out + u);
+      },
+      [&](int u) {
+        out[u] = std::min(std::min(rows[0][u], rows[1][u]), std::min(rows[2][u], rows[3][u]));
+      });
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace berth
 HWY_AFTER_NAMESPACE();
@@ -111,6 +125,7 @@ HWY_EXPORT(count_borders);
 HWY_EXPORT(take_ring);
 HWY_EXPORT(spread_in_row);
 HWY_EXPORT(take_least);
+HWY_EXPORT(take_least_of);
 
 namespace {
 
@@ -291,18 +306,28 @@ class Rings {
   }
 
   void fill(int ring, int v, float* out) {
-    std::fill_n(out, width_, kEndless_m);
+    const float* rows[4];
+    int count = 0;
+    if ((workspace_.reaches[v] >> ring & 1) != 0) rows[count++] = own_spread(ring, v);
     if (ring < greatest_) {
       for (int y = std::max(v - 1, 0); y <= std::min(v + 1, height_ - 1); ++y)
-        HWY_DYNAMIC_DISPATCH(take_least)(row(ring + 1, y), width_, out);
+        rows[count++] = row(ring + 1, y);
     }
-    if ((workspace_.reaches[v] >> ring & 1) == 0) return;
+    if (count == 0) return std::fill_n(out, width_, kEndless_m), void();
+    for (; count < 4; ++count) rows[count] = rows[0];
+    HWY_DYNAMIC_DISPATCH(take_least_of)(rows, width_, out);
+  }
+
+  /// What the row's own pixels of this ring hold in it.
+  const float* own_spread(int ring, int v) {
     float* const x = scratch();
-    std::fill_n(x - kMargin, kMargin, kEndless_m);
     HWY_DYNAMIC_DISPATCH(take_ring)
     (own_m_.row(v), workspace_.reach.row(v), ring, moved_m_, width_, x);
+    if (ring == 0) return x;
+    std::fill_n(x - kMargin, kMargin, kEndless_m);
+    std::fill_n(x + width_, kMargin, kEndless_m);
     HWY_DYNAMIC_DISPATCH(spread_in_row)(x, ring, width_);
-    HWY_DYNAMIC_DISPATCH(take_least)(x - ring, width_, out);
+    return x - ring;
   }
 
   const DepthImage& own_m_;

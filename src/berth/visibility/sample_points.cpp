@@ -1,5 +1,6 @@
 #include "berth/visibility/sample_points.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -36,6 +37,20 @@ SurfacePoint point_on(const Triangle& triangle, double s, double t) {
   const double b = beyond ? 1 - t : t;
   return {triangle.corner_L_m + a * triangle.edges_L_m[0] + b * triangle.edges_L_m[1],
           triangle.cross().normalized()};
+}
+
+template <class PointOf>
+PointLanes lanes_of(std::size_t count, const PointOf& point_m) {
+  PointLanes lanes;
+  lanes.count = static_cast<int>(count);
+  if (count == 0) return lanes;
+  constexpr std::size_t kWhole = PointLanes::kMostLanes;
+  const std::size_t wanted = std::max<std::size_t>(count, kSamplePoints);
+  for (std::size_t i = 0; i < (wanted + kWhole - 1) / kWhole * kWhole; ++i) {
+    const Eigen::Vector3f p_m = point_m(i % count).template cast<float>();
+    for (int k = 0; k < 3; ++k) lanes.at_m[k].push_back(p_m[k]);
+  }
+  return lanes;
 }
 
 }  // namespace
@@ -77,9 +92,16 @@ std::vector<Eigen::Vector3d> sample_unit_ball(int count) {
 
 SamplePoints sample_points(const RobotModel& model) {
   SamplePoints points;
-  for (const std::size_t link : model.evaluated_links)
-    points.surface.push_back(sample_surface(model.links[link].mesh_L, kSamplePoints));
+  for (const std::size_t link : model.evaluated_links) {
+    const auto& surface =
+        points.surface.emplace_back(sample_surface(model.links[link].mesh_L, kSamplePoints));
+    points.surface_lanes.push_back(lanes_of(
+        surface.size(), [&](std::size_t i) -> const Eigen::Vector3d& { return surface[i].p_L_m; }));
+  }
   points.unit_ball = sample_unit_ball(kSamplePoints);
+  points.unit_ball_lanes =
+      lanes_of(points.unit_ball.size(),
+               [&](std::size_t i) -> const Eigen::Vector3d& { return points.unit_ball[i]; });
   return points;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "berth/robot/robot_model.hpp"
@@ -25,11 +26,23 @@ std::vector<Eigen::Vector3d> sample_unit_ball(int count);
 /// chance a share has a standard error of at most 1 / (2 sqrt(n)): 0.025. These lie more evenly.
 inline constexpr int kSamplePoints = 400;
 
-/// What find_visibility() asks the images about: made once for a robot, then constant.
+/// The same points coordinate by coordinate, which stand side by side in vectors.
+struct PointLanes {
+  /// The most floats that a vector has.
+  static constexpr int kMostLanes = 16;
+
+  int count = 0;
+  /// As long as kSamplePoints and `count` need in whole vectors: the points begin anew at the end.
+  std::array<std::vector<float>, 3> at_m;
+};
+
+/// What the images are asked about: made once for a robot, then constant.
 struct SamplePoints {
   /// surface[i] belongs to the link with the id i + 1.
   std::vector<std::vector<SurfacePoint>> surface;
   std::vector<Eigen::Vector3d> unit_ball;
+  std::vector<PointLanes> surface_lanes;
+  PointLanes unit_ball_lanes;
 };
 
 /// kSamplePoints for each evaluated link, and as many for a ball.

@@ -10,10 +10,11 @@ namespace berth {
 /// How many points have each sight.
 class SightCount {
  public:
-  void add(Sight sight) {
-    ++count_[static_cast<std::size_t>(sight)];
-    ++sum_;
+  void add(Sight sight, int points = 1) {
+    count_[static_cast<std::size_t>(sight)] += points;
+    sum_ += points;
   }
+  int sum() const { return sum_; }
   SightShares shares() const {
     if (sum_ == 0) return {};
     return {share(Sight::seen), share(Sight::hidden_by_obstacles), share(Sight::hidden_by_robot),
@@ -25,8 +26,9 @@ class SightCount {
     return static_cast<float>(sum_ - known) / static_cast<float>(sum_);
   }
 
- private:
   int count(Sight sight) const { return count_[static_cast<std::size_t>(sight)]; }
+
+ private:
   float share(Sight sight) const {
     return static_cast<float>(count(sight)) / static_cast<float>(sum_);
   }

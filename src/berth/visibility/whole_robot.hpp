@@ -7,27 +7,14 @@
 #include "berth/robot/kinematics.hpp"
 #include "berth/types/link_visibility.hpp"
 #include "berth/types/space_pair.hpp"
-#include "berth/visibility/line_of_sight.hpp"
 #include "berth/visibility/sample_points.hpp"
+#include "berth/visibility/seeing_camera.hpp"
 
 namespace berth {
 
-/// One camera's frame for find_whole_robot_visibility().
-struct SeeingCamera {
-  SeenFrame frame;
-  /// The raw image.
-  DepthView sensor_depth_m;
-  Pose X_CB;
-};
-
-/// What one frame knows of a point of the robot's surface, wherever the robot is asked about: it is
-/// seen where the pixel's reading lies at the point, by the self filter's tolerance, or behind it.
-/// Of a link thinner than the tolerance both sides count as seen.
-Sight sight_of_robot_point(const SeeingCamera& view, const Eigen::Vector3d& p_C_m);
-
 /// Whether at least this share of the link's sample points is seen by at least one view.
-bool is_seen(std::span<const SeeingCamera> views, const std::vector<SurfacePoint>& surface_L,
-             const Pose& X_BL, double least_share);
+bool is_seen(std::span<const SeeingCamera> views, const PointLanes& surface_L, const Pose& X_BL,
+             double least_share);
 
 /// Writes the shares of surface and space of out[i], the link with the id i + 1: a point counts by
 /// the view that knows most of it, in the order of Sight. `distances` are those
