@@ -18,7 +18,7 @@ run(${CMAKE_COMMAND} -S ${SOURCE}/examples -B ${WORK}/examples -G ${GENERATOR} $
 run(${CMAKE_COMMAND} --build ${WORK}/examples)
 # package://berth_arm/ is a folder of that name above the URDF.
 file(COPY ${SOURCE}/data/bundled/arm/ DESTINATION ${WORK}/berth_arm)
-foreach(example one_frame two_clocks)
+foreach(example one_frame running_robot two_clocks)
   # On a busy machine, or slowed by a sanitizer, answers may come too late to have a distance.
   foreach(attempt RANGE 1 5)
     run(${WORK}/examples/${example} ${WORK}/berth_arm/arm.urdf)

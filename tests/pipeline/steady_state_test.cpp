@@ -5,6 +5,7 @@
 #include "berth/image_distance/image_query.hpp"
 #include "berth/pipeline/frame_set.hpp"
 #include "berth/pipeline/observer.hpp"
+#include "berth/pipeline/prepared_space.hpp"
 #include "berth/pipeline/query.hpp"
 #include "berth/scene/open_scene.hpp"
 #include "tests/pipeline/flying_pixels.hpp"
@@ -75,6 +76,39 @@ TEST(SteadyState, TheSameFramesAskedAgainAreNotAssembledAnew) {
   Observer(camera.view).observe(camera.read_depth(1), camera.at_exposure[1], observed[0]);
   query.ask({frames});
   EXPECT_NE(query.frames().space().serial_number(), assembled);
+}
+
+/// Spaces of cameras out of step, made ready one after the other, and requests that go on from
+/// them.
+TEST(SteadyState, PreparedSpacesAllocateNothingOnceTheyHaveSeenTheFrames) {
+  const OpenScene scene = open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml");
+  std::vector<std::vector<std::shared_ptr<const Frame>>> sets;
+  for (const std::size_t i : {3, 4, 5}) {
+    std::vector<std::shared_ptr<const Frame>>& set = sets.emplace_back();
+    for (const OpenCamera& camera : scene.cameras) {
+      auto frame = std::make_shared<Frame>();
+      Observer(camera.view).observe(camera.read_depth(i), camera.at_exposure[i], *frame);
+      set.push_back(std::move(frame));
+    }
+  }
+  const std::vector<JointState>& joints = scene.cameras[0].at_exposure;
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+  std::vector<std::shared_ptr<PreparedSpace>> spaces;
+  for (int i = 0; i < 2; ++i) spaces.push_back(std::make_shared<PreparedSpace>(scene.robot, 3));
+  Query query(scene.robot);
+  // Two spaces and three sets take turns, so that each space has them all.
+  const auto go_through = [&] {
+    for (std::size_t i = 0; i < 6; ++i) {
+      spaces[i % 2]->prepare(sets[i % 3], &joints[i]);
+      for (std::size_t of = i; of < i + 4; ++of) {
+        query.ask({.frames = {spaces[i % 2]}, .joints = joints[of]});
+      }
+    }
+  };
+  for (int round = 0; round < 3; ++round) go_through();
+  const std::size_t before = allocation_count();
+  for (int round = 0; round < 5; ++round) go_through();
+  EXPECT_EQ(allocation_count(), before);
 }
 
 /// Joints pushed and looked up, frames that are refused, results that are withheld.

@@ -170,31 +170,26 @@ void hold_around(const float* values, int count, int u, int v, int reach,
   }
 }
 
-/// What a row's pixels have left, and how many pixels beside them it holds; 0 where rings do it.
-struct FarReaching {
-  std::vector<float> left_m;
-  std::vector<int> reach;
-};
-
 /// Takes a row's pixels into the squares: those with one reach at once, but at the image's ends.
-void hold_row(const FarReaching& row, int v, std::vector<DepthImage>& levels) {
+void hold_row(const std::vector<float>& left_m, const std::vector<int>& far_reach, int v,
+              std::vector<DepthImage>& levels) {
   const int width = levels[0].width();
   const int height = levels[0].height();
   for (int u = 0; u < width;) {
-    const int reach = row.reach[u];
+    const int reach = far_reach[u];
     int end = u + 1;
-    while (end < width && row.reach[end] == reach) ++end;
+    while (end < width && far_reach[end] == reach) ++end;
     const bool fits = v >= reach && v + reach < height && 2 * reach < width;
     const int inner = fits ? std::clamp(reach, u, end) : end;
     const int outer = fits ? std::clamp(width - reach, inner, end) : end;
     if (reach > 0 && outer > inner) {
-      hold_around(&row.left_m[inner], outer - inner, inner, v, reach, levels);
+      hold_around(&left_m[inner], outer - inner, inner, v, reach, levels);
     }
     for (int at = u; reach > 0 && at < end; ++at) {
       if (at == inner) at = outer;
       if (at == end) break;
       hold_in(clip({at - reach, v - reach, at + reach + 1, v + reach + 1}, width, height),
-              row.left_m[at], levels);
+              left_m[at], levels);
     }
     u = end;
   }
@@ -265,7 +260,8 @@ void hold_far_reaching(const Reach& reach, const DepthImage& sensor_depth_m,
   const int height = own_m.height();
   const int most = width + height;
   std::vector<DepthImage>& levels = workspace.levels;
-  FarReaching row{std::vector<float>(width), std::vector<int>(width)};
+  workspace.left_m.resize(width);
+  workspace.far_reach.resize(width);
   float nearest_m = kEndless_m;
   for (const float sensed_m : sensor_depth_m.pixels()) {
     nearest_m = sensed_m < nearest_m ? sensed_m : nearest_m;
@@ -277,10 +273,10 @@ void hold_far_reaching(const Reach& reach, const DepthImage& sensor_depth_m,
   for (int v = 0; v < height; ++v) {
     for (int u = 0; u < width; ++u) {
       const bool is_far = workspace.reach(u, v) > kMostRing;
-      row.reach[u] = is_far ? reach.of(sensor_depth_m(u, v), most) : 0;
-      row.left_m[u] = std::max(0.0f, own_m(u, v) - moved_m);
+      workspace.far_reach[u] = is_far ? reach.of(sensor_depth_m(u, v), most) : 0;
+      workspace.left_m[u] = std::max(0.0f, own_m(u, v) - moved_m);
     }
-    hold_row(row, v, levels);
+    hold_row(workspace.left_m, workspace.far_reach, v, levels);
   }
   for (std::size_t k = level_count - 1; k > 0; --k) {
     hold_in_quarters(levels[k], 1 << (k - 1), levels[k - 1]);

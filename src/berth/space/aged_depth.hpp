@@ -27,6 +27,10 @@ struct AgingWorkspace {
   std::vector<float> rows;
   /// What of each of them is touched.
   std::vector<Part> parts;
+  /// What each pixel of a row has left, and how many pixels beside it it holds; 0 where rings do
+  /// it.
+  std::vector<float> left_m;
+  std::vector<int> far_reach;
   /// levels[k]: values that hold in squares of 2^k x 2^k pixels, by their first pixel.
   std::vector<DepthImage> levels;
 };
