@@ -295,10 +295,10 @@ class Rings {
         greatest_(greatest),
         workspace_(workspace),
         width_(own_m.width()),
-        height_(own_m.height()),
-        blocks_(blocks_of(width_)) {
+        height_(own_m.height()) {
     workspace.rows.assign(std::size_t(3 * (greatest + 1) + 1) * width_ + 2 * kMargin, kEndless_m);
     workspace.parts.assign(std::size_t(3 * (greatest + 1)), {});
+    find_ring_blocks(blocks_of(width_));
   }
 
   void run(DepthImage& out) {
@@ -357,13 +357,27 @@ class Rings {
 
   /// Where in the row pixels of this ring are.
   Part pixels_of(int ring, int v) const {
-    const std::uint32_t* const reaches = &workspace_.reaches[std::size_t(blocks_) * v];
-    Part part;
-    for (int i = 0; i < blocks_; ++i) {
-      if ((reaches[i] >> ring & 1) == 0) continue;
-      part = join(part, {i * kBlock_px, std::min((i + 1) * kBlock_px, width_)});
+    const AgingWorkspace::Blocks& blocks =
+        workspace_.ring_blocks[std::size_t(greatest_ + 1) * v + ring];
+    return {blocks.begin * kBlock_px, std::min(blocks.end * kBlock_px, width_)};
+  }
+
+  /// Writes workspace.ring_blocks.
+  void find_ring_blocks(int blocks) {
+    workspace_.ring_blocks.assign(std::size_t(greatest_ + 1) * height_, {});
+    const std::uint32_t rings = (std::uint32_t{2} << greatest_) - 1;
+    for (int v = 0; v < height_; ++v) {
+      AgingWorkspace::Blocks* const of_row =
+          &workspace_.ring_blocks[std::size_t(greatest_ + 1) * v];
+      for (int i = 0; i < blocks; ++i) {
+        std::uint32_t found = workspace_.reaches[std::size_t(blocks) * v + i] & rings;
+        for (; found != 0; found &= found - 1) {
+          AgingWorkspace::Blocks& of_ring = of_row[std::countr_zero(found)];
+          if (of_ring.end == 0) of_ring.begin = static_cast<std::int16_t>(i);
+          of_ring.end = static_cast<std::int16_t>(i + 1);
+        }
+      }
     }
-    return part;
   }
 
   /// What these pixels hold of the row; of others nothing is said.
@@ -387,7 +401,6 @@ class Rings {
   AgingWorkspace& workspace_;
   int width_;
   int height_;
-  int blocks_;
 };
 
 }  // namespace

@@ -18,11 +18,18 @@ struct AgingWorkspace {
 
     bool is_empty() const { return end <= begin; }
   };
+  /// The same in blocks of columns.
+  struct Blocks {
+    std::int16_t begin = 0;
+    std::int16_t end = 0;
+  };
 
   /// How many pixels beside it each pixel holds, at most the number of rings and one.
   Image<std::uint8_t> reach;
   /// Bit r of a block of a row: some pixel's reach is r. Row by row.
   std::vector<std::uint32_t> reaches;
+  /// Of each row those blocks that have pixels of a ring, ring by ring.
+  std::vector<Blocks> ring_blocks;
   /// Three rows of each ring, and a row to work on.
   std::vector<float> rows;
   /// What of each of them is touched.
