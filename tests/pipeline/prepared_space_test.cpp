@@ -366,6 +366,39 @@ TEST_F(PreparedScene, VisibilityAndWhatWasRejectedAreThoseOfItsFrames) {
   EXPECT_GT(rejected, 0);
 }
 
+TEST_F(PreparedScene, OneThatIsSearchedOnIsAskedAsBefore) {
+  const SharedFrames frames = observe_all(3);
+  const auto space = prepare(frames);
+  for (const std::size_t i : {4, 5, 9}) {
+    space->search(joints(i));
+    Query query(robot());
+    expect_same(query.ask({.frames = {space}, .joints = joints(i + 1)}),
+                cold(frames, {.frames = frames, .joints = joints(i + 1)}));
+  }
+  PreparedSpace(robot(), 3).search(joints(3));
+}
+
+TEST_F(PreparedScene, WithoutTimeARequestTellsWhatWasFoundBeforehand) {
+  EvaluationSettings settings = robot()->settings();
+  settings.distance.deadline_us = 0;
+  const auto view = testing::view_with(*views_[0], settings, CameraSettings{});
+  const auto frame = std::make_shared<Frame>();
+  Observer(view).observe(scene_.cameras[0].read_depth(3), joints(3), *frame);
+  const auto space = std::make_shared<PreparedSpace>(view->robot(), 1);
+  space->prepare(SharedFrames{frame}, &joints(3));
+  Query query(view->robot()), plain(view->robot());
+  const Result& result = query.ask({.frames = {space}, .joints = joints(3)});
+  for (const LinkResult& link : result.links) {
+    ASSERT_TRUE(link.is_known());
+    EXPECT_LE(link.distance_m - link.lower_bound_m, kDefaultTolerance_m + kUndecidedByCubes_m);
+  }
+  double most_m = 0;
+  for (const LinkResult& link : plain.ask({.frames = *frame, .joints = joints(3)}).links) {
+    most_m = std::max(most_m, double{link.is_known() ? link.distance_m - link.lower_bound_m : 1});
+  }
+  EXPECT_GT(most_m, 0.01) << "a request of no time finds less by itself";
+}
+
 TEST_F(PreparedScene, WithoutJointsOrFramesThereIsSomethingToAskAllTheSame) {
   Query query(robot());
   const auto empty = std::make_shared<PreparedSpace>(robot(), 3);
