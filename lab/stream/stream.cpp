@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -161,6 +162,10 @@ class Stream {
     measured_.image_ms.push_back(1000 * work_s);
   }
 
+  /// Between two recorded poses the robot goes straight, however far apart they are.
+  static constexpr JointTimeLimits kAnyGap{std::numeric_limits<double>::infinity(),
+                                           std::numeric_limits<double>::infinity()};
+
   /// As a robot's and the cameras' drivers do.
   void feed(const std::stop_token& stop) {
     std::vector<std::string> names;
@@ -171,7 +176,7 @@ class Stream {
     for (std::int64_t i = -100; !stop.stop_requested(); ++i) {
       const double time_s = play_.begin_s + static_cast<double>(i) / settings_.rate_hz;
       sleep_until(time_s);
-      (void)scene_.joints->at(play_.scene_s(time_s), {}, state);
+      (void)scene_.joints->at(play_.scene_s(time_s), kAnyGap, state);
       joints_.push(time_s, names, state.position);
       for (const auto& camera : cameras_) camera->look_again();
       for (; next < shown.size() && shown[next].time_s <= time_s; ++next) {

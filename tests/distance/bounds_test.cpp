@@ -115,6 +115,32 @@ TEST(MeshBounds, OfPointsHoldTheTruthOnEveryInstructionSet) {
   });
 }
 
+TEST(MeshBounds, OfFieldsLieBelowTheTruthAndMostlyByLittle) {
+  on_every_target([&](const char* target) {
+    SCOPED_TRACE(target);
+    sim::Random random(6);
+    for (const int triangles : {1, 17, 300}) {
+      const Surface surface(draw_triangles(random, triangles));
+      int told = 0, near = 0;
+      for (int i = 0; i < thinned(600); ++i) {
+        const Eigen::Vector3f p_L_m = sim::draw_point(random, random(0.2, 0.9)).cast<float>();
+        const auto true_m = static_cast<float>(surface.distance_m(p_L_m.cast<double>()));
+        // Asked for by what was thought before, which may be less.
+        const float thought_m = true_m - static_cast<float>(random(0, 0.04));
+        const float found_m =
+            std::sqrt(bound_by_field_m2(surface.link(), kError_m, 0, thought_m, p_L_m));
+        ASSERT_LE(found_m, true_m + kError_m);
+        if (thought_m < 0.04f || thought_m > 1.1f) continue;
+        ++told;
+        // Between two parts of the surface that are equally far, more is missing.
+        near += found_m >= true_m - 0.0008f;
+      }
+      EXPECT_GT(told, thinned(600) / 3);
+      EXPECT_GT(near, 0.9 * told);
+    }
+  });
+}
+
 TEST(MeshBounds, OfCubesLieBelowAllOfTheirPoints) {
   on_every_target([&](const char* target) {
     SCOPED_TRACE(target);

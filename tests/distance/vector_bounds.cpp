@@ -9,6 +9,7 @@
 #include "hwy/foreach_target.h"
 
 #include "berth/distance/cube_corners-inl.hpp"
+#include "berth/distance/field_bound-inl.hpp"
 #include "berth/distance/nearest_point-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -30,6 +31,12 @@ void points(const LinkPatches& link, float error_m, int hint, float slack_m, int
   for (int i = 0; i < count; ++i) {
     out[i] = {near.distance[i].lower_m, near.distance[i].upper_m, near.distance[i].triangle};
   }
+}
+
+float by_field(const LinkPatches& link, float error_m, int hint, float distance_m,
+               const Eigen::Vector3f& p_L_m) {
+  const FieldGrid* const grid = link.field->grid_for(distance_m);
+  return grid ? field_bound_m2(*grid, NearestPointSearch(link, error_m), p_L_m, hint) : 0;
 }
 
 void children(const std::array<float, 8>& squared_m2, float edge_m, std::array<float, 64>& out_m) {
@@ -60,6 +67,7 @@ HWY_AFTER_NAMESPACE();
 namespace berth::mesh {
 
 HWY_EXPORT(points);
+HWY_EXPORT(by_field);
 HWY_EXPORT(children);
 HWY_EXPORT(whole);
 HWY_EXPORT(centre);
@@ -73,6 +81,12 @@ void bound_points(const LinkPatches& link, float error_m, int hint, float slack_
                   const Eigen::Vector3f* p_L_m, PointBounds* out) {
   using namespace mesh;
   HWY_DYNAMIC_DISPATCH(points)(link, error_m, hint, slack_m, count, p_L_m, out);
+}
+
+float bound_by_field_m2(const LinkPatches& link, float error_m, int hint, float distance_m,
+                        const Eigen::Vector3f& p_L_m) {
+  using namespace mesh;
+  return HWY_DYNAMIC_DISPATCH(by_field)(link, error_m, hint, distance_m, p_L_m);
 }
 
 void bound_cube_children(const std::array<float, 8>& squared_m2, float edge_m,

@@ -20,6 +20,10 @@ struct PointBounds {
 void bound_points(const LinkPatches& link, float error_m, int hint, float slack_m, int count,
                   const Eigen::Vector3f* p_L_m, PointBounds* out);
 
+/// Of a point about `distance_m` from the link by its field: less than the square of its distance.
+float bound_by_field_m2(const LinkPatches& link, float error_m, int hint, float distance_m,
+                        const Eigen::Vector3f& p_L_m);
+
 /// Of a cube's children from the squared distances of its corners.
 void bound_cube_children(const std::array<float, 8>& squared_m2, float edge_m,
                          std::array<float, 64>& out_m);

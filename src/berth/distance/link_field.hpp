@@ -60,7 +60,8 @@ class FieldGrid {
 };
 
 /// Grids around a link, the finer the nearer: between its points a grid bounds the distance from
-/// below by less than half a millimetre too little.
+/// below, mostly by less than half a millimetre too little; by more where two parts of the surface
+/// are equally far.
 class LinkField {
  public:
   /// Nearer to the link than this, a grid says too little.

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "berth/pipeline/prepare_frame.hpp"
+#include "berth/pipeline/robot_drawing.hpp"
 #include "berth/pipeline/timeliness.hpp"
 #include "berth/render/robot_renderer.hpp"
 #include "berth/self_filter/self_filter.hpp"
@@ -34,7 +35,7 @@ struct Observer::Parts {
   Parts(std::shared_ptr<const MountedCamera> of, MeasureDisplacement measure, FrameUse for_what)
       : view(std::move(of)),
         use(for_what),
-        renderer(view->robot()->meshes(), view->camera()),
+        drawing(*view->robot(), view->camera()),
         watch(view->settings().watch, displacement_of(*view, std::move(measure))) {
     if (view->region_meshes()) region_renderer.emplace(view->region_meshes(), view->camera());
   }
@@ -44,7 +45,7 @@ struct Observer::Parts {
 
   std::shared_ptr<const MountedCamera> view;
   FrameUse use;
-  RobotRenderer renderer;
+  RobotDrawing drawing;
   /// Of the robot-shaped region, where there is one.
   std::optional<RobotRenderer> region_renderer;
   RobotImage region;
@@ -71,7 +72,7 @@ void Observer::observe(DepthView depth_m, const JointState& at_exposure, Frame& 
     frame.watch = parts_->watch.pass_over();
     return clear_images(camera, frame);
   }
-  parts_->renderer.render(frame.pose, frame.X_BC, frame.robot);
+  parts_->drawing.draw(frame.pose, frame.X_BC, frame.robot);
   frame.watch = parts_->watch.look(depth_m, frame.robot, at_exposure, frame.X_PC);
   parts_->filter(depth_m, frame);
   apply_sensor_rules(depth_m, frame.robot, parts_->background, parts_->view->settings().sensor,

@@ -26,16 +26,14 @@ void PreparedSpace::prepare(std::span<const std::shared_ptr<const Frame>> frames
   set_->assign(asked_, robot_->settings().time);
   searches_->forget();
   if (!set_->newest()) return;
-  RobotPose pose = set_->newest()->pose;
-  if (joints) forward_kinematics(robot_->model(), joints->position, pose);
-  searches_->prepare(*set_, pose);
+  if (joints) return search(*joints);
+  searches_->prepare(*set_, set_->newest()->pose);
 }
 
 void PreparedSpace::search(const JointState& joints) {
   if (!set_->newest()) return;
-  RobotPose pose = set_->newest()->pose;
-  forward_kinematics(robot_->model(), joints.position, pose);
-  searches_->prepare(*set_, pose);
+  forward_kinematics(robot_->model(), joints.position, pose_);
+  searches_->prepare(*set_, pose_);
 }
 
 }  // namespace berth

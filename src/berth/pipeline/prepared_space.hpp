@@ -44,6 +44,7 @@ class PreparedSpace {
   std::vector<const Frame*> asked_;
   std::unique_ptr<FrameSet> set_;
   std::unique_ptr<LinkSearches> searches_;
+  RobotPose pose_;
 };
 
 }  // namespace berth

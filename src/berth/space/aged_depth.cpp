@@ -11,9 +11,11 @@
 namespace berth {
 /// Pixels with this reach and more are spread by squares.
 constexpr int kMostRing = 24;
-/// What lies beside a row on either side, so that it can be spread in place: two vectors, and as
-/// much as the greatest ring reaches to both sides.
-constexpr int kMargin = 96;
+/// What lies beside a row on either side, so that it can be spread in place: two vectors, and twice
+/// as much as the greatest ring reaches to both sides.
+constexpr int kMargin = 128;
+/// Which rings occur is known for so many pixels of a row at once.
+constexpr int kBlock_px = 64;
 }  // namespace berth
 #endif
 
@@ -31,9 +33,9 @@ namespace HWY_NAMESPACE {
 using ByteTag = hn::Rebind<std::uint8_t, FloatTag>;
 using NumberTag = hn::Rebind<std::int32_t, FloatTag>;
 
-/// How many of the borders a row's readings lie before. Returns a bit for each number that occurs.
-std::uint32_t count_borders(const float* sensed_m, const float* borders_m, int count, int width,
-                            std::uint8_t* out) {
+/// How many of the borders some readings lie before. Returns a bit for each number that occurs.
+HWY_INLINE std::uint32_t count_in_block(const float* sensed_m, const float* borders_m, int count,
+                                        int width, std::uint8_t* out) {
   std::uint32_t found = 0;
   const auto one = [&](int u) {
     int number = 0;
@@ -43,7 +45,7 @@ std::uint32_t count_borders(const float* sensed_m, const float* borders_m, int c
   };
   for_row(
       0, width,
-      [&](int u) {
+      [&](int u) HWY_ATTR {
         const Lanes sensed = load(sensed_m + u);
         Lanes numbers(0.0f);
         std::uint64_t before = bits_of(Lanes(0.0f) <= Lanes(0.0f));
@@ -63,6 +65,15 @@ std::uint32_t count_borders(const float* sensed_m, const float* borders_m, int c
   return found;
 }
 
+/// The same for a row, with the bits of each kBlock_px of it.
+void count_borders(const float* sensed_m, const float* borders_m, int count, int width,
+                   std::uint8_t* out, std::uint32_t* found) {
+  for (int u = 0; u < width; u += kBlock_px) {
+    *found++ =
+        count_in_block(sensed_m + u, borders_m, count, std::min(kBlock_px, width - u), out + u);
+  }
+}
+
 /// What the pixels with this reach have left, the greatest float elsewhere.
 void take_ring(const float* own_m, const std::uint8_t* reach, int ring, float moved_m, int width,
                float* out) {
@@ -79,13 +90,13 @@ void take_ring(const float* own_m, const std::uint8_t* reach, int ring, float mo
       [&](int u) { out[u] = reach[u] == ring ? std::max(0.0f, own_m[u] - moved_m) : kEndless_m; });
 }
 
-/// x[i] becomes the least of x[i] to x[i + 2 reach] for i in [-reach, width - reach); kMargin
-/// numbers are there on either side.
+/// x[i] becomes the least of x[i] to x[i + 2 reach] for i in [-2 reach, width); kMargin numbers are
+/// there on either side.
 void spread_in_row(float* x, int reach, int width) {
   int side = 1;
   const int wanted = 2 * reach + 1;
-  const int begin = -reach;
-  const int end = width + reach;
+  const int begin = -2 * reach;
+  const int end = width + 2 * reach;
   for (; 2 * side <= wanted; side *= 2) {
     for (int i = begin; i < end; i += kLanes) store(least(load(x + i), load(x + i + side)), x + i);
   }
@@ -100,18 +111,14 @@ void take_least(const float* from, int width, float* x) {
       [&](int u) { x[u] = std::min(x[u], from[u]); });
 }
 
-/// out[i] is the least of the four rows' i-th.
-void take_least_of(const float* const (&rows)[4], int width, float* out) {
+/// out[i] is the least of the three rows' i-th.
+void take_least_of(const float* const (&rows)[3], int width, float* out) {
   for_row(
       0, width,
       [&](int u) {
-        store(least(least(load(rows[0] + u), load(rows[1] + u)),
-                    least(load(rows[2] + u), load(rows[3] + u))),
-              out + u);
+        store(least(load(rows[0] + u), least(load(rows[1] + u), load(rows[2] + u))), out + u);
       },
-      [&](int u) {
-        out[u] = std::min(std::min(rows[0][u], rows[1][u]), std::min(rows[2][u], rows[3][u]));
-      });
+      [&](int u) { out[u] = std::min(rows[0][u], std::min(rows[1][u], rows[2][u])); });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -222,6 +229,8 @@ class Reach {
   std::array<float, kMostRing + 1> borders_m_;
 };
 
+int blocks_of(int width) { return (width + kBlock_px - 1) / kBlock_px; }
+
 /// Writes workspace.reach and .reaches; returns all reaches that occur, a bit each.
 std::uint32_t find_reaches(const Reach& reach, const DepthImage& sensor_depth_m,
                            AgingWorkspace& workspace) {
@@ -230,13 +239,15 @@ std::uint32_t find_reaches(const Reach& reach, const DepthImage& sensor_depth_m,
   if (workspace.reach.width() != width || workspace.reach.height() != height) {
     workspace.reach.resize(width, height, 0);
   }
-  workspace.reaches.resize(height);
-  std::uint32_t all = 0;
+  const int blocks = blocks_of(width);
+  workspace.reaches.resize(static_cast<std::size_t>(blocks) * height);
   for (int v = 0; v < height; ++v) {
-    workspace.reaches[v] = HWY_DYNAMIC_DISPATCH(count_borders)(
-        sensor_depth_m.row(v), reach.borders_m(), kMostRing + 1, width, workspace.reach.row(v));
-    all |= workspace.reaches[v];
+    HWY_DYNAMIC_DISPATCH(count_borders)
+    (sensor_depth_m.row(v), reach.borders_m(), kMostRing + 1, width, workspace.reach.row(v),
+     &workspace.reaches[static_cast<std::size_t>(blocks) * v]);
   }
+  std::uint32_t all = 0;
+  for (const std::uint32_t some : workspace.reaches) all |= some;
   return all;
 }
 
@@ -260,7 +271,6 @@ void hold_far_reaching(const Reach& reach, const DepthImage& sensor_depth_m,
   levels.resize(std::max(levels.size(), level_count));
   for (std::size_t k = 0; k < level_count; ++k) levels[k].resize(width, height, kEndless_m);
   for (int v = 0; v < height; ++v) {
-    if ((workspace.reaches[v] & kFarBit) == 0) continue;
     for (int u = 0; u < width; ++u) {
       const bool is_far = workspace.reach(u, v) > kMostRing;
       workspace.far_reach[u] = is_far ? reach.of(sensor_depth_m(u, v), most) : 0;
@@ -275,7 +285,8 @@ void hold_far_reaching(const Reach& reach, const DepthImage& sensor_depth_m,
 
 /// The others: what a pixel of reach r has left is spread along its row by r at once, and then from
 /// ring r to ring r - 1 by one row up and down, until ring 0 has all. All rings go down the image
-/// together, each a row behind the next greater one, so that of each only three rows are kept.
+/// together, each a row behind the next greater one, so that of each only three rows are kept. Of a
+/// row only that part is touched to which a ring's pixels reach.
 class Rings {
  public:
   Rings(const DepthImage& own_m, float moved_m, int greatest, AgingWorkspace& workspace)
@@ -284,8 +295,10 @@ class Rings {
         greatest_(greatest),
         workspace_(workspace),
         width_(own_m.width()),
-        height_(own_m.height()) {
+        height_(own_m.height()),
+        blocks_(blocks_of(width_)) {
     workspace.rows.assign(std::size_t(3 * (greatest + 1) + 1) * width_ + 2 * kMargin, kEndless_m);
+    workspace.parts.assign(std::size_t(3 * (greatest + 1)), {});
   }
 
   void run(DepthImage& out) {
@@ -298,36 +311,74 @@ class Rings {
   }
 
  private:
-  float* row(int ring, int v) {
-    return workspace_.rows.data() + std::size_t(3 * ring + v % 3) * width_;
-  }
+  using Part = AgingWorkspace::Part;
+
+  std::size_t slot(int ring, int v) const { return std::size_t(3 * ring + v % 3); }
+  float* row(int ring, int v) { return workspace_.rows.data() + slot(ring, v) * width_; }
   float* scratch() {
     return workspace_.rows.data() + std::size_t(3 * (greatest_ + 1)) * width_ + kMargin;
   }
 
   void fill(int ring, int v, float* out) {
-    const float* rows[4];
-    int count = 0;
-    if ((workspace_.reaches[v] >> ring & 1) != 0) rows[count++] = own_spread(ring, v);
-    if (ring < greatest_) {
-      for (int y = std::max(v - 1, 0); y <= std::min(v + 1, height_ - 1); ++y)
-        rows[count++] = row(ring + 1, y);
-    }
-    if (count == 0) return std::fill_n(out, width_, kEndless_m), void();
-    for (; count < 4; ++count) rows[count] = rows[0];
-    HWY_DYNAMIC_DISPATCH(take_least_of)(rows, width_, out);
+    Part& kept = workspace_.parts[slot(ring, v)];
+    // Nothing is there outside of the new part. The image's row had other content before.
+    if (ring == 0) kept = {0, width_};
+    std::fill(out + kept.begin, out + kept.end, kEndless_m);
+    kept = ring < greatest_ ? take_rings_beyond(ring + 1, v, out) : Part{};
+    const Part pixels = pixels_of(ring, v);
+    if (pixels.is_empty()) return;
+    const float* const spread = spread_own(ring, v, pixels);
+    const Part reached{std::max(pixels.begin - ring, 0), std::min(pixels.end + ring, width_)};
+    HWY_DYNAMIC_DISPATCH(take_least)
+    (spread + reached.begin, reached.end - reached.begin, out + reached.begin);
+    kept = join(kept, reached);
   }
 
-  /// What the row's own pixels of this ring hold in it.
-  const float* own_spread(int ring, int v) {
-    float* const x = scratch();
+  static Part join(const Part& a, const Part& b) {
+    if (a.is_empty()) return b;
+    if (b.is_empty()) return a;
+    return {std::min(a.begin, b.begin), std::max(a.end, b.end)};
+  }
+
+  /// What the next greater ring has around the row, one row up and down.
+  Part take_rings_beyond(int ring, int v, float* out) {
+    const float* rows[3];
+    Part part;
+    for (int i = 0; i < 3; ++i) {
+      const int y = std::clamp(v - 1 + i, 0, height_ - 1);
+      rows[i] = row(ring, y);
+      part = join(part, workspace_.parts[slot(ring, y)]);
+    }
+    if (part.is_empty()) return part;
+    for (const float*& from : rows) from += part.begin;
+    HWY_DYNAMIC_DISPATCH(take_least_of)(rows, part.end - part.begin, out + part.begin);
+    return part;
+  }
+
+  /// Where in the row pixels of this ring are.
+  Part pixels_of(int ring, int v) const {
+    const std::uint32_t* const reaches = &workspace_.reaches[std::size_t(blocks_) * v];
+    Part part;
+    for (int i = 0; i < blocks_; ++i) {
+      if ((reaches[i] >> ring & 1) == 0) continue;
+      part = join(part, {i * kBlock_px, std::min((i + 1) * kBlock_px, width_)});
+    }
+    return part;
+  }
+
+  /// What these pixels hold of the row; of others nothing is said.
+  const float* spread_own(int ring, int v, const Part& pixels) {
+    float* const x = scratch() + pixels.begin;
+    const int count = pixels.end - pixels.begin;
     HWY_DYNAMIC_DISPATCH(take_ring)
-    (own_m_.row(v), workspace_.reach.row(v), ring, moved_m_, width_, x);
-    if (ring == 0) return x;
-    std::fill_n(x - kMargin, kMargin, kEndless_m);
-    std::fill_n(x + width_, kMargin, kEndless_m);
-    HWY_DYNAMIC_DISPATCH(spread_in_row)(x, ring, width_);
-    return x - ring;
+    (own_m_.row(v) + pixels.begin, workspace_.reach.row(v) + pixels.begin, ring, moved_m_, count,
+     x);
+    if (ring > 0) {
+      std::fill_n(x - kMargin, kMargin, kEndless_m);
+      std::fill_n(x + count, kMargin, kEndless_m);
+      HWY_DYNAMIC_DISPATCH(spread_in_row)(x, ring, count);
+    }
+    return scratch() - ring;
   }
 
   const DepthImage& own_m_;
@@ -336,6 +387,7 @@ class Rings {
   AgingWorkspace& workspace_;
   int width_;
   int height_;
+  int blocks_;
 };
 
 }  // namespace

@@ -11,12 +11,22 @@ namespace berth {
 
 /// The memory of age_own_free_depth().
 struct AgingWorkspace {
+  /// Some columns of a row.
+  struct Part {
+    int begin = 0;
+    int end = 0;
+
+    bool is_empty() const { return end <= begin; }
+  };
+
   /// How many pixels beside it each pixel holds, at most the number of rings and one.
   Image<std::uint8_t> reach;
-  /// Bit r of a row: some pixel's reach is r.
+  /// Bit r of a block of a row: some pixel's reach is r. Row by row.
   std::vector<std::uint32_t> reaches;
   /// Three rows of each ring, and a row to work on.
   std::vector<float> rows;
+  /// What of each of them is touched.
+  std::vector<Part> parts;
   /// What each pixel of a row has left, and how many pixels beside it it holds; 0 where rings do
   /// it.
   std::vector<float> left_m;
