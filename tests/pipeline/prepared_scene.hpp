@@ -19,6 +19,7 @@
 #include "tests/support/view_with.hpp"
 
 namespace berth {
+
 using SharedFrames = std::vector<std::shared_ptr<const Frame>>;
 
 inline constexpr float kDefaultTolerance_m = 0.00101F;
