@@ -66,6 +66,9 @@ void keep_pair(LinkSearch& search) {
 bool keep_front(float moved_m, LinkSearch& search) {
   // It becomes finer and never coarser.
   constexpr std::size_t kMostItems = std::size_t{1} << 14;
+  // After a jump most of it is near enough again: beginning anew takes half of the time.
+  constexpr float kMostMoved_m = 0.01f;
+  if (moved_m > kMostMoved_m) return false;
   for (const mesh::Item& item : search.items.items()) search.front.put(item);
   search.items.clear();
   search.front.move(moved_m);
