@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "sim/plain_closing.hpp"
+
 namespace berth::sim {
 namespace {
 
@@ -54,35 +56,22 @@ bool is_empty(const PointView& view, int u, int v) {
   return std::isnan(view.sensor_depth_m(u, v)) && std::isnan(view.obstacle_depth_m(u, v));
 }
 
-/// The least that its neighbours with readings free, if they are at least five.
-double own_of_hole(const PointView& view, const Image<double>& own_m, int u, int v) {
-  int readings = 0;
-  double least_m = kInfinity;
-  for_square(view.sensor_depth_m, u, v, 1, [&](int x, int y) {
-    if (std::isnan(view.sensor_depth_m(x, y))) return;
-    ++readings;
-    least_m = std::min(least_m, own_m(x, y));
-  });
-  return readings >= 5 ? least_m : kNone;
-}
-
 Image<double> own_free_depth_m(const PointView& view, const SpaceSettings& settings) {
   const int width = view.camera.width_px;
   const int height = view.camera.height_px;
-  Image<double> own_m(width, height, kNone);
+  DepthImage own_m(width, height, kNone);
   for (int v = 0; v < height; ++v) {
     for (int u = 0; u < width; ++u) {
-      if (!is_empty(view, u, v)) own_m(u, v) = own_of_reading(view, settings, u, v);
+      const double of_hole_m = settings.no_reading == NoReading::free ? kInfinity : kNone;
+      const double freed_m =
+          is_empty(view, u, v) ? of_hole_m : own_of_reading(view, settings, u, v);
+      if (freed_m > 0) own_m(u, v) = static_cast<float>(freed_m);
     }
   }
-  for (int v = 0; v < height; ++v) {
-    for (int u = 0; u < width; ++u) {
-      if (!is_empty(view, u, v)) continue;
-      own_m(u, v) =
-          settings.no_reading == NoReading::free ? kInfinity : own_of_hole(view, own_m, u, v);
-    }
-  }
-  return own_m;
+  const DepthImage closed_m = plainly_closed(view.camera, own_m, settings.detection_capability_m);
+  Image<double> all_m(width, height, kNone);
+  std::ranges::copy(closed_m.pixels(), all_m.pixels().begin());
+  return all_m;
 }
 
 /// What was that far away may have come nearer since, and sideways.

@@ -4,6 +4,7 @@
 #include <tbb/task_arena.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <filesystem>
@@ -64,20 +65,44 @@ void measure_trust(const std::vector<TrialRobot>& robots, int scenes) {
   }
 }
 
+/// Which scenes with several cameras are drawn, and what is wrong with their images.
+struct WholeRobotOptions {
+  int first = 0;
+  bool is_full_size = false;
+  std::vector<std::string> conditions;
+  SpaceSettings space;
+};
+
+std::vector<WholeRobotCondition> chosen_conditions(const WholeRobotOptions& options) {
+  const std::vector<std::string>& parts = options.conditions;
+  std::vector<WholeRobotCondition> conditions = whole_robot_conditions();
+  for (WholeRobotCondition& condition : conditions) condition.space = options.space;
+  if (parts.empty()) return conditions;
+  std::erase_if(conditions, [&](const WholeRobotCondition& condition) {
+    return std::ranges::none_of(parts, [&](const std::string& part) {
+      return condition.name.find(part) != std::string::npos;
+    });
+  });
+  return conditions;
+}
+
 /// Scenes with several cameras, against the distances of whole links.
-void measure_whole_robot(const std::vector<TrialRobot>& robots, int scenes) {
-  const auto conditions = whole_robot_conditions();
+void measure_whole_robot(const std::vector<TrialRobot>& robots, int scenes,
+                         const WholeRobotOptions& options) {
+  const auto conditions = chosen_conditions(options);
   std::vector<WholeRobotTrial> trials(scenes);
   std::atomic<int> done = 0;
   tbb::parallel_for(0, scenes, [&](int i) {
+    const int seed = options.first + i;
+    const auto settings = options.is_full_size ? sim::DrawnSceneSettings{} : settings_of(seed);
     tbb::this_task_arena::isolate([&] {
-      trials[i] = run_whole_robot_trial(robot_of(robots, i), settings_of(i),
-                                        static_cast<std::uint32_t>(i), conditions);
+      trials[i] = run_whole_robot_trial(robot_of(robots, seed), settings,
+                                        static_cast<std::uint32_t>(seed), conditions);
     });
     if (++done % 10 == 0) fmt::print(stderr, "{} of {} scenes\n", done.load(), scenes);
   });
-  fmt::print("{} scenes, {} robots\n{}", scenes, robots.size(),
-             whole_robot_table(trials, conditions));
+  fmt::print("{} scenes, {} robots\n{}\n{}", scenes, robots.size(),
+             monitor_table(trials, conditions), whole_robot_table(trials, conditions));
   for (std::size_t c = 0; c < conditions.size(); ++c) {
     fmt::print("\n### {}: by where the obstacle's nearest point is\n{}", conditions[c].name,
                whole_robot_sight_table(trials, c));
@@ -96,6 +121,7 @@ int main(int argc, char** argv) {
   std::filesystem::path real_images;
   std::optional<int> look;
   bool whole_robot = false;
+  berth::lab::WholeRobotOptions whole_robot_options;
   std::filesystem::path picture = "scene.png";
   program.add_option("--scenes", scenes, "How many; their seeds count from 0")
       ->check(CLI::Range(1, 1000000))
@@ -109,6 +135,21 @@ int main(int argc, char** argv) {
       ->check(CLI::ExistingDirectory);
   program.add_flag("--whole-robot", whole_robot,
                    "Instead, the method `mesh` with one to four cameras, on whole links");
+  program
+      .add_option("--first", whole_robot_options.first,
+                  "With --whole-robot: the seed of the first scene")
+      ->check(CLI::Range(0, 1000000));
+  program.add_flag("--full-size", whole_robot_options.is_full_size,
+                   "With --whole-robot: the first camera of every scene has 640 x 480 pixels");
+  program.add_option("--condition", whole_robot_options.conditions,
+                     "With --whole-robot: only the conditions whose names hold one of these");
+  program
+      .add_option("--detection-capability", whole_robot_options.space.detection_capability_m,
+                  "With --whole-robot: of the space settings, in m")
+      ->check(CLI::NonNegativeNumber);
+  program.add_flag_callback(
+      "--no-reading-free", [&] { whole_robot_options.space.no_reading = berth::NoReading::free; },
+      "With --whole-robot: a pixel without a reading frees its line of sight");
   program.add_option("--look", look, "Instead, print and draw the scene of this seed")
       ->check(CLI::Range(0, 1000000));
   program.add_option("--picture", picture, "Where --look draws to")->capture_default_str();
@@ -119,7 +160,7 @@ int main(int argc, char** argv) {
       berth::lab::look_at_scene(berth::lab::robot_of(robots, *look), berth::lab::settings_of(*look),
                                 static_cast<std::uint32_t>(*look), picture);
     } else if (whole_robot) {
-      berth::lab::measure_whole_robot(robots, scenes);
+      berth::lab::measure_whole_robot(robots, scenes, whole_robot_options);
     } else if (!real_images.empty()) {
       const auto images = berth::lab::load_real_images(real_images);
       fmt::print("{}", berth::lab::real_image_table(images, robots, scenes));

@@ -23,6 +23,12 @@ std::string whole_robot_sight_table(const std::vector<WholeRobotTrial>& trials,
 std::string worst_whole_robot_table(const std::vector<WholeRobotTrial>& trials,
                                     std::size_t condition, int count);
 
+/// What a monitor gets from three cameras, a row for each condition: how often a link is 0 though
+/// it is truly free, in how many scenes some link is, and how much too far links are whose nearest
+/// obstacle point is in an image.
+std::string monitor_table(const std::vector<WholeRobotTrial>& trials,
+                          const std::vector<WholeRobotCondition>& conditions);
+
 /// Nearer to the truth is right; `mesh` is asked for a tenth of it.
 inline constexpr double kTrialTolerance_m = 0.001;
 

@@ -91,7 +91,7 @@ class Measured {
     std::vector<PosedSpace> posed;
     for (std::size_t k = 0; k < views_.size(); ++k) {
       const SensedView& view = views_[k];
-      build_camera_space(view.camera, view.sensed_m, view.obstacles, {}, spaces[k]);
+      build_camera_space(view.camera, view.sensed_m, view.obstacles, condition_.space, spaces[k]);
       posed.push_back({&spaces[k], view.X_BC, condition_.knows_age ? view.age_s : 0});
       under.mesh.push_back(ask(posed));
     }
@@ -193,6 +193,8 @@ std::vector<WholeRobotCondition> whole_robot_conditions() {
       add("sensor, 1 cm and 0.3° off, default filter", MeasuredFilter::berth);
   all.image = sim::kKinectErrors;
   all.pose = off;
+  WholeRobotCondition& dark = add("dark outlines, default filter", MeasuredFilter::berth);
+  dark.image = {.noise_m_at_1m = 0.0015, .dropout_share = 0.02, .outline_px = 2};
   add("0 to 50 ms out of step, ideal filter", MeasuredFilter::ideal).most_age_s = 0.05;
   WholeRobotCondition& untold = add("… and age not told", MeasuredFilter::ideal);
   untold.most_age_s = 0.05;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "berth/space/settings.hpp"
 #include "lab/trust/trial.hpp"
 
 namespace berth::lab {
@@ -18,6 +19,7 @@ struct WholeRobotCondition {
   /// The ideal one goes with clean images alone.
   MeasuredFilter filter = MeasuredFilter::ideal;
   SelfFilterSettings self_filter = {};
+  SpaceSettings space = {};
   sim::SensorErrors image = {};
   /// Of each camera by itself.
   PoseErrors pose = {};

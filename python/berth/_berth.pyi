@@ -488,12 +488,13 @@ class SpacePair:
 
 class SpaceSettings:
     behind_robot_m: float
+    detection_capability_m: float
     free_space_margin_m: float
     free_space_max_age_s: float
     no_reading: str
     obstacle_speed_m_s: float
     surface_thickness_m: float
-    def __init__(self, surface_thickness_m: float = ..., free_space_margin_m: float = ..., behind_robot_m: float = ..., no_reading: str = ..., free_space_max_age_s: float = ..., obstacle_speed_m_s: float = ...) -> None: ...
+    def __init__(self, surface_thickness_m: float = ..., free_space_margin_m: float = ..., behind_robot_m: float = ..., no_reading: str = ..., detection_capability_m: float = ..., free_space_max_age_s: float = ..., obstacle_speed_m_s: float = ...) -> None: ...
     def as_dict(self) -> Dict[str,object]: ...
 
 class TimeSettings:

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "berth/distance/convex_pair.hpp"
+#include "sim/plain_closing.hpp"
 
 namespace berth::testing {
 namespace {
@@ -32,17 +33,19 @@ double own_free_depth(const MeshWorldView& view, const SpaceSettings& settings, 
   if (!std::isnan(S(u, v)) || !std::isnan(view.obstacles.depth_m(u, v))) {
     return own_of_reading(view, settings, u, v);
   }
-  if (settings.no_reading == NoReading::free) return kInfinity;
-  int readings = 0;
-  double least_m = kInfinity;
-  for (int y = v - 1; y <= v + 1; ++y) {
-    for (int x = u - 1; x <= u + 1; ++x) {
-      if (x < 0 || y < 0 || x >= S.width() || y >= S.height() || std::isnan(S(x, y))) continue;
-      ++readings;
-      least_m = std::min(least_m, own_of_reading(view, settings, x, y));
+  return settings.no_reading == NoReading::free ? kInfinity : 0;
+}
+
+/// What each pixel frees by itself, and beyond what is too small to hide anybody.
+DepthImage closed_free_depth(const MeshWorldView& view, const SpaceSettings& settings) {
+  DepthImage own_m(view.camera.width_px, view.camera.height_px, 0);
+  for (int v = 0; v < own_m.height(); ++v) {
+    for (int u = 0; u < own_m.width(); ++u) {
+      const auto freed_m = static_cast<float>(own_free_depth(view, settings, u, v));
+      if (freed_m > 0) own_m(u, v) = freed_m;
     }
   }
-  return readings >= 5 ? least_m : 0;
+  return sim::plainly_closed(view.camera, own_m, settings.detection_capability_m);
 }
 
 std::optional<Pixel> plain_pixel(const Camera& camera, const Eigen::Vector3d& p_C) {
@@ -63,9 +66,10 @@ Image<double> plain_free_depth(const MeshWorldView& view, const SpaceSettings& s
   const double moved_m = settings.obstacle_speed_m_s * view.age_s;
   const double f_px = std::max(view.camera.fx_px, view.camera.fy_px);
   Image<double> left_m(width, height, kInfinity);
+  const DepthImage closed_m = closed_free_depth(view, settings);
   for (int v = 0; v < height; ++v) {
     for (int u = 0; u < width; ++u) {
-      const double own_m = own_free_depth(view, settings, u, v) - moved_m;
+      const double own_m = closed_m(u, v) - moved_m;
       const double sensed_m = view.sensor_depth_m(u, v);
       const double reach = std::isnan(sensed_m) ? 0 : std::ceil(f_px * moved_m / sensed_m);
       for (int y = 0; y < height; ++y) {

@@ -98,16 +98,6 @@ void plain_own_free_depth(DepthView sensor_depth_m, const ObstacleImage& obstacl
     return freed_by_reading(sensor_depth_m(u, v), obstacles.depth_m(u, v), obstacles.fate(u, v),
                             settings);
   };
-  const auto freed_at_hole = [&](int u, int v) {
-    int readings = 0;
-    float least_m = kEndless_m;
-    for_pixels(sensor_depth_m, three_by_three(u, v), [&](int x, int y) {
-      if (std::isnan(sensor_depth_m(x, y))) return;
-      ++readings;
-      if (freed_at(x, y) < least_m) least_m = freed_at(x, y);
-    });
-    return readings >= 5 ? least_m : 0;
-  };
   out = DepthImage(sensor_depth_m.width, sensor_depth_m.height, 0);
   for (int v = 0; v < out.height(); ++v) {
     for (int u = 0; u < out.width(); ++u) {
@@ -115,7 +105,7 @@ void plain_own_free_depth(DepthView sensor_depth_m, const ObstacleImage& obstacl
       if (!is_empty(u, v)) {
         own_m = freed_at(u, v);
       } else {
-        own_m = settings.no_reading == NoReading::free ? kEndless_m : freed_at_hole(u, v);
+        own_m = settings.no_reading == NoReading::free ? kEndless_m : 0;
       }
       if (own_m > 0) out(u, v) = own_m;
     }

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "sim/plain_closing.hpp"
 #include "sim/random.hpp"
 #include "tests/space/plain_view_space.hpp"
 
@@ -73,8 +74,11 @@ TEST(CameraSpace, IsToTheBitThatOfThePlainWay) {
         Camera camera{};
         camera.width_px = width;
         camera.height_px = height;
+        camera.fx_px = random(40, 300);
+        camera.fy_px = random(40, 300);
         build_camera_space(camera, sensor_depth_m, obstacles, settings, fast);
         plain_own_free_depth(sensor_depth_m, obstacles, settings, own_m);
+        own_m = sim::plainly_closed(camera, own_m, settings.detection_capability_m);
         plain_free_depth_of(own_m, free_m);
         EXPECT_EQ(fast.own_free_depth_m.pixels(), own_m.pixels());
         EXPECT_EQ(fast.free_depth_m.pixels(), free_m.pixels());

@@ -44,7 +44,8 @@ TEST(WholeRobotPoints, NoCameraFreesWhatItHidesItself) {
 }
 
 TEST(WholeRobotPoints, EachFateFreesWhatItShould) {
-  const SpaceSettings settings{.free_space_margin_m = 0.02, .behind_robot_m = 0.3};
+  const SpaceSettings settings{
+      .free_space_margin_m = 0.02, .behind_robot_m = 0.3, .detection_capability_m = 0};
   for (const PixelFate fate :
        {PixelFate::robot, PixelFate::environment, PixelFate::padding, PixelFate::dilation}) {
     PointView view = wall_at(1);
@@ -65,30 +66,39 @@ TEST(WholeRobotPoints, EachFateFreesWhatItShould) {
 }
 
 TEST(WholeRobotPoints, ALearnedBackgroundFreesNoMoreThanTheSensorSaw) {
+  const SpaceSettings settings{.detection_capability_m = 0};
   PointView view = wall_at(1);
   view.fate(6, 6) = PixelFate::background;
   view.sensor_depth_m(6, 6) = 0.5F;
-  EXPECT_NEAR(free_at(view, 6, 6), 0.8, 1e-6) << "robot before the background";
+  EXPECT_NEAR(free_at(view, 6, 6, settings), 0.8, 1e-6) << "robot before the background";
   view.sensor_depth_m(6, 6) = 0.9F;
-  EXPECT_NEAR(free_at(view, 6, 6), 0.98, 1e-6);
+  EXPECT_NEAR(free_at(view, 6, 6, settings), 0.98, 1e-6);
   view.sensor_depth_m(6, 6) = kNoDepth;
-  EXPECT_EQ(free_at(view, 6, 6), 0);
-  EXPECT_EQ(free_at(view, 5, 5), 0) << "and nothing mends it";
+  EXPECT_EQ(free_at(view, 6, 6, settings), 0);
+  EXPECT_EQ(free_at(view, 5, 5, settings), 0);
 }
 
-TEST(WholeRobotPoints, ALittleHoleTakesItsNeighboursAndALargeOneFreesNothing) {
+/// At 1 m a ball of 20 cm covers a disc of 4 pixels' radius.
+TEST(WholeRobotPoints, WhatIsTooSmallToHideABallDoesNotHide) {
+  constexpr double kMillimetre_m = 0.0011;
+  const SpaceSettings off{.detection_capability_m = 0};
+  const SpaceSettings settings{.detection_capability_m = 0.2};
   PointView view = wall_at(1);
   const auto make_hole = [&](int u, int v) {
     view.sensor_depth_m(u, v) = kNoDepth;
     drop(view, u, v, PixelFate::no_reading);
   };
-  view.sensor_depth_m(7, 7) = view.obstacle_depth_m(7, 7) = 0.7F;
-  make_hole(6, 6);
-  EXPECT_NEAR(free_at(view, 5, 5), 0.68, 1e-6) << "from (7, 7) by the hole";
-  for (const int u : {5, 7}) make_hole(u, 6);
-  for (const int u : {6, 7}) make_hole(u, 5);
-  EXPECT_EQ(free_at(view, 6, 6), 0) << "four neighbours have readings";
-  EXPECT_NEAR(free_at(view, 6, 6, {.no_reading = NoReading::free}), 0.68, 1e-6);
+  make_hole(10, 10);
+  EXPECT_EQ(free_at(view, 10, 10, off), 0);
+  EXPECT_NEAR(free_at(view, 10, 10, settings), 0.88, kMillimetre_m);
+  for (int v = 0; v < 31; ++v) view.sensor_depth_m(15, v) = view.obstacle_depth_m(15, v) = 0.7F;
+  EXPECT_NEAR(free_at(view, 15, 10, off), 0.68, 1e-6);
+  EXPECT_NEAR(free_at(view, 15, 10, settings), 0.88, kMillimetre_m) << "behind a cable";
+  for (int v = 8; v < 24; ++v) {
+    for (int u = 20; u < 36; ++u) make_hole(u, v);
+  }
+  EXPECT_EQ(free_at(view, 28, 16, settings), 0) << "a large hole";
+  EXPECT_EQ(free_at(view, 21, 16, settings), 0) << "and what is beside its middle";
 }
 
 TEST(WholeRobotPoints, ThePolicyForMissingReadingsFreesToTheEndOfTheWorld) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "berth/space/closed_free_depth.hpp"
 #include "berth/space/depth_cells.hpp"
 #include "berth/space/depth_windows.hpp"
 #include "berth/space/free_depth.hpp"
@@ -30,6 +31,8 @@ struct CameraSpace {
   /// newer frames have made this one old.
   DepthImage sensor_depth_m;
   DepthImage own_free_depth_m;
+  /// Scratch.
+  ClosingWorkspace closing;
   DepthWindows obstacle_windows;
   DepthWindows free_windows;
 

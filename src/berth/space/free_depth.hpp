@@ -10,9 +10,9 @@ namespace berth {
 /// What each pixel frees by itself (whole-robot definition 1); 0 where that is nothing, and the
 /// greatest float where nothing ends it. With a reading in F it is F - m, where F is a learned
 /// background the lesser of that and S + rho; with a reading of the robot or environment, beside it
-/// included, S + rho; with another one that was dropped, S - m. A pixel without a reading takes the
-/// least of its neighbours with readings if they are at least five of eight, unless
-/// SpaceSettings::no_reading says that it is free. All sizes are equal; reuses out's memory.
+/// included, S + rho; with another one that was dropped, S - m. A pixel without a reading frees
+/// nothing, unless SpaceSettings::no_reading says that it is free (close_free_depth() comes
+/// after). All sizes are equal; reuses out's memory.
 void find_own_free_depth(DepthView sensor_depth_m, const ObstacleImage& obstacles,
                          const SpaceSettings& settings, DepthImage& out);
 

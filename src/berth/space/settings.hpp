@@ -31,6 +31,9 @@ struct SpaceSettings {
   /// free as well: what the robot hides is no obstacle.
   double behind_robot_m = 0.3;
   NoReading no_reading = NoReading::unknown;
+  /// d: a ball of this diameter is the least thing that has to be told. What hides none of them
+  /// from a camera does not hide: a pixel without a reading, a cable; 0 turns that off.
+  double detection_capability_m = 0.04;
   /// A frame frees nothing once it is older than the newest one by more than this.
   double free_space_max_age_s = 0.2;
   /// v: how fast something may have come into space that an older frame saw free.
@@ -55,6 +58,10 @@ void visit_settings(Settings& s, Visitor&& visit) {
          "what a pixel without a reading says of its line of sight: free is for a camera that sees "
          "no background within its range"},
         s.no_reading);
+  visit({"detection_capability_m", kNotNegative,
+         "pixels without a reading, and thin things, hide nothing where no ball of this diameter "
+         "fits behind them; 0 is off"},
+        s.detection_capability_m);
   visit({"free_space_max_age_s", kNotNegative,
          "an image frees nothing once it is older than the newest one by more than this"},
         s.free_space_max_age_s);

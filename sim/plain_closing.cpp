@@ -1,0 +1,146 @@
+#include "sim/plain_closing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace berth::sim {
+namespace {
+
+constexpr int kMost_mm = 65535;
+
+/// The pixels (x, y) whose centres are within this of (0, 0).
+std::vector<Pixel> pixels_within(double radius_px) {
+  std::vector<Pixel> pixels;
+  const int reach = static_cast<int>(std::ceil(radius_px));
+  for (int y = -reach; y <= reach; ++y) {
+    for (int x = -reach; x <= reach; ++x) {
+      if (x * x + y * y <= radius_px * radius_px) pixels.push_back({x, y});
+    }
+  }
+  return pixels;
+}
+
+/// Depths in mm, 0 beside the image.
+class Depths {
+ public:
+  explicit Depths(const DepthImage& depth_m) : mm_(depth_m.width(), depth_m.height(), 0) {
+    for (int v = 0; v < depth_m.height(); ++v) {
+      for (int u = 0; u < depth_m.width(); ++u) {
+        mm_(u, v) = static_cast<int>(std::min(depth_m(u, v) * 1000.0f, 1.0f * kMost_mm));
+      }
+    }
+  }
+  int operator()(int u, int v) const {
+    return u < 0 || v < 0 || u >= mm_.width() || v >= mm_.height() ? 0 : mm_(u, v);
+  }
+
+ private:
+  Image<int> mm_;
+};
+
+/// Balls that cover all blocks of side x side pixels within so many blocks of one, wherever their
+/// centres are.
+class Discs {
+ public:
+  Discs(int side, int radius) : side_(side) {
+    for (const Pixel& block : pixels_within(radius)) {
+      for_block(block, [&](int x, int y) { covered_.push_back({x, y}); });
+    }
+    // Half a block's diagonal is as far as a ball's centre is from the middle of its block.
+    for (const Pixel& p : covered_) least_radius_px_ = std::max(least_radius_px_, to_middle(p));
+    least_radius_px_ += side * std::sqrt(0.5);
+    const double reach_px = least_radius_px_ + side * std::sqrt(0.5);
+    for (const Pixel& block : pixels_within(2 * radius + 4)) {
+      bool is_reached = false;
+      for_block(block, [&](int x, int y) { is_reached |= to_middle({x, y}) <= reach_px; });
+      if (is_reached) reached_.push_back(block);
+    }
+  }
+
+  double least_radius_px() const { return least_radius_px_; }
+
+  /// The least depth at which such a disc that may hold (u, v) frees nothing deeper.
+  int least_mm(const Depths& mm, int u, int v) const {
+    int least = kMost_mm;
+    for (const Pixel& block : reached_) {
+      int greatest = 0;
+      for (const Pixel& p : covered_) {
+        greatest = std::max(
+            greatest, mm((u / side_ + block.u) * side_ + p.u, (v / side_ + block.v) * side_ + p.v));
+        if (greatest >= least) break;
+      }
+      least = std::min(least, greatest);
+    }
+    return least;
+  }
+
+ private:
+  template <class Action>
+  void for_block(const Pixel& block, Action action) const {
+    for (int y = 0; y < side_; ++y) {
+      for (int x = 0; x < side_; ++x) action(block.u * side_ + x, block.v * side_ + y);
+    }
+  }
+  /// From the middle of the block (0, 0).
+  double to_middle(const Pixel& p) const {
+    return std::hypot(p.u - (side_ - 1) / 2.0, p.v - (side_ - 1) / 2.0);
+  }
+
+  int side_;
+  double least_radius_px_ = 0;
+  std::vector<Pixel> covered_;
+  std::vector<Pixel> reached_;
+};
+
+/// The same for two pixels side by side.
+int least_of_pairs(const Depths& mm, int u, int v) {
+  int least = kMost_mm;
+  for (const Pixel& p : {Pixel{1, 0}, Pixel{-1, 0}, Pixel{0, 1}, Pixel{0, -1}}) {
+    least = std::min(least, std::max(mm(u, v), mm(u + p.u, v + p.v)));
+  }
+  return least;
+}
+
+/// Where a disc stays as it is from this depth on, and the one that holds there.
+struct Tier {
+  int until_mm;
+  std::function<int(int u, int v)> least_mm;
+};
+
+}  // namespace
+
+DepthImage plainly_closed(const Camera& camera, const DepthImage& own_m,
+                          double detection_capability_m) {
+  DepthImage closed_m = own_m;
+  if (!(detection_capability_m > 0)) return closed_m;
+  const Depths mm(own_m);
+  const double ball_px_m = std::min(camera.fx_px, camera.fy_px) * detection_capability_m / 2;
+  const auto depth_mm = [&](double radius_px) {
+    return static_cast<int>(std::min(1000 * ball_px_m / radius_px, 1.0 * kMost_mm));
+  };
+  std::vector<Tier> tiers;
+  for (const Discs& discs : {Discs(2, 2), Discs(2, 1), Discs(1, 2), Discs(1, 1)}) {
+    tiers.push_back({depth_mm(discs.least_radius_px()),
+                     [&mm, discs](int u, int v) { return discs.least_mm(mm, u, v); }});
+  }
+  tiers.push_back({depth_mm(1), [&mm](int u, int v) { return least_of_pairs(mm, u, v); }});
+  for (int v = 0; v < own_m.height(); ++v) {
+    for (int u = 0; u < own_m.width(); ++u) {
+      int found_mm = 0;
+      for (const Tier& tier : tiers) {
+        found_mm = std::max(found_mm, tier.least_mm(u, v));
+        if (found_mm < tier.until_mm) break;
+        found_mm = tier.until_mm;
+      }
+      const float most_m =
+          static_cast<float>(found_mm) * 0.001f - static_cast<float>(detection_capability_m / 2);
+      closed_m(u, v) = std::max(own_m(u, v), most_m);
+    }
+  }
+  return closed_m;
+}
+
+}  // namespace berth::sim
