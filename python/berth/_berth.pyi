@@ -453,9 +453,10 @@ class SensorSettings:
     background_frames: int
     holes: str
     noise_m: float
+    phantom_radius_m: float
     speckle_jump_m: float
     speckle_px: int
-    def __init__(self, noise_m: float = ..., speckle_px: int = ..., speckle_jump_m: float = ..., average_frames: int = ..., background_frames: int = ..., background_clearance_m: float = ..., holes: str = ...) -> None: ...
+    def __init__(self, noise_m: float = ..., speckle_px: int = ..., speckle_jump_m: float = ..., phantom_radius_m: float = ..., average_frames: int = ..., background_frames: int = ..., background_clearance_m: float = ..., holes: str = ...) -> None: ...
     def as_dict(self) -> Dict[str,object]: ...
 
 class SightShares:

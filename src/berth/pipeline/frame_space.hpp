@@ -3,6 +3,7 @@
 #pragma once
 
 #include "berth/distance/mean_directions.hpp"
+#include "berth/sensor/phantoms.hpp"
 #include "berth/space/camera_space.hpp"
 #include "berth/visibility/rejected.hpp"
 
@@ -17,6 +18,8 @@ struct FrameSpace {
   /// The readings that are rejected; only where there are any.
   CameraSpace rejected_space;
   bool has_rejected_space = false;
+  /// Scratch.
+  PhantomWorkspace phantoms;
 };
 
 /// Nothing stays of the space of an image before.

@@ -18,8 +18,9 @@ inline constexpr std::array kHolePolicies = {HolePolicy::free, HolePolicy::obsta
 std::string_view name_of(HolePolicy policy);
 constexpr const auto& all_of(HolePolicy) { return kHolePolicies; }
 
-/// What is known of the sensor's faults. Every rule is off by default. Only `speckle_px` ever drops
-/// anything; the other rules add obstacles or move them towards the camera.
+/// What is known of the sensor's faults. Every rule but `phantom_radius_m` is off by default. Only
+/// that one and `speckle_px` ever drop anything; the other rules add obstacles or move them towards
+/// the camera.
 struct SensorSettings {
   /// Two readings of one surface at z m differ by no more than noise_m max(1, z^2).
   double noise_m = 0.02;
@@ -29,6 +30,10 @@ struct SensorSettings {
   /// px is 1.3 cm^2, 60 is 3.8 cm^2; a fingertip of 15 x 70 mm has 10 cm^2.
   int speckle_px = 0;
   double speckle_jump_m = 0.03;
+  /// d: a reading that is alone in space, with fewer than a quarter of the readings within d that a
+  /// ball of this diameter would show, at most 5, is dropped as speckle before `mesh` looks
+  /// (drop_phantoms); 0 turns the rule off. Methods on images do not know it.
+  double phantom_radius_m = 0.04;
   /// A reading moves to the mean of this many of its pixel's last ones (itself among them) where
   /// that is nearer; 0 and 1 turn the rule off.
   int average_frames = 0;
@@ -42,7 +47,7 @@ struct SensorSettings {
   bool averages() const { return average_frames > 1; }
   bool has_background() const { return background_frames > 0; }
   bool fills_holes() const { return holes != HolePolicy::free; }
-  /// The key of the first rule that is on; empty where all are off.
+  /// The key of the first of apply_sensor_rules()'s rules that is on; empty where all are off.
   std::string_view first_rule() const;
 };
 
@@ -62,6 +67,11 @@ void visit_settings(Settings& s, Visitor&& visit) {
          "two neighbouring pixels are of one blob where their depths differ by no more than this "
          "times max(1, z²)"},
         s.speckle_jump_m);
+  visit(
+      {"phantom_radius_m", kNotNegative,
+       "mesh: a reading is dropped that has fewer others within this distance than a thing of this "
+       "size shows, at most 5; 0 is off"},
+      s.phantom_radius_m);
   visit({"average_frames",
          {.most = kMostAverageFrames},
          "a reading moves to the mean of this many of its pixel's last ones where that is nearer; "

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "berth/types/camera.hpp"
+#include "berth/types/obstacle_image.hpp"
+
+namespace berth {
+
+/// The memory of drop_phantoms().
+struct PhantomWorkspace {
+  std::vector<Pixel> lonely;
+  std::vector<std::uint8_t> is_near;
+};
+
+/// How many readings a thing of the size d shows at least at this depth, with itself: a quarter of
+/// the pixels that a ball of this diameter covers, at most kMostSupport. One is nothing to ask for.
+int support_of_phantom_rule(const Camera& camera, double phantom_radius_m, float depth_m);
+inline constexpr int kMostSupport = 5;
+/// Nobody looks farther than this for them.
+inline constexpr int kMostSupportReach_px = 8;
+
+/// Drops as `speckle` the readings that are alone in space: in the square of pixels that are at
+/// most f d / z, and kMostSupportReach_px, to the side of it, fewer than support_of_phantom_rule()
+/// pixels that were kept are within d of it in depth, itself among them. A camera makes such up
+/// between near and far, and in the air; of a thing of the size d, a rod or a cable it gives more.
+/// Counts are of the image as it came: it does not matter who is dropped first. 0 turns the rule
+/// off.
+void drop_phantoms(const Camera& camera, double phantom_radius_m, PhantomWorkspace& workspace,
+                   ObstacleImage& out);
+
+}  // namespace berth
