@@ -22,6 +22,14 @@ std::vector<std::string> code_points(const std::string& text) {
   return points;
 }
 
+/// Nobody knows whether something is there: what is known to be is told as well.
+std::string unknown_contact_text(const LinkResult& link, double range_m) {
+  const std::string seen = std::isfinite(link.occupied.distance_m)
+                               ? fmt::format("seen {:.3f} m", link.occupied.distance_m)
+                               : "nothing seen within " + range_text(range_m);
+  return "unknown 0 m, " + seen;
+}
+
 }  // namespace
 
 std::string range_text(double range_m) {
@@ -29,10 +37,15 @@ std::string range_text(double range_m) {
   return fmt::format("{:.{}f} m", range_m, is_whole_cm ? 2 : 3);
 }
 
+bool is_contact(const LinkResult& link) {
+  return link.distance_m == 0 && link.obstacle_is == ObstacleKind::occupied;
+}
+
 std::string distance_text(const LinkResult& link, double range_m) {
   switch (link.status) {
     case LinkStatus::ok:
-      return link.distance_m == 0 ? "contact" : fmt::format("{:.3f} m", link.distance_m);
+      if (link.distance_m != 0) return fmt::format("{:.3f} m", link.distance_m);
+      return is_contact(link) ? "contact" : unknown_contact_text(link, range_m);
     case LinkStatus::none_in_range:
       return "none within " + range_text(range_m);
     case LinkStatus::not_visible:

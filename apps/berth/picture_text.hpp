@@ -13,7 +13,11 @@ namespace berth::app {
 /// "1.00 m"; a third decimal where the second would round.
 std::string range_text(double range_m);
 
-/// "0.137 m", or "contact" for exactly 0, or why there is no distance.
+/// Whether the distance is 0 to something that a camera measured.
+bool is_contact(const LinkResult& link);
+
+/// "0.137 m", or "contact", or "unknown 0 m, seen 0.520 m" where only unknown space touches, or why
+/// there is no distance.
 std::string distance_text(const LinkResult& link, double range_m);
 
 std::string fate_text(PixelFate fate);

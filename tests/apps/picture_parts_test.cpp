@@ -1,6 +1,7 @@
 // The layout, the labels' places and the words of the picture.
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 
 #include "apps/berth/picture_layout.hpp"
@@ -116,6 +117,13 @@ TEST(PictureText, DistanceOrReason) {
   EXPECT_EQ(distance_text(link, 1), "0.137 m");
   link.distance_m = 0;
   EXPECT_EQ(distance_text(link, 1), "contact");
+  EXPECT_TRUE(is_contact(link));
+  link.obstacle_is = ObstacleKind::unknown;
+  link.occupied.distance_m = 0.52F;
+  EXPECT_EQ(distance_text(link, 1), "unknown 0 m, seen 0.520 m");
+  EXPECT_FALSE(is_contact(link));
+  link.occupied.distance_m = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(distance_text(link, 1), "unknown 0 m, nothing seen within 1.00 m");
   link.status = LinkStatus::none_in_range;
   EXPECT_EQ(distance_text(link, 1), "none within 1.00 m");
   EXPECT_EQ(distance_text(link, 0.125), "none within 0.125 m");

@@ -1,5 +1,5 @@
 // The table of links, all numbers of the chosen one, and what became of the pixels.
-import { lengthText, make } from "./dom";
+import { distanceText, lengthText, make } from "./dom";
 import type { LinkResult, Result, Scene, Shown } from "./messages";
 
 /** What became of a camera that is not as it should be; the page and `berth run` name it alike. */
@@ -61,7 +61,7 @@ export class DistancesPanel {
       const row = make("tr", { tabIndex: 0, className: link.link === this.chosen ? "chosen" : "" }, [
         make("td", {}, [key, ` ${link.link}`]),
         make("td", { textContent: link.status.replaceAll("_", " ") }),
-        make("td", { textContent: lengthText(link.distance_m) }),
+        make("td", { textContent: distanceText(link) }),
         make("td", { textContent: link.obstacle_is ?? "" }),
       ]);
       row.dataset.link = link.link;
@@ -80,7 +80,7 @@ export class DistancesPanel {
     const point = (p?: number[] | null) => (p ? `${p.map((x) => x.toFixed(3)).join(", ")} m` : "–");
     const percent = (share?: number | null) => (share === null || share === undefined ? "–" : `${(100 * share).toFixed(0)} %`);
     const lines: [string, string][] = [
-      ["distance", lengthText(link.distance_m)],
+      ["distance", distanceText(link)],
       ["certainly at least", lengthText(link.lower_bound_m)],
       ["obstacle is", link.obstacle_is === "unknown" ? "unknown: hidden, and seen free by no camera" : (link.obstacle_is ?? "–")],
       ["camera and pixel", link.camera ? `${link.camera} (${link.obstacle_pixel?.join(", ")})` : "–"],

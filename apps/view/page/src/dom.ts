@@ -21,6 +21,13 @@ export function lengthText(length_m: number | null | undefined): string {
   return length_m < 0.1 ? `${(1000 * length_m).toFixed(1)} mm` : `${length_m.toFixed(3)} m`;
 }
 
+/** A link's distance; where only unknown space touches it, also how far what is seen is. */
+export function distanceText(link: { distance_m: number | null; obstacle_is: string | null; occupied: { distance_m: number | null } }): string {
+  if (link.distance_m !== 0 || link.obstacle_is !== "unknown") return lengthText(link.distance_m);
+  const seen = link.occupied.distance_m;
+  return `unknown 0 m, ${seen === null ? "nothing seen" : `seen ${lengthText(seen)}`}`;
+}
+
 /** Buttons of which one is chosen at a time; arrows go from one to the next. */
 export function tabs(row: HTMLElement, names: string[], choose: (index: number) => void): (index: number) => void {
   const buttons = names.map((name, index) => {

@@ -5,7 +5,7 @@ import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
 import { cameraColors, cssOf, hiddenColor, unseenColor, type Coloring } from "./colors";
-import { lengthText, make } from "./dom";
+import { distanceText, make } from "./dom";
 import type { Camera, Image, LinkResult, Mesh, Point, Scene, Shown, Space } from "./messages";
 import { CameraPoints } from "./points";
 import { bodyOf } from "./space_body";
@@ -338,7 +338,7 @@ export class Scene3d {
     const labelled = this.pairs.filter((pair) => nearest.includes(pair) || pair.link.link === this.chosen);
     const spans = (this.layers?.distances ? labelled : []).map((pair) => {
       const at = this.onScreen(pair.ends[0].clone().add(pair.ends[1]).multiplyScalar(0.5));
-      const span = make("span", { textContent: lengthText(pair.link.distance_m) });
+      const span = make("span", { textContent: distanceText(pair.link) });
       if (!at) return span;
       span.style.left = `${at[0]}px`;
       span.style.top = `${at[1]}px`;
