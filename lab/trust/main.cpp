@@ -71,12 +71,16 @@ struct WholeRobotOptions {
   bool is_full_size = false;
   std::vector<std::string> conditions;
   SpaceSettings space;
+  double phantom_radius_m = SensorSettings{}.phantom_radius_m;
 };
 
 std::vector<WholeRobotCondition> chosen_conditions(const WholeRobotOptions& options) {
   const std::vector<std::string>& parts = options.conditions;
   std::vector<WholeRobotCondition> conditions = whole_robot_conditions();
-  for (WholeRobotCondition& condition : conditions) condition.space = options.space;
+  for (WholeRobotCondition& condition : conditions) {
+    condition.space = options.space;
+    condition.phantom_radius_m = options.phantom_radius_m;
+  }
   if (parts.empty()) return conditions;
   std::erase_if(conditions, [&](const WholeRobotCondition& condition) {
     return std::ranges::none_of(parts, [&](const std::string& part) {
@@ -146,6 +150,10 @@ int main(int argc, char** argv) {
   program
       .add_option("--detection-capability", whole_robot_options.space.detection_capability_m,
                   "With --whole-robot: of the space settings, in m")
+      ->check(CLI::NonNegativeNumber);
+  program
+      .add_option("--phantom-radius", whole_robot_options.phantom_radius_m,
+                  "With --whole-robot: of the sensor settings, in m")
       ->check(CLI::NonNegativeNumber);
   program.add_flag_callback(
       "--no-reading-free", [&] { whole_robot_options.space.no_reading = berth::NoReading::free; },

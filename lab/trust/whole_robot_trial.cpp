@@ -6,6 +6,7 @@
 
 #include "berth/distance/mesh_distances.hpp"
 #include "berth/self_filter/self_filter.hpp"
+#include "berth/sensor/phantoms.hpp"
 #include "lab/trust/scene_images.hpp"
 #include "sim/drawn_obstacles.hpp"
 #include "sim/drawn_views.hpp"
@@ -138,6 +139,8 @@ class Measured {
       SelfFilterWorkspace workspace;
       self_filter(sensed.camera, sensed.sensed_m, sensed.robot, condition_.self_filter, workspace,
                   sensed.obstacles);
+      PhantomWorkspace phantoms;
+      drop_phantoms(sensed.camera, condition_.phantom_radius_m, phantoms, sensed.obstacles);
     }
     return sensed;
   }

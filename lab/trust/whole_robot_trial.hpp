@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "berth/sensor/settings.hpp"
 #include "berth/space/settings.hpp"
 #include "lab/trust/trial.hpp"
 
@@ -20,6 +21,8 @@ struct WholeRobotCondition {
   MeasuredFilter filter = MeasuredFilter::ideal;
   SelfFilterSettings self_filter = {};
   SpaceSettings space = {};
+  /// SensorSettings::phantom_radius_m, with berth's self filter.
+  double phantom_radius_m = SensorSettings{}.phantom_radius_m;
   sim::SensorErrors image = {};
   /// Of each camera by itself.
   PoseErrors pose = {};
