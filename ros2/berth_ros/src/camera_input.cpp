@@ -81,20 +81,25 @@ void CameraInput::use(std::shared_ptr<const berth::Robot> robot,
   // Its thread ends once the mutex is free: it may be in on_frame_, which asks for frames.
   std::unique_ptr<berth::LiveCamera> before;
   const std::lock_guard lock(mutex_);
-  before = std::move(live_);
+  before = take_live();
   robot_ = std::move(robot);
   joints_ = std::move(joints);
   settings_.view = view;
   mount_.reset();
 }
 
+std::unique_ptr<berth::LiveCamera> CameraInput::take_live() {
+  const std::lock_guard lock(live_mutex_);
+  return std::move(live_);
+}
+
 void CameraInput::look_again() {
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(live_mutex_);
   if (live_) live_->look_again();
 }
 
 std::shared_ptr<const berth::Frame> CameraInput::newest(const berth::Robot* robot) const {
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(live_mutex_);
   auto frame = live_ ? live_->newest() : nullptr;
   return frame && frame->view->robot().get() == robot ? frame : nullptr;
 }
@@ -150,7 +155,7 @@ void CameraInput::take_info(const sensor_msgs::msg::CameraInfo& info) {
     info_trouble_ = error.what();
     refuse(info_trouble_);
   }
-  before = std::move(live_);
+  before = take_live();
 }
 
 void CameraInput::require_frame_id(const ImageMessage& image) {
@@ -190,7 +195,7 @@ void CameraInput::find_mount(const ImageMessage& image) {
 void CameraInput::mount_at(const berth::CameraMount& mount) {
   mount_ = mount;
   ++mounts_;
-  retired_ = std::move(live_);
+  retired_ = take_live();
 }
 
 void CameraInput::make_live(const ImageMessage& image) {
@@ -201,13 +206,15 @@ void CameraInput::make_live(const ImageMessage& image) {
   const PlaceSource source{takes_scene_pose_ ? std::string() : image.header.frame_id,
                            mount.parent_link, robot_->model().links.front().name,
                            robot_->settings().time.max_joints_age_s};
-  live_ = std::make_unique<berth::LiveCamera>(
+  auto live = std::make_unique<berth::LiveCamera>(
       view, *joints_, settings_.live,
       [this, kept = joints_](const berth::Frame& frame, berth::DepthView,
                              const std::shared_ptr<const void>& with) {
         on_frame_(frame, std::static_pointer_cast<const ImageMessage>(with));
       },
       [this, source](double stamp_s) { return place_at(source, stamp_s); });
+  const std::lock_guard lock(live_mutex_);
+  live_ = std::move(live);
 }
 
 std::optional<berth::PlaceAtExposure> CameraInput::place_at(const PlaceSource& source,

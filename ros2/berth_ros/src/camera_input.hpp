@@ -83,6 +83,7 @@ class CameraInput {
   void find_mount(const ImageMessage& image);
   void mount_at(const berth::CameraMount& mount);
   void make_live(const ImageMessage& image);
+  std::unique_ptr<berth::LiveCamera> take_live();
   std::optional<berth::PlaceAtExposure> place_at(const PlaceSource& source, double stamp_s) const;
   void refuse(const std::string& why);
 
@@ -106,6 +107,9 @@ class CameraInput {
   std::int64_t refused_ = 0;
   std::int64_t mounts_ = 0;
   ImageRate rate_;
+  /// Is held where live_ changes, beside mutex_, and by who asks it from elsewhere: questions and
+  /// joint states do not wait until an image is read.
+  mutable std::mutex live_mutex_;
   std::unique_ptr<berth::LiveCamera> live_;
   /// Of a mount that holds no more; to be ended without the mutex.
   std::unique_ptr<berth::LiveCamera> retired_;
