@@ -15,7 +15,7 @@ from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from living_robot import BOX, FRAME, URDF, WIDTH, LivingRobot, transform  # noqa: E402
+from living_robot import BOX, FOCAL, FRAME, URDF, WIDTH, LivingRobot, transform  # noqa: E402
 
 
 @pytest.mark.launch_test
@@ -131,7 +131,8 @@ class Faults(LivingRobot):
         # The image is too old for an answer only 0.15 s after it came.
         self.assertTrue(self.answers_so_far)
         self.assertEqual(self.answers_so_far[-1].time_status, LinkDistances.TIME_NO_FRAME)
-        self.assertTrue(self.until(self.answers), "it goes on with the images of this one")
+        type(self).focal = FOCAL
+        self.assertTrue(self.until(self.answers), "it goes on with the images of the one before")
 
     def test_14_distortion_is_said_once_and_not_for_each_image(self):
         type(self).distortion = [0.1, 0.0, 0.0, 0.0, 0.0]
