@@ -49,7 +49,8 @@ berth::Camera camera_of(const sensor_msgs::msg::CameraInfo& info, bool is_rectif
   return camera;
 }
 
-CameraInput::CameraInput(rclcpp_lifecycle::LifecycleNode& node, rclcpp::Node& images,
+CameraInput::CameraInput(rclcpp_lifecycle::LifecycleNode& node,
+                         const std::shared_ptr<CallbackGate>& gate, rclcpp::Node& images,
                          CameraSettings settings, std::string world_frame, StampClock& clock,
                          const Transforms& transforms, OnFrame on_frame)
     : settings_(std::move(settings)),
@@ -66,7 +67,10 @@ CameraInput::CameraInput(rclcpp_lifecycle::LifecycleNode& node, rclcpp::Node& im
   options.callback_group = group_;
   info_ = node.create_subscription<sensor_msgs::msg::CameraInfo>(
       settings_.topic_prefix + "camera_info", qos,
-      [this](const sensor_msgs::msg::CameraInfo::ConstSharedPtr& info) { on_info(info); }, options);
+      [this, gate](const sensor_msgs::msg::CameraInfo::ConstSharedPtr& info) {
+        if (const auto pass = gate->enter()) on_info(info);
+      },
+      options);
   options.callback_group = image_group_;
   image_ = image_transport::create_subscription(
       &images,

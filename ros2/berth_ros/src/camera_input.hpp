@@ -12,6 +12,7 @@
 
 #include "berth/live/live_camera.hpp"
 #include "berth/live/raw_depth.hpp"
+#include "callback_gate.hpp"
 #include "image_rate.hpp"
 #include "node_settings.hpp"
 #include "stamp_clock.hpp"
@@ -47,10 +48,11 @@ class CameraInput {
       std::function<void(const berth::Frame&, const std::shared_ptr<const ImageMessage>&)>;
 
   /// `on_frame` is called in the camera's own thread. Images come by `images`, a plain node, since
-  /// image_transport knows no other. Frames are placed in `world_frame` where it is not empty.
-  CameraInput(rclcpp_lifecycle::LifecycleNode& node, rclcpp::Node& images, CameraSettings settings,
-              std::string world_frame, StampClock& clock, const Transforms& transforms,
-              OnFrame on_frame);
+  /// image_transport knows no other; callbacks of `node` pass `gate`. Frames are placed in
+  /// `world_frame` where it is not empty.
+  CameraInput(rclcpp_lifecycle::LifecycleNode& node, const std::shared_ptr<CallbackGate>& gate,
+              rclcpp::Node& images, CameraSettings settings, std::string world_frame,
+              StampClock& clock, const Transforms& transforms, OnFrame on_frame);
 
   /// From now on frames are of this robot, whose joints these are; null: there is none.
   void use(std::shared_ptr<const berth::Robot> robot,

@@ -75,8 +75,11 @@ class DistanceNode : public LiveNode {
     with_group.callback_group = group_;
     planned_subscription_ = create_subscription<sensor_msgs::msg::JointState>(
         "planned_joint_states", rclcpp::SensorDataQoS().keep_last(1),
-        [this](const sensor_msgs::msg::JointState& message) { on_plan(message); }, with_group);
-    planners_->configure();
+        [this, gate = gate()](const sensor_msgs::msg::JointState& message) {
+          if (const auto pass = gate->enter()) on_plan(message);
+        },
+        with_group);
+    planners_->configure(gate());
   }
   void activate_outputs() override {
     if (question_hz_ > 0) question_timer_ = timer(question_hz_, [this] { ask(); });
@@ -104,8 +107,12 @@ class DistanceNode : public LiveNode {
 
   template <class Call>
   rclcpp::TimerBase::SharedPtr timer(double hz, Call call) {
-    return rclcpp::create_timer(this, get_clock(), rclcpp::Duration::from_seconds(1 / hz), call,
-                                group_);
+    return rclcpp::create_timer(
+        this, get_clock(), rclcpp::Duration::from_seconds(1 / hz),
+        [gate = gate(), call] {
+          if (const auto pass = gate->enter()) call();
+        },
+        group_);
   }
 
   void on_joints() override {
@@ -162,7 +169,7 @@ class DistanceNode : public LiveNode {
       is_monitored = separation_message_.state != berth_msgs::msg::Separation::UNMONITORED;
       last_status_ = message->status;
       last_text_ = separation_message_.text;
-      if (marker_timer_) last_ = *message;
+      if (marker_hz_ > 0) last_ = *message;
     }
     distances_->publish(std::move(message));
     separation_->publish(separation_message_);
