@@ -49,7 +49,8 @@ berth::Camera camera_of(const sensor_msgs::msg::CameraInfo& info, bool is_rectif
   return camera;
 }
 
-CameraInput::CameraInput(rclcpp_lifecycle::LifecycleNode& node, rclcpp::Node& images,
+CameraInput::CameraInput(rclcpp_lifecycle::LifecycleNode& node,
+                         const std::shared_ptr<CallbackGate>& gate, rclcpp::Node& images,
                          CameraSettings settings, std::string world_frame, StampClock& clock,
                          const Transforms& transforms, OnFrame on_frame)
     : settings_(std::move(settings)),
@@ -66,7 +67,10 @@ CameraInput::CameraInput(rclcpp_lifecycle::LifecycleNode& node, rclcpp::Node& im
   options.callback_group = group_;
   info_ = node.create_subscription<sensor_msgs::msg::CameraInfo>(
       settings_.topic_prefix + "camera_info", qos,
-      [this](const sensor_msgs::msg::CameraInfo::ConstSharedPtr& info) { on_info(info); }, options);
+      [this, gate](const sensor_msgs::msg::CameraInfo::ConstSharedPtr& info) {
+        if (const auto pass = gate->enter()) on_info(info);
+      },
+      options);
   options.callback_group = image_group_;
   image_ = image_transport::create_subscription(
       &images,
@@ -81,20 +85,25 @@ void CameraInput::use(std::shared_ptr<const berth::Robot> robot,
   // Its thread ends once the mutex is free: it may be in on_frame_, which asks for frames.
   std::unique_ptr<berth::LiveCamera> before;
   const std::lock_guard lock(mutex_);
-  before = std::move(live_);
+  before = take_live();
   robot_ = std::move(robot);
   joints_ = std::move(joints);
   settings_.view = view;
   mount_.reset();
 }
 
+std::unique_ptr<berth::LiveCamera> CameraInput::take_live() {
+  const std::lock_guard lock(live_mutex_);
+  return std::move(live_);
+}
+
 void CameraInput::look_again() {
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(live_mutex_);
   if (live_) live_->look_again();
 }
 
 std::shared_ptr<const berth::Frame> CameraInput::newest(const berth::Robot* robot) const {
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(live_mutex_);
   auto frame = live_ ? live_->newest() : nullptr;
   return frame && frame->view->robot().get() == robot ? frame : nullptr;
 }
@@ -150,7 +159,7 @@ void CameraInput::take_info(const sensor_msgs::msg::CameraInfo& info) {
     info_trouble_ = error.what();
     refuse(info_trouble_);
   }
-  before = std::move(live_);
+  before = take_live();
 }
 
 void CameraInput::require_frame_id(const ImageMessage& image) {
@@ -190,7 +199,7 @@ void CameraInput::find_mount(const ImageMessage& image) {
 void CameraInput::mount_at(const berth::CameraMount& mount) {
   mount_ = mount;
   ++mounts_;
-  retired_ = std::move(live_);
+  retired_ = take_live();
 }
 
 void CameraInput::make_live(const ImageMessage& image) {
@@ -201,13 +210,15 @@ void CameraInput::make_live(const ImageMessage& image) {
   const PlaceSource source{takes_scene_pose_ ? std::string() : image.header.frame_id,
                            mount.parent_link, robot_->model().links.front().name,
                            robot_->settings().time.max_joints_age_s};
-  live_ = std::make_unique<berth::LiveCamera>(
+  auto live = std::make_unique<berth::LiveCamera>(
       view, *joints_, settings_.live,
       [this, kept = joints_](const berth::Frame& frame, berth::DepthView,
                              const std::shared_ptr<const void>& with) {
         on_frame_(frame, std::static_pointer_cast<const ImageMessage>(with));
       },
       [this, source](double stamp_s) { return place_at(source, stamp_s); });
+  const std::lock_guard lock(live_mutex_);
+  live_ = std::move(live);
 }
 
 std::optional<berth::PlaceAtExposure> CameraInput::place_at(const PlaceSource& source,

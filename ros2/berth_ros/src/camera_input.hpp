@@ -12,6 +12,7 @@
 
 #include "berth/live/live_camera.hpp"
 #include "berth/live/raw_depth.hpp"
+#include "callback_gate.hpp"
 #include "image_rate.hpp"
 #include "node_settings.hpp"
 #include "stamp_clock.hpp"
@@ -47,10 +48,11 @@ class CameraInput {
       std::function<void(const berth::Frame&, const std::shared_ptr<const ImageMessage>&)>;
 
   /// `on_frame` is called in the camera's own thread. Images come by `images`, a plain node, since
-  /// image_transport knows no other. Frames are placed in `world_frame` where it is not empty.
-  CameraInput(rclcpp_lifecycle::LifecycleNode& node, rclcpp::Node& images, CameraSettings settings,
-              std::string world_frame, StampClock& clock, const Transforms& transforms,
-              OnFrame on_frame);
+  /// image_transport knows no other; callbacks of `node` pass `gate`. Frames are placed in
+  /// `world_frame` where it is not empty.
+  CameraInput(rclcpp_lifecycle::LifecycleNode& node, const std::shared_ptr<CallbackGate>& gate,
+              rclcpp::Node& images, CameraSettings settings, std::string world_frame,
+              StampClock& clock, const Transforms& transforms, OnFrame on_frame);
 
   /// From now on frames are of this robot, whose joints these are; null: there is none.
   void use(std::shared_ptr<const berth::Robot> robot,
@@ -83,6 +85,7 @@ class CameraInput {
   void find_mount(const ImageMessage& image);
   void mount_at(const berth::CameraMount& mount);
   void make_live(const ImageMessage& image);
+  std::unique_ptr<berth::LiveCamera> take_live();
   std::optional<berth::PlaceAtExposure> place_at(const PlaceSource& source, double stamp_s) const;
   void refuse(const std::string& why);
 
@@ -106,6 +109,9 @@ class CameraInput {
   std::int64_t refused_ = 0;
   std::int64_t mounts_ = 0;
   ImageRate rate_;
+  /// Is held where live_ changes, beside mutex_, and by who asks it from elsewhere: questions and
+  /// joint states do not wait until an image is read.
+  mutable std::mutex live_mutex_;
   std::unique_ptr<berth::LiveCamera> live_;
   /// Of a mount that holds no more; to be ended without the mutex.
   std::unique_ptr<berth::LiveCamera> retired_;

@@ -3,19 +3,20 @@
 #include <berth_msgs/msg/link_distances.hpp>
 #include <berth_msgs/msg/separation.hpp>
 #include <chrono>
-#include <deque>
 #include <rclcpp_components/register_node_macro.hpp>
 #include <std_msgs/msg/float64.hpp>
 #include <visualization_msgs/msg/marker_array.hpp>
 
 #include "berth/pipeline/query.hpp"
 #include "berth/results/result_text.hpp"
+#include "exposure_answers.hpp"
 #include "live_node.hpp"
 #include "markers.hpp"
 #include "nodes.hpp"
 #include "planner_topics.hpp"
 #include "question_times.hpp"
 #include "result_messages.hpp"
+#include "robot_space.hpp"
 #include "speed_monitor.hpp"
 
 namespace berth_ros {
@@ -74,8 +75,11 @@ class DistanceNode : public LiveNode {
     with_group.callback_group = group_;
     planned_subscription_ = create_subscription<sensor_msgs::msg::JointState>(
         "planned_joint_states", rclcpp::SensorDataQoS().keep_last(1),
-        [this](const sensor_msgs::msg::JointState& message) { on_plan(message); }, with_group);
-    planners_->configure();
+        [this, gate = gate()](const sensor_msgs::msg::JointState& message) {
+          if (const auto pass = gate->enter()) on_plan(message);
+        },
+        with_group);
+    planners_->configure(gate());
   }
   void activate_outputs() override {
     if (question_hz_ > 0) question_timer_ = timer(question_hz_, [this] { ask(); });
@@ -93,6 +97,7 @@ class DistanceNode : public LiveNode {
   void clean_outputs() override {
     planners_->clean();
     planned_subscription_.reset();
+    keep_space(nullptr);
     distances_.reset();
     at_exposure_.reset();
     separation_.reset();
@@ -102,8 +107,12 @@ class DistanceNode : public LiveNode {
 
   template <class Call>
   rclcpp::TimerBase::SharedPtr timer(double hz, Call call) {
-    return rclcpp::create_timer(this, get_clock(), rclcpp::Duration::from_seconds(1 / hz), call,
-                                group_);
+    return rclcpp::create_timer(
+        this, get_clock(), rclcpp::Duration::from_seconds(1 / hz),
+        [gate = gate(), call] {
+          if (const auto pass = gate->enter()) call();
+        },
+        group_);
   }
 
   void on_joints() override {
@@ -111,11 +120,17 @@ class DistanceNode : public LiveNode {
   }
   void on_robot() override {
     const LiveRobot now = live();
+    std::shared_ptr<RobotSpace> space;
+    if (now.robot) {
+      space = std::make_shared<RobotSpace>(now, camera_names().size(),
+                                           [this, robot = now.robot] { return frames(*robot); });
+    }
+    exposures_.use(now.robot, camera_names());
+    keep_space(space);
     const std::lock_guard lock(query_mutex_);
     query_.reset();
-    exposure_query_.reset();
+    asked_space_ = space;
     robot_ = now;
-    recent_.assign(camera_names().size(), {});
     monitor_.reset();
     planned_ = {};
     const std::optional<berth::SeparationSettings> separation = separation_settings();
@@ -123,7 +138,15 @@ class DistanceNode : public LiveNode {
     if (!now.robot) return;
     if (separation) monitor_.emplace(now.robot, *separation, velocity_window_s_);
     query_.emplace(now.robot, camera_names());
-    exposure_query_.emplace(now.robot, camera_names());
+  }
+  /// For the cameras' threads, which do not wait for questions.
+  void keep_space(std::shared_ptr<RobotSpace> space) {
+    const std::lock_guard lock(space_mutex_);
+    space_.swap(space);
+  }
+  std::shared_ptr<RobotSpace> space() const {
+    const std::lock_guard lock(space_mutex_);
+    return space_;
   }
 
   void ask() {
@@ -146,7 +169,7 @@ class DistanceNode : public LiveNode {
       is_monitored = separation_message_.state != berth_msgs::msg::Separation::UNMONITORED;
       last_status_ = message->status;
       last_text_ = separation_message_.text;
-      if (marker_timer_) last_ = *message;
+      if (marker_hz_ > 0) last_ = *message;
     }
     distances_->publish(std::move(message));
     separation_->publish(separation_message_);
@@ -161,14 +184,16 @@ class DistanceNode : public LiveNode {
 
   void answer(LinkDistances& message) {
     const LiveFrames frames = this->frames(*robot_.robot);
+    const std::shared_ptr<const berth::PreparedSpace> ready = asked_space_->ready(frames);
     const berth::JointBuffer& joints = robot_.joints->buffer();
     // Later than any image and any joint state that it asks about.
     const rclcpp::Time now = this->now();
     const double now_s = clock_.seconds(now);
-    result_ = query_->ask({.frames = frames,
-                           .joints = joints,
-                           .now_s = now_s,
-                           .X_WB = root_at(*robot_.robot, joints.newest_stamp_s())});
+    result_ =
+        query_->ask({.frames = ready ? berth::NewestFrames(ready) : berth::NewestFrames(frames),
+                     .joints = joints,
+                     .now_s = now_s,
+                     .X_WB = root_at(*robot_.robot, joints.newest_stamp_s())});
     to_message(result_, base_frame(), now, clock_, message);
     if (monitor_) {
       monitor_->update(result_, joints, planned_, now_s, separation_message_);
@@ -210,32 +235,12 @@ class DistanceNode : public LiveNode {
 
   void on_frame(std::size_t camera, const berth::Frame& frame,
                 const std::shared_ptr<const sensor_msgs::msg::Image>&) override {
+    if (const std::shared_ptr<RobotSpace> space = this->space()) space->take_frames();
     if (at_exposure_->get_subscription_count() == 0) return;
     auto message = std::make_unique<LinkDistances>();
-    {
-      const std::lock_guard lock(query_mutex_);
-      if (!exposure_query_) return;
-      keep_recent(camera);
-      const LiveFrames frames = frames_at(frame.stamp_s);
-      to_message(exposure_query_->ask({.frames = frames}), base_frame(), this->now(), clock_,
-                 *message);
-    }
+    const auto look = [this](const berth::Robot& robot) { return frames(robot); };
+    if (!exposures_.ask(camera, frame.stamp_s, look, this->now(), clock_, *message)) return;
     at_exposure_->publish(std::move(message));
-  }
-  void keep_recent(std::size_t camera) {
-    auto& recent = recent_[camera];
-    if (recent.size() == kRecent) recent.pop_front();
-    recent.push_back(frames(*robot_.robot)[camera]);
-  }
-  /// Each camera's newest frame of that time: another camera's thread may be ahead.
-  LiveFrames frames_at(double stamp_s) const {
-    LiveFrames frames(recent_.size());
-    for (std::size_t c = 0; c < frames.size(); ++c) {
-      for (const auto& frame : recent_[c]) {
-        if (frame && frame->stamp_s <= stamp_s) frames[c] = frame;
-      }
-    }
-    return frames;
   }
 
   void show() {
@@ -259,6 +264,10 @@ class DistanceNode : public LiveNode {
     status.add("median, us", times->p50_us);
     status.add("99 %, us", times->p99_us);
     status.add("greatest, us", times->max_us);
+    if (const std::shared_ptr<RobotSpace> space = this->space()) {
+      status.add("spaces made ready", space->counts().prepared);
+      status.add("made ready in, ms", 1e3 * space->counts().last_prepare_s);
+    }
     std::uint8_t result = 0;
     std::string text;
     {
@@ -279,16 +288,17 @@ class DistanceNode : public LiveNode {
   Publisher<std_msgs::msg::Float64> speed_scale_;
   rclcpp::Subscription<sensor_msgs::msg::JointState>::SharedPtr planned_subscription_;
   Publisher<visualization_msgs::msg::MarkerArray> markers_;
-  static constexpr std::size_t kRecent = 4;
-  /// Of each camera, for distances_at_exposure.
-  std::vector<std::deque<std::shared_ptr<const berth::Frame>>> recent_;
   double question_hz_ = 0;
   double marker_hz_ = 0;
   std::mutex answer_mutex_;
   std::mutex query_mutex_;
   LiveRobot robot_;
   std::optional<berth::Query> query_;
-  std::optional<berth::Query> exposure_query_;
+  /// Of the same robot as query_.
+  std::shared_ptr<RobotSpace> asked_space_;
+  mutable std::mutex space_mutex_;
+  std::shared_ptr<RobotSpace> space_;
+  ExposureAnswers exposures_;
   /// The newest, with its separation.
   berth::Result result_;
   /// For markers, where there are any.

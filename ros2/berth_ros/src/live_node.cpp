@@ -40,6 +40,12 @@ bool waits_for_joints(const CameraReport& report) {
          status == TimeStatus::extrapolated_too_far || status == TimeStatus::skewed;
 }
 
+std::shared_ptr<CallbackGate> closed_gate() {
+  auto gate = std::make_shared<CallbackGate>();
+  gate->close();
+  return gate;
+}
+
 std::string in_ms(double seconds) { return std::to_string(std::lround(1e3 * seconds)) + " ms"; }
 
 }  // namespace
@@ -48,7 +54,8 @@ LiveNode::LiveNode(const std::string& name, const rclcpp::NodeOptions& options, 
     : LifecycleNode(name, options),
       diagnostics_(this),
       has_one_camera_(has_one_camera),
-      settings_(*this, has_one_camera) {
+      settings_(*this, has_one_camera),
+      gate_(closed_gate()) {
   for (const CameraSettings& camera : settings_.cameras()) camera_names_.push_back(camera.name);
   diagnostics_.setHardwareID("berth");
   diagnostics_.add("robot", [this](DiagnosticStatusWrapper& status) { report_robot(status); });
@@ -100,12 +107,13 @@ void LiveNode::follow_moveit() {
 
 LiveNode::CallbackReturn LiveNode::on_configure(const State&) {
   try {
-    configure_outputs();
-    make_cameras();
-    listen();
+    start();
     return CallbackReturn::SUCCESS;
   } catch (const std::exception& error) {
-    robot_trouble_ = error.what();
+    {
+      const std::lock_guard lock(mutex_);
+      robot_trouble_ = error.what();
+    }
     RCLCPP_ERROR(get_logger(), "%s", error.what());
     stop();
     clean_outputs();
@@ -138,29 +146,50 @@ LiveNode::CallbackReturn LiveNode::on_shutdown(const State& before) {
   return on_cleanup(before);
 }
 
+void LiveNode::start() {
+  const auto gate = std::make_shared<CallbackGate>();
+  {
+    const std::lock_guard lock(mutex_);
+    gate_ = gate;
+  }
+  // What comes at once, as latched messages do, waits and is not lost.
+  const auto hold = gate->hold();
+  configure_outputs();
+  make_cameras();
+  listen();
+}
+
+std::shared_ptr<CallbackGate> LiveNode::gate() const {
+  const std::lock_guard lock(mutex_);
+  return gate_;
+}
+
 void LiveNode::make_cameras() {
   const std::vector<CameraSettings> cameras = settings_.cameras();
   const rclcpp::Time never(0, 0, get_clock()->get_clock_type());
   reported_images_.assign(cameras.size(), 0);
   reported_images_at_.assign(cameras.size(), never);
-  reported_joints_at_ = never;
-  robot_trouble_ = "no robot_description yet";
-  joint_trouble_ = "no joint state yet";
+  {
+    const std::lock_guard lock(mutex_);
+    reported_joints_at_ = never;
+    robot_trouble_ = "no robot_description yet";
+    joint_trouble_ = "no joint state yet";
+  }
   log_.emplace(get_logger(), steady_now_s());
-  transforms_.emplace(*this, [this] { on_transforms(); });
+  transforms_.emplace(*this, gate(), [this] { look_again(); });
   images_ = std::make_unique<ImageNode>(*this, std::max<std::size_t>(2, cameras.size()));
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     inputs_.push_back(std::make_unique<CameraInput>(
-        *this, images_->node(), cameras[i], settings_.world_frame(), clock_, *transforms_,
+        *this, gate(), images_->node(), cameras[i], settings_.world_frame(), clock_, *transforms_,
         [this, i](const berth::Frame& frame,
                   const std::shared_ptr<const sensor_msgs::msg::Image>& image) {
           if (is_answering()) on_frame(i, frame, image);
         }));
   }
-  has_inputs_ = true;
 }
 
 void LiveNode::listen() {
+  const std::shared_ptr<CallbackGate> gate = this->gate();
   joints_group_ = create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive);
   robot_group_ = create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive);
   watch_group_ = create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive);
@@ -176,25 +205,41 @@ void LiveNode::listen() {
     options.use_intra_process_comm = rclcpp::IntraProcessSetting::Disable;
     description_subscription_ = create_subscription<std_msgs::msg::String>(
         "robot_description", rclcpp::QoS(1).transient_local().reliable(),
-        [this](const std_msgs::msg::String& text) { on_description(text); }, options);
+        [this, gate](const std_msgs::msg::String& text) {
+          if (const auto pass = gate->enter()) on_description(text);
+        },
+        options);
   }
   rclcpp::SubscriptionOptions options;
   options.callback_group = joints_group_;
   options.qos_overriding_options = rclcpp::QosOverridingOptions::with_default_policies();
   joint_subscription_ = create_subscription<sensor_msgs::msg::JointState>(
       "joint_states", rclcpp::SensorDataQoS().keep_last(50),
-      [this](const sensor_msgs::msg::JointState& state) { on_joint_state(state); }, options);
+      [this, gate](const sensor_msgs::msg::JointState& state) {
+        if (const auto pass = gate->enter()) on_joint_state(state);
+      },
+      options);
   take_parameters();
   watch_timer_ = create_wall_timer(
-      kWatchPeriod, [this] { watch(); }, watch_group_);
+      kWatchPeriod,
+      [this, gate] {
+        if (const auto pass = gate->enter()) watch();
+      },
+      watch_group_);
   on_images();
   images_->spin();
 }
 
 void LiveNode::take_parameters() {
   // Humble has no callback after the fact. Nobody else refuses these parameters.
-  parameters_ = add_on_set_parameters_callback([this](const auto& changes) {
+  parameters_ = add_on_set_parameters_callback([this, gate = gate()](const auto& changes) {
     rcl_interfaces::msg::SetParametersResult result;
+    const auto pass = gate->enter();
+    // As without this callback, which is gone.
+    if (!pass) {
+      result.successful = true;
+      return result;
+    }
     try {
       settings_.check(changes);
       result.successful = true;
@@ -211,7 +256,8 @@ void LiveNode::stop() {
   description_subscription_.reset();
   joint_subscription_.reset();
   parameters_.reset();
-  has_inputs_ = false;
+  // Callbacks that have begun use what is below.
+  gate()->close();
   // First no image comes any more, then all threads end, then the cameras: a frame of one asks for
   // those of all.
   images_.reset();
@@ -252,8 +298,7 @@ std::optional<berth::Pose> LiveNode::root_at(const berth::Robot& robot, double s
   return told ? told->X_PF : berth::unset_pose();
 }
 
-void LiveNode::on_transforms() {
-  if (!has_inputs_) return;
+void LiveNode::look_again() {
   for (const auto& input : inputs_) input->look_again();
 }
 
@@ -300,9 +345,11 @@ LiveRobot LiveNode::make_robot(const Attachments::List& attached) const {
 
 void LiveNode::use_attached(const Attachments::List& attached) {
   LiveRobot made;
+  const std::shared_ptr<CallbackGate> gate = this->gate();
+  const auto pass = gate->enter();
   {
     const std::lock_guard lock(mutex_);
-    if (!model_) throw std::runtime_error("there is no robot model yet");
+    if (!pass || !model_) throw std::runtime_error("there is no robot model yet");
     live_ = made = make_robot(attached);
   }
   use(made);
@@ -351,7 +398,7 @@ void LiveNode::on_joint_state(const sensor_msgs::msg::JointState& state) {
     joint_trouble_ = trouble;
     if (!trouble.empty()) ++refused_joint_messages_;
   }
-  for (const auto& input : inputs_) input->look_again();
+  look_again();
   on_joints();
 }
 
@@ -463,7 +510,13 @@ void LiveNode::report_joints(DiagnosticStatusWrapper& status) {
 }
 
 void LiveNode::report_camera(std::size_t camera, DiagnosticStatusWrapper& status) {
-  if (!has_inputs_) return status.summary(DiagnosticStatus::WARN, "the node is not configured");
+  const std::shared_ptr<CallbackGate> gate = this->gate();
+  const auto pass = gate->enter();
+  if (pass && camera < inputs_.size()) return report_input(camera, status);
+  status.summary(DiagnosticStatus::WARN, "the node is not configured");
+}
+
+void LiveNode::report_input(std::size_t camera, DiagnosticStatusWrapper& status) {
   const CameraReport report = inputs_[camera]->report();
   const rclcpp::Time now = this->now();
   status.add("images a second", rate_since(report.counts.images, now, reported_images_[camera],

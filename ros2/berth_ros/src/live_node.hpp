@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "attachments.hpp"
+#include "callback_gate.hpp"
 #include "camera_input.hpp"
 #include "image_node.hpp"
 #include "node_settings.hpp"
@@ -91,19 +92,25 @@ class LiveNode : public rclcpp_lifecycle::LifecycleNode {
   /// Of a node with one camera.
   const CameraSettings& camera_settings() const { return inputs_.front()->settings(); }
   ImageNode& images() { return *images_; }
+  /// Of this configuration: to be passed by each callback of the node that uses what
+  /// configure_outputs() made. Never null.
+  std::shared_ptr<CallbackGate> gate() const;
 
   StampClock clock_;
   diagnostic_updater::Updater diagnostics_;
 
  private:
+  /// Throws std::exception for a bad file.
+  void start();
   void listen();
   /// Where the parameter asks for it. Throws where this build cannot.
   void follow_moveit();
   void make_cameras();
+  /// Images may wait for what has come.
+  void look_again();
   void take_parameters();
   void on_description(const std_msgs::msg::String& description);
   void on_joint_state(const sensor_msgs::msg::JointState& state);
-  void on_transforms();
   /// Makes robot and cameras anew of model_ and settings_; or says in robot_trouble_ why not.
   void rebuild();
   /// The same with these attached. Throws std::exception, and changes nothing, where that cannot
@@ -122,6 +129,7 @@ class LiveNode : public rclcpp_lifecycle::LifecycleNode {
   void report_robot(diagnostic_updater::DiagnosticStatusWrapper& status);
   void report_joints(diagnostic_updater::DiagnosticStatusWrapper& status);
   void report_camera(std::size_t camera, diagnostic_updater::DiagnosticStatusWrapper& status);
+  void report_input(std::size_t camera, diagnostic_updater::DiagnosticStatusWrapper& status);
   void report_frame(const berth::Frame& frame, const berth::Robot& robot,
                     diagnostic_updater::DiagnosticStatusWrapper& status);
 
@@ -141,11 +149,12 @@ class LiveNode : public rclcpp_lifecycle::LifecycleNode {
   std::string joint_trouble_;
   /// The greatest age of the newest joints since the last report, as it was sampled.
   double oldest_joints_s_ = 0;
+  /// Closed as long as nothing is configured. Another one for each configuration, so that a
+  /// callback of an earlier one never finds it open.
+  std::shared_ptr<CallbackGate> gate_;
   std::optional<Transforms> transforms_;
   std::unique_ptr<ImageNode> images_;
   std::vector<std::unique_ptr<CameraInput>> inputs_;
-  /// The inputs may be looped over by callbacks of transforms before all are made.
-  std::atomic<bool> has_inputs_ = false;
   std::optional<StatusLog> log_;
   std::optional<Attachments> attachments_;
 #ifdef BERTH_ROS_MOVEIT

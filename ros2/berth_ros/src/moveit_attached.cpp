@@ -16,7 +16,7 @@ void change(const Object& changed, std::vector<Object>& objects) {
   std::erase_if(objects, [&](const Object& one) { return one.object.id == changed.object.id; });
   if (changed.object.operation != moveit_msgs::msg::CollisionObject::ADD) return;
   objects.push_back(changed);
-  objects.back().object.header.stamp = {};
+  objects.back().object.header.stamp = builtin_interfaces::msg::Time();
 }
 
 }  // namespace

@@ -160,7 +160,8 @@ void PlannerTopics::refuse(const std::string& name, const std::string& package) 
                               " was not installed where berth_ros was built");
 }
 
-void PlannerTopics::configure() {
+void PlannerTopics::configure(std::shared_ptr<CallbackGate> gate) {
+  gate_ = std::move(gate);
   group_ = node_.create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive);
   log_.emplace(node_.get_logger(), steady_now_s());
   for (const auto& topic : topics_) {
@@ -173,7 +174,10 @@ void PlannerTopics::activate() {
     if (topic->rate_hz <= 0) continue;
     topic->timer = rclcpp::create_timer(
         &node_, node_.get_clock(), rclcpp::Duration::from_seconds(1 / topic->rate_hz),
-        [this, t = topic.get()] { publish(*t); }, group_);
+        [this, gate = gate_, t = topic.get()] {
+          if (const auto pass = gate->enter()) publish(*t);
+        },
+        group_);
   }
 }
 

@@ -11,6 +11,7 @@
 
 #include "berth/pipeline/robot.hpp"
 #include "berth/pipeline/space_map.hpp"
+#include "callback_gate.hpp"
 #include "stamp_clock.hpp"
 #include "status_log.hpp"
 
@@ -33,10 +34,11 @@ class PlannerTopics {
   PlannerTopics(rclcpp_lifecycle::LifecycleNode& node, const StampClock& clock, Look look);
   ~PlannerTopics();
 
-  /// Makes the publishers of those topics that have a rate, and ends them.
-  void configure();
+  /// Makes the publishers of those topics that have a rate; callbacks pass this gate.
+  void configure(std::shared_ptr<CallbackGate> gate);
   void activate();
   void deactivate();
+  /// Ends the publishers.
   void clean();
 
  private:
@@ -60,6 +62,7 @@ class PlannerTopics {
   std::vector<std::unique_ptr<Topic>> topics_;
   berth::SpaceMap map_;
   std::optional<StatusLog> log_;
+  std::shared_ptr<CallbackGate> gate_;
   rclcpp::CallbackGroup::SharedPtr group_;
 };
 

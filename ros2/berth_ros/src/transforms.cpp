@@ -22,7 +22,8 @@ bool contains(const std::vector<std::string>& frames, const std::string& frame) 
 
 }  // namespace
 
-Transforms::Transforms(rclcpp_lifecycle::LifecycleNode& node, std::function<void()> on_change)
+Transforms::Transforms(rclcpp_lifecycle::LifecycleNode& node,
+                       const std::shared_ptr<CallbackGate>& gate, std::function<void()> on_change)
     : buffer_(node.get_clock()), on_change_(std::move(on_change)) {
   rclcpp::SubscriptionOptions options;
   options.callback_group = node.create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive);
@@ -30,10 +31,17 @@ Transforms::Transforms(rclcpp_lifecycle::LifecycleNode& node, std::function<void
   options.use_intra_process_comm = rclcpp::IntraProcessSetting::Disable;
   using tf2_msgs::msg::TFMessage;
   moving_ = node.create_subscription<TFMessage>(
-      "/tf", rclcpp::QoS(100), [this](const TFMessage& message) { take(message, false); }, options);
+      "/tf", rclcpp::QoS(100),
+      [this, gate](const TFMessage& message) {
+        if (const auto pass = gate->enter()) take(message, false);
+      },
+      options);
   static_ = node.create_subscription<TFMessage>(
       "/tf_static", rclcpp::QoS(100).transient_local(),
-      [this](const TFMessage& message) { take(message, true); }, options);
+      [this, gate](const TFMessage& message) {
+        if (const auto pass = gate->enter()) take(message, true);
+      },
+      options);
 }
 
 void Transforms::take(const tf2_msgs::msg::TFMessage& message, bool is_static) {

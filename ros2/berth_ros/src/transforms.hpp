@@ -4,6 +4,7 @@
 #include <deque>
 #include <functional>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <rclcpp_lifecycle/lifecycle_node.hpp>
@@ -19,6 +20,7 @@
 
 #include "berth/robot/robot_model.hpp"
 #include "berth/types/camera.hpp"
+#include "callback_gate.hpp"
 
 namespace berth_ros {
 
@@ -35,8 +37,9 @@ struct ToldPose {
 /// what moves may have been anywhere within a long one.
 class Transforms {
  public:
-  /// `on_change` is called after each message, in a callback of the node.
-  Transforms(rclcpp_lifecycle::LifecycleNode& node, std::function<void()> on_change);
+  /// `on_change` is called after each message, in a callback of the node that has passed `gate`.
+  Transforms(rclcpp_lifecycle::LifecycleNode& node, const std::shared_ptr<CallbackGate>& gate,
+             std::function<void()> on_change);
 
   /// Where `frame` was in `parent` at a time; none where TF does not enclose that time, or a frame
   /// that moves was told at no time within max_gap_s of it. `why` then says it.

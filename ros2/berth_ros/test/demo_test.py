@@ -3,6 +3,7 @@ import json
 import math
 import os
 import subprocess
+import sys
 import threading
 import time
 import unittest
@@ -17,6 +18,9 @@ from launch_ros.actions import Node
 from rclpy.executors import SingleThreadedExecutor
 from sensor_msgs.msg import Image
 from std_msgs.msg import Float64
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from living_robot import spin  # noqa: E402
 
 SCENE = os.path.join(get_package_share_directory("berth_ros"), "bundled", "scene.yaml")
 # Within it a result depends on the one before, and a busy computer may drop an image.
@@ -60,7 +64,7 @@ class Demo(unittest.TestCase):
         node.create_subscription(Image, "world_depth", lambda m: cls.world.update({stamp(m): m}), qos)
         executor = SingleThreadedExecutor()
         executor.add_node(node)
-        threading.Thread(target=executor.spin, daemon=True).start()
+        threading.Thread(target=spin, args=(executor,), daemon=True).start()
         run = subprocess.run(["berth", "run", SCENE, "--format", "json", "--tolerance-m", str(TOLERANCE_M)],
                              check=True, capture_output=True, text=True)
         cls.expected = [json.loads(line) for line in run.stdout.splitlines()]

@@ -15,7 +15,7 @@ from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from living_robot import BOX, FRAME, URDF, WIDTH, LivingRobot, transform  # noqa: E402
+from living_robot import BOX, FOCAL, FRAME, URDF, WIDTH, LivingRobot, transform  # noqa: E402
 
 
 @pytest.mark.launch_test
@@ -121,3 +121,37 @@ class Faults(LivingRobot):
         self.assertTrue(self.until(lambda: len(self.newest.links) == 3 and self.answers()))
         self.description.publish(String(data=URDF))
         self.assertTrue(self.until(lambda: len(self.newest.links) == 2 and self.answers()))
+
+    def test_13_an_image_of_another_camera_info_is_not_used(self):
+        self.assertTrue(self.until(self.answers))
+        type(self).focal = 70.0
+        self.step(image=None)
+        del self.answers_so_far[:]
+        self.live_for(0.05, image=None)
+        # The image is too old for an answer only 0.15 s after it came.
+        self.assertTrue(self.answers_so_far)
+        self.assertEqual(self.answers_so_far[-1].time_status, LinkDistances.TIME_NO_FRAME)
+        type(self).focal = FOCAL
+        self.assertTrue(self.until(self.answers), "it goes on with the images of the one before")
+
+    def test_14_distortion_is_said_once_and_not_for_each_image(self):
+        type(self).distortion = [0.1, 0.0, 0.0, 0.0, 0.0]
+        self.expect_said("camera front", "distortion", "rectified")
+        del self.log[:]
+        self.live_for(5)
+        lines = self.logged("camera front")
+        print("\n".join(lines))
+        self.assertLessEqual(len(lines), 1, lines)
+        self.assertEqual(self.newest.status, LinkDistances.STALE)
+        type(self).distortion = []
+        self.assertTrue(self.until(self.answers))
+
+    def test_15_spaces_are_made_ready_beside_the_questions(self):
+        def count():
+            with self.lock:
+                status = self.diagnostics.get("questions")
+            values = {pair.key: pair.value for pair in status.values} if status else {}
+            return int(values.get("spaces made ready", -1))
+        self.assertTrue(self.until(lambda: count() > 0))
+        before = count()
+        self.assertTrue(self.until(lambda: count() > before + 10))

@@ -81,6 +81,7 @@ class LivingRobot(unittest.TestCase):
         executor.add_node(node)
         threading.Thread(target=spin, args=(executor,), daemon=True).start()
         cls.now_s = 100.0
+        cls.focal, cls.distortion = FOCAL, []
         cls.depth = depth_m()
 
     @classmethod
@@ -135,7 +136,8 @@ class LivingRobot(unittest.TestCase):
                 state.header.stamp = self.time_of(self.now_s)
                 self.joints.publish(state)
             time.sleep(0.01)
-        info = CameraInfo(width=WIDTH, height=HEIGHT, k=[FOCAL, 0.0, 31.5, 0.0, FOCAL, 23.5, 0.0, 0.0, 1.0])
+        info = CameraInfo(width=WIDTH, height=HEIGHT, k=[self.focal, 0.0, 31.5, 0.0, self.focal, 23.5, 0.0, 0.0, 1.0],
+                          d=self.distortion)
         info.header.frame_id = FRAME
         self.infos.publish(info)
         if isinstance(image, str):

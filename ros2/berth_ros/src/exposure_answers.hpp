@@ -1,0 +1,42 @@
+// The robot as it stood at each image's exposure.
+#pragma once
+
+#include <berth_msgs/msg/link_distances.hpp>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "berth/pipeline/query.hpp"
+#include "live_node.hpp"
+#include "stamp_clock.hpp"
+
+namespace berth_ros {
+
+/// One answer for each image, asked in the camera's thread: no other question waits for it.
+class ExposureAnswers {
+ public:
+  /// The newest frame of each camera of a robot.
+  using Look = std::function<LiveFrames(const berth::Robot&)>;
+
+  /// From now on it is about this robot; null: none.
+  void use(std::shared_ptr<const berth::Robot> robot, const std::vector<std::string>& cameras);
+  /// A camera's newest frame, with the newest that the others had at that time. False: there is no
+  /// robot.
+  bool ask(std::size_t camera, double stamp_s, const Look& look, const rclcpp::Time& now,
+           const StampClock& clock, berth_msgs::msg::LinkDistances& message);
+
+ private:
+  /// Each camera's newest frame of that time: another camera's thread may be ahead.
+  LiveFrames frames_at(double stamp_s) const;
+
+  std::mutex mutex_;
+  std::shared_ptr<const berth::Robot> robot_;
+  std::optional<berth::Query> query_;
+  std::vector<std::deque<std::shared_ptr<const berth::Frame>>> recent_;
+};
+
+}  // namespace berth_ros

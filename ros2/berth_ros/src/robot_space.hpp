@@ -1,0 +1,36 @@
+// What questions are asked of: all that images need is done before, in a thread of its own.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+
+#include "berth/live/live_space.hpp"
+#include "live_node.hpp"
+
+namespace berth_ros {
+
+/// What the cameras of one robot leave of space, made ready as images come.
+class RobotSpace {
+ public:
+  /// The newest frame of each camera of this robot.
+  using Look = std::function<LiveFrames()>;
+
+  RobotSpace(const LiveRobot& robot, std::size_t cameras, Look look);
+
+  /// To be called when a frame has come. From any thread; returns at once.
+  void take_frames();
+  /// What is ready; null where a camera does not stand for its frame in it any more, since it is
+  /// another one, or elsewhere.
+  std::shared_ptr<const berth::PreparedSpace> ready(const LiveFrames& now) const;
+  berth::LiveSpaceCounts counts() const { return space_.counts(); }
+
+ private:
+  LiveRobot robot_;
+  Look look_;
+  /// Who has it puts frames that are at least as new as those before.
+  std::mutex mutex_;
+  berth::LiveSpace space_;
+};
+
+}  // namespace berth_ros
