@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <tuple>
+#include <utility>
 
 #include "apps/support/command_options.hpp"
 #include "apps/support/data_folders.hpp"
@@ -75,6 +77,30 @@ void add_stream_options(CLI::App& program, StreamSettings& stream) {
           "What the stream prints: text, or one JSON object (default: text)")
       ->check(CLI::IsMember({"text", "json"}))
       ->needs(scene);
+  program
+      .add_flag("--steps", stream.in_steps,
+                "Not in real time: the processor time of each of the stream's steps")
+      ->needs(scene);
+}
+
+void add_room_options(CLI::App& program, StreamSettings& stream) {
+  CLI::Option* const room =
+      program
+          .add_option_function<std::uint32_t>(
+              "--room", [&stream](std::uint32_t seed) { stream.room = {.seed = seed}; },
+              "The stream's robot sways in a room drawn by this seed, instead of what was filmed")
+          ->type_name("SEED")
+          ->needs("--stream");
+  program
+      .add_option_function<std::pair<int, int>>(
+          "--image",
+          [&stream](const std::pair<int, int>& size) {
+            std::tie(stream.room->width_px, stream.room->height_px) = size;
+          },
+          "How many pixels the room's cameras have (default: 640 480)")
+      ->check(CLI::Range(16, 4096))
+      ->type_name("WIDTH HEIGHT")
+      ->needs(room);
 }
 
 }  // namespace
@@ -86,6 +112,7 @@ int main(int argc, char** argv) {
   StreamSettings stream;
   add_options(program, settings, where);
   add_stream_options(program, stream);
+  add_room_options(program, stream);
   if (const auto status = berth::app::parse_command_line(program, argc, argv)) return *status;
   return berth::app::carry_out("berth_bench", 0, [&] {
     if (!stream.scene.empty()) return fmt::print("{}", berth::lab::run_stream(stream));

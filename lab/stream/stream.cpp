@@ -8,10 +8,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <mutex>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <string>
 #include <thread>
 
@@ -19,8 +17,9 @@
 #include "berth/live/live_camera.hpp"
 #include "berth/live/live_space.hpp"
 #include "berth/pipeline/query.hpp"
-#include "berth/scene/open_scene.hpp"
-#include "lab/bench/statistics.hpp"
+#include "lab/stream/film.hpp"
+#include "lab/stream/percentiles.hpp"
+#include "lab/stream/steps.hpp"
 
 namespace berth::lab {
 namespace {
@@ -59,48 +58,6 @@ struct Cores {
   }
 };
 
-/// The scene's time as it goes to and fro, `speed` times as fast.
-struct Play {
-  double first_s, last_s, speed, begin_s;
-
-  double length_s() const { return (last_s - first_s) / speed; }
-  /// The scene's time at a time of the clock.
-  double scene_s(double time_s) const {
-    const double turns = (time_s - begin_s) / length_s();
-    const double part = turns - std::floor(turns);
-    const bool is_forth = std::fmod(std::floor(turns), 2) == 0;
-    return first_s + (is_forth ? part : 1 - part) * (last_s - first_s);
-  }
-  /// When the scene comes to a time in its n-th turn.
-  double time_s(double scene_s, int turn) const {
-    const double from_begin_s = (turn % 2 == 0 ? scene_s - first_s : last_s - scene_s) / speed;
-    return begin_s + turn * length_s() + from_begin_s;
-  }
-};
-
-struct Shown {
-  double time_s;
-  std::size_t camera;
-  std::size_t frame;
-};
-
-/// The images of all cameras in the order in which they come.
-std::vector<Shown> shown_images(const OpenScene& scene, std::size_t cameras, const Play& play,
-                                double seconds) {
-  std::vector<Shown> shown;
-  for (int turn = 0; turn * play.length_s() < seconds; ++turn) {
-    for (std::size_t k = 0; k < cameras; ++k) {
-      const auto& at_exposure = scene.cameras[k].at_exposure;
-      for (std::size_t i = 0; i < at_exposure.size(); ++i) {
-        const double time_s = play.time_s(at_exposure[i].stamp_s, turn);
-        if (time_s < play.begin_s + seconds) shown.push_back({time_s, k, i});
-      }
-    }
-  }
-  std::ranges::sort(shown, {}, &Shown::time_s);
-  return shown;
-}
-
 struct Measured {
   std::int64_t answers = 0;
   std::int64_t ok = 0;
@@ -114,37 +71,33 @@ struct Measured {
 
 /// As a controller asks: a request has most of the time until the next one, unless the scene says
 /// how long it may take.
-std::shared_ptr<const Robot> robot_in_time(const OpenScene& scene, double rate_hz) {
+std::shared_ptr<const Robot> robot_in_time(const Film& film, double rate_hz) {
   constexpr double kShare = 0.6;
-  EvaluationSettings settings = scene.robot->settings();
+  EvaluationSettings settings = film.robot->settings();
   if (!settings.distance.deadline_us) settings.distance.deadline_us = 1e6 * kShare / rate_hz;
-  return with_settings(scene.robot, settings);
+  return with_settings(film.robot, settings);
 }
 
 class Stream {
  public:
-  Stream(const OpenScene& scene, const StreamSettings& settings)
-      : scene_(scene),
+  Stream(const Film& film, const StreamSettings& settings)
+      : film_(film),
         settings_(settings),
-        joints_(scene.robot->model(), {}),
-        robot_(robot_in_time(scene, settings.rate_hz)),
+        joints_(film.robot->model(), {}),
+        robot_(robot_in_time(film, settings.rate_hz)),
         query_(robot_),
-        count_(settings.cameras == 0 ? scene.cameras.size() : settings.cameras),
+        count_(film.cameras.size()),
         space_(robot_, count_, joints_) {
     for (std::size_t k = 0; k < count_; ++k) {
-      images_.emplace_back();
-      for (std::size_t i = 0; i < scene.cameras[k].at_exposure.size(); ++i) {
-        images_[k].push_back(scene.cameras[k].read_depth(i));
-      }
       cameras_.push_back(std::make_unique<LiveCamera>(
-          scene.cameras[k].view, joints_, LiveCameraSettings{},
+          film.cameras[k].view, joints_, LiveCameraSettings{},
           [this, k](const Frame&, DepthView, const std::shared_ptr<const void>&) { keep(k); }));
     }
   }
 
   void run(const cpu_set_t& cores_of_requests) {
     // The images of the first turn come after everybody is ready.
-    play_ = {scene_.joints->first_s(), scene_.joints->last_s(), settings_.speed, now_s() + 0.2};
+    play_ = {film_.joints->first_s(), film_.joints->last_s(), settings_.speed, now_s() + 0.2};
     std::jthread feeding([this](const std::stop_token& stop) { feed(stop); });
     use_cores(cores_of_requests);
     ask();
@@ -162,27 +115,23 @@ class Stream {
     measured_.image_ms.push_back(1000 * work_s);
   }
 
-  /// Between two recorded poses the robot goes straight, however far apart they are.
-  static constexpr JointTimeLimits kAnyGap{std::numeric_limits<double>::infinity(),
-                                           std::numeric_limits<double>::infinity()};
-
   /// As a robot's and the cameras' drivers do.
   void feed(const std::stop_token& stop) {
     std::vector<std::string> names;
-    for (const MovableJoint& joint : scene_.robot->model().joints) names.push_back(joint.name);
-    const auto shown = shown_images(scene_, count_, play_, settings_.seconds + 1);
+    for (const MovableJoint& joint : film_.robot->model().joints) names.push_back(joint.name);
+    const auto shown = shown_images(film_, play_, settings_.seconds + 1);
     std::size_t next = 0;
     JointState state;
     for (std::int64_t i = -100; !stop.stop_requested(); ++i) {
       const double time_s = play_.begin_s + static_cast<double>(i) / settings_.rate_hz;
       sleep_until(time_s);
-      (void)scene_.joints->at(play_.scene_s(time_s), kAnyGap, state);
+      (void)film_.joints->at(play_.film_s(time_s), kAnyGap, state);
       joints_.push(time_s, names, state.position);
       for (const auto& camera : cameras_) camera->look_again();
       for (; next < shown.size() && shown[next].time_s <= time_s; ++next) {
         const Shown& image = shown[next];
         DepthImage copy = cameras_[image.camera]->spare_image();
-        copy = images_[image.camera][image.frame];
+        copy = film_.cameras[image.camera].depth_m[image.frame];
         cameras_[image.camera]->push(image.time_s, std::move(copy));
       }
     }
@@ -223,29 +172,18 @@ class Stream {
     }
   }
 
-  const OpenScene& scene_;
+  const Film& film_;
   const StreamSettings& settings_;
   JointIntake joints_;
   std::shared_ptr<const Robot> robot_;
   Query query_;
   std::size_t count_;
   LiveSpace space_;
-  std::vector<std::vector<DepthImage>> images_;
   Measured measured_;
   Play play_{};
   /// The last member: their threads use the others.
   std::vector<std::unique_ptr<LiveCamera>> cameras_;
 };
-
-nlohmann::ordered_json percentiles(const std::vector<double>& values,
-                                   std::initializer_list<std::pair<const char*, double>> shares) {
-  nlohmann::ordered_json out;
-  for (const auto& [name, share] : shares) {
-    const std::optional<double> value = percentile(values, share);
-    out[name] = value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
-  }
-  return out;
-}
 
 nlohmann::ordered_json json_of(const Measured& m) {
   nlohmann::ordered_json out;
@@ -259,31 +197,22 @@ nlohmann::ordered_json json_of(const Measured& m) {
   return out;
 }
 
-void require(bool holds, const std::string& what) {
-  if (!holds) throw std::runtime_error(what);
+nlohmann::ordered_json in_real_time(const Film& film, const StreamSettings& settings) {
+  const Cores cores;
+  use_cores(cores.of_images);
+  Stream stream(film, settings);
+  stream.run(cores.of_requests);
+  return json_of(stream.measured());
 }
 
 }  // namespace
 
 std::string run_stream(const StreamSettings& settings) {
-  const OpenScene scene = open_scene(settings.scene);
-  const std::string file = settings.scene.string();
-  require(scene.joins_cameras(),
-          fmt::format("{}: evaluation.method compares images; expected mesh, for a stream", file));
-  require(settings.cameras <= static_cast<int>(scene.cameras.size()),
-          fmt::format("{}: has {} cameras; --cameras {} asks for more", file, scene.cameras.size(),
-                      settings.cameras));
-  require(
-      scene.joints->last_s() > scene.joints->first_s(),
-      fmt::format("{}: the joints have a single time; expected a robot that is filmed over time",
-                  scene.joints->source()));
+  const Film film = film_of(settings);
   // Each thread works alone, on the images' cores or on the requests'.
   const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
-  const Cores cores;
-  use_cores(cores.of_images);
-  Stream stream(scene, settings);
-  stream.run(cores.of_requests);
-  const nlohmann::ordered_json out = json_of(stream.measured());
+  const nlohmann::ordered_json out =
+      settings.in_steps ? measure_steps(film, settings) : in_real_time(film, settings);
   if (settings.as_json) return out.dump() + "\n";
   std::string lines;
   for (const auto& [name, value] : out.items())

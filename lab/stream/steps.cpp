@@ -1,0 +1,134 @@
+#include "lab/stream/steps.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "berth/pipeline/frame_pool.hpp"
+#include "berth/pipeline/observer.hpp"
+#include "berth/pipeline/prepared_space.hpp"
+#include "berth/pipeline/query.hpp"
+#include "lab/measure/stopwatch.hpp"
+#include "lab/stream/percentiles.hpp"
+
+namespace berth::lab {
+namespace {
+
+constexpr double kBudget_us = 500;
+/// Requests and images of a film's first part are not counted: memory grows, fields fill.
+constexpr double kWarmUp_s = 0.5;
+
+/// What the requests are asked for.
+enum class Told { distances, everything, in_budget };
+
+std::shared_ptr<const Robot> robot_for(const Film& film, Told told) {
+  EvaluationSettings settings = film.robot->settings();
+  settings.distance.deadline_us.reset();
+  settings.visibility = settings.distance.mean_direction = told == Told::everything;
+  if (told == Told::in_budget) settings.distance.deadline_us = kBudget_us;
+  return with_settings(film.robot, settings);
+}
+
+class Steps {
+ public:
+  Steps(const Film& film, const StreamSettings& settings, Told told)
+      : film_(film),
+        settings_(settings),
+        play_{film.joints->first_s(), film.joints->last_s(), settings.speed, 0},
+        robot_(robot_for(film, told)),
+        query_(robot_),
+        frames_(film.cameras.size()) {
+    for (const FilmedCamera& camera : film.cameras) {
+      // Images are made for all that the scene tells, whatever is asked.
+      observers_.emplace_back(camera.view);
+    }
+  }
+
+  void run() {
+    const auto shown = shown_images(film_, play_, settings_.seconds);
+    std::size_t next = 0;
+    for (double now_s = 0; now_s < settings_.seconds; now_s += 1 / settings_.rate_hz) {
+      const bool counts = now_s >= kWarmUp_s;
+      bool is_first = false;
+      for (; next < shown.size() && shown[next].time_s <= now_s; ++next) {
+        take_image(shown[next], now_s, counts);
+        is_first = true;
+      }
+      if (prepared_) ask(now_s, is_first, counts);
+    }
+  }
+
+  std::vector<double> observe_ms, prepare_ms, first_us, next_us, gap_m;
+
+ private:
+  void joints_at(double time_s) {
+    (void)film_.joints->at(play_.film_s(time_s), kAnyGap, joints_);
+    joints_.stamp_s = time_s;
+  }
+
+  void take_image(const Shown& image, double now_s, bool counts) {
+    joints_at(image.time_s);
+    const std::shared_ptr<Frame> frame = frame_pool_.take();
+    const Stopwatch observing(CLOCK_THREAD_CPUTIME_ID);
+    observers_[image.camera].observe(film_.cameras[image.camera].depth_m[image.frame], joints_,
+                                     *frame);
+    if (counts) observe_ms.push_back(observing.ms());
+    frames_[image.camera] = frame;
+    joints_at(now_s);
+    const std::shared_ptr<PreparedSpace> space =
+        space_pool_.take([&] { return std::make_unique<PreparedSpace>(robot_, frames_.size()); });
+    const Stopwatch preparing(CLOCK_THREAD_CPUTIME_ID);
+    space->prepare(frames_, &joints_);
+    if (counts) prepare_ms.push_back(preparing.ms());
+    prepared_ = space;
+  }
+
+  void ask(double now_s, bool is_first, bool counts) {
+    joints_at(now_s);
+    const Stopwatch asking(CLOCK_THREAD_CPUTIME_ID);
+    const Result& result = query_.ask({.frames = prepared_, .joints = joints_});
+    const double us = 1000 * asking.ms();
+    if (!counts) return;
+    (is_first ? first_us : next_us).push_back(us);
+    for (const LinkResult& link : result.links) {
+      if (link.has_distance()) gap_m.push_back(link.distance_m - link.lower_bound_m);
+    }
+  }
+
+  const Film& film_;
+  const StreamSettings& settings_;
+  Play play_;
+  std::shared_ptr<const Robot> robot_;
+  std::vector<Observer> observers_;
+  Query query_;
+  FramePool frame_pool_;
+  Pool<PreparedSpace> space_pool_;
+  std::vector<std::shared_ptr<const Frame>> frames_;
+  std::shared_ptr<const PreparedSpace> prepared_;
+  JointState joints_;
+};
+
+nlohmann::ordered_json times(const std::vector<double>& values) {
+  return percentiles(values, {{"p50", 0.5}, {"p95", 0.95}, {"p99", 0.99}, {"max", 1}});
+}
+
+}  // namespace
+
+nlohmann::ordered_json measure_steps(const Film& film, const StreamSettings& settings) {
+  nlohmann::ordered_json out;
+  Steps distances(film, settings, Told::distances);
+  distances.run();
+  out["observe_ms"] = times(distances.observe_ms);
+  out["prepare_ms"] = times(distances.prepare_ms);
+  out["first_us"] = times(distances.first_us);
+  out["next_us"] = times(distances.next_us);
+  Steps everything(film, settings, Told::everything);
+  everything.run();
+  out["next_with_all_us"] = times(everything.next_us);
+  Steps in_budget(film, settings, Told::in_budget);
+  in_budget.run();
+  out["in_budget_us"] = times(in_budget.next_us);
+  out["in_budget_gap_m"] = times(in_budget.gap_m);
+  return out;
+}
+
+}  // namespace berth::lab
