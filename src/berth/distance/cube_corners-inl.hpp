@@ -65,7 +65,7 @@ inline float centre_distance_m(const CubeCorners& corners, float edge_m) {
 /// Along an axis f is a quadratic, whose least value lies at an end unless the ends differ by less
 /// than E^2; `step` is the least that they do on the four edges along the axis, 0 if it changes
 /// sign. How far below its ends the quadratic goes.
-HWY_INLINE Lanes sag(const Lanes (&f)[8], int axis, float edge2_m2) {
+HWY_INLINE Lanes sag(const Lanes (&f)[8], int axis, Lanes edge2_m2) {
   const int along = 1 << axis;
   Lanes least_step(HUGE_VALF), greatest_step(-HUGE_VALF);
   for (int i = 0; i < 8; ++i) {
@@ -75,19 +75,19 @@ HWY_INLINE Lanes sag(const Lanes (&f)[8], int axis, float edge2_m2) {
     greatest_step = greatest(greatest_step, step);
   }
   const Lanes step = greatest(greatest(least_step, -greatest_step), Lanes(0.0f));
-  const Lanes missing = greatest(Lanes(edge2_m2) - step, Lanes(0.0f));
-  return missing * missing * Lanes(0.25f / edge2_m2);
+  const Lanes missing = greatest(edge2_m2 - step, Lanes(0.0f));
+  return missing * missing * (Lanes(0.25f) / edge2_m2);
 }
 
-/// The least distance of cubes of this edge by f at their corners.
-HWY_INLINE Lanes least_distance(const Lanes (&f)[8], float edge2_m2) {
+/// The least distance of cubes of these edges by f at their corners.
+HWY_INLINE Lanes least_distance(const Lanes (&f)[8], Lanes edge2_m2) {
   Lanes least_f = f[0];
   Lanes greatest_f = f[0];
   for (int i = 1; i < 8; ++i) {
     least_f = least(least_f, f[i]);
     greatest_f = greatest(greatest_f, f[i]);
   }
-  const Lanes rounding = Lanes(kRoundedShare) * (abs(greatest_f) + Lanes(edge2_m2));
+  const Lanes rounding = Lanes(kRoundedShare) * (abs(greatest_f) + edge2_m2);
   const Lanes bound2 =
       least_f - sag(f, 0, edge2_m2) - sag(f, 1, edge2_m2) - sag(f, 2, edge2_m2) - rounding;
   return root(greatest(bound2, Lanes(0.0f)));
@@ -98,7 +98,7 @@ HWY_INLINE float least_distance_m(const CubeCorners& corners, float edge_m) {
                 Lanes(corners.squared_m2[2]), Lanes(corners.squared_m2[3]),
                 Lanes(corners.squared_m2[4]), Lanes(corners.squared_m2[5]),
                 Lanes(corners.squared_m2[6]), Lanes(corners.squared_m2[7])};
-  return hn::GetLane(least_distance(f, edge_m * edge_m).v);
+  return hn::GetLane(least_distance(f, Lanes(edge_m * edge_m)).v);
 }
 
 /// The same of the cube's 64 children, of which those that are not `wanted` may be left out.
@@ -126,7 +126,7 @@ HWY_INLINE void bound_child_cubes(const CubeCorners& corners, float edge_m, std:
       const Lanes sags = x * (one - x) + y * (one - y) + z * (one - z);
       f[k] = mul_add(per_x, x, at_x0) - edge2 * sags - rounding;
     }
-    store(least_distance(f, edge2_m2 / 16), out_m + i);
+    store(least_distance(f, Lanes(edge2_m2 / 16)), out_m + i);
   }
 }
 

@@ -28,27 +28,31 @@ void Front::clear() {
 }
 
 void Front::put(const Item& item) {
-  // Both sums round by less than a bound is worth.
-  constexpr float kRounding_m = 1e-6f;
-  level_m_.push_back(item.bound_m + drift_m_ - kRounding_m);
+  level_m_.push_back(level_of(item.bound_m));
   items_.push_back(item);
 }
 
-void Front::take_below(float limit_m, ItemHeap& heap) {
+const std::vector<std::uint32_t>& Front::find_below(float limit_m) {
   const float level_m = limit_m + drift_m_;
-  for (std::size_t i = 0; i < items_.size();) {
-    if (!(level_m_[i] < level_m)) {
-      ++i;
-      continue;
-    }
-    Item item = items_[i];
-    item.bound_m = level_m_[i] > drift_m_ ? level_m_[i] - drift_m_ : 0;
-    heap.push(item);
-    level_m_[i] = level_m_.back();
-    items_[i] = items_.back();
-    level_m_.pop_back();
-    items_.pop_back();
+  below_.clear();
+  for (std::size_t i = items_.size(); i-- > 0;) {
+    if (level_m_[i] < level_m) below_.push_back(static_cast<std::uint32_t>(i));
   }
+  return below_;
+}
+
+void Front::take(std::uint32_t place, ItemHeap& heap) {
+  Item item = items_[place];
+  item.bound_m = level_m_[place] > drift_m_ ? level_m_[place] - drift_m_ : 0;
+  heap.push(item);
+  level_m_[place] = level_m_.back();
+  items_[place] = items_.back();
+  level_m_.pop_back();
+  items_.pop_back();
+}
+
+void Front::take_below(float limit_m, ItemHeap& heap) {
+  for (const std::uint32_t place : find_below(limit_m)) take(place, heap);
 }
 
 }  // namespace berth::mesh

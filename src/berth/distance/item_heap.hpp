@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -47,14 +48,31 @@ class Front {
   float drift_m() const { return drift_m_; }
   void move(float moved_m) { drift_m_ += moved_m; }
   void put(const Item& item);
+  /// The items whose bounds are below the limit by now, the last one first: so the places that come
+  /// after one in this list stay as they are when that one is taken. Valid until the next call.
+  const std::vector<std::uint32_t>& find_below(float limit_m);
+  const Item& item(std::uint32_t place) const { return items_[place]; }
+  /// It is known to be at least so far away.
+  void raise(std::uint32_t place, float bound_m) {
+    level_m_[place] = std::max(level_m_[place], level_of(bound_m));
+  }
+  /// Moves an item to the heap.
+  void take(std::uint32_t place, ItemHeap& heap);
   /// Moves all items whose bounds are below the limit by now to the heap.
   void take_below(float limit_m, ItemHeap& heap);
 
  private:
+  float level_of(float bound_m) const {
+    // Both sums round by less than a bound is worth.
+    constexpr float kRounding_m = 1e-6f;
+    return bound_m + drift_m_ - kRounding_m;
+  }
+
   float drift_m_ = 0;
   /// The items' bounds plus the drift when they were put here.
   std::vector<float> level_m_;
   std::vector<Item> items_;
+  std::vector<std::uint32_t> below_;
 };
 
 }  // namespace berth::mesh

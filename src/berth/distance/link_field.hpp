@@ -8,6 +8,15 @@
 
 namespace berth::mesh {
 
+/// What vector code reads of a grid; others may find points meanwhile.
+struct FieldPoints {
+  /// As FieldGrid::squared_m2().
+  const float* squared_m2;
+  Eigen::Vector3f low_L_m;
+  float edge_m;
+  std::array<int, 3> count;
+};
+
 /// Points side by side on a grid in the link's frame L, and the squares of their distances from its
 /// surface. Nobody knows them at first: who asks for one finds it, and it is kept for all. Any
 /// number of threads may ask at a time, since all of them find the same.
@@ -36,6 +45,14 @@ class FieldGrid {
     return low_L_m_ + edge_m_ * Eigen::Vector3f(static_cast<float>(cell[0] + (i & 1)),
                                                 static_cast<float>(cell[1] + (i >> 1 & 1)),
                                                 static_cast<float>(cell[2] + (i >> 2)));
+  }
+  /// All of them, x first, then y.
+  FieldPoints all() const {
+    return {
+        points(),
+        low_L_m_,
+        edge_m_,
+        {static_cast<int>(count_[0]), static_cast<int>(count_[1]), static_cast<int>(count_[2])}};
   }
   /// 0 where it is not known yet.
   float squared_m2(std::size_t point) const {

@@ -149,6 +149,10 @@ inline void begin_front(LinkSearch& search) {
   search.is_beyond_cubes = false;
 }
 
+/// Goes on among cubes with the front of the request before: those of its items that may be near
+/// enough to where the link is now are searched for, the others are told anew how far they are.
+void take_cubes_below(LinkSearch& search);
+
 /// Both start with the whole link and all of space, and an empty front.
 void start_in_views(const UnknownSpace& space, LinkSearch& search);
 void start_in_cubes(LinkSearch& search);

@@ -125,8 +125,10 @@ void guess(const UnknownSpace& space, const SpacePair& last, bool to_shadow, Lin
 
 void start_nearest(const Asked& asked, LinkState& link) {
   take_reading(link.reading, link.nearest);
-  if (link.goes_on) {
+  if (link.goes_on && asked.is_shadow()) {
     link.nearest.front.take_below(link.nearest.limit_m(), link.nearest.items);
+  } else if (link.goes_on) {
+    mesh::take_cubes_below(link.nearest);
   } else if (asked.is_shadow()) {
     guess(asked.space, link.last, true, link.nearest);
     mesh::start_in_views(asked.space, link.nearest);

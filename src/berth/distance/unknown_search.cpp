@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "berth/distance/link_search.hpp"
+#include "berth/distance/searched_cubes.hpp"
 
 // Compiles the rest of this file once for each instruction set.
 #undef HWY_TARGET_INCLUDE
@@ -26,13 +27,6 @@ struct CubeSearch {
   NearestPointSearch mesh;
   float error_m;
 };
-
-/// Marks a cube of which some children are gone. Item::way is the request of which an item's bound
-/// is that of its own corners, not of the cube that it is a child of.
-constexpr std::uint32_t kOpened = 1u << 31;
-
-/// The level from which on down a cube's corners tell more than patches do.
-constexpr int kGreatestByCorners = 4;
 
 Eigen::Vector3f in_link(const CubeSearch& search, const Eigen::Vector3d& p_B_m) {
   return (search.X_LB * p_B_m).cast<float>();
@@ -264,11 +258,7 @@ void expand(CubeSearch& search, Item& item, Fresh& fresh) {
 }
 
 CubeSearch make_search(const UnknownSpace& space, LinkSearch& link) {
-  const PatchLevel& top = link.link->levels.back();
-  const Eigen::Vector3d centre_L_m(top.centre_m[0][0], top.centre_m[1][0], top.centre_m[2][0]);
-  const double reach_m = centre_L_m.norm() + link.X_BL.translation().norm() + top.half_height_m[0] +
-                         top.radius_m[0] + link.known_range_m();
-  const float error_m = rounding_m(static_cast<float>(reach_m));
+  const float error_m = rounding_m(reach_of_cubes_m(link));
   return {link, space, link.X_BL.inverse(), NearestPointSearch(*link.link, error_m), error_m};
 }
 
@@ -299,40 +289,6 @@ void search_cubes(const UnknownSpace& space, int steps, LinkSearch& search) {
 
 void try_hidden_point(const UnknownSpace& space, const Eigen::Vector3f& p_B_m, LinkSearch& search) {
   HWY_DYNAMIC_DISPATCH(try_point_of)(space, p_B_m, search);
-}
-
-void start_in_cubes(LinkSearch& search) {
-  begin_front(search);
-  if (search.link->empty()) return;
-  const int top_level = static_cast<int>(search.link->levels.size()) - 1;
-  const PatchLevel& top = search.link->levels[top_level];
-  const Eigen::Vector3d centre_B_m =
-      search.X_BL * Eigen::Vector3d(top.centre_m[0][0], top.centre_m[1][0], top.centre_m[2][0]);
-  const double reach_m =
-      static_cast<double>(top.half_height_m[0]) + top.radius_m[0] + search.known_range_m();
-  constexpr int kSide = Cube::kCount >> 2 * Cube::kTopLevel;
-  int begin[3], end[3];
-  for (int i = 0; i < 3; ++i) {
-    begin[i] = top_cube_at(centre_B_m[i] - reach_m);
-    end[i] = top_cube_at(centre_B_m[i] + reach_m) + 1;
-    search.is_beyond_cubes |= begin[i] < 0 || end[i] > kSide;
-    begin[i] = std::clamp(begin[i], 0, kSide);
-    end[i] = std::clamp(end[i], 0, kSide);
-  }
-  for (int z = begin[2]; z < end[2]; ++z) {
-    for (int y = begin[1]; y < end[1]; ++y) {
-      for (int x = begin[0]; x < end[0]; ++x) {
-        const Cube cube{Cube::kTopLevel, x, y, z};
-        const Eigen::Vector3d low_m = cube.corner_m();
-        const Eigen::Vector3d high_m = low_m.array() + cube.edge_m();
-        const Eigen::Vector3d nearest_m = centre_B_m.cwiseMax(low_m).cwiseMin(high_m);
-        const double bound_m =
-            (nearest_m - centre_B_m).norm() - top.half_height_m[0] - top.radius_m[0] - 1e-5;
-        search.items.push(
-            {.bound_m = static_cast<float>(std::max(bound_m, 0.0)), .space = cube.key()});
-      }
-    }
-  }
 }
 
 }  // namespace berth::mesh
