@@ -36,6 +36,13 @@ struct Projection {
   std::uint64_t meets, inside, through;
 };
 
+/// The windows of which four cover so many pixels beyond the first.
+HWY_INLINE const DepthWindows::Level& level_for(const DepthWindows& windows, int span) {
+  int n = 0;
+  while (n + 1 < windows.level_count && windows.levels[n].longest_px() <= span) ++n;
+  return windows.levels[n];
+}
+
 /// The least of each cube's pixels; a NaN counts as +inf.
 HWY_INLINE Lanes least_of(DepthView image, const DepthWindows& windows, const Projection& cubes) {
   const IntTag ints;
@@ -52,9 +59,7 @@ HWY_INLINE Lanes least_of(DepthView image, const DepthWindows& windows, const Pr
     }
     return all;
   }
-  int n = 0;
-  while (n + 1 < windows.level_count && windows.levels[n].longest_px() <= cubes.span) ++n;
-  const DepthWindows::Level& level = windows.levels[n];
+  const DepthWindows::Level& level = level_for(windows, cubes.span);
   const int shift = __builtin_ctz(static_cast<unsigned>(level.step_px));
   // The first window that ends behind the last pixel, from its last pixel on.
   const Ints to_first = hn::Set(ints, level.step_px - level.side_px);
@@ -166,16 +171,82 @@ HWY_INLINE std::uint64_t frees_all(const FreeingCamera& view, const Projection& 
          bits_of(Lanes(cubes.zb) < least_of(*view.free_depth_m, *view.free_windows, cubes));
 }
 
-/// Which of kLanes cubes may hold something hidden.
-HWY_INLINE std::uint64_t possible_of(std::span<const FreeingCamera> views,
-                                     const CubePoints& centres, float reach_m, float half_m) {
+/// The least of the pixels that one cube projects into: the first lane's.
+HWY_INLINE float least_of_first(DepthView image, const DepthWindows& windows,
+                                const Projection& cube) {
+  const auto first = [](Ints x) { return hn::GetLane(x); };
+  const int u0 = first(cube.u0), v0 = first(cube.v0), u1 = first(cube.u1), v1 = first(cube.v1);
+  float all = HUGE_VALF;
+  if (cube.span < kMostPixels) {
+    for (int v = v0; v <= v1; ++v) {
+      for (int u = u0; u <= u1; ++u) {
+        if (image(u, v) < all) all = image(u, v);
+      }
+    }
+    return all;
+  }
+  const DepthWindows::Level& level = level_for(windows, cube.span);
+  const int shift = __builtin_ctz(static_cast<unsigned>(level.step_px));
+  const auto last = [&](int begin, int end) {
+    return std::max(begin >> shift, (end + level.step_px - level.side_px) >> shift);
+  };
+  for (const int row : {v0 >> shift, last(v0, v1)}) {
+    for (const int column : {u0 >> shift, last(u0, u1)}) {
+      all = std::min(all, level.least[static_cast<std::size_t>(row) * level.columns + column]);
+    }
+  }
+  return all;
+}
+
+/// What a view says of all of a cube at once, so that nobody need ask for its children.
+struct WholeCube {
+  bool hides_none = true;
+  bool frees_none = true;
+  bool frees_all = false;
+};
+
+HWY_INLINE WholeCube look_at_whole(const FreeingCamera& view, const Cube& cube) {
+  WholeCube whole;
+  const CameraSpace& space = *view.space;
+  if (space.is_empty()) return whole;
+  const auto half_m = static_cast<float>(cube.edge_m() / 2);
+  const Eigen::Vector3f centre_m = (cube.corner_m().array() + cube.edge_m() / 2).cast<float>();
+  const CubePoints centre{Lanes(centre_m.x()), Lanes(centre_m.y()), Lanes(centre_m.z())};
+  const Projection seen = project(view, centre, centre_m.norm() + 2 * half_m, half_m);
+  const float zb_m = hn::GetLane(seen.zb);
+  whole.hides_none = (seen.through & 1) == 0;
+  if ((seen.meets & 1) != 0) {
+    const float end_m = least_of_first(space.obstacle_depth_m, space.obstacle_windows, seen) +
+                        static_cast<float>(space.settings.surface_thickness_m);
+    whole.hides_none = whole.hides_none && !(zb_m > end_m);
+  }
+  whole.frees_none = view.free_depth_m == nullptr || (seen.meets & 1) == 0;
+  whole.frees_all = !whole.frees_none && (seen.inside & 1) != 0 &&
+                    zb_m < least_of_first(*view.free_depth_m, *view.free_windows, seen);
+  return whole;
+}
+
+/// A cube whose children are asked for, and what each view says of all of it.
+struct ParentCube {
+  std::span<const FreeingCamera> views;
+  WholeCube whole[UnknownSpace::kMostViews];
+  float reach_m;
+  float half_m;
+};
+
+/// Which of kLanes of its children may hold something hidden.
+HWY_INLINE std::uint64_t possible_of(const ParentCube& parent, const CubePoints& centres) {
+  const std::span<const FreeingCamera> views = parent.views;
   Projection cubes[UnknownSpace::kMostViews];
   std::uint64_t hides[UnknownSpace::kMostViews];
   std::uint64_t hidden_once = 0, hidden_twice = 0;
   for (std::size_t k = 0; k < views.size(); ++k) {
+    const WholeCube& whole = parent.whole[k];
     hides[k] = 0;
-    if (views[k].space->is_empty()) continue;
-    cubes[k] = project(views[k], centres, reach_m, half_m);
+    const bool asks_whether_free = !whole.frees_none && !whole.frees_all;
+    if (whole.hides_none && !asks_whether_free) continue;
+    cubes[k] = project(views[k], centres, parent.reach_m, parent.half_m);
+    if (whole.hides_none) continue;
     hides[k] = hides_some(*views[k].space, cubes[k]);
     hidden_twice |= hidden_once & hides[k];
     hidden_once |= hides[k];
@@ -185,8 +256,8 @@ HWY_INLINE std::uint64_t possible_of(std::span<const FreeingCamera> views,
   for (std::size_t k = 0; k < views.size(); ++k) {
     // What no other view hides, it need not free.
     const std::uint64_t by_others = hidden_twice | (hidden_once & ~hides[k]);
-    if (by_others == 0 || views[k].free_depth_m == nullptr || views[k].space->is_empty()) continue;
-    freed[k] = frees_all(views[k], cubes[k]);
+    if (by_others == 0 || parent.whole[k].frees_none) continue;
+    freed[k] = parent.whole[k].frees_all ? ~std::uint64_t{0} : frees_all(views[k], cubes[k]);
     freed_twice |= freed_once & freed[k];
     freed_once |= freed[k];
   }
@@ -200,11 +271,18 @@ HWY_INLINE std::uint64_t possible_of(std::span<const FreeingCamera> views,
 
 std::uint64_t find(std::span<const FreeingCamera> views, const Cube& cube) {
   const auto edge_m = static_cast<float>(cube.edge_m() / 4);
-  const float reach_m = cube.corner_m().cast<float>().norm() + 4 * edge_m;
-  std::uint64_t possible = 0;
-  for (int i = 0; i < 64; i += kLanes) {
-    possible |= possible_of(views, child_centres(cube, i), reach_m, 0.5f * edge_m) << i;
+  ParentCube parent;
+  parent.views = views;
+  parent.reach_m = cube.corner_m().cast<float>().norm() + 4 * edge_m;
+  parent.half_m = 0.5f * edge_m;
+  bool hides_none = true;
+  for (std::size_t k = 0; k < views.size(); ++k) {
+    parent.whole[k] = look_at_whole(views[k], cube);
+    hides_none = hides_none && parent.whole[k].hides_none;
   }
+  if (hides_none) return 0;
+  std::uint64_t possible = 0;
+  for (int i = 0; i < 64; i += kLanes) possible |= possible_of(parent, child_centres(cube, i)) << i;
   return possible;
 }
 
