@@ -1,16 +1,16 @@
 #include "berth/space/aged_depth.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
 
+#include "berth/space/far_reaching.hpp"
+#include "berth/space/least_of_rows.hpp"
+
 #ifndef BERTH_AGED_DEPTH_RINGS
 #define BERTH_AGED_DEPTH_RINGS
 namespace berth {
-/// Pixels with this reach and more are spread by squares.
-constexpr int kMostRing = 24;
 /// What lies beside a row on either side, so that it can be spread in place: two vectors, and twice
 /// as much as the greatest ring reaches to both sides.
 constexpr int kMargin = 128;
@@ -77,7 +77,6 @@ void count_borders(const float* sensed_m, const float* borders_m, int count, int
 /// What the pixels with this reach have left, the greatest float elsewhere.
 void take_ring(const float* own_m, const std::uint8_t* reach, int ring, float moved_m, int width,
                float* out) {
-  constexpr float kEndless_m = std::numeric_limits<float>::max();
   const auto wanted = hn::Set(NumberTag(), ring);
   for_row(
       0, width,
@@ -104,23 +103,6 @@ void spread_in_row(float* x, int reach, int width) {
   for (int i = begin; i < end; i += kLanes) store(least(load(x + i), load(x + i + last)), x + i);
 }
 
-/// x[i] becomes the least of x[i] and from[i].
-void take_least(const float* from, int width, float* x) {
-  for_row(
-      0, width, [&](int u) { store(least(load(x + u), load(from + u)), x + u); },
-      [&](int u) { x[u] = std::min(x[u], from[u]); });
-}
-
-/// out[i] is the least of the three rows' i-th.
-void take_least_of(const float* const (&rows)[3], int width, float* out) {
-  for_row(
-      0, width,
-      [&](int u) {
-        store(least(load(rows[0] + u), least(load(rows[1] + u), load(rows[2] + u))), out + u);
-      },
-      [&](int u) { out[u] = std::min(rows[0][u], std::min(rows[1][u], rows[2][u])); });
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace berth
 HWY_AFTER_NAMESPACE();
@@ -131,103 +113,8 @@ namespace berth {
 HWY_EXPORT(count_borders);
 HWY_EXPORT(take_ring);
 HWY_EXPORT(spread_in_row);
-HWY_EXPORT(take_least);
-HWY_EXPORT(take_least_of);
 
 namespace {
-
-constexpr float kEndless_m = std::numeric_limits<float>::max();
-
-/// The k of the greatest squares of 2^k pixels that fit into `pixels`, at least one.
-int level_of(int pixels) { return std::bit_width(static_cast<unsigned>(pixels)) - 1; }
-
-/// Makes `value` hold in all pixels of `rect`, by squares of the greatest size that fits.
-void hold_in(const PixelRect& rect, float value, std::vector<DepthImage>& levels) {
-  const int level = level_of(std::min(rect.u_end - rect.u_begin, rect.v_end - rect.v_begin));
-  const int side = 1 << level;
-  DepthImage& squares = levels[level];
-  for (int v = rect.v_begin;; v = std::min(v + side, rect.v_end - side)) {
-    for (int u = rect.u_begin;; u = std::min(u + side, rect.u_end - side)) {
-      squares(u, v) = std::min(squares(u, v), value);
-      if (u + side == rect.u_end) break;
-    }
-    if (v + side == rect.v_end) break;
-  }
-}
-
-void take_lesser(const float* from_m, int count, float* to_m) {
-  for (int i = 0; i < count; ++i) to_m[i] = from_m[i] < to_m[i] ? from_m[i] : to_m[i];
-}
-
-/// The same for many pixels side by side, from the one at (u, v) on: each one's value holds in all
-/// that are no more than `reach` from it, which lie in the image.
-void hold_around(const float* values, int count, int u, int v, int reach,
-                 std::vector<DepthImage>& levels) {
-  const int level = level_of(2 * reach + 1);
-  const int last = reach + 1 - (1 << level);
-  for (const int y : {v - reach, v + last}) {
-    for (const int x : {u - reach, u + last}) take_lesser(values, count, levels[level].row(y) + x);
-  }
-}
-
-/// Takes a row's pixels into the squares: those with one reach at once, but at the image's ends.
-void hold_row(const std::vector<float>& left_m, const std::vector<int>& far_reach, int v,
-              std::vector<DepthImage>& levels) {
-  const int width = levels[0].width();
-  const int height = levels[0].height();
-  for (int u = 0; u < width;) {
-    const int reach = far_reach[u];
-    int end = u + 1;
-    while (end < width && far_reach[end] == reach) ++end;
-    const bool fits = v >= reach && v + reach < height && 2 * reach < width;
-    const int inner = fits ? std::clamp(reach, u, end) : end;
-    const int outer = fits ? std::clamp(width - reach, inner, end) : end;
-    if (reach > 0 && outer > inner) {
-      hold_around(&left_m[inner], outer - inner, inner, v, reach, levels);
-    }
-    for (int at = u; reach > 0 && at < end; ++at) {
-      if (at == inner) at = outer;
-      if (at == end) break;
-      hold_in(clip({at - reach, v - reach, at + reach + 1, v + reach + 1}, width, height),
-              left_m[at], levels);
-    }
-    u = end;
-  }
-}
-
-/// Each square's value holds in its four quarters.
-void hold_in_quarters(const DepthImage& squares, int half, DepthImage& quarters) {
-  const int columns = squares.width() - 2 * half + 1;
-  for (int v = 0; v + 2 * half <= squares.height(); ++v) {
-    for (const int y : {v, v + half}) {
-      for (const int x : {0, half}) take_lesser(squares.row(v), columns, quarters.row(y) + x);
-    }
-  }
-}
-
-/// How many pixels beside it a pixel with this reading holds.
-class Reach {
- public:
-  Reach(const Camera& camera, double moved_m)
-      : spread_(std::max(camera.fx_px, camera.fy_px) * moved_m) {
-    // Above r where S < spread / r: for a float the next one from there up says the same.
-    borders_m_[0] = spread_ > 0 ? std::numeric_limits<float>::infinity() : 0.0f;
-    for (int r = 1; r <= kMostRing; ++r) {
-      const double border_m = spread_ / r;
-      const auto rounded_m = static_cast<float>(border_m);
-      borders_m_[r] = rounded_m >= border_m ? rounded_m : std::nextafter(rounded_m, kEndless_m);
-    }
-  }
-  /// At most `most`.
-  int of(float sensed_m, int most) const {
-    return static_cast<int>(std::min(std::ceil(spread_ / sensed_m), static_cast<double>(most)));
-  }
-  const float* borders_m() const { return borders_m_.data(); }
-
- private:
-  double spread_;
-  std::array<float, kMostRing + 1> borders_m_;
-};
 
 int blocks_of(int width) { return (width + kBlock_px - 1) / kBlock_px; }
 
@@ -252,36 +139,6 @@ std::uint32_t find_reaches(const Reach& reach, const DepthImage& sensor_depth_m,
 }
 
 constexpr std::uint32_t kFarBit = 1u << (kMostRing + 1);
-
-/// The pixels that reach beyond the rings, by squares: levels[0] has what they leave of each pixel.
-void hold_far_reaching(const Reach& reach, const DepthImage& sensor_depth_m,
-                       const DepthImage& own_m, float moved_m, AgingWorkspace& workspace) {
-  const int width = own_m.width();
-  const int height = own_m.height();
-  const int most = width + height;
-  std::vector<DepthImage>& levels = workspace.levels;
-  workspace.left_m.resize(width);
-  workspace.far_reach.resize(width);
-  float nearest_m = kEndless_m;
-  for (const float sensed_m : sensor_depth_m.pixels()) {
-    nearest_m = sensed_m < nearest_m ? sensed_m : nearest_m;
-  }
-  const int widest = std::min({2 * reach.of(nearest_m, most) + 1, width, height});
-  const auto level_count = static_cast<std::size_t>(level_of(widest)) + 1;
-  levels.resize(std::max(levels.size(), level_count));
-  for (std::size_t k = 0; k < level_count; ++k) levels[k].resize(width, height, kEndless_m);
-  for (int v = 0; v < height; ++v) {
-    for (int u = 0; u < width; ++u) {
-      const bool is_far = workspace.reach(u, v) > kMostRing;
-      workspace.far_reach[u] = is_far ? reach.of(sensor_depth_m(u, v), most) : 0;
-      workspace.left_m[u] = std::max(0.0f, own_m(u, v) - moved_m);
-    }
-    hold_row(workspace.left_m, workspace.far_reach, v, levels);
-  }
-  for (std::size_t k = level_count - 1; k > 0; --k) {
-    hold_in_quarters(levels[k], 1 << (k - 1), levels[k - 1]);
-  }
-}
 
 /// The others: what a pixel of reach r has left is spread along its row by r at once, and then from
 /// ring r to ring r - 1 by one row up and down, until ring 0 has all. All rings go down the image
@@ -321,17 +178,26 @@ class Rings {
 
   void fill(int ring, int v, float* out) {
     Part& kept = workspace_.parts[slot(ring, v)];
-    // Nothing is there outside of the new part. The image's row had other content before.
-    if (ring == 0) kept = {0, width_};
-    std::fill(out + kept.begin, out + kept.end, kEndless_m);
-    kept = ring < greatest_ ? take_rings_beyond(ring + 1, v, out) : Part{};
+    // The image's row had other content before.
+    const Part before = ring == 0 ? Part{0, width_} : kept;
+    const Part beyond = ring < greatest_ ? take_rings_beyond(ring + 1, v, out) : Part{};
     const Part pixels = pixels_of(ring, v);
+    const Part reached = pixels.is_empty() ? Part{}
+                                           : Part{std::max(pixels.begin - ring, 0),
+                                                  std::min(pixels.end + ring, width_)};
+    kept = join(beyond, reached);
+    // Nothing is there outside of what is beyond.
+    clear_beside(beyond, join(before, kept), out);
     if (pixels.is_empty()) return;
     const float* const spread = spread_own(ring, v, pixels);
-    const Part reached{std::max(pixels.begin - ring, 0), std::min(pixels.end + ring, width_)};
-    HWY_DYNAMIC_DISPATCH(take_least)
-    (spread + reached.begin, reached.end - reached.begin, out + reached.begin);
-    kept = join(kept, reached);
+    take_least(spread + reached.begin, reached.end - reached.begin, out + reached.begin);
+  }
+
+  /// Columns of `all` that are not among those of `filled`, which lies in it or is empty.
+  static void clear_beside(const Part& filled, const Part& all, float* out) {
+    const int middle = filled.is_empty() ? all.end : filled.begin;
+    fill_endless(middle - all.begin, out + all.begin);
+    if (!filled.is_empty()) fill_endless(all.end - filled.end, out + filled.end);
   }
 
   static Part join(const Part& a, const Part& b) {
@@ -351,7 +217,7 @@ class Rings {
     }
     if (part.is_empty()) return part;
     for (const float*& from : rows) from += part.begin;
-    HWY_DYNAMIC_DISPATCH(take_least_of)(rows, part.end - part.begin, out + part.begin);
+    take_least_of(rows, part.end - part.begin, out + part.begin);
     return part;
   }
 
@@ -388,8 +254,8 @@ class Rings {
     (own_m_.row(v) + pixels.begin, workspace_.reach.row(v) + pixels.begin, ring, moved_m_, count,
      x);
     if (ring > 0) {
-      std::fill_n(x - kMargin, kMargin, kEndless_m);
-      std::fill_n(x + count, kMargin, kEndless_m);
+      fill_endless(kMargin, x - kMargin);
+      fill_endless(kMargin, x + count);
       HWY_DYNAMIC_DISPATCH(spread_in_row)(x, ring, count);
     }
     return scratch() - ring;
@@ -416,11 +282,9 @@ void age_own_free_depth(const Camera& camera, const DepthImage& sensor_depth_m,
   const auto moved = static_cast<float>(moved_m);
   const std::uint32_t reaches = find_reaches(reach, sensor_depth_m, workspace);
   const std::uint32_t in_rings = reaches & (kFarBit - 1);
-  Rings(own_m, moved, level_of(static_cast<int>(in_rings | 1)), workspace).run(out);
-  if ((reaches & kFarBit) == 0) return;
-  hold_far_reaching(reach, sensor_depth_m, own_m, moved, workspace);
-  for (int v = 0; v < height; ++v) {
-    HWY_DYNAMIC_DISPATCH(take_least)(workspace.levels[0].row(v), width, out.row(v));
+  Rings(own_m, moved, std::bit_width(in_rings | 1) - 1, workspace).run(out);
+  if ((reaches & kFarBit) != 0) {
+    hold_far_reaching(reach, sensor_depth_m, own_m, moved, workspace, out);
   }
 }
 
