@@ -14,8 +14,8 @@ namespace berth::lab {
 namespace {
 
 constexpr double kBudget_us = 500;
-/// Requests and images of a film's first part are not counted: memory grows, fields fill.
-constexpr double kWarmUp_s = 0.5;
+/// This first part of the requests and images is not counted: memory grows, fields fill.
+constexpr double kWarmUpShare = 0.4;
 
 /// What the requests are asked for.
 enum class Told { distances, everything, in_budget };
@@ -47,7 +47,7 @@ class Steps {
     const auto shown = shown_images(film_, play_, settings_.seconds);
     std::size_t next = 0;
     for (double now_s = 0; now_s < settings_.seconds; now_s += 1 / settings_.rate_hz) {
-      const bool counts = now_s >= kWarmUp_s;
+      const bool counts = now_s >= kWarmUpShare * settings_.seconds;
       bool is_first = false;
       for (; next < shown.size() && shown[next].time_s <= now_s; ++next) {
         take_image(shown[next], now_s, counts);

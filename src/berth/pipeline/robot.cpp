@@ -60,7 +60,12 @@ std::shared_ptr<const Robot> detach(const Robot& robot, const std::string& name)
 std::shared_ptr<const Robot> with_settings(const std::shared_ptr<const Robot>& robot,
                                            const EvaluationSettings& settings) {
   if (settings == robot->settings_) return robot;
-  return std::make_shared<const Robot>(robot->bare_, settings, robot->attached_);
+  validate(settings.distance);
+  validate(settings.time);
+  // It shares the meshes, and what is known of the distances around them.
+  const auto other = std::make_shared<Robot>(*robot);
+  other->settings_ = settings;
+  return other;
 }
 
 }  // namespace berth
