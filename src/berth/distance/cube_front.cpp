@@ -9,15 +9,12 @@
 #define HWY_TARGET_INCLUDE "berth/distance/cube_front.cpp"
 #include "hwy/foreach_target.h"
 
-#include "berth/distance/cube_corners-inl.hpp"
+#include "berth/distance/field_bound-inl.hpp"
 #include "berth/distance/leaf-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace berth::mesh {
 namespace HWY_NAMESPACE {
-
-using IntTag = hn::RebindToSigned<FloatTag>;
-using Ints = hn::Vec<IntTag>;
 
 /// Where cubes lie in a link's frame, told from a corner that is near to all of them: so that
 /// floats are enough.
@@ -50,45 +47,6 @@ struct CubeLanes {
     edge_m[lane] = static_cast<float>(cube.edge_m());
   }
 };
-
-/// No more than the squares of the points' distances by the link's field; 0 where it does not tell.
-HWY_INLINE Lanes field_bounds_m2(const FieldPoints& field, const Vectors& p_L_m) {
-  const IntTag ints;
-  const Lanes zero(0.0f), one(1.0f), per_edge(1 / field.edge_m);
-  const Lanes at[3] = {(p_L_m.x - Lanes(field.low_L_m.x())) * per_edge,
-                       (p_L_m.y - Lanes(field.low_L_m.y())) * per_edge,
-                       (p_L_m.z - Lanes(field.low_L_m.z())) * per_edge};
-  LaneMask is_in = one >= zero;
-  Ints cell[3] = {hn::Zero(ints), hn::Zero(ints), hn::Zero(ints)};
-  Lanes t[3] = {zero, zero, zero};
-  for (int k = 0; k < 3; ++k) {
-    const Lanes last(static_cast<float>(field.count[k] - 1));
-    is_in = both(is_in, both(at[k] >= zero, at[k] < last));
-    cell[k] = hn::ConvertTo(ints, select(is_in, at[k], zero).v);
-    t[k] = at[k] - Lanes(hn::ConvertTo(FloatTag(), cell[k]));
-  }
-  const Ints row = hn::Set(ints, field.count[0]);
-  const Ints layer = hn::Set(ints, field.count[0] * field.count[1]);
-  const Ints first = hn::Add(cell[0], hn::Add(hn::Mul(cell[1], row), hn::Mul(cell[2], layer)));
-  Lanes lowest(HUGE_VALF), highest(0.0f), sum(0.0f);
-  for (int i = 0; i < 8; ++i) {
-    Ints place = i & 1 ? hn::Add(first, hn::Set(ints, 1)) : first;
-    if (i & 2) place = hn::Add(place, row);
-    if (i & 4) place = hn::Add(place, layer);
-    const Lanes d = hn::GatherIndex(FloatTag(), field.squared_m2, place);
-    lowest = least(lowest, d);
-    highest = greatest(highest, d);
-    const Lanes x = i & 1 ? t[0] : one - t[0];
-    const Lanes y = i & 2 ? t[1] : one - t[1];
-    const Lanes z = i & 4 ? t[2] : one - t[2];
-    sum = mul_add(x * y * z, d, sum);
-  }
-  const Lanes edge2(field.edge_m * field.edge_m);
-  const Lanes sags = t[0] * (one - t[0]) + t[1] * (one - t[1]) + t[2] * (one - t[2]);
-  const Lanes rounding = Lanes(kRoundedShare) * (highest + edge2);
-  const Lanes bound_m2 = greatest(sum - edge2 * sags - rounding, zero);
-  return select(both(is_in, lowest > zero), bound_m2, zero);
-}
 
 /// The least distances of cubes by the field at their corners; 0 where it does not tell.
 HWY_INLINE Lanes cube_bounds(const NearCubes& near, const FieldPoints& field,

@@ -15,43 +15,85 @@
 #include "berth/distance/cube_corners-inl.hpp"
 #include "berth/distance/link_field.hpp"
 #include "berth/distance/nearest_point-inl.hpp"
+#include "berth/distance/patches-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace berth::mesh {
 namespace HWY_NAMESPACE {
 
-/// The squares of a cell's corners; those that nobody has asked for yet are found from the mesh.
-HWY_INLINE CubeCorners cell_corners(const FieldGrid& grid, const NearestPointSearch& mesh,
-                                    const std::array<int, 3>& cell, int hint) {
-  CubeCorners corners;
+using IntTag = hn::RebindToSigned<FloatTag>;
+using Ints = hn::Vec<IntTag>;
+
+/// Finds from the mesh what nobody has asked for yet of the cell that holds a point. Returns
+/// whether there is one.
+inline bool know_cell(const FieldGrid& grid, const NearestPointSearch& mesh,
+                      const Eigen::Vector3f& p_L_m, int hint) {
+  std::array<int, 3> cell;
+  Eigen::Vector3f at;
+  if (!grid.cell_of(p_L_m, cell, at)) return false;
   NearPoints unknown;
   int place[8];
   for (int i = 0; i < 8; ++i) {
-    corners.squared_m2[i] = grid.squared_m2(grid.corner(cell, i));
-    if (corners.squared_m2[i] > 0) continue;
+    if (grid.squared_m2(grid.corner(cell, i)) > 0) continue;
     place[unknown.count] = i;
     unknown.p_L_m[unknown.count++] = grid.corner_L_m(cell, i);
   }
-  if (unknown.count == 0) return corners;
+  if (unknown.count == 0) return true;
   mesh.find(hint, 0, unknown);
   for (int k = 0; k < unknown.count; ++k) {
     const float lower_m = unknown.distance[k].lower_m;
     // Above 0, since it is known; that is as good as 0.
     const float squared_m2 = std::max(lower_m * lower_m, std::numeric_limits<float>::min());
-    corners.squared_m2[place[k]] = squared_m2;
     grid.keep(grid.corner(cell, place[k]), squared_m2);
   }
-  return corners;
+  return true;
 }
 
-/// No more than the square of the distance of a point; 0 beyond the grid.
+/// No more than the squares of the points' distances by the link's field; 0 where it does not tell.
+HWY_INLINE Lanes field_bounds_m2(const FieldPoints& field, const Vectors& p_L_m) {
+  const IntTag ints;
+  const Lanes zero(0.0f), one(1.0f), per_edge(1 / field.edge_m);
+  const Lanes at[3] = {(p_L_m.x - Lanes(field.low_L_m.x())) * per_edge,
+                       (p_L_m.y - Lanes(field.low_L_m.y())) * per_edge,
+                       (p_L_m.z - Lanes(field.low_L_m.z())) * per_edge};
+  LaneMask is_in = one >= zero;
+  Ints cell[3] = {hn::Zero(ints), hn::Zero(ints), hn::Zero(ints)};
+  Lanes t[3] = {zero, zero, zero};
+  for (int k = 0; k < 3; ++k) {
+    const Lanes last(static_cast<float>(field.count[k] - 1));
+    is_in = both(is_in, both(at[k] >= zero, at[k] < last));
+    cell[k] = hn::ConvertTo(ints, select(is_in, at[k], zero).v);
+    t[k] = at[k] - Lanes(hn::ConvertTo(FloatTag(), cell[k]));
+  }
+  const Ints row = hn::Set(ints, field.count[0]);
+  const Ints layer = hn::Set(ints, field.count[0] * field.count[1]);
+  const Ints first = hn::Add(cell[0], hn::Add(hn::Mul(cell[1], row), hn::Mul(cell[2], layer)));
+  Lanes lowest(HUGE_VALF), highest(0.0f), sum(0.0f);
+  for (int i = 0; i < 8; ++i) {
+    Ints place = i & 1 ? hn::Add(first, hn::Set(ints, 1)) : first;
+    if (i & 2) place = hn::Add(place, row);
+    if (i & 4) place = hn::Add(place, layer);
+    const Lanes d = hn::GatherIndex(FloatTag(), field.squared_m2, place);
+    lowest = least(lowest, d);
+    highest = greatest(highest, d);
+    const Lanes x = i & 1 ? t[0] : one - t[0];
+    const Lanes y = i & 2 ? t[1] : one - t[1];
+    const Lanes z = i & 4 ? t[2] : one - t[2];
+    sum = mul_add(x * y * z, d, sum);
+  }
+  const Lanes edge2(field.edge_m * field.edge_m);
+  const Lanes sags = t[0] * (one - t[0]) + t[1] * (one - t[1]) + t[2] * (one - t[2]);
+  const Lanes rounding = Lanes(kRoundedShare) * (highest + edge2);
+  const Lanes bound_m2 = greatest(sum - edge2 * sags - rounding, zero);
+  return select(both(is_in, lowest > zero), bound_m2, zero);
+}
+
+/// The same of a single point, in a cell that becomes known.
 HWY_INLINE float field_bound_m2(const FieldGrid& grid, const NearestPointSearch& mesh,
                                 const Eigen::Vector3f& p_L_m, int hint) {
-  std::array<int, 3> cell;
-  Eigen::Vector3f at;
-  if (!grid.cell_of(p_L_m, cell, at)) return 0;
-  const CubeCorners corners = cell_corners(grid, mesh, cell, hint);
-  return corners_within(corners, grid.edge_m(), {at.x(), at.y(), at.z()}, 0).squared_m2[0];
+  if (!know_cell(grid, mesh, p_L_m, hint)) return 0;
+  return hn::GetLane(
+      field_bounds_m2(grid.all(), {Lanes(p_L_m.x()), Lanes(p_L_m.y()), Lanes(p_L_m.z())}).v);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "berth/distance/link_search.hpp"
 #include "berth/distance/searched_cubes.hpp"
@@ -76,16 +77,44 @@ struct FieldCorners {
   float grid_edge_m = 0;
 };
 
+/// Where a cube's corners lie in the link's frame.
+struct CornerPoints {
+  static constexpr int kCount = kLanes > 8 ? kLanes : 8;
+  alignas(64) float x_m[kCount] = {}, y_m[kCount] = {}, z_m[kCount] = {};
+
+  CornerPoints(const CubeSearch& search, const Cube& cube) {
+    const Eigen::Vector3f low_m = in_link(search, cube.corner_m());
+    const Eigen::Matrix3f edges_m = (cube.edge_m() * search.X_LB.linear()).cast<float>();
+    for (int i = 0; i < 8; ++i) {
+      Eigen::Vector3f p_m = low_m;
+      for (int k = 0; k < 3; ++k) {
+        if (i >> k & 1) p_m += edges_m.col(k);
+      }
+      x_m[i] = p_m.x();
+      y_m[i] = p_m.y();
+      z_m[i] = p_m.z();
+    }
+  }
+  Vectors many(int first) const {
+    return {load(x_m + first), load(y_m + first), load(z_m + first)};
+  }
+  Eigen::Vector3f one(int i) const { return {x_m[i], y_m[i], z_m[i]}; }
+};
+
 FieldCorners field_corners(const CubeSearch& search, const Cube& cube, float bound_m, int hint) {
   const FieldGrid* const grid = search.link.link->field->grid_for(bound_m);
   if (!grid) return {};
+  const CornerPoints points(search, cube);
+  const FieldPoints field = grid->all();
+  alignas(64) float bound_m2[CornerPoints::kCount];
+  for (int i = 0; i < 8; i += kLanes) store(field_bounds_m2(field, points.many(i)), bound_m2 + i);
   FieldCorners out;
   for (int i = 0; i < 8; ++i) {
-    const Cube corner{cube.level, cube.x + (i & 1), cube.y + (i >> 1 & 1), cube.z + (i >> 2)};
-    const Eigen::Vector3f p_L_m = in_link(search, corner.corner_m());
-    const float bound_m2 = field_bound_m2(*grid, search.mesh, p_L_m, hint);
+    if (!(bound_m2[i] > 0)) {
+      bound_m2[i] = field_bound_m2(*grid, search.mesh, points.one(i), hint);
+    }
     // Where a point lies is rounded in two frames.
-    const float rounded_m = std::sqrt(bound_m2) - 2 * search.error_m;
+    const float rounded_m = std::sqrt(bound_m2[i]) - 2 * search.error_m;
     if (!(rounded_m > 0)) return {};
     out.corners.squared_m2[i] = rounded_m * rounded_m;
   }
@@ -208,53 +237,74 @@ int leaf_near(const CubeSearch& search, const Cube& cube, int hint) {
   return centre.distance[0].triangle / LinkPatches::kChildren;
 }
 
+/// What is known of a cube's corners, and a leaf that is near to them.
+struct KnownCorners {
+  CubeCorners corners;
+  int hint = 0;
+};
+
+/// Raises the item's bound by the field, and asks for the corners themselves only where that leaves
+/// it near enough and the field is too coarse for its children. None where it is too far.
+std::optional<KnownCorners> look_at_corners(CubeSearch& search, const Cube& cube, Item& item) {
+  const LinkSearch& link = search.link;
+  const bool is_opened = (item.patch & kOpened) != 0;
+  const auto edge_m = static_cast<float>(cube.edge_m());
+  KnownCorners out{{}, static_cast<int>(item.patch & ~kOpened)};
+  FieldCorners field;
+  if (item.way != link.request || cube.level == kGreatestByCorners) {
+    field = field_corners(search, cube, item.bound_m, out.hint);
+    if (!is_opened) item.bound_m = std::max(item.bound_m, least_distance_m(field.corners, edge_m));
+    if (!(item.bound_m < link.limit_m())) return std::nullopt;
+  }
+  // A grid so much finer than the cube tells of its children nearly what its own corners do.
+  if (field.grid_edge_m > 0 && 3 * field.grid_edge_m <= edge_m) {
+    out.corners = field.corners;
+    if (!is_opened) out.hint = leaf_near(search, cube, out.hint);
+  } else {
+    out.corners = corners_of(search, cube, item.bound_m, out.hint);
+  }
+  return out;
+}
+
+/// A cube of which no child is gone: its bound becomes that of its own corners, and its best points
+/// are tried. Returns whether it is to be taken apart now.
+bool begin_cube(CubeSearch& search, const Cube& cube, const KnownCorners& known, Item& item,
+                Fresh& fresh) {
+  const LinkSearch& link = search.link;
+  item.patch = static_cast<std::uint32_t>(known.hint);
+  if (item.way != link.request) {
+    item.way = link.request;
+    const auto edge_m = static_cast<float>(cube.edge_m());
+    item.bound_m = std::max(item.bound_m, least_distance_m(known.corners, edge_m));
+    if (!(item.bound_m < link.limit_m())) return false;
+    fresh.again = item.bound_m > link.items.least_bound_m();
+    if (fresh.again) return false;
+  }
+  try_cube(search, cube, known.corners, known.hint);
+  return item.bound_m < link.limit_m();
+}
+
 void expand(CubeSearch& search, Item& item, Fresh& fresh) {
   LinkSearch& link = search.link;
   const Cube cube = Cube::of_key(item.space);
   if (cube.level > 0) item.left &= search.space.block(cube);
   if (item.left == 0) return;
   const bool is_opened = (item.patch & kOpened) != 0;
-  int hint = static_cast<int>(item.patch & ~kOpened);
   alignas(64) float child_bounds_m[64];
   if (cube.level > kGreatestByCorners) {
     bound_by_patches(search, cube, item.left, child_bounds_m);
+    const int hint = static_cast<int>(item.patch & ~kOpened);
     return part_cube(item, cube, child_bounds_m, link.limit_m(), hint, fresh);
   }
-  const auto edge_m = static_cast<float>(cube.edge_m());
-  FieldCorners field;
-  if (item.way != link.request || cube.level == kGreatestByCorners) {
-    field = field_corners(search, cube, item.bound_m, hint);
-    if (!is_opened) {
-      item.bound_m = std::max(item.bound_m, least_distance_m(field.corners, edge_m));
-      if (!(item.bound_m < link.limit_m())) return;
-    }
-  }
-  CubeCorners corners;
-  // A grid so much finer than the cube tells of its children nearly what its own corners do.
-  if (field.grid_edge_m > 0 && 3 * field.grid_edge_m <= edge_m) {
-    corners = field.corners;
-    if (!is_opened) hint = leaf_near(search, cube, hint);
-  } else {
-    corners = corners_of(search, cube, item.bound_m, hint);
-  }
-  if (!is_opened) {
-    item.patch = static_cast<std::uint32_t>(hint);
-    if (item.way != link.request) {
-      item.way = link.request;
-      item.bound_m = std::max(item.bound_m, least_distance_m(corners, edge_m));
-      if (!(item.bound_m < link.limit_m())) return;
-      fresh.again = item.bound_m > link.items.least_bound_m();
-      if (fresh.again) return;
-    }
-    try_cube(search, cube, corners, hint);
-    if (!(item.bound_m < link.limit_m())) return;
-  }
+  const std::optional<KnownCorners> known = look_at_corners(search, cube, item);
+  if (!known || (!is_opened && !begin_cube(search, cube, *known, item, fresh))) return;
   if (cube.level == 0) {
     link.given_up_m = std::min(link.given_up_m, item.bound_m);
     return;
   }
-  bound_child_cubes(corners, edge_m, item.left, child_bounds_m);
-  part_cube(item, cube, child_bounds_m, link.limit_m(), hint, fresh);
+  const auto edge_m = static_cast<float>(cube.edge_m());
+  bound_child_cubes(known->corners, edge_m, item.left, child_bounds_m);
+  part_cube(item, cube, child_bounds_m, link.limit_m(), known->hint, fresh);
 }
 
 CubeSearch make_search(const UnknownSpace& space, LinkSearch& link) {
