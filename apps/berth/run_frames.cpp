@@ -105,11 +105,13 @@ void each_frame(const OpenScene& scene, SceneRun& run, const char* doing,
 void run_frames(const OpenScene& scene, const BackendChoice& where, const fs::path& picture_folder,
                 int repeat, const std::function<void(const Result&)>& take) {
   SceneRun run(scene, where, stop_if_interrupted);
+  run.stop_with(interruption());
   const bool draws = !picture_folder.empty();
   if (draws) make_folders(scene, picture_folder);
   LateImplausible late(run);
   each_frame(scene, run, "run", [&] {
     const Result result = run.ask(repeat);
+    stop_if_interrupted();
     late.update(scene, result);
     if (draws) draw(picture_folder, scene, run, result);
     take(result);

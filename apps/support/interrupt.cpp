@@ -1,6 +1,10 @@
 #include "apps/support/interrupt.hpp"
 
+#include <chrono>
+#include <condition_variable>
 #include <csignal>
+#include <mutex>
+#include <thread>
 
 namespace berth::app {
 namespace {
@@ -13,6 +17,27 @@ void note(int signal) {
   std::signal(signal, SIG_DFL);
 }
 
+/// A signal handler may not call std::stop_source.
+class InterruptWatch {
+ public:
+  InterruptWatch()
+      : thread_([this](const std::stop_token& end) {
+          std::unique_lock lock(mutex_);
+          while (interrupted == 0 && !end.stop_requested()) {
+            changed_.wait_for(lock, end, std::chrono::milliseconds(20), [] { return false; });
+          }
+          if (interrupted != 0) source_.request_stop();
+        }) {}
+
+  std::stop_token token() const { return source_.get_token(); }
+
+ private:
+  std::stop_source source_;
+  std::mutex mutex_;
+  std::condition_variable_any changed_;
+  std::jthread thread_;
+};
+
 }  // namespace
 
 void note_interrupts() {
@@ -22,6 +47,11 @@ void note_interrupts() {
 
 void stop_if_interrupted() {
   if (interrupted != 0) throw Interrupted{};
+}
+
+std::stop_token interruption() {
+  static const InterruptWatch watch;
+  return watch.token();
 }
 
 }  // namespace berth::app

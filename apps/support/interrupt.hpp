@@ -1,5 +1,7 @@
 #pragma once
 
+#include <stop_token>
+
 namespace berth::app {
 
 /// Thrown where a command was asked to stop by SIGINT or SIGTERM.
@@ -11,5 +13,9 @@ void note_interrupts();
 
 /// Throws Interrupted if one came.
 void stop_if_interrupted();
+
+/// Asked to stop soon after one came, for what runs long. From the first call on a thread looks for
+/// that.
+std::stop_token interruption();
 
 }  // namespace berth::app

@@ -172,6 +172,29 @@ TEST(LastRequest, UnknownSpaceThatIsLeftOutOnceIsBegunAnew) {
   }
 }
 
+TEST(LastRequest, OneThatIsStoppedCertifiesWhatItKnowsAndTheNextOneGoesOn) {
+  std::stop_source source;
+  source.request_stop();
+  const std::stop_token stop = source.get_token();
+  const MeshRequest stopped{.range_m = 30, .tolerance_m = 1e-5, .stop = &stop};
+  const MeshRequest whole{.range_m = 30, .tolerance_m = 1e-5};
+  int unfinished = 0;
+  for (std::uint32_t seed = 0; seed < thinned(6u); ++seed) {
+    SCOPED_TRACE(seed);
+    const MeshWorld world = small_world(seed);
+    const PreparedWorld prepared(world);
+    Requester requester{&prepared, {}, {}};
+    const std::vector<WholeLinkDistance> early = requester.ask(world.pose, stopped);
+    const std::vector<WholeLinkDistance> cold = ask_anew(prepared, world.pose, whole);
+    expect_agree(early, cold);
+    for (std::size_t i = 0; i < early.size(); ++i) {
+      unfinished += early[i].nearest.lower_bound_m < cold[i].nearest.lower_bound_m - 0.001F;
+    }
+    expect_agree(requester.ask(world.pose, whole), cold);
+  }
+  EXPECT_GT(unfinished, 0);
+}
+
 TEST(LastRequest, ASpaceThatBeginsAnewIsAnotherOne) {
   const MeshWorld near = small_world(2);
   const PreparedWorld prepared(near);

@@ -8,23 +8,9 @@
 #include <utility>
 
 #include "berth/distance/last_request.hpp"
+#include "berth/distance/mesh_answers.hpp"
 
 namespace berth {
-namespace mesh {
-
-ConvexPair triangle_pair(const LinkSearch& search, const Pose& X_FL, int triangle,
-                         std::span<const Eigen::Vector3d> body_corners_m) {
-  Eigen::Vector3d corners_m[3];
-  const auto& from_m = search.link->corners_m;
-  for (int i = 0; i < 3; ++i) {
-    corners_m[i] = X_FL * Eigen::Vector3d(from_m[3 * i][triangle], from_m[3 * i + 1][triangle],
-                                          from_m[3 * i + 2][triangle]);
-  }
-  return closest_points(corners_m, body_corners_m);
-}
-
-}  // namespace mesh
-
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -48,6 +34,7 @@ struct Asked {
   const MeshRequest& request;
   /// With one view nothing is seen free by another one: hidden is all that lies behind a reading.
   bool is_shadow() const { return space.views().size() < 2; }
+  bool is_stopped() const { return request.stop && request.stop->stop_requested(); }
 };
 
 /// The pair of the request before is a pair of this one, too. Else there is none.
@@ -141,6 +128,10 @@ void start_nearest(const Asked& asked, LinkState& link) {
   if (link.nearest.is_beyond_cubes) link.nearest.given_up_m = 0;
 }
 
+void search_reading(const Asked& asked, int steps, LinkState& link) {
+  mesh::search_views(asked.space, false, steps, link.reading);
+}
+
 void search_nearest(const Asked& asked, int steps, LinkState& link) {
   if (asked.is_shadow()) {
     mesh::search_views(asked.space, true, steps, link.nearest);
@@ -149,12 +140,22 @@ void search_nearest(const Asked& asked, int steps, LinkState& link) {
   }
 }
 
+/// One of a link's searches, until it is done or somebody stops it.
+template <class Search>
+void search_on(const Asked& asked, const LinkSearch& searched, Search search) {
+  // Some milliseconds.
+  constexpr int kSteps = 4096;
+  do {
+    search(kSteps);
+  } while (!searched.is_done() && !asked.is_stopped());
+}
+
 void search_to_the_end(const Asked& asked, LinkState& link) {
   if (link.reading.link->empty()) return;
-  mesh::search_views(asked.space, false, kEndless, link.reading);
+  search_on(asked, link.reading, [&](int steps) { search_reading(asked, steps, link); });
   if (!asked.request.unknown) return;
   start_nearest(asked, link);
-  search_nearest(asked, kEndless, link);
+  search_on(asked, link.nearest, [&](int steps) { search_nearest(asked, steps, link); });
 }
 
 /// How far its bounds are apart; 0 where that is near enough.
@@ -187,7 +188,7 @@ Turn widest_of(const Asked& asked, std::vector<LinkState>& links) {
   return widest;
 }
 
-/// Goes on where the least is known, until everything is or time is over.
+/// Goes on where the least is known, until everything is, time is over or somebody stops it.
 void search_until(const Asked& asked, Clock::time_point deadline, std::vector<LinkState>& links) {
   constexpr int kSteps = 8;
   if (asked.request.unknown) {
@@ -199,88 +200,12 @@ void search_until(const Asked& asked, Clock::time_point deadline, std::vector<Li
     const Turn turn = widest_of(asked, links);
     if (turn.link == nullptr) return;
     if (turn.is_reading) {
-      mesh::search_views(asked.space, false, kSteps, turn.link->reading);
+      search_reading(asked, kSteps, *turn.link);
       take_reading(turn.link->reading, turn.link->nearest);
     } else {
       search_nearest(asked, kSteps, *turn.link);
     }
-  } while (Clock::now() < deadline);
-}
-
-void set_points(const Eigen::Vector3d& robot_B_m, const Eigen::Vector3d& obstacle_B_m,
-                SpacePair& pair) {
-  pair.robot_point_B_m = robot_B_m.cast<float>();
-  pair.obstacle_point_B_m = obstacle_B_m.cast<float>();
-  pair.distance_m = static_cast<float>(
-      (pair.obstacle_point_B_m.cast<double>() - pair.robot_point_B_m.cast<double>()).norm());
-}
-
-/// The best pair was a triangle and all that a pixel measured, or also what that hides.
-void set_pixel_pair(const UnknownSpace& space, const LinkSearch& search, SpacePair& pair) {
-  const mesh::ImageCell cell = mesh::ImageCell::of_key(search.best_pixel);
-  const FreeingCamera& view = space.views()[cell.view];
-  const Camera& camera = view.space->camera;
-  const double near_m = view.space->obstacle_depth_m(cell.u, cell.v);
-  const double surface_end_m = near_m + view.space->settings.surface_thickness_m;
-  const Pose X_CL = view.X_CB * search.X_BL;
-  // Far enough to hold all within the range: the pair found was nearer.
-  const double far_m =
-      search.best_is_hidden ? surface_end_m + X_CL.translation().norm() + 100 : surface_end_m;
-  Eigen::Vector3d corners_m[8];
-  for (int i = 0; i < 8; ++i) {
-    const double z = i & 4 ? far_m : near_m;
-    corners_m[i] = {z * (cell.u + (i & 1 ? 0.5 : -0.5) - camera.cx_px) / camera.fx_px,
-                    z * (cell.v + (i & 2 ? 0.5 : -0.5) - camera.cy_px) / camera.fy_px, z};
-  }
-  const mesh::ConvexPair found = mesh::triangle_pair(search, X_CL, search.best_triangle, corners_m);
-  set_points(view.X_BC * found.a_m, view.X_BC * found.b_m, pair);
-  const bool is_hidden = search.best_is_hidden && found.b_m.z() > surface_end_m;
-  pair.obstacle_is = is_hidden ? ObstacleKind::unknown : ObstacleKind::occupied;
-  pair.camera = cell.view;
-  pair.obstacle_pixel = {cell.u, cell.v};
-}
-
-/// The best pair was a triangle and a point of unknown space.
-void set_hidden_pair(const UnknownSpace& space, const LinkSearch& search, SpacePair& pair) {
-  const Eigen::Vector3d point_B_m = search.best_point_B_m.cast<double>();
-  const auto hiding = space.hiding_pixel(point_B_m);
-  if (!hiding) return;
-  const mesh::ConvexPair found =
-      mesh::triangle_pair(search, search.X_BL, search.best_triangle, {&point_B_m, 1});
-  set_points(found.a_m, point_B_m, pair);
-  pair.obstacle_is = ObstacleKind::unknown;
-  pair.camera = hiding->view;
-  pair.obstacle_pixel = hiding->pixel;
-}
-
-SpacePair answer_of(const UnknownSpace& space, bool is_shadow, LinkSearch& search) {
-  SpacePair pair;
-  pair.lower_bound_m = search.lower_bound_m();
-  if (!search.is_known()) return pair;
-  if (search.best_is_hidden && !is_shadow) {
-    set_hidden_pair(space, search, pair);
-  } else {
-    set_pixel_pair(space, search, pair);
-  }
-  search.robot_point_L_m = search.X_BL.inverse() * pair.robot_point_B_m.cast<double>();
-  search.obstacle_point_B_m = pair.obstacle_point_B_m.cast<double>();
-  if (!pair.is_known()) search.best_triangle = -1;
-  return pair;
-}
-
-/// Two answers that do not contradict each other.
-void reconcile(WholeLinkDistance& link) {
-  SpacePair& nearest = link.nearest;
-  SpacePair& occupied = link.occupied;
-  if (occupied.is_known() && !(nearest.distance_m <= occupied.distance_m)) {
-    const float lower_bound_m = nearest.lower_bound_m;
-    nearest = occupied;
-    nearest.lower_bound_m = lower_bound_m;
-  }
-  occupied.lower_bound_m = std::max(occupied.lower_bound_m, nearest.lower_bound_m);
-  for (SpacePair* pair : {&nearest, &occupied}) {
-    if (pair->is_known()) pair->lower_bound_m = std::min(pair->lower_bound_m, pair->distance_m);
-  }
+  } while (Clock::now() < deadline && !asked.is_stopped());
 }
 
 WholeLinkDistance answer_of(const Asked& asked, LinkId id, LinkState& link) {
@@ -290,15 +215,15 @@ WholeLinkDistance answer_of(const Asked& asked, LinkId id, LinkState& link) {
     out.nearest.lower_bound_m = out.occupied.lower_bound_m = link.reading.range_m;
     return out;
   }
-  out.occupied = answer_of(asked.space, false, link.reading);
+  out.occupied = mesh::pair_of(asked.space, false, link.reading);
   out.nearest = out.occupied;
   if (asked.request.unknown) {
-    out.nearest = answer_of(asked.space, asked.is_shadow(), link.nearest);
+    out.nearest = mesh::pair_of(asked.space, asked.is_shadow(), link.nearest);
     if (!asked.is_shadow()) {
       out.nearest.lower_bound_m = std::min(out.nearest.lower_bound_m, out.occupied.lower_bound_m);
     }
   }
-  reconcile(out);
+  mesh::reconcile(out);
   return out;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <stop_token>
 
 #include "berth/types/setting.hpp"
 
@@ -67,6 +68,8 @@ struct MeshRequest {
   std::optional<double> deadline_us = std::nullopt;
   /// Whether unknown space is asked for; without it `nearest` is `occupied`.
   bool unknown = true;
+  /// Once it says so the search ends, within milliseconds, as by a deadline; null: nobody stops it.
+  const std::stop_token* stop = nullptr;
 };
 
 /// Throws std::invalid_argument that names key, value and what was expected.

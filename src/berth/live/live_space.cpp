@@ -75,8 +75,10 @@ void LiveSpace::prepare(const std::vector<std::shared_ptr<const Frame>>& frames)
   // The robot has gone on meanwhile.
   if (joints_.buffer().newest(asked_) == TimeStatus::ok) space->search(asked_);
   const double took_s = steady_now_s() - begin_s;
+  // The set before is given back when nobody waits for the mutex.
+  std::shared_ptr<const PreparedSpace> newest = space;
   const std::lock_guard lock(mutex_);
-  newest_ = space;
+  newest_.swap(newest);
   ++counts_.prepared;
   counts_.last_prepare_s = took_s;
   counts_.most_prepare_s = std::max(counts_.most_prepare_s, took_s);

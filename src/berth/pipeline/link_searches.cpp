@@ -47,8 +47,9 @@ void LinkSearches::ask(const FrameSet& frames, const RobotPose& pose,
 }
 
 void LinkSearches::ask(const FrameSet& frames, const RobotPose& pose, Clock::time_point begin,
-                       Result& out) {
+                       const std::stop_token& stop, Result& out) {
   MeshRequest request = request_of(robot_->settings().distance);
+  request.stop = &stop;
   // What follows the search takes about as long as it did the last time.
   if (request.deadline_us) {
     request.deadline_us = std::max(0.0, *request.deadline_us - us_since(begin) - after_search_us_);

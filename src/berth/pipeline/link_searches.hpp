@@ -22,8 +22,9 @@ class LinkSearches {
   explicit LinkSearches(std::shared_ptr<const Robot> robot);
 
   /// Writes the links of `out` for the robot in this pose. At least one frame is used. A deadline
-  /// counts from `begin` and holds for all that is told.
-  void ask(const FrameSet& frames, const RobotPose& pose, Clock::time_point begin, Result& out);
+  /// counts from `begin` and holds for all that is told. `stop` ends the search early.
+  void ask(const FrameSet& frames, const RobotPose& pose, Clock::time_point begin,
+           const std::stop_token& stop, Result& out);
 
   /// Distances alone, of one pose of many.
   void ask(const FrameSet& frames, const RobotPose& pose, std::vector<WholeLinkDistance>& out);

@@ -186,7 +186,7 @@ const Result& Query::ask(const Request& request) {
     result_.status = std::ranges::all_of(cameras_, is_relied_on, &CameraState::status)
                          ? ResultStatus::ok
                          : ResultStatus::degraded;
-    searches_->ask(*asked_, result_.pose, begin, result_);
+    searches_->ask(*asked_, result_.pose, begin, request.stop, result_);
     find_nearest(result_);
   }
   tell_ahead(request);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <stop_token>
 
 #include "berth/pipeline/frame.hpp"
 #include "berth/pipeline/prepared_space.hpp"
@@ -79,6 +80,10 @@ struct Request {
   std::span<const JointState> ahead = {};
   /// Result::ahead tells the first of these poses that may be nearer than this.
   double nearer_than_m = 0;
+  /// Ends the search within milliseconds once it is asked to stop, as a deadline would: a link that
+  /// is not done is LinkStatus::cut_short, or its bounds are apart. For who waits for a request
+  /// over a large range.
+  std::stop_token stop = {};
 };
 
 }  // namespace berth

@@ -62,7 +62,7 @@ SceneRun::SceneRun(const OpenScene& scene, const BackendChoice& where,
   query_.emplace(scene.robot, std::move(names));
   ask_ = [this](bool anew) -> const Result& {
     if (anew) query_->forget();
-    return query_->ask({.frames = kept_});
+    return query_->ask({.frames = kept_, .stop = stop_});
   };
 }
 

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,10 @@ class SceneRun {
   /// The background that this camera began with; none where its settings ask for none.
   std::optional<DepthImage> background_m(std::size_t camera) const;
 
+  /// Once this is asked to stop, a request that runs ends within milliseconds, cut short. Only
+  /// where one result is that of all cameras.
+  void stop_with(std::stop_token stop) { stop_ = std::move(stop); }
+
   /// The rest is about that image. The result, asked so often, with the times of the requests where
   /// that is more than once.
   Result ask(int repeat = 0);
@@ -117,6 +122,7 @@ class SceneRun {
   std::vector<std::shared_ptr<const Frame>> kept_;
   /// Only where one result is that of all cameras.
   std::optional<Query> query_;
+  std::stop_token stop_;
   /// The step's result; `anew`: with nothing known of one before.
   std::function<const Result&(bool anew)> ask_;
   /// Where the scene asks for them, one for each camera; where cameras are joined the first serves.
