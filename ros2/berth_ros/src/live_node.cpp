@@ -73,7 +73,9 @@ void LiveNode::begin() {
       "whether the node configures and activates itself; else a lifecycle manager does";
   descriptor.read_only = true;
   const bool starts_itself = declare_parameter("autostart", true, descriptor);
-  attachments_.emplace(*this, [this](const Attachments::List& list) { use_attached(list); });
+  const ChangeAttached change = [this](const auto& make) { change_attached(make); };
+  attachments_.emplace(*this, change);
+  attach_actions_.emplace(*this, change, [this] { return cameras_waited_for(); });
   follow_moveit();
   NodeSettings::require_declared(*this, has_one_camera_);
   enable_ = create_service<std_srvs::srv::SetBool>(
@@ -97,7 +99,7 @@ void LiveNode::follow_moveit() {
   descriptor.read_only = true;
   if (!declare_parameter("follow_moveit", false, descriptor)) return;
 #ifdef BERTH_ROS_MOVEIT
-  moveit_.emplace(*this, *attachments_);
+  moveit_.emplace(*this, [this](const auto& change) { change_attached(change); });
 #else
   throw std::invalid_argument(
       "follow_moveit: true; expected false, since moveit_msgs was not installed where berth_ros "
@@ -240,6 +242,7 @@ void LiveNode::take_parameters() {
       result.successful = true;
       return result;
     }
+    const std::lock_guard making(making_mutex_);
     try {
       settings_.check(changes);
       result.successful = true;
@@ -264,6 +267,7 @@ void LiveNode::stop() {
   for (const auto& input : inputs_) input->use(nullptr, nullptr, {});
   inputs_.clear();
   transforms_.reset();
+  const std::lock_guard making(making_mutex_);
   const std::lock_guard lock(mutex_);
   model_.reset();
   description_.clear();
@@ -273,6 +277,11 @@ void LiveNode::stop() {
 LiveRobot LiveNode::live() const {
   const std::lock_guard lock(mutex_);
   return live_;
+}
+
+double LiveNode::longest_joint_gap_s() const {
+  const std::lock_guard lock(mutex_);
+  return rhythm_.longest_gap_s();
 }
 
 LiveFrames LiveNode::frames(const berth::Robot& robot) const {
@@ -303,21 +312,21 @@ void LiveNode::look_again() {
 }
 
 void LiveNode::load_model(const std::function<berth::RobotModel()>& load) {
-  std::optional<berth::RobotModel> model;
   std::string trouble;
-  std::vector<std::string> lost;
+  const std::lock_guard making(making_mutex_);
+  model_.reset();
   try {
-    model = load();
+    model_ = load();
   } catch (const std::exception& error) {
     trouble = error.what();
   }
   {
     const std::lock_guard lock(mutex_);
-    model_ = std::move(model);
     robot_trouble_ = trouble;
     live_.joints.reset();
-    if (model_) lost = attachments_->keep_those_of(*model_);
+    rhythm_ = {};
   }
+  const auto lost = model_ ? attached_.keep_those_of(*model_) : std::vector<std::string>();
   for (const std::string& name : lost) {
     RCLCPP_WARN(get_logger(), "detached %s: the new robot does not have its link", name.c_str());
   }
@@ -330,46 +339,59 @@ void LiveNode::on_description(const std_msgs::msg::String& description) {
   load_model([&] { return load_description(description_, settings_.robot_settings()); });
 }
 
-LiveRobot LiveNode::make_robot(const Attachments::List& attached) const {
+LiveRobot LiveNode::make_robot(const AttachmentList& attached) const {
   const auto& scene = settings_.scene();
-  Attachments::List all = scene ? berth::attachments_of(*scene) : Attachments::List();
+  AttachmentList all = scene ? berth::attachments_of(*scene) : AttachmentList();
   all.insert(all.end(), attached.begin(), attached.end());
   LiveRobot made;
   made.robot = std::make_shared<const berth::Robot>(*model_, settings_.evaluation(), all);
   // Neither settings nor what is attached changes joints: those that came stay.
-  made.joints = live_.joints
-                    ? live_.joints
-                    : std::make_shared<berth::JointIntake>(*model_, settings_.joint_settings());
+  made.joints = live().joints;
+  if (!made.joints) {
+    made.joints = std::make_shared<berth::JointIntake>(*model_, settings_.joint_settings());
+  }
   return made;
 }
 
-void LiveNode::use_attached(const Attachments::List& attached) {
-  LiveRobot made;
+void LiveNode::change_attached(const std::function<void(Attached&)>& change) {
   const std::shared_ptr<CallbackGate> gate = this->gate();
   const auto pass = gate->enter();
-  {
-    const std::lock_guard lock(mutex_);
-    if (!pass || !model_) throw std::runtime_error("there is no robot model yet");
-    live_ = made = make_robot(attached);
+  const std::lock_guard making(making_mutex_);
+  if (!pass || !model_) throw std::runtime_error("there is no robot model yet");
+  Attached changed = attached_;
+  change(changed);
+  use(make_robot(changed.all()));
+  attached_ = std::move(changed);
+}
+
+std::vector<std::string> LiveNode::cameras_waited_for() const {
+  const std::shared_ptr<CallbackGate> gate = this->gate();
+  const auto pass = gate->enter();
+  const LiveRobot now = live();
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < camera_names_.size(); ++i) {
+    const bool has_image = pass && now.robot && inputs_[i]->newest(now.robot.get());
+    if (!has_image) names.push_back(camera_names_[i]);
   }
-  use(made);
+  return names;
 }
 
 void LiveNode::rebuild() {
   LiveRobot made;
   try {
-    const std::lock_guard lock(mutex_);
-    if (model_) made = make_robot(attachments_->list());
-    live_ = made;
+    if (model_) made = make_robot(attached_.all());
   } catch (const std::exception& error) {
     const std::lock_guard lock(mutex_);
     robot_trouble_ = error.what();
-    live_ = {};
   }
   use(made);
 }
 
 void LiveNode::use(const LiveRobot& made) {
+  {
+    const std::lock_guard lock(mutex_);
+    live_ = made;
+  }
   const std::vector<CameraSettings> cameras = settings_.cameras();
   for (std::size_t i = 0; i < inputs_.size(); ++i) {
     inputs_[i]->use(made.robot, made.joints, cameras[i].view);
@@ -396,6 +418,7 @@ void LiveNode::on_joint_state(const sensor_msgs::msg::JointState& state) {
     const std::lock_guard lock(mutex_);
     ++joint_messages_;
     joint_trouble_ = trouble;
+    rhythm_.add(now.joints->buffer().newest_stamp_s());
     if (!trouble.empty()) ++refused_joint_messages_;
   }
   look_again();
@@ -444,8 +467,9 @@ std::string LiveNode::joint_trouble(const LiveRobot& robot, double now_s) const 
            (waiting_for.empty() ? "" : " (waiting for joint " + waiting_for + ")");
   }
   if (!joint_trouble_.empty()) return "the newest message was refused: " + joint_trouble_;
-  if (age_s <= max_age_s) return "";
-  return "the newest are up to " + in_ms(age_s) + " old; time.max_joints_age_s allows " +
+  const double oldest_s = std::max(age_s, rhythm_.longest_gap_s());
+  if (oldest_s <= max_age_s) return "";
+  return "the newest are up to " + in_ms(oldest_s) + " old; time.max_joints_age_s allows " +
          in_ms(max_age_s);
 }
 
