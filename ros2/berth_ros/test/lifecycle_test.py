@@ -137,9 +137,11 @@ class Lifecycle(LivingRobot):
             range_m = 0.5 + 0.01 * k
             parameters = [Parameter("evaluation.range_m", value=range_m).to_parameter_msg()]
             self.description.publish(String(data=URDF.replace("two_boxes", f"robot_{k}")))
-            futures = [attach.call_async(part), settings.call_async(SetParameters.Request(parameters=parameters)),
-                       detach.call_async(Detach.Request(name="part"))]
+            attached = attach.call_async(part)
+            self.assertTrue(self.wait_until(attached.done))
             self.description.publish(String(data=URDF))
+            # Services are served in any order.
+            futures = [settings.call_async(SetParameters.Request(parameters=parameters)), detach.call_async(Detach.Request(name="part"))]
             self.assertTrue(self.wait_until(lambda futures=futures: all(future.done() for future in futures)))
             type(self).newest = None
             self.assertTrue(self.wait_until(lambda range_m=range_m: self.answers() and abs(self.newest.range_m - range_m) < 1e-6
