@@ -26,9 +26,26 @@ double size_m(const shape_msgs::msg::SolidPrimitive& shape, std::size_t i) {
                               std::to_string(size) + "; expected metres above 0");
 }
 
-Attachments::List joined(Attachments::List first, const Attachments::List& second) {
-  first.insert(first.end(), second.begin(), second.end());
-  return first;
+/// A service's request or an action's goal, which have the same fields.
+template <class Told>
+berth::Attachment told_by(const Told& request) {
+  const bool has_shape = request.shape.type != 0;
+  const bool has_mesh = !request.mesh.triangles.empty();
+  const bool has_resource = !request.mesh_resource.empty();
+  if (has_shape + has_mesh + has_resource != 1) {
+    throw std::invalid_argument("expected one of shape, mesh and mesh_resource; " +
+                                std::to_string(has_shape + has_mesh + has_resource) + " are given");
+  }
+  if (request.name.empty()) throw std::invalid_argument("name: empty; expected a name");
+  berth::Attachment attachment;
+  attachment.name = request.name;
+  attachment.link = request.link;
+  attachment.is_link = request.is_link;
+  attachment.X_LA = pose_of(request.pose);
+  attachment.mesh_A = has_shape  ? mesh_of(request.shape)
+                      : has_mesh ? mesh_of(request.mesh)
+                                 : berth::read_mesh_file(mesh_file_of(request.mesh_resource));
+  return attachment;
 }
 
 template <class Response, class Act>
@@ -98,73 +115,28 @@ berth::Pose pose_of(const geometry_msgs::msg::Pose& pose) {
 }
 
 berth::Attachment attachment_of(const berth_msgs::srv::Attach::Request& request) {
-  const bool has_shape = request.shape.type != 0;
-  const bool has_mesh = !request.mesh.triangles.empty();
-  const bool has_resource = !request.mesh_resource.empty();
-  if (has_shape + has_mesh + has_resource != 1) {
-    throw std::invalid_argument("expected one of shape, mesh and mesh_resource; " +
-                                std::to_string(has_shape + has_mesh + has_resource) + " are given");
-  }
-  if (request.name.empty()) throw std::invalid_argument("name: empty; expected a name");
-  berth::Attachment attachment;
-  attachment.name = request.name;
-  attachment.link = request.link;
-  attachment.is_link = request.is_link;
-  attachment.X_LA = pose_of(request.pose);
-  attachment.mesh_A = has_shape  ? mesh_of(request.shape)
-                      : has_mesh ? mesh_of(request.mesh)
-                                 : berth::read_mesh_file(mesh_file_of(request.mesh_resource));
-  return attachment;
+  return told_by(request);
 }
 
-Attachments::Attachments(rclcpp_lifecycle::LifecycleNode& node, Use use) : use_(std::move(use)) {
-  using berth_msgs::srv::Attach;
-  using berth_msgs::srv::Detach;
-  attach_ = node.create_service<Attach>(
-      "~/attach",
-      [this](const Attach::Request::SharedPtr& request, const Attach::Response::SharedPtr& out) {
-        answer(*out, [&] { attach(attachment_of(*request)); });
-      });
-  detach_ = node.create_service<Detach>(
-      "~/detach",
-      [this](const Detach::Request::SharedPtr& request, const Detach::Response::SharedPtr& out) {
-        answer(*out, [&] { detach(request->name); });
-      });
+berth::Attachment attachment_of(const berth_msgs::action::Attach::Goal& goal) {
+  return told_by(goal);
 }
 
-Attachments::List Attachments::list() const {
-  const std::lock_guard lock(mutex_);
-  return joined(told_, followed_);
+AttachmentList Attached::all() const {
+  AttachmentList both = told;
+  both.insert(both.end(), followed.begin(), followed.end());
+  return both;
 }
 
-void Attachments::change(const List& told, const List& followed) {
-  use_(joined(told, followed));
-  const std::lock_guard lock(mutex_);
-  told_ = told;
-  followed_ = followed;
-}
-
-void Attachments::attach(const berth::Attachment& attachment) {
-  List told = told_;
-  told.push_back(attachment);
-  change(told, followed_);
-}
-
-void Attachments::detach(const std::string& name) {
-  List told = told_;
+void Attached::detach(const std::string& name) {
   const auto is_it = [&](const berth::Attachment& one) { return one.name == name; };
-  if (std::erase_if(told, is_it) == 0) {
-    throw std::invalid_argument("name: nothing called \"" + name + "\" was attached by a message");
-  }
-  change(told, followed_);
+  if (std::erase_if(told, is_it) > 0) return;
+  throw std::invalid_argument("name: nothing called \"" + name + "\" was attached by a message");
 }
 
-void Attachments::follow(const List& whole) { change(told_, whole); }
-
-std::vector<std::string> Attachments::keep_those_of(const berth::RobotModel& model) {
-  const std::lock_guard lock(mutex_);
+std::vector<std::string> Attached::keep_those_of(const berth::RobotModel& model) {
   std::vector<std::string> lost;
-  for (List* list : {&told_, &followed_}) {
+  for (AttachmentList* list : {&told, &followed}) {
     std::erase_if(*list, [&](const berth::Attachment& one) {
       const bool is_lost = !model.find_link(one.link);
       if (is_lost) lost.push_back(one.name);
@@ -172,6 +144,24 @@ std::vector<std::string> Attachments::keep_those_of(const berth::RobotModel& mod
     });
   }
   return lost;
+}
+
+Attachments::Attachments(rclcpp_lifecycle::LifecycleNode& node, const ChangeAttached& change) {
+  using berth_msgs::srv::Attach;
+  using berth_msgs::srv::Detach;
+  attach_ = node.create_service<Attach>(
+      "~/attach",
+      [change](const Attach::Request::SharedPtr& request, const Attach::Response::SharedPtr& out) {
+        answer(*out, [&] {
+          const berth::Attachment part = attachment_of(*request);
+          change([&](Attached& attached) { attached.told.push_back(part); });
+        });
+      });
+  detach_ = node.create_service<Detach>(
+      "~/detach",
+      [change](const Detach::Request::SharedPtr& request, const Detach::Response::SharedPtr& out) {
+        answer(*out, [&] { change([&](Attached& attached) { attached.detach(request->name); }); });
+      });
 }
 
 }  // namespace berth_ros

@@ -1,10 +1,10 @@
 // What the robot has taken up, as services tell it.
 #pragma once
 
+#include <berth_msgs/action/attach.hpp>
 #include <berth_msgs/srv/attach.hpp>
 #include <berth_msgs/srv/detach.hpp>
 #include <functional>
-#include <mutex>
 #include <rclcpp_lifecycle/lifecycle_node.hpp>
 #include <string>
 #include <vector>
@@ -23,36 +23,36 @@ berth::TriangleMesh mesh_of(const shape_msgs::msg::Mesh& mesh);
 /// Throws std::invalid_argument for a pose whose numbers are not finite or are no rotation.
 berth::Pose pose_of(const geometry_msgs::msg::Pose& pose);
 
-/// Throws std::exception that names what was wrong.
+/// Throw std::exception that names what was wrong.
 berth::Attachment attachment_of(const berth_msgs::srv::Attach::Request& request);
+berth::Attachment attachment_of(const berth_msgs::action::Attach::Goal& goal);
 
-class Attachments {
- public:
-  using List = std::vector<berth::Attachment>;
-  /// Makes the robot anew with these; throws std::exception, and does nothing, where it cannot.
-  using Use = std::function<void(const List&)>;
+using AttachmentList = std::vector<berth::Attachment>;
 
-  /// Offers ~/attach and ~/detach.
-  Attachments(rclcpp_lifecycle::LifecycleNode& node, Use use);
+/// All that is attached.
+struct Attached {
+  /// By the services.
+  AttachmentList told;
+  /// By somebody else, whom the node follows.
+  AttachmentList followed;
 
-  /// What the services told, then what somebody else did.
-  List list() const;
+  AttachmentList all() const;
+  /// Throws std::invalid_argument where nothing of this name was told.
+  void detach(const std::string& name);
   /// Forgets those whose link this robot does not have, and returns their names.
   std::vector<std::string> keep_those_of(const berth::RobotModel& model);
-  /// Throw std::exception, and change nothing, where it cannot be.
-  void attach(const berth::Attachment& attachment);
-  void detach(const std::string& name);
-  /// The whole that somebody else has attached, beside what the services did.
-  void follow(const List& whole);
+};
+
+/// Makes the robot anew with what this call makes of what is attached. One change at a time.
+/// Throws std::exception, and changes nothing, where that cannot be, or the call throws.
+using ChangeAttached = std::function<void(const std::function<void(Attached&)>&)>;
+
+/// The services ~/attach and ~/detach.
+class Attachments {
+ public:
+  Attachments(rclcpp_lifecycle::LifecycleNode& node, const ChangeAttached& change);
 
  private:
-  /// Uses both, and keeps them.
-  void change(const List& told, const List& followed);
-
-  Use use_;
-  mutable std::mutex mutex_;
-  List told_;
-  List followed_;
   rclcpp::Service<berth_msgs::srv::Attach>::SharedPtr attach_;
   rclcpp::Service<berth_msgs::srv::Detach>::SharedPtr detach_;
 };

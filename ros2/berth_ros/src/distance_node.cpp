@@ -191,7 +191,7 @@ class DistanceNode : public LiveNode {
     const double now_s = clock_.seconds(now);
     result_ =
         query_->ask({.frames = ready ? berth::NewestFrames(ready) : berth::NewestFrames(frames),
-                     .joints = joints,
+                     .joints = requested_joints(joints, now_s),
                      .now_s = now_s,
                      .X_WB = root_at(*robot_.robot, joints.newest_stamp_s())});
     to_message(result_, base_frame(), now, clock_, message);
@@ -204,6 +204,17 @@ class DistanceNode : public LiveNode {
       }
     }
     to_message(message, may_be_degraded_, separation_message_);
+  }
+
+  /// The newest ones. Where they come too seldom for questions between them, they are as old as
+  /// they get before the next ones come, so that answers do not come and go with each of them.
+  berth::RequestedJoints requested_joints(const berth::JointBuffer& joints, double now_s) {
+    const double gap_s = longest_joint_gap_s();
+    const bool is_seldom =
+        question_hz_ > 0 && gap_s > robot_.robot->settings().time.max_joints_age_s;
+    if (!is_seldom || joints.newest(seldom_joints_) != berth::TimeStatus::ok) return joints;
+    seldom_joints_.stamp_s = std::min(seldom_joints_.stamp_s, now_s - gap_s);
+    return seldom_joints_;
   }
 
   /// There is no robot model yet, or the node is not to answer.
@@ -299,6 +310,8 @@ class DistanceNode : public LiveNode {
   mutable std::mutex space_mutex_;
   std::shared_ptr<RobotSpace> space_;
   ExposureAnswers exposures_;
+  /// Of a question whose joints come too seldom.
+  berth::JointState seldom_joints_;
   /// The newest, with its separation.
   berth::Result result_;
   /// For markers, where there are any.

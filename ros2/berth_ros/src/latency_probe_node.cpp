@@ -87,7 +87,7 @@ class LatencyProbeNode : public rclcpp::Node {
     const std::lock_guard lock(mutex_);
     const bool counts = (heard - begin_).seconds() > warm_up_s_;
     results_ += counts;
-    stale_ += counts && result.status == berth_msgs::msg::LinkDistances::STALE;
+    ok_ += counts && result.status == berth_msgs::msg::LinkDistances::OK;
     const auto take = [&](const std::string& name, const builtin_interfaces::msg::Time& stamp) {
       const rclcpp::Time at(stamp);
       rclcpp::Time& last = last_.try_emplace(name, 0, 0, at.get_clock_type()).first->second;
@@ -102,9 +102,9 @@ class LatencyProbeNode : public rclcpp::Node {
   void finish() {
     const std::lock_guard lock(mutex_);
     std::printf(
-        "%ld results, %ld stale\n| in | new ones | median, ms | 99 %% | greatest |\n"
+        "%.0f results a second, %.1f %% ok\n| in | new ones | median, ms | 99 %% | greatest |\n"
         "| --- | ---: | ---: | ---: | ---: |\n",
-        results_, stale_);
+        results_ / seconds_, results_ > 0 ? 100.0 * ok_ / results_ : 0.0);
     for (const auto& [name, times_us] : times_us_)
       std::fputs(row_of(name, times_us).c_str(), stdout);
     std::fflush(stdout);
@@ -122,8 +122,8 @@ class LatencyProbeNode : public rclcpp::Node {
   std::map<std::string, rclcpp::Time> last_;
   /// What came in, and how long after it a result knew of it.
   std::map<std::string, std::vector<double>> times_us_;
-  long results_ = 0;
-  long stale_ = 0;
+  double results_ = 0;
+  double ok_ = 0;
   rclcpp::Time begin_;
   rclcpp::Subscription<berth_msgs::msg::LinkDistances>::SharedPtr distances_;
   std::jthread player_;

@@ -4,49 +4,16 @@
 #include <chrono>
 #include <lifecycle_msgs/msg/state.hpp>
 
-#include "berth/pipeline/camera_state.hpp"
-#include "berth/results/result_text.hpp"
 #include "berth/scene/open_scene.hpp"
 #include "robot_description.hpp"
 
 namespace berth_ros {
 namespace {
 
-using diagnostic_msgs::msg::DiagnosticStatus;
 using diagnostic_updater::DiagnosticStatusWrapper;
 
 /// Often enough to see what is lost for two images.
 constexpr std::chrono::milliseconds kWatchPeriod{50};
-
-double steady_now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-/// How many a second since the report before.
-double rate_since(std::int64_t count, const rclcpp::Time& now, std::int64_t& before,
-                  rclcpp::Time& before_at) {
-  const double passed_s = before_at.nanoseconds() == 0 ? 0 : (now - before_at).seconds();
-  const double rate = passed_s > 0 ? (count - before) / passed_s : 0;
-  before = count;
-  before_at = now;
-  return rate;
-}
-
-bool waits_for_joints(const CameraReport& report) {
-  using berth::TimeStatus;
-  if (!report.trouble.empty() || !report.newest) return false;
-  const TimeStatus status = report.newest->time.status;
-  return status == TimeStatus::no_joints || status == TimeStatus::missing_joint ||
-         status == TimeStatus::extrapolated_too_far || status == TimeStatus::skewed;
-}
-
-std::shared_ptr<CallbackGate> closed_gate() {
-  auto gate = std::make_shared<CallbackGate>();
-  gate->close();
-  return gate;
-}
-
-std::string in_ms(double seconds) { return std::to_string(std::lround(1e3 * seconds)) + " ms"; }
 
 }  // namespace
 
@@ -55,7 +22,8 @@ LiveNode::LiveNode(const std::string& name, const rclcpp::NodeOptions& options, 
       diagnostics_(this),
       has_one_camera_(has_one_camera),
       settings_(*this, has_one_camera),
-      gate_(closed_gate()) {
+      gate_(std::make_shared<CallbackGate>()) {
+  gate_->close();
   for (const CameraSettings& camera : settings_.cameras()) camera_names_.push_back(camera.name);
   diagnostics_.setHardwareID("berth");
   diagnostics_.add("robot", [this](DiagnosticStatusWrapper& status) { report_robot(status); });
@@ -73,7 +41,9 @@ void LiveNode::begin() {
       "whether the node configures and activates itself; else a lifecycle manager does";
   descriptor.read_only = true;
   const bool starts_itself = declare_parameter("autostart", true, descriptor);
-  attachments_.emplace(*this, [this](const Attachments::List& list) { use_attached(list); });
+  const ChangeAttached change = [this](const auto& make) { change_attached(make); };
+  attachments_.emplace(*this, change);
+  attach_actions_.emplace(*this, change, [this] { return cameras_waited_for(); });
   follow_moveit();
   NodeSettings::require_declared(*this, has_one_camera_);
   enable_ = create_service<std_srvs::srv::SetBool>(
@@ -97,7 +67,7 @@ void LiveNode::follow_moveit() {
   descriptor.read_only = true;
   if (!declare_parameter("follow_moveit", false, descriptor)) return;
 #ifdef BERTH_ROS_MOVEIT
-  moveit_.emplace(*this, *attachments_);
+  moveit_.emplace(*this, [this](const auto& change) { change_attached(change); });
 #else
   throw std::invalid_argument(
       "follow_moveit: true; expected false, since moveit_msgs was not installed where berth_ros "
@@ -175,7 +145,7 @@ void LiveNode::make_cameras() {
     robot_trouble_ = "no robot_description yet";
     joint_trouble_ = "no joint state yet";
   }
-  log_.emplace(get_logger(), steady_now_s());
+  log_.emplace(get_logger(), StatusLog::now_s());
   transforms_.emplace(*this, gate(), [this] { look_again(); });
   images_ = std::make_unique<ImageNode>(*this, std::max<std::size_t>(2, cameras.size()));
   for (std::size_t i = 0; i < cameras.size(); ++i) {
@@ -240,6 +210,7 @@ void LiveNode::take_parameters() {
       result.successful = true;
       return result;
     }
+    const std::lock_guard making(making_mutex_);
     try {
       settings_.check(changes);
       result.successful = true;
@@ -264,6 +235,7 @@ void LiveNode::stop() {
   for (const auto& input : inputs_) input->use(nullptr, nullptr, {});
   inputs_.clear();
   transforms_.reset();
+  const std::lock_guard making(making_mutex_);
   const std::lock_guard lock(mutex_);
   model_.reset();
   description_.clear();
@@ -273,6 +245,11 @@ void LiveNode::stop() {
 LiveRobot LiveNode::live() const {
   const std::lock_guard lock(mutex_);
   return live_;
+}
+
+double LiveNode::longest_joint_gap_s() const {
+  const std::lock_guard lock(mutex_);
+  return rhythm_.longest_gap_s();
 }
 
 LiveFrames LiveNode::frames(const berth::Robot& robot) const {
@@ -303,21 +280,22 @@ void LiveNode::look_again() {
 }
 
 void LiveNode::load_model(const std::function<berth::RobotModel()>& load) {
-  std::optional<berth::RobotModel> model;
   std::string trouble;
-  std::vector<std::string> lost;
+  const std::lock_guard making(making_mutex_);
+  model_.reset();
   try {
-    model = load();
+    model_ = load();
   } catch (const std::exception& error) {
     trouble = error.what();
   }
   {
     const std::lock_guard lock(mutex_);
-    model_ = std::move(model);
     robot_trouble_ = trouble;
-    live_.joints.reset();
-    if (model_) lost = attachments_->keep_those_of(*model_);
+    // Joints are another robot's; nobody uses half of both.
+    live_ = {};
+    rhythm_ = {};
   }
+  const auto lost = model_ ? attached_.keep_those_of(*model_) : std::vector<std::string>();
   for (const std::string& name : lost) {
     RCLCPP_WARN(get_logger(), "detached %s: the new robot does not have its link", name.c_str());
   }
@@ -330,46 +308,59 @@ void LiveNode::on_description(const std_msgs::msg::String& description) {
   load_model([&] { return load_description(description_, settings_.robot_settings()); });
 }
 
-LiveRobot LiveNode::make_robot(const Attachments::List& attached) const {
+LiveRobot LiveNode::make_robot(const AttachmentList& attached) const {
   const auto& scene = settings_.scene();
-  Attachments::List all = scene ? berth::attachments_of(*scene) : Attachments::List();
+  AttachmentList all = scene ? berth::attachments_of(*scene) : AttachmentList();
   all.insert(all.end(), attached.begin(), attached.end());
   LiveRobot made;
   made.robot = std::make_shared<const berth::Robot>(*model_, settings_.evaluation(), all);
   // Neither settings nor what is attached changes joints: those that came stay.
-  made.joints = live_.joints
-                    ? live_.joints
-                    : std::make_shared<berth::JointIntake>(*model_, settings_.joint_settings());
+  made.joints = live().joints;
+  if (!made.joints) {
+    made.joints = std::make_shared<berth::JointIntake>(*model_, settings_.joint_settings());
+  }
   return made;
 }
 
-void LiveNode::use_attached(const Attachments::List& attached) {
-  LiveRobot made;
+void LiveNode::change_attached(const std::function<void(Attached&)>& change) {
   const std::shared_ptr<CallbackGate> gate = this->gate();
   const auto pass = gate->enter();
-  {
-    const std::lock_guard lock(mutex_);
-    if (!pass || !model_) throw std::runtime_error("there is no robot model yet");
-    live_ = made = make_robot(attached);
+  const std::lock_guard making(making_mutex_);
+  if (!pass || !model_) throw std::runtime_error("there is no robot model yet");
+  Attached changed = attached_;
+  change(changed);
+  use(make_robot(changed.all()));
+  attached_ = std::move(changed);
+}
+
+std::vector<std::string> LiveNode::cameras_waited_for() const {
+  const std::shared_ptr<CallbackGate> gate = this->gate();
+  const auto pass = gate->enter();
+  const LiveRobot now = live();
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < camera_names_.size(); ++i) {
+    const bool has_image = pass && now.robot && inputs_[i]->newest(now.robot.get());
+    if (!has_image) names.push_back(camera_names_[i]);
   }
-  use(made);
+  return names;
 }
 
 void LiveNode::rebuild() {
   LiveRobot made;
   try {
-    const std::lock_guard lock(mutex_);
-    if (model_) made = make_robot(attachments_->list());
-    live_ = made;
+    if (model_) made = make_robot(attached_.all());
   } catch (const std::exception& error) {
     const std::lock_guard lock(mutex_);
     robot_trouble_ = error.what();
-    live_ = {};
   }
   use(made);
 }
 
 void LiveNode::use(const LiveRobot& made) {
+  {
+    const std::lock_guard lock(mutex_);
+    live_ = made;
+  }
   const std::vector<CameraSettings> cameras = settings_.cameras();
   for (std::size_t i = 0; i < inputs_.size(); ++i) {
     inputs_[i]->use(made.robot, made.joints, cameras[i].view);
@@ -396,179 +387,11 @@ void LiveNode::on_joint_state(const sensor_msgs::msg::JointState& state) {
     const std::lock_guard lock(mutex_);
     ++joint_messages_;
     joint_trouble_ = trouble;
+    rhythm_.add(now.joints->buffer().newest_stamp_s());
     if (!trouble.empty()) ++refused_joint_messages_;
   }
   look_again();
   on_joints();
-}
-
-void LiveNode::watch() {
-  const double now_s = steady_now_s();
-  const LiveRobot robot = live();
-  log_->tell("robot", robot_trouble(), now_s);
-  // What else is missing is told once this is there.
-  if (!robot.robot) return;
-  const double clock_s = clock_.seconds(this->now());
-  {
-    const double age_s = clock_s - robot.joints->buffer().newest_stamp_s();
-    const std::lock_guard lock(mutex_);
-    if (age_s > oldest_joints_s_) oldest_joints_s_ = age_s;
-  }
-  const std::string joints = joint_trouble(robot, clock_s);
-  log_->tell("joint states", joints, now_s);
-  for (std::size_t i = 0; i < inputs_.size(); ++i) {
-    const CameraReport report = inputs_[i]->report();
-    const std::string name = "camera " + camera_names_[i];
-    log_->tell("images of " + name, report.rate.trouble(), now_s);
-    // Without joints no image can be used: one line tells of both.
-    if (!joints.empty() && waits_for_joints(report)) continue;
-    log_->tell(name, camera_trouble(report, robot, clock_s), now_s, !report.pose_trouble.empty());
-  }
-}
-
-std::string LiveNode::robot_trouble() const {
-  const std::lock_guard lock(mutex_);
-  return live_.robot ? "" : robot_trouble_;
-}
-
-std::string LiveNode::joint_trouble(const LiveRobot& robot, double now_s) const {
-  if (!robot.joints) return "no robot model yet";
-  const double max_age_s = robot.robot->settings().time.max_joints_age_s;
-  const double age_s = now_s - robot.joints->buffer().newest_stamp_s();
-  const std::string waiting_for(robot.joints->waiting_for());
-  const std::lock_guard lock(mutex_);
-  // NaN, which is no limit's, too.
-  if (!(age_s <= max_age_s + 1)) {
-    if (!joint_trouble_.empty()) return joint_trouble_;
-    return "no new joint states" +
-           (waiting_for.empty() ? "" : " (waiting for joint " + waiting_for + ")");
-  }
-  if (!joint_trouble_.empty()) return "the newest message was refused: " + joint_trouble_;
-  if (age_s <= max_age_s) return "";
-  return "the newest are up to " + in_ms(age_s) + " old; time.max_joints_age_s allows " +
-         in_ms(max_age_s);
-}
-
-std::string LiveNode::camera_trouble(const CameraReport& report, const LiveRobot& robot,
-                                     double now_s) const {
-  if (!report.trouble.empty()) return report.trouble;
-  if (!robot.robot) return "no robot model yet";
-  if (!report.newest) return "no image observed yet";
-  berth::CameraResult camera;
-  static_cast<berth::CameraState&>(camera) =
-      berth::camera_state(report.newest.get(), now_s, robot.robot->settings().time);
-  camera.camera = report.newest->view->mount().name;
-  // The line begins with the camera's name.
-  std::string trouble = berth::camera_text(camera);
-  const std::string name = "camera " + camera.camera + " ";
-  if (trouble.rfind(name, 0) == 0) trouble.erase(0, name.size());
-  // Images that wait for transforms may also be dropped for newer ones, until the last one is old.
-  const bool lacks_pose = !trouble.empty() && !report.pose_trouble.empty();
-  return lacks_pose ? trouble + ": " + report.pose_trouble : trouble;
-}
-
-void LiveNode::report_robot(DiagnosticStatusWrapper& status) {
-  const std::lock_guard lock(mutex_);
-  if (!live_.robot) {
-    return status.summary(DiagnosticStatus::ERROR,
-                          is_active_ ? robot_trouble_ : "the node is not active");
-  }
-  status.summary(DiagnosticStatus::OK, "loaded");
-  status.add("robot", live_.robot->model().name);
-  status.add("links evaluated", live_.robot->model().link_count());
-  status.add("joints", live_.robot->model().joints.size());
-}
-
-void LiveNode::report_joints(DiagnosticStatusWrapper& status) {
-  const LiveRobot robot = live();
-  const rclcpp::Time now = this->now();
-  double oldest_s = 0;
-  {
-    const std::lock_guard lock(mutex_);
-    status.add("messages a second",
-               rate_since(joint_messages_, now, reported_joints_, reported_joints_at_));
-    status.add("refused", refused_joint_messages_);
-    oldest_s = std::exchange(oldest_joints_s_, 0);
-  }
-  if (!robot.joints) return status.summary(DiagnosticStatus::WARN, "no robot model yet");
-  const double age_s = clock_.seconds(now) - robot.joints->buffer().newest_stamp_s();
-  const double max_age_s = robot.robot->settings().time.max_joints_age_s;
-  const std::string waiting_for(robot.joints->waiting_for());
-  status.add("age of the newest whole sample, s", age_s);
-  status.add("greatest age since the last report, s", oldest_s);
-  status.add("clock was set back", robot.joints->restarts());
-  if (!waiting_for.empty()) status.add("waiting for joint", waiting_for);
-  const std::string trouble = joint_trouble(robot, clock_.seconds(now));
-  if (!(age_s <= max_age_s + 1)) return status.summary(DiagnosticStatus::ERROR, trouble);
-  if (!trouble.empty()) return status.summary(DiagnosticStatus::WARN, trouble);
-  if (oldest_s > max_age_s) {
-    return status.summary(DiagnosticStatus::WARN, "now and then they are " + in_ms(oldest_s) +
-                                                      " old; time.max_joints_age_s allows " +
-                                                      in_ms(max_age_s));
-  }
-  status.summary(DiagnosticStatus::OK, "coming");
-}
-
-void LiveNode::report_camera(std::size_t camera, DiagnosticStatusWrapper& status) {
-  const std::shared_ptr<CallbackGate> gate = this->gate();
-  const auto pass = gate->enter();
-  if (pass && camera < inputs_.size()) return report_input(camera, status);
-  status.summary(DiagnosticStatus::WARN, "the node is not configured");
-}
-
-void LiveNode::report_input(std::size_t camera, DiagnosticStatusWrapper& status) {
-  const CameraReport report = inputs_[camera]->report();
-  const rclcpp::Time now = this->now();
-  status.add("images a second", rate_since(report.counts.images, now, reported_images_[camera],
-                                           reported_images_at_[camera]));
-  if (report.rate.is_known()) {
-    status.add("images a second that the camera sends", report.rate.sent_hz());
-    status.add("images a second that arrive", report.rate.arrived_hz());
-  }
-  status.add("dropped", report.counts.dropped);
-  status.add("refused", report.refused);
-  status.add("stale", report.counts.stale);
-  status.add("waited for joints, ms", 1e3 * report.counts.last_wait_s);
-  status.add("longest wait, ms", 1e3 * report.counts.longest_wait_s);
-  status.add("observed in, ms", 1e3 * report.counts.last_observe_s);
-  status.add("pose from", report.pose_from);
-  status.add("poses so far", report.mounts);
-  const LiveRobot robot = live();
-  if (report.newest && robot.robot) report_frame(*report.newest, *robot.robot, status);
-  const double now_s = clock_.seconds(now);
-  const std::string trouble = camera_trouble(report, robot, now_s);
-  if (trouble.empty()) {
-    const std::string lost = report.rate.trouble();
-    return lost.empty() ? status.summary(DiagnosticStatus::OK, "ok")
-                        : status.summary(DiagnosticStatus::WARN, lost);
-  }
-  const bool is_lost =
-      !report.trouble.empty() || !report.newest || !robot.robot ||
-      !berth::is_used(
-          berth::camera_state(report.newest.get(), now_s, robot.robot->settings().time).status);
-  const bool is_waiting = report.trouble.empty() && (!report.newest || !robot.robot);
-  status.summary(is_lost && !is_waiting ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN,
-                 trouble);
-}
-
-void LiveNode::report_frame(const berth::Frame& frame, const berth::Robot& robot,
-                            DiagnosticStatusWrapper& status) {
-  const auto pixels = static_cast<double>(frame.obstacles.fate.pixels().size());
-  for (int i = 0; pixels > 0 && i < berth::kPixelFateCount; ++i) {
-    const auto fate = static_cast<berth::PixelFate>(i);
-    if (frame.obstacles.count[i] == 0) continue;
-    status.add("share of pixels: " + std::string(name_of(fate)), frame.obstacles.count[i] / pixels);
-  }
-  const berth::CameraState state =
-      berth::camera_state(&frame, clock_.seconds(this->now()), robot.settings().time);
-  status.add("age of the newest image, s", state.age_s);
-  if (state.watch.is_on) {
-    status.add("seen through the robot", state.watch.seen_through);
-    status.add("robot displaced by, m", state.watch.displacement_m);
-  }
-  if (state.watch.is_implausible) {
-    status.add("share of readings at the robot's surface", state.watch.at_robot);
-  }
 }
 
 }  // namespace berth_ros

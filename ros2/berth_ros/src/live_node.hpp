@@ -12,10 +12,12 @@
 #include <string>
 #include <vector>
 
+#include "attach_actions.hpp"
 #include "attachments.hpp"
 #include "callback_gate.hpp"
 #include "camera_input.hpp"
 #include "image_node.hpp"
+#include "joint_rhythm.hpp"
 #include "node_settings.hpp"
 #include "stamp_clock.hpp"
 #include "status_log.hpp"
@@ -85,6 +87,8 @@ class LiveNode : public rclcpp_lifecycle::LifecycleNode {
   }
   /// The newest of each camera of this robot.
   LiveFrames frames(const berth::Robot& robot) const;
+  /// Of the last joint samples.
+  double longest_joint_gap_s() const;
   /// Where the robot's root stands at this time: none where it does not move, not finite where
   /// nobody knows.
   std::optional<berth::Pose> root_at(const berth::Robot& robot, double stamp_s);
@@ -111,13 +115,15 @@ class LiveNode : public rclcpp_lifecycle::LifecycleNode {
   void take_parameters();
   void on_description(const std_msgs::msg::String& description);
   void on_joint_state(const sensor_msgs::msg::JointState& state);
+  // All that makes the robot anew is called with making_mutex_.
   /// Makes robot and cameras anew of model_ and settings_; or says in robot_trouble_ why not.
   void rebuild();
-  /// The same with these attached. Throws std::exception, and changes nothing, where that cannot
-  /// be.
-  void use_attached(const Attachments::List& attached);
-  /// To be called with the mutex, where there is a model.
-  LiveRobot make_robot(const Attachments::List& attached) const;
+  /// See ChangeAttached.
+  void change_attached(const std::function<void(Attached&)>& change);
+  /// See AttachActions::Waiting.
+  std::vector<std::string> cameras_waited_for() const;
+  /// To be called where there is a model.
+  LiveRobot make_robot(const AttachmentList& attached) const;
   void use(const LiveRobot& made);
   void load_model(const std::function<berth::RobotModel()>& load);
   /// Tells the log how all stands.
@@ -139,11 +145,17 @@ class LiveNode : public rclcpp_lifecycle::LifecycleNode {
   std::atomic<bool> is_active_ = false;
   std::atomic<bool> is_enabled_ = true;
 
-  mutable std::mutex mutex_;
+  /// Held while a robot is made and all are told of it, so that the last one that was made is the
+  /// one that all use. Taken after a gate, and before any other mutex.
+  std::mutex making_mutex_;
   std::optional<berth::RobotModel> model_;
   std::string description_;
+  Attached attached_;
+  mutable std::mutex mutex_;
   std::string robot_trouble_;
   LiveRobot live_;
+  /// Of live_.joints.
+  JointRhythm rhythm_;
   std::int64_t joint_messages_ = 0;
   std::int64_t refused_joint_messages_ = 0;
   std::string joint_trouble_;
@@ -157,6 +169,7 @@ class LiveNode : public rclcpp_lifecycle::LifecycleNode {
   std::vector<std::unique_ptr<CameraInput>> inputs_;
   std::optional<StatusLog> log_;
   std::optional<Attachments> attachments_;
+  std::optional<AttachActions> attach_actions_;
 #ifdef BERTH_ROS_MOVEIT
   std::optional<MoveItAttached> moveit_;
 #endif

@@ -21,7 +21,7 @@ void change(const Object& changed, std::vector<Object>& objects) {
 
 }  // namespace
 
-Attachments::List attachments_of(const Object& object) {
+AttachmentList attachments_of(const Object& object) {
   const auto& shapes = object.object;
   const std::string& frame = shapes.header.frame_id;
   require(frame.empty() || frame == object.link_name, object,
@@ -33,7 +33,7 @@ Attachments::List attachments_of(const Object& object) {
   const std::size_t count = shapes.primitives.size() + shapes.meshes.size();
   require(count > 0, object, "has no shape");
   const berth::Pose X_LO = pose_of(shapes.pose);
-  Attachments::List list;
+  AttachmentList list;
   const auto add = [&](const auto& shape, const geometry_msgs::msg::Pose& pose) {
     berth::Attachment part;
     part.name = shapes.id;
@@ -53,8 +53,8 @@ Attachments::List attachments_of(const Object& object) {
   return list;
 }
 
-MoveItAttached::MoveItAttached(rclcpp_lifecycle::LifecycleNode& node, Attachments& attachments)
-    : logger_(node.get_logger()), attachments_(attachments) {
+MoveItAttached::MoveItAttached(rclcpp_lifecycle::LifecycleNode& node, ChangeAttached change)
+    : logger_(node.get_logger()), change_(std::move(change)) {
   subscription_ = node.create_subscription<moveit_msgs::msg::PlanningScene>(
       "monitored_planning_scene", rclcpp::QoS(10),
       [this](const moveit_msgs::msg::PlanningScene& scene) { take(scene); });
@@ -74,17 +74,17 @@ void MoveItAttached::take(const moveit_msgs::msg::PlanningScene& scene) {
 }
 
 void MoveItAttached::follow(const std::vector<Object>& objects) {
-  Attachments::List list;
+  AttachmentList list;
   for (const Object& object : objects) {
     try {
-      const Attachments::List parts = attachments_of(object);
+      const AttachmentList parts = attachments_of(object);
       list.insert(list.end(), parts.begin(), parts.end());
     } catch (const std::exception& error) {
       RCLCPP_WARN(logger_, "not attached, as MoveIt did: %s", error.what());
     }
   }
   try {
-    attachments_.follow(list);
+    change_([&](Attached& attached) { attached.followed = list; });
     RCLCPP_INFO(logger_, "attached what MoveIt did: %zu shapes", list.size());
   } catch (const std::exception& error) {
     // The next message tries again.

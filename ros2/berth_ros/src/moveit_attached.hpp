@@ -12,12 +12,12 @@ namespace berth_ros {
 /// The parts of one object, each as a link of its own: called like the object where it has one
 /// shape, else NAME/0, NAME/1, ... Throws std::invalid_argument for a pose in another frame than
 /// that of its link, for a shape without a pose, and for a plane.
-Attachments::List attachments_of(const moveit_msgs::msg::AttachedCollisionObject& object);
+AttachmentList attachments_of(const moveit_msgs::msg::AttachedCollisionObject& object);
 
 /// Follows the topic `monitored_planning_scene`.
 class MoveItAttached {
  public:
-  MoveItAttached(rclcpp_lifecycle::LifecycleNode& node, Attachments& attachments);
+  MoveItAttached(rclcpp_lifecycle::LifecycleNode& node, ChangeAttached change);
 
  private:
   using Object = moveit_msgs::msg::AttachedCollisionObject;
@@ -25,7 +25,7 @@ class MoveItAttached {
   void follow(const std::vector<Object>& objects);
 
   rclcpp::Logger logger_;
-  Attachments& attachments_;
+  ChangeAttached change_;
   /// As MoveIt told them last, without their stamps.
   std::vector<Object> objects_;
   rclcpp::Subscription<moveit_msgs::msg::PlanningScene>::SharedPtr subscription_;

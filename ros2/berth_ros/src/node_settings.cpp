@@ -5,6 +5,7 @@
 
 #include "berth/files/edit_distance.hpp"
 #include "berth/pipeline/request.hpp"
+#include "srdf.hpp"
 
 namespace berth_ros {
 namespace {
@@ -168,6 +169,15 @@ void NodeSettings::declare_robot(SettingNode& node) {
   robot_.ignore_links =
       node.declare_parameter("ignore_links", robot_.ignore_links,
                              described("links that are neither taken out nor evaluated"));
+  const std::string srdf =
+      node.declare_parameter("srdf_path", "",
+                             described("MoveIt's SRDF: links that it takes out of all collisions "
+                                       "(disable_default_collisions) are among ignore_links"));
+  if (srdf.empty()) return;
+  for (const std::string& link : links_without_collisions(srdf)) {
+    RCLCPP_INFO(node.get_logger(), "%s ignores the link %s", srdf.c_str(), link.c_str());
+    robot_.ignore_links.push_back(link);
+  }
 }
 
 void NodeSettings::declare_joints(SettingNode& node) {
@@ -336,8 +346,13 @@ bool NodeSettings::is_setting(const std::string& name) const {
   });
 }
 
+GivenParameters NodeSettings::given() const {
+  const std::lock_guard lock(given_mutex_);
+  return given_;
+}
+
 GivenParameters NodeSettings::with(const std::vector<rclcpp::Parameter>& changes) const {
-  GivenParameters given = given_;
+  GivenParameters given = this->given();
   for (const rclcpp::Parameter& change : changes) {
     if (is_setting(change.get_name())) given[change.get_name()] = change.get_parameter_value();
   }
@@ -365,7 +380,11 @@ void NodeSettings::check(const std::vector<rclcpp::Parameter>& changes) const {
 }
 
 bool NodeSettings::take(const std::vector<rclcpp::Parameter>& changes) {
-  given_ = with(changes);
+  GivenParameters changed = with(changes);
+  {
+    const std::lock_guard lock(given_mutex_);
+    given_.swap(changed);
+  }
   return std::any_of(changes.begin(), changes.end(), [&](const rclcpp::Parameter& change) {
     return is_setting(change.get_name());
   });

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <rclcpp/rclcpp.hpp>
 #include <string>
@@ -44,7 +45,8 @@ struct CameraSettings {
   std::optional<berth::CameraMount> scene_mount;
 };
 
-/// Declares the parameters and keeps those that were given.
+/// Declares the parameters and keeps those that were given. Any thread may read them while one
+/// takes changes.
 class NodeSettings {
  public:
   /// Reads the scene file where `scene` names one. `camera_names` is the default of `cameras`;
@@ -60,10 +62,10 @@ class NodeSettings {
   /// What the robot's model is loaded by, but for the URDF's text.
   berth::RobotSettings robot_settings() const { return robot_; }
   berth::JointIntakeSettings joint_settings() const { return joints_; }
-  berth::EvaluationSettings evaluation() const { return evaluation_of(given_); }
-  std::vector<CameraSettings> cameras() const { return cameras_of(given_); }
+  berth::EvaluationSettings evaluation() const { return evaluation_of(given()); }
+  std::vector<CameraSettings> cameras() const { return cameras_of(given()); }
   /// None: nothing is monitored.
-  std::optional<berth::SeparationSettings> separation() const { return separation_of(given_); }
+  std::optional<berth::SeparationSettings> separation() const { return separation_of(given()); }
 
   /// Throws std::invalid_argument for a parameter that somebody gave and nobody declared, with the
   /// nearest name; to be called once all are declared. Those of the other node pass, since a file
@@ -85,6 +87,7 @@ class NodeSettings {
   void declare_separation(SettingNode& node);
   void declare_cameras(SettingNode& node, bool has_one_camera);
   void declare_camera(SettingNode& node, const std::string& name, bool has_one_camera);
+  GivenParameters given() const;
   bool is_setting(const std::string& name) const;
   GivenParameters with(const std::vector<rclcpp::Parameter>& changes) const;
   /// The scene file's, else the defaults.
@@ -99,6 +102,7 @@ class NodeSettings {
   berth::RobotSettings robot_;
   berth::JointIntakeSettings joints_;
   std::vector<CameraSettings> cameras_;
+  mutable std::mutex given_mutex_;
   GivenParameters given_;
 };
 

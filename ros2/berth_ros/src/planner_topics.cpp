@@ -1,6 +1,5 @@
 #include "planner_topics.hpp"
 
-#include <chrono>
 #include <stdexcept>
 
 #include "berth/pipeline/mounted_camera.hpp"
@@ -40,10 +39,6 @@ std::vector<double> declare_numbers(rclcpp_lifecycle::LifecycleNode& node, const
   if (given.size() == numbers.size()) return given;
   throw std::invalid_argument(name + ": " + std::to_string(given.size()) + " numbers; expected " +
                               std::to_string(numbers.size()));
-}
-
-double steady_now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 }  // namespace
@@ -163,7 +158,7 @@ void PlannerTopics::refuse(const std::string& name, const std::string& package) 
 void PlannerTopics::configure(std::shared_ptr<CallbackGate> gate) {
   gate_ = std::move(gate);
   group_ = node_.create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive);
-  log_.emplace(node_.get_logger(), steady_now_s());
+  log_.emplace(node_.get_logger(), StatusLog::now_s());
   for (const auto& topic : topics_) {
     if (topic->rate_hz > 0) topic->configure();
   }
@@ -193,7 +188,7 @@ void PlannerTopics::publish(const Topic& topic) {
   if (!topic.is_wanted()) return;
   const std::optional<SpaceNow> now = look_();
   const std::string lost = trouble(now);
-  log_->tell("topics for planners", lost, steady_now_s());
+  log_->tell("topics for planners", lost, StatusLog::now_s());
   if (!lost.empty()) return;
   const berth::VoxelGrid& grid =
       map_.update({now->frames, now->now_s, {}, box_B_m_, edge_m_}, now->robot->settings().time);

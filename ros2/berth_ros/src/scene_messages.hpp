@@ -1,7 +1,6 @@
 // A scene as the messages of a robot and its cameras: what the player and the latency probe share.
 #pragma once
 
-#include <tf2_ros/static_transform_broadcaster.h>
 #include <rclcpp/rclcpp.hpp>
 #include <sensor_msgs/msg/camera_info.hpp>
 #include <sensor_msgs/msg/image.hpp>
@@ -9,6 +8,12 @@
 #include <std_msgs/msg/string.hpp>
 #include <string>
 #include <vector>
+
+#if __has_include(<tf2_ros/static_transform_broadcaster.hpp>)
+#include <tf2_ros/static_transform_broadcaster.hpp>
+#else
+#include <tf2_ros/static_transform_broadcaster.h>
+#endif
 
 #include "berth/scene/open_scene.hpp"
 

@@ -20,8 +20,8 @@ class ScenePlayerNode : public rclcpp::Node {
   explicit ScenePlayerNode(const rclcpp::NodeOptions& options)
       : Node("scene_player_node", options),
         scene_(declare_parameter<std::string>("scene")),
-        messages_(*this, scene_),
-        does_loop_(declare_parameter("loop", true)) {
+        messages_(*this, scene_) {
+    declare_parameter("loop", true);
     plan();
     start_ = now() + rclcpp::Duration::from_seconds(declare_parameter("start_after_s", 1.0));
     timer_ = create_wall_timer(std::chrono::milliseconds(1), [this] { play(); });
@@ -52,7 +52,7 @@ class ScenePlayerNode : public rclcpp::Node {
   void play() {
     while (true) {
       if (next_ == events_.size()) {
-        if (!does_loop_) return;
+        if (!get_parameter("loop").as_bool()) return;
         start_ += rclcpp::Duration::from_seconds(events_.back().time_s + kBetweenRounds_s);
         next_ = 0;
       }
@@ -74,7 +74,6 @@ class ScenePlayerNode : public rclcpp::Node {
 
   PlayedScene scene_;
   SceneMessages messages_;
-  bool does_loop_;
   std::vector<Event> events_;
   std::size_t next_ = 0;
   rclcpp::Time start_;

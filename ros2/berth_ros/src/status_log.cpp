@@ -1,8 +1,13 @@
 #include "status_log.hpp"
 
+#include <chrono>
 #include <rclcpp/logging.hpp>
 
 namespace berth_ros {
+
+double StatusLog::now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 void StatusLog::change(const std::string& trouble, double now_s, Cause& cause) const {
   const bool is_lost = !trouble.empty();

@@ -21,6 +21,7 @@ URDF = f"""<robot name="boxes"><link name="base">{BOX}</link><link name="arm">{B
 <joint name="b" type="prismatic"><parent link="arm"/><child link="tip"/><origin xyz="0.3 0 0"/>
 <limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>"""
 START_S = 1000
+STORAGES = sorted({"mcap", "sqlite3"} & rosbag2_py.get_registered_writers())
 
 
 def stamped(message, seconds, frame=""):
@@ -67,9 +68,9 @@ def messages(encoding):
     yield "/joint_states", stamped(JointState(name=["a"], position=[0.3]), 0.3)
 
 
-def write_bag(folder, encoding="32FC1", without=()):
+def write_bag(folder, encoding="32FC1", without=(), storage=STORAGES[0]):
     writer = rosbag2_py.SequentialWriter()
-    writer.open(rosbag2_py.StorageOptions(uri=str(folder), storage_id="sqlite3"), rosbag2_py.ConverterOptions("cdr", "cdr"))
+    writer.open(rosbag2_py.StorageOptions(uri=str(folder), storage_id=storage), rosbag2_py.ConverterOptions("cdr", "cdr"))
     known = set()
     for i, (topic, message) in enumerate(messages(encoding)):
         if topic in without:
@@ -87,10 +88,11 @@ def run_tool(*arguments):
     return subprocess.run(["/usr/bin/env", "python3", TOOL, *map(str, arguments)], capture_output=True, text=True)
 
 
+@pytest.mark.parametrize("storage", STORAGES)
 @pytest.mark.parametrize("encoding", ["32FC1", "16UC1"])
-def test_berth_runs_the_scene(tmp_path, encoding):
+def test_berth_runs_the_scene(tmp_path, encoding, storage):
     out = tmp_path / "scene"
-    tool = run_tool(write_bag(tmp_path / "bag", encoding), "--out", out, "--camera", "front")
+    tool = run_tool(write_bag(tmp_path / "bag", encoding, storage=storage), "--out", out, "--camera", "front")
     assert tool.returncode == 0, tool.stderr
     scene = yaml.safe_load((out / "scene.yaml").read_text())
     camera = scene["cameras"][0]

@@ -2,6 +2,7 @@
 import math
 import os
 import sys
+import tempfile
 import time
 
 import launch_testing.actions
@@ -18,12 +19,20 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from living_robot import BOX, FOCAL, FRAME, URDF, WIDTH, LivingRobot, transform  # noqa: E402
 
 
+# The cable is in the URDF, and takes part in no collision.
+CABLED = URDF.replace("</robot>", f'<link name="cable">{BOX.format(z=0.4)}</link><joint name="to_cable" type="fixed">'
+                      '<parent link="arm"/><child link="cable"/></joint></robot>')
+SRDF = tempfile.NamedTemporaryFile("w", suffix=".srdf")
+SRDF.write('<robot name="two_boxes"><disable_default_collisions link="cable"/></robot>')
+SRDF.flush()
+
+
 @pytest.mark.launch_test
 def generate_test_description():
     return LaunchDescription([
         Node(package="berth_ros", executable="distance_node", output="screen", parameters=[{
             "use_sim_time": True, "cameras": ["front"], "question_rate_hz": 50.0, "max_joint_hold_s": 0.0,
-            "front.max_wait_s": 0.05}]),
+            "front.max_wait_s": 0.05, "srdf_path": SRDF.name}]),
         launch_testing.actions.ReadyToTest(),
     ])
 
@@ -39,7 +48,7 @@ class Faults(LivingRobot):
         self.assertTrue(self.until(self.time_status_is(LinkDistances.TIME_NO_ROBOT)))
 
     def test_03_then_a_good_one_and_no_transform(self):
-        self.description.publish(String(data=URDF))
+        self.description.publish(String(data=CABLED))
         self.expect_said("camera front", "no transform", "front_optical_frame")
         self.assertTrue(self.until(self.time_status_is(LinkDistances.TIME_NO_FRAME)))
 
@@ -47,6 +56,7 @@ class Faults(LivingRobot):
         self.tf_static.publish(TFMessage(transforms=[transform("base", FRAME, z=-1)]))
         self.assertTrue(self.until(self.answers))
         self.expect_said("camera front", "ok")
+        self.assertEqual([link.link for link in self.newest.links], ["base", "arm"], "the cable is ignored")
 
     def test_05_wrong_images_are_named(self):
         wrong = [
@@ -115,11 +125,11 @@ class Faults(LivingRobot):
         self.assertTrue(self.until(self.answers))
 
     def test_12_another_robot_takes_its_place(self):
-        self.description.publish(String(data=URDF.replace("two_boxes", "three").replace(
+        self.description.publish(String(data=CABLED.replace("two_boxes", "three").replace(
             "</robot>", '<link name="hand">' + BOX.format(z=0.3) + '</link><joint name="to_hand" type="fixed">'
             '<parent link="arm"/><child link="hand"/></joint></robot>')))
         self.assertTrue(self.until(lambda: len(self.newest.links) == 3 and self.answers()))
-        self.description.publish(String(data=URDF))
+        self.description.publish(String(data=CABLED))
         self.assertTrue(self.until(lambda: len(self.newest.links) == 2 and self.answers()))
 
     def test_13_an_image_of_another_camera_info_is_not_used(self):

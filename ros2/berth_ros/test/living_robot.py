@@ -125,13 +125,13 @@ class LivingRobot(unittest.TestCase):
     def tick(self):
         """Called each 10 ms of the robot's life, after its clock went on."""
 
-    def step(self, image="good", joints=True, names=("turn",), position=0.1, frame_id=FRAME):
-        """A 20th of a second of the robot's life."""
-        for _ in range(5):
+    def step(self, image="good", joints=True, joints_every=1, names=("turn",), position=0.1, frame_id=FRAME):
+        """A 20th of a second of the robot's life, with joint states in each tick, or in every so many."""
+        for tick in range(5):
             type(self).now_s += 0.01
             self.clock.publish(Clock(clock=self.time_of(self.now_s)))
             self.tick()
-            if joints:
+            if joints and tick % joints_every == 0:
                 state = JointState(name=list(names), position=[position] * len(names))
                 state.header.stamp = self.time_of(self.now_s)
                 self.joints.publish(state)
@@ -172,3 +172,25 @@ class LivingRobot(unittest.TestCase):
 
     def logged(self, *parts):
         return [text for _, text in self.log if all(part in text for part in parts)]
+
+
+class TwoCameras(LivingRobot):
+    """The same with a second camera, `side`, that sees the same."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.side_images = cls.node.create_publisher(Image, "side/depth_image", qos_profile_sensor_data)
+        cls.side_infos = cls.node.create_publisher(CameraInfo, "side/camera_info", qos_profile_sensor_data)
+        cls.side_image = cls.image  # what it gives; None: nothing
+
+    def step(self, **changes):
+        super().step(**changes)
+        info = CameraInfo(width=WIDTH, height=HEIGHT, k=[FOCAL, 0.0, 31.5, 0.0, FOCAL, 23.5, 0.0, 0.0, 1.0])
+        info.header.frame_id = FRAME
+        self.side_infos.publish(info)
+        if self.side_image is not None:
+            self.side_images.publish(self.side_image())
+
+    def is_state(self, *states):
+        return lambda: self.separation is not None and self.separation.state in states

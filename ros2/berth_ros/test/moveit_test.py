@@ -4,6 +4,7 @@ import sys
 
 import launch_testing.actions
 import pytest
+from berth_msgs.msg import LinkDistances
 from geometry_msgs.msg import Pose
 from launch import LaunchDescription
 from launch_ros.actions import Node
@@ -88,7 +89,10 @@ class FollowsMoveIt(LivingRobot):
         self.tell(attached())
         self.live_for(0.5)
         self.assertEqual(self.links(), ["base", "arm", "part"])
-        self.assertTrue(all(message.status == 0 for message in self.answers_so_far), "the robot was not made anew")
+        # A robot that was made anew has no images at first.
+        self.assertTrue(self.answers_so_far)
+        self.assertFalse([m for m in self.answers_so_far if m.time_status == LinkDistances.TIME_NO_FRAME], "the robot was made anew")
+        self.assertTrue(self.until(self.answers))
 
     def test_03_what_was_removed_is_an_obstacle(self):
         self.tell(attached(operation=REMOVE))

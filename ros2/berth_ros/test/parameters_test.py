@@ -47,6 +47,7 @@ def test_a_file_for_both_nodes_is_taken_by_both(tmp_path):
     ("camera.camera_poses:=nowhere", ["camera_poses", "nowhere", "auto, tf, scene"]),
     ("scene:=nowhere.yaml", ["nowhere.yaml"]),
     ("urdf_path:=nowhere.urdf", ["nowhere.urdf"]),
+    ("srdf_path:=nowhere.srdf", ["nowhere.srdf"]),
     ("planner.edge_m:=0.001", ["planner.edge_m", "0.001", "expected at least 0.005"]),
     ("planner.box_min_m:=[0.0, 0.0]", ["planner.box_min_m", "2 numbers; expected 3"]),
     ("planner.box_min_m:=[2.0, 0.0, 0.0]", ["planner.box_min_m", "the box of the voxels is empty"]),

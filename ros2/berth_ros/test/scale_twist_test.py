@@ -6,6 +6,7 @@ import pathlib
 import pytest
 import rclpy
 from berth_msgs.msg import Separation
+from control_msgs.msg import JointJog
 from geometry_msgs.msg import TwistStamped
 
 FILE = pathlib.Path(__file__).parent.parent / "examples" / "scale_twist"
@@ -32,6 +33,11 @@ def twist():
 def test_a_twist_is_slowed_down_in_all_its_parts():
     slow = scale_twist.scaled(twist(), 0.25).twist
     assert (slow.linear.x, slow.linear.y, slow.angular.z) == (0.1, 0.0, -0.25)
+
+
+def test_a_jog_is_slowed_down_in_velocities_and_steps():
+    slow = scale_twist.scaled_jog(JointJog(joint_names=["a", "b"], velocities=[0.4, -1.0], displacements=[2.0, 0.0]), 0.25)
+    assert (list(slow.velocities), list(slow.displacements), slow.joint_names) == ([0.1, -0.25], [0.5, 0.0], ["a", "b"])
 
 
 def test_it_goes_by_the_newest_separation_and_not_by_an_old_one(node):

@@ -10,14 +10,12 @@ from launch import LaunchDescription
 from launch_ros.actions import Node
 from lifecycle_msgs.msg import Transition
 from lifecycle_msgs.srv import ChangeState
-from rclpy.qos import qos_profile_sensor_data
-from sensor_msgs.msg import CameraInfo, Image
 from std_msgs.msg import String
 from std_srvs.srv import SetBool
 from tf2_msgs.msg import TFMessage
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from living_robot import FRAME, URDF, LivingRobot, transform  # noqa: E402
+from living_robot import FRAME, URDF, TwoCameras, transform  # noqa: E402
 
 
 @pytest.mark.launch_test
@@ -31,32 +29,13 @@ def generate_test_description():
     ])
 
 
-class Trusted(LivingRobot):
-    side_comes = True
-
-    @classmethod
-    def setUpClass(cls):
-        super().setUpClass()
-        cls.side_images = cls.node.create_publisher(Image, "side/depth_image", qos_profile_sensor_data)
-        cls.side_infos = cls.node.create_publisher(CameraInfo, "side/camera_info", qos_profile_sensor_data)
-
-    def step(self, **changes):
-        super().step(**changes)
-        info = CameraInfo(width=64, height=48, k=[60.0, 0.0, 31.5, 0.0, 60.0, 23.5, 0.0, 0.0, 1.0])
-        info.header.frame_id = FRAME
-        self.side_infos.publish(info)
-        if self.side_comes:
-            self.side_images.publish(self.image())
-
+class Trusted(TwoCameras):
     def call(self, kind, name, request):
         client = self.node.create_client(kind, name)
         self.assertTrue(client.wait_for_service(10))
         future = client.call_async(request)
         self.assertTrue(self.until(future.done))
         return future.result()
-
-    def is_state(self, *states):
-        return lambda: self.separation is not None and self.separation.state in states
 
     def test_01_without_a_robot_it_is_a_stop_from_the_first_second(self):
         self.assertTrue(self.until(lambda: self.scale is not None, seconds=5))
@@ -73,7 +52,7 @@ class Trusted(LivingRobot):
 
     def test_03_a_lost_camera_is_degraded_and_no_distance(self):
         before = self.separation.distance_m
-        type(self).side_comes = False
+        type(self).side_image = None
         self.assertTrue(self.until(lambda: self.newest.status == LinkDistances.DEGRADED))
         self.assertEqual(self.newest.cameras[1].status, CameraState.TOO_OLD)
         self.assertTrue(self.until(lambda: self.separation.status == LinkDistances.DEGRADED))
@@ -84,7 +63,7 @@ class Trusted(LivingRobot):
         self.assertEqual(self.separation.state, Separation.STOP)
         self.assertIn("camera side is too_old", self.separation.text)
         self.assertTrue(self.until(lambda: self.logged("camera side", "too_old")))
-        type(self).side_comes = True
+        type(self).side_image = type(self).image
         self.assertTrue(self.until(self.answers))
         self.assertTrue(self.until(lambda: self.logged("camera side", "back after"), seconds=30))
         lines = self.logged("camera side:")

@@ -1,0 +1,96 @@
+"""How images are asked for, and what is said of those that get lost on their way."""
+import os
+import sys
+import unittest
+
+import cv2
+import launch_testing.actions
+import numpy as np
+import pytest
+from ament_index_python.packages import get_packages_with_prefixes
+from diagnostic_msgs.msg import DiagnosticStatus
+from launch import LaunchDescription
+from launch_ros.actions import Node
+from rclpy.qos import ReliabilityPolicy, qos_profile_sensor_data
+from sensor_msgs.msg import CameraInfo, CompressedImage, Image
+from std_msgs.msg import String
+from tf2_msgs.msg import TFMessage
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from living_robot import FOCAL, FRAME, HEIGHT, URDF, WIDTH, LivingRobot, transform  # noqa: E402
+
+HAS_COMPRESSED = "compressed_depth_image_transport" in get_packages_with_prefixes()
+
+@pytest.mark.launch_test
+def generate_test_description():
+    cameras = ["front", "reliable", "overridden"] + ["packed"] * HAS_COMPRESSED
+    packed = {"packed.image_transport": "compressedDepth"} if HAS_COMPRESSED else {}
+    return LaunchDescription([
+        Node(package="berth_ros", executable="distance_node", output="screen", parameters=[{
+            "use_sim_time": True, "cameras": cameras, "question_rate_hz": 50.0, "reliable.reliability": "reliable",
+            "qos_overrides./overridden/depth_image.subscription.reliability": "reliable",
+            "qos_overrides./overridden/depth_image.subscription.depth": 7, **packed}]),
+        launch_testing.actions.ReadyToTest(),
+    ])
+
+
+class Images(LivingRobot):
+    images_so_far, lost_of_three = 0, 0
+
+    def step(self, **changes):
+        type(self).images_so_far += 1
+        is_lost = self.images_so_far % 3 < self.lost_of_three
+        super().step(**({"image": None} if is_lost else {}), **changes)
+
+    def quality(self, camera):
+        topic = f"/{camera}/depth_image"
+        self.assertTrue(self.until(lambda: self.node.get_subscriptions_info_by_topic(topic)))
+        return self.node.get_subscriptions_info_by_topic(topic)[0].qos_profile
+
+    def test_01_best_effort_unless_told_otherwise(self):
+        self.assertEqual(self.quality("front").reliability, ReliabilityPolicy.BEST_EFFORT)
+        self.assertEqual(self.quality("reliable").reliability, ReliabilityPolicy.RELIABLE)
+        overridden = self.quality("overridden")
+        self.assertEqual(overridden.reliability, ReliabilityPolicy.RELIABLE)
+
+    def test_02_images_that_get_lost_are_counted_and_the_buffer_is_named(self):
+        self.description.publish(String(data=URDF))
+        self.tf_static.publish(TFMessage(transforms=[transform("base", FRAME, z=-1)]))
+        self.expect_said("camera front", "ok")
+        type(self).lost_of_three = 1
+        self.expect_said("camera front", "of 20 images a second arrive", "DDS receive buffer")
+        with self.lock:
+            status = self.diagnostics["camera front"]
+        self.assertEqual(status.level, DiagnosticStatus.WARN)
+        values = {pair.key: float(pair.value) for pair in status.values if pair.key.startswith("images a second that")}
+        print(status.message, values)
+        self.assertAlmostEqual(values["images a second that the camera sends"], 20, delta=1)
+        self.assertAlmostEqual(values["images a second that arrive"], 13.3, delta=2)
+        self.assertTrue(self.until(lambda: self.logged("images of camera front", "DDS receive buffer")))
+
+    def test_03_all_that_arrive_again_are_well(self):
+        type(self).lost_of_three = 0
+        self.expect_said("camera front", "ok")
+
+    def test_04_a_reliable_sender_reaches_them_all(self):
+        for camera in ("reliable", "overridden"):
+            publisher = self.node.create_publisher(Image, f"{camera}/depth_image", 1)
+            self.assertTrue(self.until(lambda publisher=publisher: publisher.get_subscription_count() == 1))
+
+    @unittest.skipUnless(HAS_COMPRESSED, "compressed_depth_image_transport is not installed")
+    def test_05_compressed_images_are_taken(self):
+        publisher = self.node.create_publisher(CompressedImage, "packed/depth_image/compressedDepth", qos_profile_sensor_data)
+        infos = self.node.create_publisher(CameraInfo, "packed/camera_info", qos_profile_sensor_data)
+        info = CameraInfo(width=WIDTH, height=HEIGHT, k=[FOCAL, 0.0, 31.5, 0.0, FOCAL, 23.5, 0.0, 0.0, 1.0])
+        info.header.frame_id = FRAME
+        _, png = cv2.imencode(".png", (1000 * self.depth).round().astype(np.uint16))
+        # Before the PNG: how depth was quantized, which is nothing where it is in mm.
+        packed = CompressedImage(format="16UC1; compressedDepth png", data=bytes(12) + png.tobytes())
+        packed.header.frame_id = FRAME
+
+        def is_taken():
+            infos.publish(info)
+            packed.header.stamp = self.time_of(self.now_s)
+            publisher.publish(packed)
+            return self.message("camera packed") == "ok"
+        self.assertTrue(self.until(is_taken), self.message("camera packed"))
