@@ -82,12 +82,12 @@ class CameraSection {
         length_cell(found_.after.median_m));
     row("90 % within", length_cell(found_.before.p90_m), length_cell(found_.after.p90_m));
     row("99 % within", length_cell(found_.before.p99_m), length_cell(found_.after.p99_m));
-    row("agreement of depth and outline", fmt::format("{:.2f} of 2", found_.score_before),
-        fmt::format("{:.2f} of 2", found_.score_after));
+    row("fit of depth and outline", fmt::format("{:.0f} %", fit_percent(found_.score_before)),
+        fmt::format("{:.0f} %", fit_percent(found_.score_after)));
     fmt::format_to(
         out_,
         "</table>\n<p class=\"faint\">After: with the error of the camera's depths, told "
-        "below, taken out. Judge by the agreement: depth alone can fit well where the "
+        "below, taken out. Judge by the fit: depth alone can fit well where the "
         "outline does not.</p>\n");
   }
 
@@ -141,7 +141,7 @@ class CameraSection {
     fmt::format_to(
         out_,
         "<h3>Pose, clock and depth</h3>\n<div class=\"scroll\"><table><tr><th>the camera "
-        "in <code>{}</code></th><th>scene</th><th>{}</th><th>sure to</th></tr>\n",
+        "in <code>{}</code></th><th>scene</th><th>{}</th><th>repeatable to</th></tr>\n",
         html_text(report_.calibration_data->model->links[source_.parent].name),
         is_good ? "found" : "stays");
     for (int i = 0; i < 3; ++i) {

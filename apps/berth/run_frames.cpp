@@ -109,12 +109,15 @@ void run_frames(const OpenScene& scene, const BackendChoice& where, const fs::pa
   const bool draws = !picture_folder.empty();
   if (draws) make_folders(scene, picture_folder);
   LateImplausible late(run);
+  Result result;
   each_frame(scene, run, "run", [&] {
-    const Result result = run.ask(repeat);
-    stop_if_interrupted();
-    late.update(scene, result);
+    if (run.begins_result()) {
+      result = run.ask(repeat);
+      stop_if_interrupted();
+      late.update(scene, result);
+      take(result);
+    }
     if (draws) draw(picture_folder, scene, run, result);
-    take(result);
   });
 }
 

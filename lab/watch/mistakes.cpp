@@ -119,9 +119,9 @@ void add_depths(const OpenScene& scene, Mistakes& all) {
 }
 
 void add_cameras(Mistakes& all) {
-  for (const double factor : {0.5, 2.0, 1.3}) {
-    all.push_back({fmt::format("focal length times {}", factor),
-                   factor == 1.3 ? "" : "focal length", other_mount([factor](CameraMount& mount) {
+  for (const double factor : {0.5, 0.65, 0.8, 1.25, 1.3, 1.5, 2.0}) {
+    all.push_back({fmt::format("focal length times {}", factor), "focal length",
+                   other_mount([factor](CameraMount& mount) {
                      mount.camera.fx_px *= factor;
                      mount.camera.fy_px *= factor;
                    })});

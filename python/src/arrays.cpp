@@ -120,6 +120,15 @@ py::array_t<double> array_of(const Pose& pose) {
   return array;
 }
 
+double joint_position_of(const std::string& name, const py::handle& position) {
+  try {
+    return position.cast<double>();
+  } catch (const py::cast_error&) {
+    throw py::type_error(fmt::format("joints: {}: {}; expected a number, in rad or m", name,
+                                     std::string(py::repr(position))));
+  }
+}
+
 JointState joints_of(const RobotModel& model, const py::object& joints, double stamp_s) {
   JointState state;
   state.stamp_s = stamp_s;
@@ -139,7 +148,7 @@ JointState joints_of(const RobotModel& model, const py::object& joints, double s
       throw std::invalid_argument(
           fmt::format("joints: {} is missing; expected a position of each joint", joint.name));
     }
-    state.position.push_back(by_name[joint.name.c_str()].cast<double>());
+    state.position.push_back(joint_position_of(joint.name, by_name[joint.name.c_str()]));
   }
   return state;
 }

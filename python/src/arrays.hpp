@@ -35,6 +35,9 @@ DepthInput depth_of(const py::object& depth, std::optional<double> scale_m);
 Pose pose_of(const py::object& pose, const char* name);
 py::array_t<double> array_of(const Pose& pose);
 
+/// A position of a joint, in rad or m. Throws TypeError with its name where it is no number.
+double joint_position_of(const std::string& name, const py::handle& position);
+
 /// Positions by name, or in the robot's order. Throws std::invalid_argument where one is missing.
 JointState joints_of(const RobotModel& model, const py::object& joints, double stamp_s);
 

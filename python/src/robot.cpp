@@ -75,7 +75,7 @@ class NamedJointBuffer {
     std::vector<double> positions;
     for (const auto& [name, position] : py::reinterpret_borrow<py::dict>(joints)) {
       names.push_back(py::str(name));
-      positions.push_back(position.cast<double>());
+      positions.push_back(joint_position_of(names.back(), position));
     }
     return buffer.push(stamp_s, names, positions);
   }

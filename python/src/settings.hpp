@@ -140,6 +140,11 @@ void bind_settings(py::module_& m, const char* name, const std::string& group, c
         text.c_str());
   });
   settings.def("as_dict", &dict_of<Settings>, "as_dict(self) -> Dict[str, object]\n\nAll by name.");
+  const std::string copied = fmt::format(" -> {}", name);
+  settings.def("__copy__", [](const Settings& own) { return own; },
+               ("__copy__(self)" + copied).c_str());
+  settings.def("__deepcopy__", [](const Settings& own, const py::dict&) { return own; },
+               ("__deepcopy__(self, memo: dict)" + copied).c_str());
   settings.def(
       "__repr__",
       [name = std::string(name)](const Settings& own) {

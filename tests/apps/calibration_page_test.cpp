@@ -70,9 +70,10 @@ TEST(CalibrationPage, HasAllItsPicturesAndSaysTheHeadline) {
   const testing::SmallCalibrationData small(3);
   const Page page(small.report());
   EXPECT_EQ(page.texts("//h1"), Texts{"Calibration of scene.yaml"});
-  EXPECT_EQ(page.texts("//p[@class='lead']"),
-            Texts{"This camera's view of the robot was off by 20.0 mm; now it is sure to ± 1.5 mm "
-                  "(3 frames)."});
+  EXPECT_EQ(
+      page.texts("//p[@class='lead']"),
+      Texts{"This camera's view of the robot was off by 20.0 mm; now it is repeatable to ± 1.5 mm "
+            "(3 frames)."});
   EXPECT_EQ(page.pictures(),
             (Texts{"camera_1_frame_000000_before.png", "camera_1_frame_000000_after.png",
                    "camera_1_frame_000001_before.png", "camera_1_frame_000001_after.png",

@@ -202,6 +202,25 @@ TEST(Run, SeveralCamerasGiveAllTheirFramesAndAFolderOfPicturesEach) {
   EXPECT_TRUE(std::filesystem::exists(scene / "pictures/again/frame_000001.png"));
 }
 
+TEST(Run, ImagesOfOneInstantGiveOneLine) {
+  CommandScene scene;
+  scene.lines.evaluation = "{method: mesh, range_m: 2}";
+  scene.lines.more_cameras =
+      "  - {name: again, info: camera_info.yaml, depth: [depth/000000.png, depth/000001.png], "
+      "pose: " +
+      scene.lines.pose + "}\n";
+  const std::vector<Json> lines = scene.json({"run", "scene.yaml", "--picture", "pictures"});
+  ASSERT_EQ(lines.size(), 3U);
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_EQ(lines[k]["frame"], k);
+    EXPECT_EQ(lines[k]["stamp_s"], k);
+    EXPECT_EQ(lines[k]["cameras"][0]["frame"], k);
+    EXPECT_EQ(lines[k]["cameras"][1]["frame"], std::min(k, 1));
+  }
+  EXPECT_TRUE(std::filesystem::exists(scene / "pictures/front/frame_000002.png"));
+  EXPECT_TRUE(std::filesystem::exists(scene / "pictures/again/frame_000001.png"));
+}
+
 TEST(Run, WorksFromAnyFolder) {
   const CommandScene scene;
   const TemporaryFolder elsewhere;

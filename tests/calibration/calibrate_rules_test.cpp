@@ -77,8 +77,9 @@ TEST(CalibrateRules, APauseThatThrowsStopsIt) {
 std::string expect_refused(const DrawnCalibrationData& drawn) {
   const CameraCalibration found = calibrate(drawn.calibration_data).cameras[0];
   EXPECT_FALSE(found.is_found);
-  EXPECT_NE(found.refused.find("no pose was found that explains the images: the best agrees by "),
-            std::string::npos)
+  EXPECT_NE(
+      found.refused.find("no pose was found that explains the images: the best fits them by "),
+      std::string::npos)
       << found.refused;
   EXPECT_NE(found.refused.find("; expected 0.8 at least"), std::string::npos) << found.refused;
   EXPECT_EQ(found.X_PC.matrix(), drawn.camera->X_PC.matrix());
@@ -99,7 +100,7 @@ TEST(CalibrateRules, ACameraThatSeesNoRobotIsRefused) {
       away.camera->X_PC * Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitY());
   EXPECT_TRUE(expect_refused(away).starts_with(
       "nothing of the robot is seen where the scene has the camera, in any of its 3 frames, and no "
-      "pose was found that explains the images: the best agrees by "));
+      "pose was found that explains the images: the best fits them by "));
 }
 
 TEST(CalibrateRules, ImagesOfNoiseAreRefused) {

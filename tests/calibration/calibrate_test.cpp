@@ -141,5 +141,23 @@ TEST(Calibrate, ADepthErrorOfAPercentIsFound) {
   EXPECT_NEAR(corrected_m / 1.5, 1, 0.003);
 }
 
+TEST(Calibrate, AWrongFocalLengthIsRefusedAndTheRightOneTold) {
+  for (const double factor : {0.65, 1.1}) {
+    SCOPED_TRACE(factor);
+    DrawnCalibrationData drawn = bundled_arm().draw({.width_px = 240, .height_px = 180, .poses = 3}, 5);
+    disturb(drawn, 0.03, 3 * kDegree, 700);
+    const double right_px = drawn.camera->camera.fx_px;
+    drawn.camera->camera.fx_px *= factor;
+    drawn.camera->camera.fy_px *= factor;
+    const CameraCalibration found = calibrate(drawn.calibration_data).cameras[0];
+    EXPECT_FALSE(found.is_found);
+    const std::string before = "with a focal length of ";
+    const std::size_t at = found.refused.find(before);
+    ASSERT_NE(at, std::string::npos) << found.refused;
+    EXPECT_NEAR(std::stod(found.refused.substr(at + before.size())), right_px, 0.04 * right_px)
+        << found.refused;
+  }
+}
+
 }  // namespace
 }  // namespace berth

@@ -1,4 +1,5 @@
 """Settings and poses: each from the one list, wrong ones by name."""
+import copy
 import re
 
 import numpy as np
@@ -52,6 +53,17 @@ def test_they_can_be_given_set_and_shown():
 def test_wrong_ones_are_named(given, error, said):
     with pytest.raises(error, match=re.escape(said)):
         berth.SelfFilterSettings(**given)
+
+
+@pytest.mark.parametrize("group", GROUPS)
+def test_copies_have_their_own_values(group):
+    settings = GROUPS[group]()
+    for other in (copy.copy(settings), copy.deepcopy({"of": settings})["of"]):
+        assert other is not settings and other.as_dict() == settings.as_dict()
+    original = berth.SelfFilterSettings()
+    copied = copy.deepcopy(original)
+    copied.padding_m = 0.07
+    assert original.padding_m == berth.SelfFilterSettings().padding_m
 
 
 def test_a_wrong_value_changes_nothing():

@@ -25,13 +25,14 @@ TEST(CalibrationTable, SaysWhatWasFoundAndHowSureThatIs) {
   const std::string table = calibration_table(report);
   EXPECT_TRUE(table.starts_with(
       "warning: Nobody may walk there.\n"
-      "camera: This camera's view of the robot was off by 20.0 mm; now it is sure to ± 1.5 mm "
+      "camera: This camera's view of the robot was off by 20.0 mm; now it is repeatable to ± 1.5 "
+      "mm "
       "(5 frames).\n"
       "  residual         before     after\n"
       "    median        20.0 mm    0.0 mm\n"
       "    90 %          20.0 mm    0.0 mm\n"
       "    99 %          20.0 mm    0.0 mm\n"
-      "  agreement          1.25      1.75   (of 2)\n"
+      "  fit                62 %      88 %\n"
       "  clock offset: not looked for: the images have no stamps\n"
       "  depth: the camera reads 0.0 mm too far at 1.45 m; left as it is\n"
       "  settings\n"
@@ -44,7 +45,7 @@ TEST(CalibrationTable, SaysWhatWasFoundAndHowSureThatIs) {
       "    The camera sees the robot 4.0 mm behind its model, in the median: what stands before "
       "the "
       "robot by less than 34.0 mm is taken for the robot.\n"
-      "    With these settings 31 pixels beside the robot are left in all these images, 12 of them "
+      "    With these settings 31 pixels beside the robot remain in all these images, 12 of them "
       "in one piece: they would be taken for an obstacle.\n"
       "    A rod of 1 cm at the robot's side is seen from 4 cm of free space on.\n"
       "    seen 1 m away: rods of 4 mm, fingers of 6 mm\n"
@@ -75,13 +76,12 @@ TEST(CalibrationWords, TheHeadlineKnowsAPoseThatWasRightAndOneFrame) {
   testing::SmallCalibrationData small;
   small.found().moved_m = 0.001;
   EXPECT_EQ(headline(small.found()),
-            "The scene's pose was right: what was found differs by 1.0 mm, sure to ± 1.5 mm "
+            "The scene's pose was right: what was found differs by 1.0 mm, repeatable to ± 1.5 mm "
             "(5 frames).");
   small.found().halves_m = std::nan("");
-  EXPECT_EQ(
-      headline(small.found()),
-      "This camera's view of the robot was off by 1.0 mm. How sure the pose that was found is, "
-      "one frame cannot tell.");
+  EXPECT_EQ(headline(small.found()),
+            "This camera's view of the robot was off by 1.0 mm. How well the pose repeats, "
+            "one frame cannot tell.");
 }
 
 TEST(CalibrationWords, TheClockIsToldOrWhyNot) {
@@ -90,7 +90,7 @@ TEST(CalibrationWords, TheClockIsToldOrWhyNot) {
   small.camera.clock_offset_s = 0.002;
   small.found().clock_offset_s = 0.0123;
   small.found().sigma_clock_s = 0.0004;
-  EXPECT_EQ(clock_text(small.found(), small.camera), "12.3 ms, was 2.0 ms; sure to ± 0.4 ms");
+  EXPECT_EQ(clock_text(small.found(), small.camera), "12.3 ms, was 2.0 ms; repeatable to ± 0.4 ms");
   small.found().not_determined = {"clock_offset_s"};
   EXPECT_EQ(clock_text(small.found(), small.camera),
             "stays 2.0 ms: the arm moves too little while images are taken to tell");

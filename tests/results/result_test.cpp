@@ -508,7 +508,7 @@ TEST(ResultTable, TellsWhatIsSeenAndWhatIsRejected) {
 
 TEST(ResultTable, OfTheWholeRobotTellsWhatIsNearAndWhichCameraSaysSo) {
   EXPECT_EQ(result_table(mesh_result()),
-            "link    status         distance [m]  to what is  to occupied [m]  camera  obstacle "
+            "link    status         distance [m]  nearest is  to occupied [m]  camera  obstacle "
             "pixel\n"
             "link_1  ok                   0.1250     unknown           0.2500    left      (340, "
             "211)\n"

@@ -154,8 +154,8 @@ TEST(CalibrateScene, ACameraWhoseImagesNoPoseExplainsIsRefused) {
   const SceneCalibrationData material = make_calibration_data(scene);
   expect_parts(error_message([&] { calibrate_scene(scene, material, {}); }),
                {cell.scene().string() + ": camera camera: no pose was found that explains the "
-                                        "images: the best agrees by ",
-                " of 2; expected 0.8 at least"});
+                                        "images: the best fits them by ",
+                " %; expected 40 % at least"});
 }
 
 TEST(CalibrateScene, APauseThatThrowsStopsIt) {

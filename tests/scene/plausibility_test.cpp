@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numbers>
+#include <span>
 
 #include "berth/pipeline/observer.hpp"
 #include "berth/results/result_json.hpp"
@@ -191,6 +194,35 @@ TEST_F(Plausibility, WhereAllCamerasAreImplausibleThereIsNoRun) {
   expect_parts(error_message([&] { SceneRun run(scene); }),
                {"scene.yaml: camera camera", "0 % lie at its surface", "depth_scale were 0.001",
                 "camera left", "camera right"});
+}
+
+/// In which the joints of these cameras' exposures are in degrees.
+OpenScene in_degrees(OpenScene scene, std::span<const std::size_t> cameras) {
+  for (const std::size_t c : cameras) {
+    for (JointState& state : scene.cameras[c].at_exposure) {
+      for (double& position : state.position) position *= 180 / std::numbers::pi;
+    }
+  }
+  return scene;
+}
+
+TEST_F(Plausibility, JointsInDegreesAreNoSingleCamerasMistake) {
+  OpenScene scene = in_degrees(right(), std::array<std::size_t, 3>{0, 1, 2});
+  // Which does not tell then.
+  hide_all(scene.cameras[1]);
+  EXPECT_FALSE(find_implausible(scene, 1).is_implausible);
+  const std::string message = error_message([&] { SceneRun run(scene); });
+  expect_parts(message, {"scene.yaml: camera camera", "the joints were in degrees"});
+  EXPECT_EQ(message.find("camera left"), std::string::npos) << message;
+}
+
+TEST_F(Plausibility, ACameraThatFitsContradictsAMistakeInTheJoints) {
+  const OpenScene scene = in_degrees(right(), std::array<std::size_t, 1>{2});
+  const std::vector<CameraPlausibility> cameras = find_implausible(scene);
+  EXPECT_EQ(cameras[2].as_if, "the joints were in degrees");
+  EXPECT_FALSE(cameras[2].is_of_joints);
+  const SceneRun run(scene);
+  EXPECT_TRUE(run.plausibility()[2].is_implausible);
 }
 
 TEST_F(Plausibility, TheOtherCamerasAnswerStands) {

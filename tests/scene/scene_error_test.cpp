@@ -186,6 +186,29 @@ TEST(SceneErrors, RefusesABadValueAndSaysWhere) {
   }
 }
 
+TEST(SceneErrors, RefusesANinthCamera) {
+  SceneText scene;
+  const std::string front = scene.text();
+  const std::size_t first = front.find("  - "), last = front.find("joints:");
+  std::string nine = front.substr(0, first);
+  for (int c = 0; c < 9; ++c) {
+    std::string camera = front.substr(first, last - first);
+    nine += camera.replace(camera.find("front"), 5, "camera_" + std::to_string(c));
+  }
+  const TemporaryFolder folder;
+  const auto file = folder.write("scene.yaml", nine + front.substr(last));
+  expect_parts(error_message([&] { read_scene(file); }),
+               {"scene.yaml:2: cameras: 9 cameras; expected 1 to 8 cameras"});
+}
+
+TEST(SceneErrors, TellsTheBeginningOfALongTextAlone) {
+  const std::string urdf = "<robot name='r'>" + std::string(5000, ' ') + "</robot>";
+  const TemporaryFolder folder;
+  const std::string message = error_message([&] { read_scene(folder.write("robot.urdf", urdf)); });
+  expect_parts(message, {"robot.urdf:1", "begins with <robot", "expected a map"});
+  EXPECT_LT(message.size(), 300U);
+}
+
 TEST(SceneErrors, RefusesEveryNegativeNumberOfTheSelfFilter) {
   for (const std::string key :
        {"tolerance_m", "tolerance_per_m", "tolerance_per_m2", "padding_m", "padding_depth_m",
@@ -221,7 +244,7 @@ TEST(SceneErrors, RefusesMissingOrSharedCameras) {
   const std::vector<BadText> table = {
       {"robot: {urdf: r}\njoints: j\n", {"scene.yaml:1: the key cameras is missing"}},
       {"robot: {urdf: r}\njoints: j\ncameras: []\n",
-       {"scene.yaml:3: cameras: a list of 0; expected one camera at least"}},
+       {"scene.yaml:3: cameras: 0 cameras; expected 1 to 8 cameras"}},
       {"robot: {urdf: r}\njoints: j\ncameras: {name: a}\n",
        {"scene.yaml:3: cameras: a map; expected a list"}},
       {"robot: {urdf: r}\njoints: j\ncameras:\n" + camera + camera,

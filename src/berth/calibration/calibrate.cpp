@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "berth/calibration/fit_camera.hpp"
+#include "berth/calibration/focal_length.hpp"
 #include "berth/calibration/uncertainty.hpp"
 #include "berth/fit/compare_estimates.hpp"
-#include "berth/fit/score.hpp"
 
 namespace berth {
 namespace {
@@ -22,9 +23,6 @@ constexpr double kCertainClock_s = 0.005;
 constexpr double kCertainDepthScale = 0.005;
 constexpr double kCertainDepthOffset_m = 0.004;
 constexpr double kCertainRobot_m = 0.01;
-/// Below, the pose is a wrong place: those of other cameras and robots had 0.77 at most.
-constexpr double kLeastScore = 0.8;
-constexpr ScoreSettings kLastScore{1, 0.03, 10};
 
 FitPriors priors_of(const CalibrationCamera& camera) {
   FitPriors priors;
@@ -66,11 +64,12 @@ void find_joint_zeros(const CalibrationData& calibration_data, FitPriors priors,
 class CameraReport {
  public:
   CameraReport(const CalibrationData& calibration_data, std::size_t camera,
-               const CalibrationEstimate& estimate)
+               const CalibrationEstimate& estimate, const std::function<void()>& pause)
       : one_(alone(calibration_data, camera)),
         source_(*calibration_data.cameras[camera]),
         drawer_(one_, {2, 1}),
-        start_(start_of(one_)) {
+        start_(start_of(one_)),
+        pause_(pause) {
     estimate_.cameras = {estimate.cameras[camera]};
     estimate_.joint_shift = estimate.joint_shift;
   }
@@ -96,14 +95,23 @@ class CameraReport {
   void judge() {
     if (out_.score_after < kLeastScore) {
       out_.is_found = false;
-      refuse(unexplained());
+      refuse(unexplained() + focal_length_text({}));
     } else if (out_.score_after < out_.score_before) {
-      refuse(
-          fmt::format("the best one found, {:.1f} mm from it, agrees with the images by {:.3f} of "
-                      "2, the scene's own by {:.3f}",
-                      1000 * displacement_m(drawer_, 2, estimate_, start_)[0], out_.score_after,
-                      out_.score_before));
+      refuse(fmt::format(
+          "the best one found, {:.1f} mm from it, fits the images by {:.1f} %, the scene's own by "
+          "{:.1f} %",
+          1000 * displacement_m(drawer_, 2, estimate_, start_)[0], fit_percent(out_.score_after),
+          fit_percent(out_.score_before)));
       out_.score_after = out_.score_before;
+    } else if (const double error = depth_error_share(drawer_, estimate_);
+               std::abs(error) > kMostDepthError) {
+      out_.is_found = false;
+      refuse(
+          fmt::format("a pose fits the images only if the camera reads the robot {:.0f} % too {}; "
+                      "expected {:.0f} "
+                      "% at most of a depth camera{}",
+                      100 * std::abs(error), error < 0 ? "near" : "far", 100 * kMostDepthError,
+                      focal_length_text(error)));
     } else {
       measure_uncertainty();
     }
@@ -111,16 +119,27 @@ class CameraReport {
 
   std::string unexplained() {
     const std::string best = fmt::format(
-        "no pose was found that explains the images: the best agrees by {:.2f} of 2; expected "
-        "{:.1f} "
-        "at least",
-        out_.score_after, kLeastScore);
+        "no pose was found that explains the images: the best fits them by {:.0f} %; expected "
+        "{:.0f} "
+        "% at least",
+        fit_percent(out_.score_after), fit_percent(kLeastScore));
     if (score(drawer_, start_, kLastScore).pixels > 0) return best;
     return fmt::format(
         "nothing of the robot is seen where the scene has the camera, in any of its {} "
         "frames, and {}; expected a camera that sees parts of the robot, and its pose "
         "to within 20 cm and 15 degrees",
         source_.frames.size(), best);
+  }
+
+  std::string focal_length_text(std::optional<double> error_share) {
+    const auto other = find_focal_length(one_, priors_of(source_), error_share, pause_);
+    if (!other) return error_share ? ". Check the camera's info and depth_scale" : "";
+    return fmt::format(
+        ". Check the camera's info: with a focal length of {:.0f} px in place of {:.0f} px a pose "
+        "fits "
+        "the images by {:.0f} %, and the camera reads the robot right to {:.1f} %",
+        other->factor * source_.camera.fx_px, source_.camera.fx_px, fit_percent(other->score),
+        100 * std::abs(other->depth_error_share));
   }
 
   void refuse(std::string why) {
@@ -158,6 +177,7 @@ class CameraReport {
   const CalibrationCamera& source_;
   FrameDrawer drawer_;
   const CalibrationEstimate start_;
+  const std::function<void()>& pause_;
   CalibrationEstimate estimate_;
   CameraCalibration out_;
 };
@@ -185,7 +205,7 @@ CalibrationResult calibrate(const CalibrationData& calibration_data,
   if (settings.joint_zeros) find_joint_zeros(calibration_data, priors, estimate, result);
   for (std::size_t c = 0; c < calibration_data.cameras.size(); ++c) {
     settings.pause();
-    result.cameras.push_back(CameraReport(calibration_data, c, estimate).run());
+    result.cameras.push_back(CameraReport(calibration_data, c, estimate, settings.pause).run());
   }
   return result;
 }

@@ -68,6 +68,9 @@ struct CalibrationResult {
   std::vector<std::string> joints_not_determined;
 };
 
+/// A score for people: 100 % is perfect, what is below 40 % is the wrong place.
+constexpr double fit_percent(double score) { return 50 * score; }
+
 /// What is looked for.
 struct CalibrationSettings {
   /// Whether to look for the joints' zeros as well. Few frames are overfitted so.

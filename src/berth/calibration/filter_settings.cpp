@@ -79,7 +79,7 @@ class Proposer {
           rounded_up(std::max(kLeastTolerance_m, before_m + kToleranceMargin_m));
       out_.self_filter.push_back(
           {"tolerance_m", self_filter_.tolerance_m,
-           fmt::format("99 % of the robot's readings lie at most {:.0f} mm before the model",
+           fmt::format("99 % of the robot's readings lie at most {:.0f} mm in front of the model",
                        std::max(0.0, 1000 * before_m))});
     }
     if (!std::isnan(overshoot_m)) {

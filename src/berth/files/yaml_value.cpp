@@ -15,8 +15,18 @@
 namespace berth {
 namespace {
 
+/// More of a text would hide what was expected: of a URDF that is given as a scene, say.
+constexpr std::size_t kMostToldBytes = 60;
+
+std::string describe_text(const std::string& text) {
+  if (text.empty()) return "an empty text";
+  if (text.size() <= kMostToldBytes) return text;
+  return fmt::format("a text of {} bytes that begins with {}", text.size(),
+                     text.substr(0, text.find_last_of(' ', kMostToldBytes)));
+}
+
 std::string describe(const YAML::Node& node) {
-  if (node.IsScalar()) return node.Scalar().empty() ? "an empty text" : node.Scalar();
+  if (node.IsScalar()) return describe_text(node.Scalar());
   if (node.IsSequence()) return fmt::format("a list of {}", node.size());
   return node.IsMap() ? "a map" : "nothing";
 }

@@ -12,18 +12,46 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
+/// Sums of each frame, since frames are drawn side by side; the means do not depend on their order.
+class CameraMeans {
+ public:
+  explicit CameraMeans(const CalibrationData& calibration_data) {
+    for (const CalibrationCamera* camera : calibration_data.cameras) {
+      sums_.emplace_back(camera->frames.size());
+    }
+  }
+  void add(const DrawnFrame& drawn, double value) {
+    Sum& sum = sums_[drawn.camera_index][drawn.frame_index];
+    sum.value += value;
+    sum.count += 1;
+  }
+  std::vector<double> all() const {
+    std::vector<double> means;
+    for (const std::vector<Sum>& camera : sums_) {
+      Sum all;
+      for (const Sum& sum : camera) {
+        all.value += sum.value;
+        all.count += sum.count;
+      }
+      means.push_back(all.count > 0 ? all.value / all.count : kUnknown);
+    }
+    return means;
+  }
+
+ private:
+  struct Sum {
+    double value = 0;
+    double count = 0;
+  };
+  std::vector<std::vector<Sum>> sums_;
+};
+
 }  // namespace
 
 std::vector<double> displacement_m(FrameDrawer& drawer, int step, const CalibrationEstimate& a,
                                    const CalibrationEstimate& b) {
   const CalibrationData& calibration_data = drawer.calibration_data();
-  struct Sum {
-    double length_m = 0;
-    double count = 0;
-  };
-  std::vector<std::vector<Sum>> sums(calibration_data.cameras.size());
-  for (std::size_t c = 0; c < sums.size(); ++c)
-    sums[c].resize(calibration_data.cameras[c]->frames.size());
+  CameraMeans means(calibration_data);
   drawer.draw(step, a, {}, FrameChoice::all, [&](const DrawnFrame& drawn) {
     const CalibrationFrame& frame =
         calibration_data.cameras[drawn.camera_index]->frames[drawn.frame_index];
@@ -34,24 +62,23 @@ std::vector<double> displacement_m(FrameDrawer& drawer, int step, const Calibrat
       X_CC[i] = other->X_BC.inverse() * other->pose.X_BL[i] * drawn.posed.pose.X_BL[i].inverse() *
                 drawn.posed.X_BC;
     }
-    Sum& sum = sums[drawn.camera_index][drawn.frame_index];
     each_robot_pixel(drawn.camera, drawn.robot, [&](int u, int v, LinkId id) {
       const Eigen::Vector3d p_C_m = point_at(drawn.camera, u, v, drawn.robot.depth_m(u, v));
-      sum.length_m +=
-          (X_CC[calibration_data.model->evaluated_links[id - 1]] * p_C_m - p_C_m).norm();
-      sum.count += 1;
+      means.add(drawn,
+                (X_CC[calibration_data.model->evaluated_links[id - 1]] * p_C_m - p_C_m).norm());
     });
   });
-  std::vector<double> means;
-  for (const auto& camera : sums) {
-    Sum all;
-    for (const Sum& sum : camera) {
-      all.length_m += sum.length_m;
-      all.count += sum.count;
-    }
-    means.push_back(all.count > 0 ? all.length_m / all.count : kUnknown);
-  }
-  return means;
+  return means.all();
+}
+
+std::vector<double> robot_depth_m(FrameDrawer& drawer, int step,
+                                  const CalibrationEstimate& estimate) {
+  CameraMeans means(drawer.calibration_data());
+  drawer.draw(step, estimate, {}, FrameChoice::all, [&](const DrawnFrame& drawn) {
+    each_robot_pixel(drawn.camera, drawn.robot,
+                     [&](int u, int v, LinkId) { means.add(drawn, drawn.robot.depth_m(u, v)); });
+  });
+  return means.all();
 }
 
 std::vector<ResidualSpread> residuals(FrameDrawer& drawer, const CalibrationEstimate& estimate) {

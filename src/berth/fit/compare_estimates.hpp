@@ -13,6 +13,11 @@ namespace berth {
 std::vector<double> displacement_m(FrameDrawer& drawer, int step, const CalibrationEstimate& a,
                                    const CalibrationEstimate& b);
 
+/// The mean depth of the robot's pixels where an estimate puts it, for each camera. NaN where a
+/// camera sees no robot.
+std::vector<double> robot_depth_m(FrameDrawer& drawer, int step,
+                                  const CalibrationEstimate& estimate);
+
 /// |reading - model| where readings are the robot's, for each camera.
 std::vector<ResidualSpread> residuals(FrameDrawer& drawer, const CalibrationEstimate& estimate);
 

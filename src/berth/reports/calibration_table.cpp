@@ -24,8 +24,8 @@ void add_residuals(const CameraCalibration& camera, Text out) {
   line("median", cell(camera.before.median_m), cell(camera.after.median_m));
   line("90 %", cell(camera.before.p90_m), cell(camera.after.p90_m));
   line("99 %", cell(camera.before.p99_m), cell(camera.after.p99_m));
-  fmt::format_to(out, "  {:<13}{:>10.2f}{:>10.2f}   (of 2)\n", "agreement", camera.score_before,
-                 camera.score_after);
+  fmt::format_to(out, "  {:<13}{:>8.0f} %{:>8.0f} %\n", "fit", fit_percent(camera.score_before),
+                 fit_percent(camera.score_after));
 }
 
 void add_settings(const char* group, const std::vector<ProposedSetting>& settings, Text out) {

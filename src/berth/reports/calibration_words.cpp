@@ -54,15 +54,16 @@ std::string headline(const CameraCalibration& camera) {
   }
   const std::string off = "This camera's view of the robot was off by " + mm_text(camera.moved_m);
   if (std::isnan(camera.halves_m)) {
-    return off + ". How sure the pose that was found is, one frame cannot tell.";
+    return off + ". How well the pose repeats, one frame cannot tell.";
   }
   const std::string sure =
       fmt::format("± {} ({})", mm_text(camera.halves_m / 2), frames_text(camera.frames.size()));
   if (camera.moved_m <= camera.halves_m / 2) {
-    return fmt::format("The scene's pose was right: what was found differs by {}, sure to {}.",
-                       mm_text(camera.moved_m), sure);
+    return fmt::format(
+        "The scene's pose was right: what was found differs by {}, repeatable to {}.",
+        mm_text(camera.moved_m), sure);
   }
-  return fmt::format("{}; now it is sure to {}.", off, sure);
+  return fmt::format("{}; now it is repeatable to {}.", off, sure);
 }
 
 std::string clock_text(const CameraCalibration& camera, const CalibrationCamera& source) {
@@ -72,7 +73,7 @@ std::string clock_text(const CameraCalibration& camera, const CalibrationCamera&
     return fmt::format("stays {}: the arm moves too little while images are taken to tell",
                        ms_text(source.clock_offset_s));
   }
-  return fmt::format("{}, was {}; sure to ± {}", ms_text(camera.clock_offset_s),
+  return fmt::format("{}, was {}; repeatable to ± {}", ms_text(camera.clock_offset_s),
                      ms_text(source.clock_offset_s), ms_text(camera.sigma_clock_s));
 }
 
@@ -115,7 +116,7 @@ std::vector<std::string> consequences(const FilterProposal& proposal) {
   sentences.emplace_back(
       proposal.leftover_px == 0
           ? "With these settings nothing of the robot is left in these images."
-          : fmt::format("With these settings {} pixels beside the robot are left in all these "
+          : fmt::format("With these settings {} pixels beside the robot remain in all these "
                         "images, {} of them in one piece: they would be taken for an obstacle.",
                         proposal.leftover_px, proposal.largest_leftover_px));
   sentences.emplace_back(

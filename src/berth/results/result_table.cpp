@@ -104,7 +104,7 @@ Columns columns_of(const Result& result) {
   if (result.compares_images) {
     return {{"distance [m]", "robot pixel", "obstacle pixel", "robot pixels"}, image_line};
   }
-  return {{"distance [m]", "to what is", "to occupied [m]", "camera", "obstacle pixel"}, mesh_line};
+  return {{"distance [m]", "nearest is", "to occupied [m]", "camera", "obstacle pixel"}, mesh_line};
 }
 
 }  // namespace

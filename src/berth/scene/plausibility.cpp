@@ -98,6 +98,7 @@ struct Tried {
   double share = 0;
 };
 
+/// Those that explain where the robot is, the best first.
 std::vector<Tried> tried_mistakes(const std::vector<SimpleMistake>& mistakes,
                                   RobotInImages& images) {
   std::vector<Tried> all;
@@ -108,6 +109,7 @@ std::vector<Tried> tried_mistakes(const std::vector<SimpleMistake>& mistakes,
   }
   const double least_seen = std::max<double>(kLeastSeen * most, kLeastJudgedPixels);
   for (Tried& one : all) one.share = share_at_robot(one.readings, least_seen);
+  std::erase_if(all, [](const Tried& one) { return one.share < one.mistake->least_share; });
   std::ranges::stable_sort(all, std::greater{}, &Tried::share);
   return all;
 }
@@ -117,11 +119,27 @@ void explain(const OpenScene& scene, RobotInImages& images, CameraPlausibility& 
   if (share_now > 1 - kLeastGain) return;
   const std::vector<SimpleMistake> mistakes = simple_mistakes(scene, images);
   const std::vector<Tried> tried = tried_mistakes(mistakes, images);
-  const Tried& best = tried.front();
-  if (best.share < kFits || best.share < share_now + kLeastGain) return;
+  if (tried.empty() || tried[0].share < share_now + kLeastGain) return;
+  const Tried& best = tried[0];
   camera.share_then = best.share;
   camera.as_if = best.mistake->as_if;
-  if (tried[1].share >= best.share - kAlike) camera.as_if += " or " + tried[1].mistake->as_if;
+  camera.is_of_joints = best.mistake->is_of_joints;
+  if (tried.size() < 2 || tried[1].share < best.share - kAlike) return;
+  camera.as_if += " or " + tried[1].mistake->as_if;
+  camera.is_of_joints |= tried[1].mistake->is_of_joints;
+}
+
+/// Whether the robot is much better where the scene has it, in this camera's images, than where it
+/// would be without any of the mistakes in the joints that explain another camera's.
+bool contradicts(const OpenScene& scene, std::size_t number, const std::string& as_if) {
+  RobotInImages images(scene, number);
+  if (images.frames().empty()) return false;
+  const double share_now = share_at_robot(images.readings(images.given()), kLeastJudgedPixels);
+  return std::ranges::all_of(simple_mistakes(scene, images), [&](const SimpleMistake& mistake) {
+    if (!mistake.is_of_joints || as_if.find(mistake.as_if) == std::string::npos) return true;
+    const RobotReadings then = images.readings(mistake.corrected);
+    return share_at_robot(then, kLeastJudgedPixels) < share_now - kLeastGain;
+  });
 }
 
 std::string counted_text(const RobotReadings& readings, std::size_t frames) {
@@ -132,7 +150,7 @@ std::string counted_text(const RobotReadings& readings, std::size_t frames) {
   return fmt::format(
       "of the robot's readings in {} of its images {:.0f} % lie at its surface, {:.0f} % behind "
       "it, "
-      "{:.0f} % before it",
+      "{:.0f} % in front of it",
       frames, percent(readings.at_surface), percent(readings.behind),
       percent(readings.before + readings.hidden));
 }
@@ -160,13 +178,20 @@ std::vector<CameraPlausibility> find_implausible(const OpenScene& scene) {
   std::vector<CameraPlausibility> cameras;
   for (std::size_t c = 0; c < scene.cameras.size(); ++c)
     cameras.push_back(find_implausible(scene, c));
+  for (CameraPlausibility& camera : cameras) {
+    if (!camera.is_of_joints) continue;
+    for (std::size_t c = 0; c < cameras.size(); ++c) {
+      if (cameras[c].is_implausible || !cameras[c].readings.tells()) continue;
+      if (contradicts(scene, c, camera.as_if)) camera.is_of_joints = false;
+    }
+  }
   return cameras;
 }
 
 std::string text_of(const CameraPlausibility& camera) {
   if (camera.is_hidden) {
     return fmt::format(
-        "camera {}: the robot is hidden: {:.0f} % of its readings in {} images lie before it; "
+        "camera {}: the robot is hidden: {:.0f} % of its readings in {} images lie in front of it; "
         "nothing tells whether it is where it should be",
         camera.camera, 100 * camera.readings.hidden_share(), camera.frames);
   }

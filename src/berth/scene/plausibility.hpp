@@ -26,14 +26,14 @@ struct CameraPlausibility {
   /// What explains it, as SimpleMistake::as_if; two with " or " between where they do so alike;
   /// empty where nothing does.
   std::string as_if;
+  /// What explains it is a mistake in the joints, and no other camera contradicts: then no camera's
+  /// image may be used.
+  bool is_of_joints = false;
   /// The share of the robot's readings that would lie at its surface then.
   double share_then = 0;
 };
 
-/// An explanation puts this share of the robot's readings at its surface, those that hide it left
-/// out.
-inline constexpr double kFits = 0.6;
-/// And so much more of them than the scene does.
+/// An explanation puts so much more of the robot's readings at its surface than the scene does.
 inline constexpr double kLeastGain = 0.3;
 
 /// Looks at some images of each camera. A camera is implausible where fewer of the robot's readings

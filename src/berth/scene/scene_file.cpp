@@ -13,6 +13,8 @@
 namespace berth {
 namespace {
 
+constexpr std::size_t kMostCameras = 8;
+
 RobotSettings read_robot(const YamlValue& value) {
   const YamlMap map(value,
                     {"urdf", "package_paths", "geometry", "environment_links", "ignore_links"});
@@ -41,7 +43,10 @@ std::vector<SceneCamera> read_cameras(const YamlValue& value, const CameraSettin
     }
     cameras.push_back(std::move(camera));
   }
-  if (cameras.empty()) value.fail("one camera at least");
+  if (cameras.empty() || cameras.size() > kMostCameras) {
+    value.fail(fmt::format("{} cameras", cameras.size()),
+               fmt::format("1 to {} cameras", kMostCameras));
+  }
   return cameras;
 }
 

@@ -13,12 +13,17 @@
 namespace berth {
 namespace {
 
-/// Throws where no camera is left.
+/// Throws where no camera is left, and where the joints are wrong: then the other cameras look for
+/// the robot in the wrong place, too, even if they do not see enough of it to tell.
 std::vector<CameraPlausibility> plausible_cameras(const OpenScene& scene) {
   std::vector<CameraPlausibility> cameras = find_implausible(scene);
-  if (!std::ranges::all_of(cameras, &CameraPlausibility::is_implausible)) return cameras;
+  if (!std::ranges::all_of(cameras, &CameraPlausibility::is_implausible) &&
+      std::ranges::none_of(cameras, &CameraPlausibility::is_of_joints)) {
+    return cameras;
+  }
   std::string text;
   for (const CameraPlausibility& camera : cameras) {
+    if (!camera.is_implausible) continue;
     text += fmt::format("{}{}: {}", text.empty() ? "" : "\n", scene.file.string(), text_of(camera));
   }
   throw std::runtime_error(text);

@@ -71,6 +71,8 @@ class SceneRun {
   /// The rest is about that image. The result, asked so often, with the times of the requests where
   /// that is more than once.
   Result ask(int repeat = 0);
+  /// Whether it is the first image of its result: images of one stamp have one.
+  bool begins_result() const { return step().begins_result; }
   const OpenCamera& camera() const { return scene_.cameras[step().camera]; }
   std::size_t camera_number() const { return step().camera; }
   /// Its number among the images of its camera.

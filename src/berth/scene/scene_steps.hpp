@@ -13,8 +13,11 @@ struct ImageStep {
   /// Its number among the images of its camera.
   std::size_t frame;
   double stamp_s;
-  /// The number of its result: where cameras are joined among all, else among those of its camera.
+  /// The number of its result: where cameras are joined that of its stamp, else among those of its
+  /// camera.
   std::size_t result;
+  /// Whether it is the first image of that result.
+  bool begins_result;
   /// How many steps its result knows: where cameras are joined all up to the last one of its stamp.
   std::size_t known;
   /// The cameras of its result: where cameras are joined all, else its own.

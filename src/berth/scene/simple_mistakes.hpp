@@ -12,6 +12,11 @@ struct SimpleMistake {
   /// Goes on after "as if ", such as "depth_scale were 0.001".
   std::string as_if;
   CameraBelief corrected;
+  /// It explains where the robot is if this share of its readings lies at its surface then, those
+  /// that hide it left out.
+  double least_share = 0.6;
+  /// The joints are wrong, and so all cameras see the robot elsewhere.
+  bool is_of_joints = false;
 };
 
 /// All that are tried for a camera of this scene: depth in other units, another focal length, a

@@ -71,7 +71,7 @@ export class DistancesPanel {
       };
       return row;
     });
-    const head = make("tr", {}, ["link", "status", "distance", "to what is"].map((text) => make("th", { textContent: text })));
+    const head = make("tr", {}, ["link", "status", "distance", "nearest is"].map((text) => make("th", { textContent: text })));
     return make("table", { id: "links" }, [make("thead", {}, [head]), make("tbody", {}, rows)]);
   }
 
@@ -88,7 +88,7 @@ export class DistancesPanel {
       ["point of the obstacle", point(link.obstacle_point_base_m)],
       ["to what is occupied", lengthText(link.occupied.distance_m)],
       ["seen of its surface", percent(link.visibility?.surface?.seen)],
-      ["not known around it", percent(link.visibility?.space_unknown)],
+      ["unseen space nearby", percent(link.visibility?.space_unknown)],
       ["rejected reading at", lengthText(link.visibility?.rejected_distance_m)],
     ];
     const list = make("dl", {}, lines.flatMap(([name, value]) => [make("dt", { textContent: name }), make("dd", { textContent: value })]));

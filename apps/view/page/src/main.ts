@@ -12,7 +12,7 @@ import { CalibrationPanel } from "./calibration_panel";
 
 const layerTexts: [Exclude<keyof Layers, "coloring">, string][] = [
   ["robot", "Robot"],
-  ["others", "Links beside the chosen one"],
+  ["others", "Other links"],
   ["kept", "Obstacles"],
   ["filtered", "Filtered away"],
   ["distances", "Distances"],
