@@ -144,7 +144,7 @@ TEST(Calibrate, ADepthErrorOfAPercentIsFound) {
 TEST(Calibrate, AWrongFocalLengthIsRefusedAndTheRightOneTold) {
   for (const double factor : {0.65, 1.1}) {
     SCOPED_TRACE(factor);
-    DrawnCalibrationData drawn = bundled_arm().draw({.width_px = 240, .height_px = 180, .poses = 3}, 5);
+    DrawnCalibrationData drawn = bundled_arm().draw({.width_px = 320, .height_px = 240}, 5);
     disturb(drawn, 0.03, 3 * kDegree, 700);
     const double right_px = drawn.camera->camera.fx_px;
     drawn.camera->camera.fx_px *= factor;
