@@ -188,25 +188,9 @@ class Rings {
     kept = join(beyond, reached);
     // Nothing is there outside of what is beyond.
     clear_beside(beyond, join(before, kept), out);
-    hold_own(ring, v, out);
-  }
-
-  /// What the row's pixels of this ring hold, run by run of blocks that have some.
-  void hold_own(int ring, int v, float* out) {
-    const int end = blocks_of_ring(ring, v).end;
-    for (int i = blocks_of_ring(ring, v).begin; i < end; ++i) {
-      if (!has_ring(ring, v, i)) continue;
-      const int first = i;
-      while (i + 1 < end && has_ring(ring, v, i + 1)) ++i;
-      const Part run{first * kBlock_px, std::min((i + 1) * kBlock_px, width_)};
-      const Part reached{std::max(run.begin - ring, 0), std::min(run.end + ring, width_)};
-      const float* const spread = spread_own(ring, v, run);
-      take_least(spread + reached.begin, reached.end - reached.begin, out + reached.begin);
-    }
-  }
-
-  bool has_ring(int ring, int v, int block) const {
-    return workspace_.reaches[std::size_t(blocks_of(width_)) * v + block] >> ring & 1;
+    if (pixels.is_empty()) return;
+    const float* const spread = spread_own(ring, v, pixels);
+    take_least(spread + reached.begin, reached.end - reached.begin, out + reached.begin);
   }
 
   /// Columns of `all` that are not among those of `filled`, which lies in it or is empty.
@@ -237,13 +221,10 @@ class Rings {
     return part;
   }
 
-  const AgingWorkspace::Blocks& blocks_of_ring(int ring, int v) const {
-    return workspace_.ring_blocks[std::size_t(greatest_ + 1) * v + ring];
-  }
-
-  /// From the first to the last pixel of this ring in the row.
+  /// Where in the row pixels of this ring are.
   Part pixels_of(int ring, int v) const {
-    const AgingWorkspace::Blocks& blocks = blocks_of_ring(ring, v);
+    const AgingWorkspace::Blocks& blocks =
+        workspace_.ring_blocks[std::size_t(greatest_ + 1) * v + ring];
     return {blocks.begin * kBlock_px, std::min(blocks.end * kBlock_px, width_)};
   }
 
@@ -273,9 +254,8 @@ class Rings {
     (own_m_.row(v) + pixels.begin, workspace_.reach.row(v) + pixels.begin, ring, moved_m_, count,
      x);
     if (ring > 0) {
-      // What spread_in_row() reads beside them, the last vector included.
-      fill_endless(2 * ring, x - 2 * ring);
-      fill_endless(4 * ring + 32, x + count);
+      fill_endless(kMargin, x - kMargin);
+      fill_endless(kMargin, x + count);
       HWY_DYNAMIC_DISPATCH(spread_in_row)(x, ring, count);
     }
     return scratch() - ring;
