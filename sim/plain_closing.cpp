@@ -110,7 +110,40 @@ struct Tier {
   std::function<int(int u, int v)> least_mm;
 };
 
+/// From the nearest pixel that shows the robot, of those that are as near the most.
+float freed_by_robot_m(const Image<PixelFate>& fate, const DepthImage& own_m, double ball_px_m,
+                       int u, int v) {
+  constexpr int kMost_px = 8;
+  double nearest_px = 1e9;
+  float frees_m = 0;
+  for (int y = v - kMost_px; y <= v + kMost_px; ++y) {
+    for (int x = u - kMost_px; x <= u + kMost_px; ++x) {
+      if (x < 0 || y < 0 || x >= fate.width() || y >= fate.height()) continue;
+      const double away_px = std::hypot(x - u, y - v);
+      if (fate(x, y) != PixelFate::robot || away_px > kMost_px || away_px > nearest_px) continue;
+      frees_m = std::max(away_px < nearest_px ? 0 : frees_m, own_m(x, y));
+      nearest_px = away_px;
+    }
+  }
+  return nearest_px + std::sqrt(0.5) <= ball_px_m / frees_m ? frees_m : 0;
+}
+
 }  // namespace
+
+DepthImage plainly_freed_beside_robot(const Camera& camera, DepthView sensor_depth_m,
+                                      DepthView obstacle_depth_m, const Image<PixelFate>& fate,
+                                      const DepthImage& own_m, double detection_capability_m) {
+  DepthImage freed_m = own_m;
+  const double ball_px_m = std::min(camera.fx_px, camera.fy_px) * detection_capability_m / 2;
+  for (int v = 0; v < own_m.height(); ++v) {
+    for (int u = 0; u < own_m.width(); ++u) {
+      const bool is_hole = std::isnan(sensor_depth_m(u, v)) && std::isnan(obstacle_depth_m(u, v));
+      if (!is_hole || own_m(u, v) > 0 || !(detection_capability_m > 0)) continue;
+      freed_m(u, v) = freed_by_robot_m(fate, own_m, ball_px_m, u, v);
+    }
+  }
+  return freed_m;
+}
 
 DepthImage plainly_closed(const Camera& camera, const DepthImage& own_m,
                           double detection_capability_m) {

@@ -3,8 +3,15 @@
 
 #include "berth/types/camera.hpp"
 #include "berth/types/image.hpp"
+#include "berth/types/obstacle_image.hpp"
 
 namespace berth::sim {
+
+/// What each pixel frees (`own_m`), where one without a reading is a hole beside the robot; the
+/// slow twin of free_holes_beside_robot(). S, F and the fates have the same size.
+DepthImage plainly_freed_beside_robot(const Camera& camera, DepthView sensor_depth_m,
+                                      DepthView obstacle_depth_m, const Image<PixelFate>& fate,
+                                      const DepthImage& own_m, double detection_capability_m);
 
 /// What each pixel frees (`own_m`), raised where no ball of the diameter d could stand at that
 /// depth that the camera would have missed; the slow twin of close_free_depth().

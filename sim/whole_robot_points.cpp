@@ -68,6 +68,8 @@ Image<double> own_free_depth_m(const PointView& view, const SpaceSettings& setti
       if (freed_m > 0) own_m(u, v) = static_cast<float>(freed_m);
     }
   }
+  own_m = plainly_freed_beside_robot(view.camera, view.sensor_depth_m, view.obstacle_depth_m,
+                                     view.fate, own_m, settings.detection_capability_m);
   const DepthImage closed_m = plainly_closed(view.camera, own_m, settings.detection_capability_m);
   Image<double> all_m(width, height, kNone);
   std::ranges::copy(closed_m.pixels(), all_m.pixels().begin());

@@ -45,6 +45,9 @@ DepthImage closed_free_depth(const MeshWorldView& view, const SpaceSettings& set
       if (freed_m > 0) own_m(u, v) = freed_m;
     }
   }
+  own_m =
+      sim::plainly_freed_beside_robot(view.camera, view.sensor_depth_m, view.obstacles.depth_m,
+                                      view.obstacles.fate, own_m, settings.detection_capability_m);
   return sim::plainly_closed(view.camera, own_m, settings.detection_capability_m);
 }
 

@@ -5,13 +5,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "berth/sensor/settings.hpp"
 #include "sim/random.hpp"
 #include "tests/support/thinned.hpp"
 
 namespace berth::testing {
 namespace {
 
-constexpr double kRadius_m = 0.04;
+constexpr double kRadius_m = SensorSettings{}.phantom_radius_m;
 
 ObstacleImage all_kept(const DepthImage& depth_m) {
   ObstacleImage image;
@@ -25,8 +26,23 @@ ObstacleImage all_kept(const DepthImage& depth_m) {
   return image;
 }
 
+/// Some readings go to the robot, to its padding, or for another reason.
+void drop_some(sim::Random& random, ObstacleImage& image) {
+  constexpr PixelFate kFates[] = {PixelFate::robot, PixelFate::environment, PixelFate::padding,
+                                  PixelFate::flying_patch};
+  for (std::size_t i = 0; i < image.fate.pixels().size(); ++i) {
+    PixelFate& fate = image.fate.pixels()[i];
+    if (fate != PixelFate::obstacle || !random.chance(0.3)) continue;
+    --image.count[static_cast<std::size_t>(fate)];
+    fate = kFates[random.whole(0, 3)];
+    ++image.count[static_cast<std::size_t>(fate)];
+    image.depth_m.pixels()[i] = kNoDepth;
+  }
+}
+
 /// The definition, pixel by pixel.
-bool plainly_alone(const Camera& camera, const ObstacleImage& image, int u, int v) {
+bool plainly_alone(const Camera& camera, const DepthImage& sensor_depth_m,
+                   const ObstacleImage& image, int u, int v) {
   const double z_m = image.depth_m(u, v);
   const double across_px = std::sqrt(camera.fx_px * camera.fy_px) * kRadius_m / z_m;
   const double wanted = std::floor(0.25 * std::numbers::pi * across_px * across_px / 4);
@@ -35,7 +51,10 @@ bool plainly_alone(const Camera& camera, const ObstacleImage& image, int u, int 
   for (int y = 0; y < image.depth_m.height(); ++y) {
     for (int x = 0; x < image.depth_m.width(); ++x) {
       if (std::abs(x - u) > reach || std::abs(y - v) > reach) continue;
-      found += std::abs(image.depth_m(x, y) - image.depth_m(u, v)) <= static_cast<float>(kRadius_m);
+      const PixelFate fate = image.fate(x, y);
+      if (fate == PixelFate::robot || fate == PixelFate::environment) continue;
+      const float there_m = is_kept(fate) ? image.depth_m(x, y) : sensor_depth_m(x, y);
+      found += std::abs(there_m - image.depth_m(u, v)) <= static_cast<float>(kRadius_m);
     }
   }
   return found < std::min(wanted, 5.0);
@@ -53,15 +72,16 @@ TEST(Phantoms, AreThoseOfTheDefinition) {
     for (float& z : depth_m.pixels()) {
       if (random.chance(dense)) z = static_cast<float>(random.whole(1, 3) + random(0, 0.06));
     }
-    const ObstacleImage before = all_kept(depth_m);
+    ObstacleImage before = all_kept(depth_m);
+    if (random.chance(0.5)) drop_some(random, before);
     ObstacleImage after = before;
     PhantomWorkspace workspace;
-    drop_phantoms(camera, kRadius_m, workspace, after);
+    drop_phantoms(camera, depth_m, kRadius_m, workspace, after);
     std::int64_t speckle = 0;
     for (int v = 0; v < camera.height_px; ++v) {
       for (int u = 0; u < camera.width_px; ++u) {
-        if (std::isnan(depth_m(u, v))) continue;
-        const bool is_alone = plainly_alone(camera, before, u, v);
+        if (!is_kept(before.fate(u, v))) continue;
+        const bool is_alone = plainly_alone(camera, depth_m, before, u, v);
         EXPECT_EQ(after.fate(u, v) == PixelFate::speckle, is_alone)
             << seed << ": " << u << " " << v;
         EXPECT_EQ(std::isnan(after.depth_m(u, v)), is_alone);
@@ -83,10 +103,33 @@ TEST(Phantoms, AMixedPixelBetweenNearAndFarGoesAndIsToldOf) {
   depth_m(32, 30) = 2.4F;
   ObstacleImage image = all_kept(depth_m);
   PhantomWorkspace workspace;
-  drop_phantoms(camera, kRadius_m, workspace, image);
+  drop_phantoms(camera, depth_m, kRadius_m, workspace, image);
   EXPECT_EQ(image.count_of(PixelFate::speckle), 2);
   EXPECT_EQ(image.fate(32, 20), PixelFate::speckle);
   EXPECT_EQ(image.fate(32, 30), PixelFate::speckle);
+}
+
+TEST(Phantoms, WhatPaddingLeavesOfAThingStays) {
+  const Camera camera{64, 48, 580, 580, 31.5, 23.5};
+  DepthImage depth_m(64, 48, 3);
+  for (int v = 0; v < 48; ++v) std::fill_n(depth_m.row(v) + 20, 8, 1.2F);
+  ObstacleImage image = all_kept(depth_m);
+  for (int v = 0; v < 48; ++v) {
+    for (int u = 20; u < 28; ++u) {
+      if (u == 27 && v == 24) continue;
+      image.fate(u, v) = PixelFate::padding;
+      image.depth_m(u, v) = kNoDepth;
+    }
+  }
+  PhantomWorkspace workspace;
+  drop_phantoms(camera, depth_m, kRadius_m, workspace, image);
+  EXPECT_EQ(image.fate(27, 24), PixelFate::obstacle);
+  // The robot itself is no support.
+  for (PixelFate& fate : image.fate.pixels()) {
+    if (fate == PixelFate::padding) fate = PixelFate::robot;
+  }
+  drop_phantoms(camera, depth_m, kRadius_m, workspace, image);
+  EXPECT_EQ(image.fate(27, 24), PixelFate::speckle);
 }
 
 /// A wall at 4 m, and before it a stick of a width and length, seen with noise and dropouts.
@@ -116,7 +159,7 @@ double kept_of_stick(double f_px, double z_m, double width_m, double length_m, s
   }
   ObstacleImage image = all_kept(depth_m);
   PhantomWorkspace workspace;
-  drop_phantoms(camera, kRadius_m, workspace, image);
+  drop_phantoms(camera, depth_m, kRadius_m, workspace, image);
   int kept = 0;
   for (int v = 0; v < 120; ++v) {
     for (int u = 0; u < 160; ++u) kept += is_stick(u, v) && !std::isnan(image.depth_m(u, v));

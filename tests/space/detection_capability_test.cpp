@@ -22,6 +22,8 @@ struct SeenRoom {
   Pose X_BC;
   /// What an ideal camera sees.
   DepthImage ideal_m;
+  /// Where the robot is what it sees.
+  Image<std::uint8_t> is_robot;
   CameraSpace space;
   ObstacleImage obstacles;
 };
@@ -30,7 +32,8 @@ struct BallCount {
   int drawn = 0;
   /// No image tells that there is none.
   int possible = 0;
-  /// A reading before the ball frees some of it: its error is above the margin.
+  /// A reading before the ball frees some of it: its error is above the margin, or it is the
+  /// robot's.
   int at_fault = 0;
   /// Of the others: some of it is called free; its middle is; all of it is.
   int partly = 0;
@@ -62,15 +65,28 @@ Pose draw_place(sim::Random& random) {
   return X_BC;
 }
 
-void look(SeenRoom& view, const std::vector<sim::DrawnObstacle>& room,
+/// The last `robots` things of the room are the robot's.
+void look(SeenRoom& view, const std::vector<sim::DrawnObstacle>& room, int robots,
           const sim::SensorErrors& errors, std::uint32_t seed) {
   view.ideal_m = sim::cast_obstacles(room, view.camera, view.X_BC);
+  view.is_robot = Image<std::uint8_t>(view.camera.width_px, view.camera.height_px, 0);
+  const DepthImage robot_m =
+      sim::cast_obstacles({room.end() - robots, room.end()}, view.camera, view.X_BC);
+  for (std::size_t i = 0; i < robot_m.pixels().size(); ++i) {
+    view.is_robot.pixels()[i] = robot_m.pixels()[i] < view.ideal_m.pixels()[i] + 1e-4F;
+  }
   DepthImage sensed_m = view.ideal_m;
   sim::add_errors(errors, seed, sensed_m);
   view.obstacles.depth_m = sensed_m;
   view.obstacles.fate = Image<PixelFate>(sensed_m.width(), sensed_m.height(), PixelFate::obstacle);
   for (std::size_t i = 0; i < sensed_m.pixels().size(); ++i) {
-    if (std::isnan(sensed_m.pixels()[i])) view.obstacles.fate.pixels()[i] = PixelFate::no_reading;
+    PixelFate& fate = view.obstacles.fate.pixels()[i];
+    if (std::isnan(sensed_m.pixels()[i])) {
+      fate = PixelFate::no_reading;
+    } else if (view.is_robot.pixels()[i] != 0) {
+      fate = PixelFate::robot;
+      view.obstacles.depth_m.pixels()[i] = kNoDepth;
+    }
   }
   build_camera_space(view.camera, sensed_m, view.obstacles, {}, view.space);
 }
@@ -100,9 +116,11 @@ Verdict judge(const SeenRoom& view, const Eigen::Vector3d& centre_B, double radi
       const double under = b * b - a * (c.squaredNorm() - radius_m * radius_m);
       if (under <= 0) continue;
       const double front_m = (b - std::sqrt(under)) / a;
-      const bool is_read = !std::isnan(view.obstacles.depth_m(u, v));
+      const float sensed_m = view.space.sensor_depth_m(u, v);
+      const bool is_read = !std::isnan(sensed_m);
       if (is_read && view.ideal_m(u, v) > front_m) return {false, false};
-      const float own_m = is_read ? view.obstacles.depth_m(u, v) - 0.02f : 0;
+      // What the robot hides is no obstacle, up to 30 cm behind it.
+      const float own_m = !is_read ? 0 : sensed_m + (view.is_robot(u, v) != 0 ? 0.3f : -0.02f);
       verdict.is_at_fault |= own_m > front_m;
     }
   }
@@ -152,7 +170,8 @@ void put_ball(const std::vector<SeenRoom>& views, const Eigen::Vector3d& centre_
 }
 
 /// Balls of the detection capability, or of this share of it.
-BallCount count_balls(const sim::SensorErrors& errors, int rooms, double share = 1) {
+BallCount count_balls(const sim::SensorErrors& errors, int rooms, double share = 1,
+                      int robots = 0) {
   constexpr int kBallsPerRoom = 2500;
   const double radius_m = share * SpaceSettings{}.detection_capability_m / 2;
   BallCount count;
@@ -163,7 +182,7 @@ BallCount count_balls(const sim::SensorErrors& errors, int rooms, double share =
     for (SeenRoom& view : views) {
       view.camera = {320, 240, random(220, 330), random(220, 330), 159.5, 119.5};
       view.X_BC = draw_place(random);
-      look(view, room, errors, random.whole(0, 1000000));
+      look(view, room, robots, errors, random.whole(0, 1000000));
     }
     for (int i = 0; i < kBallsPerRoom; ++i) {
       put_ball(views, sim::draw_point(random, 1.2), radius_m, count);
@@ -172,13 +191,14 @@ BallCount count_balls(const sim::SensorErrors& errors, int rooms, double share =
   return count;
 }
 
-void expect_sound(const char* name, const sim::SensorErrors& errors) {
+void expect_sound(const char* name, const sim::SensorErrors& errors, int robots = 0) {
   const char* const full = std::getenv("BERTH_BALLS");
   const bool is_full = full && std::string_view(full) == "full";
-  const BallCount count = count_balls(errors, is_full ? 400 : thinned(20));
+  const BallCount count = count_balls(errors, is_full ? 400 : thinned(20), 1, robots);
   fmt::print(
       "{}: {} balls, {} that no image excludes, {} of them behind a reading that is wrong by more "
-      "than the margin; of the others partly free {}, nearer to the middle than half the radius "
+      "than the margin, or the robot's; of the others partly free {}, nearer to the middle than "
+      "half the radius "
       "{}, "
       "the middle {}, wholly {}\n",
       name, count.drawn, count.possible, count.at_fault, count.partly, count.inner, count.middle,
@@ -196,6 +216,10 @@ TEST(DetectionCapability, NoBallIsCalledFreeInImagesWithDarkOutlinesAndDropouts)
 
 TEST(DetectionCapability, NoBallIsCalledFreeInNoisyImages) {
   expect_sound("sensor", sim::kKinectErrors);
+}
+
+TEST(DetectionCapability, NoBallBesideTheRobotIsCalledFree) {
+  expect_sound("dark, three things are the robot", {.dropout_share = 0.02, .outline_px = 2}, 3);
 }
 
 /// Else the tests above would find nothing either if there was something.

@@ -78,6 +78,9 @@ TEST(CameraSpace, IsToTheBitThatOfThePlainWay) {
         camera.fy_px = random(40, 300);
         build_camera_space(camera, sensor_depth_m, obstacles, settings, fast);
         plain_own_free_depth(sensor_depth_m, obstacles, settings, own_m);
+        own_m =
+            sim::plainly_freed_beside_robot(camera, sensor_depth_m, obstacles.depth_m,
+                                            obstacles.fate, own_m, settings.detection_capability_m);
         own_m = sim::plainly_closed(camera, own_m, settings.detection_capability_m);
         plain_free_depth_of(own_m, free_m);
         EXPECT_EQ(fast.own_free_depth_m.pixels(), own_m.pixels());

@@ -33,8 +33,9 @@ void prepare_space(DepthView sensor_depth_m, Frame& frame) {
 void prepare_frame(DepthView sensor_depth_m, FrameUse use, Frame& frame) {
   const EvaluationSettings& settings = frame.view->robot()->settings();
   if (use == FrameUse::any_query) {
-    drop_phantoms(frame.view->camera(), frame.view->settings().sensor.phantom_radius_m,
-                  frame.space->phantoms, frame.obstacles);
+    drop_phantoms(frame.view->camera(), sensor_depth_m,
+                  frame.view->settings().sensor.phantom_radius_m, frame.space->phantoms,
+                  frame.obstacles);
   }
   if (settings.visibility) {
     find_rejected(sensor_depth_m, frame.obstacles, frame.space->rejected);

@@ -28,17 +28,26 @@ void append_doubtful(const float* above, const float* row, const float* below, i
   }
 }
 
-/// Whether so many kept pixels, itself among them, lie within d.
-bool has_support(DepthView depth_m, Pixel p, int reach_px, float d_m, int wanted) {
-  const float z_m = depth_m(p.u, p.v);
+/// Whether a reading may be of the thing that another one shows.
+bool supports(PixelFate fate) { return fate != PixelFate::robot && fate != PixelFate::environment; }
+
+/// Whether so many readings, itself among them, lie within d.
+bool has_support(DepthView sensor_depth_m, const ObstacleImage& image, Pixel p, int reach_px,
+                 float d_m, int wanted) {
+  const float z_m = image.depth_m(p.u, p.v);
   int found = 0;
   const auto count = [&](int reach) {
     const PixelRect around = clip({p.u - reach, p.v - reach, p.u + reach + 1, p.v + reach + 1},
-                                  depth_m.width, depth_m.height);
+                                  sensor_depth_m.width, sensor_depth_m.height);
     found = 0;
     for (int v = around.v_begin; v < around.v_end && found < wanted; ++v) {
-      const float* const row = depth_m.row(v);
-      for (int u = around.u_begin; u < around.u_end; ++u) found += std::abs(row[u] - z_m) <= d_m;
+      const float* const sensed_m = sensor_depth_m.row(v);
+      const float* const kept_m = image.depth_m.row(v);
+      const PixelFate* const fate = image.fate.row(v);
+      for (int u = around.u_begin; u < around.u_end; ++u) {
+        const bool is_near = std::abs(kept_m[u] - z_m) <= d_m || std::abs(sensed_m[u] - z_m) <= d_m;
+        found += int(is_near) & int(supports(fate[u]));
+      }
     }
     return found >= wanted;
   };
@@ -55,8 +64,8 @@ int support_of_phantom_rule(const Camera& camera, double phantom_radius_m, float
       std::clamp(kLeastShare * std::numbers::pi / 4 * across_px2, 1.0, 1.0 * kMostSupport));
 }
 
-void drop_phantoms(const Camera& camera, double phantom_radius_m, PhantomWorkspace& workspace,
-                   ObstacleImage& out) {
+void drop_phantoms(const Camera& camera, DepthView sensor_depth_m, double phantom_radius_m,
+                   PhantomWorkspace& workspace, ObstacleImage& out) {
   if (!(phantom_radius_m > 0)) return;
   const auto d_m = static_cast<float>(phantom_radius_m);
   const double f_px = std::min(camera.fx_px, camera.fy_px);
@@ -75,7 +84,7 @@ void drop_phantoms(const Camera& camera, double phantom_radius_m, PhantomWorkspa
     const int wanted = support_of_phantom_rule(camera, phantom_radius_m, z_m);
     const int reach_px =
         static_cast<int>(std::min(f_px * phantom_radius_m / z_m, 1.0 * kMostSupportReach_px));
-    return has_support(out.depth_m, p, reach_px, d_m, wanted);
+    return has_support(sensor_depth_m, out, p, reach_px, d_m, wanted);
   });
   for (const Pixel& p : lonely) {
     --out.count[static_cast<std::size_t>(out.fate(p.u, p.v))];

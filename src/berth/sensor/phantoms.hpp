@@ -23,11 +23,12 @@ inline constexpr int kMostSupportReach_px = 8;
 
 /// Drops as `speckle` the readings that are alone in space: in the square of pixels that are at
 /// most f d / z, and kMostSupportReach_px, to the side of it, fewer than support_of_phantom_rule()
-/// pixels that were kept are within d of it in depth, itself among them. A camera makes such up
-/// between near and far, and in the air; of a thing of the size d, a rod or a cable it gives more.
-/// Counts are of the image as it came: it does not matter who is dropped first. 0 turns the rule
-/// off.
-void drop_phantoms(const Camera& camera, double phantom_radius_m, PhantomWorkspace& workspace,
-                   ObstacleImage& out);
+/// pixels are within d of it in depth, itself among them: kept ones, and readings that were dropped
+/// but do not show robot or environment. So what padding took of a thing beside the arm still
+/// stands by what is left of it. A camera makes such readings up between near and far, and in the
+/// air; of a thing of the size d, a rod or a cable it gives more. Counts are of the image as it
+/// came: it does not matter who is dropped first. 0 turns the rule off.
+void drop_phantoms(const Camera& camera, DepthView sensor_depth_m, double phantom_radius_m,
+                   PhantomWorkspace& workspace, ObstacleImage& out);
 
 }  // namespace berth

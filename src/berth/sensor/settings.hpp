@@ -18,8 +18,8 @@ inline constexpr std::array kHolePolicies = {HolePolicy::free, HolePolicy::obsta
 std::string_view name_of(HolePolicy policy);
 constexpr const auto& all_of(HolePolicy) { return kHolePolicies; }
 
-/// What is known of the sensor's faults. Every rule is off by default. Only `speckle_px` and
-/// `phantom_radius_m` ever drop anything; the other rules add obstacles or move them towards the
+/// What is known of the sensor's faults. Every rule but `phantom_radius_m` is off by default. Only
+/// that and `speckle_px` ever drop anything; the other rules add obstacles or move them towards the
 /// camera.
 struct SensorSettings {
   /// Two readings of one surface at z m differ by no more than noise_m max(1, z^2).
@@ -33,7 +33,7 @@ struct SensorSettings {
   /// d: a reading that is alone in space, with fewer than a quarter of the readings within d that a
   /// ball of this diameter would show, at most 5, is dropped as speckle before `mesh` looks
   /// (drop_phantoms); 0 turns the rule off. Methods on images do not know it.
-  double phantom_radius_m = 0;
+  double phantom_radius_m = 0.03;
   /// A reading moves to the mean of this many of its pixel's last ones (itself among them) where
   /// that is nearer; 0 and 1 turn the rule off.
   int average_frames = 0;

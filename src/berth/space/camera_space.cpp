@@ -23,6 +23,8 @@ void build_camera_space(const Camera& camera, DepthView sensor_depth_m,
   if (out.is_empty()) return;
   copy(sensor_depth_m, out.sensor_depth_m);
   find_own_free_depth(sensor_depth_m, obstacles, settings, out.own_free_depth_m);
+  free_holes_beside_robot(camera, sensor_depth_m, obstacles, settings.detection_capability_m,
+                          out.robot_holes, out.own_free_depth_m);
   close_free_depth(camera, settings.detection_capability_m, out.closing, out.own_free_depth_m);
   find_free_depth(out.own_free_depth_m, out.free_depth_m);
   build_depth_windows(out.obstacle_depth_m, out.obstacle_windows);

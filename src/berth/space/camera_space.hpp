@@ -4,6 +4,7 @@
 #include "berth/space/depth_cells.hpp"
 #include "berth/space/depth_windows.hpp"
 #include "berth/space/free_depth.hpp"
+#include "berth/space/robot_holes.hpp"
 #include "berth/space/settings.hpp"
 #include "berth/types/camera.hpp"
 #include "berth/types/obstacle_image.hpp"
@@ -32,6 +33,7 @@ struct CameraSpace {
   DepthImage sensor_depth_m;
   DepthImage own_free_depth_m;
   /// Scratch.
+  RobotHolesWorkspace robot_holes;
   ClosingWorkspace closing;
   DepthWindows obstacle_windows;
   DepthWindows free_windows;
