@@ -37,7 +37,7 @@ def generate_test_description():
         Node(package="berth_ros", executable="distance_node", output="screen", parameters=[{
             "cameras": ["camera", "left", "right"], "environment_links": ["table"], "evaluation.range_m": 1.0,
             "evaluation.tolerance_m": TOLERANCE_M, "separation.monitor": True, "separation.human_speed_m_s": 0.1,
-            "separation.intrusion_m": 0.0, "separation.hold_s": 0.0, "separation.release_m": 0.0}]),
+            "separation.intrusion_m": 0.0}]),
         Node(package="berth_ros", executable="self_filter_node", name="left_filter", output="screen",
              remappings=[("depth_image", "left/depth_image"), ("camera_info", "left/camera_info")],
              parameters=[{"environment_links": ["table"]}]),
