@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "berth/files/read_file.hpp"
+#include "berth/separation/protective_distance.hpp"
 #include "sim/bundled_camera.hpp"
 #include "sim/room.hpp"
 
@@ -50,7 +51,19 @@ SeparationSettings cell_separation() {
   settings.deceleration_m_s2 = kArmDeceleration_m_s2;
   settings.acceleration_m_s2 = kArmAcceleration_m_s2;
   settings.reaction_time_s = 0.04;
+  settings.detection_m = 0.04;
+  settings.camera_uncertainty_m = kCellReadingError_m;
   return settings;
+}
+
+double conforming_zone_m(double robot_m_s) {
+  // The arm's farthest point from the base's axis on its way.
+  constexpr double kReach_m = 0.80;
+  constexpr double kScanner_s = 0.08;
+  SeparationSettings settings = cell_separation();
+  settings.detection_m.reset();
+  const ProtectiveTerms terms{settings.reaction_time_s + kScanner_s, 0};
+  return kReach_m + protective_distance_m(settings, terms, {robot_m_s, robot_m_s});
 }
 
 std::shared_ptr<const Robot> cell_robot() {

@@ -13,11 +13,14 @@ namespace berth::lab {
 /// camera.
 class CellSensors {
  public:
-  /// `model` and its meshes are copied.
-  CellSensors(const RobotModel& model, std::uint32_t seed);
+  /// `model` and all meshes are copied; `visitors` are what comes near the arm.
+  CellSensors(const RobotModel& model, const std::vector<TriangleMesh>& visitors,
+              std::uint32_t seed);
 
   /// By the camera's place in cell_cameras().
-  DepthImage take_image(int camera, const RobotPose& pose, const std::vector<Pose>& X_BP);
+  /// With is_turned by somebody who bumped into it.
+  DepthImage take_image(int camera, const RobotPose& pose, const std::vector<Pose>& X_BP,
+                        bool is_turned = false);
 
  private:
   std::vector<CellCamera> cameras_;

@@ -56,7 +56,7 @@ class FilmedSupervisor : public MonitorSupervisor {
 }  // namespace
 
 void film_encounter(std::uint32_t seed, const std::filesystem::path& folder) {
-  FilmedSupervisor supervisor(sim::Encounter(seed).duration_s(), folder);
+  FilmedSupervisor supervisor(sim::Visit(sim::VisitKind::reaching, seed).duration_s(), folder);
   std::vector<LoopSample> samples;
   simulate(seed, supervisor, {}, &samples);
   std::string csv = "time_s,clearance_m,fastest_m_s,scale\n";

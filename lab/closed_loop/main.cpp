@@ -22,6 +22,8 @@ struct Options {
   int encounters = 200;
   int first = 0;
   std::vector<std::string> policies;
+  std::string people = "reaching";
+  SimulationSettings simulation;
   std::filesystem::path csv;
   std::filesystem::path film;
   bool is_cost = false;
@@ -43,7 +45,8 @@ std::vector<EncounterResult> run_encounters(const Policy& policy, const Options&
     // Else a waiting thread would begin another encounter on top of this one.
     tbb::this_task_arena::isolate([&] {
       const auto supervisor = make_supervisor(policy.name);
-      results[i] = simulate(static_cast<std::uint32_t>(options.first + i), *supervisor, {});
+      results[i] =
+          simulate(static_cast<std::uint32_t>(options.first + i), *supervisor, options.simulation);
     });
   });
   fmt::print(stderr, "{}: done\n", policy.name);
@@ -95,6 +98,23 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(0, 1000000))
       ->capture_default_str();
   program.add_option("--policy", options.policies, "only these")->check(CLI::IsMember(names));
+  program.add_option("--people", options.people, "who comes")
+      ->check(CLI::IsMember(
+          std::vector<std::string>(sim::kVisitKindNames.begin(), sim::kVisitKindNames.end())))
+      ->capture_default_str();
+  program
+      .add_option("--presence", options.simulation.presence,
+                  "the share of the time in which somebody is there; 0: nobody ever")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  program.add_option("--rate", options.simulation.request_hz, "questions a second")
+      ->check(CLI::Range(10.0, 1000.0))
+      ->capture_default_str();
+  program
+      .add_option("--image-age", options.simulation.image_latency_s,
+                  "seconds from an exposure until its image comes")
+      ->check(CLI::Range(0.0, 0.5))
+      ->capture_default_str();
   program.add_option("--csv", options.csv, "a file for each encounter's figures");
   program.add_flag("--cost", options.is_cost, "only what the monitor costs, in encounter --first");
   program
@@ -102,6 +122,9 @@ int main(int argc, char** argv) {
                   "only pictures and figures of encounter --first, into this folder")
       ->check(CLI::ExistingDirectory);
   if (const auto status = app::parse_command_line(program, argc, argv)) return *status;
+  options.simulation.kind = static_cast<sim::VisitKind>(
+      std::ranges::find(sim::kVisitKindNames, options.people) - sim::kVisitKindNames.begin());
+  options.simulation.most_s = std::numeric_limits<double>::infinity();
   app::note_interrupts();
   return app::carry_out("berth_closed_loop", 0, [&] { lab::run(options); });
 }

@@ -29,6 +29,8 @@ class MovingArm {
   double phase_s() const { return phase_s_; }
   /// Of its fastest point, now.
   double fastest_m_s() const { return fastest_m_s_; }
+  /// The same at full speed.
+  double full_m_s() const { return full_m_s_; }
 
  private:
   void place();

@@ -7,12 +7,12 @@
 #include "lab/closed_loop/cell.hpp"
 #include "lab/closed_loop/cell_sensors.hpp"
 #include "sim/contact_check.hpp"
-#include "sim/person.hpp"
 
 namespace berth::lab {
 namespace {
 
 constexpr double kStep_s = 0.001;
+constexpr double kLateController = 2;
 
 struct Image {
   std::size_t which;
@@ -52,11 +52,12 @@ class Loop {
         supervisor_(supervisor),
         model_(cell_model()),
         names_(joint_names(model_)),
-        encounter_(seed),
-        arm_(model_, encounter_.first_phase()),
-        clearance_(model_, sim::make_person_meshes()),
+        visit_(settings.kind, seed),
+        visitors_(visit_.meshes()),
+        arm_(model_, visit_.first_phase()),
+        clearance_(model_, visitors_),
         check_(clearance_),
-        sensors_(model_, seed),
+        sensors_(model_, visitors_, seed),
         joints_(model_, 500),
         cameras_(supervisor.cameras()),
         next_image_s_(cameras_.size()) {
@@ -68,7 +69,8 @@ class Loop {
   }
 
   EncounterResult run(std::vector<LoopSample>* samples) {
-    const double end_s = std::min(settings_.most_s, encounter_.duration_s());
+    begin_visit();
+    const double end_s = std::min(settings_.most_s, duration_s_);
     const int steps = static_cast<int>(end_s / kStep_s);
     for (int i = 0; i < steps; ++i) {
       time_s_ = i * kStep_s;
@@ -89,12 +91,23 @@ class Loop {
     return settings_.fault == fault && time_s_ >= settings_.fault_s;
   }
 
-  std::vector<Pose> person() const {
-    std::vector<Pose> X_BP = encounter_.pose_at(time_s_);
-    if (!settings_.has_person) {
-      for (Pose& X : X_BP) X.translation().z() -= 100;
+  /// With nobody there half of the rest of the time before the visit, and half after it. Who was
+  /// not there always walks up from where nobody sees him.
+  void begin_visit() {
+    const double presence = settings_.presence;
+    const double lead_s = presence < 1 ? visit_.lead_s() : 0;
+    const double present_s = visit_.duration_s() + 2 * lead_s;
+    duration_s_ = presence > 0 ? present_s / presence : present_s;
+    first_s_ = (duration_s_ - present_s) / 2;
+    begins_s_ = first_s_ + lead_s;
+    last_s_ = first_s_ + present_s;
+  }
+
+  std::vector<Pose> visitors() const {
+    if (settings_.presence <= 0 || time_s_ < first_s_ || time_s_ > last_s_) {
+      return sim::nowhere(visitors_.size());
     }
-    return X_BP;
+    return visit_.pose_at(time_s_ - begins_s_);
   }
 
   void step(std::vector<LoopSample>* samples) {
@@ -130,7 +143,8 @@ class Loop {
       if (c == 0 && is_faulty(Fault::no_images)) continue;
       Image image{c, time_s_, time_s_ + settings_.image_latency_s, {}};
       if (is_faulty(Fault::late_images)) image.arrives_s += 0.5;
-      image.depth_m = sensors_.take_image(cameras_[c], arm_.pose(), person());
+      const bool is_turned = c == 0 && is_faulty(Fault::moved_camera);
+      image.depth_m = sensors_.take_image(cameras_[c], arm_.pose(), visitors(), is_turned);
       if (c == 0 && is_faulty(Fault::covered_camera)) {
         std::ranges::fill(image.depth_m.pixels(), std::numeric_limits<float>::quiet_NaN());
       }
@@ -145,15 +159,28 @@ class Loop {
 
   void ask(std::vector<LoopSample>* samples) {
     next_request_s_ += 1 / settings_.request_hz;
-    const std::vector<Pose> X_BP = person();
-    const double scale = supervisor_.scale({time_s_, joints_, arm_.plan(), range_of(X_BP)});
-    commands_.push_back({time_s_ + settings_.controller_s, scale, supervisor_.evasion()});
+    const std::vector<Pose> X_BP = visitors();
+    tell_path();
+    const double scale =
+        supervisor_.scale({time_s_, joints_, arm_.plan(), ahead_, arm_.full_m_s(), range_of(X_BP)});
+    const double late = is_faulty(Fault::late_controller) ? kLateController : 1;
+    commands_.push_back({time_s_ + late * settings_.controller_s, scale, supervisor_.evasion()});
     const bool is_after_fault = settings_.fault != Fault::none && time_s_ >= settings_.fault_s;
     if (is_after_fault && scale == 0 && std::isnan(result_.commanded_stop_s)) {
       result_.commanded_stop_s = time_s_ - settings_.fault_s;
     }
     if (!samples) return;
     samples->push_back({time_s_, clearance_.at(arm_.pose(), X_BP), arm_.fastest_m_s(), scale});
+  }
+
+  /// What the arm's controller knows of its way.
+  void tell_path() {
+    constexpr double kAhead_s = 1.2, kBetween_s = 0.02;
+    ahead_.resize(static_cast<std::size_t>(kAhead_s / kBetween_s) + 1);
+    for (std::size_t i = 0; i < ahead_.size(); ++i) {
+      ahead_[i].stamp_s = static_cast<double>(i) * kBetween_s;
+      ahead_[i].position = path_at(arm_.phase_s() + ahead_[i].stamp_s).position_rad;
+    }
   }
 
   void look() {
@@ -165,14 +192,15 @@ class Loop {
         result_.stopped_s = time_s_ - settings_.fault_s;
       }
     }
-    if (check_.is_due(time_s_)) check_.add({time_s_, arm_.pose(), person(), fastest_m_s});
+    if (check_.is_due(time_s_)) check_.add({time_s_, arm_.pose(), visitors(), fastest_m_s});
   }
 
   SimulationSettings settings_;
   Supervisor& supervisor_;
   RobotModel model_;
   std::vector<std::string> names_;
-  sim::Encounter encounter_;
+  sim::Visit visit_;
+  std::vector<TriangleMesh> visitors_;
   MovingArm arm_;
   sim::TrueClearance clearance_;
   sim::ContactCheck check_;
@@ -185,9 +213,15 @@ class Loop {
   std::deque<Image> images_;
   std::deque<Command> commands_;
   Command commanded_{};
+  std::vector<JointState> ahead_;
   double time_s_ = 0;
   double next_request_s_ = 0;
   double first_phase_s_ = 0;
+  double duration_s_ = 0;
+  /// When somebody comes into sight, begins what he does, and is out of sight again.
+  double first_s_ = 0;
+  double begins_s_ = 0;
+  double last_s_ = 0;
   int stopped_steps_ = 0;
   EncounterResult result_;
 };

@@ -3,19 +3,21 @@
 
 #include "lab/closed_loop/moving_arm.hpp"
 #include "lab/closed_loop/supervisor.hpp"
-#include "sim/encounter.hpp"
+#include "sim/visit.hpp"
 
 namespace berth::lab {
 
 /// What may go wrong, from fault_s on.
 enum class Fault {
   none,
-  late_images,     ///< each image takes half a second more
-  no_images,       ///< of one camera
-  covered_camera,  ///< no pixel of it has a reading
-  no_joints,       ///< joint states stop
-  not_a_number,    ///< one joint is NaN
-  frozen_joints,   ///< joint states come, and say that the arm stands still
+  late_images,      ///< each image takes half a second more
+  no_images,        ///< of one camera
+  covered_camera,   ///< no pixel of it has a reading
+  no_joints,        ///< joint states stop
+  not_a_number,     ///< one joint is NaN
+  frozen_joints,    ///< joint states come, and say that the arm stands still
+  moved_camera,     ///< one of them is turned by 6 degrees
+  late_controller,  ///< the arm obeys after twice the time, as late as reaction_time_s allows
 };
 
 struct SimulationSettings {
@@ -27,8 +29,9 @@ struct SimulationSettings {
   double controller_s = 0.010;
   Fault fault = Fault::none;
   double fault_s = 0;
-  /// Whether there is a person.
-  bool has_person = true;
+  /// Who comes, and the share of the time in which somebody is there; 0: nobody ever.
+  sim::VisitKind kind = sim::VisitKind::reaching;
+  double presence = 1;
   /// At most so long; less where the encounter is over.
   double most_s = 60;
 };

@@ -9,12 +9,13 @@ namespace berth::lab {
 void Supervisor::see(std::size_t, const DepthImage&, double, const JointBuffer&) {}
 
 MonitorSupervisor::MonitorSupervisor(Method method, std::vector<int> cameras,
-                                     const SeparationSettings& settings)
+                                     const SeparationSettings& settings, Shown shown)
     : robot_(cell_robot()),
       cameras_(std::move(cameras)),
       frames_(cameras_.size()),
       query_(robot_, method),
-      monitor_(robot_, settings) {
+      monitor_(robot_, settings),
+      shown_(shown) {
   for (const auto& view : cell_views(robot_, cameras_)) {
     observers_.push_back(std::make_unique<Observer>(view));
   }
@@ -30,7 +31,10 @@ void MonitorSupervisor::see(std::size_t which, const DepthImage& depth_m, double
 double MonitorSupervisor::scale(const Situation& situation) {
   result_ = &query_.ask({.frames = frames_, .joints = situation.joints, .now_s = situation.now_s});
   const auto start = std::chrono::steady_clock::now();
-  last_ = &monitor_.update(*result_, situation.plan.velocity_rad_s, situation.now_s);
+  PlannedMotion motion(situation.plan.velocity_rad_s);
+  if (shown_ == Shown::along_path) motion.path = situation.path;
+  last_ = &monitor_.update(*result_, motion, situation.now_s,
+                           shown_ == Shown::by_formula ? nullptr : query_.frames());
   const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
   monitor_us_.push_back(took.count());
   return last_->speed_scale;
@@ -38,7 +42,9 @@ double MonitorSupervisor::scale(const Situation& situation) {
 
 EvadingSupervisor::EvadingSupervisor(Method method, std::vector<int> cameras,
                                      const SeparationSettings& settings)
-    : MonitorSupervisor(method, std::move(cameras), settings), evader_(robot(), "arm_link_7", {}) {}
+    // It leaves its way where it gives way.
+    : MonitorSupervisor(method, std::move(cameras), settings, Shown::by_formula),
+      evader_(robot(), "arm_link_7", {}) {}
 
 double EvadingSupervisor::scale(const Situation& situation) {
   const double scale = MonitorSupervisor::scale(situation);

@@ -1,6 +1,7 @@
 // Who decides how fast the arm may go.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,6 +19,10 @@ struct Situation {
   double now_s;
   const JointBuffer& joints;
   const PathPoint& plan;
+  /// Where the arm goes from here, as PlannedMotion::path.
+  std::span<const JointState> path;
+  /// Of the arm's fastest point on its way at full speed, now.
+  double full_m_s;
   /// From the base's axis to the person's nearest part.
   double person_range_m;
 };
@@ -42,22 +47,36 @@ class NoSupervisor : public Supervisor {
   double scale(const Situation&) override { return 1; }
 };
 
-/// A scanner around the cell: stop whenever anybody is this near.
+/// A scanner around the cell: stop whenever anybody is nearer than stop_m; nearer than slow_m the
+/// arm's fastest point may go at slow_m_s.
 class FixedZone : public Supervisor {
  public:
-  explicit FixedZone(double range_m) : range_m_(range_m) {}
+  explicit FixedZone(double stop_m, double slow_m = 0, double slow_m_s = 0)
+      : stop_m_(stop_m), slow_m_(slow_m), slow_m_s_(slow_m_s) {}
   double scale(const Situation& situation) override {
-    return situation.person_range_m < range_m_ ? 0 : 1;
+    if (situation.person_range_m < stop_m_) return 0;
+    if (situation.person_range_m >= slow_m_) return 1;
+    return std::min(1.0, slow_m_s_ / situation.full_m_s);
   }
 
  private:
-  double range_m_;
+  double stop_m_;
+  double slow_m_;
+  double slow_m_s_;
+};
+
+/// What a monitor is given to show its scale by.
+enum class Shown {
+  by_formula,   ///< nothing but the joints' velocities
+  straight_on,  ///< what the cameras left of space
+  along_path,   ///< and the way that the arm is going to take
 };
 
 /// berth.
 class MonitorSupervisor : public Supervisor {
  public:
-  MonitorSupervisor(Method method, std::vector<int> cameras, const SeparationSettings& settings);
+  MonitorSupervisor(Method method, std::vector<int> cameras, const SeparationSettings& settings,
+                    Shown shown = Shown::along_path);
   std::vector<int> cameras() const override { return cameras_; }
   void see(std::size_t which, const DepthImage& depth_m, double stamp_s,
            const JointBuffer& joints) override;
@@ -77,6 +96,7 @@ class MonitorSupervisor : public Supervisor {
   std::vector<std::shared_ptr<const Frame>> frames_;
   MethodQuery query_;
   SeparationMonitor monitor_;
+  Shown shown_;
   const Separation* last_ = nullptr;
   const Result* result_ = nullptr;
   std::vector<double> monitor_us_;

@@ -32,6 +32,8 @@ class MethodQuery {
     const Frame* first = request.frames.get().front();
     return images_->ask(first ? *first : none_, request.joints, request.now_s);
   }
+  /// Those of the last request; null with a method that compares images.
+  const FrameSet* frames() const { return whole_ ? &whole_->frames() : nullptr; }
 
  private:
   std::optional<Query> whole_;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "lab/closed_loop/cell.hpp"
+#include "lab/closed_loop/cell_sensors.hpp"
 #include "lab/closed_loop/moving_arm.hpp"
 #include "lab/closed_loop/policies.hpp"
 #include "lab/closed_loop/simulation.hpp"
@@ -87,7 +88,7 @@ TEST(ClosedLoop, WithoutAMonitorSomebodyIsHit) {
 }
 
 TEST(ClosedLoop, TheMonitorStopsTheArmBeforeAnybodyIsThere) {
-  const auto monitor = make_supervisor("three");
+  const auto monitor = make_supervisor("path");
   std::vector<LoopSample> samples;
   SimulationSettings settings;
   settings.most_s = 5;
@@ -98,6 +99,78 @@ TEST(ClosedLoop, TheMonitorStopsTheArmBeforeAnybodyIsThere) {
   const auto slows = [](const LoopSample& sample) { return sample.scale > 0 && sample.scale < 1; };
   EXPECT_TRUE(std::ranges::any_of(samples, slows));
   EXPECT_EQ(std::ranges::min_element(samples, {}, &LoopSample::clearance_m)->fastest_m_s, 0);
+}
+
+TEST(ClosedLoop, NoVisitorIsFasterThanPeopleAre) {
+  for (std::size_t kind = 0; kind < sim::kVisitKindNames.size(); ++kind) {
+    const sim::Visit visit(static_cast<sim::VisitKind>(kind), 4);
+    const std::vector<TriangleMesh> parts = visit.meshes();
+    constexpr double kStep_s = 0.01;
+    double fastest_m_s = 0;
+    const double end_s = visit.duration_s() + visit.lead_s();
+    for (double t = -visit.lead_s(); t + kStep_s < end_s; t += kStep_s) {
+      const std::vector<Pose> a = visit.pose_at(t), b = visit.pose_at(t + kStep_s);
+      ASSERT_EQ(a.size(), parts.size());
+      for (std::size_t i = 0; i < parts.size(); ++i) {
+        for (std::size_t k = 0; k < parts[i].vertices_m.size(); k += 40) {
+          const Eigen::Vector3d p = parts[i].vertices_m[k].cast<double>();
+          fastest_m_s = std::max(fastest_m_s, (a[i] * p - b[i] * p).norm() / kStep_s);
+        }
+      }
+    }
+    EXPECT_LE(fastest_m_s, 1.65) << sim::kVisitKindNames[kind];
+    EXPECT_GT(fastest_m_s, 0.3) << sim::kVisitKindNames[kind];
+  }
+}
+
+TEST(ClosedLoop, NobodyIsThereForTheRestOfTheTime) {
+  const auto nobody = make_supervisor("none");
+  SimulationSettings settings;
+  const double always_s = simulate(1, *nobody, settings).duration_s;
+  settings.presence = 0.5;
+  const double half_s = simulate(1, *nobody, settings).duration_s;
+  const sim::Visit visit(settings.kind, 1);
+  EXPECT_NEAR(half_s, 2 * (always_s + 2 * visit.lead_s()), 0.01);
+}
+
+TEST(ClosedLoop, AConformingZoneIsLargerThanTheEncounters) {
+  EXPECT_GT(conforming_zone_m(kArmFullSpeed_m_s), 2.2);
+  EXPECT_LT(conforming_zone_m(0.25), conforming_zone_m(kArmFullSpeed_m_s));
+  const RobotModel model = cell_model();
+  MovingArm arm(model, 0);
+  double reach_m = 0, fastest_m_s = 0;
+  for (double t = 0; t < cycle_s(); t += 0.02) {
+    for (int k = 0; k < 20; ++k) arm.step(1, 0.001);
+    fastest_m_s = std::max(fastest_m_s, arm.full_m_s());
+    for (const std::size_t link : model.evaluated_links) {
+      for (const Eigen::Vector3f& p : model.links[link].mesh_L.vertices_m) {
+        const Eigen::Vector3d p_B = arm.pose().X_BL[link] * p.cast<double>();
+        reach_m = std::max(reach_m, p_B.head<2>().norm());
+      }
+    }
+  }
+  EXPECT_NEAR(reach_m, 0.80, 0.05);
+  EXPECT_NEAR(fastest_m_s, kArmFullSpeed_m_s, 0.1);
+}
+
+TEST(ClosedLoop, TheCamerasReadingsAreAsWrongAsItsSettingsSay) {
+  const RobotModel model = cell_model();
+  CellSensors sensors(model, {}, 3);
+  RobotPose pose;
+  forward_kinematics(model, path_at(0.7).position_rad, pose);
+  std::vector<double> off_m;
+  // Two images of one thing: their difference has both errors in it.
+  for (const int camera : {0, 1, 2}) {
+    const DepthImage a = sensors.take_image(camera, pose, {});
+    const DepthImage b = sensors.take_image(camera, pose, {});
+    for (std::size_t i = 0; i < a.pixels().size(); ++i) {
+      if (a.pixels()[i] < 2.2F) off_m.push_back(std::abs(a.pixels()[i] - b.pixels()[i]));
+    }
+  }
+  std::erase_if(off_m, [](double m) { return std::isnan(m); });
+  std::ranges::sort(off_m);
+  ASSERT_GT(off_m.size(), 1000U);
+  EXPECT_LT(off_m[off_m.size() * 95 / 100], kCellReadingError_m);
 }
 
 TEST(ClosedLoop, UnknownPoliciesAreRefused) {

@@ -9,13 +9,13 @@ namespace berth::lab {
 namespace {
 
 /// Nobody is there; the arm goes at full speed until the fault.
-EncounterResult run_with(Fault fault) {
+EncounterResult run_with(Fault fault, const char* policy = "path") {
   SimulationSettings settings;
-  settings.has_person = false;
+  settings.presence = 0;
   settings.fault = fault;
   settings.fault_s = 1.5;
   settings.most_s = 2.5;
-  return simulate(3, *make_supervisor("three"), settings);
+  return simulate(3, *make_supervisor(policy), settings);
 }
 
 /// S holds for images up to this old, and a request comes after that.
@@ -27,19 +27,39 @@ double assumed_s() {
 /// From its greatest speed.
 constexpr double kStopping_s = 1.5 / kArmDeceleration_m_s2;
 
-class Faults : public ::testing::TestWithParam<Fault> {};
+class Faults : public ::testing::TestWithParam<std::tuple<Fault, const char*>> {};
 
 TEST_P(Faults, StopTheArmInTime) {
-  const EncounterResult result = run_with(GetParam());
+  const auto [fault, policy] = GetParam();
+  const EncounterResult result = run_with(fault, policy);
   EXPECT_GT(result.phase_s, 0.5) << "it moved before";
   EXPECT_LE(result.commanded_stop_s, assumed_s());
   EXPECT_LE(result.stopped_s, assumed_s() + SimulationSettings().controller_s + kStopping_s);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Faults,
-                         ::testing::Values(Fault::late_images, Fault::no_images,
-                                           Fault::covered_camera, Fault::no_joints,
-                                           Fault::not_a_number));
+                         ::testing::Combine(::testing::Values(Fault::late_images, Fault::no_images,
+                                                              Fault::covered_camera,
+                                                              Fault::no_joints,
+                                                              Fault::not_a_number),
+                                            ::testing::Values("path", "formula")));
+
+// It is found where the arm is not seen where it should be: not within a frame.
+TEST(OtherFaults, ACameraThatWasBumpedIntoStopsTheArm) {
+  const EncounterResult result = run_with(Fault::moved_camera);
+  EXPECT_LE(result.commanded_stop_s, 0.6);
+}
+
+// On the way to a person who reaches in.
+TEST(OtherFaults, AControllerThatObeysAsLateAsSaidHitsNobody) {
+  SimulationSettings settings;
+  settings.fault = Fault::late_controller;
+  for (const char* policy : {"path", "formula"}) {
+    const EncounterResult result = simulate(2, *make_supervisor(policy), settings);
+    EXPECT_EQ(result.contact_m_s, 0) << policy;
+    EXPECT_GT(result.least_moving_m, 0.1) << policy;
+  }
+}
 
 // Joint states that say what is not true come in time. The cameras see the arm where it should not
 // be: once it is beyond the filter's tolerance, it is an obstacle to itself.

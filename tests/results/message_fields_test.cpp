@@ -170,7 +170,7 @@ TEST(MessageConstants, AreTheEnumerators) {
             both(constants_of(kLinkStatusNames), constants_of(kObstacleKindNames)));
   EXPECT_EQ(read_message("CameraState").constants, constants_of(kCameraStatusNames));
   Constants state = constants_of(kSeparationStateNames);
-  state.emplace("UNMONITORED", 3);  // of the node alone
+  state.emplace("UNMONITORED", 4);  // of the node alone
   EXPECT_EQ(read_message("Separation").constants, state);
 }
 

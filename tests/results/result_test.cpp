@@ -256,7 +256,7 @@ TEST(ResultJson, AMonitorSaysHowFastTheRobotAndItsLinksMayGo) {
   separation.links = {{1, true, 0.5, 0.25, 0.375, -0.125, 0.5, SeparationReason::unknown}, {}};
   const nlohmann::ordered_json json = nlohmann::ordered_json::parse(result_json(result));
   EXPECT_EQ(keys_of(json["separation"]),
-            (std::vector<std::string>{"state", "speed_scale", "reason", "link", "camera",
+            (std::vector<std::string>{"state", "speed_scale", "basis", "reason", "link", "camera",
                                       "reaction_time_s", "text"}));
   EXPECT_EQ(json["separation"]["reason"], "unknown");
   EXPECT_EQ(json["separation"]["link"], "link_1");

@@ -20,7 +20,7 @@ SceneFile scene_with(const std::string& settings) {
 
 TEST(FormerSettings, AreReadAndToldWithTheirNewName) {
   const SceneFile scene = scene_with(
-      "space: {slab_m: 0.05}\nself_filter: {island_radius_m: 0.01}\nseparation: {hidden: stop}\n");
+      "space: {slab_m: 0.05}\nself_filter: {island_radius_m: 0.01}\nseparation: {hidden: stop, intrusion_m: 0.2}\n");
   const CameraSettings& camera = scene.cameras.front().settings;
   EXPECT_EQ(camera.space.surface_thickness_m, 0.05);
   EXPECT_EQ(camera.self_filter.flying_patch_radius_m, 0.01);

@@ -26,17 +26,30 @@ TEST(SeparationInScenes, HasItsDefaultsWhereTheMapIsEmpty) {
   EXPECT_EQ(read_separation_of("{}").human_speed_m_s, SeparationSettings().human_speed_m_s);
 }
 
+TEST(SeparationInScenes, WarnsOnceWhereNobodyHasShownWhatTheCamerasDetect) {
+  const auto warnings = [](const std::string& text) {
+    return read_text(with(&SceneText::end, "joints: j.csv\nseparation: " + text)).warnings;
+  };
+  ASSERT_EQ(warnings("{}").size(), 1U);
+  expect_parts(warnings("{}").front(), {"scene.yaml:9", "0.85 m", "detection_m"});
+  EXPECT_TRUE(warnings("{detection_m: 0.04}").empty());
+  EXPECT_TRUE(warnings("{intrusion_m: 0.2}").empty());
+  EXPECT_TRUE(read_text(SceneText()).warnings.empty());
+}
+
 TEST(SeparationInScenes, HasEveryKeyAndTheTable) {
   const SeparationSettings settings = read_separation_of(
       "{human_speed_m_s: 2, reaction_time_s: 0.2, deceleration_m_s2: 3, acceleration_m_s2: 4, "
-      "intrusion_m: 0.1, camera_uncertainty_m: 0.05, robot_uncertainty_m: 0.02, "
-      "directed_speed: true, release_m: 0.06, hold_s: 0.4, least_scale: 0.1, least_seen: 0.3, "
+      "intrusion_m: 0.1, detection_m: 0.03, camera_uncertainty_m: 0.05, robot_uncertainty_m: 0.02, "
+      "contact_speed_m_s: 0.25, least_scale: 0.1, least_seen: 0.3, "
       "not_seen: assume_range, camera: ignore, rejected: stop, unknown: ignore, "
       "assumed_range_m: 0.5, stopping: [{speed_m_s: 0.5, time_s: 0.2, distance_m: 0.05}, "
       "{speed_m_s: 1, time_s: 0.3, distance_m: 0.2}]}");
   EXPECT_EQ(settings.human_speed_m_s, 2);
   EXPECT_EQ(settings.camera_uncertainty_m, 0.05);
-  EXPECT_TRUE(settings.directed_speed);
+  EXPECT_EQ(settings.intrusion_m, 0.1);
+  EXPECT_EQ(settings.detection_m, 0.03);
+  EXPECT_EQ(settings.contact_speed_m_s, 0.25);
   EXPECT_EQ(settings.not_seen, UnknownPolicy::assume_range);
   EXPECT_EQ(settings.camera, UnknownPolicy::ignore);
   EXPECT_EQ(settings.rejected, UnknownPolicy::stop);
@@ -72,7 +85,6 @@ SceneFile monitored_scene(Method method) {
   scene.separation->camera = UnknownPolicy::ignore;
   scene.separation->human_speed_m_s = 0.1;
   scene.separation->intrusion_m = 0;
-  scene.separation->hold_s = scene.separation->release_m = 0;
   scene.separation->acceleration_m_s2 = 0;
   scene.separation->camera_uncertainty_m = 0;
   scene.separation->deceleration_m_s2 = 1;
@@ -87,7 +99,7 @@ TEST(SeparationInScenes, IsInEachLineOfJson) {
     const Result result = run.ask();
     const Json line = Json::parse(result_json(result));
     const Json& separation = line["separation"];
-    ASSERT_EQ(separation.size(), 7U);
+    ASSERT_EQ(separation.size(), 8U);
     EXPECT_EQ(separation["state"], name_of(result.separation->state));
     EXPECT_EQ(separation["speed_scale"], result.separation->speed_scale);
     EXPECT_EQ(separation["text"], separation_text(result));
@@ -216,7 +228,10 @@ TEST(SeparationText, SaysWhatAndWhy) {
   EXPECT_EQ(Told(stop, R::camera).text(), "stop: camera left is too_old (0.30 s)");
   EXPECT_EQ(Told(stop, R::stale).text(), "stop: stale: the newest image is 0.200 s old");
   EXPECT_EQ(Told(stop, R::velocity).text(), "stop: the robot's velocity is not known");
-  EXPECT_EQ(Told(stop, R::hold).text(), "stop: there has not been room for long enough");
+  EXPECT_EQ(Told(SeparationState::reduced, R::speeding_up, 0.31).text(),
+            "reduced to 31 %: there is room, and the robot gains speed");
+  EXPECT_EQ(Told(SeparationState::contact_speed, R::camera, 0.25).text().substr(0, 50),
+            "reduced to 25 %, the speed of a tolerable contact:");
   Told unknown(stop, R::not_seen);
   unknown.result.links[1].visibility.surface.seen = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(unknown.text(), "stop: hand is not seen");

@@ -55,6 +55,32 @@ TEST(ProtectiveDistance, EachTermAlone) {
   EXPECT_NEAR(protective_distance_m(no_terms(), {0, 0.07}, {0, 0}), 0.07, 1e-12);
 }
 
+TEST(ProtectiveDistance, TheReachComesFromWhatTheCamerasDetect) {
+  SeparationSettings settings;
+  EXPECT_EQ(intrusion_m(settings), 0.85) << "nobody has shown anything";
+  settings.detection_m = 0.040;
+  EXPECT_NEAR(intrusion_m(settings), 0.208, 1e-12);
+  settings.detection_m = 0.020;
+  EXPECT_NEAR(intrusion_m(settings), 0.048, 1e-12);
+  settings.detection_m = 0.010;
+  EXPECT_EQ(intrusion_m(settings), 0);
+  settings.detection_m = 0.041;
+  EXPECT_EQ(intrusion_m(settings), 0.85);
+  settings.intrusion_m = 0.3;
+  EXPECT_EQ(intrusion_m(settings), 0.3) << "what the user says counts";
+}
+
+TEST(ProtectiveDistance, TheLongestTimeToStopWithinAWay) {
+  SeparationSettings settings;
+  settings.deceleration_m_s2 = 2;
+  EXPECT_NEAR(time_to_stop_within_s(settings, 0.25, 9), 0.5, 1e-12);
+  EXPECT_NEAR(time_to_stop_within_s(settings, 0.25, 0.4), 0.2, 1e-12);
+  settings.stopping = {{0.5, 0.3, 0.05}, {1, 0.5, 0.25}};
+  EXPECT_NEAR(time_to_stop_within_s(settings, 0.25, 1), 0.5, 1e-5);
+  EXPECT_NEAR(time_to_stop_within_s(settings, 0.15, 1), 0.4, 1e-5);
+  EXPECT_NEAR(time_to_stop_within_s(settings, 0.01, 1), 0.3, 1e-5) << "a brake takes time to grip";
+}
+
 TEST(ProtectiveDistance, ASlowLinkBrakesAsLongAsTheFastestPoint) {
   SeparationSettings settings = no_terms();
   settings.human_speed_m_s = 1;
@@ -70,7 +96,7 @@ TEST(ProtectiveDistance, GrowsWithEachTerm) {
   const std::vector<Change> changes = {
       [](auto& s, auto&, double&) { s.human_speed_m_s += 0.1; },
       [](auto& s, auto&, double&) { s.deceleration_m_s2 *= 0.9; },
-      [](auto& s, auto&, double&) { s.intrusion_m += 0.1; },
+      [](auto& s, auto&, double&) { s.intrusion_m = intrusion_m(s) + 0.1; },
       [](auto& s, auto&, double&) { s.robot_uncertainty_m += 0.1; },
       [](auto&, auto& t, double&) { t.reaction_time_s += 0.01; },
       [](auto&, auto& t, double&) { t.camera_uncertainty_m += 0.01; },

@@ -339,7 +339,7 @@ TEST(MonitoredScene, TellsHowFastTheRobotMayGoAtEachStep) {
   folder.write("scene.yaml", read_file_bytes(folder / "scene.yaml") +
                                  "separation: {human_speed_m_s: 0.1, reaction_time_s: 0.02, "
                                  "deceleration_m_s2: 20, intrusion_m: 0, camera_uncertainty_m: 0, "
-                                 "not_seen: ignore, hidden: ignore, release_m: 0, hold_s: 0}\n");
+                                 "not_seen: ignore, hidden: ignore}\n");
   Messages messages;
   ViewedScene viewed(folder / "scene.yaml", folder.path(),
                      [&](const std::string& kind, PageMessage message) {

@@ -44,7 +44,7 @@ def generate_test_description():
             "cameras": ["camera", "left", "right"], "environment_links": ["table"], "evaluation.range_m": 1.0,
             "evaluation.tolerance_m": TOLERANCE_M, "time.max_frame_age_s": MAX_FRAME_AGE_S, "time.max_joints_age_s": MAX_JOINTS_AGE_S,
             "separation.monitor": True, "separation.human_speed_m_s": 0.1,
-            "separation.intrusion_m": 0.0, "separation.hold_s": 0.0, "separation.release_m": 0.0}]),
+            "separation.intrusion_m": 0.0}]),
         # With its defaults it stops looking once no distance can change by more than the tolerance.
         Node(package="berth_ros", executable="distance_node", name="usual_node", output="screen", parameters=[{
             "cameras": ["camera", "left", "right"], "environment_links": ["table"], "evaluation.range_m": 1.0,

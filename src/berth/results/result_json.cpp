@@ -55,6 +55,7 @@ class Writer {
     const bool has_link = separation.link != kNoLink;
     return {{"state", name_of(separation.state)},
             {"speed_scale", json_value(separation.speed_scale)},
+            {"basis", name_of(separation.basis)},
             {"reason", name_of(separation.reason)},
             {"link", has_link ? Json(result_.links[separation.link - 1].link) : Json()},
             {"camera", json_of(CameraPlace{separation.camera})},

@@ -45,8 +45,8 @@ std::string why(const Result& result) {
       return status_text(result);
     case SeparationReason::velocity:
       return "the robot's velocity is not known";
-    case SeparationReason::hold:
-      return "there has not been room for long enough";
+    case SeparationReason::speeding_up:
+      return "there is room, and the robot gains speed";
   }
   return "";
 }
@@ -55,9 +55,11 @@ std::string why(const Result& result) {
 
 std::string separation_text(const Result& result) {
   const Separation& separation = *result.separation;
+  const double percent = std::floor(100 * separation.speed_scale);
   std::string text(name_of(separation.state));
-  if (separation.state == SeparationState::reduced) {
-    text += fmt::format(" to {:.0f} %", std::floor(100 * separation.speed_scale));
+  if (separation.state == SeparationState::reduced) text += fmt::format(" to {:.0f} %", percent);
+  if (separation.state == SeparationState::contact_speed) {
+    text = fmt::format("reduced to {:.0f} %, the speed of a tolerable contact", percent);
   }
   const std::string reason = why(result);
   return reason.empty() ? text : text + ": " + reason;

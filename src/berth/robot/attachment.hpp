@@ -18,6 +18,8 @@ struct Attachment {
   Pose X_LA = Pose::Identity();
   /// Whether it is evaluated as a link of its own, of this name, or as a part of the link.
   bool is_link = false;
+  /// Whether somebody may be hurt by it at any speed: then no contact is tolerable.
+  bool is_sharp = false;
 };
 
 /// The robot with the thing on it. A link of its own gets the next id, after all others. Throws

@@ -51,7 +51,7 @@ std::vector<SceneCamera> read_cameras(const YamlValue& value, const CameraSettin
 }
 
 SceneAttachment read_attachment(const YamlValue& value) {
-  const YamlMap map(value, {"link", "name", "mesh", "box", "cylinder", "sphere", "pose"});
+  const YamlMap map(value, {"link", "name", "mesh", "box", "cylinder", "sphere", "pose", "sharp"});
   SceneAttachment attachment;
   attachment.link = map.at("link").text();
   map.read("name", &YamlValue::text, attachment.name);
@@ -87,6 +87,7 @@ SceneAttachment read_attachment(const YamlValue& value) {
   if (const auto pose = map.find("pose")) {
     attachment.X_LA = read_pose(YamlMap(*pose, {"xyz", "quaternion_xyzw", "rpy"}));
   }
+  map.read("sharp", &YamlValue::boolean, attachment.is_sharp);
   attachment.place = fmt::format("{}:{}", map.place().file.string(), map.place().line);
   return attachment;
 }
@@ -162,6 +163,13 @@ SceneFile parse_scene(const std::filesystem::path& file, const std::string& text
   if (const auto time = map.find("time")) read_settings(*time, scene.evaluation.time);
   if (const auto separation = map.find("separation")) {
     scene.separation = read_separation(*separation);
+    if (!scene.separation->intrusion_m && !scene.separation->detection_m) {
+      scene.warnings.push_back(
+          fmt::format("{}:{}: separation: nobody has shown how small a thing the cameras detect; C "
+                      "is {} m. Set "
+                      "detection_m or intrusion_m",
+                      file.string(), separation->place().line, kUnprovenIntrusion_m));
+    }
   }
   return scene;
 }

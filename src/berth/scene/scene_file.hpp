@@ -55,6 +55,7 @@ struct SceneAttachment {
   std::optional<Eigen::Vector2d> cylinder_m;
   std::optional<double> sphere_radius_m;
   Pose X_LA = Pose::Identity();
+  bool is_sharp = false;
   /// Such as "scene.yaml:12", for messages about what the file names.
   std::string place;
 };

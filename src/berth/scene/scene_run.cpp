@@ -202,7 +202,8 @@ void SceneRun::monitor(Result& result) {
   if (monitors_.empty()) return;
   scene_.joints->velocity(result.joints_stamp_s, velocity_);
   SeparationMonitor& own = monitors_[step().first_camera];
-  result.separation = own.update(result, velocity_, result.stamp_s);
+  result.separation =
+      own.update(result, velocity_, result.stamp_s, query_ ? &query_->frames() : nullptr);
 }
 
 }  // namespace berth

@@ -74,18 +74,15 @@ double greatest_speed_m_s(const HullPoints& hull, const Pose& X_BL, const LinkTw
   return std::sqrt(greatest) + w.norm() * hull.slack_m;
 }
 
-double greatest_speed_along_m_s(const HullPoints& hull, const Pose& X_BL, const LinkTwist& twist,
-                                const Eigen::Vector3d& direction_B) {
-  const LinkTwist twist_L = in_link(X_BL, twist);
-  const Vector3f n = (X_BL.linear().transpose() * direction_B).cast<float>();
-  // n . (v + w x p) = n . v + (n x w) . p
-  const Vector3f across = n.cross(twist_L.angular_B_rad_s.cast<float>());
-  const float of_origin = n.dot(twist_L.linear_B_m_s.cast<float>());
+double greatest_displacement_m(const HullPoints& hull, const Pose& X_BL_before, const Pose& X_BL) {
+  const Eigen::Matrix3f turn = (X_BL.linear() - X_BL_before.linear()).cast<float>();
+  const Vector3f step = (X_BL.translation() - X_BL_before.translation()).cast<float>();
   float greatest = 0;
   for (const Vector3f& p : hull.points_L_m) {
-    greatest = std::max(greatest, of_origin + across.dot(p));
+    greatest = std::max(greatest, (turn * p + step).squaredNorm());
   }
-  return greatest + across.norm() * hull.slack_m;
+  constexpr float kRounding_m = 2e-6F;
+  return std::sqrt(greatest) + turn.norm() * hull.slack_m + kRounding_m;
 }
 
 }  // namespace berth

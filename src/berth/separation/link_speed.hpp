@@ -24,8 +24,8 @@ HullPoints hull_points(const TriangleMesh& mesh_L, float slack_m = 0.005F);
 /// angular velocity may be between. The link stands at X_BL and moves by `twist`; m/s.
 double greatest_speed_m_s(const HullPoints& hull, const Pose& X_BL, const LinkTwist& twist);
 
-/// The same for the part of the velocity along a unit direction; at least 0.
-double greatest_speed_along_m_s(const HullPoints& hull, const Pose& X_BL, const LinkTwist& twist,
-                                const Eigen::Vector3d& direction_B);
+/// No point of the mesh is farther from where it was, and one nearly is, as above: from X_BL_before
+/// to X_BL.
+double greatest_displacement_m(const HullPoints& hull, const Pose& X_BL_before, const Pose& X_BL);
 
 }  // namespace berth

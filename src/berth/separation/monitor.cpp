@@ -7,12 +7,14 @@
 #include <stdexcept>
 #include <vector>
 
+#include "berth/pipeline/frame_set.hpp"
 #include "berth/pipeline/mounted_camera.hpp"
 #include "berth/separation/camera_uncertainty.hpp"
 #include "berth/separation/link_speed.hpp"
 #include "berth/separation/near_link.hpp"
+#include "berth/separation/path_certificate.hpp"
 #include "berth/separation/protective_distance.hpp"
-#include "berth/separation/speed_hold.hpp"
+#include "berth/separation/scale_rise.hpp"
 
 namespace berth {
 namespace {
@@ -52,30 +54,54 @@ bool allows_less(const LinkSeparation& a, const LinkSeparation& b) {
 
 }  // namespace
 
+/// Whether everything that the result is made from is in order: then a contact at low speed may be
+/// tolerable, else nobody knows how fast it would be.
+bool is_healthy(const Result& result) {
+  if (result.status != ResultStatus::ok || lost_camera(result.cameras) >= 0) return false;
+  return std::ranges::all_of(result.links, [](const LinkResult& link) {
+    return !link.is_moved || link.status == LinkStatus::ok ||
+           link.status == LinkStatus::none_in_range;
+  });
+}
+
 /// What is kept from update to update, and the steps of one.
 struct SeparationMonitor::Parts {
   Parts(std::shared_ptr<const Robot> of, SeparationSettings with);
 
-  const Separation& update(const Result& result, std::span<const double> velocity, double now_s);
+  const Separation& update(const Result& result, const PlannedMotion& motion, double now_s,
+                           const FrameSet* frames);
   /// Where the result leaves nothing to compute, why.
-  SeparationReason begin(const Result& result, std::span<const double> velocity);
+  SeparationReason begin(const Result& result, const PlannedMotion& motion);
   void update_links(const Result& result);
-  /// Sets that of each link; that of the robot's fastest point.
-  double measure_speeds(const Result& result);
-  /// Towards the closest obstacle, where that is what counts.
-  std::optional<double> speed_towards(const Result& result, std::size_t i) const;
-  void update_link(const Result& result, double robot_m_s, std::size_t i);
+  /// Sets that of each link, and of the robot's fastest point.
+  void measure_speeds(const Result& result);
+  void update_link(const Result& result, std::size_t i);
   double camera_uncertainty(const Result& result, std::size_t i) const;
-  void decide(double now_s);
+  /// How near something is to the link by what the cameras see, without any policy.
+  double known_m(const LinkResult& link) const;
+  /// Where the formula leaves less than the whole speed, whether the robot's way leaves more.
+  void look_along_path(const Result& result, const PlannedMotion& motion, const FrameSet& frames,
+                       double most);
+  /// How fast the motors let the scale rise; where nobody told what they do, there is no limit.
+  double rise_per_s() const;
+  void decide(const Result& result, double most);
+  /// The scale that a contact at SeparationSettings::contact_speed_m_s leaves; 0 where it is not to
+  /// be thought of.
+  double contact_scale(const Result& result) const;
 
   std::shared_ptr<const Robot> robot;
   SeparationSettings settings;
+  bool holds_sharp = false;
   /// hulls[i] is of the link with the id i + 1.
   std::vector<HullPoints> hulls;
   std::vector<LinkTwist> twists;
-  /// Of the link that has least room, with release_m to spare.
-  double rising_scale = 0;
-  SpeedHold hold;
+  std::vector<PathLink> path_links;
+  /// Of its fastest point at full speed, and with what it may gain.
+  double planned_m_s = 0;
+  double robot_m_s = 0;
+  ScaleRise rise;
+  /// Null until somebody gives frames.
+  std::unique_ptr<PathCertificate> certificate;
   Separation out;
 };
 
@@ -89,13 +115,13 @@ SeparationMonitor& SeparationMonitor::operator=(SeparationMonitor&&) noexcept = 
 
 const SeparationSettings& SeparationMonitor::settings() const { return parts_->settings; }
 
-const Separation& SeparationMonitor::update(const Result& result, std::span<const double> velocity,
-                                            double now_s) {
-  return parts_->update(result, velocity, now_s);
+const Separation& SeparationMonitor::update(const Result& result, const PlannedMotion& motion,
+                                            double now_s, const FrameSet* frames) {
+  return parts_->update(result, motion, now_s, frames);
 }
 
 SeparationMonitor::Parts::Parts(std::shared_ptr<const Robot> of, SeparationSettings with)
-    : robot(std::move(of)), settings(std::move(with)), hold(settings.hold_s) {
+    : robot(std::move(of)), settings(std::move(with)) {
   validate(settings);
   if (!robot->settings().visibility) {
     throw std::invalid_argument(
@@ -109,24 +135,33 @@ SeparationMonitor::Parts::Parts(std::shared_ptr<const Robot> of, SeparationSetti
     link.is_moved = model.is_moved(index);
   }
   twists.resize(model.links.size());
+  path_links.resize(hulls.size());
+  holds_sharp = std::ranges::any_of(robot->attached(), &Attachment::is_sharp);
 }
 
 const Separation& SeparationMonitor::Parts::update(const Result& result,
-                                                   std::span<const double> velocity, double now_s) {
-  out.reason = begin(result, velocity);
+                                                   const PlannedMotion& motion, double now_s,
+                                                   const FrameSet* frames) {
+  out.reason = begin(result, motion);
   out.link = kNoLink;
   out.camera = -1;
-  out.speed_scale = rising_scale = 0;
+  out.speed_scale = 0;
+  out.basis = SeparationBasis::formula;
+  double most = 0;
   if (out.reason == SeparationReason::none) {
-    out.speed_scale = rising_scale = 1;
+    out.speed_scale = 1;
     update_links(result);
+    most = rise.most(now_s, rise_per_s());
+    if (frames && frames->newest()) look_along_path(result, motion, *frames, most);
+  } else {
+    rise.most(now_s, 0);
   }
-  decide(now_s);
+  decide(result, most);
   return out;
 }
 
 SeparationReason SeparationMonitor::Parts::begin(const Result& result,
-                                                 std::span<const double> velocity) {
+                                                 const PlannedMotion& motion) {
   out.reaction_time_s = kNaN;
   for (LinkSeparation& link : out.links) {
     link.speed_m_s = link.distance_m = link.required_m = link.margin_m = kNaN;
@@ -136,19 +171,19 @@ SeparationReason SeparationMonitor::Parts::begin(const Result& result,
   if (result.time.status != TimeStatus::ok) return SeparationReason::stale;
   const RobotModel& model = robot->model();
   assert(result.pose.X_BL.size() == model.links.size());
-  if (!are_finite(velocity, model.joints.size())) return SeparationReason::velocity;
+  if (!are_finite(motion.velocity, model.joints.size())) return SeparationReason::velocity;
   out.reaction_time_s = age_s(result) + settings.reaction_time_s;
-  link_twists(model, result.pose, velocity, twists);
+  link_twists(model, result.pose, motion.velocity, twists);
   return SeparationReason::none;
 }
 
 void SeparationMonitor::Parts::update_links(const Result& result) {
   out.camera = settings.camera == UnknownPolicy::ignore ? -1 : lost_camera(result.cameras);
   const LinkSeparation* least = nullptr;
-  const double robot_m_s = measure_speeds(result);
+  measure_speeds(result);
   for (std::size_t i = 0; i < out.links.size(); ++i) {
     if (!out.links[i].is_moved) continue;
-    update_link(result, robot_m_s, i);
+    update_link(result, i);
     if (!least || allows_less(out.links[i], *least)) least = &out.links[i];
   }
   if (!least || least->speed_scale >= 1) return;
@@ -157,21 +192,21 @@ void SeparationMonitor::Parts::update_links(const Result& result) {
   out.link = least->id;
 }
 
-double SeparationMonitor::Parts::measure_speeds(const Result& result) {
+void SeparationMonitor::Parts::measure_speeds(const Result& result) {
   const double gain_m_s = settings.acceleration_m_s2 * settings.reaction_time_s;
-  double robot_m_s = 0;
+  planned_m_s = 0;
   for (std::size_t i = 0; i < out.links.size(); ++i) {
     LinkSeparation& link = out.links[i];
     if (!link.is_moved) continue;
     const std::size_t index = robot->model().evaluated_links[i];
     const double fastest_m_s = greatest_speed_m_s(hulls[i], result.pose.X_BL[index], twists[index]);
-    robot_m_s = std::max(robot_m_s, fastest_m_s + gain_m_s);
-    link.speed_m_s = speed_towards(result, i).value_or(fastest_m_s) + gain_m_s;
+    planned_m_s = std::max(planned_m_s, fastest_m_s);
+    link.speed_m_s = fastest_m_s + gain_m_s;
   }
-  return robot_m_s;
+  robot_m_s = planned_m_s + gain_m_s;
 }
 
-void SeparationMonitor::Parts::update_link(const Result& result, double robot_m_s, std::size_t i) {
+void SeparationMonitor::Parts::update_link(const Result& result, std::size_t i) {
   LinkSeparation& link = out.links[i];
   NearLink near = near_link(settings, result.links[i], robot->settings().distance.range_m);
   if (out.camera >= 0) {
@@ -185,20 +220,47 @@ void SeparationMonitor::Parts::update_link(const Result& result, double robot_m_
   link.margin_m = link.distance_m - link.required_m;
   link.speed_scale = greatest_speed_scale(settings, terms, speed, link.distance_m);
   link.reason = link.speed_scale < 1 ? near.reason : SeparationReason::none;
-  rising_scale = greatest_speed_scale(settings, terms, speed, link.distance_m - settings.release_m,
-                                      rising_scale);
+  path_links[i] = {
+      .is_moved = true,
+      .added_m = intrusion_m(settings) + terms.camera_uncertainty_m + settings.robot_uncertainty_m,
+      .known_m = known_m(result.links[i]),
+      .assumed_m = near.distance_m};
 }
 
-std::optional<double> SeparationMonitor::Parts::speed_towards(const Result& result,
-                                                              std::size_t i) const {
-  if (!settings.directed_speed) return {};
-  const std::size_t index = robot->model().evaluated_links[i];
-  const LinkResult& link = result.links[i];
-  const Eigen::Vector3d way_B = (link.obstacle_point_B_m - link.robot_point_B_m).cast<double>();
-  // NaN where there is no pair in the base frame, 0 where they touch.
-  if (!(way_B.norm() > 0)) return {};
-  return greatest_speed_along_m_s(hulls[i], result.pose.X_BL[index], twists[index],
-                                  way_B.normalized());
+double SeparationMonitor::Parts::known_m(const LinkResult& link) const {
+  const bool ignores = settings.unknown == UnknownPolicy::ignore;
+  const float bound_m = ignores ? link.occupied.lower_bound_m : link.lower_bound_m;
+  return std::isnan(bound_m) ? 0 : bound_m;
+}
+
+void SeparationMonitor::Parts::look_along_path(const Result& result, const PlannedMotion& motion,
+                                               const FrameSet& frames, double most) {
+  const double formula = out.speed_scale;
+  if (formula >= most) return;
+  if (!certificate) certificate = std::make_unique<PathCertificate>(robot, settings, hulls);
+  const double oldest_s = out.reaction_time_s - settings.reaction_time_s;
+  const double joints_s = std::isfinite(result.time.joints_age_s) ? result.time.joints_age_s : 0;
+  const PathScale found = certificate->greatest_scale(
+      {.pose = result.pose,
+       .motion = motion,
+       .space = frames.space(),
+       .reaction_time_s = out.reaction_time_s,
+       .travel_time_s = settings.reaction_time_s + std::clamp(joints_s, 0.0, oldest_s),
+       .planned_m_s = planned_m_s,
+       .robot_m_s = robot_m_s,
+       .links = path_links},
+      formula, rise.scale(), most);
+  if (!(found.scale > formula)) return;
+  out.basis = SeparationBasis::path;
+  out.speed_scale = found.scale;
+  for (LinkSeparation& link : out.links) {
+    link.speed_scale = std::max(link.speed_scale, found.scale);
+    if (link.speed_scale >= 1) link.reason = SeparationReason::none;
+  }
+  if (found.link < 0) return;
+  const LinkSeparation& link = out.links[static_cast<std::size_t>(found.link)];
+  out.link = link.id;
+  out.reason = link.reason == SeparationReason::none ? SeparationReason::occupied : link.reason;
 }
 
 double SeparationMonitor::Parts::camera_uncertainty(const Result& result, std::size_t i) const {
@@ -218,16 +280,31 @@ double SeparationMonitor::Parts::camera_uncertainty(const Result& result, std::s
   return greatest_m;
 }
 
-void SeparationMonitor::Parts::decide(double now_s) {
-  const double held = hold.next(out.speed_scale, rising_scale, now_s);
-  if (held < out.speed_scale) {
-    out.reason = SeparationReason::hold;
+double SeparationMonitor::Parts::rise_per_s() const {
+  const bool is_limited = settings.acceleration_m_s2 > 0 && robot_m_s > 0;
+  return is_limited ? settings.acceleration_m_s2 / robot_m_s : std::numeric_limits<double>::max();
+}
+
+double SeparationMonitor::Parts::contact_scale(const Result& result) const {
+  if (settings.contact_speed_m_s <= 0 || holds_sharp || !is_healthy(result)) return 0;
+  return robot_m_s > settings.contact_speed_m_s ? settings.contact_speed_m_s / robot_m_s : 1;
+}
+
+void SeparationMonitor::Parts::decide(const Result& result, double most) {
+  if (most < out.speed_scale) {
+    out.reason = SeparationReason::speeding_up;
     out.link = kNoLink;
+    out.speed_scale = most;
   }
-  out.speed_scale = held < settings.least_scale ? 0 : held;
-  out.state = out.speed_scale >= 1  ? SeparationState::clear
-              : out.speed_scale > 0 ? SeparationState::reduced
-                                    : SeparationState::stop;
+  const double contact = most > 0 ? std::min(contact_scale(result), most) : 0;
+  const bool is_contact = out.speed_scale < contact;
+  out.speed_scale = std::max(out.speed_scale, contact);
+  rise.take(out.speed_scale);
+  if (!is_contact && out.speed_scale < settings.least_scale) out.speed_scale = 0;
+  out.state = is_contact             ? SeparationState::contact_speed
+              : out.speed_scale >= 1 ? SeparationState::clear
+              : out.speed_scale > 0  ? SeparationState::reduced
+                                     : SeparationState::stop;
 }
 
 }  // namespace berth

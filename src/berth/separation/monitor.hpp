@@ -5,10 +5,13 @@
 
 #include "berth/pipeline/result.hpp"
 #include "berth/pipeline/robot.hpp"
+#include "berth/separation/planned_motion.hpp"
 #include "berth/separation/settings.hpp"
 #include "berth/types/separation.hpp"
 
 namespace berth {
+
+class FrameSet;
 
 /// Speed and separation monitoring: after each result, how fast the robot may go on (ISO/TS 15066,
 /// 5.5.4). **Not a certified safety function.** One for each thread; once made, nothing allocates.
@@ -25,11 +28,14 @@ class SeparationMonitor {
   SeparationMonitor(SeparationMonitor&&) noexcept;
   SeparationMonitor& operator=(SeparationMonitor&&) noexcept;
 
-  /// Valid until the next update. `velocity` are the joints' velocities (rad/s or m/s) at the
-  /// joints that the result is about: as measured, or those that the program wants, if it obeys the
-  /// scale. One that is missing or not finite stops the robot. `now_s` is on the clock of the
-  /// stamps. Until it has had room for SeparationSettings::hold_s, the robot is stopped.
-  const Separation& update(const Result& result, std::span<const double> velocity, double now_s);
+  /// Valid until the next update. Joint velocities that are missing or not finite stop the robot.
+  /// `now_s` is on the clock of the stamps. `frames` are those that the result is about
+  /// (Query::frames()): with them the scale is shown along the robot's way until it stands; null:
+  /// by the protective separation distance alone, as if it ran straight at what is nearest.
+  /// The scale falls at once. It rises as fast as the motors let the robot gain speed: what is
+  /// checked is the stop from the new speed, so that nothing is gained by waiting.
+  const Separation& update(const Result& result, const PlannedMotion& motion, double now_s,
+                           const FrameSet* frames = nullptr);
 
   const SeparationSettings& settings() const;
 

@@ -35,6 +35,31 @@ Stopping stopping_from(const SeparationSettings& settings, double speed_m_s) {
   return between(*(above - 1), *above, speed_m_s);
 }
 
+double time_to_stop_within_s(const SeparationSettings& settings, double distance_m,
+                             double most_m_s) {
+  if (settings.stopping.empty()) {
+    return std::min(std::sqrt(2 * distance_m / settings.deceleration_m_s2),
+                    most_m_s / settings.deceleration_m_s2);
+  }
+  double enough_m_s = 0;
+  double too_much_m_s = most_m_s;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = (enough_m_s + too_much_m_s) / 2;
+    const bool is_within = stopping_from(settings, middle).distance_m <= distance_m;
+    (is_within ? enough_m_s : too_much_m_s) = middle;
+  }
+  return stopping_from(settings, too_much_m_s).time_s;
+}
+
+double intrusion_m(const SeparationSettings& settings) {
+  if (settings.intrusion_m) return *settings.intrusion_m;
+  constexpr double kGreatestDetection_m = 0.040, kFinger_m = 0.014, kPerDetection = 8;
+  if (!settings.detection_m || *settings.detection_m > kGreatestDetection_m) {
+    return kUnprovenIntrusion_m;
+  }
+  return std::max(0.0, kPerDetection * (*settings.detection_m - kFinger_m));
+}
+
 double protective_distance_m(const SeparationSettings& settings, const ProtectiveTerms& terms,
                              const LinkSpeed& speed) {
   const Stopping stopping = stopping_from(settings, speed.robot_m_s);
@@ -42,7 +67,7 @@ double protective_distance_m(const SeparationSettings& settings, const Protectiv
   const double person_m = settings.human_speed_m_s * (terms.reaction_time_s + stopping.time_s);
   const double share = speed.robot_m_s > 0 ? speed.link_m_s / speed.robot_m_s : 1;
   const double robot_m = speed.link_m_s * terms.reaction_time_s + share * stopping.distance_m;
-  return person_m + robot_m + settings.intrusion_m + terms.camera_uncertainty_m +
+  return person_m + robot_m + intrusion_m(settings) + terms.camera_uncertainty_m +
          settings.robot_uncertainty_m;
 }
 

@@ -14,6 +14,15 @@ struct Stopping {
 /// Both are infinite above the last row of the settings' table.
 Stopping stopping_from(const SeparationSettings& settings, double speed_m_s);
 
+/// The longest time that the robot may brake for if it stands within distance_m: from the greatest
+/// speed up to most_m_s that it can be stopped from over that way.
+double time_to_stop_within_s(const SeparationSettings& settings, double distance_m,
+                             double most_m_s);
+
+/// C: that of the settings; else from the detection capability that was shown, 8 (d - 14 mm) up to
+/// d = 40 mm; else kUnprovenIntrusion_m.
+double intrusion_m(const SeparationSettings& settings);
+
 /// The terms of the protective distance that no speed changes.
 struct ProtectiveTerms {
   /// T_r: from the exposure to the moment at which the robot begins to brake.

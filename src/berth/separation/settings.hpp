@@ -32,6 +32,9 @@ struct StoppingRow {
   double distance_m = 0;
 };
 
+/// C where nobody has shown what the cameras detect: an arm's length (ISO 13855).
+inline constexpr double kUnprovenIntrusion_m = 0.85;
+
 /// What the protective separation distance is made from (ISO/TS 15066, 5.5.4).
 struct SeparationSettings {
   /// v_h: how fast a person may come nearer.
@@ -47,20 +50,19 @@ struct SeparationSettings {
   std::vector<StoppingRow> stopping;
   /// How fast the robot may gain speed during the reaction time.
   double acceleration_m_s2 = 2;
-  /// C: how far a part of a body may reach before it is detected. 8 (d - 14 mm) for what detects
-  /// things of d = 40 mm (ISO 13855).
-  double intrusion_m = 0.2;
+  /// C: how far a part of a body may reach before it is detected; none: from detection_m.
+  std::optional<double> intrusion_m = std::nullopt;
+  /// d: the smallest thing that the cameras together were shown to detect everywhere in the cell;
+  /// none: nobody has shown it. C = 8 (d - 14 mm) up to 40 mm, else kUnprovenIntrusion_m.
+  std::optional<double> detection_m = std::nullopt;
   /// Z_d; none: from the settings of the cameras in use (camera_uncertainty_m()).
   std::optional<double> camera_uncertainty_m = std::nullopt;
   /// Z_r: how wrong the robot's place may be, the camera's pose included.
   double robot_uncertainty_m = 0.01;
-  /// Whether only the part of a link's velocity counts that is directed at its closest obstacle,
-  /// instead of the speed in any direction. It says nothing of the second closest one.
-  bool directed_speed = false;
-  /// The scale rises again only once the margin is larger than needed by this ...
-  double release_m = 0.05;
-  /// ... for so long.
-  double hold_s = 0.3;
+  /// The robot need not be slower than this, of its fastest point, where its owner has judged a
+  /// contact at this speed tolerable; 0: it has to stand. It stands all the same where a camera or
+  /// the joints are not in order, a link is not seen, or it holds something sharp.
+  double contact_speed_m_s = 0;
   /// A scale below this is 0: the robot stops.
   double least_scale = 0.05;
   /// A link is not seen enough where a smaller share of its surface is seen.
@@ -88,19 +90,22 @@ void visit_settings(Settings& s, Visitor&& visit) {
   visit({"acceleration_m_s2", kNotNegative,
          "how fast the robot may gain speed during the reaction time"},
         s.acceleration_m_s2);
-  visit({"intrusion_m", kNotNegative, "how far a part of a body may reach before it is detected"},
+  visit({"intrusion_m", kNotNegative,
+         "how far a part of a body may reach before it is detected; none: from `detection_m`"},
         s.intrusion_m);
+  visit({"detection_m", kAboveZero,
+         "the smallest thing that the cameras were shown to detect; none: nobody has shown it, and "
+         "`intrusion_m` is 0.85"},
+        s.detection_m);
   visit({"camera_uncertainty_m", kNotNegative,
          "how wrong a camera's readings may be; none: from tolerance, padding and noise of the "
          "cameras in use"},
         s.camera_uncertainty_m);
   visit({"robot_uncertainty_m", kNotNegative, "how wrong the robot's place may be"},
         s.robot_uncertainty_m);
-  visit({"directed_speed", {}, "count only the speed towards the closest obstacle"},
-        s.directed_speed);
-  visit({"release_m", kNotNegative, "the speed rises again where this much more room is left"},
-        s.release_m);
-  visit({"hold_s", kNotNegative, "and has been for so long"}, s.hold_s);
+  visit({"contact_speed_m_s", kNotNegative,
+         "the robot need not be slower than this; 0: it has to stand"},
+        s.contact_speed_m_s);
   visit({"least_scale", {.most = 1}, "a smaller scale of the speed is a stop"}, s.least_scale);
   visit({"least_seen", {.most = 1}, "a link of which a smaller share is seen is not seen enough"},
         s.least_seen);

@@ -13,13 +13,14 @@
 namespace berth {
 
 enum class SeparationState : std::uint8_t {
-  clear,    ///< the robot may move as it does
-  reduced,  ///< it may move at a smaller speed
-  stop,     ///< it has to stand still
+  clear,          ///< the robot may move as it does
+  reduced,        ///< it may move at a smaller speed
+  stop,           ///< it has to stand still
+  contact_speed,  ///< it would have to stand still, but for SeparationSettings::contact_speed_m_s
 };
 /// By enumerator.
-inline constexpr std::array<std::string_view, 3> kSeparationStateNames = {"clear", "reduced",
-                                                                          "stop"};
+inline constexpr std::array<std::string_view, 4> kSeparationStateNames = {"clear", "reduced",
+                                                                          "stop", "contact_speed"};
 
 constexpr std::string_view name_of(SeparationState state) {
   return kSeparationStateNames[static_cast<std::size_t>(state)];
@@ -27,25 +28,37 @@ constexpr std::string_view name_of(SeparationState state) {
 
 /// What keeps the robot from going faster.
 enum class SeparationReason : std::uint8_t {
-  none,       ///< nothing does
-  occupied,   ///< something that a camera sees is near
-  unknown,    ///< something may be in space that no camera sees
-  rejected,   ///< a reading that the filter dropped may be a thing
-  range,      ///< nothing is near, but nothing is known beyond the range either
-  cut_short,  ///< a deadline cut the search: how near something is was not found out
-  not_seen,   ///< the cameras see too little of the link
-  camera,     ///< a camera is not used, or covered
-  stale,      ///< the result is too old, or its stamps are wrong
-  velocity,   ///< the robot's velocity is not known
-  hold,       ///< what was near is gone, but not long enough
+  none,         ///< nothing does
+  occupied,     ///< something that a camera sees is near
+  unknown,      ///< something may be in space that no camera sees
+  rejected,     ///< a reading that the filter dropped may be a thing
+  range,        ///< nothing is near, but nothing is known beyond the range either
+  cut_short,    ///< a deadline cut the search: how near something is was not found out
+  not_seen,     ///< the cameras see too little of the link
+  camera,       ///< a camera is not used, or covered
+  stale,        ///< the result is too old, or its stamps are wrong
+  velocity,     ///< the robot's velocity is not known
+  speeding_up,  ///< nothing does any more, but no robot gains speed faster
 };
 /// By enumerator.
 inline constexpr std::array<std::string_view, 11> kSeparationReasonNames = {
-    "none",     "occupied", "unknown", "rejected", "range", "cut_short",
-    "not_seen", "camera",   "stale",   "velocity", "hold"};
+    "none",     "occupied", "unknown", "rejected", "range",      "cut_short",
+    "not_seen", "camera",   "stale",   "velocity", "speeding_up"};
 
 constexpr std::string_view name_of(SeparationReason reason) {
   return kSeparationReasonNames[static_cast<std::size_t>(reason)];
+}
+
+/// What the scale was shown by.
+enum class SeparationBasis : std::uint8_t {
+  formula,  ///< as if the robot ran straight at what is nearest
+  path,     ///< along the way that it takes until it stands
+};
+/// By enumerator.
+inline constexpr std::array<std::string_view, 2> kSeparationBasisNames = {"formula", "path"};
+
+constexpr std::string_view name_of(SeparationBasis basis) {
+  return kSeparationBasisNames[static_cast<std::size_t>(basis)];
 }
 
 /// One link's part. Lengths and speeds are NaN where they are not known.
@@ -57,7 +70,7 @@ struct LinkSeparation {
   double speed_m_s = std::numeric_limits<double>::quiet_NaN();
   /// How near something may be, after the policies.
   double distance_m = std::numeric_limits<double>::quiet_NaN();
-  /// S, at scale 1.
+  /// S, at scale 1, as if the robot ran straight at what is nearest.
   double required_m = std::numeric_limits<double>::quiet_NaN();
   /// distance_m - required_m.
   double margin_m = std::numeric_limits<double>::quiet_NaN();
@@ -82,6 +95,7 @@ void visit_fields(const LinkSeparation& l, Visitor&& visit) {
 /// What a monitor says.
 struct Separation {
   SeparationState state = SeparationState::stop;
+  SeparationBasis basis = SeparationBasis::formula;
   /// By which the joint velocities that were given are to be multiplied, 0 to 1.
   double speed_scale = 0;
   /// Why it is not larger, and the link that says so; kNoLink where it is no link.
