@@ -51,6 +51,21 @@ TEST(RunStream, ItsTextHasALineForEach) {
   EXPECT_EQ(std::ranges::count(out, '\n'), 6);
 }
 
+TEST(RunStream, InStepsItTellsWhatEachOneCostsInADrawnRoom) {
+  StreamSettings settings{
+      .scene = kScene, .cameras = 1, .rate_hz = 100, .seconds = 0.3, .as_json = true};
+  settings.room = {.seed = 2, .width_px = 160, .height_px = 120};
+  settings.in_steps = true;
+  const auto out = nlohmann::ordered_json::parse(run_stream(settings));
+  EXPECT_EQ(keys_of(out),
+            (std::vector<std::string>{"observe_ms", "prepare_ms", "first_us", "next_us",
+                                      "next_with_all_us", "in_budget_us", "in_budget_gap_m"}));
+  for (const auto& [step, values] : out.items()) {
+    expect_percentiles(values, {"p50", "p95", "p99", "max"});
+    EXPECT_GT(values["max"].get<double>(), 0) << step;
+  }
+}
+
 TEST(RunStream, WhatItCannotPlayItNames) {
   const auto message = [](const StreamSettings& settings) {
     return error_message<std::runtime_error>([&] { run_stream(settings); });

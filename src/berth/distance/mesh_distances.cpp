@@ -143,8 +143,8 @@ void search_nearest(const Asked& asked, int steps, LinkState& link) {
 /// One of a link's searches, until it is done or somebody stops it.
 template <class Search>
 void search_on(const Asked& asked, const LinkSearch& searched, Search search) {
-  // Some milliseconds.
-  constexpr int kSteps = 4096;
+  // Less than a millisecond.
+  constexpr int kSteps = 256;
   do {
     search(kSteps);
   } while (!searched.is_done() && !asked.is_stopped());

@@ -84,9 +84,11 @@ void take_ring(const float* own_m, const std::uint8_t* reach, int ring, float mo
         const auto numbers = hn::PromoteTo(NumberTag(), hn::LoadU(ByteTag(), reach + u));
         const LaneMask is_wanted = hn::RebindMask(FloatTag(), hn::Eq(numbers, wanted));
         const Lanes left = greatest(load(own_m + u) - Lanes(moved_m), Lanes(0.0f));
-        store(select(is_wanted, left, Lanes(kEndless_m)), out + u);
+        store(select(is_wanted, left, Lanes(kHoldsNothing_m)), out + u);
       },
-      [&](int u) { out[u] = reach[u] == ring ? std::max(0.0f, own_m[u] - moved_m) : kEndless_m; });
+      [&](int u) {
+        out[u] = reach[u] == ring ? std::max(0.0f, own_m[u] - moved_m) : kHoldsNothing_m;
+      });
 }
 
 /// x[i] becomes the least of x[i] to x[i + 2 reach] for i in [-2 reach, width); kMargin numbers are
@@ -153,7 +155,8 @@ class Rings {
         workspace_(workspace),
         width_(own_m.width()),
         height_(own_m.height()) {
-    workspace.rows.assign(std::size_t(3 * (greatest + 1) + 1) * width_ + 2 * kMargin, kEndless_m);
+    workspace.rows.assign(std::size_t(3 * (greatest + 1) + 1) * width_ + 2 * kMargin,
+                          kHoldsNothing_m);
     workspace.parts.assign(std::size_t(3 * (greatest + 1)), {});
     find_ring_blocks(blocks_of(width_));
   }

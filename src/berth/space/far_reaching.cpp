@@ -97,7 +97,7 @@ PixelRect far_pixels(const AgingWorkspace& workspace) {
 
 /// The greatest of their reaches.
 int greatest_reach(const Reach& reach, const DepthImage& sensor_depth_m, const PixelRect& pixels) {
-  float nearest_m = kEndless_m;
+  float nearest_m = kHoldsNothing_m;
   for (int v = pixels.v_begin; v < pixels.v_end; ++v) {
     const float* const row = sensor_depth_m.row(v);
     for (int u = pixels.u_begin; u < pixels.u_end; ++u) {
@@ -127,7 +127,7 @@ Reach::Reach(const Camera& camera, double moved_m)
   for (int r = 1; r <= kMostRing; ++r) {
     const double border_m = spread_ / r;
     const auto rounded_m = static_cast<float>(border_m);
-    borders_m_[r] = rounded_m >= border_m ? rounded_m : std::nextafter(rounded_m, kEndless_m);
+    borders_m_[r] = rounded_m >= border_m ? rounded_m : std::nextafter(rounded_m, kHoldsNothing_m);
   }
 }
 

@@ -15,7 +15,8 @@ namespace HWY_NAMESPACE {
 
 void fill_each(int count, float* x) {
   for_row(
-      0, count, [&](int i) { store(Lanes(kEndless_m), x + i); }, [&](int i) { x[i] = kEndless_m; });
+      0, count, [&](int i) { store(Lanes(kHoldsNothing_m), x + i); },
+      [&](int i) { x[i] = kHoldsNothing_m; });
 }
 
 /// x[i] becomes the least of x[i] and from[i].

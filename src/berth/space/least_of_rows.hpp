@@ -6,7 +6,7 @@
 namespace berth {
 
 /// What holds nothing.
-inline constexpr float kEndless_m = std::numeric_limits<float>::max();
+inline constexpr float kHoldsNothing_m = std::numeric_limits<float>::max();
 
 void fill_endless(int count, float* x);
 /// x[i] becomes the least of x[i] and from[i].
