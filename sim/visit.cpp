@@ -89,7 +89,7 @@ std::vector<Pose> Visit::beside_at(double time_s) const {
   motion.walked_m = 0;
   motion.lean_rad = 0.1;
   // To and fro between two boxes, at half of a person's speed.
-  motion.reach = 0.5 - 0.5 * std::cos(2 * time_s);
+  motion.reach = 0.5 - 0.5 * std::cos(1.3 * time_s);
   motion.reached_wrist_T_m = {range_m_ - 0.45, 0.3, 0.3};
   std::vector<Pose> X_BP = person_kinematics(motion);
   const double away_s = std::max({0.0, -time_s, time_s - duration_s_});

@@ -58,7 +58,7 @@ SeparationSettings cell_separation() {
 
 double conforming_zone_m(double robot_m_s) {
   // The arm's farthest point from the base's axis on its way.
-  constexpr double kReach_m = 0.80;
+  constexpr double kReach_m = 0.67;
   constexpr double kScanner_s = 0.08;
   SeparationSettings settings = cell_separation();
   settings.detection_m.reset();

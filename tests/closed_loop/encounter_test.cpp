@@ -149,7 +149,7 @@ TEST(ClosedLoop, AConformingZoneIsLargerThanTheEncounters) {
       }
     }
   }
-  EXPECT_NEAR(reach_m, 0.80, 0.05);
+  EXPECT_NEAR(reach_m, 0.67, 0.02);
   EXPECT_NEAR(fastest_m_s, kArmFullSpeed_m_s, 0.1);
 }
 

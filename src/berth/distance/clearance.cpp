@@ -11,7 +11,7 @@ using mesh::LinkSearch;
 
 /// A search that has taken so many pieces apart is given up: what it would still decide lies within
 /// millimetres of what is needed.
-constexpr int kMostSteps = 600;
+constexpr int kMostSteps = 96;
 /// Searched on in one go, before it is seen whether a pair was found.
 constexpr int kStepsAtOnce = 12;
 /// How finely cubes are told apart.

@@ -14,7 +14,9 @@ constexpr double kScaleStep = 0.015;
 /// At first it is looked for so far below the scale of the request before.
 constexpr double kFirstFall = 0.06;
 /// A stretch is halved so often before it is taken for too near.
-constexpr int kMostDepth = 3;
+constexpr int kMostDepth = 2;
+/// Clearances that are asked for in one request. What they did not show is taken for too near.
+constexpr int kMostAsked = 10;
 
 }  // namespace
 
@@ -172,7 +174,7 @@ bool PathCertificate::has_room(const PathRequest& request, std::size_t i, int no
                                double needed_m) {
   Known& at = known(i, node);
   if (at.clear_m >= needed_m) return true;
-  if (at.nearest_m < needed_m) return false;
+  if (at.nearest_m < needed_m || asked_ >= kMostAsked) return false;
   ++asked_;
   const Clearance found = find_clearance(
       robot_->patches()->links[i], path_.X_BL(i, node), request.space,
