@@ -18,4 +18,4 @@ set +u  # colcon's own scripts read variables that nobody set
 . build/ros2/install/setup.bash
 set -u
 colcon --log-base build/ros2/log test "${paths[@]}" --packages-select berth_msgs berth_ros --event-handlers console_direct+
-colcon test-result --test-result-base build/ros2/build --verbose
+colcon --log-base build/ros2/log test-result --test-result-base build/ros2/build --verbose
