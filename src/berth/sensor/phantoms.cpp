@@ -10,18 +10,20 @@ namespace {
 /// Of the pixels that a ball covers.
 constexpr double kLeastShare = 0.25;
 
-/// The pixels of a row that may be alone: kept ones that are not within `d_m` in depth of all four
-/// neighbours. All at the image's border may.
+/// The pixels of a row that may be alone: kept ones that are not within `d_m` in depth of so many
+/// of their eight neighbours that nobody asks for more. All at the image's border may.
 void append_doubtful(const float* above, const float* row, const float* below, int width, int v,
                      float d_m, std::vector<std::uint8_t>& is_near, std::vector<Pixel>& out) {
   is_near.assign(width, 0);
   const bool is_inside = above != nullptr && below != nullptr;
+  std::uint8_t* __restrict const is_supported = is_near.data();
   for (int u = 1; is_inside && u + 1 < width; ++u) {
     const float z_m = row[u];
-    const int near = int(std::abs(row[u - 1] - z_m) <= d_m) &
-                     int(std::abs(row[u + 1] - z_m) <= d_m) & int(std::abs(above[u] - z_m) <= d_m) &
-                     int(std::abs(below[u] - z_m) <= d_m);
-    is_near[u] = static_cast<std::uint8_t>(near | int(z_m != z_m));
+    const auto is_by = [=](float m) { return int(std::abs(m - z_m) <= d_m); };
+    const int found = is_by(row[u - 1]) + is_by(row[u + 1]) + is_by(above[u - 1]) +
+                      is_by(above[u]) + is_by(above[u + 1]) + is_by(below[u - 1]) +
+                      is_by(below[u]) + is_by(below[u + 1]);
+    is_supported[u] = static_cast<std::uint8_t>(int(found + 1 >= kMostSupport) | int(z_m != z_m));
   }
   for (int u = 0; u < width; ++u) {
     if (is_near[u] == 0 && !std::isnan(row[u])) out.push_back({u, v});

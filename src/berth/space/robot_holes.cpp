@@ -64,10 +64,11 @@ class RobotHoles {
     const float* const own_m = own_m_.row(v);
     for (int begin = 0; begin < own_m_.width(); begin += kBlock_px) {
       const int end = std::min(begin + kBlock_px, own_m_.width());
-      float least_m = own_m[begin];
-      for (int u = begin; u < end; ++u) least_m = std::min(least_m, own_m[u]);
-      if (least_m > 0 || !has_robot(begin - kMostRobotHole_px, end + kMostRobotHole_px, v))
+      int without = 0;
+      for (int u = begin; u < end; ++u) without += int(!(own_m[u] > 0));
+      if (without == 0 || !has_robot(begin - kMostRobotHole_px, end + kMostRobotHole_px, v)) {
         continue;
+      }
       for (int u = begin; u < end; ++u) {
         if (is_hole(u, v)) free_hole(u, v);
       }
@@ -98,14 +99,18 @@ class RobotHoles {
       frees_m = distance2_px2 < least2_px2 ? m : std::max(frees_m, m);
       least2_px2 = distance2_px2;
     };
-    const int begin = std::max(u - kMostRobotHole_px, 0);
-    const int end = std::min(u + kMostRobotHole_px + 1, own_m_.width());
-    for (int x = begin; x < end; ++x) {
+    const auto take_column = [&](int x) {
+      if (x < 0 || x >= own_m_.width()) return;
       const int above = workspace_.above(x, v);
       const int below = workspace_.below(x, v);
       const int aside2 = (x - u) * (x - u);
       if (above < kNoRow) take(aside2 + above * above, own_m_(x, v - above));
       if (below < kNoRow) take(aside2 + below * below, own_m_(x, v + below));
+    };
+    take_column(u);
+    for (int aside = 1; aside <= kMostRobotHole_px && aside * aside <= least2_px2; ++aside) {
+      take_column(u - aside);
+      take_column(u + aside);
     }
     if (!(frees_m > 0)) return;
     const double reach_px = ball_px_m_ / frees_m - kHalfDiagonal_px;
