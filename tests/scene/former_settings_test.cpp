@@ -20,7 +20,8 @@ SceneFile scene_with(const std::string& settings) {
 
 TEST(FormerSettings, AreReadAndToldWithTheirNewName) {
   const SceneFile scene = scene_with(
-      "space: {slab_m: 0.05}\nself_filter: {island_radius_m: 0.01}\nseparation: {hidden: stop, intrusion_m: 0.2}\n");
+      "space: {slab_m: 0.05}\nself_filter: {island_radius_m: 0.01}\nseparation: {hidden: stop, "
+      "intrusion_m: 0.2}\n");
   const CameraSettings& camera = scene.cameras.front().settings;
   EXPECT_EQ(camera.space.surface_thickness_m, 0.05);
   EXPECT_EQ(camera.self_filter.flying_patch_radius_m, 0.01);
@@ -33,6 +34,16 @@ TEST(FormerSettings, AreReadAndToldWithTheirNewName) {
                                       "version more",
                                       "scene.yaml:7: hidden is called unknown now; the former name "
                                       "is read for one version more"}));
+}
+
+TEST(FormerSettings, ThoseThatEndedAreToldAndHaveNoEffect) {
+  const SceneFile scene = scene_with(
+      "separation: {hold_s: 0.3, release_m: 0.05, directed_speed: true, intrusion_m: 0.2}\n");
+  EXPECT_EQ(scene.warnings,
+            (std::vector<std::string>{
+                "scene.yaml:5: hold_s is no setting any more, and has no effect",
+                "scene.yaml:5: release_m is no setting any more, and has no effect",
+                "scene.yaml:5: directed_speed is no setting any more, and has no effect"}));
 }
 
 TEST(FormerSettings, NewNamesGiveNoWarning) {

@@ -23,11 +23,19 @@ constexpr std::array<Renamed, 7> kRenamed = {{
     {"doubtful", "rejected"},
 }};
 
+/// Of `separation`: the speed rises as soon as there is room, and the way that the robot takes is
+/// looked at.
+constexpr std::array<std::string_view, 3> kEnded = {"directed_speed", "hold_s", "release_m"};
+
 constexpr std::array<std::string_view, 3> kGroups = {"space", "self_filter", "separation"};
 
 void tell_group(const YamlValue& group, std::vector<std::string>& told) {
   if (!group.is_map()) return;
   for (const auto& [key, value] : group.entries()) {
+    if (std::ranges::find(kEnded, key) != kEnded.end()) {
+      told.push_back(fmt::format("{}:{}: {} is no setting any more, and has no effect",
+                                 value.place().file.string(), value.place().line, key));
+    }
     const auto found = std::ranges::find(kRenamed, key, &Renamed::former);
     if (found == kRenamed.end()) continue;
     told.push_back(
@@ -53,6 +61,8 @@ std::string_view former_name(std::string_view name) {
   const auto found = std::ranges::find(kRenamed, name, &Renamed::name);
   return found == kRenamed.end() ? std::string_view() : found->former;
 }
+
+std::span<const std::string_view> ended_settings() { return kEnded; }
 
 std::vector<std::string> former_names_in(const YamlValue& document) {
   std::vector<std::string> told;

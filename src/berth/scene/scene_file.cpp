@@ -109,7 +109,9 @@ std::map<std::string, double> read_joint_values(const YamlMap& map, std::string_
 
 SeparationSettings read_separation(const YamlValue& value) {
   SeparationSettings settings;
-  const YamlMap keys = read_settings(value, settings, {"stopping"});
+  std::vector<std::string_view> others = {"stopping"};
+  others.insert(others.end(), ended_settings().begin(), ended_settings().end());
+  const YamlMap keys = read_settings(value, settings, others);
   if (const auto stopping = keys.find("stopping")) {
     for (const YamlValue& item : stopping->list()) {
       const YamlMap row(item, {"speed_m_s", "time_s", "distance_m"});
