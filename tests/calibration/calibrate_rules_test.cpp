@@ -81,7 +81,7 @@ std::string expect_refused(const DrawnCalibrationData& drawn) {
       found.refused.find("no pose was found that explains the images: the best fits them by "),
       std::string::npos)
       << found.refused;
-  EXPECT_NE(found.refused.find("; expected 0.8 at least"), std::string::npos) << found.refused;
+  EXPECT_NE(found.refused.find(" %; expected 40 % at least"), std::string::npos) << found.refused;
   EXPECT_EQ(found.X_PC.matrix(), drawn.camera->X_PC.matrix());
   EXPECT_TRUE(std::isnan(found.halves_m));
   return found.refused;

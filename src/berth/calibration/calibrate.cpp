@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "berth/calibration/fit_camera.hpp"
 #include "berth/calibration/focal_length.hpp"
@@ -95,7 +94,7 @@ class CameraReport {
   void judge() {
     if (out_.score_after < kLeastScore) {
       out_.is_found = false;
-      refuse(unexplained() + focal_length_text({}));
+      refuse(unexplained());
     } else if (out_.score_after < out_.score_before) {
       refuse(fmt::format(
           "the best one found, {:.1f} mm from it, fits the images by {:.1f} %, the scene's own by "
@@ -131,9 +130,9 @@ class CameraReport {
         source_.frames.size(), best);
   }
 
-  std::string focal_length_text(std::optional<double> error_share) {
+  std::string focal_length_text(double error_share) {
     const auto other = find_focal_length(one_, priors_of(source_), error_share, pause_);
-    if (!other) return error_share ? ". Check the camera's info and depth_scale" : "";
+    if (!other) return ". Check the camera's info and depth_scale";
     return fmt::format(
         ". Check the camera's info: with a focal length of {:.0f} px in place of {:.0f} px a pose "
         "fits "

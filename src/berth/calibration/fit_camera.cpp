@@ -16,6 +16,9 @@ std::vector<FitRound> near_rounds(int step) {
 
 const std::vector<FitRound> kLastRounds{{2, 5, 0.04, 0.03, 16, 0.05}, {1, 4, 0.03, 0.02, 12, 0.05}};
 
+/// A fit that agrees with the images less than this may be at a wrong place: 2 is perfect, wrong
+/// places of real robots have 0.6 at most, right ones of real cameras 1.2 and more.
+constexpr double kGoodScore = 1.0;
 /// For starts that are farther off.
 constexpr CoarseSearch kWideSearch{.reach_m = 0.3, .reach_rad = 0.45, .tries = 1500, .best = 16};
 /// Of what the robot shows in most poses.

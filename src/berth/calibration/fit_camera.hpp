@@ -11,9 +11,6 @@ namespace berth {
 inline constexpr ScoreSettings kLastScore{1, 0.03, 10};
 /// Below, the pose is a wrong place: those of other cameras and robots had 0.77 at most.
 inline constexpr double kLeastScore = 0.8;
-/// A fit that agrees with the images less than this may be at a wrong place: 2 is perfect, wrong
-/// places of real robots have 0.6 at most, right ones of real cameras 1.2 and more.
-inline constexpr double kGoodScore = 1.0;
 
 /// The pose of one camera, from wherever it is believed to be: a fit from there, and from the best
 /// places of a coarse search; the one that explains the images best. `drawer` has one camera and

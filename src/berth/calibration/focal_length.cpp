@@ -1,7 +1,6 @@
 #include "berth/calibration/focal_length.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "berth/calibration/fit_camera.hpp"
@@ -15,9 +14,6 @@ namespace {
 constexpr double kLeftAsDepth = 0.6;
 constexpr double kLeastFactor = 0.45;
 constexpr double kGreatestFactor = 2.2;
-/// Where no pose was found with the one that is believed: from half to twice, in steps over which a
-/// fit finds the pose.
-constexpr std::array kTriedFactors = {0.8, 1.25, 0.65, 1.55, 0.5, 2.0};
 
 class FocalLengthSearch {
  public:
@@ -25,12 +21,8 @@ class FocalLengthSearch {
                     const std::function<void()>& pause)
       : one_(one), priors_(priors), pause_(pause) {}
 
-  std::optional<OtherFocalLength> run(std::optional<double> error_share) {
-    OtherFocalLength before{1, 0, error_share.value_or(0)};
-    if (!error_share) {
-      before = best_tried();
-      if (before.score < kLeastScore) return {};
-    }
+  std::optional<OtherFocalLength> run(double error_share) {
+    const OtherFocalLength before{1, 0, error_share};
     OtherFocalLength next =
         fitted(before.factor * std::exp(before.depth_error_share / kLeftAsDepth));
     const OtherFocalLength last = fitted(where_right(before, next));
@@ -52,16 +44,6 @@ class FocalLengthSearch {
     FrameDrawer drawer(other, camera_steps(camera.camera.width_px));
     const CalibrationEstimate estimate = fit_camera(drawer, priors_, pause_).estimate;
     return {factor, score(drawer, estimate, kLastScore).value, depth_error_share(drawer, estimate)};
-  }
-
-  OtherFocalLength best_tried() {
-    OtherFocalLength best;
-    for (const double factor : kTriedFactors) {
-      const OtherFocalLength tried = fitted(factor);
-      if (tried.score > best.score) best = tried;
-      if (best.score > kGoodScore) break;
-    }
-    return best;
   }
 
   /// Where the line through both says that the depth error is 0.
@@ -91,8 +73,7 @@ double depth_error_share(FrameDrawer& drawer, const CalibrationEstimate& estimat
 }
 
 std::optional<OtherFocalLength> find_focal_length(const CalibrationData& one,
-                                                  const FitPriors& priors,
-                                                  std::optional<double> error_share,
+                                                  const FitPriors& priors, double error_share,
                                                   const std::function<void()>& pause) {
   return FocalLengthSearch(one, priors, pause).run(error_share);
 }
