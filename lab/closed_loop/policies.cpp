@@ -17,7 +17,7 @@ SeparationSettings changed(void (*change)(SeparationSettings&)) {
 
 std::unique_ptr<Supervisor> monitor(std::vector<int> cameras,
                                     const SeparationSettings& settings = cell_separation(),
-                                    Shown shown = Shown::along_path) {
+                                    ShownBy shown = ShownBy::along_path) {
   return std::make_unique<MonitorSupervisor>(Method::mesh, std::move(cameras), settings, shown);
 }
 
@@ -43,11 +43,11 @@ const std::vector<Row>& rows() {
        [] { return three([](auto& s) { s.contact_speed_m_s = kContact_m_s; }); }},
       {{"formula", "three cameras, as if the arm ran straight at what is nearest"},
        [] {
-         return monitor({0, 1, 2}, cell_separation(), Shown::by_formula);
+         return monitor({0, 1, 2}, cell_separation(), ShownBy::by_formula);
        }},
       {{"straight", "three cameras, the arm's way is not told: it goes straight on, and bends"},
        [] {
-         return monitor({0, 1, 2}, cell_separation(), Shown::straight_on);
+         return monitor({0, 1, 2}, cell_separation(), ShownBy::straight_on);
        }},
       {{"fine", "three cameras that detect 20 mm"},
        [] { return three([](auto& s) { s.detection_m = 0.02; }); }},

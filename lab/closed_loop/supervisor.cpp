@@ -9,7 +9,7 @@ namespace berth::lab {
 void Supervisor::see(std::size_t, const DepthImage&, double, const JointBuffer&) {}
 
 MonitorSupervisor::MonitorSupervisor(Method method, std::vector<int> cameras,
-                                     const SeparationSettings& settings, Shown shown)
+                                     const SeparationSettings& settings, ShownBy shown)
     : robot_(cell_robot()),
       cameras_(std::move(cameras)),
       frames_(cameras_.size()),
@@ -32,9 +32,9 @@ double MonitorSupervisor::scale(const Situation& situation) {
   result_ = &query_.ask({.frames = frames_, .joints = situation.joints, .now_s = situation.now_s});
   const auto start = std::chrono::steady_clock::now();
   PlannedMotion motion(situation.plan.velocity_rad_s);
-  if (shown_ == Shown::along_path) motion.path = situation.path;
+  if (shown_ == ShownBy::along_path) motion.path = situation.path;
   last_ = &monitor_.update(*result_, motion, situation.now_s,
-                           shown_ == Shown::by_formula ? nullptr : query_.frames());
+                           shown_ == ShownBy::by_formula ? nullptr : query_.frames());
   const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
   monitor_us_.push_back(took.count());
   return last_->speed_scale;
@@ -43,7 +43,7 @@ double MonitorSupervisor::scale(const Situation& situation) {
 EvadingSupervisor::EvadingSupervisor(Method method, std::vector<int> cameras,
                                      const SeparationSettings& settings)
     // It leaves its way where it gives way.
-    : MonitorSupervisor(method, std::move(cameras), settings, Shown::by_formula),
+    : MonitorSupervisor(method, std::move(cameras), settings, ShownBy::by_formula),
       evader_(robot(), "arm_link_7", {}) {}
 
 double EvadingSupervisor::scale(const Situation& situation) {

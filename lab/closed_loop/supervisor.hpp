@@ -66,7 +66,7 @@ class FixedZone : public Supervisor {
 };
 
 /// What a monitor is given to show its scale by.
-enum class Shown {
+enum class ShownBy {
   by_formula,   ///< nothing but the joints' velocities
   straight_on,  ///< what the cameras left of space
   along_path,   ///< and the way that the arm is going to take
@@ -76,7 +76,7 @@ enum class Shown {
 class MonitorSupervisor : public Supervisor {
  public:
   MonitorSupervisor(Method method, std::vector<int> cameras, const SeparationSettings& settings,
-                    Shown shown = Shown::along_path);
+                    ShownBy shown = ShownBy::along_path);
   std::vector<int> cameras() const override { return cameras_; }
   void see(std::size_t which, const DepthImage& depth_m, double stamp_s,
            const JointBuffer& joints) override;
@@ -96,7 +96,7 @@ class MonitorSupervisor : public Supervisor {
   std::vector<std::shared_ptr<const Frame>> frames_;
   MethodQuery query_;
   SeparationMonitor monitor_;
-  Shown shown_;
+  ShownBy shown_;
   const Separation* last_ = nullptr;
   const Result* result_ = nullptr;
   std::vector<double> monitor_us_;

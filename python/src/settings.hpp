@@ -144,7 +144,7 @@ void bind_settings(py::module_& m, const char* name, const std::string& group, c
   settings.def("__copy__", [](const Settings& own) { return own; },
                ("__copy__(self)" + copied).c_str());
   settings.def("__deepcopy__", [](const Settings& own, const py::dict&) { return own; },
-               ("__deepcopy__(self, memo: dict)" + copied).c_str());
+               ("__deepcopy__(self, memo: Dict[int, object])" + copied).c_str());
   settings.def(
       "__repr__",
       [name = std::string(name)](const Settings& own) {

@@ -11,6 +11,10 @@ def test_the_parts_make_the_frame(one_camera, step):
     np.testing.assert_array_equal(depth_m, step.frame.robot_depth_m)
     np.testing.assert_array_equal(link_id, step.frame.link_id)
     left_m, fate = berth.self_filter(step.depth_m, depth_m, link_id, view.camera, view.self_filter)
+    # What a frame for all links leaves out besides: sensor.phantom_radius_m.
+    is_phantom = step.frame.fate == int(berth.PixelFate.speckle)
+    assert is_phantom.mean() < 0.01
+    left_m[is_phantom], fate[is_phantom] = np.nan, int(berth.PixelFate.speckle)
     np.testing.assert_array_equal(left_m, step.frame.obstacle_depth_m)
     np.testing.assert_array_equal(fate, step.frame.fate)
     np.testing.assert_allclose(model.link_poses(step.joints)["table"], np.eye(4))

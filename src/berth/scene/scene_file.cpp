@@ -6,14 +6,13 @@
 
 #include "berth/files/read_file.hpp"
 #include "berth/files/yaml_value.hpp"
+#include "berth/pipeline/request.hpp"
 #include "berth/scene/former_settings.hpp"
 #include "berth/scene/scene_camera.hpp"
 #include "berth/scene/settings_yaml.hpp"
 
 namespace berth {
 namespace {
-
-constexpr std::size_t kMostCameras = 8;
 
 RobotSettings read_robot(const YamlValue& value) {
   const YamlMap map(value,
