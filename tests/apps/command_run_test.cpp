@@ -179,13 +179,18 @@ TEST(Run, PicturesAreDrawnIntoANewFolder) {
   EXPECT_EQ(scene.all_names(), names);
 }
 
-TEST(Run, SeveralCamerasGiveAllTheirFramesAndAFolderOfPicturesEach) {
-  CommandScene scene;
-  scene.lines.depth = "[depth/000000.png]";
+/// Another camera in the same place, with two of its images.
+void add_second_camera(CommandScene& scene) {
   scene.lines.more_cameras =
       "  - {name: again, info: camera_info.yaml, depth: [depth/000000.png, depth/000001.png], "
       "pose: " +
       scene.lines.pose + "}\n";
+}
+
+TEST(Run, SeveralCamerasGiveAllTheirFramesAndAFolderOfPicturesEach) {
+  CommandScene scene;
+  scene.lines.depth = "[depth/000000.png]";
+  add_second_camera(scene);
   const std::vector<Json> frames = scene.json({"run", "scene.yaml", "--picture", "pictures"});
   ASSERT_EQ(frames.size(), 3U);
   EXPECT_EQ(frames[0]["cameras"][0]["camera"], "front");
@@ -205,10 +210,7 @@ TEST(Run, SeveralCamerasGiveAllTheirFramesAndAFolderOfPicturesEach) {
 TEST(Run, ImagesOfOneInstantGiveOneLine) {
   CommandScene scene;
   scene.lines.evaluation = "{method: mesh, range_m: 2}";
-  scene.lines.more_cameras =
-      "  - {name: again, info: camera_info.yaml, depth: [depth/000000.png, depth/000001.png], "
-      "pose: " +
-      scene.lines.pose + "}\n";
+  add_second_camera(scene);
   const std::vector<Json> lines = scene.json({"run", "scene.yaml", "--picture", "pictures"});
   ASSERT_EQ(lines.size(), 3U);
   for (int k = 0; k < 3; ++k) {

@@ -220,7 +220,7 @@ TEST_F(Plausibility, ACameraThatFitsContradictsAMistakeInTheJoints) {
   const OpenScene scene = in_degrees(right(), std::array<std::size_t, 1>{2});
   const std::vector<CameraPlausibility> cameras = find_implausible(scene);
   EXPECT_EQ(cameras[2].as_if, "the joints were in degrees");
-  EXPECT_FALSE(cameras[2].is_of_joints);
+  EXPECT_TRUE(cameras[2].in_joints.empty());
   const SceneRun run(scene);
   EXPECT_TRUE(run.plausibility()[2].is_implausible);
 }

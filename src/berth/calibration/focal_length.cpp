@@ -23,8 +23,7 @@ class FocalLengthSearch {
 
   std::optional<OtherFocalLength> run(double error_share) {
     const OtherFocalLength before{1, 0, error_share};
-    OtherFocalLength next =
-        fitted(before.factor * std::exp(before.depth_error_share / kLeftAsDepth));
+    OtherFocalLength next = fitted(std::exp(error_share / kLeftAsDepth));
     const OtherFocalLength last = fitted(where_right(before, next));
     if (is_better(last, next)) next = last;
     const bool explains =

@@ -120,23 +120,23 @@ void explain(const OpenScene& scene, RobotInImages& images, CameraPlausibility& 
   const std::vector<SimpleMistake> mistakes = simple_mistakes(scene, images);
   const std::vector<Tried> tried = tried_mistakes(mistakes, images);
   if (tried.empty() || tried[0].share < share_now + kLeastGain) return;
-  const Tried& best = tried[0];
-  camera.share_then = best.share;
-  camera.as_if = best.mistake->as_if;
-  camera.is_of_joints = best.mistake->is_of_joints;
-  if (tried.size() < 2 || tried[1].share < best.share - kAlike) return;
-  camera.as_if += " or " + tried[1].mistake->as_if;
-  camera.is_of_joints |= tried[1].mistake->is_of_joints;
+  camera.share_then = tried[0].share;
+  for (std::size_t i = 0; i < std::min<std::size_t>(tried.size(), 2); ++i) {
+    if (tried[i].share < camera.share_then - kAlike) break;
+    const SimpleMistake& mistake = *tried[i].mistake;
+    camera.as_if += (i == 0 ? "" : " or ") + mistake.as_if;
+    if (mistake.is_of_joints) camera.in_joints.push_back(mistake.as_if);
+  }
 }
 
-/// Whether the robot is much better where the scene has it, in this camera's images, than where it
-/// would be without any of the mistakes in the joints that explain another camera's.
-bool contradicts(const OpenScene& scene, std::size_t number, const std::string& as_if) {
+/// Whether the robot is much better where the scene has it, in this camera's images, than without
+/// any of these mistakes in the joints.
+bool contradicts(const OpenScene& scene, std::size_t number,
+                 const std::vector<std::string>& in_joints) {
   RobotInImages images(scene, number);
-  if (images.frames().empty()) return false;
   const double share_now = share_at_robot(images.readings(images.given()), kLeastJudgedPixels);
   return std::ranges::all_of(simple_mistakes(scene, images), [&](const SimpleMistake& mistake) {
-    if (!mistake.is_of_joints || as_if.find(mistake.as_if) == std::string::npos) return true;
+    if (std::ranges::find(in_joints, mistake.as_if) == in_joints.end()) return true;
     const RobotReadings then = images.readings(mistake.corrected);
     return share_at_robot(then, kLeastJudgedPixels) < share_now - kLeastGain;
   });
@@ -179,10 +179,9 @@ std::vector<CameraPlausibility> find_implausible(const OpenScene& scene) {
   for (std::size_t c = 0; c < scene.cameras.size(); ++c)
     cameras.push_back(find_implausible(scene, c));
   for (CameraPlausibility& camera : cameras) {
-    if (!camera.is_of_joints) continue;
-    for (std::size_t c = 0; c < cameras.size(); ++c) {
+    for (std::size_t c = 0; c < cameras.size() && !camera.in_joints.empty(); ++c) {
       if (cameras[c].is_implausible || !cameras[c].readings.tells()) continue;
-      if (contradicts(scene, c, camera.as_if)) camera.is_of_joints = false;
+      if (contradicts(scene, c, camera.in_joints)) camera.in_joints.clear();
     }
   }
   return cameras;

@@ -26,9 +26,9 @@ struct CameraPlausibility {
   /// What explains it, as SimpleMistake::as_if; two with " or " between where they do so alike;
   /// empty where nothing does.
   std::string as_if;
-  /// What explains it is a mistake in the joints, and no other camera contradicts: then no camera's
-  /// image may be used.
-  bool is_of_joints = false;
+  /// The SimpleMistake::as_if of those that explain it, are mistakes in the joints, and are
+  /// contradicted by no other camera: where there are any, no camera's image may be used.
+  std::vector<std::string> in_joints;
   /// The share of the robot's readings that would lie at its surface then.
   double share_then = 0;
 };

@@ -18,7 +18,7 @@ namespace {
 std::vector<CameraPlausibility> plausible_cameras(const OpenScene& scene) {
   std::vector<CameraPlausibility> cameras = find_implausible(scene);
   if (!std::ranges::all_of(cameras, &CameraPlausibility::is_implausible) &&
-      std::ranges::none_of(cameras, &CameraPlausibility::is_of_joints)) {
+      std::ranges::all_of(cameras, [](const auto& one) { return one.in_joints.empty(); })) {
     return cameras;
   }
   std::string text;
