@@ -1,60 +1,154 @@
 #include "berth/sensor/phantoms.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
+#ifndef BERTH_PHANTOM_SUPPORT
+#define BERTH_PHANTOM_SUPPORT
 namespace berth {
+/// Three rows of the filtered image, the middle one's number and how long they are.
+struct PhantomRows {
+  const float* row_m[3];
+  int v;
+  int width;
+};
+
+/// One row of what came and what was kept, and the part of it beside a reading.
+struct SupportRow {
+  const float* kept_m;
+  const float* sensed_m;
+  const std::uint8_t* fate;
+  int width;
+  int begin;
+  int end;
+};
+}  // namespace berth
+#endif
+
+// Compiles the rest of this file once for each instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "berth/sensor/phantoms.cpp"
+#include "hwy/foreach_target.h"
+
+#include "berth/vector/lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace berth {
+namespace HWY_NAMESPACE {
+
+/// Of the pixels from u on, those that may be alone, as bits: kept ones that are not within d in
+/// depth of so many of their eight neighbours that nobody asks for more.
+template <class D>
+HWY_INLINE std::uint64_t doubtful_bits(D d, const PhantomRows& rows, int u, float d_m) {
+  const auto z_m = hn::LoadU(d, rows.row_m[1] + u);
+  auto found = hn::Zero(d);
+  for (const float* row_m : rows.row_m) {
+    for (int aside = -1; aside <= 1; ++aside) {
+      const auto off_m = hn::Abs(hn::Sub(hn::LoadU(d, row_m + u + aside), z_m));
+      found = hn::Add(found, hn::IfThenElseZero(hn::Le(off_m, hn::Set(d, d_m)), hn::Set(d, 1.0F)));
+    }
+  }
+  const auto is_alone = hn::Lt(found, hn::Set(d, static_cast<float>(kMostSupport)));
+  return bits_of(d, hn::And(is_alone, hn::Eq(z_m, z_m)));
+}
+
+void append_doubtful(const PhantomRows& rows, float d_m, std::vector<Pixel>& out) {
+  const auto append = [&](int first, std::uint64_t bits) {
+    for (; bits != 0; bits &= bits - 1) out.push_back({first + std::countr_zero(bits), rows.v});
+  };
+  int u = 1;
+  for (; u + kLanes < rows.width; u += kLanes) append(u, doubtful_bits(FloatTag(), rows, u, d_m));
+  for (; u + 1 < rows.width; ++u) append(u, doubtful_bits(OneFloatTag(), rows, u, d_m));
+}
+
+template <class D>
+HWY_INLINE hn::Mask<D> supports(D d, const SupportRow& row, int u, float z_m, float d_m) {
+  const auto is_near = [&](const float* depth_m) {
+    const auto off_m = hn::Abs(hn::Sub(hn::LoadU(d, depth_m + u), hn::Set(d, z_m)));
+    return hn::Le(off_m, hn::Set(d, d_m));
+  };
+  const hn::Rebind<std::int32_t, D> whole;
+  const auto fate = hn::PromoteTo(whole, hn::LoadU(hn::Rebind<std::uint8_t, D>(), row.fate + u));
+  const auto has_fate = [&](PixelFate of) {
+    return hn::RebindMask(d, hn::Eq(fate, hn::Set(whole, static_cast<int>(of))));
+  };
+  return hn::AndNot(hn::Or(has_fate(PixelFate::robot), has_fate(PixelFate::environment)),
+                    hn::Or(is_near(row.kept_m), is_near(row.sensed_m)));
+}
+
+/// How many pixels of the row's part may be of the thing that a reading at z shows.
+int count_support(const SupportRow& row, float z_m, float d_m) {
+  std::size_t found = 0;
+  int u = row.begin;
+  for (; u < row.end && u + kLanes <= row.width; u += kLanes) {
+    const auto within = hn::FirstN(FloatTag(), static_cast<std::size_t>(row.end - u));
+    found += hn::CountTrue(FloatTag(), both(within, supports(FloatTag(), row, u, z_m, d_m)));
+  }
+  for (; u < row.end; ++u) {
+    found += hn::CountTrue(OneFloatTag(), supports(OneFloatTag(), row, u, z_m, d_m));
+  }
+  return static_cast<int>(found);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace berth
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace berth {
+
+HWY_EXPORT(append_doubtful);
+HWY_EXPORT(count_support);
+
 namespace {
 
 /// Of the pixels that a ball covers.
 constexpr double kLeastShare = 0.25;
 
-/// The pixels of a row that may be alone: kept ones that are not within `d_m` in depth of so many
-/// of their eight neighbours that nobody asks for more. All at the image's border may.
-void append_doubtful(const float* above, const float* row, const float* below, int width, int v,
-                     float d_m, std::vector<std::uint8_t>& is_near, std::vector<Pixel>& out) {
-  is_near.assign(width, 0);
-  const bool is_inside = above != nullptr && below != nullptr;
-  std::uint8_t* __restrict const is_supported = is_near.data();
-  for (int u = 1; is_inside && u + 1 < width; ++u) {
-    const float z_m = row[u];
-    const auto is_by = [=](float m) { return int(std::abs(m - z_m) <= d_m); };
-    const int found = is_by(row[u - 1]) + is_by(row[u + 1]) + is_by(above[u - 1]) +
-                      is_by(above[u]) + is_by(above[u + 1]) + is_by(below[u - 1]) +
-                      is_by(below[u]) + is_by(below[u + 1]);
-    is_supported[u] = static_cast<std::uint8_t>(int(found + 1 >= kMostSupport) | int(z_m != z_m));
-  }
-  for (int u = 0; u < width; ++u) {
-    if (is_near[u] == 0 && !std::isnan(row[u])) out.push_back({u, v});
+/// Kept readings that may be alone. All at the image's border may.
+void find_doubtful(const DepthImage& depth_m, float d_m, std::vector<Pixel>& out) {
+  const int width = depth_m.width(), height = depth_m.height();
+  const auto append = [&](int u, int v) {
+    if (!std::isnan(depth_m(u, v))) out.push_back({u, v});
+  };
+  out.clear();
+  for (int v = 0; v < height; ++v) {
+    if (v == 0 || v + 1 == height) {
+      for (int u = 0; u < width; ++u) append(u, v);
+      continue;
+    }
+    append(0, v);
+    if (width > 1) append(width - 1, v);
+    const PhantomRows rows{{depth_m.row(v - 1), depth_m.row(v), depth_m.row(v + 1)}, v, width};
+    HWY_DYNAMIC_DISPATCH(append_doubtful)(rows, d_m, out);
   }
 }
 
-/// Whether a reading may be of the thing that another one shows.
-bool supports(PixelFate fate) { return fate != PixelFate::robot && fate != PixelFate::environment; }
-
-/// Whether so many readings, itself among them, lie within d.
+/// Whether so many readings, itself among them, lie within d. Most stand in the nearest rows.
 bool has_support(DepthView sensor_depth_m, const ObstacleImage& image, Pixel p, int reach_px,
                  float d_m, int wanted) {
+  const int width = sensor_depth_m.width;
   const float z_m = image.depth_m(p.u, p.v);
+  const int begin = std::max(p.u - reach_px, 0), end = std::min(p.u + reach_px + 1, width);
   int found = 0;
-  const auto count = [&](int reach) {
-    const PixelRect around = clip({p.u - reach, p.v - reach, p.u + reach + 1, p.v + reach + 1},
-                                  sensor_depth_m.width, sensor_depth_m.height);
-    found = 0;
-    for (int v = around.v_begin; v < around.v_end && found < wanted; ++v) {
-      const float* const sensed_m = sensor_depth_m.row(v);
-      const float* const kept_m = image.depth_m.row(v);
-      const PixelFate* const fate = image.fate.row(v);
-      for (int u = around.u_begin; u < around.u_end; ++u) {
-        const bool is_near = std::abs(kept_m[u] - z_m) <= d_m || std::abs(sensed_m[u] - z_m) <= d_m;
-        found += int(is_near) & int(supports(fate[u]));
-      }
-    }
-    return found >= wanted;
+  const auto count = [&](int v) {
+    if (v < 0 || v >= sensor_depth_m.height || found >= wanted) return;
+    const SupportRow row{image.depth_m.row(v),
+                         sensor_depth_m.row(v),
+                         reinterpret_cast<const std::uint8_t*>(image.fate.row(v)),
+                         width,
+                         begin,
+                         end};
+    found += HWY_DYNAMIC_DISPATCH(count_support)(row, z_m, d_m);
   };
-  // Most find them next to themselves.
-  return (reach_px > 1 && count(1)) || count(reach_px);
+  count(p.v);
+  for (int aside = 1; aside <= reach_px && found < wanted; ++aside) {
+    count(p.v - aside);
+    count(p.v + aside);
+  }
+  return found >= wanted;
 }
 
 }  // namespace
@@ -71,14 +165,8 @@ void drop_phantoms(const Camera& camera, DepthView sensor_depth_m, double phanto
   if (!(phantom_radius_m > 0)) return;
   const auto d_m = static_cast<float>(phantom_radius_m);
   const double f_px = std::min(camera.fx_px, camera.fy_px);
-  const int height = out.depth_m.height();
   std::vector<Pixel>& lonely = workspace.lonely;
-  lonely.clear();
-  for (int v = 0; v < height; ++v) {
-    append_doubtful(v > 0 ? out.depth_m.row(v - 1) : nullptr, out.depth_m.row(v),
-                    v + 1 < height ? out.depth_m.row(v + 1) : nullptr, out.depth_m.width(), v, d_m,
-                    workspace.is_near, lonely);
-  }
+  find_doubtful(out.depth_m, d_m, lonely);
   std::erase_if(lonely, [&](const Pixel& p) {
     const PixelFate fate = out.fate(p.u, p.v);
     if (fate != PixelFate::obstacle && fate != PixelFate::averaged) return true;
@@ -97,3 +185,4 @@ void drop_phantoms(const Camera& camera, DepthView sensor_depth_m, double phanto
 }
 
 }  // namespace berth
+#endif  // HWY_ONCE

@@ -11,7 +11,6 @@ namespace berth {
 /// The memory of drop_phantoms().
 struct PhantomWorkspace {
   std::vector<Pixel> lonely;
-  std::vector<std::uint8_t> is_near;
 };
 
 /// How many readings a thing of the size d shows at least at this depth, with itself: a quarter of
