@@ -54,7 +54,8 @@ bool plainly_alone(const Camera& camera, const DepthImage& sensor_depth_m,
       const PixelFate fate = image.fate(x, y);
       if (fate == PixelFate::robot || fate == PixelFate::environment) continue;
       const float there_m = is_kept(fate) ? image.depth_m(x, y) : sensor_depth_m(x, y);
-      found += std::abs(there_m - image.depth_m(u, v)) <= static_cast<float>(kRadius_m);
+      const double within_m = std::max(kRadius_m, 0.004 * z_m * z_m);
+      found += std::abs(there_m - image.depth_m(u, v)) <= static_cast<float>(within_m);
     }
   }
   return found < std::min(wanted, 5.0);
@@ -70,7 +71,7 @@ TEST(Phantoms, AreThoseOfTheDefinition) {
     const double dense = random(0.05, 1);
     DepthImage depth_m(camera.width_px, camera.height_px, kNoDepth);
     for (float& z : depth_m.pixels()) {
-      if (random.chance(dense)) z = static_cast<float>(random.whole(1, 3) + random(0, 0.06));
+      if (random.chance(dense)) z = static_cast<float>(random.whole(1, 4) + random(0, 0.06));
     }
     ObstacleImage before = all_kept(depth_m);
     if (random.chance(0.5)) drop_some(random, before);
@@ -93,6 +94,22 @@ TEST(Phantoms, AreThoseOfTheDefinition) {
     dropped += static_cast<int>(speckle);
   }
   EXPECT_GT(dropped, thinned(100));
+}
+
+TEST(Phantoms, AFarWallInStepsOfTheSensorStays) {
+  const Camera camera{64, 48, 525, 525, 31.5, 23.5};
+  constexpr double kStep_per_m = 0.00285;
+  for (const float wall_m : {3.0F, 4.0F, 5.0F}) {
+    sim::Random random(3);
+    DepthImage depth_m(64, 48, wall_m);
+    for (float& z : depth_m.pixels()) {
+      z += static_cast<float>(kStep_per_m * wall_m * wall_m * random.whole(0, 3));
+    }
+    ObstacleImage image = all_kept(depth_m);
+    PhantomWorkspace workspace;
+    drop_phantoms(camera, depth_m, kRadius_m, workspace, image);
+    EXPECT_EQ(image.count_of(PixelFate::speckle), 0) << wall_m;
+  }
 }
 
 TEST(Phantoms, AMixedPixelBetweenNearAndFarGoesAndIsToldOf) {

@@ -43,11 +43,13 @@ namespace HWY_NAMESPACE {
 template <class D>
 HWY_INLINE std::uint64_t doubtful_bits(D d, const PhantomRows& rows, int u, float d_m) {
   const auto z_m = hn::LoadU(d, rows.row_m[1] + u);
+  const auto step_m = hn::Mul(hn::Mul(z_m, z_m), hn::Set(d, static_cast<float>(kDepthStep_per_m)));
+  const auto within_m = hn::Max(hn::Set(d, d_m), step_m);
   auto found = hn::Zero(d);
   for (const float* row_m : rows.row_m) {
     for (int aside = -1; aside <= 1; ++aside) {
       const auto off_m = hn::Abs(hn::Sub(hn::LoadU(d, row_m + u + aside), z_m));
-      found = hn::Add(found, hn::IfThenElseZero(hn::Le(off_m, hn::Set(d, d_m)), hn::Set(d, 1.0F)));
+      found = hn::Add(found, hn::IfThenElseZero(hn::Le(off_m, within_m), hn::Set(d, 1.0F)));
     }
   }
   const auto is_alone = hn::Lt(found, hn::Set(d, static_cast<float>(kMostSupport)));
@@ -64,10 +66,10 @@ void append_doubtful(const PhantomRows& rows, float d_m, std::vector<Pixel>& out
 }
 
 template <class D>
-HWY_INLINE hn::Mask<D> supports(D d, const SupportRow& row, int u, float z_m, float d_m) {
+HWY_INLINE hn::Mask<D> supports(D d, const SupportRow& row, int u, float z_m, float within_m) {
   const auto is_near = [&](const float* depth_m) {
     const auto off_m = hn::Abs(hn::Sub(hn::LoadU(d, depth_m + u), hn::Set(d, z_m)));
-    return hn::Le(off_m, hn::Set(d, d_m));
+    return hn::Le(off_m, hn::Set(d, within_m));
   };
   const hn::Rebind<std::int32_t, D> whole;
   const auto fate = hn::PromoteTo(whole, hn::LoadU(hn::Rebind<std::uint8_t, D>(), row.fate + u));
@@ -79,15 +81,15 @@ HWY_INLINE hn::Mask<D> supports(D d, const SupportRow& row, int u, float z_m, fl
 }
 
 /// How many pixels of the row's part may be of the thing that a reading at z shows.
-int count_support(const SupportRow& row, float z_m, float d_m) {
+int count_support(const SupportRow& row, float z_m, float within_m) {
   std::size_t found = 0;
   int u = row.begin;
   for (; u < row.end && u + kLanes <= row.width; u += kLanes) {
-    const auto within = hn::FirstN(FloatTag(), static_cast<std::size_t>(row.end - u));
-    found += hn::CountTrue(FloatTag(), both(within, supports(FloatTag(), row, u, z_m, d_m)));
+    const auto in_part = hn::FirstN(FloatTag(), static_cast<std::size_t>(row.end - u));
+    found += hn::CountTrue(FloatTag(), both(in_part, supports(FloatTag(), row, u, z_m, within_m)));
   }
   for (; u < row.end; ++u) {
-    found += hn::CountTrue(OneFloatTag(), supports(OneFloatTag(), row, u, z_m, d_m));
+    found += hn::CountTrue(OneFloatTag(), supports(OneFloatTag(), row, u, z_m, within_m));
   }
   return static_cast<int>(found);
 }
@@ -131,6 +133,7 @@ bool has_support(DepthView sensor_depth_m, const ObstacleImage& image, Pixel p, 
                  float d_m, int wanted) {
   const int width = sensor_depth_m.width;
   const float z_m = image.depth_m(p.u, p.v);
+  const float within_m = std::max(d_m, z_m * z_m * static_cast<float>(kDepthStep_per_m));
   const int begin = std::max(p.u - reach_px, 0), end = std::min(p.u + reach_px + 1, width);
   int found = 0;
   const auto count = [&](int v) {
@@ -141,7 +144,7 @@ bool has_support(DepthView sensor_depth_m, const ObstacleImage& image, Pixel p, 
                          width,
                          begin,
                          end};
-    found += HWY_DYNAMIC_DISPATCH(count_support)(row, z_m, d_m);
+    found += HWY_DYNAMIC_DISPATCH(count_support)(row, z_m, within_m);
   };
   count(p.v);
   for (int aside = 1; aside <= reach_px && found < wanted; ++aside) {
