@@ -10,6 +10,8 @@
 #endif
 
 #include <array>
+#include <atomic>
+#include <cstdint>
 #include <limits>
 
 #include "berth/distance/cube_corners-inl.hpp"
@@ -49,6 +51,17 @@ inline bool know_cell(const FieldGrid& grid, const NearestPointSearch& mesh,
   return true;
 }
 
+/// Those of the grid's points. One by one, since others may keep them meanwhile.
+HWY_INLINE Lanes squares_m2(const FieldPoints& field, Ints place) {
+  alignas(64) std::int32_t at[kLanes];
+  alignas(64) float squared_m2[kLanes];
+  hn::StoreU(place, IntTag(), at);
+  for (int i = 0; i < kLanes; ++i) {
+    squared_m2[i] = std::atomic_ref(field.squared_m2[at[i]]).load(std::memory_order_relaxed);
+  }
+  return load(squared_m2);
+}
+
 /// No more than the squares of the points' distances by the link's field; 0 where it does not tell.
 HWY_INLINE Lanes field_bounds_m2(const FieldPoints& field, const Vectors& p_L_m) {
   const IntTag ints;
@@ -73,7 +86,7 @@ HWY_INLINE Lanes field_bounds_m2(const FieldPoints& field, const Vectors& p_L_m)
     Ints place = i & 1 ? hn::Add(first, hn::Set(ints, 1)) : first;
     if (i & 2) place = hn::Add(place, row);
     if (i & 4) place = hn::Add(place, layer);
-    const Lanes d = hn::GatherIndex(FloatTag(), field.squared_m2, place);
+    const Lanes d = squares_m2(field, place);
     lowest = least(lowest, d);
     highest = greatest(highest, d);
     const Lanes x = i & 1 ? t[0] : one - t[0];

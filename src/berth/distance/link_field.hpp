@@ -8,10 +8,10 @@
 
 namespace berth::mesh {
 
-/// What vector code reads of a grid; others may find points meanwhile.
+/// What vector code reads of a grid, each point as an atomic: others may find it meanwhile.
 struct FieldPoints {
   /// As FieldGrid::squared_m2().
-  const float* squared_m2;
+  float* squared_m2;
   Eigen::Vector3f low_L_m;
   float edge_m;
   std::array<int, 3> count;
