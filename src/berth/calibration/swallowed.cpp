@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "berth/self_filter/self_filter.hpp"
+#include "berth/sensor/phantoms.hpp"
 #include "berth/sensor/sensor_rules.hpp"
 
 namespace berth {
@@ -91,6 +92,7 @@ class Filter {
     sensor.average_frames = 0;
     sensor.background_frames = 0;
     apply_sensor_rules(depth_m_, *view.robot, {}, sensor, sensor_workspace_, out_);
+    drop_phantoms(*view.camera, depth_m_, sensor.phantom_radius_m, phantoms_, out_);
     std::vector<bool> result;
     for (const Thing& thing : things) {
       int count = 0;
@@ -109,6 +111,7 @@ class Filter {
   DepthImage depth_m_;
   SelfFilterWorkspace workspace_;
   SensorWorkspace sensor_workspace_;
+  PhantomWorkspace phantoms_;
   ObstacleImage out_;
 };
 
