@@ -8,7 +8,7 @@ namespace berth::sim {
 namespace {
 
 // Without roll: the image's x is level.
-CameraPlace look_at(const Eigen::Vector3d& eye_T_m, const Eigen::Vector3d& target_T_m) {
+BundledPlace look_at(const Eigen::Vector3d& eye_T_m, const Eigen::Vector3d& target_T_m) {
   const Eigen::Vector3d z = (target_T_m - eye_T_m).normalized();
   const Eigen::Vector3d x = z.cross(Eigen::Vector3d::UnitZ()).normalized();
   Eigen::Matrix3d axes;
@@ -24,7 +24,7 @@ Camera make_camera(int width_px, int height_px, double focal_px) {
 
 }  // namespace
 
-Pose CameraPlace::X_TC() const {
+Pose BundledPlace::X_TC() const {
   return Eigen::Translation3d(xyz_T_m) * Pose(rotation_TC.normalized());
 }
 

@@ -11,7 +11,7 @@
 namespace berth::sim {
 
 /// Of a camera's optical frame C in the table's frame T; rounded as the file's text is.
-struct CameraPlace {
+struct BundledPlace {
   Eigen::Vector3d xyz_T_m;
   Eigen::Quaterniond rotation_TC;
   Pose X_TC() const;
@@ -20,7 +20,7 @@ struct CameraPlace {
 struct BundledCamera {
   std::string name;
   Camera camera;
-  CameraPlace place;
+  BundledPlace place;
   std::vector<double> stamps_s;  ///< of its exposures
   std::uint32_t seed;            ///< of its sensor's noise
   std::string info_file;

@@ -41,9 +41,8 @@ std::string head(const std::string& title) {
       "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\"><head>"
       "<meta charset=\"utf-8\"/>"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>"
-      "<title>Calibration of {0}</title><style>{1}</style></head>\n<body><main>\n<h1>Calibration "
-      "of "
-      "{0}</h1>\n",
+      "<title>Calibration of {0}</title><style>{1}</style></head>\n<body><main>\n"
+      "<h1>Calibration of {0}</h1>\n",
       html_text(title), kCalibrationPageStyle);
 }
 

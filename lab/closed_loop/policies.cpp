@@ -43,7 +43,7 @@ const std::vector<Row>& rows() {
        [] { return three([](auto& s) { s.contact_speed_m_s = kContact_m_s; }); }},
       {{"formula", "three cameras, as if the arm ran straight at what is nearest"},
        [] {
-         return monitor({0, 1, 2}, cell_separation(), ShownBy::by_formula);
+         return monitor({0, 1, 2}, cell_separation(), ShownBy::formula);
        }},
       {{"straight", "three cameras, the arm's way is not told: it goes straight on, and bends"},
        [] {

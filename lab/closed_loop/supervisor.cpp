@@ -34,7 +34,7 @@ double MonitorSupervisor::scale(const Situation& situation) {
   PlannedMotion motion(situation.plan.velocity_rad_s);
   if (shown_ == ShownBy::along_path) motion.path = situation.path;
   last_ = &monitor_.update(*result_, motion, situation.now_s,
-                           shown_ == ShownBy::by_formula ? nullptr : query_.frames());
+                           shown_ == ShownBy::formula ? nullptr : query_.frames());
   const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
   monitor_us_.push_back(took.count());
   return last_->speed_scale;
@@ -43,7 +43,7 @@ double MonitorSupervisor::scale(const Situation& situation) {
 EvadingSupervisor::EvadingSupervisor(Method method, std::vector<int> cameras,
                                      const SeparationSettings& settings)
     // It leaves its way where it gives way.
-    : MonitorSupervisor(method, std::move(cameras), settings, ShownBy::by_formula),
+    : MonitorSupervisor(method, std::move(cameras), settings, ShownBy::formula),
       evader_(robot(), "arm_link_7", {}) {}
 
 double EvadingSupervisor::scale(const Situation& situation) {

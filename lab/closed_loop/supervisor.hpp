@@ -67,7 +67,7 @@ class FixedZone : public Supervisor {
 
 /// What a monitor is given to show its scale by.
 enum class ShownBy {
-  by_formula,   ///< nothing but the joints' velocities
+  formula,      ///< nothing but the joints' velocities
   straight_on,  ///< what the cameras left of space
   along_path,   ///< and the way that the arm is going to take
 };

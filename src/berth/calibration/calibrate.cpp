@@ -119,8 +119,7 @@ class CameraReport {
   std::string unexplained() {
     const std::string best = fmt::format(
         "no pose was found that explains the images: the best fits them by {:.0f} %; expected "
-        "{:.0f} "
-        "% at least",
+        "{:.0f} % at least",
         fit_percent(out_.score_after), fit_percent(kLeastScore));
     if (score(drawer_, start_, kLastScore).pixels > 0) return best;
     return fmt::format(
@@ -135,8 +134,7 @@ class CameraReport {
     if (!other) return ". Check the camera's info and depth_scale";
     return fmt::format(
         ". Check the camera's info: with a focal length of {:.0f} px in place of {:.0f} px a pose "
-        "fits "
-        "the images by {:.0f} %, and the camera reads the robot right to {:.1f} %",
+        "fits the images by {:.0f} %, and the camera reads the robot right to {:.1f} %",
         other->factor * source_.camera.fx_px, source_.camera.fx_px, fit_percent(other->score),
         100 * std::abs(other->depth_error_share));
   }

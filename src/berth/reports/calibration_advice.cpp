@@ -134,8 +134,7 @@ class Advisor {
     if (!(seen.high - seen.low < kWideEnough)) return;
     gaps.push_back(fmt::format(
         "with the arm farther {} in the image: so far it was only seen between {:.0f} % and {:.0f} "
-        "% "
-        "of its {}",
+        "% of its {}",
         seen.low + seen.high < 1 ? high_side : low_side, 100 * seen.low, 100 * seen.high, extent));
   }
 

@@ -131,8 +131,7 @@ std::vector<CalibratedBackground> calibrate_backgrounds(const OpenScene& scene,
     if (calibrated.known_share() == 0) {
       throw std::runtime_error(fmt::format(
           "{}: camera {}: no background was learned from its {} images; expected a place that {} "
-          "of "
-          "them (sensor.background_frames) show alike, with the robot {:g} m away from it",
+          "of them (sensor.background_frames) show alike, with the robot {:g} m away from it",
           scene.file.string(), name, camera.source.depth.size(),
           camera.view->settings().sensor.background_frames,
           camera.view->settings().sensor.background_clearance_m));

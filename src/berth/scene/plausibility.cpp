@@ -149,8 +149,7 @@ std::string counted_text(const RobotReadings& readings, std::size_t frames) {
   const auto percent = [seen](int count) { return 100.0 * count / seen; };
   return fmt::format(
       "of the robot's readings in {} of its images {:.0f} % lie at its surface, {:.0f} % behind "
-      "it, "
-      "{:.0f} % in front of it",
+      "it, {:.0f} % in front of it",
       frames, percent(readings.at_surface), percent(readings.behind),
       percent(readings.before + readings.hidden));
 }

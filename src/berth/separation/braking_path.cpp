@@ -6,16 +6,6 @@
 namespace berth {
 namespace {
 
-/// Where the joint is between two states.
-double position_at(std::span<const JointState> path, double time_s, std::size_t joint) {
-  const auto after = std::ranges::upper_bound(path, time_s, {}, &JointState::stamp_s);
-  if (after == path.begin()) return path.front().position[joint];
-  if (after == path.end()) return path.back().position[joint];
-  const JointState& before = *(after - 1);
-  const double share = (time_s - before.stamp_s) / (after->stamp_s - before.stamp_s);
-  return before.position[joint] + share * (after->position[joint] - before.position[joint]);
-}
-
 bool is_path(std::span<const JointState> path, std::size_t joints) {
   double last_s = -1;
   for (const JointState& state : path) {
@@ -120,10 +110,17 @@ bool BrakingPath::find_steps(const PlannedMotion& motion) {
 
 void BrakingPath::find_path_steps(std::span<const JointState> path) {
   const std::size_t joints = robot_->model().joints.size();
+  const std::vector<double>& first = path.front().position;
+  std::size_t after = 1;
   for (int n = 0; n < kNodes; ++n) {
+    while (after < path.size() && path[after].stamp_s <= time_s(n)) ++after;
+    const JointState& a = path[after - 1];
+    const JointState& b = path[std::min(after, path.size() - 1)];
+    const double share =
+        after < path.size() ? (time_s(n) - a.stamp_s) / (b.stamp_s - a.stamp_s) : 0;
     for (std::size_t j = 0; j < joints; ++j) {
       steps_[static_cast<std::size_t>(n) * joints + j] =
-          position_at(path, time_s(n), j) - path.front().position[j];
+          a.position[j] + share * (b.position[j] - a.position[j]) - first[j];
     }
   }
 }

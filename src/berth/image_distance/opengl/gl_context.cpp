@@ -73,8 +73,7 @@ OpenContext open_wanted(std::string_view wanted) {
   if (seen.empty()) {
     throw GlUnavailable(
         "OpenGL: no device of this machine has OpenGL 4.5 core; expected a GPU whose driver has "
-        "it, "
-        "or Mesa's software renderer (package libgl1-mesa-dri)");
+        "it, or Mesa's software renderer (package libgl1-mesa-dri)");
   }
   throw GlUnavailable(
       fmt::format("OpenGL: no device \"{}\"; expected the number or a part of the name "
