@@ -1,6 +1,7 @@
 #include "sim/plain_closing.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -110,22 +111,39 @@ struct Tier {
   std::function<int(int u, int v)> least_mm;
 };
 
-/// From the nearest pixel that shows the robot, of those that are as near the most.
-float freed_by_robot_m(const Image<PixelFate>& fate, const DepthImage& own_m, double ball_px_m,
-                       int u, int v) {
-  constexpr int kMost_px = 8;
-  double nearest_px = 1e9;
-  float frees_m = 0;
-  for (int y = v - kMost_px; y <= v + kMost_px; ++y) {
-    for (int x = u - kMost_px; x <= u + kMost_px; ++x) {
-      if (x < 0 || y < 0 || x >= fate.width() || y >= fate.height()) continue;
-      const double away_px = std::hypot(x - u, y - v);
-      if (fate(x, y) != PixelFate::robot || away_px > kMost_px || away_px > nearest_px) continue;
-      frees_m = std::max(away_px < nearest_px ? 0 : frees_m, own_m(x, y));
-      nearest_px = away_px;
+/// The middle of the pixel (x, y) from the farthest corner of a quarter of (0, 0): `right` and
+/// `low` are 0 or 1.
+double quarter_px(int x, int y, int right, int low) {
+  double most_px = 0;
+  for (const double across : {right - 0.5, 0.0}) {
+    for (const double down : {low - 0.5, 0.0}) {
+      most_px = std::max(most_px, std::hypot(x - across, y - down));
     }
   }
-  return nearest_px + std::sqrt(0.5) <= ball_px_m / frees_m ? frees_m : 0;
+  return most_px;
+}
+
+/// From the robot's pixels within four rows and columns that no other one hides in its column.
+float freed_by_robot_m(const Image<PixelFate>& fate, const DepthImage& own_m, double ball_px_m,
+                       int u, int v) {
+  constexpr int kMost_px = 4;
+  std::array<float, 4> quarters_m = {};
+  for (int x = std::max(u - kMost_px, 0); x <= std::min(u + kMost_px, fate.width() - 1); ++x) {
+    for (const int step : {-1, 1}) {
+      int y = v;
+      const auto is_near = [&] {
+        return y >= 0 && y < fate.height() && std::abs(y - v) <= kMost_px;
+      };
+      while (is_near() && fate(x, y) != PixelFate::robot) y += step;
+      if (!is_near()) continue;
+      for (int i = 0; i < 4; ++i) {
+        const auto per_px = static_cast<float>(1 / quarter_px(x - u, y - v, i % 2, i / 2));
+        const float most_m = std::min(own_m(x, y), static_cast<float>(ball_px_m) * per_px);
+        quarters_m[i] = std::max(quarters_m[i], most_m);
+      }
+    }
+  }
+  return *std::min_element(quarters_m.begin(), quarters_m.end());
 }
 
 }  // namespace
@@ -137,7 +155,8 @@ DepthImage plainly_freed_beside_robot(const Camera& camera, DepthView sensor_dep
   const double ball_px_m = std::min(camera.fx_px, camera.fy_px) * detection_capability_m / 2;
   for (int v = 0; v < own_m.height(); ++v) {
     for (int u = 0; u < own_m.width(); ++u) {
-      const bool is_hole = std::isnan(sensor_depth_m(u, v)) && std::isnan(obstacle_depth_m(u, v));
+      const bool is_hole = std::isnan(sensor_depth_m(u, v)) && std::isnan(obstacle_depth_m(u, v)) &&
+                           fate(u, v) != PixelFate::robot;
       if (!is_hole || own_m(u, v) > 0 || !(detection_capability_m > 0)) continue;
       freed_m(u, v) = freed_by_robot_m(fate, own_m, ball_px_m, u, v);
     }

@@ -1,12 +1,44 @@
 #include "berth/space/robot_holes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace berth {
 namespace {
 
 constexpr std::uint8_t kNoRow = kMostRobotHole_px + 1;
+
+/// A number for each quarter of a pixel.
+using Quarters = std::array<float, 4>;
+
+/// One over how far the middle of a pixel is, at most, from a point in each quarter of another one.
+class QuarterReach {
+ public:
+  QuarterReach() {
+    for (int y = -kMostRobotHole_px; y <= kMostRobotHole_px; ++y) {
+      for (int x = -kMostRobotHole_px; x <= kMostRobotHole_px; ++x) per_px_[place(x, y)] = of(x, y);
+    }
+  }
+  const Quarters& at(int x, int y) const { return per_px_[place(x, y)]; }
+
+ private:
+  static constexpr int kSide = 2 * kMostRobotHole_px + 1;
+  static std::size_t place(int x, int y) {
+    return static_cast<std::size_t>((y + kMostRobotHole_px) * kSide + x + kMostRobotHole_px);
+  }
+  static Quarters of(int x, int y) {
+    Quarters per_px;
+    for (std::size_t i = 0; i < per_px.size(); ++i) {
+      const double far_x = std::max<double>(std::abs(x), std::abs(x - (i & 1 ? 0.5 : -0.5)));
+      const double far_y = std::max<double>(std::abs(y), std::abs(y - (i & 2 ? 0.5 : -0.5)));
+      per_px[i] = static_cast<float>(1 / std::hypot(far_x, far_y));
+    }
+    return per_px;
+  }
+  std::array<Quarters, kSide * kSide> per_px_;
+};
+const QuarterReach kReach;
 
 void set_size(const DepthImage& like, Image<std::uint8_t>& image) {
   if (image.width() == like.width() && image.height() == like.height()) return;
@@ -26,7 +58,7 @@ void count_rows(const PixelFate* fate, const std::uint8_t* before, int width,
 /// One image's holes.
 class RobotHoles {
  public:
-  RobotHoles(double ball_px_m, DepthView sensor_depth_m, const ObstacleImage& obstacles,
+  RobotHoles(float ball_px_m, DepthView sensor_depth_m, const ObstacleImage& obstacles,
              RobotHolesWorkspace& workspace, DepthImage& own_m)
       : ball_px_m_(ball_px_m),
         sensor_depth_m_(sensor_depth_m),
@@ -87,37 +119,38 @@ class RobotHoles {
 
   /// A hole that was freed before shows no robot: nobody goes on from it.
   bool is_hole(int u, int v) const {
-    return !(own_m_(u, v) > 0) && std::isnan(sensor_depth_m_(u, v)) &&
-           std::isnan(obstacles_.depth_m(u, v));
+    return !(own_m_(u, v) > 0) && obstacles_.fate(u, v) != PixelFate::robot &&
+           std::isnan(sensor_depth_m_(u, v)) && std::isnan(obstacles_.depth_m(u, v));
   }
 
   void free_hole(int u, int v) {
-    int least2_px2 = kMostRobotHole_px * kMostRobotHole_px + 1;
-    float frees_m = 0;
-    const auto take = [&](int distance2_px2, float m) {
-      if (distance2_px2 > least2_px2) return;
-      frees_m = distance2_px2 < least2_px2 ? m : std::max(frees_m, m);
-      least2_px2 = distance2_px2;
-    };
-    const auto take_column = [&](int x) {
+    Quarters frees_m = {};
+    const auto take_column = [&](int aside) {
+      const int x = u + aside;
       if (x < 0 || x >= own_m_.width()) return;
       const int above = workspace_.above(x, v);
       const int below = workspace_.below(x, v);
-      const int aside2 = (x - u) * (x - u);
-      if (above < kNoRow) take(aside2 + above * above, own_m_(x, v - above));
-      if (below < kNoRow) take(aside2 + below * below, own_m_(x, v + below));
+      if (above < kNoRow) take(own_m_(x, v - above), kReach.at(aside, -above), frees_m);
+      if (below < kNoRow) take(own_m_(x, v + below), kReach.at(aside, below), frees_m);
     };
-    take_column(u);
-    for (int aside = 1; aside <= kMostRobotHole_px && aside * aside <= least2_px2; ++aside) {
-      take_column(u - aside);
-      take_column(u + aside);
+    take_column(0);
+    for (int aside = 1; aside <= kMostRobotHole_px; ++aside) {
+      // Nobody farther aside can make it more.
+      const float most_m = ball_px_m_ * *std::ranges::max_element(kReach.at(aside, 0));
+      if (most_m <= *std::ranges::min_element(frees_m)) break;
+      take_column(-aside);
+      take_column(aside);
     }
-    if (!(frees_m > 0)) return;
-    const double reach_px = ball_px_m_ / frees_m - kHalfDiagonal_px;
-    if (reach_px > 0 && least2_px2 <= reach_px * reach_px) own_m_(u, v) = frees_m;
+    own_m_(u, v) = *std::ranges::min_element(frees_m);
   }
 
-  double ball_px_m_;
+  void take(float robot_frees_m, const Quarters& per_px, Quarters& frees_m) const {
+    for (std::size_t i = 0; i < frees_m.size(); ++i) {
+      frees_m[i] = std::max(frees_m[i], std::min(robot_frees_m, ball_px_m_ * per_px[i]));
+    }
+  }
+
+  float ball_px_m_;
   DepthView sensor_depth_m_;
   const ObstacleImage& obstacles_;
   RobotHolesWorkspace& workspace_;
@@ -130,7 +163,8 @@ void free_holes_beside_robot(const Camera& camera, DepthView sensor_depth_m,
                              const ObstacleImage& obstacles, double detection_capability_m,
                              RobotHolesWorkspace& workspace, DepthImage& own_m) {
   if (!(detection_capability_m > 0) || own_m.pixels().empty()) return;
-  const double ball_px_m = std::min(camera.fx_px, camera.fy_px) * detection_capability_m / 2;
+  const auto ball_px_m =
+      static_cast<float>(std::min(camera.fx_px, camera.fy_px) * detection_capability_m / 2);
   RobotHoles(ball_px_m, sensor_depth_m, obstacles, workspace, own_m).run();
 }
 
