@@ -40,7 +40,7 @@ OpenScene open_for_calibration_data(const fs::path& file) {
   std::size_t images = 0;
   for (const SceneCamera& camera : scene.cameras) images += camera.depth.size();
   ProgressBar progress("read images", images);
-  return open_scene(scene, [&progress] {
+  return open_scene_with_images(scene, [&progress] {
     stop_if_interrupted();
     progress.step();
   });

@@ -9,7 +9,6 @@
 #include <stdexcept>
 
 #include "berth/files/error.hpp"
-#include "berth/files/file_bytes.hpp"
 #include "berth/results/result_json.hpp"
 #include "berth/results/result_text.hpp"
 
@@ -78,6 +77,7 @@ void require_place(const fs::path& file) {
 Output::Output(const CommonArguments& arguments)
     : format_(arguments.format), schema_(arguments.schema), file_(arguments.out) {
   require_place(file_);
+  if (!file_.empty()) out_.emplace(file_);
 }
 
 void Output::write(const Result& result) {
@@ -85,10 +85,8 @@ void Output::write(const Result& result) {
   const std::string text = format_ == OutputFormat::table
                                ? table_of(result)
                                : (is_old ? result_json_2(result) : result_json(result)) + "\n";
-  if (!file_.empty()) {
-    kept_ += text;
-    return;
-  }
+  ++count_;
+  if (out_) return out_->write(text);
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
     throw std::runtime_error(
         fmt::format("standard output: cannot be written to: {}", std::strerror(errno)));
@@ -96,7 +94,7 @@ void Output::write(const Result& result) {
 }
 
 void Output::finish() {
-  if (!file_.empty()) write_file_bytes(file_, kept_);
+  if (out_) out_->keep();
 }
 
 }  // namespace berth::app

@@ -78,7 +78,13 @@ class LateImplausible {
 OpenScene open_scene_over(const fs::path& file, const EvaluationArguments& arguments) {
   SceneFile scene = read_scene(file);
   scene.evaluation = arguments.over(scene.evaluation);
-  return open_scene(scene, stop_if_interrupted);
+  std::size_t images = 0;
+  for (const SceneCamera& camera : scene.cameras) images += camera.depth.size();
+  ProgressBar progress("check images", images);
+  return open_scene(scene, [&progress] {
+    stop_if_interrupted();
+    progress.step();
+  });
 }
 
 fs::path folder_of(const OpenScene& scene, const OpenCamera& camera, const fs::path& folder) {
@@ -94,11 +100,22 @@ void each_frame(const OpenScene& scene, SceneRun& run, const char* doing,
   for (const std::string& warning : scene.warnings) fmt::print(stderr, "{}\n", warning);
   for (const CameraPlausibility& camera : run.plausibility()) say(scene, text_of(camera));
   ProgressBar progress(doing, scene.frame_count);
-  while (run.next()) {
-    stop_if_interrupted();
-    progress.clear();
-    take();
-    progress.step();
+  std::size_t done = 0;
+  const auto count_text = [&] {
+    return fmt::format("after {} of {} images", done, scene.frame_count);
+  };
+  try {
+    for (; run.next(); ++done) {
+      stop_if_interrupted();
+      progress.clear();
+      take();
+      progress.step();
+    }
+  } catch (const Interrupted&) {
+    throw Interrupted{count_text()};
+  } catch (const std::exception& error) {
+    if (done == 0) throw;
+    throw std::runtime_error(fmt::format("{}; ended {}", error.what(), count_text()));
   }
 }
 

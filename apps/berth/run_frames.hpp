@@ -10,8 +10,8 @@
 
 namespace berth::app {
 
-/// The scene, with the arguments over what its file says. Throws as open_scene does, and
-/// Interrupted.
+/// The scene, with the arguments over what its file says, with a progress bar for its images.
+/// Throws as open_scene does, and Interrupted.
 OpenScene open_scene_over(const std::filesystem::path& file, const EvaluationArguments& arguments);
 
 /// Several cameras have a folder each below `folder`.
@@ -21,7 +21,8 @@ std::filesystem::path folder_of(const OpenScene& scene, const OpenCamera& camera
 /// Makes the folders of all cameras. Throws std::runtime_error where one cannot be made.
 void make_folders(const OpenScene& scene, const std::filesystem::path& folder);
 
-/// Calls `take` after each image that `run` has observed, with a progress bar on a terminal.
+/// Calls `take` after each image that `run` has observed, with a progress bar on a terminal. Where
+/// that ends before the last one, what is thrown tells after how many images.
 void each_frame(const OpenScene& scene, SceneRun& run, const char* doing,
                 const std::function<void()>& take);
 

@@ -29,8 +29,20 @@ void write_images(const fs::path& folder, const SceneRun& run, const Frame& fram
 void run_command(const RunArguments& arguments) {
   const OpenScene scene = open_scene_over(arguments.scene, arguments.evaluation);
   Output output(arguments);
-  run_frames(scene, arguments.where, arguments.picture_folder, arguments.repeat,
-             [&output](const Result& result) { output.write(result); });
+  // What is done is kept, whatever ends the run.
+  const auto keep = [&] {
+    if (arguments.out.empty() || output.count() == 0) return std::string();
+    output.finish();
+    return fmt::format("; {} holds {} results", arguments.out.string(), output.count());
+  };
+  try {
+    run_frames(scene, arguments.where, arguments.picture_folder, arguments.repeat,
+               [&output](const Result& result) { output.write(result); });
+  } catch (const Interrupted& interrupted) {
+    throw Interrupted{interrupted.done + keep()};
+  } catch (const std::exception& error) {
+    throw std::runtime_error(error.what() + keep());
+  }
   output.finish();
 }
 

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <exception>
 #include <optional>
+#include <string>
 
 #include "apps/support/interrupt.hpp"
 
@@ -25,8 +26,9 @@ int carry_out(const char* program_name, int threads, const std::function<void()>
   try {
     work();
     return kDone;
-  } catch (const Interrupted&) {
-    fmt::print(stderr, "{}: interrupted\n", program_name);
+  } catch (const Interrupted& interrupted) {
+    const std::string& done = interrupted.done;
+    fmt::print(stderr, "{}: interrupted{}{}\n", program_name, done.empty() ? "" : " ", done);
     return kInterrupted;
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}: {}\n", program_name, error.what());

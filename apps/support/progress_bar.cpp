@@ -13,12 +13,18 @@ constexpr std::size_t kWidth = 32;
 }  // namespace
 
 ProgressBar::ProgressBar(std::string doing, std::size_t total)
-    : doing_(std::move(doing)), total_(total), is_terminal_(isatty(STDERR_FILENO) != 0) {}
+    : doing_(std::move(doing)), total_(total), is_terminal_(isatty(STDERR_FILENO) != 0) {
+  show();
+}
 
 ProgressBar::~ProgressBar() { clear(); }
 
 void ProgressBar::step() {
   ++done_;
+  show();
+}
+
+void ProgressBar::show() const {
   if (!is_terminal_) return;
   if (total_ == 0) {
     fmt::print(stderr, "\r{}: step {}", doing_, done_);

@@ -8,7 +8,7 @@ namespace berth::app {
 /// A line that tells how far a command is, on standard error; nothing where that is no terminal.
 class ProgressBar {
  public:
-  /// 0: how many steps there will be is not known.
+  /// Shows it at once. 0: how many steps there will be is not known.
   ProgressBar(std::string doing, std::size_t total);
   /// Takes the line away.
   ~ProgressBar();
@@ -24,6 +24,8 @@ class ProgressBar {
   std::size_t total_;
   std::size_t done_ = 0;
   bool is_terminal_;
+
+  void show() const;
 };
 
 }  // namespace berth::app

@@ -97,7 +97,7 @@ ViewedScene::ViewedScene(const fs::path& file, fs::path folder, Publish publish,
       publish_(std::move(publish)),
       changed_(file),
       scene_(std::make_shared<const OpenScene>(
-          open_scene(as_mesh(changed_.original()), before_image))),
+          open_scene_with_images(as_mesh(changed_.original()), before_image))),
       shown_scene_(scene_),
       shown_(std::make_unique<SceneRun>(*scene_, SceneRun::SingleSteps{})),
       image_numbers_(scene_->cameras.size()),

@@ -31,7 +31,7 @@ std::shared_ptr<CalibrationHandle> calibrate_file(const std::filesystem::path& f
   };
   const py::gil_scoped_release release;
   auto handle = std::make_shared<CalibrationHandle>();
-  handle->scene = open_scene(read_scene_to_calibrate(file), pause);
+  handle->scene = open_scene_with_images(read_scene_to_calibrate(file), pause);
   handle->material = make_calibration_data(handle->scene);
   handle->settings = {{joint_zeros, pause}, correct_depth};
   handle->calibration = calibrate_scene(handle->scene, handle->material, handle->settings);

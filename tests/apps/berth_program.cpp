@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -67,10 +68,12 @@ void BerthProgram::interrupt() { ::kill(process_, SIGINT); }
 
 Outcome BerthProgram::wait() {
   int status = 0;
-  if (::waitpid(process_, &status, 0) != process_) require(errno, "wait for berth");
+  rusage used{};
+  if (::wait4(process_, &status, 0, &used) != process_) require(errno, "wait for berth");
   process_ = 0;
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
-          read_file_bytes(streams_ / "out"), read_file_bytes(streams_ / "err")};
+          read_file_bytes(streams_ / "out"), read_file_bytes(streams_ / "err"),
+          static_cast<std::size_t>(used.ru_maxrss) * 1024};
 }
 
 Outcome run_berth(const std::filesystem::path& folder, const std::vector<std::string>& arguments) {

@@ -3,6 +3,7 @@
 
 #include <sys/types.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -16,6 +17,8 @@ struct Outcome {
   int exit_status = -1;
   std::string out;
   std::string err;
+  /// The most memory that it had.
+  std::size_t peak_bytes = 0;
 };
 
 /// One that runs. Standard output and error go to files, so that it never waits for a reader.

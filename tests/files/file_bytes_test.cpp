@@ -31,6 +31,26 @@ class FullDisk {
   void (*handler_)(int);
 };
 
+TEST(FileInParts, AppearsWithAllItsPartsWhenItIsKept) {
+  const TemporaryFolder folder;
+  folder.write("x.txt", "before");
+  {
+    FileInParts file(folder / "x.txt");
+    file.write("one ");
+    file.write("two");
+    EXPECT_EQ(read_file_bytes(folder / "x.txt"), "before");
+    file.keep();
+  }
+  EXPECT_EQ(read_file_bytes(folder / "x.txt"), "one two");
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"x.txt"});
+}
+
+TEST(FileInParts, IsGoneWhereItIsNotKept) {
+  const TemporaryFolder folder;
+  FileInParts(folder / "x.txt").write("one");
+  EXPECT_TRUE(folder.names().empty());
+}
+
 TEST(FileBytes, ComeBackAsTheyWereWritten) {
   const TemporaryFolder folder;
   const std::string bytes("a\0b\r\n\xFF", 6);

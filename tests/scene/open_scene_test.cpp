@@ -5,7 +5,9 @@
 
 #include <cmath>
 
+#include "berth/scene/learn_background.hpp"
 #include "tests/support/error_message.hpp"
+#include "tests/support/same_bits.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace berth {
@@ -96,8 +98,44 @@ TEST(SceneCameras, ReadTheirImagesInTheirUnitsAndWithinTheirLimits) {
 
 SceneFile bundled_file() { return read_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml"); }
 
+TEST(SceneCameras, KeepNoImageUnlessAskedTo) {
+  const OpenScene scene = open_scene(bundled_file());
+  const OpenScene keeping = open_scene_with_images(bundled_file());
+  for (std::size_t k = 0; k < scene.frame_count; ++k) {
+    EXPECT_EQ(scene.cameras[0].kept_depth_m[k], nullptr);
+    ASSERT_NE(keeping.cameras[0].kept_depth_m[k], nullptr);
+  }
+  EXPECT_TRUE(same_bits(scene.cameras[0].read_depth(3), keeping.cameras[0].read_depth(3)));
+}
+
+TEST(BackgroundOfALongRecording, IsLearnedFromRunsOfImagesThatLieEvenlyOverIt) {
+  OpenCamera camera = open_scene(bundled_file()).cameras[0];
+  const auto images_of = [&](std::size_t count, int background_frames) {
+    camera.source.depth.resize(count);
+    CameraSettings settings = camera.view->settings();
+    settings.sensor.background_frames = background_frames;
+    camera.view =
+        std::make_shared<const MountedCamera>(camera.view->robot(), camera.view->mount(), settings);
+    std::size_t images = 0, next = 0;
+    for (const ImageRun& run : images_to_learn_from(camera)) {
+      EXPECT_GE(run.first, next);
+      // No part of the recording is left out.
+      EXPECT_LE(run.first, next + count / 10);
+      images += run.count;
+      next = run.first + run.count;
+    }
+    EXPECT_EQ(next, count);
+    return images;
+  };
+  EXPECT_EQ(images_of(36, 3), 36);
+  EXPECT_EQ(images_of(256, 3), 256);
+  EXPECT_EQ(images_of(257, 3), 256);
+  EXPECT_EQ(images_of(10'000, 3), 256);
+  EXPECT_EQ(images_of(10'000, 100), 800);
+}
+
 TEST(ReopenedScene, SharesRobotAndImages) {
-  const OpenScene before = open_scene(bundled_file());
+  const OpenScene before = open_scene_with_images(bundled_file());
   SceneFile changed = bundled_file();
   changed.cameras[0].settings.self_filter.padding_m = 0.05;
   changed.cameras[0].X_PC.translation().x() += 0.1;

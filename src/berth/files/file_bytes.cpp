@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <cerrno>
-#include <fstream>
 #include <random>
 #include <system_error>
+#include <utility>
 
 #include "berth/files/error.hpp"
 
@@ -22,24 +22,48 @@ fs::path temporary_beside(const fs::path& file) {
 
 }  // namespace
 
-void write_file_bytes(const fs::path& file, std::string_view bytes) {
+FileInParts::FileInParts(fs::path file)
+    : file_(std::move(file)), temporary_(temporary_beside(file_)) {
   // A rename would put a file in the place of a device such as /dev/stdout.
-  if (fs::exists(file) && !fs::is_regular_file(file)) {
-    throw_bad_file({file}, "is there and no regular file", "a file or a free name to write to");
+  if (fs::exists(file_) && !fs::is_regular_file(file_)) {
+    throw_bad_file({file_}, "is there and no regular file", "a file or a free name to write to");
   }
-  const fs::path temporary = temporary_beside(file);
   errno = 0;
-  std::ofstream out(temporary, std::ios::binary);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  std::error_code error(out ? 0 : errno, std::generic_category());
-  if (out) fs::rename(temporary, file, error);
-  if (!out || error) {
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
-    throw_bad_file({file}, "cannot be written: " + error.message(),
-                   "an existing folder with leave to write and room");
-  }
+  out_.open(temporary_, std::ios::binary);
+  if (!out_) fail(errno);
+}
+
+FileInParts::~FileInParts() {
+  std::error_code ignored;
+  if (!temporary_.empty()) fs::remove(temporary_, ignored);
+}
+
+void FileInParts::fail(int error) const {
+  throw_bad_file({file_}, "cannot be written: " + std::generic_category().message(error),
+                 "an existing folder with leave to write and room");
+}
+
+void FileInParts::write(std::string_view bytes) {
+  errno = 0;
+  out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  out_.flush();
+  if (!out_) fail(errno);
+}
+
+void FileInParts::keep() {
+  errno = 0;
+  out_.close();
+  if (!out_) fail(errno);
+  std::error_code error;
+  fs::rename(temporary_, file_, error);
+  if (error) fail(error.value());
+  temporary_.clear();
+}
+
+void write_file_bytes(const fs::path& file, std::string_view bytes) {
+  FileInParts out(file);
+  out.write(bytes);
+  out.keep();
 }
 
 }  // namespace berth

@@ -2,15 +2,37 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 #include <string_view>
 
 #include "berth/files/read_file.hpp"
 
 namespace berth {
 
-/// Writes to a temporary file beside `file` and renames it: afterwards `file` is complete, or as it
-/// was before. Throws std::runtime_error where the folder is missing or cannot be written to, the
-/// disk is full, or `file` is there and no regular file.
+/// A file that is written piece by piece, under a temporary name beside it, and takes its own name
+/// when it is kept: until then `file` is as it was before. One that is not kept is removed. Each
+/// throws std::runtime_error where the folder is missing or cannot be written to, the disk is full,
+/// or `file` is there and no regular file.
+class FileInParts {
+ public:
+  explicit FileInParts(std::filesystem::path file);
+  ~FileInParts();
+  FileInParts(const FileInParts&) = delete;
+  FileInParts& operator=(const FileInParts&) = delete;
+
+  /// The bytes are with the system afterwards.
+  void write(std::string_view bytes);
+  void keep();
+
+ private:
+  [[noreturn]] void fail(int error) const;
+
+  std::filesystem::path file_;
+  std::filesystem::path temporary_;
+  std::ofstream out_;
+};
+
+/// The same at once: afterwards `file` is complete, or as it was before.
 void write_file_bytes(const std::filesystem::path& file, std::string_view bytes);
 
 }  // namespace berth

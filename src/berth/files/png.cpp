@@ -42,6 +42,12 @@ DepthImage read_depth_png(const std::filesystem::path& file, const Camera& expec
   return depth_m;
 }
 
+void check_depth_png(const std::filesystem::path& file, const Camera& expected_size,
+                     double depth_scale_m) {
+  check_scale(file, depth_scale_m);
+  check_gray_png(file, expected_size, PngDepths::only_16_bit);
+}
+
 Image<LinkId> read_link_ids_png(const std::filesystem::path& file, const Camera& expected_size) {
   return read_gray_png(file, expected_size, PngDepths::from_8_to_16_bit);
 }

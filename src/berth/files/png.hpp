@@ -25,6 +25,11 @@ DepthImage read_depth_png(const std::filesystem::path& file, const Camera& expec
                           double far_m = std::numeric_limits<double>::infinity(),
                           double offset_m = 0);
 
+/// Throws as read_depth_png does, but for damage that only decoding finds: in microseconds it tells
+/// that the file is there, of the right kind and size, and not cut off.
+void check_depth_png(const std::filesystem::path& file, const Camera& expected_size,
+                     double depth_scale_m);
+
 /// The link IDs of an 8- or 16-bit grayscale PNG. Throws as read_depth_png does.
 Image<LinkId> read_link_ids_png(const std::filesystem::path& file, const Camera& expected_size);
 

@@ -19,6 +19,9 @@ namespace {
 // Type and CRC of the chunk that ends every PNG.
 constexpr std::string_view kLastChunk = "IEND\xAE\x42\x60\x82";
 
+// Signature and header, which every PNG begins with, and the whole of its last chunk.
+constexpr std::size_t kHeadBytes = 33;
+
 constexpr std::size_t kMostText = std::size_t{1} << 20;
 
 using Context = std::unique_ptr<spng_ctx, decltype(&spng_ctx_free)>;
@@ -71,18 +74,25 @@ void check_header(const spng_ihdr& header, const std::filesystem::path& file,
   }
 }
 
-}  // namespace
-
-Image<std::uint16_t> read_gray_png(const std::filesystem::path& file, const Camera& expected_size,
-                                   PngDepths depths) {
-  const std::string bytes = read_file_bytes(file);
-  const Context context = make_context(0);
+/// The bytes have to outlive what is read next.
+spng_ihdr read_header(const Context& context, const std::string& bytes,
+                      const std::filesystem::path& file) {
   check_read(spng_set_crc_action(context.get(), SPNG_CRC_ERROR, SPNG_CRC_ERROR), file);
   check_read(spng_set_png_buffer(context.get(), bytes.data(), bytes.size()), file);
   // Text in an image unfolds when it is read; nobody reads it.
   check_read(spng_set_chunk_limits(context.get(), kMostText, kMostText), file);
   spng_ihdr header{};
   check_read(spng_get_ihdr(context.get(), &header), file);
+  return header;
+}
+
+}  // namespace
+
+Image<std::uint16_t> read_gray_png(const std::filesystem::path& file, const Camera& expected_size,
+                                   PngDepths depths) {
+  const std::string bytes = read_file_bytes(file);
+  const Context context = make_context(0);
+  const spng_ihdr header = read_header(context, bytes, file);
   check_header(header, file, expected_size, depths);
 
   Image<std::uint16_t> image(expected_size.width_px, expected_size.height_px);
@@ -103,6 +113,15 @@ Image<std::uint16_t> read_gray_png(const std::filesystem::path& file, const Came
   check_read(spng_decode_chunks(context.get()), file);
   check_read(bytes.find(kLastChunk) == std::string::npos ? SPNG_EOF : 0, file);
   return image;
+}
+
+void check_gray_png(const std::filesystem::path& file, const Camera& expected_size,
+                    PngDepths depths) {
+  const FileEnds ends = read_file_ends(file, kHeadBytes);
+  const Context context = make_context(0);
+  check_header(read_header(context, ends.first, file), file, expected_size, depths);
+  // Bytes behind the last chunk are allowed.
+  if (!ends.last.ends_with(kLastChunk)) read_gray_png(file, expected_size, depths);
 }
 
 void write_gray_png(const std::filesystem::path& file, const Image<std::uint16_t>& image,

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 namespace berth {
 namespace {
@@ -19,9 +21,12 @@ constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 30;
   throw std::runtime_error(fmt::format("{}: {}; expected {}", file.string(), found, expected));
 }
 
-}  // namespace
+struct OpenFile {
+  std::ifstream in;
+  std::uintmax_t size;
+};
 
-std::string read_file_bytes(const fs::path& file) {
+OpenFile open_file(const fs::path& file) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   if (fs::is_directory(status)) fail(file, "is a folder", "a file");
@@ -38,10 +43,31 @@ std::string read_file_bytes(const fs::path& file) {
   errno = 0;
   std::ifstream in(file, std::ios::binary);
   if (!in) fail(file, std::strerror(errno), "a readable file");
-  std::string bytes(size, '\0');
-  in.read(bytes.data(), static_cast<std::streamsize>(size));
+  return {std::move(in), size};
+}
+
+std::string read_next(const fs::path& file, std::ifstream& in, std::uintmax_t count) {
+  std::string bytes(count, '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(count));
   if (!in) fail(file, "reading failed", "a readable file");
   return bytes;
+}
+
+}  // namespace
+
+std::string read_file_bytes(const fs::path& file) {
+  auto [in, size] = open_file(file);
+  return read_next(file, in, size);
+}
+
+FileEnds read_file_ends(const fs::path& file, std::size_t count) {
+  auto [in, size] = open_file(file);
+  const std::uintmax_t part = std::min<std::uintmax_t>(count, size);
+  FileEnds ends;
+  ends.first = read_next(file, in, part);
+  in.seekg(static_cast<std::streamoff>(size - part));
+  ends.last = read_next(file, in, part);
+  return ends;
 }
 
 }  // namespace berth

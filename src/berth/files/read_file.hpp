@@ -17,4 +17,13 @@ class MissingFile : public std::runtime_error {
 /// and what was expected.
 std::string read_file_bytes(const std::filesystem::path& file);
 
+/// How a file begins and ends.
+struct FileEnds {
+  std::string first;
+  std::string last;
+};
+
+/// The first and the last `count` bytes, or all where it has fewer. Throws as read_file_bytes does.
+FileEnds read_file_ends(const std::filesystem::path& file, std::size_t count);
+
 }  // namespace berth

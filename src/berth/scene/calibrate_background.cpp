@@ -81,9 +81,9 @@ OpenScene open_learning(const OpenScene& scene, const fs::path& new_file,
 
 DepthImage learn(const OpenCamera& camera, const std::function<void()>& pause) {
   Observer observer(camera.view);
-  learn_background(camera, pause, [&](DepthView depth_m, const Frame& frame) {
-    observer.learn_background(depth_m, frame);
-  });
+  learn_background(
+      camera, {{0, camera.source.depth.size()}}, pause,
+      [&](DepthView depth_m, const Frame& frame) { observer.learn_background(depth_m, frame); });
   return rounded_down(observer.background_m());
 }
 

@@ -151,6 +151,32 @@ void take_method(const SceneFile& source, OpenScene& scene) {
   with_file_named(source, [&] { validate(scene.image_settings); });
 }
 
+/// A scene, each of whose images was checked by `check`.
+OpenScene open_with(const SceneFile& source,
+                    const std::function<void(OpenCamera&, std::size_t frame)>& check) {
+  OpenScene scene;
+  scene.file = source.file;
+  scene.warnings = source.warnings;
+  scene.joint_offsets = source.joint_offsets;
+  RobotModel model = load_robot(source.robot);
+  scene.joints = std::make_shared<const JointTrajectory>(read_trajectory(model, source));
+  scene.robot = with_file_named(source, [&] {
+    return std::make_shared<const Robot>(std::move(model), source.evaluation,
+                                         attachments_of(source));
+  });
+  take_method(source, scene);
+  scene.separation = checked_separation(source);
+  for (const SceneCamera& from : source.cameras) {
+    OpenCamera& camera = add_camera(source, read_camera_info(from.info), scene);
+    camera.kept_depth_m.resize(from.depth.size());
+    for (std::size_t frame = 0; frame < from.depth.size(); ++frame) {
+      check(camera, frame);
+    }
+    scene.frame_count += from.depth.size();
+  }
+  return scene;
+}
+
 }  // namespace
 
 DepthImage OpenCamera::read_depth(std::size_t frame) const {
@@ -170,32 +196,22 @@ std::vector<Attachment> attachments_of(const SceneFile& scene) {
 }
 
 OpenScene open_scene(const SceneFile& source, const std::function<void()>& before_image) {
-  OpenScene scene;
-  scene.file = source.file;
-  scene.warnings = source.warnings;
-  scene.joint_offsets = source.joint_offsets;
-  RobotModel model = load_robot(source.robot);
-  scene.joints = std::make_shared<const JointTrajectory>(read_trajectory(model, source));
-  scene.robot = with_file_named(source, [&] {
-    return std::make_shared<const Robot>(std::move(model), source.evaluation,
-                                         attachments_of(source));
+  return open_with(source, [&](OpenCamera& camera, std::size_t frame) {
+    before_image();
+    check_depth_png(camera.source.depth[frame], camera.view->camera(), camera.source.depth_scale_m);
   });
-  take_method(source, scene);
-  scene.separation = checked_separation(source);
+}
+
+OpenScene open_scene_with_images(const SceneFile& source,
+                                 const std::function<void()>& before_image) {
   std::size_t kept_bytes = 0;
-  for (const SceneCamera& from : source.cameras) {
-    OpenCamera& camera = add_camera(source, read_camera_info(from.info), scene);
-    camera.kept_depth_m.resize(from.depth.size());
-    for (std::size_t frame = 0; frame < from.depth.size(); ++frame) {
-      before_image();
-      DepthImage depth_m = camera.read_depth(frame);
-      kept_bytes += bytes_of(depth_m);
-      if (kept_bytes > kMostKeptBytes) continue;
-      camera.kept_depth_m[frame] = std::make_shared<const DepthImage>(std::move(depth_m));
-    }
-    scene.frame_count += from.depth.size();
-  }
-  return scene;
+  return open_with(source, [&](OpenCamera& camera, std::size_t frame) {
+    before_image();
+    DepthImage depth_m = camera.read_depth(frame);
+    kept_bytes += bytes_of(depth_m);
+    if (kept_bytes > kMostKeptBytes) return;
+    camera.kept_depth_m[frame] = std::make_shared<const DepthImage>(std::move(depth_m));
+  });
 }
 
 OpenScene open_scene(const std::filesystem::path& file) { return open_scene(read_scene(file)); }

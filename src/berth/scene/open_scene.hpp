@@ -23,12 +23,13 @@ struct OpenCamera {
   std::vector<JointState> at_exposure;
   /// And how they were found: all NaN where this is not ok.
   std::vector<FrameTime> exposure_time;
-  /// The images that were kept when they were checked; a null one is read again. Scenes
-  /// that differ in their settings share them.
+  /// The images that are kept in memory; a null one is decoded where it is asked for. Scenes that
+  /// differ in their settings share them.
   std::vector<std::shared_ptr<const DepthImage>> kept_depth_m;
   /// That of the scene file; none where it is learned, or the rule is off.
   std::optional<DepthImage> background_m;
 
+  /// Throws std::runtime_error where the image cannot be decoded.
   DepthImage read_depth(std::size_t frame) const;
 };
 
@@ -57,19 +58,25 @@ struct OpenScene {
 /// read_mesh_file does.
 std::vector<Attachment> attachments_of(const SceneFile& scene);
 
-/// Checked images are kept in memory up to so many bytes in all; the rest is decoded a second time.
+/// Images are kept in memory up to so many bytes in all; the rest is decoded each time.
 inline constexpr std::size_t kMostKeptBytes = std::size_t{512} << 20;
 
-/// Opens all that the scene names, each depth image too, so that a bad file is found before the
-/// first result. A frame whose stamp lies outside of the joints' times is no error: it has that
-/// status. It is one if that holds for all frames of a camera. `before_image` is called before each
-/// image is read; to stop, it throws. Throws std::runtime_error with file, place, value and what
-/// was expected.
+/// Opens all that the scene names. Both ends of each depth image are looked at, so that one that is
+/// missing, cut off, or of another kind or size is found before the first result; what is damaged
+/// in between is found by read_depth(). No image is kept. A frame whose stamp lies outside of the
+/// joints' times is no error: it has that status. It is one if that holds for all frames of a
+/// camera. `before_image` is called before each image; to stop, it throws. Throws
+/// std::runtime_error with file, place, value and what was expected.
 OpenScene open_scene(
     const SceneFile& scene, const std::function<void()>& before_image = [] {});
 
 /// The same for read_scene(file).
 OpenScene open_scene(const std::filesystem::path& file);
+
+/// The same, where each image is decoded and the first ones are kept, up to kMostKeptBytes: for who
+/// goes through them again and again.
+OpenScene open_scene_with_images(
+    const SceneFile& scene, const std::function<void()>& before_image = [] {});
 
 /// open_scene(changed) where `changed` differs from the file of `before` in settings of requests
 /// and cameras, in poses, clocks and joint offsets alone: robot and images are those of `before`,

@@ -103,9 +103,10 @@ void SceneRun::begin_background(std::size_t i, const std::function<void()>& befo
   const OpenCamera& camera = scene_.cameras[i];
   if (!camera.view->settings().sensor.has_background()) return;
   if (camera.background_m) return pipelines_[i]->set_background(*camera.background_m);
-  learn_background(camera, before_image, [&](DepthView depth_m, const Frame& frame) {
-    pipelines_[i]->learn_background(depth_m, frame);
-  });
+  learn_background(camera, images_to_learn_from(camera), before_image,
+                   [&](DepthView depth_m, const Frame& frame) {
+                     pipelines_[i]->learn_background(depth_m, frame);
+                   });
 }
 
 void SceneRun::observe(std::size_t of, std::size_t frame) {

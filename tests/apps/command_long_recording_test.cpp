@@ -1,0 +1,133 @@
+// `berth run` of many images reads them as it goes.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "berth/files/file_bytes.hpp"
+#include "berth/files/png.hpp"
+#include "tests/apps/command_scene.hpp"
+
+namespace berth {
+namespace {
+
+/// The scene with so many images, by turns those that it has; the one after `whole` and all behind
+/// it are damaged inside.
+void make_recording(CommandScene& scene, int images, int whole) {
+  std::string damaged = read_file_bytes(scene / "depth/000001.png");
+  damaged[damaged.size() / 2] ^= 0x55;
+  scene.write("depth/damaged.png", damaged);
+  scene.lines.depth = "[";
+  scene.lines.more_camera = "stamps: [";
+  for (int i = 0; i < images; ++i) {
+    const char* comma = i == 0 ? "" : ", ";
+    scene.lines.depth += comma + (i < whole ? fmt::format("depth/{:06}.png", i % 3)
+                                            : std::string("depth/damaged.png"));
+    scene.lines.more_camera += fmt::format("{}{}", comma, i * 0.002);
+  }
+  scene.lines.depth += "]";
+  scene.lines.more_camera += "]";
+  // The images do not belong to the joints of their stamps.
+  scene.lines.more = "watch: {min_at_robot: 0}\n";
+}
+
+int json_lines(const std::string& text) {
+  std::istringstream lines(text);
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) {
+    EXPECT_EQ(Json::parse(line)["frame"], count);
+  }
+  return count;
+}
+
+constexpr int kImages = 300, kWhole = 5;
+
+TEST(LongRecording, AResultIsGivenBeforeTheNextImageIsDecoded) {
+  CommandScene scene;
+  for (const std::string evaluation : {"{method: exact, range_m: 2}", "{range_m: 2}"}) {
+    scene.lines.evaluation = evaluation;
+    make_recording(scene, kImages, kWhole);
+    const Outcome outcome = scene.berth({"run", "scene.yaml", "--format", "json"});
+    EXPECT_EQ(outcome.exit_status, 1);
+    EXPECT_EQ(json_lines(outcome.out), kWhole);
+    EXPECT_NE(outcome.err.find("damaged.png"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("; ended after 5 of 300 images"), std::string::npos) << outcome.err;
+  }
+}
+
+TEST(LongRecording, WhatIsDoneBeforeADamagedImageIsKept) {
+  CommandScene scene;
+  make_recording(scene, kImages, kWhole);
+  const auto before = scene.all_names();
+  const Outcome outcome =
+      scene.berth({"run", "scene.yaml", "--format", "json", "--out", "result.jsonl"});
+  EXPECT_EQ(outcome.exit_status, 1);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(json_lines(read_file_bytes(scene / "result.jsonl")), kWhole);
+  EXPECT_TRUE(
+      outcome.err.ends_with("; ended after 5 of 300 images; result.jsonl holds 5 results\n"))
+      << outcome.err;
+  EXPECT_LE(scene.all_names().size(), before.size() + 2);  // with scene.yaml
+}
+
+TEST(LongRecording, AMissingCutOrWrongImageIsFoundBeforeTheFirstResult) {
+  CommandScene scene;
+  make_recording(scene, kImages, kImages);
+  const std::string whole = read_file_bytes(scene / "depth/000000.png");
+  const auto expect_refused = [&](const std::string& said) {
+    const Outcome outcome = scene.berth({"run", "scene.yaml"});
+    EXPECT_EQ(outcome.exit_status, 1);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_NE(outcome.err.find("last.png: " + said), std::string::npos) << outcome.err;
+  };
+  scene.lines.depth.replace(scene.lines.depth.rfind("depth/"), std::string::npos,
+                            "depth/last.png]");
+  expect_refused("No such file");
+  scene.write("depth/last.png", whole.substr(0, whole.size() - 20));
+  expect_refused("");
+  scene.write("depth/last.png", "");
+  expect_refused("");
+  Image<float> small(8, 8);
+  std::fill(small.pixels().begin(), small.pixels().end(), 1.F);
+  write_depth_png(scene / "depth/last.png", small, 0.001);
+  expect_refused("8 x 8 pixels; expected the camera's 64 x 48");
+  scene.write("depth/last.png", whole + "behind the end");
+  EXPECT_EQ(scene.berth({"run", "scene.yaml"}).exit_status, 0);
+}
+
+/// Of a run over so many images of the bundled scene's first camera.
+std::size_t peak_bytes_of(int images) {
+  const TemporaryFolder folder;
+  std::ostringstream scene;
+  const std::string bundled = BERTH_SOURCE_DIR "/data/bundled";
+  scene << "robot: {urdf: " << bundled << "/arm/arm.urdf, package_paths: {berth_arm: " << bundled
+        << "/arm}, environment_links: [table]}\ncameras:\n  - name: camera\n    info: " << bundled
+        << "/camera_info.yaml\n    pose: {parent: table, xyz: [0.120, -2.250, 0.800], "
+           "quaternion_xyzw: [-0.788699, 0.073200, -0.056410, 0.607794]}\n    depth: [";
+  constexpr int kOnes = 36;
+  for (int i = 0; i < images; ++i) {
+    scene << (i == 0 ? "" : ", ") << bundled << fmt::format("/depth/{:06}.png", i % kOnes);
+  }
+  scene << "]\n    stamps: [";
+  // All of them within the joints' times; what the robot does meanwhile does not matter here.
+  for (int i = 0; i < images; ++i) {
+    scene << (i == 0 ? "" : ", ") << fmt::format("{:.5f}", i * 3.5 / images);
+  }
+  scene << "]\n    watch: {min_at_robot: 0}\njoints: " << bundled
+        << "/joints.csv\nevaluation: {method: exact, visibility: false}\n";
+  folder.write("scene.yaml", scene.str());
+  const Outcome outcome = run_berth(folder.path(), {"run", "scene.yaml"});
+  EXPECT_EQ(outcome.exit_status, 0) << outcome.err;
+  return outcome.peak_bytes;
+}
+
+TEST(LongRecording, MemoryDoesNotGrowWithTheNumberOfImages) {
+  constexpr std::size_t kImageBytes = std::size_t{640} * 480 * sizeof(float);
+  const std::size_t few = peak_bytes_of(12), many = peak_bytes_of(60);
+  EXPECT_LT(many, few + 20 * kImageBytes);
+  EXPECT_GT(few, 5 * kImageBytes);
+}
+
+}  // namespace
+}  // namespace berth
