@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "apps/berth/picture_palette.hpp"
+#include "apps/berth/residual_colors.hpp"
 #include "berth/results/result_json.hpp"
 
 namespace berth::app {
@@ -61,6 +62,15 @@ Json fates_json() {
   return fates;
 }
 
+/// How readings of the robot fit its model, as in the report of a calibration.
+Json misfits_json() {
+  Json misfits = Json::array();
+  for (const ResidualColor& stop : residual_scale()) {
+    misfits.push_back({{"behind_mm", std::round(1000 * stop.residual_m)}, {"color", hex_of(stop.color)}});
+  }
+  return misfits;
+}
+
 Json rows_of(const Pose& X) {
   Json rows = Json::array();
   for (int row = 0; row < 4; ++row) {
@@ -86,7 +96,8 @@ PageMessage scene_message(const std::string& name, const RobotModel& model,
                        {"links", links_json(model)},
                        {"cameras", cameras_json(cameras)},
                        {"steps", steps_json(steps)},
-                       {"fates", fates_json()}});
+                       {"fates", fates_json()},
+                       {"misfits", misfits_json()}});
 }
 
 PageMessage scene_message(const OpenScene& scene, const std::vector<ImageStep>& steps,

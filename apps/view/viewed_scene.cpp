@@ -213,6 +213,8 @@ void ViewedScene::change(const std::function<void(ChangedScene&)>& change) {
     throw;
   }
   publish_("settings", settings_message(changed_));
+  // What was refused before holds no longer.
+  tell(false, "");
 }
 
 void ViewedScene::set(const Request& request) {

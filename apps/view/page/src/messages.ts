@@ -35,6 +35,13 @@ export interface Scene {
   /** Camera, number of its image, time in seconds. */
   steps: [number, number, number][];
   fates: Fate[];
+  /** How far behind the robot's surface a reading lies, from the nearest to the farthest, and its colour; linear between them. */
+  misfits: Misfit[];
+}
+
+export interface Misfit {
+  behind_mm: number;
+  color: string;
 }
 
 export type Point = [number, number, number];
@@ -170,6 +177,12 @@ export interface CalibrationData {
   report?: string;
 }
 
+/** Before a scene comes: how many images were read. */
+export interface Loading {
+  type: "loading";
+  images: number;
+}
+
 export interface Notice {
   type: "notice";
   number: number;
@@ -209,6 +222,7 @@ export interface Space {
 
 export type Message =
   | Scene
+  | Loading
   | Shown
   | Settings
   | Timeline

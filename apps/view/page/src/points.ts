@@ -1,9 +1,7 @@
 // One camera's readings as points, made from its depth image on the graphics processor.
 import * as THREE from "three";
-import {
-  between, cameraColors, colorings, depthColors, fitColors, mostMisfit_mm, noRobotColor, rgbOf, type Coloring, type Rgb,
-} from "./colors";
-import type { Camera, Fate, Image } from "./messages";
+import { between, cameraColors, colorings, depthColors, noRobotColor, rgbOf, type Coloring, type Rgb } from "./colors";
+import type { Camera, Image, Scene } from "./messages";
 
 const vertexShader = `
 in float depth;
@@ -17,7 +15,8 @@ uniform bool shows_filtered;
 uniform vec3 fate_colors[FATES];
 uniform bool is_kept[FATES];
 uniform vec3 depth_colors[7];
-uniform vec3 fit_colors[3];
+uniform float misfits_mm[MISFITS];
+uniform vec3 misfit_colors[MISFITS];
 uniform vec3 no_robot_color;
 uniform vec3 camera_color;
 uniform float point_px;
@@ -31,8 +30,11 @@ vec3 color_of(int kind) {
   }
   if (coloring == 2) {
     if (behind < -32767.5) return no_robot_color;
-    float at = clamp(behind / MOST_MISFIT, -1.0, 1.0);
-    return at < 0.0 ? mix(fit_colors[1], fit_colors[0], -at) : mix(fit_colors[1], fit_colors[2], at);
+    for (int i = 1; i < MISFITS; ++i) {
+      float share = (behind - misfits_mm[i - 1]) / (misfits_mm[i] - misfits_mm[i - 1]);
+      if (share < 1.0) return mix(misfit_colors[i - 1], misfit_colors[i], max(share, 0.0));
+    }
+    return misfit_colors[MISFITS - 1];
   }
   return camera_color;
 }
@@ -62,10 +64,10 @@ export class CameraPoints {
   /** Whether any of them is to be drawn. */
   isWanted = true;
 
-  constructor(camera: Camera, number: number, fates: Fate[]) {
+  constructor(camera: Camera, number: number, { fates, misfits }: Scene) {
     const material = new THREE.ShaderMaterial({
       glslVersion: THREE.GLSL3,
-      defines: { FATES: fates.length, MOST_MISFIT: mostMisfit_mm.toFixed(1) },
+      defines: { FATES: fates.length, MISFITS: misfits.length },
       vertexShader,
       fragmentShader,
       uniforms: {
@@ -77,7 +79,8 @@ export class CameraPoints {
         fate_colors: { value: fates.map((fate) => unit(rgbOf(fate.color))) },
         is_kept: { value: fates.map((fate) => fate.is_kept) },
         depth_colors: { value: depthColors.map(unit) },
-        fit_colors: { value: fitColors.map(unit) },
+        misfits_mm: { value: misfits.map((one) => one.behind_mm) },
+        misfit_colors: { value: misfits.map((one) => unit(rgbOf(one.color))) },
         no_robot_color: { value: unit(noRobotColor) },
         camera_color: { value: unit(cameraColors[number % cameraColors.length]) },
         point_px: { value: 1 },
