@@ -40,7 +40,9 @@ const calibration = new CalibrationPanel((request) => connection.send(request));
 
 const panels = [distances.element, settings.element, calibration.element];
 const showPanel = tabs(byId("panel-tabs"), ["Distances", "Settings", "Calibration"], (index) => {
+  if (panels[index].isConnected) return;
   byId("panels").replaceChildren(panels[index]);
+  byId("panels").scrollTop = 0;
 });
 let showCamera: (index: number) => void = () => {};
 

@@ -202,8 +202,10 @@ export interface Image {
   type: "image";
   camera: number;
   frame: number;
+  /** Of what is shown: every stride-th pixel of the camera's image. */
   width_px: number;
   height_px: number;
+  stride: number;
   depth_m: Float32Array;
   fate: Uint8Array;
   link: Uint16Array;

@@ -115,7 +115,7 @@ export class Picture {
     const pixelOf = (p: [number, number, number]) => {
       const d = p.map((value, i) => value - rows[4 * i + 3]);
       const [x, y, z] = [0, 1, 2].map((column) => d[0] * rows[column] + d[1] * rows[4 + column] + d[2] * rows[8 + column]);
-      return z > 0 ? [(camera.fx_px * x) / z + camera.cx_px, (camera.fy_px * y) / z + camera.cy_px] : null;
+      return z > 0 ? [((camera.fx_px * x) / z + camera.cx_px) / image.stride, ((camera.fy_px * y) / z + camera.cy_px) / image.stride] : null;
     };
     this.context.lineCap = "round";
     for (const link of this.shown!.result.links) {
@@ -156,7 +156,7 @@ export class Picture {
     const link = this.scene.links.find((one) => one.id === image.link[i] && image.link[i] !== 0)?.name ?? "no link";
     const behind = image.behind_mm[i];
     const fit = behind === noRobot ? "" : `, ${errorText(Math.abs(behind) / 1000)} ${behind < 0 ? "in front of" : "behind"} the model`;
-    this.text.textContent = `(${u}, ${v}): ${depth}, ${this.scene.fates[image.fate[i]].name}, ${link}${fit}`;
+    this.text.textContent = `(${u * image.stride}, ${v * image.stride}): ${depth}, ${this.scene.fates[image.fate[i]].name}, ${link}${fit}`;
   }
 }
 

@@ -9,6 +9,7 @@ in float fate;
 in float behind;
 uniform vec4 focal_centre;
 uniform int width;
+uniform float stride;
 uniform int coloring;
 uniform bool shows_kept;
 uniform bool shows_filtered;
@@ -42,12 +43,12 @@ vec3 color_of(int kind) {
 void main() {
   int kind = int(fate + 0.5);
   bool is_drawn = depth > 0.0 && (is_kept[kind] ? shows_kept : shows_filtered);
-  vec2 pixel = vec2(float(gl_VertexID % width), float(gl_VertexID / width));
+  vec2 pixel = stride * vec2(float(gl_VertexID % width), float(gl_VertexID / width));
   vec3 p_C = vec3((pixel - focal_centre.zw) / focal_centre.xy * depth, depth);
   vec4 seen = modelViewMatrix * vec4(p_C, 1.0);
   gl_Position = is_drawn ? projectionMatrix * seen : vec4(2.0, 2.0, 2.0, 1.0);
   // As large as what the pixel covers.
-  gl_PointSize = clamp(1.3 * point_px * depth / focal_centre.x / -seen.z, 1.0, 8.0);
+  gl_PointSize = clamp(1.3 * stride * point_px * depth / focal_centre.x / -seen.z, 1.0, 8.0);
   point_color = color_of(kind);
 }`;
 
@@ -72,7 +73,8 @@ export class CameraPoints {
       fragmentShader,
       uniforms: {
         focal_centre: { value: new THREE.Vector4(camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px) },
-        width: { value: camera.width_px },
+        width: { value: 1 },
+        stride: { value: 1 },
         coloring: { value: 0 },
         shows_kept: { value: true },
         shows_filtered: { value: true },
@@ -97,6 +99,8 @@ export class CameraPoints {
     geometry.setAttribute("depth", new THREE.BufferAttribute(image.depth_m, 1));
     geometry.setAttribute("fate", new THREE.BufferAttribute(image.fate, 1));
     geometry.setAttribute("behind", new THREE.BufferAttribute(image.behind_mm, 1));
+    this.points.material.uniforms.width.value = image.width_px;
+    this.points.material.uniforms.stride.value = image.stride;
     geometry.setDrawRange(0, image.depth_m.length);
     this.count = image.depth_m.reduce((count, depth) => count + (depth > 0 ? 1 : 0), 0);
   }
