@@ -15,11 +15,7 @@ std::string css(Rgb c) { return fmt::format("#{:02x}{:02x}{:02x}", c.r, c.g, c.b
 /// The colours from the one end of the scale to the other.
 std::string gradient() {
   std::string stops;
-  constexpr int kStops = 12;
-  for (int i = 0; i <= kStops; ++i) {
-    const double place = 2.0 * i / kStops - 1;
-    stops += ", " + css(residual_color(residual_at(place)));
-  }
+  for (const ResidualColor& stop : residual_scale()) stops += ", " + css(stop.color);
   return "linear-gradient(to right" + stops + ")";
 }
 

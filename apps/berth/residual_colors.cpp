@@ -39,6 +39,15 @@ Rgb residual_color(double residual_m) {
   return mix(hues[part], hues[part + 1], steps - part);
 }
 
+std::vector<ResidualColor> residual_scale() {
+  std::vector<ResidualColor> scale;
+  for (int part = -kParts; part <= kParts; ++part) {
+    const double residual_m = std::copysign(kStops_m[std::abs(part)], part);
+    scale.push_back({residual_m, residual_color(residual_m)});
+  }
+  return scale;
+}
+
 Stripes beyond_scale(double residual_m) {
   const auto& hues = residual_m < 0 ? kNearer : kFarther;
   return {hues[kParts], hues[1]};

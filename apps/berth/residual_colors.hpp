@@ -1,6 +1,8 @@
 // The colours of reading - model, for pictures, legend and histogram alike.
 #pragma once
 
+#include <vector>
+
 #include "apps/berth/picture_palette.hpp"
 
 namespace berth::app {
@@ -8,6 +10,13 @@ namespace berth::app {
 /// Readings nearer than the model are orange, those farther away blue; white fits. Both stay apart
 /// for the colour-blind, and the farther from 0 the darker they are.
 Rgb residual_color(double residual_m);
+
+/// The scale from its nearest end to its farthest: between neighbours residual_color() is linear.
+struct ResidualColor {
+  double residual_m;
+  Rgb color;
+};
+std::vector<ResidualColor> residual_scale();
 
 /// What lies beyond the scale is striped in two colours.
 inline constexpr double kResidualScale_m = 0.1;

@@ -55,9 +55,11 @@ void view_command(const ViewArguments& arguments) {
     server.publish(kind, std::move(message));
   };
   ProgressBar progress("read images", 0);
+  std::size_t images = 0;
   ViewedScene viewed(arguments.scene, save_folder, publish, [&] {
     stop_if_interrupted();
     progress.step();
+    publish("loading", json_message({{"type", "loading"}, {"images", images++}}));
   });
   progress.clear();
   {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "berth/files/error.hpp"
 #include "berth/files/file_bytes.hpp"
 
 namespace berth::app {
@@ -126,7 +127,13 @@ void ChangedScene::require_same_file() const {
 
 void ChangedScene::take(SceneChange change) {
   require_same_file();
-  now_ = parse_scene(file_, rewritten_scene(file_, change, file_));
+  try {
+    now_ = parse_scene(file_, rewritten_scene(file_, change, file_));
+  } catch (const BadFile& error) {
+    // The file that the user has is as it was: it has no bad line.
+    if (error.place().file != file_) throw;
+    throw std::runtime_error(error.without_line());
+  }
   change_ = std::move(change);
 }
 

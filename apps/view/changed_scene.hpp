@@ -23,7 +23,7 @@ class ChangedScene {
   /// What save() writes.
   const SceneChange& change() const { return change_; }
 
-  // Each of these throws std::runtime_error with the place, the value and what was expected, and
+  // Each of these throws std::runtime_error with the setting, the value and what was expected, and
   // then leaves all as it was.
 
   /// A setting of one camera or, without its number, of all; of requests, for the groups

@@ -26,6 +26,7 @@ const DepthImage& sensor_depth_of(const Frame& frame) {
 struct LivePage::State {
   std::shared_ptr<const Robot> robot;
   std::size_t cameras;
+  int stride;
   PageServer server;
   Curves curves{kMostLiveColumns, 0};
   std::chrono::steady_clock::time_point told = {};
@@ -34,7 +35,7 @@ struct LivePage::State {
 
 LivePage::LivePage(std::shared_ptr<const Robot> robot, const std::vector<PageCamera>& cameras,
                    const PageAddress& address, PageFiles files)
-    : state_(new State{std::move(robot), cameras.size(),
+    : state_(new State{std::move(robot), cameras.size(), shown_stride(cameras),
                        PageServer(address, std::move(files), [](const std::string&) {})}) {
   const RobotModel& model = state_->robot->model();
   state_->shown.resize(cameras.size());
@@ -56,8 +57,9 @@ void LivePage::show(const Result& result, const std::vector<std::shared_ptr<cons
   state_->server.publish("shown", shown_message(state_->robot->model(), result, pointers));
   for (std::size_t c = 0; c < frames.size(); ++c) {
     if (!frames[c] || frames[c] == state_->shown[c]) continue;
-    state_->server.publish(fmt::format("image {}", c),
-                           image_message(c, 0, sensor_depth_of(*frames[c]), *frames[c]));
+    state_->server.publish(
+        fmt::format("image {}", c),
+        image_message(c, 0, sensor_depth_of(*frames[c]), *frames[c], state_->stride));
   }
   state_->shown = frames;
   state_->curves.add(result);

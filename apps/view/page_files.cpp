@@ -19,7 +19,8 @@ fs::path page_folder(const std::vector<fs::path>& folders) {
     names.push_back(folder.string());
   }
   throw std::runtime_error(
-      fmt::format("the page is not built: there is no index.html in {}; `make view` builds it",
+      fmt::format("the page is not built: there is no index.html in {}; `make view` builds it, and "
+                  "`cmake --install` takes it along then",
                   fmt::join(names, " and ")));
 }
 

@@ -264,10 +264,13 @@ void ServerState::accept() {
 }
 
 void ServerState::tell_pages() {
-  std::set<std::string> kinds;
+  std::vector<std::string> kinds;
   {
     const std::scoped_lock lock(mutex);
-    kinds.swap(fresh);
+    for (const auto& one : latest) {
+      if (fresh.contains(one.first)) kinds.push_back(one.first);
+    }
+    fresh.clear();
   }
   for (PageConnection* page : pages) {
     for (const std::string& kind : kinds) page->tell(kind);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "apps/berth/picture_palette.hpp"
+#include "apps/berth/residual_colors.hpp"
 #include "berth/results/result_json.hpp"
 
 namespace berth::app {
@@ -61,6 +62,16 @@ Json fates_json() {
   return fates;
 }
 
+/// How readings of the robot fit its model, as in the report of a calibration.
+Json misfits_json() {
+  Json misfits = Json::array();
+  for (const ResidualColor& stop : residual_scale()) {
+    misfits.push_back(
+        {{"behind_mm", std::round(1000 * stop.residual_m)}, {"color", hex_of(stop.color)}});
+  }
+  return misfits;
+}
+
 Json rows_of(const Pose& X) {
   Json rows = Json::array();
   for (int row = 0; row < 4; ++row) {
@@ -86,16 +97,21 @@ PageMessage scene_message(const std::string& name, const RobotModel& model,
                        {"links", links_json(model)},
                        {"cameras", cameras_json(cameras)},
                        {"steps", steps_json(steps)},
-                       {"fates", fates_json()}});
+                       {"fates", fates_json()},
+                       {"misfits", misfits_json()}});
 }
 
 PageMessage scene_message(const OpenScene& scene, const std::vector<ImageStep>& steps,
                           const std::string& note) {
+  return scene_message(scene.file.string(), scene.robot->model(), page_cameras(scene), steps, note);
+}
+
+std::vector<PageCamera> page_cameras(const OpenScene& scene) {
   std::vector<PageCamera> cameras;
   for (const OpenCamera& one : scene.cameras) {
     cameras.push_back({one.source.name, one.view->camera()});
   }
-  return scene_message(scene.file.string(), scene.robot->model(), cameras, steps, note);
+  return cameras;
 }
 
 PageMessage mesh_message(const RobotModel& model) {
@@ -141,30 +157,42 @@ PageMessage shown_message(const RobotModel& model, const Result& result,
   return json_message(json);
 }
 
+int shown_stride(const std::vector<PageCamera>& cameras) {
+  std::size_t pixels = 0;
+  for (const auto& [name, camera] : cameras) {
+    pixels += static_cast<std::size_t>(camera.width_px) * camera.height_px;
+  }
+  std::size_t stride = 1;
+  while (pixels > kMostShownPixels * stride * stride) ++stride;
+  return static_cast<int>(stride);
+}
+
 PageMessage image_message(std::size_t camera, std::size_t number, const DepthImage& sensor_depth_m,
-                          const Frame& frame) {
+                          const Frame& frame, int stride) {
   constexpr std::int16_t kNone = std::numeric_limits<std::int16_t>::min();
   constexpr float kMost_mm = std::numeric_limits<std::int16_t>::max();
-  const std::vector<float>& readings_m = sensor_depth_m.pixels();
   const bool has_robot = frame.time.status == TimeStatus::ok;
-  std::vector<float> depth_m = readings_m;
-  std::vector<PixelFate> fates(readings_m.size(), PixelFate::no_reading);
-  std::vector<LinkId> links(readings_m.size(), kNoLink);
-  std::vector<std::int16_t> behind_mm(readings_m.size(), kNone);
-  for (std::size_t i = 0; has_robot && i < readings_m.size(); ++i) {
-    fates[i] = frame.obstacles.fate.pixels()[i];
-    links[i] = frame.robot.link_id.pixels()[i];
-    if (is_kept(fates[i])) depth_m[i] = frame.obstacles.depth_m.pixels()[i];
-    const float behind_m = readings_m[i] - frame.robot.depth_m.pixels()[i];
+  const int width = (sensor_depth_m.width() + stride - 1) / stride;
+  const int height = (sensor_depth_m.height() + stride - 1) / stride;
+  const std::size_t pixels = static_cast<std::size_t>(width) * height;
+  std::vector<float> depth_m(pixels);
+  std::vector<PixelFate> fates(pixels, PixelFate::no_reading);
+  std::vector<LinkId> links(pixels, kNoLink);
+  std::vector<std::int16_t> behind_mm(pixels, kNone);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const int u = static_cast<int>(i) % width * stride, v = static_cast<int>(i) / width * stride;
+    depth_m[i] = sensor_depth_m(u, v);
+    if (!has_robot) continue;
+    fates[i] = frame.obstacles.fate(u, v);
+    links[i] = frame.robot.link_id(u, v);
+    const float behind_m = depth_m[i] - frame.robot.depth_m(u, v);
+    if (is_kept(fates[i])) depth_m[i] = frame.obstacles.depth_m(u, v);
     if (std::isnan(behind_m)) continue;
     behind_mm[i] =
         static_cast<std::int16_t>(std::lround(std::clamp(1000 * behind_m, -kMost_mm, kMost_mm)));
   }
-  const Json header = {{"type", "image"},
-                       {"camera", camera},
-                       {"frame", number},
-                       {"width_px", sensor_depth_m.width()},
-                       {"height_px", sensor_depth_m.height()}};
+  const Json header = {{"type", "image"},   {"camera", camera},    {"frame", number},
+                       {"width_px", width}, {"height_px", height}, {"stride", stride}};
   return binary_message(header, {bytes_of_all(depth_m), bytes_of_all(fates), bytes_of_all(links),
                                  bytes_of_all(behind_mm)});
 }

@@ -21,6 +21,7 @@ PageMessage scene_message(const std::string& name, const RobotModel& model,
                           const std::vector<ImageStep>& steps, const std::string& note = "");
 PageMessage scene_message(const OpenScene& scene, const std::vector<ImageStep>& steps,
                           const std::string& note);
+std::vector<PageCamera> page_cameras(const OpenScene& scene);
 
 /// The triangles of each link in its own frame: three floats for each corner, all links one after
 /// another, then three whole numbers of 32 bits for each triangle, counted within the link.
@@ -38,10 +39,15 @@ struct ShownStep {
 PageMessage shown_message(const RobotModel& model, const Result& result,
                           const std::vector<const Frame*>& frames, const ShownStep& of = {});
 
-/// One camera's image: of each pixel the depth that counts (float, NaN: none), the fate (8 bits),
-/// the link (16 bits) and how far its reading lies behind the robot's surface (16 bits, in mm;
-/// -32768: no reading or no robot).
+/// Pages get every n-th pixel of every n-th row, so that all cameras together have at most
+/// kMostShownPixels. This is n.
+int shown_stride(const std::vector<PageCamera>& cameras);
+inline constexpr std::size_t kMostShownPixels = 1 << 22;
+
+/// One camera's image: of each pixel that is shown the depth that counts (float, NaN: none), the
+/// fate (8 bits), the link (16 bits) and how far its reading lies behind the robot's surface (16
+/// bits, in mm; -32768: no reading or no robot).
 PageMessage image_message(std::size_t camera, std::size_t number, const DepthImage& sensor_depth_m,
-                          const Frame& frame);
+                          const Frame& frame, int stride);
 
 }  // namespace berth::app

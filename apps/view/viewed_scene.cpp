@@ -213,6 +213,8 @@ void ViewedScene::change(const std::function<void(ChangedScene&)>& change) {
     throw;
   }
   publish_("settings", settings_message(changed_));
+  // What was refused before holds no longer.
+  tell(false, "");
 }
 
 void ViewedScene::set(const Request& request) {
@@ -259,12 +261,13 @@ void ViewedScene::show(std::size_t step) {
 }
 
 void ViewedScene::publish_images() {
+  const int stride = shown_stride(page_cameras(*scene_));
   for (std::size_t c = 0; c < image_numbers_.size(); ++c) {
     const std::shared_ptr<const Frame> frame = shown_->frame(c);
     if (!frame || frame->number == image_numbers_[c]) continue;
     image_numbers_[c] = frame->number;
     publish_(fmt::format("image {}", c),
-             image_message(c, shown_->frame_number(c), shown_->sensor_depth_m(c), *frame));
+             image_message(c, shown_->frame_number(c), shown_->sensor_depth_m(c), *frame, stride));
   }
 }
 

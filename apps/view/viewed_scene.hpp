@@ -37,7 +37,8 @@ namespace berth::app {
 ///     "take_calibration_data"}
 ///
 /// Without `camera` a setting is that of all cameras; null in place of a value or a pose is what
-/// the file says. What is refused is published (kind "notice") with the reason.
+/// the file says. What is refused is published (kind "notice") with the reason; a change that is
+/// made, without any.
 class ViewedScene {
  public:
   /// Opens the scene; `before_image` as for open_scene. Saves to `folder` alone. Throws as

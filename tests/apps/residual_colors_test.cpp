@@ -37,6 +37,22 @@ TEST(ResidualColors, AreDarkerTheFartherFromZeroAndApartByHue) {
   EXPECT_EQ(residual_color(0.0), residual_color(-1e-9));
 }
 
+TEST(ResidualColors, AreLinearBetweenTheScalesNeighbours) {
+  const std::vector<ResidualColor> scale = residual_scale();
+  EXPECT_EQ(scale.front().residual_m, -kResidualScale_m);
+  EXPECT_EQ(scale.back().residual_m, kResidualScale_m);
+  for (std::size_t i = 0; i + 1 < scale.size(); ++i) {
+    for (const double share : {0.0, 0.3, 0.5, 0.9, 1.0}) {
+      const double residual_m = std::lerp(scale[i].residual_m, scale[i + 1].residual_m, share);
+      const Rgb expected = mix(scale[i].color, scale[i + 1].color, share);
+      const Rgb color = residual_color(residual_m);
+      EXPECT_NEAR(color.r, expected.r, 1) << residual_m;
+      EXPECT_NEAR(color.g, expected.g, 1) << residual_m;
+      EXPECT_NEAR(color.b, expected.b, 1) << residual_m;
+    }
+  }
+}
+
 TEST(ResidualHistogram, CountsWhatIsTheRobots) {
   DepthImage residual_m(10, 1, kNoDepth);
   const std::array<float, 6> values = {0, 0.0009F, -0.0031F, 0.07F, 0.11F, -0.3F};

@@ -61,8 +61,10 @@ TEST_F(ChangedSceneTest, RefusesWhatAFileMayNotSayAndStaysAsItWas) {
   const auto refused = [&](const char* group, const char* key, const char* value) {
     return error_message([&] { scene_.set(group, key, std::nullopt, value); });
   };
-  expect_parts(refused("self_filter", "padding_m", "-1"),
-               {"scene.yaml", "padding_m", "-1", "expected"});
+  const std::string text = refused("self_filter", "padding_m", "-1");
+  expect_parts(text, {"padding_m", "-1", "expected"});
+  EXPECT_EQ(text.find(".yaml"), std::string::npos) << "the file has no such line: " << text;
+  expect_parts(refused("evaluation", "range_m", "1000"), {"range_m", "1000", "up to 50"});
   expect_parts(refused("self_filter", "paddding_m", "1"), {"paddding_m"});
   expect_parts(refused("evaluation", "method", "magic"), {"magic", "mesh"});
   EXPECT_EQ(scene_.now().evaluation.distance.range_m, 0.5);

@@ -100,6 +100,22 @@ TEST_F(PageServerTest, ALaterPageGetsTheNewestOfEachKindInOrder) {
   EXPECT_EQ(client.next(), "image 2");
 }
 
+TEST(PageServerOrder, IsThatInWhichKindsCameForAPageThatWasOpenBefore) {
+  PageServer* server = nullptr;
+  // In the server's thread, so that all of them wait when the page is told.
+  PageServer own({.port = 0}, some_files(), [&](const std::string&) {
+    for (const char* kind : {"scene", "mesh", "image 0", "calibration_data"}) {
+      server->publish(kind, {false, kind});
+    }
+  });
+  server = &own;
+  PageClient client(port_of(own));
+  client.send("now");
+  for (const char* kind : {"scene", "mesh", "image 0", "calibration_data"}) {
+    EXPECT_EQ(client.next(), kind);
+  }
+}
+
 TEST_F(PageServerTest, TakesTextOfBoundedSize) {
   server_.publish("scene", {false, "scene"});
   PageClient client(port_);

@@ -267,6 +267,16 @@ TEST_F(ViewedSceneTest, RefusesWhatNoPageAsks) {
   EXPECT_EQ(ask({{"do", "show"}, {"step", 1}}, "shown")["step"], 1);
 }
 
+TEST_F(ViewedSceneTest, ARefusalIsTakenBackByTheNextChange) {
+  const Json refusal = refused(set_request("evaluation", "range_m", 1000).dump());
+  EXPECT_TRUE(refusal["is_refused"]);
+  const auto text = refusal["text"].get<std::string>();
+  EXPECT_TRUE(text.starts_with("evaluation.range_m: 1000; expected")) << text;
+  const Json next = refused(set_request("evaluation", "range_m", 50).dump());
+  EXPECT_FALSE(next["is_refused"]);
+  EXPECT_EQ(next["text"], "");
+}
+
 TEST_F(ViewedSceneTest, SavesIntoItsFolder) {
   const Json notice = refused(R"({"do": "save", "name": "new.yaml"})");
   EXPECT_FALSE(notice["is_refused"]) << notice;

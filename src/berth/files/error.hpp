@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -15,8 +16,21 @@ struct FilePlace {
   std::string where = {};
 };
 
-/// Throws std::runtime_error("<file>:<line>: <where>: <found>; expected <expected>"), where `found`
-/// is the bad value or what is wrong.
+/// What throw_bad_file() throws.
+class BadFile : public std::runtime_error {
+ public:
+  BadFile(FilePlace place, std::string_view found, std::string_view expected);
+  const FilePlace& place() const { return place_; }
+  /// The message without file and line: "<where>: <found>; expected <expected>".
+  const std::string& without_line() const { return without_line_; }
+
+ private:
+  FilePlace place_;
+  std::string without_line_;
+};
+
+/// Throws BadFile with the message "<file>:<line>: <where>: <found>; expected <expected>", where
+/// `found` is the bad value or what is wrong.
 [[noreturn]] void throw_bad_file(const FilePlace& place, std::string_view found,
                                  std::string_view expected);
 

@@ -82,11 +82,34 @@ test("a value that is refused says why, and the old one stays", async () => {
   await showSettings(page);
   const before_m = await page.inputValue("[id='self_filter.padding_m']");
   await type(page, "self_filter.padding_m", -1);
-  await until(page, () => /padding_m.*expected/.test(document.getElementById("notice").textContent));
+  await until(page, () => /^self_filter\.padding_m: -1; expected/.test(document.getElementById("notice").textContent));
+  // It goes with its cause.
+  await type(page, "self_filter.padding_m", 0.03);
+  await until(page, () => document.getElementById("notice").textContent === "");
+  assert.equal(await page.locator("#notice.refused").count(), 0);
+  await click(page, "#reset");
+  await until(page, () => document.querySelector(".setting.changed") === null);
   await page.reload();
   await isReady(page);
   await showSettings(page);
   assert.equal(await page.inputValue("[id='self_filter.padding_m']"), before_m);
+  await page.close();
+});
+
+test("a long range works, and one that is too long is told", async () => {
+  const page = await open();
+  await showSettings(page);
+  await type(page, "evaluation.range_m", 1000);
+  await until(page, () => /^evaluation\.range_m: 1000; expected .*up to 50/.test(document.getElementById("notice").textContent));
+  await type(page, "evaluation.range_m", 50);
+  await until(page, () => document.getElementById("evaluation.range_m").closest(".changed") !== null);
+  await click(page, "#questions button:nth-child(5)");
+  await click(page, "#after");
+  await until(page, () => document.getElementById("provisional") === null);
+  await until(page, () => document.querySelector("#progress").classList.contains("done"));
+  await click(page, "#reset");
+  await until(page, () => document.querySelector(".setting.changed") === null);
+  assert.deepEqual(page.errors, []);
   await page.close();
 });
 
@@ -137,18 +160,33 @@ test("each question has its answer a click away", async () => {
   const page = await open(berth.url);
   await until(page, () => document.querySelector("#progress").classList.contains("done"));
   const ask = (number) => click(page, `#questions button:nth-child(${number})`);
+  const active = () => page.locator("#questions button[aria-pressed=true]").allTextContents();
+  assert.deepEqual(await active(), []);
   await ask(1);
+  assert.deepEqual(await active(), ["Is the pose right?"]);
   assert.equal(await page.locator("details[data-group=pose]").getAttribute("open"), "");
   assert.match(await text(page, "#legend"), /behind it/);
   await ask(2);
   assert.ok((await page.locator("#fates tbody tr").count()) > 5);
   await ask(3);
   await page.waitForSelector("#link-details");
+  assert.match(await text(page, "#said"), /^arm_link_\d: \d\.\d{3} m to /);
   await ask(4);
   await until(page, () => /^49 of 101/.test(document.getElementById("when").textContent));
-  assert.match(await text(page, "#link-details"), /arm_link_7.*14\.9 mm.*unknown/s);
+  assert.deepEqual(await active(), ["When was it nearest?"]);
+  assert.match(await text(page, "#link-details"), /arm_link_7.*0\.015 m.*unknown/s);
+  // The line ends in unknown space, which is drawn for that.
+  assert.equal(await text(page, "#said"), "Nearest, at 1.713 s: arm_link_7: 0.015 m to unknown space; what is seen is 0.078 m away.");
+  assert.ok(await page.isChecked("#layer-hidden"));
+  await click(page, "#after");
+  await until(page, () => /^50 of 101/.test(document.getElementById("when").textContent));
+  assert.deepEqual(await active(), []);
   await ask(5);
   assert.match(await text(page, "#legend"), /unknown space/);
+  // Asked once more it is taken back.
+  await ask(5);
+  assert.deepEqual(await active(), []);
+  assert.equal(await page.isChecked("#layer-hidden"), false);
   assert.deepEqual(page.errors, []);
   await page.close();
 });
@@ -199,6 +237,16 @@ test("a monitored scene tells how fast the robot may go", async () => {
   await bare.close();
 });
 
+test("the table is in one unit and tells how far what is seen is", async () => {
+  const page = await open(berth.url);
+  const head = await page.locator("#links th").allTextContents();
+  assert.deepEqual(head, ["link", "distance [m]", "nearest is", "to occupied [m]", "status"]);
+  const rows = await page.locator("#links tbody tr").evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));
+  for (const [, distance, , occupied] of rows) for (const cell of [distance, occupied]) assert.match(cell, /^(\d\.\d{3}|–)$/);
+  assert.ok(rows.some(([, distance, is, occupied]) => is === "unknown" && Number(occupied) > Number(distance)));
+  await page.close();
+});
+
 test("a pixel tells its depth, fate and link", async () => {
   const page = await open();
   await page.evaluate(() => {
@@ -215,6 +263,109 @@ test("a tablet and a dark room do", async () => {
   const page = await open(single.url, { viewport: { width: 820, height: 1100 }, colorScheme: "dark" });
   const wide = await page.evaluate(() => document.documentElement.scrollWidth);
   assert.ok(wide <= 820, `${wide} pixels wide`);
+  await page.close();
+});
+
+test("a phone shows the answer, and no box over it", async () => {
+  for (const viewport of [{ width: 390, height: 844 }, { width: 844, height: 390 }]) {
+    const page = await open(berth.url, { viewport });
+    await until(page, () => document.querySelector("#progress").classList.contains("done"));
+    await click(page, "#questions button:nth-child(4)");
+    await until(page, () => document.getElementById("said").textContent.startsWith("Nearest"));
+    const { wide, covered, top, bottom, height } = await page.evaluate(() => {
+      const box = (id) => document.getElementById(id).getBoundingClientRect();
+      const [view, layers, said] = [box("canvas-3d"), box("layers"), box("said")];
+      return {
+        wide: document.documentElement.scrollWidth,
+        covered: (layers.width * layers.height) / (view.width * view.height),
+        top: view.top, bottom: said.bottom, height: innerHeight,
+      };
+    });
+    assert.ok(wide <= viewport.width, `${wide} pixels wide`);
+    assert.ok(covered < 0.1, `${covered} of the 3D view`);
+    assert.ok(top >= -1 && bottom <= height + 1, `from ${top} to ${bottom} of ${height}`);
+    await page.close();
+  }
+});
+
+test("no label lies over another", async () => {
+  const page = await open(berth.url, { viewport: { width: 420, height: 600 } });
+  // Far away, so that all lines are near one another.
+  await page.evaluate(() => {
+    const canvas = document.getElementById("canvas-3d");
+    for (let i = 0; i < 30; ++i) canvas.dispatchEvent(new WheelEvent("wheel", { deltaY: 120, bubbles: true, cancelable: true }));
+  });
+  await page.waitForTimeout(500);
+  const boxes = await page.locator("#labels span").evaluateAll((all) => all.map((one) => one.getBoundingClientRect().toJSON()));
+  assert.ok(boxes.length >= 3, `${boxes.length} labels`);
+  for (const [i, a] of boxes.entries()) {
+    for (const b of boxes.slice(0, i)) {
+      assert.ok(a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top, JSON.stringify([a, b]));
+    }
+  }
+  await page.close();
+});
+
+test("keys work after any click", async () => {
+  const page = await open();
+  const step = () => page.evaluate(() => Number(document.body.dataset.step));
+  const isAt = (wanted) => until(page, (value) => Number(document.body.dataset.step) === value, wanted);
+  await page.keyboard.press("ArrowRight");
+  let now = (await step()) || 1;
+  await isAt(now);
+  const places = ["#after", "#canvas-3d", "#layers label:nth-of-type(2)", "#panel-tabs button:nth-child(1)", "#links tbody tr:nth-child(2)", "#picture-tabs button", "#plot", "#scrub"];
+  for (const place of places) {
+    await page.locator(place).click();
+    await page.waitForTimeout(300);
+    now = await step();
+    const by = now > 10 ? -1 : 1;
+    await page.keyboard.press(by > 0 ? "ArrowRight" : "ArrowLeft");
+    await isAt(now + by).catch(() => assert.fail(`dead after a click on ${place}`));
+  }
+  await page.keyboard.press(" ");
+  assert.equal(await text(page, "#play"), "Pause");
+  await page.keyboard.press(" ");
+  // What is written stays what is written.
+  await showSettings(page);
+  await page.locator("#save-name").click();
+  now = await step();
+  await page.keyboard.press("ArrowLeft");
+  await page.keyboard.type(" x");
+  await page.waitForTimeout(300);
+  assert.equal(await step(), now);
+  assert.match(await page.inputValue("#save-name"), / x/);
+  await page.close();
+});
+
+/** The page's messages come in the order that they must not rely on, the first ones after `hold_ms`. */
+const shuffleMessages = (hold_ms) => {
+  const Own = WebSocket;
+  window.WebSocket = class extends Own {
+    set onmessage(take) {
+      let held = [];
+      super.onmessage = (event) => (held ? held.push(event) : take(event));
+      setTimeout(() => {
+        const all = held.reverse();
+        held = null;
+        all.forEach((event) => take(event));
+      }, hold_ms);
+    }
+  };
+};
+
+test("any order of messages will do, and the page says what it waits for", async () => {
+  const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
+  const errors = [];
+  page.on("pageerror", (error) => errors.push(String(error)));
+  await page.addInitScript(shuffleMessages, 3000);
+  await page.goto(berth.url);
+  assert.equal(await text(page, "#waiting"), "Waiting for berth.");
+  assert.ok(await page.isVisible("#waiting"));
+  assert.equal(await page.isVisible("#canvas-3d"), false);
+  await isReady(page);
+  assert.equal(await page.isVisible("#waiting"), false);
+  assert.match(await text(page, "#legend"), /\d{5,} readings, 70468 triangles/);
+  assert.deepEqual(errors, []);
   await page.close();
 });
 

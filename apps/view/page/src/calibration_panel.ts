@@ -1,6 +1,6 @@
 // Calibration: run it, see what it found, take it or not.
 import type { Request } from "./connection";
-import { lengthText, make } from "./dom";
+import { errorText, make } from "./dom";
 import type { CalibrationData } from "./messages";
 
 export class CalibrationPanel {
@@ -43,7 +43,7 @@ export class CalibrationPanel {
     const rows = found.cameras!.flatMap((camera) => [
       make("tr", {}, [make("th", { textContent: `${camera.name}: ${camera.headline}`, colSpan: 3 })]),
       ...(["median_m", "p90_m"] as const).map((key) =>
-        make("tr", {}, [key === "median_m" ? "in the median" : "90 % of them, at most", lengthText(camera.before[key]), lengthText(camera.after[key])].map((text) => make("td", { textContent: text }))),
+        make("tr", {}, [key === "median_m" ? "in the median" : "90 % of them, at most", errorText(camera.before[key]), errorText(camera.after[key])].map((text) => make("td", { textContent: text }))),
       ),
     ]);
     return make("table", { id: "residuals" }, [make("thead", {}, [head]), make("tbody", {}, rows)]);

@@ -30,9 +30,7 @@ export const depthColors: Rgb[] = [
   [253, 231, 37], [144, 215, 67], [53, 183, 121], [33, 145, 140], [49, 104, 142], [68, 57, 131], [68, 1, 84],
 ];
 
-/** Readings before the robot's surface, on it, behind it. */
-export const fitColors: Rgb[] = [[0x2b, 0x74, 0xbe], [0xe8, 0xe8, 0xe8], [0xe6, 0x6a, 0x00]];
-export const mostMisfit_mm = 50;
+/** Of a reading without a robot to fit. */
 export const noRobotColor: Rgb = [0x80, 0x84, 0x8a];
 
 export function between(colors: Rgb[], share: number): Rgb {

@@ -17,6 +17,19 @@ export function statusText(result: Result): string {
   return `Stale: there is no answer${why ? `: ${why}` : ""}.`;
 }
 
+/** The words are those of `berth run`. */
+const columns = [
+  ["link", ""],
+  ["distance [m]", "to what is seen or unknown, whichever is nearer"],
+  ["nearest is", "occupied: a camera measured it; unknown: hidden, and seen free by no camera"],
+  ["to occupied [m]", "to what a camera measured, alone"],
+  ["status", ""],
+];
+
+function metres(length_m: number | null): string {
+  return length_m === null ? "–" : length_m.toFixed(3);
+}
+
 export class DistancesPanel {
   readonly element = make("div");
   private scene?: Scene;
@@ -60,9 +73,10 @@ export class DistancesPanel {
       key.style.cssText = `display: inline-block; background: ${color}`;
       const row = make("tr", { tabIndex: 0, className: link.link === this.chosen ? "chosen" : "" }, [
         make("td", {}, [key, ` ${link.link}`]),
-        make("td", { textContent: link.status.replaceAll("_", " ") }),
-        make("td", { textContent: distanceText(link) }),
+        make("td", { textContent: metres(link.distance_m) }),
         make("td", { textContent: link.obstacle_is ?? "" }),
+        make("td", { textContent: metres(link.occupied.distance_m) }),
+        make("td", { textContent: link.status.replaceAll("_", " ") }),
       ]);
       row.dataset.link = link.link;
       row.onclick = () => this.choose(link.link);
@@ -71,7 +85,7 @@ export class DistancesPanel {
       };
       return row;
     });
-    const head = make("tr", {}, ["link", "status", "distance", "nearest is"].map((text) => make("th", { textContent: text })));
+    const head = make("tr", {}, columns.map(([textContent, title]) => make("th", { textContent, title })));
     return make("table", { id: "links" }, [make("thead", {}, [head]), make("tbody", {}, rows)]);
   }
 
@@ -86,7 +100,7 @@ export class DistancesPanel {
       ["camera and pixel", link.camera ? `${link.camera} (${link.obstacle_pixel?.join(", ")})` : "–"],
       ["point of the link", point(link.robot_point_base_m)],
       ["point of the obstacle", point(link.obstacle_point_base_m)],
-      ["to what is occupied", lengthText(link.occupied.distance_m)],
+      ["to occupied", lengthText(link.occupied.distance_m)],
       ["seen of its surface", percent(link.visibility?.surface?.seen)],
       ["unseen space nearby", percent(link.visibility?.space_unknown)],
       ["rejected reading at", lengthText(link.visibility?.rejected_distance_m)],

@@ -15,17 +15,38 @@ export function make<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
-/** "12.3 mm", "0.123 m". */
+/** A distance: "0.123 m", as everywhere else in berth. */
 export function lengthText(length_m: number | null | undefined): string {
-  if (length_m === null || length_m === undefined) return "–";
-  return length_m < 0.1 ? `${(1000 * length_m).toFixed(1)} mm` : `${length_m.toFixed(3)} m`;
+  return length_m === null || length_m === undefined ? "–" : `${length_m.toFixed(3)} m`;
+}
+
+/** An error of a sensor or a model: "12.3 mm". */
+export function errorText(error_m: number | null): string {
+  return error_m === null ? "–" : `${(1000 * error_m).toFixed(1)} mm`;
+}
+
+interface Near {
+  link: string;
+  status: string;
+  distance_m: number | null;
+  obstacle_is: string | null;
+  occupied: { distance_m: number | null };
 }
 
 /** A link's distance; where only unknown space touches it, also how far what is seen is. */
-export function distanceText(link: { distance_m: number | null; obstacle_is: string | null; occupied: { distance_m: number | null } }): string {
+export function distanceText(link: Near): string {
   if (link.distance_m !== 0 || link.obstacle_is !== "unknown") return lengthText(link.distance_m);
   const seen = link.occupied.distance_m;
   return `unknown 0 m, ${seen === null ? "nothing seen" : `seen ${lengthText(seen)}`}`;
+}
+
+/** The same as a sentence. */
+export function nearText(link: Near): string {
+  if (link.distance_m === null) return `${link.link}: no distance, ${link.status.replaceAll("_", " ")}.`;
+  if (link.distance_m === 0 && link.obstacle_is === "unknown") return `${link.link}: ${distanceText(link)}.`;
+  if (link.obstacle_is !== "unknown") return `${link.link}: ${lengthText(link.distance_m)} to what is seen.`;
+  const seen = link.occupied.distance_m;
+  return `${link.link}: ${lengthText(link.distance_m)} to unknown space; ${seen === null ? "nothing is seen within the range" : `what is seen is ${lengthText(seen)} away`}.`;
 }
 
 /** Buttons of which one is chosen at a time; arrows go from one to the next. */

@@ -1,45 +1,37 @@
 // The page: what comes from the program goes to all its parts, so that they show the same frame.
-import { colorings, coloringTexts, cssOf, hiddenColor, slowColor, stopColor, unseenColor, type Coloring } from "./colors";
+import { CalibrationPanel } from "./calibration_panel";
 import { Connection } from "./connection";
 import { DistancesPanel, statusText } from "./distances_panel";
-import { byId, make, tabs } from "./dom";
-import type { Image, Message, Scene, Shown, Timeline } from "./messages";
-import { legend, Picture } from "./picture";
+import { byId, make, nearText, tabs } from "./dom";
+import { Inbox } from "./inbox";
+import { listenToKeys } from "./keys";
+import { makeLayerBoxes, makeSpeedKey, showLayerBoxes, showLegend, usualLayers, type Layers } from "./layers";
+import type { Image, LinkResult, Message, Scene, Shown, Timeline } from "./messages";
+import { Picture } from "./picture";
 import { Plot } from "./plot";
-import { Scene3d, type Layers } from "./scene3d";
+import { Scene3d } from "./scene3d";
 import { SettingsPanel } from "./settings_panel";
-import { CalibrationPanel } from "./calibration_panel";
 
-const layerTexts: [Exclude<keyof Layers, "coloring">, string][] = [
-  ["robot", "Robot"],
-  ["others", "Other links"],
-  ["kept", "Obstacles"],
-  ["filtered", "Filtered away"],
-  ["distances", "Distances"],
-  ["frusta", "Cameras"],
-  ["hidden", "Unknown space"],
-  ["unseen", "Seen by no camera"],
-];
-const usual: Layers = {
-  robot: true, others: true, kept: true, filtered: false, distances: true, frusta: true, hidden: false, unseen: false, coloring: "filter",
-};
-
-let layers: Layers = { ...usual };
+let layers: Layers = { ...usualLayers };
 let scene: Scene | undefined;
 let shown: Shown | undefined;
 let timeline: Timeline | undefined;
 let chosen = "";
 let camera = 0;
 let isPlaying = false;
-/** Whether the view goes to the chosen link once its image is there. */
+/** The question whose answer is on show; -1: none. */
+let asked = -1;
+/** The step of the least distance, once somebody asked for it, and whether its image is still to come. */
+let nearestStep = -1;
 let isSought = false;
 const fates = new Map<number, Set<number>>();
 
-const view = new Scene3d(byId<HTMLCanvasElement>("canvas-3d"), byId("labels"), choose);
+const view = new Scene3d(byId<HTMLCanvasElement>("canvas-3d"), byId("labels"), askWhy);
 const picture = new Picture(byId<HTMLCanvasElement>("canvas-image"), byId("pixel"));
 const plot = new Plot(byId("plot"), (step) => goTo(step));
-const distances = new DistancesPanel(choose);
-const connection = new Connection(take, () => {
+const distances = new DistancesPanel(askWhy);
+const inbox = new Inbox(take, (text) => (byId("waiting").textContent = text));
+const connection = new Connection((message) => inbox.put(message), () => {
   byId("status").textContent = "not connected";
   trouble("berth has ended, or cannot be reached. Start it again, then load this page again.");
 });
@@ -48,7 +40,9 @@ const calibration = new CalibrationPanel((request) => connection.send(request));
 
 const panels = [distances.element, settings.element, calibration.element];
 const showPanel = tabs(byId("panel-tabs"), ["Distances", "Settings", "Calibration"], (index) => {
+  if (panels[index].isConnected) return;
   byId("panels").replaceChildren(panels[index]);
+  byId("panels").scrollTop = 0;
 });
 let showCamera: (index: number) => void = () => {};
 
@@ -61,7 +55,7 @@ function take(message: Message): void {
   else if (message.type === "settings") settings.setSettings(message);
   else if (message.type === "timeline") setTimeline(message);
   else if (message.type === "calibration_data") calibration.setState(message);
-  else tell(message.text, message.is_refused);
+  else if (message.type === "notice") tell(message.text, message.is_refused);
 }
 
 /** What became of a request; of those before this page's first one it need not know. */
@@ -80,7 +74,6 @@ function setScene(message: Scene): void {
   scene = message;
   document.body.classList.toggle("live", isLive());
   document.body.classList.remove("waiting");
-  byId("status").textContent = "connected";
   byId("scene-name").textContent = scene.file.replace(/.*\//, "");
   byId("scene-name").title = scene.file;
   byId("scene-note").textContent = scene.note;
@@ -105,6 +98,8 @@ function setShown(message: Shown): void {
   if (!isLive()) plot.setStep(message.step);
   distances.setShown(message);
   showAnswer(message);
+  showAnswerToQuestion();
+  showStatus();
   if (isLive()) {
     byId("when").textContent = `${message.result.stamp_s.toFixed(3)} s`;
     return;
@@ -114,8 +109,6 @@ function setShown(message: Shown): void {
   const scrub = byId<HTMLInputElement>("scrub");
   if (document.activeElement !== scrub || isPlaying) scrub.value = String(message.step);
   document.body.dataset.step = String(message.step);
-  if (isSought) view.lookAt(chosen);
-  isSought = false;
   if (isPlaying) playOn();
 }
 
@@ -125,7 +118,19 @@ function setImage(image: Image): void {
   fates.set(image.camera, new Set(image.fate));
   view.setImage(image);
   picture.setImage(image);
-  showLegend();
+  showColors();
+  showStatus();
+}
+
+/** What is still to come of the cameras that have an image. */
+function showStatus(): void {
+  const missing = scene!.cameras.filter((_, i) => shown?.cameras[i] && !fates.has(i)).map((one) => one.name);
+  byId("status").textContent = missing.length > 0 ? `waiting for the image of ${missing.join(", ")}` : "connected";
+}
+
+function showColors(): void {
+  if (!scene) return;
+  showLegend(layers, scene, new Set([...fates.values()].flatMap((one) => [...one])), view.counts());
 }
 
 function setTimeline(message: Timeline): void {
@@ -158,11 +163,22 @@ function choose(link: string): void {
   plot.choose(link);
   distances.setChosen(link);
   showPanel(0);
+  showAnswerToQuestion();
+}
+
+/** A link that was clicked: when it was nearest is another question. */
+function askWhy(link: string): void {
+  if (asked === whenQuestion) asked = whyQuestion;
+  choose(link);
 }
 
 function goTo(step: number): void {
   if (!scene || isLive()) return;
   connection.send({ do: "show", step: Math.max(0, Math.min(scene.steps.length - 1, step)) });
+}
+
+function stepBy(by: number): void {
+  if (shown) goTo(shown.step + by);
 }
 
 function playOn(): void {
@@ -182,44 +198,15 @@ function play(on: boolean): void {
   else goTo(0);
 }
 
-function showLegend(): void {
-  if (!scene) return;
-  const all = new Set([...fates.values()].flatMap((one) => [...one]));
-  const entries = legend(layers.coloring, scene, all);
-  if (layers.hidden) entries.push([hiddenColor, "unknown space"]);
-  if (layers.unseen) entries.push([unseenColor, "seen by no camera"]);
-  const spans = entries.map(([color, text]) => {
-    const key = make("i", { className: "key" });
-    key.style.background = color;
-    return make("span", {}, [key, text]);
-  });
-  const { points, triangles } = view.counts();
-  const count = make("span", { className: "faint", textContent: `${points} readings, ${triangles} triangles` });
-  byId("legend").replaceChildren(...spans, count);
-}
-
 function setLayers(changed: Partial<Layers>): void {
   const had = layers.hidden || layers.unseen;
   layers = { ...layers, ...changed };
   view.setLayers(layers);
   picture.setLayers(layers.coloring, layers.distances);
-  for (const [key] of layerTexts) byId<HTMLInputElement>(`layer-${key}`).checked = layers[key];
-  byId<HTMLSelectElement>("coloring").value = layers.coloring;
+  showLayerBoxes(layers);
   const has = layers.hidden || layers.unseen;
   if (has !== had) connection.send({ do: "space", on: has });
-  showLegend();
-}
-
-function makeLayers(): void {
-  const boxes = layerTexts.map(([key, text]) => {
-    const box = make("input", { type: "checkbox", id: `layer-${key}` });
-    box.onchange = () => setLayers({ [key]: box.checked });
-    return make("label", {}, [box, text]);
-  });
-  const select = make("select", { id: "coloring" }, colorings.map((one) => make("option", { value: one, textContent: coloringTexts[one] })));
-  select.setAttribute("aria-label", "Colour of readings");
-  select.onchange = () => setLayers({ coloring: select.value as Coloring });
-  byId("layers").append(...boxes, select);
+  showColors();
 }
 
 /** The image and link of the least distance of all. */
@@ -237,58 +224,80 @@ function nearestOfAll(): { step: number; link: string } | undefined {
 
 const questions: [string, string, () => void][] = [
   ["Is the pose right?", "Readings coloured by how they fit the robot, and the camera's pose", () => {
-    setLayers({ ...usual, filtered: true, distances: false, coloring: "fit" });
+    setLayers({ ...usualLayers, filtered: true, distances: false, coloring: "fit" });
     if (isLive()) return;
     showPanel(1);
     settings.showPose(camera);
   }],
   ["What is filtered?", "All readings, coloured by what the filter did", () => {
-    setLayers({ ...usual, filtered: true, robot: false, distances: false });
+    setLayers({ ...usualLayers, filtered: true, robot: false, distances: false });
     showPanel(0);
     view.lookAtAll();
   }],
   ["Why this distance?", "The nearest link, its line and its numbers", () => {
     const link = chosen || shown?.result.nearest;
     if (!link) return;
-    setLayers({ ...usual, others: false });
+    setLayers({ ...usualLayers, others: false });
     choose(link);
     view.lookAt(link);
   }],
   ["When was it nearest?", "The image with the least distance of all", () => {
+    play(false);
     const nearest = nearestOfAll();
+    nearestStep = nearest?.step ?? -1;
     if (!nearest) return;
-    setLayers({ ...usual, others: false });
-    choose(nearest.link);
     isSought = true;
+    setLayers({ ...usualLayers, others: false });
+    choose(nearest.link);
     goTo(nearest.step);
   }],
   ["What is hidden?", "The space behind readings that no camera sees", () => {
-    setLayers({ ...usual, hidden: true });
+    setLayers({ ...usualLayers, hidden: true });
     view.lookAtAll();
   }],
 ];
+const whyQuestion = 2;
+const whenQuestion = 3;
 
-byId("questions").append(...questions.map(([textContent, title, onclick]) => make("button", { textContent, title, onclick })));
-makeLayers();
-byId("speed-key").append(
-  ...([["slower", slowColor], ["stop", stopColor]] as const).map(([text, color]) => {
-    const key = make("i", { className: "key" });
-    key.style.background = cssOf(color);
-    return make("span", {}, [key, text]);
-  }),
-);
+/** The one that is asked already is taken back. */
+function ask(question: number): void {
+  if (!scene) return;
+  asked = question === asked ? -1 : question;
+  if (asked < 0) setLayers(usualLayers);
+  else questions[asked][2]();
+  showAnswerToQuestion();
+  byId("space").scrollIntoView({ block: "nearest" });
+}
+
+/** Which question is asked, and its answer where that is a distance; unknown space is drawn where that is what is near. */
+function showAnswerToQuestion(): void {
+  if (asked === whenQuestion && shown?.step === nearestStep && isSought) {
+    isSought = false;
+    view.lookAt(chosen);
+  }
+  if (asked === whenQuestion && !isSought && nearestStep >= 0 && shown?.step !== nearestStep) asked = -1;
+  const isOfDistance = asked === whyQuestion || asked === whenQuestion;
+  const link = shown?.result.links.find((one) => one.link === chosen);
+  const isUnknown = link?.obstacle_is === "unknown" && !isLive();
+  if (isOfDistance && layers.hidden !== isUnknown) setLayers({ hidden: isUnknown });
+  byId("said").textContent = isOfDistance && !isSought ? sentence(link) : "";
+  byId("questions").querySelectorAll("button").forEach((button, i) => button.setAttribute("aria-pressed", String(i === asked)));
+}
+
+function sentence(link?: LinkResult): string {
+  if (asked === whyQuestion) return link ? nearText(link) : "No link that moves has a distance here.";
+  if (nearestStep < 0 || !link) return "No distance is known yet.";
+  const isWhole = timeline!.done === timeline!.total;
+  return `${isWhole ? "Nearest" : "Nearest so far"}, at ${scene!.steps[nearestStep][2].toFixed(3)} s: ${nearText(link)}`;
+}
+
+byId("questions").append(...questions.map(([textContent, title], i) => make("button", { textContent, title, onclick: () => ask(i) })));
+makeLayerBoxes(setLayers);
+makeSpeedKey();
 setLayers({});
 showPanel(0);
 byId("play").onclick = () => play(!isPlaying);
-byId("before").onclick = () => shown && goTo(shown.step - 1);
-byId("after").onclick = () => shown && goTo(shown.step + 1);
+byId("before").onclick = () => stepBy(-1);
+byId("after").onclick = () => stepBy(1);
 byId<HTMLInputElement>("scrub").oninput = (event) => goTo(Number((event.target as HTMLInputElement).value));
-document.addEventListener("keydown", (event) => {
-  const target = event.target as HTMLElement;
-  if (target.closest("input, select, button, #canvas-3d") && !(target.id === "canvas-3d" && event.key === " ")) return;
-  if (event.key === " ") play(!isPlaying);
-  else if (event.key === "ArrowLeft" && shown) goTo(shown.step - 1);
-  else if (event.key === "ArrowRight" && shown) goTo(shown.step + 1);
-  else return;
-  event.preventDefault();
-});
+listenToKeys({ play: () => play(!isPlaying), step: stepBy });

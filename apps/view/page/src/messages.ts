@@ -35,6 +35,13 @@ export interface Scene {
   /** Camera, number of its image, time in seconds. */
   steps: [number, number, number][];
   fates: Fate[];
+  /** How far behind the robot's surface a reading lies, from the nearest to the farthest, and its colour; linear between them. */
+  misfits: Misfit[];
+}
+
+export interface Misfit {
+  behind_mm: number;
+  color: string;
 }
 
 export type Point = [number, number, number];
@@ -170,6 +177,12 @@ export interface CalibrationData {
   report?: string;
 }
 
+/** Before a scene comes: how many images were read. */
+export interface Loading {
+  type: "loading";
+  images: number;
+}
+
 export interface Notice {
   type: "notice";
   number: number;
@@ -189,8 +202,10 @@ export interface Image {
   type: "image";
   camera: number;
   frame: number;
+  /** Of what is shown: every stride-th pixel of the camera's image. */
   width_px: number;
   height_px: number;
+  stride: number;
   depth_m: Float32Array;
   fate: Uint8Array;
   link: Uint16Array;
@@ -209,6 +224,7 @@ export interface Space {
 
 export type Message =
   | Scene
+  | Loading
   | Shown
   | Settings
   | Timeline

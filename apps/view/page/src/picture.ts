@@ -1,9 +1,7 @@
 // A camera's image: depth, and what became of each pixel.
-import {
-  between, cameraColors, cssOf, fitColors, mostMisfit_mm, noRobotColor, rgbOf, type Coloring, type Rgb,
-} from "./colors";
-import { lengthText } from "./dom";
-import type { Image, Scene, Shown } from "./messages";
+import { between, cameraColors, cssOf, noRobotColor, rgbOf, type Coloring, type Rgb } from "./colors";
+import { errorText } from "./dom";
+import type { Image, Misfit, Scene, Shown } from "./messages";
 import { depthColor } from "./points";
 
 const noRobot = -32768;
@@ -90,6 +88,7 @@ export class Picture {
   private colorer(image: Image): (i: number) => Rgb {
     const fates = this.scene!.fates.map((fate) => ({ rgb: rgbOf(fate.color), isKept: fate.is_kept, name: fate.name }));
     const camera = cameraColors[this.camera % cameraColors.length];
+    const misfits = this.scene!.misfits.map((one) => ({ behind_mm: one.behind_mm, rgb: rgbOf(one.color) }));
     return (i) => {
       const depth_m = image.depth_m[i];
       if (!(depth_m > 0)) return dark;
@@ -100,7 +99,7 @@ export class Picture {
       if (this.coloring === "fit") {
         const behind_mm = image.behind_mm[i];
         if (behind_mm === noRobot) return noRobotColor.map((value) => 0.7 * light * value) as Rgb;
-        return between(fitColors, (behind_mm / mostMisfit_mm + 1) / 2);
+        return misfitColor(misfits, behind_mm);
       }
       const { rgb, name } = fates[image.fate[i]];
       const grey = 225 * light;
@@ -116,7 +115,7 @@ export class Picture {
     const pixelOf = (p: [number, number, number]) => {
       const d = p.map((value, i) => value - rows[4 * i + 3]);
       const [x, y, z] = [0, 1, 2].map((column) => d[0] * rows[column] + d[1] * rows[4 + column] + d[2] * rows[8 + column]);
-      return z > 0 ? [(camera.fx_px * x) / z + camera.cx_px, (camera.fy_px * y) / z + camera.cy_px] : null;
+      return z > 0 ? [((camera.fx_px * x) / z + camera.cx_px) / image.stride, ((camera.fy_px * y) / z + camera.cy_px) / image.stride] : null;
     };
     this.context.lineCap = "round";
     for (const link of this.shown!.result.links) {
@@ -156,9 +155,25 @@ export class Picture {
     const depth = image.depth_m[i] > 0 ? `${image.depth_m[i].toFixed(3)} m` : "no reading";
     const link = this.scene.links.find((one) => one.id === image.link[i] && image.link[i] !== 0)?.name ?? "no link";
     const behind = image.behind_mm[i];
-    const fit = behind === noRobot ? "" : `, ${lengthText(Math.abs(behind) / 1000)} ${behind < 0 ? "before" : "behind"} the model`;
-    this.text.textContent = `(${u}, ${v}): ${depth}, ${this.scene.fates[image.fate[i]].name}, ${link}${fit}`;
+    const fit = behind === noRobot ? "" : `, ${errorText(Math.abs(behind) / 1000)} ${behind < 0 ? "in front of" : "behind"} the model`;
+    this.text.textContent = `(${u * image.stride}, ${v * image.stride}): ${depth}, ${this.scene.fates[image.fate[i]].name}, ${link}${fit}`;
   }
+}
+
+/** As the shader colours a reading. */
+function misfitColor(misfits: { behind_mm: number; rgb: Rgb }[], behind_mm: number): Rgb {
+  const next = misfits.findIndex((one) => behind_mm < one.behind_mm);
+  if (next === 0) return misfits[0].rgb;
+  if (next < 0) return misfits[misfits.length - 1].rgb;
+  const [low, high] = [misfits[next - 1], misfits[next]];
+  return between([low.rgb, high.rgb], (behind_mm - low.behind_mm) / (high.behind_mm - low.behind_mm));
+}
+
+function misfitText({ behind_mm }: Misfit, i: number, all: Misfit[]): string {
+  if (behind_mm === 0) return "on it";
+  const length = `${Math.abs(behind_mm)} mm`;
+  if (i === 0) return `${length} in front of the robot's model`;
+  return i === all.length - 1 ? `${length} behind it` : length;
 }
 
 /** What the colours mean. */
@@ -172,12 +187,7 @@ export function legend(coloring: Coloring, scene: Scene, fates: Set<number>): [s
     return [0.5, 1, 2, 3, 4].map((depth_m) => [cssOf(depthColor(depth_m)), `${depth_m} m`]);
   }
   if (coloring === "fit") {
-    return [
-      [cssOf(fitColors[0]), `${mostMisfit_mm} mm before the robot's model`],
-      [cssOf(fitColors[1]), "on it"],
-      [cssOf(fitColors[2]), `${mostMisfit_mm} mm behind it`],
-      [cssOf(noRobotColor), "no robot there"],
-    ];
+    return [...scene.misfits.map((one, i): [string, string] => [one.color, misfitText(one, i, scene.misfits)]), [cssOf(noRobotColor), "no robot there"]];
   }
   return scene.cameras.map((camera, i) => [cssOf(cameraColors[i % cameraColors.length]), camera.name]);
 }

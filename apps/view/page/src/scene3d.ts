@@ -4,24 +4,13 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
-import { cameraColors, cssOf, hiddenColor, unseenColor, type Coloring } from "./colors";
+import { cameraColors, cssOf, hiddenColor, unseenColor } from "./colors";
 import { distanceText, make } from "./dom";
+import { placeLabels } from "./labels";
+import type { Layers } from "./layers";
 import type { Camera, Image, LinkResult, Mesh, Point, Scene, Shown, Space } from "./messages";
 import { CameraPoints } from "./points";
 import { bodyOf } from "./space_body";
-
-export interface Layers {
-  robot: boolean;
-  /** Links beside the chosen one as solid as it. */
-  others: boolean;
-  kept: boolean;
-  filtered: boolean;
-  distances: boolean;
-  frusta: boolean;
-  hidden: boolean;
-  unseen: boolean;
-  coloring: Coloring;
-}
 
 const frustumLength_m = 0.25;
 /** How near to a line a click has to be, in pixels of the page. */
@@ -112,7 +101,8 @@ export class Scene3d {
   setScene(scene: Scene): void {
     this.scene = scene;
     this.world.remove(...this.cameras.map((one) => one.points), ...this.frusta);
-    this.cameras = scene.cameras.map((camera, i) => new CameraPoints(camera, i, scene.fates));
+    this.cameras = scene.cameras.map((camera, i) => new CameraPoints(camera, i, scene));
+    this.isPosed = scene.cameras.map(() => false);
     this.frusta = scene.cameras.map((camera, i) => frustumOf(camera, cssOf(cameraColors[i % cameraColors.length])));
     this.world.add(...this.cameras.map((one) => one.points), ...this.frusta);
     this.resize();
@@ -290,6 +280,10 @@ export class Scene3d {
     return [((q.x + 1) / 2) * this.canvas.clientWidth, ((1 - q.y) / 2) * this.canvas.clientHeight];
   }
 
+  private isInView([x, y]: [number, number]): boolean {
+    return x >= 0 && y >= 0 && x <= this.canvas.clientWidth && y <= this.canvas.clientHeight;
+  }
+
   private linkAt(x: number, y: number): string | undefined {
     for (const pair of this.layers?.distances ? this.pairs : []) {
       const [a, b] = pair.ends.map((end) => this.onScreen(end));
@@ -339,12 +333,9 @@ export class Scene3d {
     const spans = (this.layers?.distances ? labelled : []).map((pair) => {
       const at = this.onScreen(pair.ends[0].clone().add(pair.ends[1]).multiplyScalar(0.5));
       const span = make("span", { textContent: distanceText(pair.link) });
-      if (!at) return span;
-      span.style.left = `${at[0]}px`;
-      span.style.top = `${at[1]}px`;
       span.style.borderColor = pair.color;
-      return span;
+      return at && this.isInView(at) ? [{ span, at }] : [];
     });
-    this.labels.replaceChildren(...spans);
+    placeLabels(this.labels, spans.flat());
   }
 }
