@@ -41,6 +41,7 @@ set(BERTH_PUBLIC_HEADERS
   berth/image_distance/opengl/gl_observer.hpp
   berth/results/result_json.hpp
   berth/results/result_text.hpp
+  berth/scene/live_plausibility.hpp
   berth/scene/open_scene.hpp
   berth/scene/plausibility.hpp
   berth/scene/scene_file.hpp

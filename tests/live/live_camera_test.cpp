@@ -141,6 +141,22 @@ TEST_F(Live, TheClocksOffsetIsHeeded) {
   EXPECT_TRUE(frame->pose.X_BL.back().isApprox(pose.X_BL.back(), 1e-12));
 }
 
+TEST_F(Live, ADistrustedCameraIsImplausibleUntilItIsTrusted) {
+  push_joints(scene_, -1, 10, joints_);
+  start({.max_wait_s = kPatient_s});
+  const auto is_implausible = [&](std::size_t i) {
+    push(i);
+    EXPECT_TRUE(observed(i + 1));
+    return camera_->newest()->watch.is_implausible;
+  };
+  EXPECT_FALSE(is_implausible(0));
+  camera_->distrust(true);
+  EXPECT_TRUE(is_implausible(1));
+  EXPECT_TRUE(is_implausible(2));
+  camera_->distrust(false);
+  EXPECT_FALSE(is_implausible(3));
+}
+
 TEST_F(Live, FramesAreKeptForWhoHoldsThemAndUsedAgainAfterwards) {
   push_joints(scene_, -1, 10, joints_);
   start({.max_wait_s = kPatient_s});

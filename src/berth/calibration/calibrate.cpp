@@ -132,10 +132,11 @@ class CameraReport {
   std::string focal_length_text(double error_share) {
     const auto other = find_focal_length(one_, priors_of(source_), error_share, pause_);
     if (!other) return ". Check the camera's info and depth_scale";
+    out_.focal_length_px = other->factor * source_.camera.fx_px;
     return fmt::format(
         ". Check the camera's info: with a focal length of {:.0f} px in place of {:.0f} px a pose "
         "fits the images by {:.0f} %, and the camera reads the robot right to {:.1f} %",
-        other->factor * source_.camera.fx_px, source_.camera.fx_px, fit_percent(other->score),
+        *out_.focal_length_px, source_.camera.fx_px, fit_percent(other->score),
         100 * std::abs(other->depth_error_share));
   }
 

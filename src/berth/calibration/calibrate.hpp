@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -57,6 +58,9 @@ struct CameraCalibration {
   bool is_found = true;
   /// Why the pose that was found is not to be used, and the start's is told; empty: it is good.
   std::string refused;
+  /// The one with which a pose explains the images, where none does with the one that is believed;
+  /// `refused` says so in words. None where that was not asked, or there is none.
+  std::optional<double> focal_length_px = std::nullopt;
 };
 
 /// What was found of all cameras and of the joints.

@@ -129,6 +129,10 @@ void LiveCamera::run(const std::stop_token& stop) {
     const std::shared_ptr<Frame> frame = pool_.take();
     observer.observe(image->depth_m, image->stamp_s, joints_.buffer(), *frame,
                      settings_.clock_offset_s, place_of(*image));
+    if (is_distrusted_) {
+      const bool is_told_only = view_->settings().watch.tell_only;
+      (is_told_only ? frame->watch.is_unconfirmed : frame->watch.is_implausible) = true;
+    }
     keep(*image, frame, begin_s);
     if (on_frame_) on_frame_(*frame, image->depth_m, image->with);
     const std::lock_guard lock(mutex_);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -72,6 +73,11 @@ class LiveCamera {
   /// wait for it.
   void look_again();
 
+  /// Whether the camera is implausible whatever its frames say, from its next frame on: somebody
+  /// found out more than one frame tells. With WatchSettings::tell_only it is unconfirmed. From any
+  /// thread.
+  void distrust(bool is_distrusted) { is_distrusted_ = is_distrusted; }
+
   const std::shared_ptr<const MountedCamera>& view() const { return view_; }
   /// Null before the first one. Constant, and kept for who holds it.
   std::shared_ptr<const Frame> newest() const;
@@ -99,6 +105,7 @@ class LiveCamera {
   LiveCameraSettings settings_;
   OnFrame on_frame_;
   FindPlace find_place_;
+  std::atomic<bool> is_distrusted_ = false;
   FramePool pool_;
   mutable std::mutex mutex_;
   std::condition_variable_any changed_;

@@ -194,6 +194,9 @@ std::string text_of(const CameraPlausibility& camera) {
         camera.camera, 100 * camera.readings.hidden_share(), camera.frames);
   }
   if (!camera.is_implausible) return {};
+  if (!camera.fits_otherwise.empty()) {
+    return fmt::format("camera {}: {}", camera.camera, camera.fits_otherwise);
+  }
   std::string text = fmt::format(
       "camera {}: the robot is not where it should be: {}; expected most of them at its "
       "surface",

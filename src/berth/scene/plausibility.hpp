@@ -31,6 +31,9 @@ struct CameraPlausibility {
   std::vector<std::string> in_joints;
   /// The share of the robot's readings that would lie at its surface then.
   double share_then = 0;
+  /// Why no pose fits the images, and with which focal length one does; empty where nobody looked
+  /// for it (find_implausible() of running cameras does), or one fits.
+  std::string fits_otherwise;
 };
 
 /// An explanation puts so much more of the robot's readings at its surface than the scene does.

@@ -1,0 +1,87 @@
+// Running cameras: the bundled ones, with a focal length that is a tenth off, and other mistakes.
+#include "berth/scene/live_plausibility.hpp"
+
+#include <gtest/gtest.h>
+
+#include "berth/scene/open_scene.hpp"
+#include "tests/support/error_message.hpp"
+
+namespace berth {
+namespace {
+
+const OpenScene& bundled() {
+  static const OpenScene scene = open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml");
+  return scene;
+}
+
+/// So many images of a bundled camera, the arm in another pose in each.
+LiveImages images_of(std::size_t camera, std::size_t count) {
+  const OpenCamera& source = bundled().cameras[camera];
+  LiveImages live{source.view, source.source.depth_scale_m, {}};
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t k = i * (source.source.depth.size() - 1) / count;
+    live.images.push_back(
+        {std::make_shared<const DepthImage>(source.read_depth(k)), source.at_exposure[k]});
+  }
+  return live;
+}
+
+LiveImages with_focal_length(LiveImages live, double factor, WatchSettings watch = {}) {
+  CameraMount mount = live.view->mount();
+  mount.camera.fx_px *= factor;
+  mount.camera.fy_px *= factor;
+  CameraSettings settings = live.view->settings();
+  settings.watch = watch;
+  live.view = std::make_shared<const MountedCamera>(live.view->robot(), mount, settings);
+  return live;
+}
+
+TEST(LivePlausibility, CamerasThatAreRightAreRight) {
+  std::vector<LiveImages> cameras;
+  for (std::size_t c = 0; c < bundled().cameras.size(); ++c)
+    cameras.push_back(images_of(c, kLeastPosesForFocalLength));
+  for (const CameraPlausibility& camera : find_implausible(cameras)) {
+    EXPECT_FALSE(camera.is_implausible) << text_of(camera);
+    EXPECT_EQ(text_of(camera), "");
+    EXPECT_EQ(camera.frames, kLeastPosesForFocalLength);
+  }
+}
+
+TEST(LivePlausibility, AFocalLengthThatIsATenthOffIsTold) {
+  // In the middle of the image, where no single image tells.
+  const LiveImages off = with_focal_length(images_of(1, kLeastPosesForFocalLength), 0.9);
+  const CameraPlausibility found = find_implausible({off})[0];
+  EXPECT_TRUE(found.is_implausible);
+  expect_parts(text_of(found), {"camera left: a pose fits the images only if", "expected 4 %",
+                                "with a focal length of 25", "in place of 225 px"});
+}
+
+TEST(LivePlausibility, FewPosesTellNoFocalLength) {
+  const LiveImages few = images_of(1, kLeastPosesForFocalLength - 1);
+  EXPECT_FALSE(find_implausible({with_focal_length(few, 0.9)})[0].is_implausible);
+}
+
+TEST(LivePlausibility, WithTheLimitAtZeroNobodyLooks) {
+  const LiveImages off = with_focal_length(images_of(1, 6), 0.9, {.min_at_robot = 0});
+  EXPECT_FALSE(find_implausible({off})[0].is_implausible);
+}
+
+TEST(LivePlausibility, ASimpleMistakeIsNamedAndContradictedByOtherCameras) {
+  std::vector<LiveImages> cameras = {images_of(0, 2), images_of(1, 2)};
+  for (LiveImage& image : cameras[1].images) {
+    DepthImage depth_m = *image.depth_m;
+    for (float& z_m : depth_m.pixels()) z_m *= 10;
+    image.depth_m = std::make_shared<const DepthImage>(std::move(depth_m));
+  }
+  const std::vector<CameraPlausibility> found = find_implausible(cameras);
+  EXPECT_EQ(text_of(found[0]), "");
+  expect_parts(text_of(found[1]), {"camera left", "depth_scale were 0.0001"});
+}
+
+TEST(LivePlausibility, PauseEndsIt) {
+  struct Stopped {};
+  EXPECT_THROW(find_implausible({images_of(1, 6)}, [] { throw Stopped(); }), Stopped);
+}
+
+}  // namespace
+}  // namespace berth
