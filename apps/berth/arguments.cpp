@@ -11,6 +11,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "apps/berth/new_scene.hpp"
 #include "apps/support/command_options.hpp"
 #include "berth/files/number.hpp"
 #include "berth/types/setting.hpp"
@@ -235,7 +236,8 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
       ->type_name("DIR");
   add_evaluation(command, true, arguments.evaluation);
   add_visibility(command, arguments.evaluation);
-  command.add_option("--repeat", arguments.repeat, "Repeat each request so often, and tell the times")
+  command
+      .add_option("--repeat", arguments.repeat, "Repeat each request so often, and tell the times")
       ->check(CLI::Range(1, 1000000000))
       ->type_name("N");
   add_backend_options(command, "Where images are rendered and filtered", arguments.where);
@@ -330,6 +332,44 @@ void add_view_options(CLI::App& command, ViewArguments& arguments) {
       ->type_name("DIR");
   add_threads(command, arguments.threads);
   command.footer("Example:\n  berth view scene.yaml");
+}
+
+void add_init_options(CLI::App& command, InitArguments& arguments) {
+  command.add_option("urdf", arguments.urdf, "The robot")->required()->type_name("ROBOT.urdf");
+  command
+      .add_option("--camera", arguments.camera,
+                  "The camera's kind, for settings to begin with (default: other)")
+      ->check(CLI::IsMember(camera_kind_names()));
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--package",
+          [&arguments](const std::vector<std::string>& all) {
+            for (const std::string& one : all) {
+              const std::size_t at = one.find('=');
+              if (at == 0 || at == std::string::npos) {
+                throw CLI::ValidationError("--package", one + " is not NAME=DIR");
+              }
+              arguments.packages[one.substr(0, at)] = one.substr(at + 1);
+            }
+          },
+          "What package://NAME/ means in the URDF, where no folder of that name lies beside or "
+          "above it")
+      ->type_name("NAME=DIR");
+  command
+      .add_option("--out", arguments.out,
+                  "The scene; nothing that is there is overwritten (default: scene.yaml)")
+      ->type_name("SCENE.yaml");
+  command.footer("Example:\n  berth init robot.urdf --camera realsense --out scene.yaml");
+}
+
+void add_doctor_options(CLI::App& command, DoctorArguments& arguments) {
+  command
+      .add_option("scene", arguments.scene, "The scene: robot, cameras, depth images, joint angles")
+      ->required()
+      ->type_name("SCENE.yaml");
+  add_threads(command, arguments.threads);
+  command.footer(
+      "Exit status 0: nothing is wrong; 1: something is.\nExample:\n  berth doctor scene.yaml");
 }
 
 void add_demo_options(CLI::App& command, DemoArguments& arguments) {

@@ -92,6 +92,19 @@ struct ViewArguments {
   int threads = 0;
 };
 
+struct InitArguments {
+  std::filesystem::path urdf;
+  /// As in the scene's package_paths.
+  std::map<std::string, std::filesystem::path> packages;
+  std::string camera = "other";
+  std::filesystem::path out = "scene.yaml";
+};
+
+struct DoctorArguments {
+  std::filesystem::path scene;
+  int threads = 0;
+};
+
 struct DemoArguments {
   std::filesystem::path picture_folder = "berth_demo";
   /// Whether the scene is shown by a page instead of being run.
@@ -106,5 +119,7 @@ void add_calibrate_options(CLI::App& command, CalibrateArguments& arguments);
 void add_evaluate_options(CLI::App& command, EvaluateArguments& arguments);
 void add_view_options(CLI::App& command, ViewArguments& arguments);
 void add_demo_options(CLI::App& command, DemoArguments& arguments);
+void add_init_options(CLI::App& command, InitArguments& arguments);
+void add_doctor_options(CLI::App& command, DoctorArguments& arguments);
 
 }  // namespace berth::app

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/berth/arguments.hpp"
+#include "apps/berth/command_pages.hpp"
 #include "apps/berth/commands.hpp"
 #include "apps/support/command_options.hpp"
 #include "apps/support/program.hpp"
@@ -25,6 +26,9 @@ int run_command_line(int argc, const char* const* argv) {
   CalibrateArguments calibrate;
   EvaluateArguments evaluate;
   ViewArguments view;
+  InitArguments init;
+  DoctorArguments doctor;
+  std::filesystem::path pages_folder;
   CLI::App* demo_command = program.add_subcommand(
       "demo", "Run the bundled scene: a table of links and distances, and pictures");
   CLI::App* run_command =
@@ -37,6 +41,15 @@ int run_command_line(int argc, const char* const* argv) {
       program.add_subcommand("evaluate", "Distances from these three images alone");
   CLI::App* view_command = program.add_subcommand(
       "view", "Show a scene by a page: what is seen, filtered and hidden, and change its settings");
+  CLI::App* init_command =
+      program.add_subcommand("init", "Write a scene to begin with, from the robot's URDF");
+  CLI::App* doctor_command = program.add_subcommand(
+      "doctor", "All checks of a scene: what is wrong, and what to do next, in order");
+  // For installing, and nobody's own use.
+  CLI::App* pages_command = program.add_subcommand("write-pages", "")->group("");
+  pages_command->add_option("folder", pages_folder)->required();
+  add_init_options(*init_command, init);
+  add_doctor_options(*doctor_command, doctor);
   add_demo_options(*demo_command, demo);
   add_run_options(*run_command, run);
   add_filter_options(*filter_command, filter);
@@ -44,7 +57,8 @@ int run_command_line(int argc, const char* const* argv) {
   add_evaluate_options(*evaluate_command, evaluate);
   add_view_options(*view_command, view);
   program.footer(
-      "Examples:\n  berth demo\n  berth run scene.yaml --picture pictures\nberth COMMAND --help "
+      "Examples:\n  berth demo\n  berth init robot.urdf\n  berth doctor scene.yaml\n  berth run "
+      "scene.yaml --picture pictures\nberth COMMAND --help "
       "tells more.");
 
   const auto require_command = [&] {
@@ -62,6 +76,9 @@ int run_command_line(int argc, const char* const* argv) {
   if (*calibrate_command) {
     return carry_out(calibrate.threads, [&] { app::calibrate_command(calibrate); });
   }
+  if (*init_command) return carry_out(0, [&] { app::init_command(init); });
+  if (*doctor_command) return carry_out(doctor.threads, [&] { app::doctor_command(doctor); });
+  if (*pages_command) return carry_out(0, [&] { write_command_pages(program, pages_folder); });
   if (*view_command) return carry_out(view.threads, [&] { app::view_command(view); });
   return carry_out(evaluate.threads, [&] { app::evaluate_command(evaluate); });
 }

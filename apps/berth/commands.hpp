@@ -12,5 +12,7 @@ void calibrate_command(const CalibrateArguments& arguments);
 void evaluate_command(const EvaluateArguments& arguments);
 void view_command(const ViewArguments& arguments);
 void demo_command(const DemoArguments& arguments);
+void init_command(const InitArguments& arguments);
+void doctor_command(const DoctorArguments& arguments);
 
 }  // namespace berth::app

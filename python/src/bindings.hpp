@@ -9,6 +9,8 @@ void bind_statuses(pybind11::module_& m);
 void bind_all_settings(pybind11::module_& m);
 void bind_robot(pybind11::module_& m);
 void bind_view(pybind11::module_& m);
+void bind_separation(pybind11::module_& m);
+void bind_separation_result(pybind11::module_& m);
 void bind_result(pybind11::module_& m);
 void bind_query(pybind11::module_& m);
 void bind_images(pybind11::module_& m);

@@ -30,6 +30,8 @@ PYBIND11_MODULE(_berth, m) {
   berth::python::bind_all_settings(m);
   berth::python::bind_robot(m);
   berth::python::bind_view(m);
+  berth::python::bind_separation(m);
+  berth::python::bind_separation_result(m);
   berth::python::bind_result(m);
   berth::python::bind_query(m);
   berth::python::bind_images(m);

@@ -62,9 +62,9 @@ class ToPython {
   py::object operator()(const ObstacleOf& of) const {
     return of.pair.is_known() ? py::cast(of.pair.obstacle_is) : py::none();
   }
-  /// Of a monitor, which Python does not have: to_json() tells it.
-  py::object operator()(const SeparationOf&) const { return py::none(); }
-  py::object operator()(const LinkSeparation&) const { return py::none(); }
+  py::object operator()(const SeparationOf&) const {
+    return py::cast(Part<Separation>{result_, &*result_->separation});
+  }
 
  private:
   std::shared_ptr<const Result> result_;
@@ -89,6 +89,8 @@ std::string type_in_python(const T& value) {
     return type_in_python(value.status);
   } else if constexpr (std::is_same_v<T, CameraPlace>) {
     return "Optional[str]";
+  } else if constexpr (std::is_same_v<T, SeparationOf>) {
+    return "Separation";
   } else if constexpr (std::is_same_v<T, ObstacleOf>) {
     return "Optional[" + type_in_python(value.pair.obstacle_is) + "]";
   } else if constexpr (requires { value.has_value(); }) {
@@ -265,6 +267,9 @@ void bind_result(py::module_& m) {
   full->compares_images = full->has_visibility = true;
   full->cameras.resize(1);
   full->links.resize(1);
+  full->links[0].id = 1;
+  full->links[0].is_moved = true;
+  full->separation.emplace().links.resize(1);
   const auto bare = std::make_shared<Result>();
   const auto bind = [&]<class T>(const T& part, const char* name, const char* what) {
     return bind_part(m, name, what, Part<T>{full, &part}, Part<T>{bare, &part});
@@ -273,6 +278,7 @@ void bind_result(py::module_& m) {
   bind(link.visibility.surface, "SightShares", "What cameras see of a surface or a space.");
   bind(link.visibility, "LinkVisibility", "What cameras see of a link and around it.");
   bind(link.occupied, "SpacePair", "The closest points of a link and of what is near.");
+  bind(full->separation->links.front(), "LinkSeparation", "One link's part in a separation.");
   bind(full->time, "Timeliness", "How a result stands in time.");
   bind(full->cameras.front(), "CameraResult", "One camera's part in a result.");
   bind(link, "LinkResult", "One link's part in a result.");

@@ -3,6 +3,7 @@
 #include "berth/types/camera_status.hpp"
 #include "berth/types/obstacle_image.hpp"
 #include "berth/types/result_status.hpp"
+#include "berth/types/separation.hpp"
 #include "berth/types/space_pair.hpp"
 #include "berth/types/time_status.hpp"
 #include "bindings.hpp"
@@ -33,6 +34,12 @@ void bind_statuses(py::module_& m) {
                           "What became of a camera in a request.");
   bind_enum<ObstacleKind>(m, "ObstacleKind", kObstacleKindNames,
                           "Whether an obstacle's point is occupied, or unknown.");
+  bind_enum<SeparationState>(m, "SeparationState", kSeparationStateNames,
+                             "Whether the robot may go on.");
+  bind_enum<SeparationReason>(m, "SeparationReason", kSeparationReasonNames,
+                              "What keeps the robot from going faster.");
+  bind_enum<SeparationBasis>(m, "SeparationBasis", kSeparationBasisNames,
+                             "What the scale of the speed was shown by.");
   bind_enum<PixelFate>(m, "PixelFate", kPixelFateNames,
                        "What became of a pixel: the numbers in Frame.fate.");
 }

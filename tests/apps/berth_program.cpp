@@ -43,10 +43,12 @@ class Preparations {
 }  // namespace
 
 BerthProgram::BerthProgram(const std::filesystem::path& folder,
-                           const std::vector<std::string>& arguments) {
+                           const std::vector<std::string>& arguments,
+                           const std::filesystem::path& terminal) {
+  streams_.write("err", "");
   Preparations preparations;
   preparations.write_to(STDOUT_FILENO, streams_ / "out");
-  preparations.write_to(STDERR_FILENO, streams_ / "err");
+  preparations.write_to(STDERR_FILENO, terminal.empty() ? streams_ / "err" : terminal);
   preparations.work_in(folder);
   std::vector<std::string> words = {BERTH_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());

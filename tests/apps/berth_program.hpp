@@ -24,8 +24,10 @@ struct Outcome {
 /// One that runs. Standard output and error go to files, so that it never waits for a reader.
 class BerthProgram {
  public:
-  /// Starts it with this folder as its working directory.
-  BerthProgram(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
+  /// Starts it with this folder as its working directory, and with this terminal for standard error
+  /// unless it is empty.
+  BerthProgram(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+               const std::filesystem::path& terminal = {});
   /// Ends it if it still runs.
   ~BerthProgram();
   BerthProgram(const BerthProgram&) = delete;

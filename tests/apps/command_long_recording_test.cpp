@@ -1,6 +1,9 @@
 // `berth run` of many images reads them as it goes.
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <stdlib.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <sstream>
@@ -94,6 +97,53 @@ TEST(LongRecording, AMissingCutOrWrongImageIsFoundBeforeTheFirstResult) {
   expect_refused("8 x 8 pixels; expected the camera's 64 x 48");
   scene.write("depth/last.png", whole + "behind the end");
   EXPECT_EQ(scene.berth({"run", "scene.yaml"}).exit_status, 0);
+}
+
+/// A terminal that nobody looks at; what is written to it can be read here.
+class Terminal {
+ public:
+  Terminal() : master_(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK)) {
+    EXPECT_EQ(::grantpt(master_), 0);
+    EXPECT_EQ(::unlockpt(master_), 0);
+    name_ = ::ptsname(master_);
+    // Without somebody who holds it open, what was written goes with its last writer.
+    slave_ = ::open(name_.c_str(), O_RDWR | O_NOCTTY);
+  }
+  ~Terminal() {
+    ::close(slave_);
+    ::close(master_);
+  }
+  Terminal(const Terminal&) = delete;
+  Terminal& operator=(const Terminal&) = delete;
+
+  const std::string& name() const { return name_; }
+  std::string text() const {
+    std::string all(1 << 16, '\0');
+    const ssize_t count = ::read(master_, all.data(), all.size());
+    all.resize(count < 0 ? 0 : static_cast<std::size_t>(count));
+    return all;
+  }
+
+ private:
+  int master_;
+  int slave_;
+  std::string name_;
+};
+
+TEST(LongRecording, ATerminalShowsFromTheStartHowFarItIs) {
+  CommandScene scene;
+  make_recording(scene, 6, 6);
+  scene.write_scene();
+  const Terminal terminal;
+  BerthProgram run(scene.folder(), {"run", "scene.yaml", "--out", "result.txt"}, terminal.name());
+  EXPECT_EQ(run.wait().exit_status, 0);
+  const std::string shown = terminal.text();
+  std::size_t at = 0;
+  for (const char* part :
+       {"check images [", "] 0/6", "] 6/6", "run [", "] 0/6", "] 1/6", "] 6/6"}) {
+    at = shown.find(part, at);
+    ASSERT_NE(at, std::string::npos) << part << "\nin\n" << shown;
+  }
 }
 
 /// Of a run over so many images of the bundled scene's first camera.

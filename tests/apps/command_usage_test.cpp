@@ -70,6 +70,10 @@ TEST(Usage, WrongCommandLineIsRefused) {
       {{"calibrate", "scene.yaml", "--out", "new.yaml", "--format", "xml"}, "--format"},
       {{"calibrate", "scene.yaml", "--out", "new.yaml", "--threads", "0"}, "--threads"},
       {{"demo", "--threads", "0"}, "--threads"},
+      {{"init"}, "urdf"},
+      {{"init", "robot.urdf", "--camera", "pinhole"}, "--camera"},
+      {{"init", "robot.urdf", "--package", "parts"}, "--package"},
+      {{"doctor"}, "scene"},
       {{"demo", "scene.yaml"}, "scene.yaml"},
   };
   const TemporaryFolder folder;

@@ -29,6 +29,23 @@ foreach(example one_frame running_robot two_clocks)
     endif()
   endforeach()
 endforeach()
+# The C++ of the documents, linked with what each page tells. What is a program runs beside a robot.urdf and a scene.yaml.
+file(GLOB pages ${SOURCE}/README.md ${SOURCE}/docs/*.md)
+run(/usr/bin/python3 -B ${SOURCE}/tests/examples/snippets.py ${WORK}/snippets ${pages})
+run(${CMAKE_COMMAND} -S ${WORK}/snippets -B ${WORK}/snippets/build -G ${GENERATOR} ${flags}
+    -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 -DCMAKE_PREFIX_PATH=${WORK}/installed)
+run(${CMAKE_COMMAND} --build ${WORK}/snippets/build)
+file(COPY ${SOURCE}/data/bundled/ DESTINATION ${WORK}/beside)
+file(COPY ${SOURCE}/data/bundled/arm/ DESTINATION ${WORK}/beside/berth_arm)
+file(COPY_FILE ${WORK}/berth_arm/arm.urdf ${WORK}/beside/robot.urdf)
+file(COPY_FILE ${SOURCE}/data/bundled/one_camera.yaml ${WORK}/beside/scene.yaml)
+file(STRINGS ${WORK}/snippets/programs.txt programs)
+foreach(program IN LISTS programs)
+  run(${WORK}/snippets/build/programs/${program} WORKING_DIRECTORY ${WORK}/beside)
+  if(NOT output MATCHES "[0-9]\\.[0-9][0-9][0-9]")
+    message(FATAL_ERROR "${program} printed no distance")
+  endif()
+endforeach()
 # The installed program finds the installed scene.
 run(${WORK}/installed/bin/berth demo --picture ${WORK}/pictures)
 

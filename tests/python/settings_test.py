@@ -11,6 +11,7 @@ from conftest import SOURCE
 GROUPS = {
     "self_filter": berth.SelfFilterSettings, "sensor": berth.SensorSettings, "space": berth.SpaceSettings,
     "watch": berth.WatchSettings, "evaluation": berth.EvaluationSettings, "time": berth.TimeSettings,
+    "separation": berth.SeparationSettings,
 }
 
 
@@ -23,11 +24,11 @@ OF_IMAGES = {"method", "region", "depth_interval", "search_pattern", "shrinking"
 def test_all_settings_of_the_scene_file_are_here(group):
     text = (SOURCE / "docs/scene.md").read_text()
     tables = {name: set(re.findall(r"^\| `(\w+)` \| [^|]* \| [^|]* \| [a-z0-9]", part, re.M))
-              for name, part in re.findall(r"^#+ .*?`?(self_filter|sensor|space|watch|evaluation|time)`?\n(.*?)(?=^#|\Z)", text, re.M | re.S)}
+              for name, part in re.findall(r"^#+ .*?`?(self_filter|sensor|space|watch|evaluation|time|separation)`?\n(.*?)(?=^#|\Z)", text, re.M | re.S)}
     settings = GROUPS[group]().as_dict()
     assert tables, "docs/scene.md has tables of settings"
     if group in tables and tables[group]:
-        assert tables[group] - {"link_padding_m"} - OF_IMAGES <= set(settings)
+        assert tables[group] - {"link_padding_m", "stopping"} - OF_IMAGES <= set(settings)
     for name, value in settings.items():
         prop = getattr(GROUPS[group], name)
         assert len(prop.__doc__) > 10, name

@@ -143,6 +143,13 @@ TEST(Scene, LeavesDefaultsToThoseWhoOwnThem) {
   EXPECT_EQ(scene.evaluation.time.joints.max_skew_s, kOnlyBetweenSamples.max_skew_s);
 }
 
+TEST(Scene, AQuaternionAndTheOneOfTheOtherSignAreOneRotation) {
+  const std::string pose = "pose: {parent: base, xyz: [1, 2, 3], quaternion_xyzw: ";
+  const SceneFile plus = read_text(with(&SceneText::pose, pose + "[0.1, -0.5, 0.7, 0.5]}"));
+  const SceneFile minus = read_text(with(&SceneText::pose, pose + "[-0.1, 0.5, -0.7, -0.5]}"));
+  EXPECT_TRUE(plus.cameras[0].X_PC.isApprox(minus.cameras[0].X_PC, 1e-15));
+}
+
 TEST(Scene, PoseOfTheCameraTurnsAndMovesAsWritten) {
   const SceneFile scene = read_text(with(
       &SceneText::pose,

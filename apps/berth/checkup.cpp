@@ -1,0 +1,243 @@
+#include "apps/berth/checkup.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "berth/results/result_text.hpp"
+#include "berth/scene/plausibility.hpp"
+#include "berth/scene/scene_run.hpp"
+
+namespace berth::app {
+namespace {
+
+/// A check of a long recording looks at so many results.
+constexpr std::size_t kCheckedResults = 100;
+/// Below this share of the readings at the robot's surface calibration has something to gain: good
+/// scenes have more (docs/calibration.md).
+constexpr double kWellPlaced = 0.9;
+/// A link that is seen in fewer of the results than this is worth another camera.
+constexpr double kOftenSeen = 0.5;
+/// A monitor that stops the robot in more of the results than this lets nobody work.
+constexpr double kMostStops = 0.5;
+
+double percent_of(std::size_t part, std::size_t whole) {
+  return whole == 0 ? 0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
+std::string about_camera(const char* what, const OpenCamera& camera) {
+  return fmt::format("{}, camera {}", what, camera.source.name);
+}
+
+std::size_t without_joints(const OpenCamera& camera) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      camera.exposure_time, [](const FrameTime& time) { return time.status != TimeStatus::ok; }));
+}
+
+/// The greatest step from one stamp to the next, and the image after it.
+std::pair<double, std::size_t> greatest_gap(const std::vector<double>& stamps_s) {
+  std::pair<double, std::size_t> greatest{0, 0};
+  for (std::size_t k = 1; k < stamps_s.size(); ++k) {
+    const double gap_s = stamps_s[k] - stamps_s[k - 1];
+    if (gap_s > greatest.first) greatest = {gap_s, k};
+  }
+  return greatest;
+}
+
+Finding stamps_of(const OpenScene& scene, const OpenCamera& camera) {
+  Finding found{.about = about_camera("stamps", camera)};
+  const std::vector<double>& stamps_s = camera.source.stamps_s;
+  const std::size_t images = camera.source.depth.size(), missing = without_joints(camera);
+  if (stamps_s.empty()) {
+    found.verdict = Verdict::advice;
+    found.text = fmt::format("none: image k belongs to row k of the joints, for {} images", images);
+    found.next = fmt::format(
+        "Write stamps for camera {}: without them nobody can tell whether image and joints are of "
+        "one time.",
+        camera.source.name);
+    return found;
+  }
+  found.text =
+      fmt::format("{} images, {:.3f} to {:.3f} s", images, stamps_s.front(), stamps_s.back());
+  if (missing > 0) {
+    found.verdict = Verdict::wrong;
+    found.text += fmt::format("; {} have no joints: these go from {:.3f} to {:.3f} s", missing,
+                              scene.joints->first_s(), scene.joints->last_s());
+    found.next = fmt::format(
+        "Compare the stamps of camera {} with the times in {}: both have to be of one clock "
+        "(clock_offset_s).",
+        camera.source.name, scene.joints->source());
+    return found;
+  }
+  const auto [gap_s, image] = greatest_gap(stamps_s);
+  const double most_s = scene.robot->settings().time.max_frame_gap_s;
+  if (gap_s > most_s) {
+    found.verdict = Verdict::wrong;
+    found.text += fmt::format("; image {} comes {:.3f} s after the one before, and is not used",
+                              image, gap_s);
+    found.next = fmt::format(
+        "Look at the stamps of camera {} around image {}, or raise "
+        "time.max_frame_gap_s above {:.3f}.",
+        camera.source.name, image, most_s);
+  }
+  return found;
+}
+
+Finding pose_of(const OpenScene& scene, const CameraPlausibility& camera) {
+  Finding found{.about = fmt::format("place, camera {}", camera.camera)};
+  if (camera.is_implausible) {
+    found.verdict = Verdict::wrong;
+    found.text = text_of(camera);
+    found.next = camera.dead.empty() && camera.as_if.empty()
+                     ? fmt::format(
+                           "Measure the pose of camera {} again, to within 20 cm and 15 "
+                           "degrees, then: berth calibrate {} --out calibrated.yaml",
+                           camera.camera, scene.file.string())
+                     : fmt::format("Mend what the sentence about camera {} says, then ask again.",
+                                   camera.camera);
+    return found;
+  }
+  if (camera.is_hidden || !camera.readings.tells()) {
+    found.verdict = Verdict::advice;
+    found.text =
+        camera.is_hidden
+            ? text_of(camera)
+            : fmt::format("too little of the robot is seen in {} images to tell", camera.frames);
+    found.next = fmt::format("Record images in which camera {} sees the robot.", camera.camera);
+    return found;
+  }
+  found.text = fmt::format("{:.0f} % of the robot's readings in {} images lie at its surface",
+                           100 * camera.readings.at_robot(), camera.frames);
+  if (camera.readings.at_robot() < kWellPlaced) {
+    found.verdict = Verdict::advice;
+    found.next = fmt::format("berth calibrate {} --out calibrated.yaml --report report",
+                             scene.file.string());
+  }
+  return found;
+}
+
+/// What many results say.
+struct Seen {
+  std::size_t results = 0;
+  std::size_t stops = 0;
+  std::map<std::string, std::size_t> trouble;
+  std::map<std::string, std::size_t> not_seen;
+  std::string a_stop;
+
+  void add(const Result& result) {
+    ++results;
+    if (result.status == ResultStatus::stale) ++trouble[status_text(result)];
+    for (const CameraResult& camera : result.cameras) {
+      const bool is_lost = camera.has_frame && !is_relied_on(camera.status);
+      if (is_lost) ++trouble[fmt::format("camera {} is {}", camera.camera, name_of(camera.status))];
+    }
+    for (const LinkResult& link : result.links) {
+      const bool is_seen = link.status != LinkStatus::not_seen;
+      if (link.is_moved && !is_seen) ++not_seen[link.link];
+    }
+    if (!result.separation || result.separation->state != SeparationState::stop) return;
+    ++stops;
+    a_stop = separation_text(result);
+  }
+};
+
+std::vector<Finding> findings_of(const OpenScene& scene, const Seen& seen) {
+  std::vector<Finding> all;
+  for (const auto& [what, count] : seen.trouble) {
+    all.push_back(
+        {Verdict::wrong, "results", fmt::format("{} in {} of {}", what, count, seen.results),
+         "Look at that camera's images: berth run " + scene.file.string() + " --picture pictures"});
+  }
+  for (const auto& [link, count] : seen.not_seen) {
+    if (percent_of(count, seen.results) < 100 * (1 - kOftenSeen)) continue;
+    all.push_back(
+        {Verdict::advice, "results",
+         fmt::format("link {} is seen by no camera in {} of {}", link, count, seen.results),
+         "Move a camera, or add one, so that it sees link " + link + "."});
+  }
+  if (percent_of(seen.stops, seen.results) > 100 * kMostStops) {
+    all.push_back({Verdict::advice, "separation",
+                   fmt::format("the robot has to stand in {} of {} results, such as: {}",
+                               seen.stops, seen.results, seen.a_stop),
+                   "Read docs/separation.md, \"What belongs to the cell\"."});
+  }
+  if (all.empty()) {
+    all.push_back(
+        {.about = "results", .text = fmt::format("{}, none without a camera", seen.results)});
+  }
+  return all;
+}
+
+}  // namespace
+
+Finding check_images(const OpenScene& scene, const Pause& pause) {
+  for (const OpenCamera& camera : scene.cameras) {
+    for (std::size_t k = 0; k < camera.source.depth.size(); ++k) {
+      pause();
+      camera.read_depth(k);
+    }
+  }
+  return {.about = "files",
+          .text = fmt::format(
+              "robot {} with {} links, {} images of {} camera{}, joints from {:.3f} to {:.3f} s",
+              scene.robot->model().name, scene.robot->model().link_count(), scene.frame_count,
+              scene.cameras.size(), scene.cameras.size() == 1 ? "" : "s", scene.joints->first_s(),
+              scene.joints->last_s())};
+}
+
+std::vector<Finding> check_stamps(const OpenScene& scene) {
+  std::vector<Finding> all;
+  for (const OpenCamera& camera : scene.cameras) all.push_back(stamps_of(scene, camera));
+  return all;
+}
+
+std::vector<Finding> check_poses(const OpenScene& scene) {
+  std::vector<Finding> all;
+  for (const CameraPlausibility& camera : find_implausible(scene))
+    all.push_back(pose_of(scene, camera));
+  return all;
+}
+
+std::vector<Finding> check_watch(const OpenScene& scene) {
+  std::vector<Finding> all;
+  for (const OpenCamera& camera : scene.cameras) {
+    Finding found{.about = about_camera("watch", camera), .text = "a bumped camera is noticed"};
+    if (!camera.view->settings().watch.is_on()) {
+      found.verdict = Verdict::advice;
+      found.text = "off: nobody notices when the camera is bumped";
+      found.next = fmt::format("berth calibrate {} --out calibrated.yaml: it writes what is normal",
+                               scene.file.string());
+    }
+    all.push_back(found);
+  }
+  return all;
+}
+
+std::vector<Finding> check_results(const OpenScene& scene, const Pause& pause) {
+  SceneRun run(scene, {}, pause);
+  Seen seen;
+  while (seen.results < kCheckedResults && run.next()) {
+    pause();
+    if (run.begins_result()) seen.add(run.ask());
+  }
+  return findings_of(scene, seen);
+}
+
+Finding check_separation(const OpenScene& scene) {
+  Finding found{.about = "separation"};
+  if (!scene.separation) {
+    found.text = "not asked for";
+  } else if (!scene.separation->intrusion_m && !scene.separation->detection_m) {
+    found.verdict = Verdict::advice;
+    found.text =
+        fmt::format("nobody has shown what the cameras detect, so C is {} m", kUnprovenIntrusion_m);
+    found.next = "Show it in the cell, and write separation.detection_m.";
+  } else {
+    found.text = "the scene says what the cameras detect";
+  }
+  return found;
+}
+
+}  // namespace berth::app

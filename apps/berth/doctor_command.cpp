@@ -1,0 +1,95 @@
+// doctor: all checks of a scene, and what to do next.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+
+#include "apps/berth/checkup.hpp"
+#include "apps/berth/commands.hpp"
+#include "apps/support/interrupt.hpp"
+#include "apps/support/progress_bar.hpp"
+#include "berth/scene/scene_file.hpp"
+
+namespace berth::app {
+namespace {
+
+const char* word_of(Verdict verdict) {
+  return verdict == Verdict::ok ? "ok" : verdict == Verdict::advice ? "advice" : "wrong";
+}
+
+/// Prints what each check finds, as soon as it is found.
+class Doctor {
+ public:
+  void take(const Finding& found) {
+    fmt::print("{:<7} {}: {}\n", word_of(found.verdict), found.about, found.text);
+    std::fflush(stdout);
+    const bool is_wrong = found.verdict == Verdict::wrong;
+    wrong_ += is_wrong;
+    std::vector<std::string>& next = is_wrong ? mend_ : improve_;
+    const bool is_new = std::ranges::find(next, found.next) == next.end();
+    if (!found.next.empty() && is_new) next.push_back(found.next);
+  }
+
+  /// Runs a check. What it throws is a finding as well, after which nothing more is looked at.
+  template <class Check>
+  void look(const char* about, const Check& check) {
+    if (wrong_ > 0) return;
+    ProgressBar progress(fmt::format("look at {}", about), 0);
+    try {
+      const auto found = check([&progress] {
+        stop_if_interrupted();
+        progress.step();
+      });
+      progress.clear();
+      for (const Finding& one : found) take(one);
+    } catch (const std::runtime_error& error) {
+      progress.clear();
+      take({Verdict::wrong, about, error.what(), "Mend this, then ask again."});
+    }
+  }
+
+  void say_next(const std::string& scene) const {
+    std::vector<std::string> next = mend_;
+    next.insert(next.end(), improve_.begin(), improve_.end());
+    if (next.empty()) return fmt::print("\nNothing is left to do: berth run {}\n", scene);
+    fmt::print("\nWhat to do next:\n");
+    for (std::size_t i = 0; i < next.size(); ++i) fmt::print("{}. {}\n", i + 1, next[i]);
+  }
+  int wrong() const { return wrong_; }
+
+ private:
+  int wrong_ = 0;
+  /// What to do next: where something is wrong, and then where something could be better.
+  std::vector<std::string> mend_, improve_;
+};
+
+}  // namespace
+
+void doctor_command(const DoctorArguments& arguments) {
+  Doctor doctor;
+  std::optional<OpenScene> scene;
+  using Findings = std::vector<Finding>;
+  doctor.look("files", [&](const Pause& pause) {
+    scene = open_scene(read_scene(arguments.scene), pause);
+    Findings found{check_images(*scene, pause)};
+    for (const std::string& warning : scene->warnings) {
+      found.push_back({Verdict::advice, "scene", warning, "Mend the scene file where it says so."});
+    }
+    return found;
+  });
+  doctor.look("stamps", [&](const Pause&) { return check_stamps(*scene); });
+  doctor.look("places", [&](const Pause&) { return check_poses(*scene); });
+  doctor.look("results", [&](const Pause& pause) { return check_results(*scene, pause); });
+  doctor.look("detection", [&](const Pause&) { return check_detection(*scene); });
+  doctor.look("watch", [&](const Pause&) { return check_watch(*scene); });
+  doctor.look("separation", [&](const Pause&) { return Findings{check_separation(*scene)}; });
+  doctor.look("time", [&](const Pause& pause) { return check_time(*scene, pause); });
+  doctor.say_next(arguments.scene.string());
+  if (doctor.wrong() > 0) {
+    throw std::runtime_error(
+        fmt::format("{}: something is wrong; expected nothing", arguments.scene.string()));
+  }
+}
+
+}  // namespace berth::app
