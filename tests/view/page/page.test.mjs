@@ -243,6 +243,8 @@ test("the table is in one unit and tells how far what is seen is", async () => {
   assert.deepEqual(head, ["link", "distance [m]", "nearest is", "to occupied [m]", "status"]);
   const rows = await page.locator("#links tbody tr").evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));
   for (const [, distance, , occupied] of rows) for (const cell of [distance, occupied]) assert.match(cell, /^(\d\.\d{3}|–)$/);
+  const [room, wide] = await page.evaluate(() => ["panels", "links"].map((id) => document.getElementById(id).clientWidth));
+  assert.ok(wide <= room, `${wide} pixels wide, in ${room}`);
   assert.ok(rows.some(([, distance, is, occupied]) => is === "unknown" && Number(occupied) > Number(distance)));
   await page.close();
 });
