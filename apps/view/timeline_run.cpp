@@ -1,5 +1,7 @@
 #include "apps/view/timeline_run.hpp"
 
+#include <malloc.h>
+
 #include <chrono>
 #include <exception>
 
@@ -89,6 +91,8 @@ void TimelineRun::work() {
     }
     try {
       run(*scene);
+      // Its frames were large: what they took goes back to the system, which it does not by itself.
+      malloc_trim(0);
     } catch (const RunStopped&) {
     }
   }

@@ -1,4 +1,4 @@
-// Makes the pictures of docs/view.md: ctest's Page tests say which variables it needs.
+// Makes the pictures of docs/view.md and docs/gallery.md; with names, those alone: ctest's Page tests say which variables it needs.
 //     BERTH=$PWD/build/release/berth BERTH_PAGE_WORK=$PWD/build/release/apps/view/page CHROMIUM=/usr/bin/chromium node docs/view/screenshots.mjs
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -18,7 +18,10 @@ const settled = async (page) => {
 const ask = (number) => (page) => page.locator(`#questions button:nth-child(${number})`).dispatchEvent("click");
 const camera = (number) => (page) => page.locator(`#picture-tabs button:nth-child(${number})`).dispatchEvent("click");
 
+const wanted = process.argv.slice(2);
+
 async function shoot(name, doings, options = {}) {
+  if (wanted.length > 0 && !wanted.includes(name)) return;
   const page = await openPage(browser, berth.url, options);
   await until(page, () => document.querySelector("#progress").classList.contains("done"));
   for (const doing of doings) {
@@ -44,6 +47,7 @@ await shoot("pose", [
   }),
 ], { end: (page) => page.locator("#reset").dispatchEvent("click") });
 await shoot("tablet", [], { viewport: { width: 820, height: 1180 }, colorScheme: "dark" });
+await shoot("phone", [ask(4)], { viewport: { width: 390, height: 844 } });
 await browser.close();
 await berth.end();
 place.remove();

@@ -165,7 +165,12 @@ test("each question has its answer a click away", async () => {
   await ask(1);
   assert.deepEqual(await active(), ["Is the pose right?"]);
   assert.equal(await page.locator("details[data-group=pose]").getAttribute("open"), "");
-  assert.match(await text(page, "#legend"), /behind it/);
+  // As in the report of a calibration: orange is in front, blue behind.
+  const colors = await page.locator("#legend span").evaluateAll((all) =>
+    all.filter((one) => one.querySelector("i")).map((one) => [one.textContent, one.querySelector("i").style.background]));
+  const rgbOf = (words) => colors.find(([said]) => words.test(said))[1].match(/\d+/g).map(Number);
+  const [front, behind] = [rgbOf(/in front of/), rgbOf(/behind it/)];
+  assert.ok(front[0] > front[2] && behind[2] > behind[0], `${front}; ${behind}`);
   await ask(2);
   assert.ok((await page.locator("#fates tbody tr").count()) > 5);
   await ask(3);
@@ -243,7 +248,26 @@ test("the table is in one unit and tells how far what is seen is", async () => {
   assert.deepEqual(head, ["link", "distance [m]", "nearest is", "to occupied [m]", "status"]);
   const rows = await page.locator("#links tbody tr").evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));
   for (const [, distance, , occupied] of rows) for (const cell of [distance, occupied]) assert.match(cell, /^(\d\.\d{3}|–)$/);
+  const [room, wide] = await page.evaluate(() => ["panels", "links"].map((id) => document.getElementById(id).clientWidth));
+  assert.ok(wide <= room, `${wide} pixels wide, in ${room}`);
   assert.ok(rows.some(([, distance, is, occupied]) => is === "unknown" && Number(occupied) > Number(distance)));
+  await page.close();
+});
+
+test("where only unknown space touches, nothing says contact", async () => {
+  const page = await open(berth.url);
+  await page.evaluate(() => {
+    const scrub = document.getElementById("scrub");
+    scrub.value = "47";
+    scrub.dispatchEvent(new Event("input"));
+  });
+  await until(page, () => document.body.dataset.step === "47" && document.getElementById("provisional") === null);
+  await click(page, "#links tbody tr:nth-child(1)");
+  await click(page, "#questions button:nth-child(3)");
+  assert.match(await text(page, "#said"), /^arm_link_0: unknown 0 m, seen 0\.164 m\.$/);
+  assert.match(await text(page, "#link-details"), /unknown 0 m, seen 0\.164 m/);
+  await until(page, () => [...document.querySelectorAll("#labels span")].some((one) => one.textContent === "unknown 0 m, seen 0.164 m"));
+  assert.doesNotMatch(await text(page, "body"), /contact/i);
   await page.close();
 });
 
