@@ -49,6 +49,11 @@ berth::Camera camera_of(const sensor_msgs::msg::CameraInfo& info, bool is_rectif
   return camera;
 }
 
+bool is_same_mount(const berth::CameraMount& a, const berth::CameraMount& b) {
+  return is_same(a.camera, b.camera) && a.parent_link == b.parent_link &&
+         is_same_place(a.X_PC, b.X_PC);
+}
+
 CameraInput::CameraInput(rclcpp_lifecycle::LifecycleNode& node,
                          const std::shared_ptr<CallbackGate>& gate, rclcpp::Node& images,
                          CameraSettings settings, std::string world_frame, StampClock& clock,
@@ -95,6 +100,13 @@ void CameraInput::use(std::shared_ptr<const berth::Robot> robot,
 std::unique_ptr<berth::LiveCamera> CameraInput::take_live() {
   const std::lock_guard lock(live_mutex_);
   return std::move(live_);
+}
+
+void CameraInput::distrust(const std::optional<berth::CameraMount>& mount) {
+  const std::lock_guard lock(mutex_);
+  distrusted_ = mount;
+  const std::lock_guard lock_live(live_mutex_);
+  if (live_) live_->distrust(is_distrusted(live_->view()->mount()));
 }
 
 void CameraInput::look_again() {
@@ -217,6 +229,7 @@ void CameraInput::make_live(const ImageMessage& image) {
         on_frame_(frame, std::static_pointer_cast<const ImageMessage>(with));
       },
       [this, source](double stamp_s) { return place_at(source, stamp_s); });
+  live->distrust(is_distrusted(mount));
   const std::lock_guard lock(live_mutex_);
   live_ = std::move(live);
 }

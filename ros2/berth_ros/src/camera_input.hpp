@@ -24,6 +24,9 @@ namespace berth_ros {
 /// intrinsics, with distortion unless `is_rectified`, with binning or a region of interest.
 berth::Camera camera_of(const sensor_msgs::msg::CameraInfo& info, bool is_rectified);
 
+/// Whether both are the same camera in the same place.
+bool is_same_mount(const berth::CameraMount& a, const berth::CameraMount& b);
+
 /// The message's pixels, which it keeps.
 berth::RawDepth raw_of(const sensor_msgs::msg::Image& image);
 
@@ -57,6 +60,9 @@ class CameraInput {
   /// From now on frames are of this robot, whose joints these are; null: there is none.
   void use(std::shared_ptr<const berth::Robot> robot,
            std::shared_ptr<const berth::JointIntake> joints, const berth::CameraSettings& view);
+  /// The camera of this mount is implausible whatever its frames say; none: no camera is. Holds
+  /// until it is told otherwise, for the robot made anew too.
+  void distrust(const std::optional<berth::CameraMount>& mount);
   /// To be called when joint states or transforms came: an image may wait for them.
   void look_again();
   /// Null where there is none of this robot.
@@ -87,6 +93,9 @@ class CameraInput {
   void make_live(const ImageMessage& image);
   std::unique_ptr<berth::LiveCamera> take_live();
   std::optional<berth::PlaceAtExposure> place_at(const PlaceSource& source, double stamp_s) const;
+  bool is_distrusted(const berth::CameraMount& mount) const {
+    return distrusted_ && is_same_mount(*distrusted_, mount);
+  }
   void refuse(const std::string& why);
 
   CameraSettings settings_;
@@ -103,6 +112,7 @@ class CameraInput {
   /// The newest one that came before any camera_info.
   std::shared_ptr<const ImageMessage> early_image_;
   std::optional<berth::CameraMount> mount_;
+  std::optional<berth::CameraMount> distrusted_;
   bool takes_scene_pose_ = false;
   std::string info_trouble_ = "no camera_info yet";
   std::string trouble_ = info_trouble_;

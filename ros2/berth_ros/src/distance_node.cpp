@@ -196,7 +196,7 @@ class DistanceNode : public LiveNode {
                      .X_WB = root_at(*robot_.robot, joints.newest_stamp_s())});
     to_message(result_, base_frame(), now, clock_, message);
     if (monitor_) {
-      monitor_->update(result_, joints, planned_, now_s, separation_message_);
+      monitor_->update(result_, joints, planned_, now_s, query_->frames(), separation_message_);
     } else {
       say_unmonitored(separation_message_);
       if (result_.status != berth::ResultStatus::ok) {

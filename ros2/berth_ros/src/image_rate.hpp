@@ -23,9 +23,10 @@ class ImageRate {
   bool is_known() const { return count_ > gaps_s_.size(); }
   double sent_hz() const { return 1 / period_s(); }
   double arrived_hz() const { return static_cast<double>(gaps_s_.size()) / sum_s(); }
-  /// Empty unless a tenth of them is lost.
+  /// Empty unless a tenth of them is lost, in several places: one long gap is a clock that jumped,
+  /// or a camera that paused.
   std::string trouble() const {
-    if (!is_known() || arrived_hz() > 0.9 * sent_hz()) return "";
+    if (!is_known() || arrived_hz() > 0.9 * sent_hz() || long_gaps() < kLeastLongGaps) return "";
     char text[256];
     std::snprintf(text, sizeof text,
                   "%.0f of %.0f images a second arrive: the DDS receive buffer may be too small "
@@ -37,11 +38,17 @@ class ImageRate {
  private:
   /// A camera that stops, or a bag that begins again, loses no image: it is counted anew.
   static constexpr double kPause_s = 0.5;
+  static constexpr int kLeastLongGaps = 3;
 
   double sum_s() const {
     double sum_s = 0;
     for (const double gap_s : gaps_s_) sum_s += gap_s;
     return sum_s;
+  }
+  std::ptrdiff_t long_gaps() const {
+    const double long_s = 1.5 * period_s();
+    return std::count_if(gaps_s_.begin(), gaps_s_.end(),
+                         [long_s](double gap_s) { return gap_s > long_s; });
   }
   /// A fifth of the gaps is shorter: where four of five images are lost, one in five still follows
   /// the one before.

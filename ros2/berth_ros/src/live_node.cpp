@@ -4,7 +4,6 @@
 #include <chrono>
 #include <lifecycle_msgs/msg/state.hpp>
 
-#include "berth/scene/open_scene.hpp"
 #include "robot_description.hpp"
 
 namespace berth_ros {
@@ -147,15 +146,27 @@ void LiveNode::make_cameras() {
   }
   log_.emplace(get_logger(), StatusLog::now_s());
   transforms_.emplace(*this, gate(), [this] { look_again(); });
+  make_explanations(cameras);
   images_ = std::make_unique<ImageNode>(*this, std::max<std::size_t>(2, cameras.size()));
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     inputs_.push_back(std::make_unique<CameraInput>(
         *this, gate(), images_->node(), cameras[i], settings_.world_frame(), clock_, *transforms_,
         [this, i](const berth::Frame& frame,
                   const std::shared_ptr<const sensor_msgs::msg::Image>& image) {
+          explanations_->put(i, frame, image);
           if (is_answering()) on_frame(i, frame, image);
         }));
   }
+}
+
+void LiveNode::make_explanations(const std::vector<CameraSettings>& cameras) {
+  explanations_ = std::make_unique<CameraExplanations>(
+      cameras, [this] { return live().joints; },
+      [this](std::size_t camera, const CameraExplanation& told) {
+        if (!told.is_sure) return;
+        inputs_[camera]->distrust(told.text.empty() ? std::nullopt
+                                                    : std::optional(told.view->mount()));
+      });
 }
 
 void LiveNode::listen() {
@@ -233,6 +244,7 @@ void LiveNode::stop() {
   // those of all.
   images_.reset();
   for (const auto& input : inputs_) input->use(nullptr, nullptr, {});
+  explanations_.reset();
   inputs_.clear();
   transforms_.reset();
   const std::lock_guard making(making_mutex_);
@@ -277,95 +289,6 @@ std::optional<berth::Pose> LiveNode::root_at(const berth::Robot& robot, double s
 
 void LiveNode::look_again() {
   for (const auto& input : inputs_) input->look_again();
-}
-
-void LiveNode::load_model(const std::function<berth::RobotModel()>& load) {
-  std::string trouble;
-  const std::lock_guard making(making_mutex_);
-  model_.reset();
-  try {
-    model_ = load();
-  } catch (const std::exception& error) {
-    trouble = error.what();
-  }
-  {
-    const std::lock_guard lock(mutex_);
-    robot_trouble_ = trouble;
-    // Joints are another robot's; nobody uses half of both.
-    live_ = {};
-    rhythm_ = {};
-  }
-  const auto lost = model_ ? attached_.keep_those_of(*model_) : std::vector<std::string>();
-  for (const std::string& name : lost) {
-    RCLCPP_WARN(get_logger(), "detached %s: the new robot does not have its link", name.c_str());
-  }
-  rebuild();
-}
-
-void LiveNode::on_description(const std_msgs::msg::String& description) {
-  if (description.data == description_) return;
-  description_ = description.data;
-  load_model([&] { return load_description(description_, settings_.robot_settings()); });
-}
-
-LiveRobot LiveNode::make_robot(const AttachmentList& attached) const {
-  const auto& scene = settings_.scene();
-  AttachmentList all = scene ? berth::attachments_of(*scene) : AttachmentList();
-  all.insert(all.end(), attached.begin(), attached.end());
-  LiveRobot made;
-  made.robot = std::make_shared<const berth::Robot>(*model_, settings_.evaluation(), all);
-  // Neither settings nor what is attached changes joints: those that came stay.
-  made.joints = live().joints;
-  if (!made.joints) {
-    made.joints = std::make_shared<berth::JointIntake>(*model_, settings_.joint_settings());
-  }
-  return made;
-}
-
-void LiveNode::change_attached(const std::function<void(Attached&)>& change) {
-  const std::shared_ptr<CallbackGate> gate = this->gate();
-  const auto pass = gate->enter();
-  const std::lock_guard making(making_mutex_);
-  if (!pass || !model_) throw std::runtime_error("there is no robot model yet");
-  Attached changed = attached_;
-  change(changed);
-  use(make_robot(changed.all()));
-  attached_ = std::move(changed);
-}
-
-std::vector<std::string> LiveNode::cameras_waited_for() const {
-  const std::shared_ptr<CallbackGate> gate = this->gate();
-  const auto pass = gate->enter();
-  const LiveRobot now = live();
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < camera_names_.size(); ++i) {
-    const bool has_image = pass && now.robot && inputs_[i]->newest(now.robot.get());
-    if (!has_image) names.push_back(camera_names_[i]);
-  }
-  return names;
-}
-
-void LiveNode::rebuild() {
-  LiveRobot made;
-  try {
-    if (model_) made = make_robot(attached_.all());
-  } catch (const std::exception& error) {
-    const std::lock_guard lock(mutex_);
-    robot_trouble_ = error.what();
-  }
-  use(made);
-}
-
-void LiveNode::use(const LiveRobot& made) {
-  {
-    const std::lock_guard lock(mutex_);
-    live_ = made;
-  }
-  const std::vector<CameraSettings> cameras = settings_.cameras();
-  for (std::size_t i = 0; i < inputs_.size(); ++i) {
-    inputs_[i]->use(made.robot, made.joints, cameras[i].view);
-  }
-  on_robot();
 }
 
 void LiveNode::on_joint_state(const sensor_msgs::msg::JointState& state) {

@@ -15,6 +15,7 @@
 #include "attach_actions.hpp"
 #include "attachments.hpp"
 #include "callback_gate.hpp"
+#include "camera_explanations.hpp"
 #include "camera_input.hpp"
 #include "image_node.hpp"
 #include "joint_rhythm.hpp"
@@ -110,6 +111,7 @@ class LiveNode : public rclcpp_lifecycle::LifecycleNode {
   /// Where the parameter asks for it. Throws where this build cannot.
   void follow_moveit();
   void make_cameras();
+  void make_explanations(const std::vector<CameraSettings>& cameras);
   /// Images may wait for what has come.
   void look_again();
   void take_parameters();
@@ -130,8 +132,11 @@ class LiveNode : public rclcpp_lifecycle::LifecycleNode {
   void watch();
   std::string robot_trouble() const;
   std::string joint_trouble(const LiveRobot& robot, double now_s) const;
-  std::string camera_trouble(const CameraReport& report, const LiveRobot& robot,
+  std::string camera_trouble(std::size_t camera, const CameraReport& report, const LiveRobot& robot,
                              double now_s) const;
+  /// What several images say is wrong with the camera as it is; empty where nothing is, or nobody
+  /// knows.
+  std::string explanation(std::size_t camera, const CameraReport& report) const;
   void report_robot(diagnostic_updater::DiagnosticStatusWrapper& status);
   void report_joints(diagnostic_updater::DiagnosticStatusWrapper& status);
   void report_camera(std::size_t camera, diagnostic_updater::DiagnosticStatusWrapper& status);
@@ -167,6 +172,8 @@ class LiveNode : public rclcpp_lifecycle::LifecycleNode {
   std::optional<Transforms> transforms_;
   std::unique_ptr<ImageNode> images_;
   std::vector<std::unique_ptr<CameraInput>> inputs_;
+  /// Ends before the inputs do, which it tells.
+  std::unique_ptr<CameraExplanations> explanations_;
   std::optional<StatusLog> log_;
   std::optional<Attachments> attachments_;
   std::optional<AttachActions> attach_actions_;

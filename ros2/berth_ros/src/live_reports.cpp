@@ -30,6 +30,14 @@ bool waits_for_joints(const CameraReport& report) {
          status == TimeStatus::extrapolated_too_far || status == TimeStatus::skewed;
 }
 
+/// A line begins with the camera's name already.
+std::string without_name(std::string text, const std::string& camera) {
+  for (const std::string& name : {"camera " + camera + ": ", "camera " + camera + " "}) {
+    if (text.rfind(name, 0) == 0) return text.erase(0, name.size());
+  }
+  return text;
+}
+
 std::string in_ms(double seconds) { return std::to_string(std::lround(1e3 * seconds)) + " ms"; }
 
 }  // namespace
@@ -54,7 +62,9 @@ void LiveNode::watch() {
     log_->tell("images of " + name, report.rate.trouble(), now_s);
     // Without joints no image can be used: one line tells of both.
     if (!joints.empty() && waits_for_joints(report)) continue;
-    log_->tell(name, camera_trouble(report, robot, clock_s), now_s, !report.pose_trouble.empty());
+    log_->tell(name, camera_trouble(i, report, robot, clock_s), now_s,
+               !report.pose_trouble.empty());
+    log_->tell(name + " over several images", explanation(i, report), now_s);
   }
 }
 
@@ -82,8 +92,8 @@ std::string LiveNode::joint_trouble(const LiveRobot& robot, double now_s) const 
          in_ms(max_age_s);
 }
 
-std::string LiveNode::camera_trouble(const CameraReport& report, const LiveRobot& robot,
-                                     double now_s) const {
+std::string LiveNode::camera_trouble(std::size_t number, const CameraReport& report,
+                                     const LiveRobot& robot, double now_s) const {
   if (!report.trouble.empty()) return report.trouble;
   if (!robot.robot) return "no robot model yet";
   if (!report.newest) return "no image observed yet";
@@ -91,13 +101,20 @@ std::string LiveNode::camera_trouble(const CameraReport& report, const LiveRobot
   static_cast<berth::CameraState&>(camera) =
       berth::camera_state(report.newest.get(), now_s, robot.robot->settings().time);
   camera.camera = report.newest->view->mount().name;
-  // The line begins with the camera's name.
-  std::string trouble = berth::camera_text(camera);
-  const std::string name = "camera " + camera.camera + " ";
-  if (trouble.rfind(name, 0) == 0) trouble.erase(0, name.size());
+  std::string trouble = without_name(berth::camera_text(camera), camera.camera);
+  const std::string why = explanation(number, report);
+  if (!report.newest->watch.is_trusted() && !why.empty()) return trouble + ": " + why;
   // Images that wait for transforms may also be dropped for newer ones, until the last one is old.
   const bool lacks_pose = !trouble.empty() && !report.pose_trouble.empty();
   return lacks_pose ? trouble + ": " + report.pose_trouble : trouble;
+}
+
+std::string LiveNode::explanation(std::size_t camera, const CameraReport& report) const {
+  const CameraExplanation told = explanations_->newest(camera);
+  if (!told.view || !report.newest) return "";
+  const berth::CameraMount& mount = report.newest->view->mount();
+  if (!is_same_mount(told.view->mount(), mount)) return "";
+  return without_name(told.text, mount.name);
 }
 
 void LiveNode::report_robot(DiagnosticStatusWrapper& status) {
@@ -169,7 +186,8 @@ void LiveNode::report_input(std::size_t camera, DiagnosticStatusWrapper& status)
   const LiveRobot robot = live();
   if (report.newest && robot.robot) report_frame(*report.newest, *robot.robot, status);
   const double now_s = clock_.seconds(now);
-  const std::string trouble = camera_trouble(report, robot, now_s);
+  status.add("looked at over several images", explanations_->newest(camera).looks);
+  const std::string trouble = camera_trouble(camera, report, robot, now_s);
   if (trouble.empty()) {
     const std::string lost = report.rate.trouble();
     return lost.empty() ? status.summary(DiagnosticStatus::OK, "ok")

@@ -51,15 +51,17 @@ SpeedMonitor::SpeedMonitor(std::shared_ptr<const berth::Robot> robot,
     : robot_(std::move(robot)), monitor_(robot_, settings), velocity_window_s_(velocity_window_s) {}
 
 void SpeedMonitor::update(berth::Result& result, const berth::JointBuffer& joints,
-                          PlannedVelocity& planned, double now_s, Separation& out) {
+                          PlannedVelocity& planned, double now_s, const berth::FrameSet& frames,
+                          Separation& out) {
   joints.velocity(velocity_window_s_, velocity_);
   out.is_planned = planned.is_there();
   const std::vector<double>& velocity =
       out.is_planned ? planned.at(now_s, robot_->settings().time.max_frame_age_s) : velocity_;
-  result.separation = monitor_.update(result, velocity, now_s);
+  result.separation = monitor_.update(result, velocity, now_s, &frames);
   const berth::Separation& separation = *result.separation;
   out.state = static_cast<std::uint8_t>(separation.state);
   out.speed_scale = separation.speed_scale;
+  out.basis = name_of(separation.basis);
   out.reason = name_of(separation.reason);
   out.text = berth::separation_text(result);
   out.reaction_time_s = separation.reaction_time_s;
@@ -70,6 +72,7 @@ void say_unmonitored(Separation& out) {
   out.state = Separation::UNMONITORED;
   out.speed_scale = out.reaction_time_s = kNaN;
   out.is_planned = false;
+  out.basis.clear();
   out.reason.clear();
   out.text.clear();
   out.links.clear();

@@ -36,9 +36,9 @@ class SpeedMonitor {
                double velocity_window_s);
 
   /// Sets Result::separation, and what is about speeds in `out`. Velocities are those of `planned`
-  /// where any came, else those of the joints.
+  /// where any came, else those of the joints. `frames` are those that the result is about.
   void update(berth::Result& result, const berth::JointBuffer& joints, PlannedVelocity& planned,
-              double now_s, berth_msgs::msg::Separation& out);
+              double now_s, const berth::FrameSet& frames, berth_msgs::msg::Separation& out);
 
  private:
   std::shared_ptr<const berth::Robot> robot_;

@@ -78,6 +78,8 @@ class Causes(TwoCameras):
     def test_03_stamps_of_another_clock(self):
         self.lost_and_back(lambda self: self.skewed(-0.4), "side", "is too_old (0.4")
         self.lost_and_back(lambda self: self.skewed(0.4), "side", "is stale (extrapolated_too_far)")
+        # A stamp that jumps is no image that got lost.
+        self.assertEqual(self.logged("images a second arrive"), [])
 
     def test_04_joints_that_are_no_numbers(self):
         for position in (float("nan"), float("inf")):

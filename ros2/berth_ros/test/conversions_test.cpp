@@ -130,6 +130,18 @@ TEST(ImageRate, TellsHowManyOfThoseThatWereSentArrive) {
   EXPECT_EQ(young.trouble(), "");
 }
 
+TEST(ImageRate, AClockThatJumpsLosesNoImage) {
+  ImageRate rate;
+  double stamp_s = 1.7e9;
+  for (int i = 0; i < 400; ++i) {
+    // Forth alone: after a jump back it counts anew.
+    stamp_s += i % 50 == 30 ? 0.45 : 0.05;
+    rate.add(stamp_s);
+    EXPECT_EQ(rate.trouble(), "") << i;
+  }
+  EXPECT_TRUE(rate.is_known());
+}
+
 berth::Result result() {
   berth::Result result;
   result.status = berth::ResultStatus::degraded;

@@ -12,7 +12,7 @@ import launch_testing.actions
 import pytest
 import rclpy
 from ament_index_python.packages import get_package_share_directory
-from berth_msgs.msg import LinkDistances, Separation
+from berth_msgs.msg import CameraState, LinkDistances, Separation
 from launch import LaunchDescription
 from launch_ros.actions import Node
 from rcl_interfaces.srv import SetParameters
@@ -129,9 +129,15 @@ class Demo(unittest.TestCase):
             rounds = max(0, (newest_ns - start_ns) // round(cls.period_s * 1e9))
             at_ns = start_ns + rounds * round(cls.period_s * 1e9)
             key = tuple(round((stamp_of(c.stamp) - at_ns) * 1e-6) if stamp_of(c.stamp) else 0 for c in message.cameras)
-            if key in lines:
+            if key in lines and not cls.is_late(lines[key], message):
                 found.append((lines[key], message))
         return found
+
+    @staticmethod
+    def is_late(line, message):
+        """A busy computer asked when an image was too old already: that is another question than the command's."""
+        return any(told.status == CameraState.TOO_OLD and of["status"] != "too_old"
+                   for told, of in zip(message.cameras, line["cameras"], strict=True))
 
     @classmethod
     def tearDownClass(cls):
@@ -188,6 +194,7 @@ class Demo(unittest.TestCase):
             self.assertLessEqual(message.speed_scale, min(link.speed_scale for link in message.links) + 1e-12)
             self.assertEqual(message.state == Separation.STOP, message.speed_scale == 0)
             self.assertTrue(message.text)
+            self.assertIn(message.basis, ("formula", "path"))
         self.assertTrue(any(link.speed_m_s > 0.1 for m in told for link in m.links), "the arm moves")
         self.assertGreater(len(self.scales), LEAST)
         last = self.separations[-1]

@@ -29,6 +29,10 @@ FitPriors priors_of(const CalibrationCamera& camera) {
   return priors;
 }
 
+FitReach reach_of(const CalibrationSettings& settings) {
+  return settings.is_near ? FitReach::start : FitReach::anywhere;
+}
+
 /// The calibration of one of its cameras alone.
 CalibrationData alone(const CalibrationData& calibration_data, std::size_t camera) {
   CalibrationData one = calibration_data;
@@ -63,12 +67,12 @@ void find_joint_zeros(const CalibrationData& calibration_data, FitPriors priors,
 class CameraReport {
  public:
   CameraReport(const CalibrationData& calibration_data, std::size_t camera,
-               const CalibrationEstimate& estimate, const std::function<void()>& pause)
+               const CalibrationEstimate& estimate, const CalibrationSettings& settings)
       : one_(alone(calibration_data, camera)),
         source_(*calibration_data.cameras[camera]),
         drawer_(one_, {2, 1}),
         start_(start_of(one_)),
-        pause_(pause) {
+        settings_(settings) {
     estimate_.cameras = {estimate.cameras[camera]};
     estimate_.joint_shift = estimate.joint_shift;
   }
@@ -130,7 +134,8 @@ class CameraReport {
   }
 
   std::string focal_length_text(double error_share) {
-    const auto other = find_focal_length(one_, priors_of(source_), error_share, pause_);
+    const auto other = find_focal_length(one_, priors_of(source_), error_share, reach_of(settings_),
+                                         settings_.pause);
     if (!other) return ". Check the camera's info and depth_scale";
     out_.focal_length_px = other->factor * source_.camera.fx_px;
     return fmt::format(
@@ -175,7 +180,7 @@ class CameraReport {
   const CalibrationCamera& source_;
   FrameDrawer drawer_;
   const CalibrationEstimate start_;
-  const std::function<void()>& pause_;
+  const CalibrationSettings& settings_;
   CalibrationEstimate estimate_;
   CameraCalibration out_;
 };
@@ -196,14 +201,15 @@ CalibrationResult calibrate(const CalibrationData& calibration_data,
     const CalibrationData one = alone(calibration_data, c);
     FrameDrawer drawer(one, camera_steps(calibration_data.cameras[c]->camera.width_px));
     const FitPriors of_camera = priors_of(*calibration_data.cameras[c]);
-    estimate.cameras[c] = fit_camera(drawer, of_camera, settings.pause).estimate.cameras[0];
+    estimate.cameras[c] =
+        fit_camera(drawer, of_camera, settings.pause, reach_of(settings)).estimate.cameras[0];
     priors.clock_s = std::max(priors.clock_s, of_camera.clock_s);
   }
   CalibrationResult result;
   if (settings.joint_zeros) find_joint_zeros(calibration_data, priors, estimate, result);
   for (std::size_t c = 0; c < calibration_data.cameras.size(); ++c) {
     settings.pause();
-    result.cameras.push_back(CameraReport(calibration_data, c, estimate, settings.pause).run());
+    result.cameras.push_back(CameraReport(calibration_data, c, estimate, settings).run());
   }
   return result;
 }

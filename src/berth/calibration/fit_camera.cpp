@@ -53,8 +53,7 @@ class PlaceSearch {
         search_coarsely(drawer_, start_, search, kLeastShare * size.pixels);
     places.push_back(start_);
     for (const CalibrationEstimate& place : places) {
-      pause_();
-      Place fitted{fit(drawer_, place, near_, near_rounds(steps_[1])).estimate};
+      Place fitted{fitted_from(place)};
       const double per_pixel = static_cast<double>(steps_[0]) / steps_[1];
       fitted.score = score(drawer_, fitted.estimate,
                            {steps_[1], 0.04, 16, kLeastShare * size.pixels * per_pixel * per_pixel,
@@ -65,7 +64,14 @@ class PlaceSearch {
     return best;
   }
 
+  CalibrationEstimate from_start() { return fitted_from(start_); }
+
  private:
+  CalibrationEstimate fitted_from(const CalibrationEstimate& place) {
+    pause_();
+    return fit(drawer_, place, near_, near_rounds(steps_[1])).estimate;
+  }
+
   FrameDrawer& drawer_;
   FitPriors near_;
   const std::vector<int>& steps_;
@@ -81,10 +87,11 @@ std::vector<int> camera_steps(int width_px) {
 }
 
 FitResult fit_camera(FrameDrawer& drawer, const FitPriors& priors,
-                     const std::function<void()>& pause) {
+                     const std::function<void()>& pause, FitReach reach) {
   const std::vector<int> steps =
       camera_steps(drawer.calibration_data().cameras[0]->camera.width_px);
   PlaceSearch search(drawer, priors, steps, pause);
+  if (reach == FitReach::start) return refine(drawer, search.from_start(), priors);
   Place place = search.run({});
   if (place.score < kGoodScore) {
     Place wide = search.run(kWideSearch);

@@ -12,11 +12,15 @@ inline constexpr ScoreSettings kLastScore{1, 0.03, 10};
 /// Below, the pose is a wrong place: those of other cameras and robots had 0.77 at most.
 inline constexpr double kLeastScore = 0.8;
 
+/// Where a pose is looked for: from `start` alone, a fit finds what is some centimetres away.
+enum class FitReach { anywhere, start };
+
 /// The pose of one camera, from wherever it is believed to be: a fit from there, and from the best
 /// places of a coarse search; the one that explains the images best. `drawer` has one camera and
 /// the steps of camera_steps(). `pause` is called now and then; to stop, it throws.
 FitResult fit_camera(
-    FrameDrawer& drawer, const FitPriors& priors, const std::function<void()>& pause = [] {});
+    FrameDrawer& drawer, const FitPriors& priors, const std::function<void()>& pause = [] {},
+    FitReach reach = FitReach::anywhere);
 
 /// The last rounds of a fit, from a place that is known well already.
 FitResult refine(FrameDrawer& drawer, const CalibrationEstimate& start, const FitPriors& priors,

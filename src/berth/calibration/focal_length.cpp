@@ -17,9 +17,9 @@ constexpr double kGreatestFactor = 2.2;
 
 class FocalLengthSearch {
  public:
-  FocalLengthSearch(const CalibrationData& one, const FitPriors& priors,
+  FocalLengthSearch(const CalibrationData& one, const FitPriors& priors, FitReach reach,
                     const std::function<void()>& pause)
-      : one_(one), priors_(priors), pause_(pause) {}
+      : one_(one), priors_(priors), reach_(reach), pause_(pause) {}
 
   std::optional<OtherFocalLength> run(double error_share) {
     const OtherFocalLength before{1, 0, error_share};
@@ -41,7 +41,7 @@ class FocalLengthSearch {
     CalibrationData other = one_;
     other.cameras = {&camera};
     FrameDrawer drawer(other, camera_steps(camera.camera.width_px));
-    const CalibrationEstimate estimate = fit_camera(drawer, priors_, pause_).estimate;
+    const CalibrationEstimate estimate = fit_camera(drawer, priors_, pause_, reach_).estimate;
     return {factor, score(drawer, estimate, kLastScore).value, depth_error_share(drawer, estimate)};
   }
 
@@ -60,6 +60,7 @@ class FocalLengthSearch {
 
   const CalibrationData& one_;
   const FitPriors& priors_;
+  FitReach reach_;
   const std::function<void()>& pause_;
 };
 
@@ -73,8 +74,9 @@ double depth_error_share(FrameDrawer& drawer, const CalibrationEstimate& estimat
 
 std::optional<OtherFocalLength> find_focal_length(const CalibrationData& one,
                                                   const FitPriors& priors, double error_share,
+                                                  FitReach reach,
                                                   const std::function<void()>& pause) {
-  return FocalLengthSearch(one, priors, pause).run(error_share);
+  return FocalLengthSearch(one, priors, reach, pause).run(error_share);
 }
 
 }  // namespace berth

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 
+#include "berth/calibration/fit_camera.hpp"
 #include "berth/fit/fit.hpp"
 
 namespace berth {
@@ -26,10 +27,11 @@ struct OtherFocalLength {
 
 /// A focal length with which a pose explains the images of the only camera and its depth error is
 /// one that depth cameras have; none where there is none from half to twice the one that is
-/// believed. `error_share`: that of the fit with the one that is believed. `pause` as in
-/// fit_camera().
+/// believed. `error_share`: that of the fit with the one that is believed. `reach` and `pause` as
+/// in fit_camera().
 std::optional<OtherFocalLength> find_focal_length(const CalibrationData& one,
                                                   const FitPriors& priors, double error_share,
+                                                  FitReach reach,
                                                   const std::function<void()>& pause);
 
 }  // namespace berth

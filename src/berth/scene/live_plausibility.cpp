@@ -62,7 +62,8 @@ void judge_focal_length(const LiveImages& live, const std::function<void()>& pau
   }
   const OpenScene alone = scene_of({live});
   const SceneCalibrationData material = make_calibration_data(alone);
-  const CalibrationResult found = calibrate(material.calibration_data, {.pause = pause});
+  const CalibrationResult found =
+      calibrate(material.calibration_data, {.is_near = true, .pause = pause});
   if (!found.cameras[0].focal_length_px) return;
   camera.is_implausible = true;
   camera.fits_otherwise = found.cameras[0].refused;

@@ -1,0 +1,99 @@
+// How a LiveNode comes to its robot, and to another one.
+#include "berth/scene/open_scene.hpp"
+#include "live_node.hpp"
+#include "robot_description.hpp"
+
+namespace berth_ros {
+
+void LiveNode::load_model(const std::function<berth::RobotModel()>& load) {
+  std::string trouble;
+  const std::lock_guard making(making_mutex_);
+  model_.reset();
+  try {
+    model_ = load();
+  } catch (const std::exception& error) {
+    trouble = error.what();
+  }
+  explanations_->forget();
+  for (const auto& input : inputs_) input->distrust(std::nullopt);
+  {
+    const std::lock_guard lock(mutex_);
+    robot_trouble_ = trouble;
+    // Joints are another robot's; nobody uses half of both.
+    live_ = {};
+    rhythm_ = {};
+  }
+  const auto lost = model_ ? attached_.keep_those_of(*model_) : std::vector<std::string>();
+  for (const std::string& name : lost) {
+    RCLCPP_WARN(get_logger(), "detached %s: the new robot does not have its link", name.c_str());
+  }
+  rebuild();
+}
+
+void LiveNode::on_description(const std_msgs::msg::String& description) {
+  if (description.data == description_) return;
+  description_ = description.data;
+  load_model([&] { return load_description(description_, settings_.robot_settings()); });
+}
+
+LiveRobot LiveNode::make_robot(const AttachmentList& attached) const {
+  const auto& scene = settings_.scene();
+  AttachmentList all = scene ? berth::attachments_of(*scene) : AttachmentList();
+  all.insert(all.end(), attached.begin(), attached.end());
+  LiveRobot made;
+  made.robot = std::make_shared<const berth::Robot>(*model_, settings_.evaluation(), all);
+  // Neither settings nor what is attached changes joints: those that came stay.
+  made.joints = live().joints;
+  if (!made.joints) {
+    made.joints = std::make_shared<berth::JointIntake>(*model_, settings_.joint_settings());
+  }
+  return made;
+}
+
+void LiveNode::change_attached(const std::function<void(Attached&)>& change) {
+  const std::shared_ptr<CallbackGate> gate = this->gate();
+  const auto pass = gate->enter();
+  const std::lock_guard making(making_mutex_);
+  if (!pass || !model_) throw std::runtime_error("there is no robot model yet");
+  Attached changed = attached_;
+  change(changed);
+  use(make_robot(changed.all()));
+  attached_ = std::move(changed);
+}
+
+std::vector<std::string> LiveNode::cameras_waited_for() const {
+  const std::shared_ptr<CallbackGate> gate = this->gate();
+  const auto pass = gate->enter();
+  const LiveRobot now = live();
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < camera_names_.size(); ++i) {
+    const bool has_image = pass && now.robot && inputs_[i]->newest(now.robot.get());
+    if (!has_image) names.push_back(camera_names_[i]);
+  }
+  return names;
+}
+
+void LiveNode::rebuild() {
+  LiveRobot made;
+  try {
+    if (model_) made = make_robot(attached_.all());
+  } catch (const std::exception& error) {
+    const std::lock_guard lock(mutex_);
+    robot_trouble_ = error.what();
+  }
+  use(made);
+}
+
+void LiveNode::use(const LiveRobot& made) {
+  {
+    const std::lock_guard lock(mutex_);
+    live_ = made;
+  }
+  const std::vector<CameraSettings> cameras = settings_.cameras();
+  for (std::size_t i = 0; i < inputs_.size(); ++i) {
+    inputs_[i]->use(made.robot, made.joints, cameras[i].view);
+  }
+  on_robot();
+}
+
+}  // namespace berth_ros
