@@ -33,7 +33,7 @@ std::shared_ptr<CalibrationHandle> calibrate_file(const std::filesystem::path& f
   auto handle = std::make_shared<CalibrationHandle>();
   handle->scene = open_scene_with_images(read_scene_to_calibrate(file), pause);
   handle->material = make_calibration_data(handle->scene);
-  handle->settings = {{joint_zeros, pause}, correct_depth};
+  handle->settings = {{.joint_zeros = joint_zeros, .pause = pause}, correct_depth};
   handle->calibration = calibrate_scene(handle->scene, handle->material, handle->settings);
   return handle;
 }
