@@ -4,7 +4,6 @@
 
 #include "berth/image_distance/image_method.hpp"
 #include "berth/image_distance/image_query.hpp"
-#include "berth/pipeline/frame_pool.hpp"
 #include "berth/pipeline/observer.hpp"
 
 namespace berth {
@@ -12,8 +11,10 @@ namespace {
 
 class CpuPipeline : public FramePipeline {
  public:
-  explicit CpuPipeline(const OpenCamera& camera)
-      : observer_(camera.view), has_background_(camera.view->settings().sensor.has_background()) {}
+  CpuPipeline(const OpenCamera& camera, const FramePool& pool)
+      : observer_(camera.view),
+        has_background_(camera.view->settings().sensor.has_background()),
+        pool_(pool) {}
 
   void observe(DepthView depth_m, const JointState& at_exposure, FrameTime time) override {
     // Given back first, so that its memory serves again where nobody else holds it.
@@ -52,9 +53,9 @@ class CpuPipeline : public FramePipeline {
 /// them what he likes.
 class CpuImagePipeline : public CpuPipeline {
  public:
-  CpuImagePipeline(const OpenScene& scene, const OpenCamera& camera,
+  CpuImagePipeline(const OpenScene& scene, const OpenCamera& camera, const FramePool& pool,
                    std::unique_ptr<ImageMethod> method)
-      : CpuPipeline(camera),
+      : CpuPipeline(camera, pool),
         query_(scene.robot, scene.method, scene.image_settings, std::move(method)) {}
 
   void observe(DepthView depth_m, const JointState& at_exposure, FrameTime time) override {
@@ -70,10 +71,10 @@ class CpuImagePipeline : public CpuPipeline {
 }  // namespace
 
 std::unique_ptr<FramePipeline> make_cpu_pipeline(const OpenScene& scene, const OpenCamera& camera,
-                                                 GlBackend* gl) {
-  if (scene.joins_cameras()) return std::make_unique<CpuPipeline>(camera);
+                                                 const FramePool& pool, GlBackend* gl) {
+  if (scene.joins_cameras()) return std::make_unique<CpuPipeline>(camera, pool);
   return std::make_unique<CpuImagePipeline>(
-      scene, camera, gl ? gl->make_method(scene.method) : make_image_method(scene.method));
+      scene, camera, pool, gl ? gl->make_method(scene.method) : make_image_method(scene.method));
 }
 
 }  // namespace berth

@@ -6,7 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "berth/pipeline/frame.hpp"
+#include "berth/pipeline/frame_pool.hpp"
 #include "berth/pipeline/result.hpp"
 #include "berth/scene/gl_backend.hpp"
 
@@ -67,8 +67,9 @@ class FramePipeline {
   bool is_distrusted_ = false;
 };
 
-/// Observes on the CPU; asks on `gl` if the scene's method runs there.
+/// Observes on the CPU; asks on `gl` if the scene's method runs there. Cameras whose images have
+/// the same size may share a pool: then one frame more than there are cameras is enough.
 std::unique_ptr<FramePipeline> make_cpu_pipeline(const OpenScene& scene, const OpenCamera& camera,
-                                                 GlBackend* gl);
+                                                 const FramePool& pool, GlBackend* gl);
 
 }  // namespace berth

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <stdexcept>
+#include <utility>
 
 #include "berth/scene/frame_pipeline.hpp"
 #include "berth/scene/gl_backend.hpp"
@@ -75,12 +77,16 @@ SceneRun::~SceneRun() = default;
 
 void SceneRun::make_pipelines(const BackendChoice& where) {
   gl_ = needed_gl_backend(scene_.method, where);
+  std::map<std::pair<int, int>, FramePool> pools;
   for (std::size_t i = 0; i < scene_.cameras.size(); ++i) {
     const OpenCamera& camera = scene_.cameras[i];
+    const int width_px = camera.view->camera().width_px,
+              height_px = camera.view->camera().height_px;
     try {
-      pipelines_.push_back(where.backend == Backend::opengl
-                               ? gl_->make_pipeline(scene_, camera)
-                               : make_cpu_pipeline(scene_, camera, gl_.get()));
+      pipelines_.push_back(
+          where.backend == Backend::opengl
+              ? gl_->make_pipeline(scene_, camera)
+              : make_cpu_pipeline(scene_, camera, pools[{width_px, height_px}], gl_.get()));
     } catch (const std::invalid_argument& error) {
       throw std::runtime_error(fmt::format("{}: {}", scene_.file.string(), error.what()));
     }
