@@ -39,11 +39,12 @@ std::string width_text(double width_m) {
   return std::isnan(width_m) ? "more than 30 mm" : fmt::format("{:.0f} mm", 1000 * width_m);
 }
 
-/// The widest of what is needed at all depths; 0 where nothing was measured.
+/// The widest of what is needed at all depths, endless where nothing that was drawn is seen; 0
+/// where nothing was measured.
 double worst_finger_m(const FilterProposal& filter) {
   double worst_m = 0;
   for (const SmallestObstacle& one : filter.smallest) {
-    worst_m = std::max(worst_m, std::isnan(one.finger_width_m) ? 0.03 : one.finger_width_m);
+    worst_m = std::max(worst_m, std::isnan(one.finger_width_m) ? HUGE_VAL : one.finger_width_m);
   }
   return worst_m;
 }
@@ -62,10 +63,16 @@ Finding detection_of(const OpenScene& scene, const OpenCamera& camera,
   if (detection_m && *detection_m < worst_finger_m(filter)) {
     found.verdict = Verdict::wrong;
     found.text += fmt::format("; separation.detection_m says {:.0f} mm", 1000 * *detection_m);
-    found.next = fmt::format(
-        "Write separation.detection_m: {:.3f} at least, or show that camera {} "
-        "needs less.",
-        worst_finger_m(filter), camera.source.name);
+    const double worst_m = worst_finger_m(filter);
+    found.next = std::isinf(worst_m) ? fmt::format(
+                                           "Take separation.detection_m out, or move camera {} "
+                                           "nearer: no fingertip of up to "
+                                           "30 mm was seen.",
+                                           camera.source.name)
+                                     : fmt::format(
+                                           "Write separation.detection_m: {:.3f} at least, or show "
+                                           "that camera {} needs less.",
+                                           worst_m, camera.source.name);
   } else if (filter.largest_leftover_px >= kLeastPiece_px) {
     found.verdict = Verdict::advice;
     found.text += fmt::format(

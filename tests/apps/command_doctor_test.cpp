@@ -108,6 +108,14 @@ TEST(Doctor, AFilterThatDetectsLessThanTheSceneSaysIsWrong) {
                "detection, camera camera: ", "1. Write separation.detection_m: 0.0");
 }
 
+TEST(Doctor, ADetectionThatNothingDrawnShowsIsWrongHoweverGreat) {
+  DoctorsScene scene;
+  scene.more_camera = "    sensor: {speckle_px: 100000}\n";
+  scene.more = "separation: {detection_m: 0.1}\n";
+  expect_wrong(scene.doctor(), "detection, camera camera: ",
+               "Take separation.detection_m out, or move camera camera nearer");
+}
+
 TEST(Doctor, AMachineThatDoesNotKeepUpIsWrong) {
   DoctorsScene scene;
   // No machine filters 640 x 480 pixels in 20 us, and the arm stands still in that time.
