@@ -24,7 +24,7 @@ constexpr double kImageWait_s = 0.1;
 /// there are.
 constexpr int kTriesForAnotherPose = 10;
 /// For one second of looking.
-constexpr double kRest = 10;
+constexpr double kRest = 30;
 constexpr double kLeastRest_s = 2;
 
 double steady_s() {

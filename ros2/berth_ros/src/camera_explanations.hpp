@@ -32,7 +32,7 @@ struct CameraExplanation {
 };
 
 /// Keeps some images of each camera as the robot moves, and looks at them in a thread of its own,
-/// of a low priority, that takes a tenth of a core.
+/// of a low priority, that takes a thirtieth of a core.
 class CameraExplanations {
  public:
   using FindJoints = std::function<std::shared_ptr<const berth::JointIntake>()>;
