@@ -207,7 +207,7 @@ std::vector<Finding> check_watch(const OpenScene& scene) {
     if (!camera.view->settings().watch.is_on()) {
       found.verdict = Verdict::advice;
       found.text = "off: nobody notices when the camera is bumped";
-      found.next = fmt::format("berth calibrate {} --out calibrated.yaml: it writes what is normal",
+      found.next = fmt::format("berth calibrate {} --out calibrated.yaml: it turns the watch on",
                                scene.file.string());
     }
     all.push_back(found);

@@ -88,7 +88,8 @@ void doctor_command(const DoctorArguments& arguments) {
   doctor.say_next(arguments.scene.string());
   if (doctor.wrong() > 0) {
     throw std::runtime_error(
-        fmt::format("{}: something is wrong; expected nothing", arguments.scene.string()));
+        fmt::format("{}: wrong in {} of the checks; standard output says what to do",
+                    arguments.scene.string(), doctor.wrong()));
   }
 }
 

@@ -52,7 +52,8 @@ void expect_text(const Outcome& outcome, const std::vector<std::string>& told) {
 void expect_wrong(const Outcome& outcome, const std::string& about, const std::string& next) {
   EXPECT_EQ(outcome.exit_status, 1);
   expect_text(outcome, {"wrong   " + about, "What to do next:\n", next});
-  EXPECT_EQ(outcome.err, "berth: scene.yaml: something is wrong; expected nothing\n");
+  EXPECT_EQ(outcome.err,
+            "berth: scene.yaml: wrong in 1 of the checks; standard output says what to do\n");
 }
 
 TEST(Doctor, AGoodSceneGetsAllChecksAndExitStatusZero) {
