@@ -37,8 +37,9 @@ auto each_reading(Change change) {
 
 auto scaled_depth(float factor) {
   return [factor](OpenScene& scene, std::size_t c) {
-    scene.cameras[c].source.depth_scale_m *= factor;
+    // The images first: they are read by the scale that the scene has.
     each_reading([factor](float z_m) { return factor * z_m; })(scene, c);
+    scene.cameras[c].source.depth_scale_m *= factor;
   };
 }
 
