@@ -35,22 +35,12 @@ void require_place_for(const fs::path& out, const fs::path& scene) {
       fmt::format("{}: is the scene itself; expected another file for --out", out.string()));
 }
 
-OpenScene open_for_calibration_data(const fs::path& file) {
-  const SceneFile scene = read_scene_to_calibrate(file);
-  std::size_t images = 0;
-  for (const SceneCamera& camera : scene.cameras) images += camera.depth.size();
-  ProgressBar progress("read images", images);
-  return open_scene_with_images(scene, [&progress] {
-    stop_if_interrupted();
-    progress.step();
-  });
-}
-
 }  // namespace
 
 void calibrate_command(const CalibrateArguments& arguments) {
   require_place_for(arguments.out, arguments.scene);
-  const OpenScene scene = open_for_calibration_data(arguments.scene);
+  const OpenScene scene = open_with_progress(read_scene_to_calibrate(arguments.scene),
+                                             "read images", open_scene_with_images);
   const std::vector<std::string> without_background =
       arguments.background ? require_backgrounds(scene, arguments.out) : older_backgrounds(scene);
   const SceneCalibrationData material = make_calibration_data(scene);

@@ -78,8 +78,8 @@ Finding stamps_of(const OpenScene& scene, const OpenCamera& camera) {
     found.text += fmt::format("; image {} comes {:.3f} s after the one before, and is not used",
                               image, gap_s);
     found.next = fmt::format(
-        "Look at the stamps of camera {} around image {}, or raise "
-        "time.max_frame_gap_s above {:.3f}.",
+        "Look at the stamps of camera {} around image {}, or raise time.max_frame_gap_s above "
+        "{:.3f}.",
         camera.source.name, image, most_s);
   }
   return found;
@@ -92,8 +92,8 @@ Finding pose_of(const OpenScene& scene, const CameraPlausibility& camera) {
     found.text = text_of(camera);
     found.next = camera.dead.empty() && camera.as_if.empty()
                      ? fmt::format(
-                           "Measure the pose of camera {} again, to within 20 cm and 15 "
-                           "degrees, then: berth calibrate {} --out calibrated.yaml",
+                           "Measure the pose of camera {} again, to within 20 cm and 15 degrees, "
+                           "then: berth calibrate {} --out calibrated.yaml",
                            camera.camera, scene.file.string())
                      : fmt::format("Mend what the sentence about camera {} says, then ask again.",
                                    camera.camera);

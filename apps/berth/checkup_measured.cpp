@@ -49,6 +49,19 @@ double worst_finger_m(const FilterProposal& filter) {
   return worst_m;
 }
 
+std::string what_to_write(double worst_m, const std::string& camera) {
+  if (std::isinf(worst_m)) {
+    return fmt::format(
+        "Take separation.detection_m out, or move camera {} nearer: no fingertip of up to 30 mm "
+        "was "
+        "seen.",
+        camera);
+  }
+  return fmt::format(
+      "Write separation.detection_m: {:.3f} at least, or show that camera {} needs less.", worst_m,
+      camera);
+}
+
 Finding detection_of(const OpenScene& scene, const OpenCamera& camera,
                      const FilterProposal& filter) {
   Finding found{.about = "detection, camera " + camera.source.name};
@@ -59,26 +72,19 @@ Finding detection_of(const OpenScene& scene, const OpenCamera& camera,
                     width_text(one.rod_width_m), width_text(one.finger_width_m));
   }
   if (filter.smallest.empty()) found.text = "no image has room to measure it";
-  const auto detection_m = scene.separation ? scene.separation->detection_m : std::nullopt;
-  if (detection_m && *detection_m < worst_finger_m(filter)) {
+  // Endless where it promises nothing.
+  const double promised_m =
+      scene.separation ? scene.separation->detection_m.value_or(HUGE_VAL) : HUGE_VAL;
+  const double worst_m = worst_finger_m(filter);
+  if (promised_m < worst_m) {
     found.verdict = Verdict::wrong;
-    found.text += fmt::format("; separation.detection_m says {:.0f} mm", 1000 * *detection_m);
-    const double worst_m = worst_finger_m(filter);
-    found.next = std::isinf(worst_m) ? fmt::format(
-                                           "Take separation.detection_m out, or move camera {} "
-                                           "nearer: no fingertip of up to "
-                                           "30 mm was seen.",
-                                           camera.source.name)
-                                     : fmt::format(
-                                           "Write separation.detection_m: {:.3f} at least, or show "
-                                           "that camera {} needs less.",
-                                           worst_m, camera.source.name);
+    found.text += fmt::format("; separation.detection_m says {:.0f} mm", 1000 * promised_m);
+    found.next = what_to_write(worst_m, camera.source.name);
   } else if (filter.largest_leftover_px >= kLeastPiece_px) {
     found.verdict = Verdict::advice;
-    found.text += fmt::format(
-        "; {} pixels beside the robot stay that are not there, {} of them in "
-        "one piece",
-        filter.leftover_px, filter.largest_leftover_px);
+    found.text +=
+        fmt::format("; {} pixels beside the robot stay that are not there, {} of them in one piece",
+                    filter.leftover_px, filter.largest_leftover_px);
     found.next = "Look at them: berth run " + scene.file.string() +
                  " --picture pictures; berth calibrate finds settings that fit.";
   }

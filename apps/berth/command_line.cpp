@@ -58,8 +58,7 @@ int run_command_line(int argc, const char* const* argv) {
   add_view_options(*view_command, view);
   program.footer(
       "Examples:\n  berth demo\n  berth init robot.urdf\n  berth doctor scene.yaml\n  berth run "
-      "scene.yaml --picture pictures\nberth COMMAND --help "
-      "tells more.");
+      "scene.yaml --picture pictures\nberth COMMAND --help tells more.");
 
   const auto require_command = [&] {
     if (program.get_subcommands().empty()) throw CLI::RequiredError("A command");

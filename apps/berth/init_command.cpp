@@ -39,8 +39,7 @@ void init_command(const InitArguments& arguments) {
   write_file_bytes(arguments.out, new_scene_text(scene, model));
   fmt::print(
       "{}: written for robot \"{}\": {} links, {} joints. Fill in what it marks with FILL IN, "
-      "then: "
-      "berth doctor {}\n",
+      "then: berth doctor {}\n",
       arguments.out.string(), model.name, model.link_count(), model.joints.size(),
       arguments.out.string());
 }

@@ -93,8 +93,7 @@ std::string camera_text(const CameraKind& kind, const RobotModel& model) {
       "    info: camera_info.yaml                   # of the depth image, rectified: a ROS "
       "camera_info\n"
       "    # FILL IN: where the camera is, to within 20 cm and 15 degrees; berth calibrate finds "
-      "the "
-      "rest.\n"
+      "the rest.\n"
       "    # The optical frame in the link `parent`: z forward, x right, y down. This one looks "
       "from 1.5 m\n"
       "    # before the robot at its foot.\n"
@@ -103,8 +102,7 @@ std::string camera_text(const CameraKind& kind, const RobotModel& model) {
       "    depth: depth/*.png                       # 16-bit PNGs, in the order of their names\n"
       "    depth_scale: 0.001                       # metres for each unit\n"
       "    # FILL IN: a time in seconds for each image, of the clock of the joints. Without it "
-      "image k "
-      "belongs\n"
+      "image k belongs\n"
       "    # to row k of the joints.\n"
       "    # stamps: [0.000, 0.033]\n",
       yaml_word(model.links.front().name));

@@ -59,12 +59,7 @@ std::string table_of(const Result& result) {
                      separation, result_table(result));
 }
 
-/// An empty path is standard output.
-void require_place(const fs::path& file) {
-  if (file.empty()) return;
-  if (fs::exists(file) && !fs::is_regular_file(file)) {
-    throw_bad_file({file}, "is there and no regular file", "a file or a free name to write to");
-  }
+void require_folder_of(const fs::path& file) {
   const fs::path folder = fs::absolute(file).parent_path();
   if (!fs::is_directory(folder)) {
     throw_bad_file({file}, fmt::format("there is no folder {}", folder.string()),
@@ -75,9 +70,11 @@ void require_place(const fs::path& file) {
 }  // namespace
 
 Output::Output(const CommonArguments& arguments)
-    : format_(arguments.format), schema_(arguments.schema), file_(arguments.out) {
-  require_place(file_);
-  if (!file_.empty()) out_.emplace(file_);
+    : format_(arguments.format), schema_(arguments.schema) {
+  // An empty path is standard output.
+  if (arguments.out.empty()) return;
+  require_folder_of(arguments.out);
+  out_.emplace(arguments.out);
 }
 
 void Output::write(const Result& result) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <optional>
 
 #include "apps/berth/arguments.hpp"
@@ -27,7 +26,6 @@ class Output {
  private:
   OutputFormat format_;
   int schema_;
-  std::filesystem::path file_;
   std::optional<FileInParts> out_;
   std::size_t count_ = 0;
 };

@@ -75,16 +75,20 @@ class LateImplausible {
 
 }  // namespace
 
-OpenScene open_scene_over(const fs::path& file, const EvaluationArguments& arguments) {
-  SceneFile scene = read_scene(file);
-  scene.evaluation = arguments.over(scene.evaluation);
+OpenScene open_with_progress(const SceneFile& scene, const char* doing, OpenSceneFile open) {
   std::size_t images = 0;
   for (const SceneCamera& camera : scene.cameras) images += camera.depth.size();
-  ProgressBar progress("check images", images);
-  return open_scene(scene, [&progress] {
+  ProgressBar progress(doing, images);
+  return open(scene, [&progress] {
     stop_if_interrupted();
     progress.step();
   });
+}
+
+OpenScene open_scene_over(const fs::path& file, const EvaluationArguments& arguments) {
+  SceneFile scene = read_scene(file);
+  scene.evaluation = arguments.over(scene.evaluation);
+  return open_with_progress(scene, "check images", open_scene);
 }
 
 fs::path folder_of(const OpenScene& scene, const OpenCamera& camera, const fs::path& folder) {

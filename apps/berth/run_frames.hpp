@@ -10,7 +10,14 @@
 
 namespace berth::app {
 
-/// The scene, with the arguments over what its file says, with a progress bar for its images.
+/// open_scene() or open_scene_with_images().
+using OpenSceneFile = OpenScene (*)(const SceneFile& scene,
+                                    const std::function<void()>& before_image);
+
+/// The scene, with a progress bar for its images. Throws as `open` does, and Interrupted.
+OpenScene open_with_progress(const SceneFile& scene, const char* doing, OpenSceneFile open);
+
+/// The same, checked alone, with the arguments over what its file says.
 /// Throws as open_scene does, and Interrupted.
 OpenScene open_scene_over(const std::filesystem::path& file, const EvaluationArguments& arguments);
 
