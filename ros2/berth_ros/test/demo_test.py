@@ -4,7 +4,6 @@ import math
 import os
 import subprocess
 import sys
-import threading
 import time
 import unittest
 
@@ -16,13 +15,12 @@ from berth_msgs.msg import CameraState, LinkDistances, Separation
 from launch import LaunchDescription
 from launch_ros.actions import Node
 from rcl_interfaces.srv import SetParameters
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.parameter import Parameter
 from sensor_msgs.msg import Image, JointState
 from std_msgs.msg import Float64
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from living_robot import spin  # noqa: E402
+from living_robot import spin_beside  # noqa: E402
 
 SCENE = os.path.join(get_package_share_directory("berth_ros"), "bundled", "scene.yaml")
 # Within it a result depends on the one before, and a busy computer may drop an image.
@@ -76,9 +74,7 @@ class Demo(unittest.TestCase):
         node.create_subscription(Image, "world_depth", lambda m: keep(cls.world, m, 100), qos)
         cls.first_joints = []
         node.create_subscription(JointState, "joint_states", lambda m: cls.first_joints or cls.first_joints.append(m), 100)
-        executor = SingleThreadedExecutor()
-        executor.add_node(node)
-        threading.Thread(target=spin, args=(executor,), daemon=True).start()
+        spin_beside(node)
         run = subprocess.run(["berth", "run", SCENE, "--format", "json", "--tolerance-m", str(TOLERANCE_M)],
                              check=True, capture_output=True, text=True)
         cls.expected = [json.loads(line) for line in run.stdout.splitlines()]

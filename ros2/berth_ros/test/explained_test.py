@@ -1,7 +1,6 @@
 """What no single image tells is found over several: a focal length that is a tenth off, of a camera that sees the robot in its middle."""
 import os
 import sys
-import threading
 import time
 import unittest
 
@@ -14,12 +13,11 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from launch import LaunchDescription
 from launch_ros.actions import Node
 from rcl_interfaces.msg import Log
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import qos_profile_sensor_data
 from sensor_msgs.msg import CameraInfo
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from living_robot import spin  # noqa: E402
+from living_robot import spin_beside  # noqa: E402
 
 SCENE = os.path.join(get_package_share_directory("berth_ros"), "bundled", "scene.yaml")
 CAMERAS = ["left", "right"]
@@ -52,9 +50,7 @@ class Explained(unittest.TestCase):
         node.create_subscription(LinkDistances, "distances", cls.on_distances, 10)
         node.create_subscription(DiagnosticArray, "/diagnostics", cls.on_diagnostics, 10)
         node.create_subscription(Log, "/rosout", lambda message: cls.log.append(message.msg), 100)
-        executor = SingleThreadedExecutor()
-        executor.add_node(node)
-        threading.Thread(target=spin, args=(executor,), daemon=True).start()
+        spin_beside(node)
 
     @classmethod
     def tearDownClass(cls):

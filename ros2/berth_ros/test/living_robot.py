@@ -49,11 +49,17 @@ def transform(parent, child, x=0.0, z=0.0, stamp=None):
     return made
 
 
-def spin(executor):
-    try:
-        executor.spin()
-    except ExternalShutdownException:
-        pass
+def spin_beside(node):
+    """Spins the node in a thread of its own, until rclpy is shut down."""
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
+
+    def spin():
+        try:
+            executor.spin()
+        except ExternalShutdownException:
+            pass
+    threading.Thread(target=spin, daemon=True).start()
 
 
 class LivingRobot(unittest.TestCase):
@@ -77,9 +83,7 @@ class LivingRobot(unittest.TestCase):
         node.create_subscription(Float64, "speed_scale", cls.on_scale, 10)
         node.create_subscription(DiagnosticArray, "/diagnostics", cls.on_diagnostics, 10)
         node.create_subscription(Log, "/rosout", lambda m: cls.log.append((m.level, m.msg)), 100)
-        executor = SingleThreadedExecutor()
-        executor.add_node(node)
-        threading.Thread(target=spin, args=(executor,), daemon=True).start()
+        spin_beside(node)
         cls.now_s = 100.0
         cls.focal, cls.distortion = FOCAL, []
         cls.depth = depth_m()

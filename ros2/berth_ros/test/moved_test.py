@@ -1,7 +1,6 @@
 """A camera that is moved under a running node with its defaults is noticed within seconds: its images are not used any more."""
 import os
 import sys
-import threading
 import time
 import unittest
 
@@ -13,13 +12,12 @@ from ament_index_python.packages import get_package_share_directory
 from berth_msgs.msg import CameraState, LinkDistances
 from launch import LaunchDescription
 from launch_ros.actions import Node
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import qos_profile_sensor_data
 from sensor_msgs.msg import CameraInfo, Image
 from tf2_msgs.msg import TFMessage
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from living_robot import LATCHED, spin  # noqa: E402
+from living_robot import LATCHED, spin_beside  # noqa: E402
 
 SCENE = os.path.join(get_package_share_directory("berth_ros"), "bundled", "scene.yaml")
 CAMERA = "right"
@@ -45,7 +43,6 @@ class Moved(unittest.TestCase):
     def setUpClass(cls):
         rclpy.init()
         cls.node = node = rclpy.create_node("relay")
-        cls.lock = threading.Lock()
         cls.newest, cls.transforms = None, None
         cls.off_m, cls.turned_px, cls.focal = 0.0, 0, 1.0
         cls.images = node.create_publisher(Image, f"{CAMERA}/depth_image", qos_profile_sensor_data)
@@ -55,9 +52,7 @@ class Moved(unittest.TestCase):
         node.create_subscription(CameraInfo, "told/camera_info", cls.on_info, qos_profile_sensor_data)
         node.create_subscription(TFMessage, "told/tf_static", cls.on_transforms, LATCHED)
         node.create_subscription(LinkDistances, "distances", cls.on_distances, 10)
-        executor = SingleThreadedExecutor()
-        executor.add_node(node)
-        threading.Thread(target=spin, args=(executor,), daemon=True).start()
+        spin_beside(node)
 
     @classmethod
     def tearDownClass(cls):
