@@ -96,7 +96,13 @@ class CameraReport {
 
  private:
   void judge() {
-    if (out_.score_after < kLeastScore) {
+    const double best = std::max(out_.score_before, out_.score_after);
+    if (const auto other = find_better_focal_length(one_, priors_of(source_), best,
+                                                    reach_of(settings_), settings_.pause)) {
+      out_.is_found = false;
+      refuse(fmt::format("the pose that was found fits the images by {:.0f} % only{}",
+                         fit_percent(out_.score_after), focal_length_text(*other)));
+    } else if (out_.score_after < kLeastScore) {
       out_.is_found = false;
       refuse(unexplained());
     } else if (out_.score_after < out_.score_before) {
@@ -136,13 +142,16 @@ class CameraReport {
   std::string focal_length_text(double error_share) {
     const auto other = find_focal_length(one_, priors_of(source_), error_share, reach_of(settings_),
                                          settings_.pause);
-    if (!other) return ". Check the camera's info and depth_scale";
-    out_.focal_length_px = other->factor * source_.camera.fx_px;
+    return other ? focal_length_text(*other) : ". Check the camera's info and depth_scale";
+  }
+
+  std::string focal_length_text(const OtherFocalLength& other) {
+    out_.focal_length_px = other.factor * source_.camera.fx_px;
     return fmt::format(
         ". Check the camera's info: with a focal length of {:.0f} px in place of {:.0f} px a pose "
         "fits the images by {:.0f} %, and the camera reads the robot right to {:.1f} %",
-        *out_.focal_length_px, source_.camera.fx_px, fit_percent(other->score),
-        100 * std::abs(other->depth_error_share));
+        *out_.focal_length_px, source_.camera.fx_px, fit_percent(other.score),
+        100 * std::abs(other.depth_error_share));
   }
 
   void refuse(std::string why) {

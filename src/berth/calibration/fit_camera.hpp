@@ -11,6 +11,7 @@ namespace berth {
 inline constexpr ScoreSettings kLastScore{1, 0.03, 10};
 /// Below, the pose is a wrong place: those of other cameras and robots had 0.77 at most.
 inline constexpr double kLeastScore = 0.8;
+inline constexpr double kPerfectScore = 2;
 
 /// Where a pose is looked for: from `start` alone, a fit finds what is some centimetres away.
 enum class FitReach { anywhere, start };

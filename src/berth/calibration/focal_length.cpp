@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "berth/calibration/fit_camera.hpp"
 #include "berth/fit/compare_estimates.hpp"
@@ -9,11 +10,14 @@
 namespace berth {
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// A pose that is nearer or farther makes up for most of a wrong focal length: of its logarithm,
 /// this share is left as a depth error.
 constexpr double kLeftAsDepth = 0.6;
 constexpr double kLeastFactor = 0.45;
 constexpr double kGreatestFactor = 2.2;
+/// Where no fit is made, factors are tried from half to twice, 4 % apart: a fit finds the rest.
+constexpr int kTriedFactors = 37;
 
 class FocalLengthSearch {
  public:
@@ -21,26 +25,71 @@ class FocalLengthSearch {
                     const std::function<void()>& pause)
       : one_(one), priors_(priors), reach_(reach), pause_(pause) {}
 
-  std::optional<OtherFocalLength> run(double error_share) {
-    const OtherFocalLength before{1, 0, error_share};
-    OtherFocalLength next = fitted(std::exp(error_share / kLeftAsDepth));
-    const OtherFocalLength last = fitted(where_right(before, next));
-    if (is_better(last, next)) next = last;
-    const bool explains =
-        next.score >= kLeastScore && std::abs(next.depth_error_share) <= kMostDepthError;
-    return explains ? std::optional(next) : std::nullopt;
+  /// From a fit with the focal length that is believed.
+  std::optional<OtherFocalLength> from_depth_error(double error_share) {
+    const auto found = by_depth_error({1, 0, error_share});
+    return found ? found : from_pose(kLeastScore);
+  }
+
+  /// From the pose that is believed.
+  std::optional<OtherFocalLength> from_pose(double least_score) {
+    const OtherFocalLength start = best_where_believed();
+    if (start.score < least_score) return std::nullopt;
+    const auto found = by_depth_error(fitted(start.factor));
+    return found && found->score >= least_score ? found : std::nullopt;
   }
 
  private:
+  /// The one that explains the images best at the pose that is believed, without a fit.
+  OtherFocalLength best_where_believed() {
+    const int step = camera_steps(one_.cameras[0]->camera.width_px)[1];
+    Material other(one_);
+    OtherFocalLength best{1, -kInfinity, 0};
+    for (int i = 0; i < kTriedFactors; ++i) {
+      pause_();
+      const double factor = std::exp2(2. * i / (kTriedFactors - 1) - 1);
+      other.scale(factor);
+      FrameDrawer drawer(other.data, {step});
+      const double value = score(drawer, start_of(other.data), {step, 0.03, 10}).value;
+      if (value > best.score) best = {factor, value, 0};
+    }
+    return best;
+  }
+
+  /// The images of the only camera, with another focal length.
+  struct Material {
+    explicit Material(const CalibrationData& one)
+        : believed(one.cameras[0]->camera), camera(*one.cameras[0]), data(one) {
+      data.cameras = {&camera};
+    }
+    void scale(double factor) {
+      camera.camera.fx_px = factor * believed.fx_px;
+      camera.camera.fy_px = factor * believed.fy_px;
+    }
+    const Camera believed;
+    CalibrationCamera camera;
+    CalibrationData data;
+  };
+
+  static bool explains(const OtherFocalLength& found) {
+    return found.score >= kLeastScore && std::abs(found.depth_error_share) <= kMostDepthError;
+  }
+
+  /// The depth error tells which way to go, and what it then is, how far.
+  std::optional<OtherFocalLength> by_depth_error(const OtherFocalLength& before) {
+    const OtherFocalLength next =
+        fitted(before.factor * std::exp(before.depth_error_share / kLeftAsDepth));
+    const OtherFocalLength last = fitted(where_right(before, next));
+    const OtherFocalLength& found = is_better(last, next) ? last : next;
+    return explains(found) ? std::optional(found) : std::nullopt;
+  }
+
   /// Fits the pose anew.
   OtherFocalLength fitted(double factor) {
     factor = std::clamp(factor, kLeastFactor, kGreatestFactor);
-    CalibrationCamera camera = *one_.cameras[0];
-    camera.camera.fx_px *= factor;
-    camera.camera.fy_px *= factor;
-    CalibrationData other = one_;
-    other.cameras = {&camera};
-    FrameDrawer drawer(other, camera_steps(camera.camera.width_px));
+    Material other(one_);
+    other.scale(factor);
+    FrameDrawer drawer(other.data, camera_steps(other.camera.camera.width_px));
     const CalibrationEstimate estimate = fit_camera(drawer, priors_, pause_, reach_).estimate;
     return {factor, score(drawer, estimate, kLastScore).value, depth_error_share(drawer, estimate)};
   }
@@ -76,7 +125,16 @@ std::optional<OtherFocalLength> find_focal_length(const CalibrationData& one,
                                                   const FitPriors& priors, double error_share,
                                                   FitReach reach,
                                                   const std::function<void()>& pause) {
-  return FocalLengthSearch(one, priors, reach, pause).run(error_share);
+  return FocalLengthSearch(one, priors, reach, pause).from_depth_error(error_share);
+}
+
+std::optional<OtherFocalLength> find_better_focal_length(const CalibrationData& one,
+                                                         const FitPriors& priors, double score,
+                                                         FitReach reach,
+                                                         const std::function<void()>& pause) {
+  const double least_score = score + kLeastFocalGain;
+  if (least_score > kPerfectScore) return std::nullopt;
+  return FocalLengthSearch(one, priors, reach, pause).from_pose(least_score);
 }
 
 }  // namespace berth
