@@ -123,7 +123,7 @@ TEST(CalibrationWords, AReadingBeforeTheModelMakesLessRoomForObstacles) {
   small.proposal.bias_m = -0.01;
   small.proposal.rod_gap_m = std::nan("");
   const std::vector<std::string> sentences = consequences(small.proposal);
-  EXPECT_TRUE(says(sentences[0], "10.0 mm before its model")) << sentences[0];
+  EXPECT_TRUE(says(sentences[0], "10.0 mm in front of its model")) << sentences[0];
   EXPECT_TRUE(says(sentences[0], "by less than 20.0 mm")) << sentences[0];
   EXPECT_TRUE(says(sentences[1], "nothing of the robot is left"));
   EXPECT_TRUE(says(sentences[2], "15 cm away"));
