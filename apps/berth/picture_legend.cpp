@@ -80,7 +80,9 @@ void draw_card(Legend& legend) {
                          0.2 * em);
   const double room_px = legend.width() - 1.6 * em;
   const double big_em = big.size() > 8 ? 1.25 : 2.1;
-  legend.canvas.text({x, legend.y + 1.65 * em}, big, {big_em * em, true}, kInk);
+  const Font big_font{big_em * em, true};
+  const double fitting = std::min(1.0, room_px / legend.canvas.text_width_px(big, big_font));
+  legend.canvas.text({x, legend.y + 1.65 * em}, big, {fitting * big_font.size_px, true}, kInk);
   const Font name_font{em, true};
   legend.canvas.text({x, legend.y + 3.4 * em}, fit_text(legend.canvas, small, name_font, room_px),
                      name_font, kInk);
@@ -236,7 +238,9 @@ void draw_depth_scale(Legend& legend, const DepthTone& tone) {
 
 LinkRow link_row(const PictureCanvas& canvas, const LinkResult& link, double range_m,
                  const TablePlan& plan, const Font& font, double em_px) {
-  const std::string distance = distance_text(link, range_m);
+  // What is seen beside "unknown 0 m" has no room here; it stands at the link's line.
+  std::string distance = distance_text(link, range_m);
+  distance.erase(std::min(distance.find(','), distance.size()));
   const bool is_number = canvas.text_width_px(distance, font) <= kNumberEm * em_px;
   if (is_number) {
     return {fit_text(canvas, link.link, font, plan.name_em * em_px), distance,
