@@ -4,7 +4,7 @@ import { spawnSync } from "node:child_process";
 import { cpSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { endAll, isReady, openPage, startBerth, startBrowser, temporaryFolder, until } from "./browser.mjs";
+import { endAll, isReady, isThere, openPage, startBerth, startBrowser, temporaryFolder, until } from "./browser.mjs";
 
 let browser;
 // All cameras, and one alone, which takes less time.
@@ -174,7 +174,7 @@ test("each question has its answer a click away", async () => {
   await ask(2);
   assert.ok((await page.locator("#fates tbody tr").count()) > 5);
   await ask(3);
-  await page.waitForSelector("#link-details");
+  await isThere(page, "#link-details");
   assert.match(await text(page, "#said"), /^arm_link_\d: \d\.\d{3} m to /);
   await ask(4);
   await until(page, () => /^49 of 101/.test(document.getElementById("when").textContent));
@@ -439,7 +439,7 @@ test("Ctrl-C ends it at once, whatever it does", async () => {
   const page = await open(other.url);
   await click(page, "#panel-tabs button:nth-child(3)");
   await click(page, "#calibrate");
-  await page.waitForSelector("#stop-calibration");
+  await isThere(page, "#stop-calibration");
   const start_ms = performance.now();
   assert.equal(await other.end(), 0);
   const took_ms = performance.now() - start_ms;
