@@ -296,16 +296,18 @@ test("a phone shows the answer, and no box over it", async () => {
     await until(page, () => document.querySelector("#progress").classList.contains("done"));
     await click(page, "#questions button:nth-child(4)");
     await until(page, () => document.getElementById("said").textContent.startsWith("Nearest"));
-    const { wide, covered, top, bottom, height } = await page.evaluate(() => {
+    const { wide, cut, covered, top, bottom, height } = await page.evaluate(() => {
       const box = (id) => document.getElementById(id).getBoundingClientRect();
       const [view, layers, said] = [box("canvas-3d"), box("layers"), box("said")];
       return {
         wide: document.documentElement.scrollWidth,
+        cut: document.getElementById("links").clientWidth - document.getElementById("panels").clientWidth,
         covered: (layers.width * layers.height) / (view.width * view.height),
         top: view.top, bottom: said.bottom, height: innerHeight,
       };
     });
     assert.ok(wide <= viewport.width, `${wide} pixels wide`);
+    assert.ok(cut <= 0, `${cut} pixels of the table are cut off`);
     assert.ok(covered < 0.1, `${covered} of the 3D view`);
     assert.ok(top >= -1 && bottom <= height + 1, `from ${top} to ${bottom} of ${height}`);
     await page.close();
