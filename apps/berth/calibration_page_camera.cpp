@@ -105,10 +105,10 @@ class CameraSection {
       fmt::format_to(out_, "<p>None are proposed: the scene's stay.</p>\n");
       return;
     }
-    fmt::format_to(out_, "<div class=\"scroll\"><table>\n");
+    fmt::format_to(out_, "<table class=\"settings\">\n");
     add_group("self_filter", proposal_.self_filter);
     add_group("sensor", proposal_.sensor);
-    fmt::format_to(out_, "</table></div>\n");
+    fmt::format_to(out_, "</table>\n");
     add_list(consequences(proposal_));
     add_smallest();
   }
@@ -155,9 +155,10 @@ class CameraSection {
   }
 
   void add_rotation() {
-    const Eigen::Quaterniond q_scene(source_.X_PC.linear());
+    Eigen::Quaterniond q_scene(source_.X_PC.linear());
     Eigen::Quaterniond q_found(found_.X_PC.linear());
-    // q and -q are the same rotation; people compare the two.
+    // q and -q are the same rotation; people compare the two, and with the JSON.
+    if (q_scene.w() < 0) q_scene.coeffs() = -q_scene.coeffs();
     if (q_found.dot(q_scene) < 0) q_found.coeffs() = -q_found.coeffs();
     const Eigen::Vector3d turn_deg = found_.sigma_rotation_rad * (180 / EIGEN_PI);
     fmt::format_to(

@@ -36,7 +36,7 @@ std::string legend() {
       "<p class=\"faint keys\">{}{}{}{}{}{}</p>\n",
       gradient(), key(css(residual_color(-0.02)), "reading nearer than the model"),
       key(css(residual_color(0.02)), "farther"),
-      key(striped(beyond_scale(-1)), "something more than 10 cm before the robot"),
+      key(striped(beyond_scale(-1)), "something more than 10 cm in front of the robot"),
       key(striped(beyond_scale(1)), "the camera sees through the model"),
       key(css(kFlyingPixelColor), "beside the model, like the robot, and not in most other images"),
       key(css(kOutlineColor) + "; outline: 1px solid var(--line)",

@@ -38,7 +38,8 @@ figcaption { color: var(--faint); font-size: .9rem; margin-top: .25rem; }
 .frame { display: grid; grid-template-columns: 1fr 1fr; gap: .75rem; margin: .25rem 0 1.25rem; }
 .frame img { display: block; width: 100%; max-height: 48rem; object-fit: contain; background: #15181d; border-radius: .3rem; }
 .frame .none { background: var(--paper); border-radius: .3rem; padding: 1rem; }
-@media (max-width: 40rem) { body { padding: .5rem; } section { padding: 1rem; } .frame { grid-template-columns: 1fr; } }
+@media (max-width: 40rem) { body { padding: .5rem; } section { padding: 1rem; } .frame { grid-template-columns: 1fr; }
+  .settings tr { display: grid; grid-template-columns: 1fr auto; } .settings td.text { grid-column: 1 / 3; padding-left: 0; } .settings td:not(.text) { border: 0; } }
 svg { display: block; width: 100%; height: auto; max-width: 36rem; }
 svg .after { fill: var(--after); fill-opacity: .45; stroke: var(--after); stroke-width: 1.5; }
 svg .before { fill: none; stroke: var(--before); stroke-width: 2; }

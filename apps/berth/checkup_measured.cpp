@@ -82,11 +82,13 @@ Finding detection_of(const OpenScene& scene, const OpenCamera& camera,
     found.next = what_to_write(worst_m, camera.source.name);
   } else if (filter.largest_leftover_px >= kLeastPiece_px) {
     found.verdict = Verdict::advice;
-    found.text +=
-        fmt::format("; {} pixels beside the robot stay that are not there, {} of them in one piece",
-                    filter.leftover_px, filter.largest_leftover_px);
-    found.next = "Look at them: berth run " + scene.file.string() +
-                 " --picture pictures; berth calibrate finds settings that fit.";
+    found.text += fmt::format(
+        "; they leave {} pixels close to the robot as an obstacle, {} of them in one piece",
+        filter.leftover_px, filter.largest_leftover_px);
+    found.next = fmt::format(
+        "Look whether something stands close to the robot: berth run {} --picture pictures. If "
+        "nothing does, raise self_filter.padding_m or sensor.speckle_px.",
+        scene.file.string());
   }
   return found;
 }

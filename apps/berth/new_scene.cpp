@@ -90,8 +90,9 @@ std::string camera_text(const CameraKind& kind, const RobotModel& model) {
   std::string text = fmt::format(
       "cameras:                                     # one to eight\n"
       "  - name: camera\n"
-      "    info: camera_info.yaml                   # of the depth image, rectified: a ROS "
-      "camera_info\n"
+      "    # Of the depth image, rectified: a ROS camera_info file, or what is printed by\n"
+      "    #   ros2 topic echo --once CAMERA_INFO_TOPIC\n"
+      "    info: camera_info.yaml\n"
       "    # FILL IN: where the camera is, to within 20 cm and 15 degrees; berth calibrate finds "
       "the rest.\n"
       "    # The optical frame in the link `parent`: z forward, x right, y down. This one looks "

@@ -82,12 +82,14 @@ void Output::write(const Result& result) {
   const std::string text = format_ == OutputFormat::table
                                ? table_of(result)
                                : (is_old ? result_json_2(result) : result_json(result)) + "\n";
-  ++count_;
-  if (out_) return out_->write(text);
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+  if (out_) {
+    out_->write(text);
+  } else if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() ||
+             std::fflush(stdout) != 0) {
     throw std::runtime_error(
         fmt::format("standard output: cannot be written to: {}", std::strerror(errno)));
   }
+  ++count_;
 }
 
 void Output::finish() {

@@ -15,6 +15,14 @@ namespace {
 constexpr Rgb kCard{0x22, 0x27, 0x2F};
 constexpr Rgb kTrack{0x2E, 0x34, 0x3D};
 
+/// Of a link's row, in em: where its name begins, the least between two of its parts, what is left
+/// free at the right, and widths of "0.137 m" and of a name that can still be told.
+constexpr double kNameEm = 1.4;
+constexpr double kGapEm = 0.3;
+constexpr double kRightEm = 0.3;
+constexpr double kNumberEm = 4.4;
+constexpr double kLeastNameEm = 3;
+
 /// What every part of the legend draws with; y is where the next part begins.
 struct Legend {
   PictureCanvas& canvas;
@@ -72,7 +80,9 @@ void draw_card(Legend& legend) {
                          0.2 * em);
   const double room_px = legend.width() - 1.6 * em;
   const double big_em = big.size() > 8 ? 1.25 : 2.1;
-  legend.canvas.text({x, legend.y + 1.65 * em}, big, {big_em * em, true}, kInk);
+  const Font big_font{big_em * em, true};
+  const double fitting = std::min(1.0, room_px / legend.canvas.text_width_px(big, big_font));
+  legend.canvas.text({x, legend.y + 1.65 * em}, big, {fitting * big_font.size_px, true}, kInk);
   const Font name_font{em, true};
   legend.canvas.text({x, legend.y + 3.4 * em}, fit_text(legend.canvas, small, name_font, room_px),
                      name_font, kInk);
@@ -101,14 +111,16 @@ void draw_link_row(Legend& legend, const LinkResult& link, double x, double y, b
   if (nearest) legend.canvas.fill_box({x, y, right - x, row}, kTrack, 0.3 * em);
   legend.canvas.fill_box({x + 0.25 * em, middle - 0.38 * em, 0.76 * em, 0.76 * em},
                          link_color(link.id), 0.15 * em);
-  const std::string name = fit_text(legend.canvas, link.link, font, plan.name_em * em);
+  const LinkRow row_text = link_row(legend.canvas, link, legend.input.range_m, plan, font, em);
   const bool seen = link.status != LinkStatus::not_visible;
-  legend.canvas.text({x + 1.4 * em, middle}, name, font, seen ? kInk : kFaintInk);
-  legend.canvas.text({right - 0.3 * em, middle}, distance_text(link, legend.input.range_m), font,
+  legend.canvas.text({x + kNameEm * em, middle}, row_text.name, font, seen ? kInk : kFaintInk);
+  legend.canvas.text({right - kRightEm * em, middle}, row_text.distance, font,
                      ok ? kInk : kFaintInk, Align::right);
-  const double bar_left = x + (1.7 + plan.name_em) * em;
-  if (ok)
-    draw_bar(legend, link, {bar_left, middle - 0.18 * em, right - 4.7 * em - bar_left, 0.36 * em});
+  const double bar_left = x + (kNameEm + kGapEm + plan.name_em) * em;
+  if (row_text.has_bar) {
+    const double bar_right = right - (kRightEm + kNumberEm) * em;
+    draw_bar(legend, link, {bar_left, middle - 0.18 * em, bar_right - bar_left, 0.36 * em});
+  }
 }
 
 void draw_key(Legend& legend) {
@@ -223,6 +235,24 @@ void draw_depth_scale(Legend& legend, const DepthTone& tone) {
 }
 
 }  // namespace
+
+LinkRow link_row(const PictureCanvas& canvas, const LinkResult& link, double range_m,
+                 const TablePlan& plan, const Font& font, double em_px) {
+  // What is seen beside "unknown 0 m" has no room here; it stands at the link's line.
+  std::string distance = distance_text(link, range_m);
+  distance.erase(std::min(distance.find(','), distance.size()));
+  const bool is_number = canvas.text_width_px(distance, font) <= kNumberEm * em_px;
+  if (is_number) {
+    return {fit_text(canvas, link.link, font, plan.name_em * em_px), distance,
+            link.status == LinkStatus::ok};
+  }
+  // Words take the bar's place, and the name's where they are many.
+  const double room_px = (plan.column_em - kNameEm - kGapEm - kRightEm) * em_px;
+  const std::string words =
+      fit_text(canvas, distance, font, room_px - std::min(kLeastNameEm, plan.name_em) * em_px);
+  return {fit_text(canvas, link.link, font, room_px - canvas.text_width_px(words, font)), words,
+          false};
+}
 
 void draw_legend(PictureCanvas& canvas, const PictureLayout& layout, const PictureInput& input,
                  const DepthTone& tone) {

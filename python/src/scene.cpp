@@ -25,6 +25,7 @@ struct SceneStep {
   std::shared_ptr<Frame> frame;
   DepthImage depth_m;
   std::size_t number;
+  bool begins_result;
   std::vector<double> joints;
   Part<Result> result;
 };
@@ -47,6 +48,7 @@ class SceneIterator {
       std::copy(depth_m.row(v), depth_m.row(v) + depth_m.width, step->depth_m.row(v));
     }
     step->number = run_->frame_number();
+    step->begins_result = run_->begins_result();
     step->joints = run_->camera().at_exposure[step->number].position;
     step->result = owned(run_->ask());
     return step;
@@ -82,6 +84,9 @@ void bind_scene(py::module_& m) {
           [](const py::object& self) { return array_of(self.cast<SceneStep&>().depth_m, self); },
           "numpy.ndarray: the camera's image, float32, NaN where there is no reading")
       .def_readonly("number", &SceneStep::number, "int: among the images of its camera")
+      .def_readonly("begins_result", &SceneStep::begins_result,
+                    "bool: False where another camera's image of the same stamp came before: the\n"
+                    "result is that step's")
       .def_property_readonly(
           "joints",
           [](const SceneStep& s) {

@@ -81,6 +81,26 @@ std::vector<BadInput> pipes() {
 INSTANTIATE_TEST_SUITE_P(NoFile, BadScene, ::testing::ValuesIn(pipes()), name_of_case);
 
 INSTANTIATE_TEST_SUITE_P(
+    NamesNoFile, BadScene,
+    ::testing::Values(
+        BadInput{"Robot",
+                 remove_file("arm.urdf"),
+                 {"scene.yaml: robot.urdf: arm.urdf: No such file or directory; expected a "
+                  "readable file, its path relative to the scene's folder"}},
+        BadInput{"CameraInfo",
+                 remove_file("camera_info.yaml"),
+                 {"scene.yaml: cameras[0].info: camera_info.yaml: No such file"}},
+        BadInput{
+            "Joints", remove_file("joints.csv"), {"scene.yaml: joints: joints.csv: No such file"}},
+        BadInput{"Background",
+                 [](S& s) {
+                   s.lines.more_camera = "background: gone.png";
+                   s.lines.more = "sensor: {background_frames: 1}";
+                 },
+                 {"scene.yaml: cameras[0].background: gone.png: No such file"}}),
+    name_of_case);
+
+INSTANTIATE_TEST_SUITE_P(
     DepthImage, BadScene,
     ::testing::Values(
         BadInput{"Missing", remove_file("depth/000000.png"), {"depth/000000.png", "expected"}},
@@ -150,7 +170,7 @@ INSTANTIATE_TEST_SUITE_P(
                  {"scene.yaml:11: evalution: unknown key; expected evaluation (the nearest)"}},
         BadInput{"UnknownParent",
                  set(&SceneLines::pose, "{parent: bsae, xyz: [0, 0, 0], rpy: [0, 0, 0]}"),
-                 {"scene.yaml", "parent link \"bsae\"", "expected one of base"}},
+                 {"scene.yaml: camera front: parent link \"bsae\"", "expected one of base"}},
         BadInput{"PaddingOfAnUnknownLink",
                  set(&SceneLines::self_filter, "{link_padding_m: {uper: 0.1}}"),
                  {"scene.yaml", "link_padding_m", "\"uper\"", "expected one of", "upper"}}),

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "apps/berth/picture_layout.hpp"
+#include "apps/berth/picture_legend.hpp"
 #include "apps/berth/picture_pairs.hpp"
 #include "apps/berth/picture_pixels.hpp"
 #include "apps/berth/picture_text.hpp"
@@ -129,6 +130,48 @@ TEST(PictureText, DistanceOrReason) {
   EXPECT_EQ(distance_text(link, 0.125), "none within 0.125 m");
   link.status = LinkStatus::not_visible;
   EXPECT_EQ(distance_text(link, 1), "not visible");
+}
+
+/// A link that only unknown space touches: its distance is many words.
+LinkResult touched_by_unknown(const std::string& name) {
+  LinkResult link;
+  link.link = name;
+  link.status = LinkStatus::ok;
+  link.distance_m = 0;
+  link.obstacle_is = ObstacleKind::unknown;
+  link.occupied.distance_m = 0.045F;
+  return link;
+}
+
+TEST(PictureLegend, NameAndDistanceOfARowStandSideBySide) {
+  const PictureCanvas canvas(1, 1, kBlack);
+  const Font font{20};
+  LinkResult near = touched_by_unknown("link_base");
+  near.distance_m = 0.137F;
+  const LinkResult none = [&] {
+    LinkResult link = touched_by_unknown("link_base");
+    link.occupied.distance_m = std::numeric_limits<float>::quiet_NaN();
+    return link;
+  }();
+  for (const double name_em : {4.0, 5.0, 11.0}) {
+    TablePlan plan;
+    plan.name_em = name_em;
+    plan.column_em = std::max(name_em + 10.4, 17.0);
+    for (const LinkResult& link :
+         {near, none, touched_by_unknown("a"), touched_by_unknown("a_name_that_is_long_indeed")}) {
+      const LinkRow row = link_row(canvas, link, 1, plan, font, 20);
+      EXPECT_LE(canvas.text_width_px(row.name, font) + canvas.text_width_px(row.distance, font),
+                20 * (plan.column_em - 2))
+          << row.name << " " << row.distance;
+      EXPECT_EQ(row.has_bar, link.distance_m > 0);
+    }
+  }
+  TablePlan plan;
+  plan.name_em = 5;
+  plan.column_em = 17;
+  const LinkRow row = link_row(canvas, touched_by_unknown("link_base"), 1, plan, font, 20);
+  EXPECT_EQ(row.name, "link_base");
+  EXPECT_EQ(row.distance, "unknown 0 m");
 }
 
 TEST(PictureText, CountsAreGroupedByThousands) {

@@ -4,7 +4,7 @@
 
 A block of C++ is compiled and linked with what its page tells: the lines of the nearest block of CMake before it, as they
 stand there, and the includes of the blocks between. One that follows a comment <!-- given: DECLARATIONS --> is a part of a
-program, and is compiled with these declarations before it. Any other one is the body of main(): a program to run.
+program, and is compiled with these declarations before it. Any other one is a whole program, to be run.
 programs.txt in FOLDER has their names.
 """
 import pathlib
@@ -13,6 +13,7 @@ import sys
 
 FENCE = re.compile(r"(?:<!-- given:(?P<given>[^\n]*?)-->\n)?^```(?P<language>\w*)\n(?P<text>.*?)^```$", re.M | re.S)
 INCLUDE = re.compile(r"^#include [^\n]*\n", re.M)
+EXECUTABLE = re.compile(r"^add_executable\([^\n]*\n", re.M)
 LINK = re.compile(r"target_link_libraries\(\w+")
 CPP_WORDS = re.compile(r"berth::\w+[ (<]|#include|\bconst auto\b")
 
@@ -39,7 +40,7 @@ class Project:
         elif self.program:
             raise SystemExit(f"{place[0]}:{place[1]}: a second program of one block of CMake; expected one")
         else:
-            self.program = f"int main() {{\n{body}}}\n"
+            self.program = body
 
     def write(self, folder):
         if not self.parts and not self.program:
@@ -49,7 +50,7 @@ class Project:
         main = self.program or "int main() {}\n"
         (folder / "snippets.cpp").write_text("".join(self.includes) + "\n" + "".join(self.parts) + main)
         (folder / "CMakeLists.txt").write_text(
-            LINK.sub(f"add_executable({self.name} snippets.cpp)\ntarget_link_libraries({self.name}", self.cmake, count=1))
+            LINK.sub(f"add_executable({self.name} snippets.cpp)\ntarget_link_libraries({self.name}", EXECUTABLE.sub("", self.cmake), count=1))
         return True
 
 

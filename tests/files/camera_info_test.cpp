@@ -32,6 +32,71 @@ TEST(CameraInfo, GivesTheIntrinsicsOfARosFile) {
   EXPECT_EQ(camera.cy_px, -3);
 }
 
+/// As `ros2 topic echo --once` prints it.
+const std::string kMessage = R"(header:
+  stamp:
+    sec: 3
+    nanosec: 0
+  frame_id: front
+height: 540
+width: 960
+distortion_model: plumb_bob
+d:
+- 0.0
+- 0.0
+k:
+- 534.5
+- 0.0
+- 478.25
+- 0.0
+- 530.0
+- -3.0
+- 0.0
+- 0.0
+- 1.0
+r: [1, 0, 0, 0, 1, 0, 0, 0, 1]
+binning_x: 0
+binning_y: 0
+roi:
+  x_offset: 0
+  y_offset: 0
+  do_rectify: false
+---
+)";
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  return text.replace(text.find(what), what.size(), by);
+}
+
+TEST(CameraInfo, GivesTheIntrinsicsOfARosMessage) {
+  const TemporaryFolder folder;
+  for (const std::string& text :
+       {kMessage, replaced(replaced(kMessage, "\nk:", "\nK:"), "\nd:", "\nD:")}) {
+    const Camera camera = read_camera_info(folder.write("info.yaml", text));
+    EXPECT_EQ(camera.width_px, 960);
+    EXPECT_EQ(camera.height_px, 540);
+    EXPECT_EQ(camera.fx_px, 534.5);
+    EXPECT_EQ(camera.fy_px, 530);
+    EXPECT_EQ(camera.cx_px, 478.25);
+    EXPECT_EQ(camera.cy_px, -3);
+  }
+}
+
+TEST(CameraInfo, RefusesAMessageOfAPartOrOfAnImageThatIsNotRectified) {
+  const std::vector<BadText> table = {
+      {replaced(kMessage, "- 0.0", "- 0.1"), {"info.yaml:10: d", "0.1; expected all zeros"}},
+      {replaced(kMessage, "\nk:", "\nx:"), {"the key k is missing"}},
+      {replaced(kMessage, "height: 540\n", ""), {"the key height is missing"}},
+      {replaced(kMessage, "plumb_bob", "fisheye"), {"distortion_model: fisheye; expected plumb"}},
+      {replaced(kMessage, "binning_y: 0", "binning_y: 2"), {"binning_y: 2; expected 0 or 1"}},
+      {replaced(kMessage, "x_offset: 0", "x_offset: 8"), {"roi.x_offset: 8; expected 0"}},
+  };
+  const TemporaryFolder folder;
+  for (const auto& [text, parts] : table) {
+    expect_parts(error_message([&] { read_camera_info(folder.write("info.yaml", text)); }), parts);
+  }
+}
+
 TEST(CameraInfo, AcceptsEveryWayToSayNoDistortion) {
   const TemporaryFolder folder;
   for (const char* none : {"[]", "[0]", "[0.0, -0.0, 0e5]", "[0, 0, 0, 0, 0, 0, 0, 0]"}) {

@@ -51,6 +51,20 @@ TEST(FileInParts, IsGoneWhereItIsNotKept) {
   EXPECT_TRUE(folder.names().empty());
 }
 
+TEST(FileInParts, APieceThatFindsNoRoomLeavesThoseBefore) {
+  const TemporaryFolder folder;
+  {
+    const FullDisk full;
+    FileInParts file(folder / "x.txt");
+    file.write("one\n");
+    expect_parts(error_message([&] { file.write(std::string(100'000, 'x')); }),
+                 {"x.txt: cannot be written: File too large"});
+    file.keep();
+  }
+  EXPECT_EQ(read_file_bytes(folder / "x.txt"), "one\n");
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"x.txt"});
+}
+
 TEST(FileBytes, ComeBackAsTheyWereWritten) {
   const TemporaryFolder folder;
   const std::string bytes("a\0b\r\n\xFF", 6);

@@ -4,6 +4,8 @@ import gc
 import json
 import os
 import pickle
+import re
+import shutil
 import subprocess
 
 import numpy as np
@@ -172,3 +174,14 @@ def test_everything_says_what_it_is(one_camera, step):
     assert repr(step.result).startswith("Result(8 links, ok, nearest arm_link_")
     assert repr(step.result[2]).startswith("LinkResult(arm_link_2, ok")
     assert "640" in repr(one_camera.views[0].camera)
+
+
+def test_images_of_one_stamp_have_one_result(tmp_path):
+    shutil.copytree(SOURCE / "data/bundled", tmp_path / "scene")
+    text = (SOURCE / "data/bundled/scene.yaml").read_text()
+    text = re.sub(r"    stamps: .*\n", "", text)
+    text = re.sub(r"(depth\w*)/\*\.png", r"[\1/000000.png, \1/000001.png]", text)
+    (tmp_path / "scene/scene.yaml").write_text(text + "watch: {min_at_robot: 0}\n")
+    steps = list(berth.open_scene(tmp_path / "scene/scene.yaml"))
+    assert [step.begins_result for step in steps] == [True, False, False] * 2
+    assert [step.number for step in steps] == [0, 0, 0, 1, 1, 1]

@@ -107,6 +107,16 @@ TEST(CalibrationAdvice, FramesThatAreNotLikeTheOthersAreNamed) {
       << advice;
 }
 
+TEST(CalibrationAdvice, ManyFramesThatAreNotLikeTheOthersAreToldAtOnce) {
+  const testing::SmallCalibrationData small;
+  CalibrationCoverage coverage = full_coverage();
+  for (int i = 0; i < 4; ++i) coverage.frames[i] = {10 + i, 1000, 1000, 700 + i, 0.006};
+  EXPECT_EQ(advice_on(small, coverage),
+            "Look at 4 of the 5 frames, 10, 11, 12, 13: 70 % of their readings at least are within "
+            "10 cm of the model. If somebody stood there or the joints are not those of the "
+            "images, leave them out and run again.\n");
+}
+
 TEST(CalibrationAdvice, AClockThatIsNotDeterminedAsksForMotionOrStamps) {
   testing::SmallCalibrationData small;
   small.found().not_determined = {"clock_offset_s"};

@@ -251,6 +251,13 @@ TEST(UrdfError, MeshMissing) {
                {"robot.urdf", "\"base\"", path + ": No such file"});
 }
 
+TEST(UrdfError, XacroThatWasNotExpanded) {
+  for (const char* name : {"$(find arm_description)/part.stl", "${parts}/part.stl"}) {
+    expect_refused(shape_robot_xml(std::string("<mesh filename=\"") + name + "\"/>"),
+                   {"\"base\"", name, "is written for xacro; expected a URDF, such as xacro"});
+  }
+}
+
 TEST(UrdfError, MeshUnreadable) {
   const TemporaryFolder folder;
   const auto file = folder.write("part.stl", binary_stl(two_triangles()).substr(0, 120));

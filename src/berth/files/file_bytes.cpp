@@ -47,13 +47,23 @@ void FileInParts::write(std::string_view bytes) {
   errno = 0;
   out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   out_.flush();
-  if (!out_) fail(errno);
+  if (!out_) drop_cut_piece(errno);
+  whole_bytes_ += bytes.size();
+}
+
+void FileInParts::drop_cut_piece(int error) {
+  out_.close();
+  std::error_code ignored;
+  fs::resize_file(temporary_, whole_bytes_, ignored);
+  fail(error);
 }
 
 void FileInParts::keep() {
   errno = 0;
-  out_.close();
-  if (!out_) fail(errno);
+  if (out_.is_open()) {
+    out_.close();
+    if (!out_) fail(errno);
+  }
   std::error_code error;
   fs::rename(temporary_, file_, error);
   if (error) fail(error.value());

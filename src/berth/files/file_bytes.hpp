@@ -1,6 +1,7 @@
 // Whole files, in and out.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string_view>
@@ -20,16 +21,19 @@ class FileInParts {
   FileInParts(const FileInParts&) = delete;
   FileInParts& operator=(const FileInParts&) = delete;
 
-  /// The bytes are with the system afterwards.
+  /// The bytes are with the system afterwards. Where it throws, none of them is in the file, and
+  /// what was written before can be kept.
   void write(std::string_view bytes);
   void keep();
 
  private:
   [[noreturn]] void fail(int error) const;
+  [[noreturn]] void drop_cut_piece(int error);
 
   std::filesystem::path file_;
   std::filesystem::path temporary_;
   std::ofstream out_;
+  std::uintmax_t whole_bytes_ = 0;
 };
 
 /// The same at once: afterwards `file` is complete, or as it was before.

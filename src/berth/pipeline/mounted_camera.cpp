@@ -11,13 +11,13 @@
 namespace berth {
 namespace {
 
-std::size_t find_parent(const RobotModel& model, const std::string& name) {
-  if (const auto index = model.find_link(name)) return *index;
+std::size_t find_parent(const RobotModel& model, const CameraMount& mount) {
+  if (const auto index = model.find_link(mount.parent_link)) return *index;
   std::vector<std::string> known;
   for (const Link& link : model.links) known.push_back(link.name);
   throw std::invalid_argument(
-      fmt::format("camera: parent link \"{}\" is not in robot \"{}\"; expected one of {}", name,
-                  model.name, fmt::join(known, ", ")));
+      fmt::format("camera {}: parent link \"{}\" is not in robot \"{}\"; expected one of {}",
+                  mount.name, mount.parent_link, model.name, fmt::join(known, ", ")));
 }
 
 /// The settings' names of links, as the self filter's list by id.
@@ -91,7 +91,7 @@ MountedCamera::MountedCamera(std::shared_ptr<const Robot> robot, CameraMount mou
     : robot_(std::move(robot)),
       mount_(std::move(mount)),
       settings_(std::move(settings)),
-      parent_(find_parent(robot_->model(), mount_.parent_link)) {
+      parent_(find_parent(robot_->model(), mount_)) {
   const RobotModel& model = robot_->model();
   require_camera(mount_.camera);
   require_pose(mount_.X_PC);

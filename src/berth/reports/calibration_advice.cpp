@@ -1,6 +1,7 @@
 #include "berth/reports/calibration_advice.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,6 +28,8 @@ constexpr double kLeastReadOfRobot = 0.5;
 constexpr double kLeastFitting = 0.8;
 /// A frame whose residuals are this many times those of the others is not like them.
 constexpr double kOddFrame = 2;
+/// More such frames than this are told in one sentence.
+constexpr std::size_t kFramesOneByOne = 3;
 
 class Advisor {
  public:
@@ -162,27 +165,65 @@ class Advisor {
     std::sort(medians_m.begin(), medians_m.end());
     const double usual_m = medians_m.empty() ? std::numeric_limits<double>::quiet_NaN()
                                              : medians_m[medians_m.size() / 2];
-    for (const FrameCoverage& frame : coverage_.frames) say_odd_frame(frame, usual_m);
+    std::vector<const FrameCoverage*> odd;
+    for (const FrameCoverage& frame : coverage_.frames) {
+      say_unread_frame(frame);
+      if (is_odd(frame, usual_m)) odd.push_back(&frame);
+    }
+    if (odd.size() <= kFramesOneByOne) {
+      for (const FrameCoverage* frame : odd) say_odd_frame(*frame);
+    } else {
+      say_odd_frames(odd);
+    }
   }
 
-  void say_odd_frame(const FrameCoverage& frame, double usual_m) {
+  static bool is_unread(const FrameCoverage& frame) {
+    return frame.reading_px < kLeastReadOfRobot * frame.robot_px;
+  }
+
+  static double fitting_percent(const FrameCoverage& frame) {
+    return 100.0 * frame.fitting_px / frame.reading_px;
+  }
+
+  static bool is_odd(const FrameCoverage& frame, double usual_m) {
+    return frame.robot_px > 0 && !is_unread(frame) &&
+           (frame.fitting_px < kLeastFitting * frame.reading_px ||
+            frame.median_residual_m > kOddFrame * usual_m);
+  }
+
+  void say_unread_frame(const FrameCoverage& frame) {
     if (frame.robot_px == 0) {
       say(fmt::format("Frame {} shows nothing of the robot: take it again in another pose.",
                       frame.number));
-    } else if (frame.reading_px < kLeastReadOfRobot * frame.robot_px) {
+    } else if (is_unread(frame)) {
       say(
           fmt::format("In frame {} only {:.0f} % of the robot has readings: where it is black or "
                       "shiny, more or softer light helps.",
                       frame.number, 100.0 * frame.reading_px / frame.robot_px));
-    } else if (frame.fitting_px < kLeastFitting * frame.reading_px ||
-               frame.median_residual_m > kOddFrame * usual_m) {
-      say(fmt::format(
-          "Look at frame {}: {:.0f} % of its readings are within 10 cm of the model, by "
-          "{} in the median. If somebody stood there or the joints are not those of the "
-          "image, leave it out and run again.",
-          frame.number, 100.0 * frame.fitting_px / frame.reading_px,
-          mm_text(frame.median_residual_m)));
     }
+  }
+
+  void say_odd_frame(const FrameCoverage& frame) {
+    say(
+        fmt::format("Look at frame {}: {:.0f} % of its readings are within 10 cm of the model, by "
+                    "{} in the median. If somebody stood there or the joints are not those of the "
+                    "image, leave it out and run again.",
+                    frame.number, fitting_percent(frame), mm_text(frame.median_residual_m)));
+  }
+
+  /// Many of them in one sentence.
+  void say_odd_frames(const std::vector<const FrameCoverage*>& odd) {
+    std::vector<int> numbers;
+    double least = 100;
+    for (const FrameCoverage* frame : odd) {
+      numbers.push_back(frame->number);
+      least = std::min(least, fitting_percent(*frame));
+    }
+    say(
+        fmt::format("Look at {} of the {} frames, {}: {:.0f} % of their readings at least are "
+                    "within 10 cm of the model. If somebody stood there or the joints are not "
+                    "those of the images, leave them out and run again.",
+                    odd.size(), coverage_.frames.size(), fmt::join(numbers, ", "), least));
   }
 
   void say_clock() {

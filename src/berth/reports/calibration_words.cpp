@@ -31,14 +31,14 @@ const ProposedSetting* find_setting(const std::vector<ProposedSetting>& settings
 }
 
 std::string before_robot_text(const FilterProposal& proposal) {
-  const std::string where = proposal.bias_m < 0 ? "before" : "behind";
+  const std::string where = proposal.bias_m < 0 ? "in front of" : "behind";
   const ProposedSetting* tolerance = find_setting(proposal.self_filter, "tolerance_m");
   const std::string length =
       tolerance ? mm_text(std::max(0.0, tolerance->value + proposal.bias_m))
                 : "the tolerance " + std::string(proposal.bias_m < 0 ? "less" : "plus") + " that";
   return fmt::format(
-      "The camera sees the robot {} {} its model, in the median: what stands before the robot by "
-      "less than {} is taken for the robot.",
+      "The camera sees the robot {} {} its model, in the median: what stands in front of the "
+      "robot by less than {} is taken for the robot.",
       mm_text(std::abs(proposal.bias_m)), where, length);
 }
 

@@ -35,6 +35,11 @@ fs::path find_package(const std::string& package, const std::string& name,
 
 fs::path resolve_mesh_path(const std::string& name, const fs::path& urdf,
                            const std::map<std::string, fs::path>& package_paths) {
+  if (name.find("$(") != std::string::npos || name.find("${") != std::string::npos) {
+    throw std::runtime_error(fmt::format(
+        "mesh \"{}\": is written for xacro; expected a URDF, such as xacro {} > robot.urdf makes",
+        name, urdf.filename().string()));
+  }
   const fs::path urdf_folder = fs::absolute(urdf).lexically_normal().parent_path();
   if (name.rfind(kPackage, 0) == 0) {
     const std::string rest = name.substr(kPackage.size());

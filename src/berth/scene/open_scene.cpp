@@ -10,6 +10,7 @@
 #include "berth/files/edit_distance.hpp"
 #include "berth/files/joints_csv.hpp"
 #include "berth/files/png.hpp"
+#include "berth/files/read_file.hpp"
 #include "berth/robot/joint_trajectory.hpp"
 #include "berth/robot/mesh_file/mesh_file.hpp"
 #include "berth/robot/primitives.hpp"
@@ -108,6 +109,30 @@ void find_joints(const JointTrajectory& joints, OpenCamera& camera) {
                   joints.first_s(), joints.last_s()));
 }
 
+/// Throws MissingFile where there is nothing at the path that the scene's `key` names.
+void require_file(const SceneFile& scene, const std::string& key,
+                  const std::filesystem::path& file) {
+  std::error_code ignored;
+  const std::filesystem::file_type type = std::filesystem::status(file, ignored).type();
+  if (type != std::filesystem::file_type::not_found) return;
+  throw MissingFile(fmt::format(
+      "{}: {}: {}: No such file or directory; expected a readable file, its path relative to the "
+      "scene's folder",
+      scene.file.string(), key, file.string()));
+}
+
+void require_files(const SceneFile& scene) {
+  require_file(scene, "robot.urdf", scene.robot.urdf);
+  require_file(scene, "joints", scene.joints);
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+    const SceneCamera& camera = scene.cameras[i];
+    require_file(scene, fmt::format("cameras[{}].info", i), camera.info);
+    if (camera.background) {
+      require_file(scene, fmt::format("cameras[{}].background", i), *camera.background);
+    }
+  }
+}
+
 /// Settings of a scene file whose domain only the robot and the camera tell.
 template <class Make>
 auto with_file_named(const SceneFile& scene, const Make& make) {
@@ -154,6 +179,7 @@ void take_method(const SceneFile& source, OpenScene& scene) {
 /// A scene, each of whose images was checked by `check`.
 OpenScene open_with(const SceneFile& source,
                     const std::function<void(OpenCamera&, std::size_t frame)>& check) {
+  require_files(source);
   OpenScene scene;
   scene.file = source.file;
   scene.warnings = source.warnings;

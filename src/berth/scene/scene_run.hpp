@@ -23,7 +23,9 @@ class GlBackend;
 /// whoever else runs scenes, stands on.
 ///
 ///     SceneRun run(scene);
-///     while (run.next()) use(run.ask());
+///     while (run.next()) {
+///       if (run.begins_result()) use(run.ask());
+///     }
 ///
 /// With method `mesh` the images of all cameras come in the order of their stamps, and each result
 /// is that of the newest image of every camera; with a method that compares images they come camera

@@ -64,20 +64,24 @@ export async function openPage(browser, url, options = {}) {
   return page;
 }
 
-/** Waits until this is true in the page. Its Content-Security-Policy forbids what waitForFunction does. */
+/**
+ * Waits until this is true in the page, for half a minute of a machine that has time for it: what counts is how often it
+ * was looked at, since a busy machine may stop all for longer. The page's Content-Security-Policy forbids waitForFunction.
+ */
 export async function until(page, isTrue, value) {
-  const longest_ms = 30_000;
-  const start_ms = performance.now();
-  while (!(await page.evaluate(isTrue, value))) {
-    if (performance.now() - start_ms > longest_ms) throw new Error(`never: ${isTrue}, ${value}`);
+  for (let tries = 600; !(await page.evaluate(isTrue, value)); --tries) {
+    if (tries === 0) throw new Error(`never: ${isTrue}, ${value}`);
     await new Promise((resolve) => setTimeout(resolve, 50));
   }
 }
 
+/** Waits until such an element is there, drawn or not. */
+export const isThere = (page, selector) => until(page, (wanted) => document.querySelector(wanted) !== null, selector);
+
 /** Waits for the first frame and its images. */
 export async function isReady(page) {
   await until(page, () => /[1-9]\d* readings/.test(document.querySelector("#legend")?.textContent));
-  await page.waitForSelector("#links tbody tr");
+  await isThere(page, "#links tbody tr");
 }
 
 export function temporaryFolder() {
