@@ -60,6 +60,11 @@ TEST(LivePlausibility, AFocalLengthThatIsATenthOffIsTold) {
       const std::string text = text_of(found);
       const std::size_t at = text.find("with a focal length of ");
       ASSERT_NE(at, std::string::npos) << text;
+      // Of the others a fit ends at a pose from which the depth is wrong.
+      if (c == 1 || factor < 1) {
+        expect_parts(
+            text, {"camera " + found.camera + ": a pose fits the images only if", "expected 4 %"});
+      }
       EXPECT_NEAR(std::stod(text.substr(at + 23)), right_px, 0.01 * right_px) << text;
     }
   }

@@ -77,8 +77,11 @@ class FocalLengthSearch {
 
   /// The depth error tells which way to go, and what it then is, how far.
   std::optional<OtherFocalLength> by_depth_error(const OtherFocalLength& before) {
+    if (!std::isfinite(before.depth_error_share)) return std::nullopt;
     const OtherFocalLength next =
         fitted(before.factor * std::exp(before.depth_error_share / kLeftAsDepth));
+    // Where no robot is seen, there is no such error.
+    if (!std::isfinite(next.depth_error_share)) return std::nullopt;
     const OtherFocalLength last = fitted(where_right(before, next));
     const OtherFocalLength& found = is_better(last, next) ? last : next;
     return explains(found) ? std::optional(found) : std::nullopt;

@@ -32,9 +32,10 @@ inline constexpr std::size_t kLeastPosesForFocalLength = 5;
 
 /// The same as find_implausible() of a scene, for all cameras of one robot. More than a scene's
 /// run, it tells a focal length that is wrong by less than a quarter: where a camera's images fit
-/// no pose but one from which its depth would be wrong, or fit none well, and fit with another focal
-/// length, it is implausible. In the calling thread alone; takes a second or so for each camera, and some where
-/// there is another focal length. `pause` is called now and then; to stop, it throws.
+/// no pose but one from which its depth would be wrong, or fit none well, and fit with another
+/// focal length, it is implausible. In the calling thread alone; takes a second or so for each
+/// camera, and some where there is another focal length. `pause` is called now and then; to stop,
+/// it throws.
 std::vector<CameraPlausibility> find_implausible(
     const std::vector<LiveImages>& cameras, const std::function<void()>& pause = [] {});
 
