@@ -86,12 +86,10 @@ Finding stamps_of(const OpenScene& scene, const OpenCamera& camera) {
 }
 
 Finding pose_of(const OpenScene& scene, const CameraPlausibility& camera) {
-  const std::string about = fmt::format("camera {}", camera.camera);
-  Finding found{.about = "place, " + about};
-  const auto text = [&] { return text_of(camera).substr(about.size() + 2); };
+  Finding found{.about = fmt::format("place, camera {}", camera.camera)};
   if (camera.is_implausible) {
     found.verdict = Verdict::wrong;
-    found.text = text();
+    found.text = text_without_name(camera);
     found.next = camera.dead.empty() && camera.as_if.empty()
                      ? fmt::format(
                            "Measure the pose of camera {} again, to within 20 cm and 15 degrees, "
@@ -105,7 +103,7 @@ Finding pose_of(const OpenScene& scene, const CameraPlausibility& camera) {
     found.verdict = Verdict::advice;
     found.text =
         camera.is_hidden
-            ? text()
+            ? text_without_name(camera)
             : fmt::format("too little of the robot is seen in {} images to tell", camera.frames);
     found.next = fmt::format("Record images in which camera {} sees the robot.", camera.camera);
     return found;

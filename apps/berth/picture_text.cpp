@@ -22,12 +22,9 @@ std::vector<std::string> code_points(const std::string& text) {
   return points;
 }
 
-/// Nobody knows whether something is there: what is known to be is told as well.
-std::string unknown_contact_text(const LinkResult& link, double range_m) {
-  const std::string seen = std::isfinite(link.occupied.distance_m)
-                               ? fmt::format("seen {:.3f} m", link.occupied.distance_m)
-                               : "nothing seen within " + range_text(range_m);
-  return "unknown 0 m, " + seen;
+/// Nobody knows whether something is there.
+bool is_unknown_contact(const LinkResult& link) {
+  return link.status == LinkStatus::ok && link.distance_m == 0 && !is_contact(link);
 }
 
 }  // namespace
@@ -42,10 +39,19 @@ bool is_contact(const LinkResult& link) {
 }
 
 std::string distance_text(const LinkResult& link, double range_m) {
+  const std::string text = short_distance_text(link, range_m);
+  if (!is_unknown_contact(link)) return text;
+  // What is known to be there is told as well.
+  if (std::isfinite(link.occupied.distance_m))
+    return fmt::format("{}, seen {:.3f} m", text, link.occupied.distance_m);
+  return text + ", nothing seen within " + range_text(range_m);
+}
+
+std::string short_distance_text(const LinkResult& link, double range_m) {
   switch (link.status) {
     case LinkStatus::ok:
       if (link.distance_m != 0) return fmt::format("{:.3f} m", link.distance_m);
-      return is_contact(link) ? "contact" : unknown_contact_text(link, range_m);
+      return is_contact(link) ? "contact" : "unknown 0 m";
     case LinkStatus::none_in_range:
       return "none within " + range_text(range_m);
     case LinkStatus::not_visible:

@@ -19,6 +19,8 @@ bool is_contact(const LinkResult& link);
 /// "0.137 m", or "contact", or "unknown 0 m, seen 0.520 m" where only unknown space touches, or why
 /// there is no distance.
 std::string distance_text(const LinkResult& link, double range_m);
+/// The same, but "unknown 0 m" alone.
+std::string short_distance_text(const LinkResult& link, double range_m);
 
 std::string fate_text(PixelFate fate);
 

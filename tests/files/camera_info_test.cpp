@@ -17,6 +17,15 @@ std::string info_text(const std::string& matrix, const std::string& distortion =
 
 const std::string kMatrix = "[534.5, 0, 478.25, 0, 530, -3, 0, 0, 1]";
 
+void expect_the_intrinsics(const Camera& camera) {
+  EXPECT_EQ(camera.width_px, 960);
+  EXPECT_EQ(camera.height_px, 540);
+  EXPECT_EQ(camera.fx_px, 534.5);
+  EXPECT_EQ(camera.fy_px, 530);
+  EXPECT_EQ(camera.cx_px, 478.25);
+  EXPECT_EQ(camera.cy_px, -3);
+}
+
 TEST(CameraInfo, GivesTheIntrinsicsOfARosFile) {
   const TemporaryFolder folder;
   const Camera camera = read_camera_info(folder.write(
@@ -24,12 +33,7 @@ TEST(CameraInfo, GivesTheIntrinsicsOfARosFile) {
                        "camera_name: front\n"
                        "rectification_matrix: {rows: 3, cols: 3, data: [1]}\n"
                        "projection_matrix: {data: []}\nbinning_x: 0\nroi: {x_offset: 0}\n"));
-  EXPECT_EQ(camera.width_px, 960);
-  EXPECT_EQ(camera.height_px, 540);
-  EXPECT_EQ(camera.fx_px, 534.5);
-  EXPECT_EQ(camera.fy_px, 530);
-  EXPECT_EQ(camera.cx_px, 478.25);
-  EXPECT_EQ(camera.cy_px, -3);
+  expect_the_intrinsics(camera);
 }
 
 /// As `ros2 topic echo --once` prints it.
@@ -72,13 +76,7 @@ TEST(CameraInfo, GivesTheIntrinsicsOfARosMessage) {
   const TemporaryFolder folder;
   for (const std::string& text :
        {kMessage, replaced(replaced(kMessage, "\nk:", "\nK:"), "\nd:", "\nD:")}) {
-    const Camera camera = read_camera_info(folder.write("info.yaml", text));
-    EXPECT_EQ(camera.width_px, 960);
-    EXPECT_EQ(camera.height_px, 540);
-    EXPECT_EQ(camera.fx_px, 534.5);
-    EXPECT_EQ(camera.fy_px, 530);
-    EXPECT_EQ(camera.cx_px, 478.25);
-    EXPECT_EQ(camera.cy_px, -3);
+    expect_the_intrinsics(read_camera_info(folder.write("info.yaml", text)));
   }
 }
 

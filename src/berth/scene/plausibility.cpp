@@ -186,24 +186,26 @@ std::vector<CameraPlausibility> find_implausible(const OpenScene& scene) {
   return cameras;
 }
 
-std::string text_of(const CameraPlausibility& camera) {
+std::string text_without_name(const CameraPlausibility& camera) {
   if (camera.is_hidden) {
     return fmt::format(
-        "camera {}: the robot is hidden: {:.0f} % of its readings in {} images lie in front of it; "
-        "nothing tells whether it is where it should be",
-        camera.camera, 100 * camera.readings.hidden_share(), camera.frames);
+        "the robot is hidden: {:.0f} % of its readings in {} images lie in front of it; nothing "
+        "tells whether it is where it should be",
+        100 * camera.readings.hidden_share(), camera.frames);
   }
   if (!camera.is_implausible) return {};
-  if (!camera.fits_otherwise.empty()) {
-    return fmt::format("camera {}: {}", camera.camera, camera.fits_otherwise);
-  }
-  std::string text = fmt::format(
-      "camera {}: the robot is not where it should be: {}; expected most of them at its "
-      "surface",
-      camera.camera, counted_text(camera.readings, camera.frames));
+  if (!camera.fits_otherwise.empty()) return camera.fits_otherwise;
+  std::string text =
+      fmt::format("the robot is not where it should be: {}; expected most of them at its surface",
+                  counted_text(camera.readings, camera.frames));
   if (!camera.dead.empty()) return text + fmt::format(". The camera is dead: {}", camera.dead);
   if (camera.as_if.empty()) return text + ". No simple mistake explains it";
   return text + fmt::format(". {:.0f} % would, as if {}", 100 * camera.share_then, camera.as_if);
+}
+
+std::string text_of(const CameraPlausibility& camera) {
+  const std::string text = text_without_name(camera);
+  return text.empty() ? text : fmt::format("camera {}: {}", camera.camera, text);
 }
 
 }  // namespace berth

@@ -51,5 +51,7 @@ CameraPlausibility find_implausible(const OpenScene& scene, std::size_t camera);
 /// One sentence or two for people: which camera, what share, what was expected, what would explain
 /// it. Empty where there is nothing to say.
 std::string text_of(const CameraPlausibility& camera);
+/// The same without "camera NAME: ", for where that stands already.
+std::string text_without_name(const CameraPlausibility& camera);
 
 }  // namespace berth
