@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "berth/files/read_file.hpp"
 #include "berth/separation/protective_distance.hpp"
 #include "sim/bundled_camera.hpp"
@@ -26,6 +29,12 @@ Camera halved(const Camera& camera) {
           camera.fy_px / 2,    (camera.width_px / 2 - 1) / 2., (camera.height_px / 2 - 1) / 2.};
 }
 
+int speckle_px(const Camera& camera, double detection_m) {
+  constexpr double kFar_m = 2.2, kShare = 0.4;
+  const double diameter_px = camera.fx_px * detection_m / kFar_m;
+  return static_cast<int>(std::lround(kShare * std::numbers::pi / 4 * diameter_px * diameter_px));
+}
+
 }  // namespace
 
 RobotModel cell_model() {
@@ -46,12 +55,12 @@ std::vector<CellCamera> cell_cameras() {
   return cameras;
 }
 
-SeparationSettings cell_separation() {
+SeparationSettings cell_separation(double request_hz, double detection_m) {
   SeparationSettings settings;
   settings.deceleration_m_s2 = kArmDeceleration_m_s2;
   settings.acceleration_m_s2 = kArmAcceleration_m_s2;
-  settings.reaction_time_s = 0.04;
-  settings.detection_m = 0.04;
+  settings.reaction_time_s = 1 / request_hz + kLateController * kController_s;
+  settings.detection_m = detection_m;
   settings.camera_uncertainty_m = kCellReadingError_m;
   return settings;
 }
@@ -59,8 +68,8 @@ SeparationSettings cell_separation() {
 double conforming_zone_m(double robot_m_s) {
   // The arm's farthest point from the base's axis on its way.
   constexpr double kReach_m = 0.67;
-  constexpr double kScanner_s = 0.08;
-  SeparationSettings settings = cell_separation();
+  constexpr double kScanner_s = 0.08, kScanner_hz = 50;
+  SeparationSettings settings = cell_separation(kScanner_hz);
   settings.detection_m.reset();
   const ProtectiveTerms terms{settings.reaction_time_s + kScanner_s, 0};
   return kReach_m + protective_distance_m(settings, terms, {robot_m_s, robot_m_s});
@@ -73,10 +82,12 @@ std::shared_ptr<const Robot> cell_robot() {
 }
 
 std::vector<std::shared_ptr<const MountedCamera>> cell_views(
-    const std::shared_ptr<const Robot>& robot, const std::vector<int>& cameras) {
+    const std::shared_ptr<const Robot>& robot, const std::vector<int>& cameras,
+    double detection_m) {
   const std::vector<CellCamera> all = cell_cameras();
   CameraSettings settings = settings_of_real_camera();
-  settings.sensor.speckle_px = 8;
+  settings.sensor.speckle_px = speckle_px(all.front().camera, detection_m);
+  settings.space.detection_capability_m = detection_m;
   std::vector<std::shared_ptr<const MountedCamera>> views;
   for (const int camera : cameras) {
     views.push_back(std::make_shared<const MountedCamera>(

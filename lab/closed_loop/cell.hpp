@@ -31,9 +31,15 @@ inline constexpr double kArmAcceleration_m_s2 = 3;
 /// by less (a test).
 inline constexpr double kCellReadingError_m = 0.03;
 
-/// berth's defaults, but for what calibration measured, d = 40 mm, and the robot's data: brake,
-/// motors, and the time of the loop from a request until the arm obeys.
-SeparationSettings cell_separation();
+/// d: almost all balls of this diameter in the cell are told (a test). C follows from it.
+inline constexpr double kCellDetection_m = 0.03;
+
+/// From an answer until the arm obeys; kLateController times as long at worst.
+inline constexpr double kController_s = 0.010, kLateController = 2;
+
+/// berth's defaults, but for what calibration measured, d, and the robot's data: brake, motors, and
+/// the time of the loop from a request until the arm obeys the next one.
+SeparationSettings cell_separation(double request_hz, double detection_m = kCellDetection_m);
 
 /// What a fixed zone around the base has to be, as a safety scanner watches it (ISO 13855): as far
 /// as the arm reaches, and the protective distance at this speed of its fastest point, with a
@@ -48,9 +54,10 @@ inline constexpr double kCellRange_m = 2;
 /// With berth's default settings but for the range.
 std::shared_ptr<const Robot> cell_robot();
 
-/// Of these cameras, by their place in cell_cameras(). Settings are the defaults, but for speckle:
-/// these cameras mix pixels at outlines.
+/// Of these cameras, by their place in cell_cameras(). Settings are the defaults, but for d, and
+/// for speckle: these cameras mix pixels at outlines. So what shows less than 40 % of a ball of d
+/// 2.2 m away is dropped.
 std::vector<std::shared_ptr<const MountedCamera>> cell_views(
-    const std::shared_ptr<const Robot>& robot, const std::vector<int>& cameras);
+    const std::shared_ptr<const Robot>& robot, const std::vector<int>& cameras, double detection_m);
 
 }  // namespace berth::lab

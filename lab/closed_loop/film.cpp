@@ -18,7 +18,8 @@ constexpr std::array kPictures = {0.12, 0.3, 0.42, 0.55, 0.8};
 class FilmedSupervisor : public MonitorSupervisor {
  public:
   FilmedSupervisor(double duration_s, std::filesystem::path folder)
-      : MonitorSupervisor(Method::mesh, {0, 1, 2}, cell_separation()),
+      : MonitorSupervisor(Method::mesh, {0, 1, 2},
+                          cell_separation(SimulationSettings().request_hz)),
         duration_s_(duration_s),
         folder_(std::move(folder)) {}
 

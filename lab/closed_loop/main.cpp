@@ -44,7 +44,7 @@ std::vector<EncounterResult> run_encounters(const Policy& policy, const Options&
     app::stop_if_interrupted();
     // Else a waiting thread would begin another encounter on top of this one.
     tbb::this_task_arena::isolate([&] {
-      const auto supervisor = make_supervisor(policy.name);
+      const auto supervisor = make_supervisor(policy.name, options.simulation.request_hz);
       results[i] =
           simulate(static_cast<std::uint32_t>(options.first + i), *supervisor, options.simulation);
     });
@@ -54,9 +54,9 @@ std::vector<EncounterResult> run_encounters(const Policy& policy, const Options&
 }
 
 /// What the monitor adds to an answer of three cameras, in microseconds.
-void print_cost(int encounter) {
-  MonitorSupervisor supervisor(Method::mesh, {0, 1, 2}, cell_separation());
-  simulate(static_cast<std::uint32_t>(encounter), supervisor, {});
+void print_cost(int encounter, const SimulationSettings& simulation) {
+  MonitorSupervisor supervisor(Method::mesh, {0, 1, 2}, cell_separation(simulation.request_hz));
+  simulate(static_cast<std::uint32_t>(encounter), supervisor, simulation);
   std::vector<double> us = supervisor.monitor_us();
   std::ranges::sort(us);
   fmt::print("{} requests; the monitor took {:.1f} us (median), {:.1f} (99 %), {:.1f} (most)\n",
@@ -64,7 +64,7 @@ void print_cost(int encounter) {
 }
 
 void run(const Options& options) {
-  if (options.is_cost) return print_cost(options.first);
+  if (options.is_cost) return print_cost(options.first, options.simulation);
   if (!options.film.empty()) {
     return film_encounter(static_cast<std::uint32_t>(options.first), options.film);
   }

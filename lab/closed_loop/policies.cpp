@@ -9,20 +9,16 @@
 namespace berth::lab {
 namespace {
 
-SeparationSettings changed(void (*change)(SeparationSettings&)) {
-  SeparationSettings settings = cell_separation();
-  change(settings);
-  return settings;
-}
+using Made = std::unique_ptr<Supervisor>;
 
-std::unique_ptr<Supervisor> monitor(std::vector<int> cameras,
-                                    const SeparationSettings& settings = cell_separation(),
-                                    ShownBy shown = ShownBy::along_path) {
+Made monitor(std::vector<int> cameras, const SeparationSettings& settings,
+             ShownBy shown = ShownBy::along_path) {
   return std::make_unique<MonitorSupervisor>(Method::mesh, std::move(cameras), settings, shown);
 }
 
-std::unique_ptr<Supervisor> three(void (*change)(SeparationSettings&)) {
-  return monitor({0, 1, 2}, changed(change));
+Made three(SeparationSettings settings, void (*change)(SeparationSettings&)) {
+  change(settings);
+  return monitor({0, 1, 2}, settings);
 }
 
 constexpr double kContact_m_s = 0.25;
@@ -30,58 +26,69 @@ constexpr double kSlow_m_s = 0.25;
 
 struct Row {
   Policy policy;
-  std::unique_ptr<Supervisor> (*make)();
+  Made (*make)(double request_hz);
 };
 
 const std::vector<Row>& rows() {
   static const std::vector<Row> all = {
       {{"path", "**berth, three cameras, the defaults**"},
-       [] {
-         return monitor({0, 1, 2});
+       [](double hz) {
+         return monitor({0, 1, 2}, cell_separation(hz));
        }},
       {{"contact", "three cameras, a contact at 0.25 m/s is tolerable"},
-       [] { return three([](auto& s) { s.contact_speed_m_s = kContact_m_s; }); }},
+       [](double hz) {
+         return three(cell_separation(hz), [](auto& s) { s.contact_speed_m_s = kContact_m_s; });
+       }},
       {{"formula", "three cameras, as if the arm ran straight at what is nearest"},
-       [] {
-         return monitor({0, 1, 2}, cell_separation(), ShownBy::formula);
+       [](double hz) {
+         return monitor({0, 1, 2}, cell_separation(hz), ShownBy::formula);
        }},
       {{"straight", "three cameras, the arm's way is not told: it goes straight on, and bends"},
-       [] {
-         return monitor({0, 1, 2}, cell_separation(), ShownBy::straight_on);
+       [](double hz) {
+         return monitor({0, 1, 2}, cell_separation(hz), ShownBy::straight_on);
        }},
       {{"fine", "three cameras that detect 20 mm"},
-       [] { return three([](auto& s) { s.detection_m = 0.02; }); }},
-      {{"readings", "three cameras, unknown space ignored"},
-       [] { return three([](auto& s) { s.unknown = UnknownPolicy::ignore; }); }},
-      {{"two", "two cameras, the defaults"},
-       [] {
-         return monitor({1, 2});
+       [](double hz) {
+         return monitor({0, 1, 2}, cell_separation(hz, 0.02));
        }},
-      {{"one", "one camera, the defaults"}, [] { return monitor({0}); }},
+      {{"coarse", "three cameras that detect 40 mm"},
+       [](double hz) {
+         return monitor({0, 1, 2}, cell_separation(hz, 0.04));
+       }},
+      {{"readings", "three cameras, unknown space ignored"},
+       [](double hz) {
+         return three(cell_separation(hz), [](auto& s) { s.unknown = UnknownPolicy::ignore; });
+       }},
+      {{"two", "two cameras, the defaults"},
+       [](double hz) {
+         return monitor({1, 2}, cell_separation(hz));
+       }},
+      {{"one", "one camera, the defaults"},
+       [](double hz) { return monitor({0}, cell_separation(hz)); }},
       {{"evading", "three cameras, and the arm gives way to what comes near"},
-       []() -> std::unique_ptr<Supervisor> {
+       [](double hz) -> Made {
          return std::make_unique<EvadingSupervisor>(Method::mesh, std::vector{0, 1, 2},
-                                                    cell_separation());
+                                                    cell_separation(hz));
        }},
       {{"exact", "one camera, the visible side alone (`exact`, what is not seen is ignored)"},
-       []() -> std::unique_ptr<Supervisor> {
-         return std::make_unique<MonitorSupervisor>(
-             Method::exact, std::vector{0},
-             changed([](auto& s) { s.not_seen = UnknownPolicy::ignore; }));
+       [](double hz) -> Made {
+         SeparationSettings settings = cell_separation(hz);
+         settings.not_seen = UnknownPolicy::ignore;
+         return std::make_unique<MonitorSupervisor>(Method::exact, std::vector{0}, settings);
        }},
       {{"conforming", "a fixed zone as a safety scanner has to have it"},
-       []() -> std::unique_ptr<Supervisor> {
+       [](double) -> Made {
          return std::make_unique<FixedZone>(conforming_zone_m(kArmFullSpeed_m_s));
        }},
       {{"conforming_two_steps", "the same in two steps: slow, 0.25 m/s, and stop"},
-       []() -> std::unique_ptr<Supervisor> {
+       [](double) -> Made {
          return std::make_unique<FixedZone>(conforming_zone_m(kSlow_m_s),
                                             conforming_zone_m(kArmFullSpeed_m_s), kSlow_m_s);
        }},
       {{"zone", "*not conforming*: stop while anybody is within 1.5 m of the base"},
-       []() -> std::unique_ptr<Supervisor> { return std::make_unique<FixedZone>(1.5); }},
+       [](double) -> Made { return std::make_unique<FixedZone>(1.5); }},
       {{"none", "nobody: always at full speed"},
-       []() -> std::unique_ptr<Supervisor> { return std::make_unique<NoSupervisor>(); }}};
+       [](double) -> Made { return std::make_unique<NoSupervisor>(); }}};
   return all;
 }
 
@@ -96,9 +103,9 @@ const std::vector<Policy>& all_policies() {
   return policies;
 }
 
-std::unique_ptr<Supervisor> make_supervisor(const std::string& name) {
+std::unique_ptr<Supervisor> make_supervisor(const std::string& name, double request_hz) {
   for (const Row& row : rows()) {
-    if (row.policy.name == name) return row.make();
+    if (row.policy.name == name) return row.make(request_hz);
   }
   throw std::invalid_argument(fmt::format("policy: \"{}\"; expected one that --help names", name));
 }

@@ -17,6 +17,6 @@ struct Policy {
 const std::vector<Policy>& all_policies();
 
 /// One for each encounter. Throws std::invalid_argument for an unknown name.
-std::unique_ptr<Supervisor> make_supervisor(const std::string& name);
+std::unique_ptr<Supervisor> make_supervisor(const std::string& name, double request_hz);
 
 }  // namespace berth::lab

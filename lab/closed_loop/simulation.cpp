@@ -12,7 +12,6 @@ namespace berth::lab {
 namespace {
 
 constexpr double kStep_s = 0.001;
-constexpr double kLateController = 2;
 
 struct Image {
   std::size_t which;
@@ -166,7 +165,7 @@ class Loop {
     const double scale =
         supervisor_.scale({time_s_, joints_, arm_.plan(), ahead_, arm_.full_m_s(), range_of(X_BP)});
     const double late = is_faulty(Fault::late_controller) ? kLateController : 1;
-    commands_.push_back({time_s_ + late * settings_.controller_s, scale, supervisor_.evasion()});
+    commands_.push_back({time_s_ + late * kController_s, scale, supervisor_.evasion()});
     const bool is_after_fault = settings_.fault != Fault::none && time_s_ >= settings_.fault_s;
     if (is_after_fault && scale == 0 && std::isnan(result_.commanded_stop_s)) {
       result_.commanded_stop_s = time_s_ - settings_.fault_s;

@@ -24,9 +24,7 @@ struct SimulationSettings {
   double image_hz = 30;
   double image_latency_s = 0.060;
   double joint_latency_s = 0.002;
-  double request_hz = 50;
-  /// From an answer until the arm obeys.
-  double controller_s = 0.010;
+  double request_hz = 250;
   Fault fault = Fault::none;
   double fault_s = 0;
   /// Who comes, and the share of the time in which somebody is there; 0: nobody ever.

@@ -16,7 +16,7 @@ MonitorSupervisor::MonitorSupervisor(Method method, std::vector<int> cameras,
       query_(robot_, method),
       monitor_(robot_, settings),
       shown_(shown) {
-  for (const auto& view : cell_views(robot_, cameras_)) {
+  for (const auto& view : cell_views(robot_, cameras_, settings.detection_m.value())) {
     observers_.push_back(std::make_unique<Observer>(view));
   }
 }

@@ -72,7 +72,7 @@ enum class ShownBy {
   along_path,   ///< and the way that the arm is going to take
 };
 
-/// berth.
+/// berth. The cameras tell what is as large as settings.detection_m.
 class MonitorSupervisor : public Supervisor {
  public:
   MonitorSupervisor(Method method, std::vector<int> cameras, const SeparationSettings& settings,

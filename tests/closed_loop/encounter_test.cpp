@@ -79,7 +79,7 @@ TEST(ClosedLoop, TheContactCheckFindsWhatFclFindsAtEachStep) {
 }
 
 TEST(ClosedLoop, WithoutAMonitorSomebodyIsHit) {
-  const auto nobody = make_supervisor("none");
+  const auto nobody = make_supervisor("none", SimulationSettings().request_hz);
   double fastest_m_s = 0;
   for (std::uint32_t seed = 0; seed < 6; ++seed) {
     fastest_m_s = std::max(fastest_m_s, simulate(seed, *nobody, {}).contact_m_s);
@@ -88,7 +88,7 @@ TEST(ClosedLoop, WithoutAMonitorSomebodyIsHit) {
 }
 
 TEST(ClosedLoop, TheMonitorStopsTheArmBeforeAnybodyIsThere) {
-  const auto monitor = make_supervisor("path");
+  const auto monitor = make_supervisor("path", SimulationSettings().request_hz);
   std::vector<LoopSample> samples;
   SimulationSettings settings;
   settings.most_s = 5;
@@ -124,7 +124,7 @@ TEST(ClosedLoop, NoVisitorIsFasterThanPeopleAre) {
 }
 
 TEST(ClosedLoop, NobodyIsThereForTheRestOfTheTime) {
-  const auto nobody = make_supervisor("none");
+  const auto nobody = make_supervisor("none", SimulationSettings().request_hz);
   SimulationSettings settings;
   const double always_s = simulate(1, *nobody, settings).duration_s;
   settings.presence = 0.5;
@@ -174,7 +174,7 @@ TEST(ClosedLoop, TheCamerasReadingsAreAsWrongAsItsSettingsSay) {
 }
 
 TEST(ClosedLoop, UnknownPoliciesAreRefused) {
-  EXPECT_THROW(make_supervisor("brave"), std::invalid_argument);
+  EXPECT_THROW(make_supervisor("brave", SimulationSettings().request_hz), std::invalid_argument);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ EncounterResult run_with(Fault fault, const char* policy = "path") {
   settings.fault = fault;
   settings.fault_s = 1.5;
   settings.most_s = 2.5;
-  return simulate(3, *make_supervisor(policy), settings);
+  return simulate(3, *make_supervisor(policy, settings.request_hz), settings);
 }
 
 /// S holds for images up to this old, and a request comes after that.
@@ -34,7 +34,7 @@ TEST_P(Faults, StopTheArmInTime) {
   const EncounterResult result = run_with(fault, policy);
   EXPECT_GT(result.phase_s, 0.5) << "it moved before";
   EXPECT_LE(result.commanded_stop_s, assumed_s());
-  EXPECT_LE(result.stopped_s, assumed_s() + SimulationSettings().controller_s + kStopping_s);
+  EXPECT_LE(result.stopped_s, assumed_s() + kController_s + kStopping_s);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Faults,
@@ -55,7 +55,8 @@ TEST(OtherFaults, AControllerThatObeysAsLateAsSaidHitsNobody) {
   SimulationSettings settings;
   settings.fault = Fault::late_controller;
   for (const char* policy : {"path", "formula"}) {
-    const EncounterResult result = simulate(2, *make_supervisor(policy), settings);
+    const EncounterResult result =
+        simulate(2, *make_supervisor(policy, settings.request_hz), settings);
     EXPECT_EQ(result.contact_m_s, 0) << policy;
     EXPECT_GT(result.least_moving_m, 0.1) << policy;
   }

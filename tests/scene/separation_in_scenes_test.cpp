@@ -37,6 +37,18 @@ TEST(SeparationInScenes, WarnsOnceWhereNobodyHasShownWhatTheCamerasDetect) {
   EXPECT_TRUE(read_text(SceneText()).warnings.empty());
 }
 
+TEST(SeparationInScenes, WarnsWhereACameraIsSetToTellLessThanWasShown) {
+  const SceneFile scene =
+      read_text(with(&SceneText::end, "joints: j.csv\nseparation: {detection_m: 0.02}"));
+  ASSERT_EQ(scene.warnings.size(), 1U);
+  expect_parts(scene.warnings.front(), {"scene.yaml:9", "separation.detection_m: 0.02;", "at least",
+                                        "0.04", "C is 0.208 m"});
+  EXPECT_TRUE(read_text(with(&SceneText::end,
+                             "space: {detection_capability_m: 0.02}\njoints: j.csv\n"
+                             "separation: {detection_m: 0.02}"))
+                  .warnings.empty());
+}
+
 TEST(SeparationInScenes, HasEveryKeyAndTheTable) {
   const SeparationSettings settings = read_separation_of(
       "{human_speed_m_s: 2, reaction_time_s: 0.2, deceleration_m_s2: 3, acceleration_m_s2: 4, "

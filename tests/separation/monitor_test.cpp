@@ -97,6 +97,18 @@ TEST_F(Monitor, EachLinkHasTheRoomThatItsFormulaSays) {
   EXPECT_EQ(separation.speed_scale, least < settings.least_scale ? 0 : least);
 }
 
+TEST_F(Monitor, WhatTheCamerasMayMissByTheirSettingsCounts) {
+  SeparationSettings settings = plain_settings();
+  settings.intrusion_m.reset();
+  settings.detection_m = 0.02;
+  const LinkSeparation promised = update(settings).links.back();
+  const double told_m = frames_[0]->view->settings().space.detection_capability_m;
+  settings.detection_m = told_m;
+  const LinkSeparation told = update(settings).links.back();
+  EXPECT_GT(told_m, 0.02);
+  EXPECT_EQ(promised.required_m, told.required_m);
+}
+
 TEST_F(Monitor, ALinkThatNoJointMovesNeedsNoRoom) {
   const Separation separation = update(plain_settings());
   EXPECT_FALSE(separation.links[0].is_moved);

@@ -53,6 +53,10 @@ TEST(ProtectiveDistance, EachTermAlone) {
   place.robot_uncertainty_m = 0.02;
   EXPECT_NEAR(protective_distance_m(place, {0, 0}, {0, 0}), 0.02, 1e-12);
   EXPECT_NEAR(protective_distance_m(no_terms(), {0, 0.07}, {0, 0}), 0.07, 1e-12);
+  SeparationSettings seen = no_terms();
+  seen.intrusion_m.reset();
+  seen.detection_m = 0.02;
+  EXPECT_NEAR(protective_distance_m(seen, {0, 0, 0.03}, {0, 0}), 0.128, 1e-12);
 }
 
 TEST(ProtectiveDistance, TheReachComesFromWhatTheCamerasDetect) {
@@ -66,8 +70,12 @@ TEST(ProtectiveDistance, TheReachComesFromWhatTheCamerasDetect) {
   EXPECT_EQ(intrusion_m(settings), 0);
   settings.detection_m = 0.041;
   EXPECT_EQ(intrusion_m(settings), 0.85);
+  settings.detection_m = 0.020;
+  EXPECT_NEAR(intrusion_m(settings, 0.030), 0.128, 1e-12) << "the cameras may miss more";
+  EXPECT_NEAR(intrusion_m(settings, 0.010), 0.048, 1e-12);
+  EXPECT_EQ(intrusion_m(settings, 0.041), 0.85);
   settings.intrusion_m = 0.3;
-  EXPECT_EQ(intrusion_m(settings), 0.3) << "what the user says counts";
+  EXPECT_EQ(intrusion_m(settings, 0.041), 0.3) << "what the user says counts";
 }
 
 TEST(ProtectiveDistance, TheLongestTimeToStopWithinAWay) {

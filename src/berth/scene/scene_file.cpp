@@ -10,6 +10,7 @@
 #include "berth/scene/former_settings.hpp"
 #include "berth/scene/scene_camera.hpp"
 #include "berth/scene/settings_yaml.hpp"
+#include "berth/separation/protective_distance.hpp"
 
 namespace berth {
 namespace {
@@ -121,6 +122,28 @@ SeparationSettings read_separation(const YamlValue& value) {
   return settings;
 }
 
+/// Where C stands on nothing, or on less than the cameras are set to tell.
+void warn_of_what_is_not_shown(SceneFile& scene, int line) {
+  const SeparationSettings& separation = *scene.separation;
+  if (separation.intrusion_m) return;
+  const std::string place = fmt::format("{}:{}: separation", scene.file.string(), line);
+  if (!separation.detection_m) {
+    scene.warnings.push_back(
+        fmt::format("{}: nobody has shown how small a thing the cameras detect; C is {} m. Set "
+                    "detection_m or intrusion_m",
+                    place, kUnprovenIntrusion_m));
+    return;
+  }
+  for (const SceneCamera& camera : scene.cameras) {
+    const double told_m = camera.settings.space.detection_capability_m;
+    if (told_m <= *separation.detection_m) continue;
+    scene.warnings.push_back(fmt::format(
+        "{}.detection_m: {}; expected at least space.detection_capability_m of camera "
+        "\"{}\", {}: what is smaller may hide from it. C is {:.3f} m",
+        place, *separation.detection_m, camera.name, told_m, intrusion_m(separation, told_m)));
+  }
+}
+
 }  // namespace
 
 void read_view_settings(const YamlMap& map, CameraSettings& settings) {
@@ -164,13 +187,7 @@ SceneFile parse_scene(const std::filesystem::path& file, const std::string& text
   if (const auto time = map.find("time")) read_settings(*time, scene.evaluation.time);
   if (const auto separation = map.find("separation")) {
     scene.separation = read_separation(*separation);
-    if (!scene.separation->intrusion_m && !scene.separation->detection_m) {
-      scene.warnings.push_back(
-          fmt::format("{}:{}: separation: nobody has shown how small a thing the cameras detect; C "
-                      "is {} m. Set "
-                      "detection_m or intrusion_m",
-                      file.string(), separation->place().line, kUnprovenIntrusion_m));
-    }
+    warn_of_what_is_not_shown(scene, separation->place().line);
   }
   return scene;
 }

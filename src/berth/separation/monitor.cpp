@@ -48,6 +48,17 @@ double age_s(const Result& result) {
   return oldest_s;
 }
 
+/// Of the cameras in use, the one that may miss the most by its settings.
+double detection_capability_m(std::span<const CameraResult> cameras) {
+  double least_m = 0;
+  for (const CameraResult& camera : cameras) {
+    if (!camera.mounted || !is_used(camera.status)) continue;
+    const SpaceSettings& space = camera.mounted->settings().space;
+    least_m = std::max(least_m, space.detection_capability_m);
+  }
+  return least_m;
+}
+
 bool allows_less(const LinkSeparation& a, const LinkSeparation& b) {
   return a.speed_scale != b.speed_scale ? a.speed_scale < b.speed_scale : a.margin_m < b.margin_m;
 }
@@ -99,6 +110,8 @@ struct SeparationMonitor::Parts {
   /// Of its fastest point at full speed, and with what it may gain.
   double planned_m_s = 0;
   double robot_m_s = 0;
+  /// What the cameras may miss by their settings.
+  double least_detection_m = 0;
   ScaleRise rise;
   /// Null until somebody gives frames.
   std::unique_ptr<PathCertificate> certificate;
@@ -179,6 +192,7 @@ SeparationReason SeparationMonitor::Parts::begin(const Result& result,
 
 void SeparationMonitor::Parts::update_links(const Result& result) {
   out.camera = settings.camera == UnknownPolicy::ignore ? -1 : lost_camera(result.cameras);
+  least_detection_m = detection_capability_m(result.cameras);
   const LinkSeparation* least = nullptr;
   measure_speeds(result);
   for (std::size_t i = 0; i < out.links.size(); ++i) {
@@ -212,19 +226,20 @@ void SeparationMonitor::Parts::update_link(const Result& result, std::size_t i) 
   if (out.camera >= 0) {
     near = with_unknown(near, settings.camera, settings.assumed_range_m, SeparationReason::camera);
   }
-  const ProtectiveTerms terms{
-      out.reaction_time_s, settings.camera_uncertainty_m.value_or(camera_uncertainty(result, i))};
+  const ProtectiveTerms terms{out.reaction_time_s,
+                              settings.camera_uncertainty_m.value_or(camera_uncertainty(result, i)),
+                              least_detection_m};
   const LinkSpeed speed{link.speed_m_s, robot_m_s};
   link.distance_m = near.distance_m;
   link.required_m = protective_distance_m(settings, terms, speed);
   link.margin_m = link.distance_m - link.required_m;
   link.speed_scale = greatest_speed_scale(settings, terms, speed, link.distance_m);
   link.reason = link.speed_scale < 1 ? near.reason : SeparationReason::none;
-  path_links[i] = {
-      .is_moved = true,
-      .added_m = intrusion_m(settings) + terms.camera_uncertainty_m + settings.robot_uncertainty_m,
-      .known_m = known_m(result.links[i]),
-      .assumed_m = near.distance_m};
+  path_links[i] = {.is_moved = true,
+                   .added_m = intrusion_m(settings, least_detection_m) + terms.camera_uncertainty_m +
+                              settings.robot_uncertainty_m,
+                   .known_m = known_m(result.links[i]),
+                   .assumed_m = near.distance_m};
 }
 
 double SeparationMonitor::Parts::known_m(const LinkResult& link) const {

@@ -51,13 +51,13 @@ double time_to_stop_within_s(const SeparationSettings& settings, double distance
   return stopping_from(settings, too_much_m_s).time_s;
 }
 
-double intrusion_m(const SeparationSettings& settings) {
+double intrusion_m(const SeparationSettings& settings, double least_detection_m) {
   if (settings.intrusion_m) return *settings.intrusion_m;
+  if (!settings.detection_m) return kUnprovenIntrusion_m;
   constexpr double kGreatestDetection_m = 0.040, kFinger_m = 0.014, kPerDetection = 8;
-  if (!settings.detection_m || *settings.detection_m > kGreatestDetection_m) {
-    return kUnprovenIntrusion_m;
-  }
-  return std::max(0.0, kPerDetection * (*settings.detection_m - kFinger_m));
+  const double detection_m = std::max(*settings.detection_m, least_detection_m);
+  if (detection_m > kGreatestDetection_m) return kUnprovenIntrusion_m;
+  return std::max(0.0, kPerDetection * (detection_m - kFinger_m));
 }
 
 double protective_distance_m(const SeparationSettings& settings, const ProtectiveTerms& terms,
@@ -67,8 +67,8 @@ double protective_distance_m(const SeparationSettings& settings, const Protectiv
   const double person_m = settings.human_speed_m_s * (terms.reaction_time_s + stopping.time_s);
   const double share = speed.robot_m_s > 0 ? speed.link_m_s / speed.robot_m_s : 1;
   const double robot_m = speed.link_m_s * terms.reaction_time_s + share * stopping.distance_m;
-  return person_m + robot_m + intrusion_m(settings) + terms.camera_uncertainty_m +
-         settings.robot_uncertainty_m;
+  return person_m + robot_m + intrusion_m(settings, terms.least_detection_m) +
+         terms.camera_uncertainty_m + settings.robot_uncertainty_m;
 }
 
 double greatest_speed_scale(const SeparationSettings& settings, const ProtectiveTerms& terms,

@@ -19,9 +19,9 @@ Stopping stopping_from(const SeparationSettings& settings, double speed_m_s);
 double time_to_stop_within_s(const SeparationSettings& settings, double distance_m,
                              double most_m_s);
 
-/// C: that of the settings; else from the detection capability that was shown, 8 (d - 14 mm) up to
-/// d = 40 mm; else kUnprovenIntrusion_m.
-double intrusion_m(const SeparationSettings& settings);
+/// C: that of the settings; else from the detection capability that was shown, but no less than what
+/// the cameras are set to tell: 8 (d - 14 mm) up to d = 40 mm; else kUnprovenIntrusion_m.
+double intrusion_m(const SeparationSettings& settings, double least_detection_m = 0);
 
 /// The terms of the protective distance that no speed changes.
 struct ProtectiveTerms {
@@ -29,6 +29,9 @@ struct ProtectiveTerms {
   double reaction_time_s = 0;
   /// Z_d.
   double camera_uncertainty_m = 0;
+  /// What is smaller may hide from the cameras by their settings
+  /// (SpaceSettings::detection_capability_m).
+  double least_detection_m = 0;
 };
 
 /// How fast a link moves, and the robot that it belongs to.

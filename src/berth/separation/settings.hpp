@@ -53,7 +53,8 @@ struct SeparationSettings {
   /// C: how far a part of a body may reach before it is detected; none: from detection_m.
   std::optional<double> intrusion_m = std::nullopt;
   /// d: the smallest thing that the cameras together were shown to detect everywhere in the cell;
-  /// none: nobody has shown it. C = 8 (d - 14 mm) up to 40 mm, else kUnprovenIntrusion_m.
+  /// none: nobody has shown it. C = 8 (d - 14 mm) up to 40 mm, else kUnprovenIntrusion_m. Where a
+  /// camera's SpaceSettings::detection_capability_m is more, that counts.
   std::optional<double> detection_m = std::nullopt;
   /// Z_d; none: from the settings of the cameras in use (camera_uncertainty_m()).
   std::optional<double> camera_uncertainty_m = std::nullopt;
