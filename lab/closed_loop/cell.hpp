@@ -32,7 +32,7 @@ inline constexpr double kArmAcceleration_m_s2 = 3;
 inline constexpr double kCellReadingError_m = 0.03;
 
 /// d: almost all balls of this diameter in the cell are told (a test). C follows from it.
-inline constexpr double kCellDetection_m = 0.03;
+inline constexpr double kCellDetection_m = 0.025;
 
 /// From an answer until the arm obeys; kLateController times as long at worst.
 inline constexpr double kController_s = 0.010, kLateController = 2;

@@ -1,6 +1,7 @@
 #include "lab/closed_loop/supervisor.hpp"
 
 #include <chrono>
+#include <utility>
 
 #include "lab/closed_loop/cell.hpp"
 
@@ -26,17 +27,24 @@ void MonitorSupervisor::see(std::size_t which, const DepthImage& depth_m, double
   auto frame = std::make_shared<Frame>();
   observers_[which]->observe(depth_m, stamp_s, joints, *frame);
   frames_[which] = std::move(frame);
+  has_new_image_ = true;
 }
 
 double MonitorSupervisor::scale(const Situation& situation) {
+  using Clock = std::chrono::steady_clock;
+  const auto asked = Clock::now();
   result_ = &query_.ask({.frames = frames_, .joints = situation.joints, .now_s = situation.now_s});
-  const auto start = std::chrono::steady_clock::now();
+  const auto answered = Clock::now();
   PlannedMotion motion(situation.plan.velocity_rad_s);
   if (shown_ == ShownBy::along_path) motion.path = situation.path;
   last_ = &monitor_.update(*result_, motion, situation.now_s,
                            shown_ == ShownBy::formula ? nullptr : query_.frames());
-  const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
-  monitor_us_.push_back(took.count());
+  const auto done = Clock::now();
+  const auto since = [done](Clock::time_point start) {
+    return std::chrono::duration<double, std::micro>(done - start).count();
+  };
+  monitor_us_.push_back(since(answered));
+  if (!std::exchange(has_new_image_, false)) request_us_.push_back(since(asked));
   return last_->speed_scale;
 }
 

@@ -84,8 +84,11 @@ class MonitorSupervisor : public Supervisor {
   const Separation& last() const { return *last_; }
   const std::shared_ptr<const Robot>& robot() const { return robot_; }
   const Result& result() const { return *result_; }
-  /// How long the monitor took, of each request, without the request itself.
+  /// How long the monitor took, in each request.
   const std::vector<double>& monitor_us() const { return monitor_us_; }
+  /// Requests and monitor, but for the first request after an image: where it counts, another
+  /// thread has made that image's space ready (LiveSpace).
+  const std::vector<double>& request_us() const { return request_us_; }
   /// Null where it has none yet.
   const std::shared_ptr<const Frame>& newest(std::size_t which) const { return frames_[which]; }
 
@@ -99,7 +102,9 @@ class MonitorSupervisor : public Supervisor {
   ShownBy shown_;
   const Separation* last_ = nullptr;
   const Result* result_ = nullptr;
+  bool has_new_image_ = false;
   std::vector<double> monitor_us_;
+  std::vector<double> request_us_;
 };
 
 /// berth, with an arm that gives way besides.

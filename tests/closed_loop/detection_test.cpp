@@ -103,7 +103,8 @@ TEST_P(Detection, AlmostAllBallsOfThisDiameterAreTold) {
   EXPECT_GE(told, kBalls * 97 / 100);
 }
 
-INSTANTIATE_TEST_SUITE_P(OfTheCell, Detection, ::testing::Values(0.02, kCellDetection_m, 0.04));
+INSTANTIATE_TEST_SUITE_P(OfTheCell, Detection,
+                         ::testing::Values(0.02, kCellDetection_m, 0.03, 0.04));
 
 // Else the test above could not fail.
 TEST(UndetectedBalls, MuchSmallerBallsAreNotTold) {
