@@ -152,6 +152,22 @@ TEST_F(PreparedScene, TheRootMayStandElsewhereThanItWasPreparedFor) {
   expect_same(query.ask({.frames = {space}}), here);
 }
 
+/// To the last bit, so that a recording can begin anywhere.
+TEST_F(PreparedScene, AfterForgettingARequestGoesOnFromWhatWasPrepared) {
+  const SharedFrames frames = observe_all(3);
+  const auto space = prepare(frames, &joints(3));
+  Query first(robot()), query(robot());
+  const Result& expected = first.ask({.frames = {space}, .joints = joints(9)});
+  for (const std::size_t of : {3, 20}) query.ask({.frames = {space}, .joints = joints(of)});
+  query.forget();
+  const Result& result = query.ask({.frames = {space}, .joints = joints(9)});
+  for (std::size_t i = 0; i < result.links.size(); ++i) {
+    SCOPED_TRACE(result.links[i].link);
+    EXPECT_EQ(result.links[i].distance_m, expected.links[i].distance_m);
+    EXPECT_EQ(result.links[i].lower_bound_m, expected.links[i].lower_bound_m);
+  }
+}
+
 TEST_F(PreparedScene, OneThatIsPreparedAnewAtItsPlaceIsAskedAnew) {
   const SharedFrames before = observe_all(3), after = observe_all(17);
   const auto space = prepare(before);

@@ -19,12 +19,15 @@ bool begin_exposure(const std::shared_ptr<const MountedCamera>& view, DepthView 
   out.stamp_s = at_exposure.stamp_s;
   out.time = time;
   out.watch = {};
+  out.joints.stamp_s = at_exposure.stamp_s;
+  out.joints.position.clear();
   if (time.status != TimeStatus::ok) {
     out.X_PC = out.X_BC = out.X_WB = unset_pose();
     out.pose.X_BL.clear();
     return false;
   }
   forward_kinematics(view->robot()->model(), at_exposure.position, out.pose);
+  out.joints.position = at_exposure.position;
   out.X_PC = place.X_PC.value_or(view->mount().X_PC);
   out.X_BC = view->camera_pose(out.pose, out.X_PC);
   out.X_WB = place.X_WB;

@@ -41,6 +41,8 @@ struct Exposure {
   Pose X_BC = Pose::Identity();
   Pose X_WB = Pose::Identity();
   RobotPose pose;
+  /// The joints that this is made from; without positions unless the time is ok.
+  JointState joints;
 };
 
 /// The first step of each observer: writes `out`. Whether its time is ok; if not, the joints are

@@ -25,12 +25,27 @@ void PreparedSpace::prepare(std::span<const std::shared_ptr<const Frame>> frames
   frames_.assign(frames.begin(), frames.end());
   set_->assign(asked_, robot_->settings().time);
   searches_->forget();
+  searches_made_ = 0;
+  note_search(joints);
   if (!set_->newest()) return;
-  if (joints) return search(*joints);
+  if (joints) return search_at(*joints);
   searches_->prepare(*set_, set_->newest()->pose);
 }
 
 void PreparedSpace::search(const JointState& joints) {
+  note_search(&joints);
+  search_at(joints);
+}
+
+void PreparedSpace::note_search(const JointState* joints) {
+  if (searches_made_ == searched_for_.size()) searched_for_.emplace_back();
+  JointState& noted = searched_for_[searches_made_++];
+  noted.stamp_s = joints ? joints->stamp_s : 0;
+  noted.position.clear();
+  if (joints) noted.position = joints->position;
+}
+
+void PreparedSpace::search_at(const JointState& joints) {
   if (!set_->newest()) return;
   forward_kinematics(robot_->model(), joints.position, pose_);
   searches_->prepare(*set_, pose_);

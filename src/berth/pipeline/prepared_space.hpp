@@ -35,9 +35,17 @@ class PreparedSpace {
   void search(const JointState& joints);
 
   std::span<const std::shared_ptr<const Frame>> frames() const { return frames_; }
+  /// What prepare() and then search() were called with, so that the same space can be made again.
+  /// The first one has no position where the robot was taken as it was at the newest exposure.
+  std::span<const JointState> searched_for() const {
+    return {searched_for_.data(), searches_made_};
+  }
 
  private:
   friend class Query;
+
+  void note_search(const JointState* joints);
+  void search_at(const JointState& joints);
 
   std::shared_ptr<const Robot> robot_;
   std::vector<std::shared_ptr<const Frame>> frames_;
@@ -45,6 +53,9 @@ class PreparedSpace {
   std::unique_ptr<FrameSet> set_;
   std::unique_ptr<LinkSearches> searches_;
   RobotPose pose_;
+  /// The first `searches_made_` of them count; the others keep their memory.
+  std::vector<JointState> searched_for_;
+  std::size_t searches_made_ = 0;
 };
 
 }  // namespace berth

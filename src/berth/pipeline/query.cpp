@@ -78,7 +78,10 @@ Query::Query(std::shared_ptr<const Robot> robot, std::vector<std::string> camera
 
 Query::~Query() = default;
 
-void Query::forget() { searches_->forget(); }
+void Query::forget() {
+  searches_->forget();
+  goes_on_ = false;
+}
 
 bool Query::has_changed(std::span<const Frame* const> frames) const {
   if (!std::ranges::equal(frames, set_->frames())) return true;
@@ -97,9 +100,10 @@ bool Query::take_prepared(const std::shared_ptr<const PreparedSpace>& prepared,
   const FrameSet& set = *prepared->set_;
   if (!std::ranges::equal(cameras_, set.cameras(), {}, use_of, use_of)) return false;
   if (X_WB && !set.is_posed_at(*X_WB)) return false;
-  if (asked_ == &set && prepared_ == prepared) return true;
+  if (asked_ == &set && prepared_ == prepared && goes_on_) return true;
   asked_ = &set;
   prepared_ = prepared;
+  goes_on_ = true;
   searches_->go_on_from(*prepared->searches_);
   return true;
 }

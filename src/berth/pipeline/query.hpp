@@ -36,6 +36,8 @@ class Query {
   /// times requests, or wants the same result again to the last bit.
   void forget();
 
+  const std::vector<std::string>& camera_names() const { return camera_names_; }
+
   /// What the frames of the last request leave of space.
   const FrameSet& frames() const { return *asked_; }
 
@@ -59,6 +61,8 @@ class Query {
   const FrameSet* asked_;
   std::unique_ptr<FrameSet> set_;
   std::shared_ptr<const PreparedSpace> prepared_;
+  /// Where nothing is known of the request before, what was prepared is taken once more.
+  bool goes_on_ = true;
   std::vector<std::uint64_t> numbers_;
   std::optional<Pose> X_WB_;
   std::vector<CameraState> cameras_;

@@ -14,7 +14,7 @@ void NewestFrames::require_count(std::size_t count) {
 
 const JointState* RequestedJoints::read(std::optional<double> now_s, JointState& newest,
                                         TimeStatus& status) const {
-  status = TimeStatus::ok;
+  status = status_;
   if (!buffer_) return state_;
   if (!now_s) {
     throw std::invalid_argument(

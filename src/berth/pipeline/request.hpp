@@ -55,6 +55,8 @@ class RequestedJoints {
   RequestedJoints() = default;
   RequestedJoints(const JointState& state) : state_(&state) {}
   RequestedJoints(const JointBuffer& buffer) : buffer_(&buffer) {}
+  /// Those that a buffer gave, with what it said of them.
+  RequestedJoints(const JointState& state, TimeStatus status) : state_(&state), status_(status) {}
 
   /// Those that a request at `now_s` is about: null for those of the exposure. A buffer's newest
   /// are written to `newest`, with how they stand in `status`. Throws std::invalid_argument for a
@@ -63,6 +65,7 @@ class RequestedJoints {
 
  private:
   const JointState* state_ = nullptr;
+  TimeStatus status_ = TimeStatus::ok;
   const JointBuffer* buffer_ = nullptr;
 };
 

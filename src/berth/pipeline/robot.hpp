@@ -51,6 +51,8 @@ class Robot {
 
   /// With all that is attached to it.
   const RobotModel& model() const { return model_; }
+  /// Without what is attached.
+  const RobotModel& bare() const { return bare_; }
   const std::vector<Attachment>& attached() const { return attached_; }
   const EvaluationSettings& settings() const { return settings_; }
   const std::shared_ptr<const LinkMeshes>& meshes() const { return meshes_; }
@@ -59,7 +61,6 @@ class Robot {
   const SamplePoints& sample_points() const { return *sample_points_; }
 
  private:
-  /// Without what is attached.
   RobotModel bare_;
   std::vector<Attachment> attached_;
   RobotModel model_;

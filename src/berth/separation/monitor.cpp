@@ -93,6 +93,7 @@ struct SeparationMonitor::Parts {
   /// Where the formula leaves less than the whole speed, whether the robot's way leaves more.
   void look_along_path(const Result& result, const PlannedMotion& motion, const FrameSet& frames,
                        double most);
+  void make_certificate();
   /// How fast the motors let the scale rise; where nobody told what they do, there is no limit.
   double rise_per_s() const;
   void decide(const Result& result, double most);
@@ -127,6 +128,20 @@ SeparationMonitor::SeparationMonitor(SeparationMonitor&&) noexcept = default;
 SeparationMonitor& SeparationMonitor::operator=(SeparationMonitor&&) noexcept = default;
 
 const SeparationSettings& SeparationMonitor::settings() const { return parts_->settings; }
+
+SeparationMemory SeparationMonitor::memory() const {
+  const PathCertificate* certificate = parts_->certificate.get();
+  return {.is_first = parts_->rise.is_first(),
+          .scale = parts_->rise.scale(),
+          .last_s = parts_->rise.last_s(),
+          .critical_link = certificate ? certificate->critical_link() : -1};
+}
+
+void SeparationMonitor::recall(const SeparationMemory& memory) {
+  parts_->rise = ScaleRise(memory.is_first, memory.scale, memory.last_s);
+  if (memory.critical_link >= 0) parts_->make_certificate();
+  if (parts_->certificate) parts_->certificate->begin_with(memory.critical_link);
+}
 
 const Separation& SeparationMonitor::update(const Result& result, const PlannedMotion& motion,
                                             double now_s, const FrameSet* frames) {
@@ -252,7 +267,7 @@ void SeparationMonitor::Parts::look_along_path(const Result& result, const Plann
                                                const FrameSet& frames, double most) {
   const double formula = out.speed_scale;
   if (formula >= most) return;
-  if (!certificate) certificate = std::make_unique<PathCertificate>(robot, settings, hulls);
+  make_certificate();
   const double oldest_s = out.reaction_time_s - settings.reaction_time_s;
   const double joints_s = std::isfinite(result.time.joints_age_s) ? result.time.joints_age_s : 0;
   const PathScale found = certificate->greatest_scale(
@@ -276,6 +291,10 @@ void SeparationMonitor::Parts::look_along_path(const Result& result, const Plann
   const LinkSeparation& link = out.links[static_cast<std::size_t>(found.link)];
   out.link = link.id;
   out.reason = link.reason == SeparationReason::none ? SeparationReason::occupied : link.reason;
+}
+
+void SeparationMonitor::Parts::make_certificate() {
+  if (!certificate) certificate = std::make_unique<PathCertificate>(robot, settings, hulls);
 }
 
 double SeparationMonitor::Parts::camera_uncertainty(const Result& result, std::size_t i) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <span>
 
@@ -12,6 +13,17 @@
 namespace berth {
 
 class FrameSet;
+
+/// What a SeparationMonitor keeps from one update to the next.
+struct SeparationMemory {
+  /// Nothing was updated yet.
+  bool is_first = true;
+  /// The scale of the update before, and when that was.
+  double scale = 0;
+  double last_s = -std::numeric_limits<double>::infinity();
+  /// The place of the link that kept the robot from going faster on its way; -1: none.
+  int critical_link = -1;
+};
 
 /// Speed and separation monitoring: after each result, how fast the robot may go on (ISO/TS 15066,
 /// 5.5.4). **Not a certified safety function.** One for each thread; once made, nothing allocates.
@@ -38,6 +50,9 @@ class SeparationMonitor {
                            const FrameSet* frames = nullptr);
 
   const SeparationSettings& settings() const;
+  /// With what another monitor of this robot remembers, the next update is that of the other one.
+  SeparationMemory memory() const;
+  void recall(const SeparationMemory& memory);
 
  private:
   struct Parts;

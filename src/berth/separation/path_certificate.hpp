@@ -61,6 +61,10 @@ class PathCertificate {
   PathScale greatest_scale(const PathRequest& request, double least, double before, double most);
   /// How many clearances were asked for in the last request.
   int asked() const { return asked_; }
+  /// The place of the link that is looked at first, since it was the first that was too near; -1:
+  /// none was yet.
+  int critical_link() const { return critical_; }
+  void begin_with(int critical_link) { critical_ = critical_link; }
 
  private:
   using Node = std::size_t;

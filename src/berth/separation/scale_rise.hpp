@@ -8,6 +8,11 @@ namespace berth {
 /// How fast a scale of the robot's speed may rise. It falls at once.
 class ScaleRise {
  public:
+  ScaleRise() = default;
+  /// As one that has come so far.
+  ScaleRise(bool is_first, double scale, double last_s)
+      : is_first_(is_first), scale_(scale), last_s_(last_s) {}
+
   /// The greatest scale at now_s, if it gains `per_s` of a second in each. The first time it may be
   /// anything, since nobody knows how fast the robot is; where the clock was set back, no more than
   /// before.
@@ -23,7 +28,9 @@ class ScaleRise {
     scale_ = scale;
     is_first_ = false;
   }
+  bool is_first() const { return is_first_; }
   double scale() const { return scale_; }
+  double last_s() const { return last_s_; }
 
  private:
   bool is_first_ = true;
