@@ -39,6 +39,8 @@ set(BERTH_PUBLIC_HEADERS
   berth/image_distance/opengl/gl_context.hpp
   berth/image_distance/opengl/gl_image_query.hpp
   berth/image_distance/opengl/gl_observer.hpp
+  berth/record/recorder.hpp
+  berth/record/replay.hpp
   berth/results/result_json.hpp
   berth/results/result_text.hpp
   berth/scene/live_plausibility.hpp

@@ -6,9 +6,11 @@
 
 namespace {
 std::atomic<std::size_t> allocations = 0;
+thread_local std::size_t allocations_of_this_thread = 0;
 
 void* count_and_allocate(std::size_t size, std::size_t alignment) {
   ++allocations;
+  ++allocations_of_this_thread;
   const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
   void* memory = std::aligned_alloc(alignment, rounded);
   if (memory == nullptr) throw std::bad_alloc();
@@ -26,3 +28,4 @@ void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 
 std::size_t berth::allocation_count() { return allocations; }
+std::size_t berth::allocation_count_of_this_thread() { return allocations_of_this_thread; }

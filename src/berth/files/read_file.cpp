@@ -15,8 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 30;
-
 [[noreturn]] void fail(const fs::path& file, std::string_view found, std::string_view expected) {
   throw std::runtime_error(fmt::format("{}: {}; expected {}", file.string(), found, expected));
 }
@@ -26,7 +24,7 @@ struct OpenFile {
   std::uintmax_t size;
 };
 
-OpenFile open_file(const fs::path& file) {
+OpenFile open_file(const fs::path& file, std::uintmax_t most_bytes) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   if (fs::is_directory(status)) fail(file, "is a folder", "a file");
@@ -37,8 +35,8 @@ OpenFile open_file(const fs::path& file) {
   if (error) fail(file, error.message(), "a readable file");
   if (!fs::is_regular_file(status)) fail(file, "is a pipe or device", "a regular file");
   const std::uintmax_t size = fs::file_size(file);
-  if (size > kMostBytes) {
-    fail(file, fmt::format("holds {} bytes", size), fmt::format("{} at most", kMostBytes));
+  if (size > most_bytes) {
+    fail(file, fmt::format("holds {} bytes", size), fmt::format("{} at most", most_bytes));
   }
   errno = 0;
   std::ifstream in(file, std::ios::binary);
@@ -56,12 +54,12 @@ std::string read_next(const fs::path& file, std::ifstream& in, std::uintmax_t co
 }  // namespace
 
 std::string read_file_bytes(const fs::path& file) {
-  auto [in, size] = open_file(file);
+  auto [in, size] = open_file(file, kMostFileBytes);
   return read_next(file, in, size);
 }
 
-FileEnds read_file_ends(const fs::path& file, std::size_t count) {
-  auto [in, size] = open_file(file);
+FileEnds read_file_ends(const fs::path& file, std::size_t count, std::uintmax_t most_bytes) {
+  auto [in, size] = open_file(file, most_bytes);
   const std::uintmax_t part = std::min<std::uintmax_t>(count, size);
   FileEnds ends;
   ends.first = read_next(file, in, part);

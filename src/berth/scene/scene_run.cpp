@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "berth/record/recorder.hpp"
 #include "berth/scene/frame_pipeline.hpp"
 #include "berth/scene/gl_backend.hpp"
 #include "berth/scene/learn_background.hpp"
@@ -69,7 +70,8 @@ SceneRun::SceneRun(const OpenScene& scene, const BackendChoice& where,
   query_.emplace(scene.robot, std::move(names));
   ask_ = [this](bool anew) -> const Result& {
     if (anew) query_->forget();
-    return query_->ask({.frames = kept_, .stop = stop_});
+    const Request request{.frames = kept_, .stop = stop_};
+    return recorder_ ? recorder_->ask(*query_, request) : query_->ask(request);
   };
 }
 
@@ -121,6 +123,7 @@ void SceneRun::observe(std::size_t of, std::size_t frame) {
   newest.number = frame;
   newest.depth_m = camera.read_depth(frame);
   pipelines_[of]->observe(newest.depth_m, camera.at_exposure[frame], camera.exposure_time[frame]);
+  if (recorder_) recorder_->put(*pipelines_[of]->frame(), newest.depth_m);
 }
 
 void SceneRun::observe_alone(const ImageStep& step) {
@@ -143,6 +146,18 @@ bool SceneRun::next() {
   }
   keep_frames();
   return true;
+}
+
+void SceneRun::record_with(Recorder& recorder) {
+  if (!query_) {
+    throw std::invalid_argument(fmt::format("{}: method {}: expected mesh, to be recorded",
+                                            scene_.file.string(), name_of(scene_.method)));
+  }
+  recorder_ = &recorder;
+  for (std::size_t i = 0; i < scene_.cameras.size(); ++i) {
+    const std::optional<DepthImage> background = background_m(i);
+    if (background) recorder.put_background(*scene_.cameras[i].view, *background);
+  }
 }
 
 std::optional<DepthImage> SceneRun::background_m(std::size_t camera) const {
@@ -209,8 +224,9 @@ void SceneRun::monitor(Result& result) {
   if (monitors_.empty()) return;
   scene_.joints->velocity(result.joints_stamp_s, velocity_);
   SeparationMonitor& own = monitors_[step().first_camera];
-  result.separation =
-      own.update(result, velocity_, result.stamp_s, query_ ? &query_->frames() : nullptr);
+  const FrameSet* const frames = query_ ? &query_->frames() : nullptr;
+  result.separation = recorder_ ? recorder_->update(own, result, velocity_, result.stamp_s, frames)
+                                : own.update(result, velocity_, result.stamp_s, frames);
 }
 
 }  // namespace berth

@@ -18,6 +18,7 @@ namespace berth {
 
 class FramePipeline;
 class GlBackend;
+class Recorder;
 
 /// The images of a scene, one after another, through the whole pipeline: what the command, and
 /// whoever else runs scenes, stands on.
@@ -69,6 +70,11 @@ class SceneRun {
   /// Once this is asked to stop, a request that runs ends within milliseconds, cut short. Only
   /// where one result is that of all cameras.
   void stop_with(std::stop_token stop) { stop_ = std::move(stop); }
+
+  /// Each image, request and result is recorded as well; before the first image, and only where one
+  /// result is that of all cameras. The recorder is one of the scene's robot, cameras and
+  /// separation, and outlives the run. Throws std::invalid_argument where it is not.
+  void record_with(Recorder& recorder);
 
   /// The rest is about that image. The result, asked so often, with the times of the requests where
   /// that is more than once.
@@ -127,6 +133,8 @@ class SceneRun {
   /// Only where one result is that of all cameras.
   std::optional<Query> query_;
   std::stop_token stop_;
+  /// Null: nothing is recorded.
+  Recorder* recorder_ = nullptr;
   /// The step's result; `anew`: with nothing known of one before.
   std::function<const Result&(bool anew)> ask_;
   /// Where the scene asks for them, one for each camera; where cameras are joined the first serves.
