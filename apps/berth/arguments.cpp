@@ -246,6 +246,46 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
       "Example:\n  berth run scene.yaml --format json --out result.jsonl --picture pictures");
 }
 
+void add_record_options(CLI::App& command, RecordArguments& arguments) {
+  command
+      .add_option("scene", arguments.scene, "The scene: robot, cameras, depth images, joint angles")
+      ->required()
+      ->type_name("SCENE.yaml");
+  command
+      .add_option(
+          "--out", arguments.out,
+          "The recording; the next ones are FILE_2.mcap and so on, and nothing that is there "
+          "is overwritten")
+      ->required()
+      ->type_name("FILE.mcap");
+  command
+      .add_option("--seconds", arguments.seconds,
+                  "A recording has the last seconds, and up to a quarter more (default: 30)")
+      ->check(require_positive_finite)
+      ->type_name("N");
+  command
+      .add_option_function<std::string>(
+          "--on", [&arguments](const std::string& when) { arguments.on_stop = when == "stop"; },
+          "stop: a recording each time that the monitor stops the robot; always: one at the end "
+          "(default: stop)")
+      ->check(CLI::IsMember({"stop", "always"}));
+  add_threads(command, arguments.threads);
+  command.footer("Example:\n  berth record scene.yaml --out stop.mcap");
+}
+
+void add_replay_options(CLI::App& command, ReplayArguments& arguments) {
+  command.add_option("file", arguments.file, "The recording")->required()->type_name("FILE.mcap");
+  add_format(command,
+             "A line wherever the robot is let go, slowed down or stopped, or one JSON object per "
+             "request (default: "
+             "table)",
+             arguments.format);
+  add_threads(command, arguments.threads);
+  command.footer(
+      "Exit status 0: all results are the recorded ones to the last bit; 1: one is not, or the "
+      "recording is not whole, and it is told where.\nExample:\n  berth replay stop.mcap");
+}
+
 void add_filter_options(CLI::App& command, FilterArguments& arguments) {
   command
       .add_option("scene", arguments.scene, "The scene: robot, cameras, depth images, joint angles")

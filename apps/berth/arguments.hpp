@@ -56,6 +56,21 @@ struct RunArguments : CommonArguments {
   std::filesystem::path picture_folder;
 };
 
+struct RecordArguments {
+  std::filesystem::path scene;
+  std::filesystem::path out;
+  double seconds = 30;
+  /// Whether a recording is written only where the monitor stopped the robot.
+  bool on_stop = true;
+  int threads = 0;
+};
+
+struct ReplayArguments {
+  std::filesystem::path file;
+  OutputFormat format = OutputFormat::table;
+  int threads = 0;
+};
+
 struct FilterArguments {
   std::filesystem::path scene;
   std::filesystem::path out_folder;
@@ -114,6 +129,8 @@ struct DemoArguments {
 };
 
 void add_run_options(CLI::App& command, RunArguments& arguments);
+void add_record_options(CLI::App& command, RecordArguments& arguments);
+void add_replay_options(CLI::App& command, ReplayArguments& arguments);
 void add_filter_options(CLI::App& command, FilterArguments& arguments);
 void add_calibrate_options(CLI::App& command, CalibrateArguments& arguments);
 void add_evaluate_options(CLI::App& command, EvaluateArguments& arguments);

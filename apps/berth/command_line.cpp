@@ -22,6 +22,8 @@ int run_command_line(int argc, const char* const* argv) {
   program.set_version_flag("--version", BERTH_VERSION);
   DemoArguments demo;
   RunArguments run;
+  RecordArguments record;
+  ReplayArguments replay;
   FilterArguments filter;
   CalibrateArguments calibrate;
   EvaluateArguments evaluate;
@@ -33,6 +35,10 @@ int run_command_line(int argc, const char* const* argv) {
       "demo", "Run the bundled scene: a table of links and distances, and pictures");
   CLI::App* run_command =
       program.add_subcommand("run", "Run the frames of a scene through the whole pipeline");
+  CLI::App* record_command = program.add_subcommand(
+      "record", "Run a scene, and record what its monitor saw and said when it stopped the robot");
+  CLI::App* replay_command = program.add_subcommand(
+      "replay", "Do once more what was recorded, and tell whether the results are the same");
   CLI::App* filter_command = program.add_subcommand(
       "filter", "Write the robot's depth, its link IDs and the obstacles as images");
   CLI::App* calibrate_command = program.add_subcommand(
@@ -52,6 +58,8 @@ int run_command_line(int argc, const char* const* argv) {
   add_doctor_options(*doctor_command, doctor);
   add_demo_options(*demo_command, demo);
   add_run_options(*run_command, run);
+  add_record_options(*record_command, record);
+  add_replay_options(*replay_command, replay);
   add_filter_options(*filter_command, filter);
   add_calibrate_options(*calibrate_command, calibrate);
   add_evaluate_options(*evaluate_command, evaluate);
@@ -71,6 +79,8 @@ int run_command_line(int argc, const char* const* argv) {
   };
   if (*demo_command) return carry_out(demo.threads, [&] { app::demo_command(demo); });
   if (*run_command) return carry_out(run.threads, [&] { app::run_command(run); });
+  if (*record_command) return carry_out(record.threads, [&] { app::record_command(record); });
+  if (*replay_command) return carry_out(replay.threads, [&] { app::replay_command(replay); });
   if (*filter_command) return carry_out(filter.threads, [&] { app::filter_command(filter); });
   if (*calibrate_command) {
     return carry_out(calibrate.threads, [&] { app::calibrate_command(calibrate); });

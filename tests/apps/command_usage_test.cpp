@@ -70,6 +70,12 @@ TEST(Usage, WrongCommandLineIsRefused) {
       {{"calibrate", "scene.yaml", "--out", "new.yaml", "--format", "xml"}, "--format"},
       {{"calibrate", "scene.yaml", "--out", "new.yaml", "--threads", "0"}, "--threads"},
       {{"demo", "--threads", "0"}, "--threads"},
+      {{"record"}, "scene"},
+      {{"record", "scene.yaml"}, "--out"},
+      {{"record", "scene.yaml", "--out", "a.mcap", "--seconds", "0"}, "--seconds"},
+      {{"record", "scene.yaml", "--out", "a.mcap", "--on", "clear"}, "--on"},
+      {{"replay"}, "file"},
+      {{"replay", "a.mcap", "--format", "xml"}, "--format"},
       {{"init"}, "urdf"},
       {{"init", "robot.urdf", "--camera", "pinhole"}, "--camera"},
       {{"init", "robot.urdf", "--package", "parts"}, "--package"},
@@ -92,12 +98,9 @@ TEST(Usage, WrongCommandLineIsRefused) {
 
 TEST(Usage, HelpIsOnStandardOutputAndHasAnExample) {
   const TemporaryFolder folder;
-  const std::vector<Words> table = {{"--help"},
-                                    {"run", "--help"},
-                                    {"filter", "--help"},
-                                    {"evaluate", "--help"},
-                                    {"calibrate", "--help"},
-                                    {"demo", "--help"}};
+  const std::vector<Words> table = {
+      {"--help"},           {"run", "--help"},      {"record", "--help"},    {"replay", "--help"},
+      {"filter", "--help"}, {"evaluate", "--help"}, {"calibrate", "--help"}, {"demo", "--help"}};
   for (const Words& arguments : table) {
     const Outcome outcome = run_berth(folder / "", arguments);
     SCOPED_TRACE(arguments[0]);
@@ -112,7 +115,8 @@ TEST(Usage, HelpIsOnStandardOutputAndHasAnExample) {
 TEST(Usage, HelpNamesEveryCommand) {
   const TemporaryFolder folder;
   const std::string out = run_berth(folder / "", {"--help"}).out;
-  for (const char* command : {"demo", "run", "filter", "evaluate", "calibrate"}) {
+  for (const char* command :
+       {"demo", "run", "record", "replay", "filter", "evaluate", "calibrate"}) {
     EXPECT_NE(out.find(command), std::string::npos) << command;
   }
 }
