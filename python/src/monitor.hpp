@@ -5,6 +5,7 @@
 #include <mutex>
 #include <utility>
 
+#include "berth/record/recorder.hpp"
 #include "berth/separation/monitor.hpp"
 
 namespace berth::python {
@@ -18,6 +19,12 @@ class SharedMonitor {
                     const FrameSet& frames) {
     const std::lock_guard lock(mutex_);
     return monitor_.update(result, motion, now_s, &frames);
+  }
+  /// The same, recorded.
+  Separation update(Recorder& recorder, const Result& result, const PlannedMotion& motion,
+                    double now_s, const FrameSet& frames) {
+    const std::lock_guard lock(mutex_);
+    return recorder.update(monitor_, result, motion, now_s, &frames);
   }
   SeparationSettings settings() const { return monitor_.settings(); }
 

@@ -11,6 +11,7 @@
 #include "bindings.hpp"
 #include "handles.hpp"
 #include "monitor.hpp"
+#include "recorder.hpp"
 
 namespace berth::python {
 namespace {
@@ -62,7 +63,8 @@ class SharedQuery {
                    double joints_stamp_s, const py::object& ahead, double nearer_than_m,
                    const std::optional<std::shared_ptr<SharedMonitor>>& monitor,
                    const py::object& velocity, const py::object& path,
-                   const std::vector<double>& path_s) {
+                   const std::vector<double>& path_s,
+                   const std::optional<std::shared_ptr<SharedRecorder>>& recorder) {
     const std::vector<std::shared_ptr<const Frame>> frames = frames_of(of);
     const Motion motion = motion_of(robot_->model(), velocity, path, path_s);
     if (monitor && !now_s) throw std::invalid_argument("monitor: expected now_s with it");
@@ -77,11 +79,13 @@ class SharedQuery {
     const std::vector<JointState> poses = many_joints_of(robot_->model(), ahead);
     const py::gil_scoped_release release;
     const std::lock_guard lock(mutex_);
-    Result result = query_.ask({.frames = frames,
-                                .joints = requested,
-                                .now_s = now_s,
-                                .ahead = poses,
-                                .nearer_than_m = nearer_than_m});
+    const Request request{.frames = frames,
+                          .joints = requested,
+                          .now_s = now_s,
+                          .ahead = poses,
+                          .nearer_than_m = nearer_than_m};
+    if (recorder) return owned(ask_recorded(**recorder, request, monitor, motion));
+    Result result = query_.ask(request);
     if (monitor) {
       result.separation =
           (*monitor)->update(result, {motion.velocity, motion.path}, *now_s, query_.frames());
@@ -96,6 +100,18 @@ class SharedQuery {
   }
 
  private:
+  Result ask_recorded(SharedRecorder& shared, const Request& request,
+                      const std::optional<std::shared_ptr<SharedMonitor>>& monitor,
+                      const Motion& motion) {
+    const std::lock_guard lock(shared.mutex);
+    Result result = shared.recorder.ask(query_, request);
+    if (monitor) {
+      result.separation = (*monitor)->update(
+          shared.recorder, result, {motion.velocity, motion.path}, *request.now_s, query_.frames());
+    }
+    return result;
+  }
+
   std::shared_ptr<const Robot> robot_;
   std::mutex mutex_;
   Query query_;
@@ -116,6 +132,7 @@ void bind_query(py::module_& m) {
            py::arg("ahead") = py::none(), py::arg("nearer_than_m") = 0.0,
            py::arg("monitor") = std::nullopt, py::arg("velocity") = py::none(),
            py::arg("path") = py::none(), py::arg("path_s") = std::vector<double>(),
+           py::arg("recorder") = std::nullopt,
            "How far each link is from everything that the frames show or hide. frames: one\n"
            "Frame, or the newest one of each camera (None where there is none yet). joints:\n"
            "those of the exposure (None), any others (rad, m; by name or in the robot's order),\n"
@@ -125,7 +142,7 @@ void bind_query(py::module_& m) {
            "nearer than nearer_than_m. monitor: with now_s, Result.separation tells how fast the\n"
            "robot may go on. velocity: the joints' (rad/s, m/s), as measured, or as planned at\n"
            "full speed; without it the robot stops. path: rows of joints where the robot goes\n"
-           "from here at full speed, after path_s seconds.")
+           "from here at full speed, after path_s seconds. recorder: it records the request.")
       .def("forget", &SharedQuery::forget,
            "A request begins with what is known of the one before; after this nothing is known.");
 }
