@@ -78,6 +78,11 @@ void add_stream_options(CLI::App& program, StreamSettings& stream) {
       ->check(CLI::IsMember({"text", "json"}))
       ->needs(scene);
   program
+      .add_option("--record", stream.record,
+                  "Record the stream as a black box does, and write a recording of its end here")
+      ->type_name("FILE.mcap")
+      ->needs(scene);
+  program
       .add_flag("--steps", stream.in_steps,
                 "Not in real time: the processor time of each of the stream's steps")
       ->needs(scene);

@@ -17,6 +17,7 @@
 #include "berth/live/live_camera.hpp"
 #include "berth/live/live_space.hpp"
 #include "berth/pipeline/query.hpp"
+#include "berth/record/recorder.hpp"
 #include "lab/stream/film.hpp"
 #include "lab/stream/percentiles.hpp"
 #include "lab/stream/steps.hpp"
@@ -67,6 +68,7 @@ struct Measured {
   std::vector<double> exposure_to_answer_ms;
   std::mutex images_mutex;
   std::vector<double> image_ms;
+  std::optional<RecorderCounts> recorded;
 };
 
 /// As a controller asks: a request has most of the time until the next one, unless the scene says
@@ -88,10 +90,14 @@ class Stream {
         query_(robot_),
         count_(film.cameras.size()),
         space_(robot_, count_, joints_) {
+    if (!settings.record.empty()) record();
     for (std::size_t k = 0; k < count_; ++k) {
       cameras_.push_back(std::make_unique<LiveCamera>(
           film.cameras[k].view, joints_, LiveCameraSettings{},
-          [this, k](const Frame&, DepthView, const std::shared_ptr<const void>&) { keep(k); }));
+          [this, k](const Frame& frame, DepthView depth_m, const std::shared_ptr<const void>&) {
+            if (recorder_) recorder_->put(frame, depth_m);
+            keep(k);
+          }));
     }
   }
 
@@ -104,8 +110,21 @@ class Stream {
   }
 
   const Measured& measured() const { return measured_; }
+  /// Writes the recording, where there is one to be.
+  void finish() {
+    if (!recorder_) return;
+    recorder_->write();
+    recorder_->finish();
+    measured_.recorded = recorder_->counts();
+  }
 
  private:
+  void record() {
+    std::vector<std::shared_ptr<const MountedCamera>> views;
+    for (const FilmedCamera& camera : film_.cameras) views.push_back(camera.view);
+    recorder_.emplace(robot_, views, std::nullopt, RecorderSettings{.file = settings_.record});
+  }
+
   void keep(std::size_t camera) {
     space_.put(camera, cameras_[camera]->newest());
     const std::lock_guard lock(measured_.images_mutex);
@@ -146,8 +165,9 @@ class Stream {
     while (due_s < end_s) {
       sleep_until(due_s);
       const double asked_s = now_s();
-      const Result& result =
-          query_.ask({.frames = space_.newest(), .joints = joints_.buffer(), .now_s = asked_s});
+      const Request request{
+          .frames = space_.newest(), .joints = joints_.buffer(), .now_s = asked_s};
+      const Result& result = recorder_ ? recorder_->ask(query_, request) : query_.ask(request);
       const double told_s = now_s();
       if (due_s >= begin_s) take(result, asked_s, told_s, known_s);
       // What is late does not make the next one late: its turn is left out.
@@ -177,6 +197,7 @@ class Stream {
   JointIntake joints_;
   std::shared_ptr<const Robot> robot_;
   Query query_;
+  std::optional<Recorder> recorder_;
   std::size_t count_;
   LiveSpace space_;
   Measured measured_;
@@ -194,6 +215,12 @@ nlohmann::ordered_json json_of(const Measured& m) {
   out["exposure_to_answer_ms"] =
       percentiles(m.exposure_to_answer_ms, {{"p50", 0.5}, {"p99", 0.99}});
   out["gap_m"] = percentiles(m.gap_m, {{"p50", 0.5}, {"p99", 0.99}, {"max", 1}});
+  if (m.recorded) {
+    out["recorded"] = {{"images", m.recorded->images},
+                       {"requests", m.recorded->requests},
+                       {"lost_images", m.recorded->lost_images},
+                       {"lost_requests", m.recorded->lost_requests}};
+  }
   return out;
 }
 
@@ -202,6 +229,7 @@ nlohmann::ordered_json in_real_time(const Film& film, const StreamSettings& sett
   use_cores(cores.of_images);
   Stream stream(film, settings);
   stream.run(cores.of_requests);
+  stream.finish();
   return json_of(stream.measured());
 }
 

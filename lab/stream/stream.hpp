@@ -26,6 +26,8 @@ struct StreamSettings {
   double seconds = 10;
   /// How many times as fast as it was recorded.
   double speed = 3;
+  /// All of it is recorded, and a recording of the last seconds is written here; empty: nothing is.
+  std::filesystem::path record = {};
   /// Not in real time: the processor time of each step.
   bool in_steps = false;
   bool as_json = false;

@@ -5,6 +5,7 @@
 
 #include "lab/stream/stream.hpp"
 #include "tests/support/error_message.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace berth::lab {
 namespace {
@@ -43,6 +44,21 @@ TEST(RunStream, ItsJsonHasTheKeysThatOthersRead) {
   expect_percentiles(out["gap_m"], {"p50", "p99", "max"});
   EXPECT_GT(out["ask_us"]["p50"].get<double>(), 0);
   EXPECT_GT(out["image_ms"]["p50"].get<double>(), 0);
+}
+
+TEST(RunStream, RecordsItselfWhereThatIsAskedFor) {
+  const TemporaryFolder folder;
+  const StreamSettings settings{.scene = kScene,
+                                .cameras = 1,
+                                .rate_hz = 200,
+                                .seconds = 0.3,
+                                .record = folder / "a.mcap",
+                                .as_json = true};
+  const auto out = nlohmann::ordered_json::parse(run_stream(settings));
+  EXPECT_EQ(keys_of(out["recorded"]),
+            (std::vector<std::string>{"images", "requests", "lost_images", "lost_requests"}));
+  EXPECT_GT(out["recorded"]["requests"].get<int>(), 0);
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"a.mcap"});
 }
 
 TEST(RunStream, ItsTextHasALineForEach) {
