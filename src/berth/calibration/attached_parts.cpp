@@ -87,6 +87,18 @@ double worst_uncertainty_m(const std::vector<EvidenceView>& views) {
   return std::ranges::max(views, {}, &EvidenceView::uncertainty_m).uncertainty_m;
 }
 
+std::string new_name(const RobotModel& model, const std::string& link,
+                     const std::vector<AttachedPart>& others) {
+  const auto is_known = [&](const std::string& name) {
+    return model.find_link(name).has_value() ||
+           std::ranges::find(others, name, &AttachedPart::name) != others.end();
+  };
+  const std::string first = link + "_attached";
+  std::string name = first;
+  for (int i = 2; is_known(name); ++i) name = fmt::format("{}_{}", first, i);
+  return name;
+}
+
 AttachedPart part_of(const CarriedCells& piece, const SolidCells& solid,
                      const std::vector<EvidenceView>& views, const RobotModel& model) {
   AttachedPart part;
@@ -102,6 +114,10 @@ AttachedPart part_of(const CarriedCells& piece, const SolidCells& solid,
 }
 
 }  // namespace
+
+Attachment attachment_of(const AttachedPart& part) {
+  return {part.name, part.link, part.mesh_L, Pose::Identity(), true};
+}
 
 AttachedParts find_attached_parts(const CalibrationData& calibration_data,
                                   const CalibrationResult& found,
@@ -126,6 +142,7 @@ AttachedParts find_attached_parts(const CalibrationData& calibration_data,
     if (!piece) break;
     const SolidCells solid = solid_of(*piece, views, readings);
     AttachedPart part = part_of(*piece, solid, views, model);
+    part.name = new_name(model, part.link, result.parts);
     part.explained_share = static_cast<double>(explain(piece->group, solid, views, readings)) /
                            static_cast<double>(all);
     result.parts.push_back(std::move(part));

@@ -5,12 +5,14 @@
 #include <vector>
 
 #include "berth/calibration/calibrate.hpp"
-#include "berth/robot/triangle_mesh.hpp"
+#include "berth/robot/attachment.hpp"
 
 namespace berth {
 
 /// A thing that moves with a link: a tool, a cable box.
 struct AttachedPart {
+  /// No link has it: LINK_attached, or with a number behind it.
+  std::string name;
   /// The link that it is fixed to, and the thing in that link's frame L: closed, wound
   /// counterclockwise as seen from outside, wider than what was seen by padding_m on all sides.
   std::string link;
@@ -30,7 +32,12 @@ struct AttachedPart {
   /// Of all readings that come and go near the robot, and that the self filter leaves, so many are
   /// its own.
   double explained_share = 0;
+  /// Whether the user takes it for a part of the robot; nobody does by himself.
+  bool is_taken = false;
 };
+
+/// The part on its link, as a link of its own.
+Attachment attachment_of(const AttachedPart& part);
 
 /// All that was found.
 struct AttachedParts {
