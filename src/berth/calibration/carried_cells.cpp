@@ -16,6 +16,8 @@ constexpr std::size_t kLeastCells = 200;
 /// Places of a piece that lie nearer to each other are one.
 constexpr double kOtherPlace_m = 0.04;
 constexpr std::size_t kSamplePoints = 50;
+/// Two neighbouring pixels show one surface up to this step, at 1 m.
+constexpr float kEdgeJump_m = 0.015F;
 
 /// The views in which the cell is seen as taken by what moves; empty where any sees it free.
 std::vector<std::size_t> views_of(const Cell& cell, std::size_t link,
@@ -152,6 +154,18 @@ int count_explained(const CarriedCells& piece, const std::vector<EvidenceView>& 
   return count;
 }
 
+bool is_at_edge(const DepthImage& depth_m, int u, int v) {
+  const float z_m = depth_m(u, v);
+  const float jump_m = kEdgeJump_m * std::max(1.0F, z_m * z_m);
+  const PixelRect near = clip({u - 1, v - 1, u + 2, v + 2}, depth_m.width(), depth_m.height());
+  for (int b = near.v_begin; b < near.v_end; ++b) {
+    for (int a = near.u_begin; a < near.u_end; ++a) {
+      if (!(std::abs(depth_m(a, b) - z_m) < jump_m)) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 bool CarriedCells::is_proven() const {
@@ -165,7 +179,8 @@ std::vector<MovingReading> moving_readings(const std::vector<EvidenceView>& view
     for (int v = 0; v < kind.height(); ++v) {
       for (int u = 0; u < kind.width(); ++u) {
         if (kind(u, v) < ReadingKind::moving_beside) continue;
-        readings.push_back({k, views[k].point_B_m(u, v), kind(u, v) == ReadingKind::moving, false});
+        readings.push_back({k, views[k].point_B_m(u, v), kind(u, v) == ReadingKind::moving,
+                            is_at_edge(views[k].depth_m, u, v), false});
       }
     }
   }

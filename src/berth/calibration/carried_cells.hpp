@@ -15,6 +15,8 @@ struct MovingReading {
   Eigen::Vector3d p_B_m = Eigen::Vector3d::Zero();
   /// Else the self filter takes it away already.
   bool is_left = true;
+  /// Beside a pixel that shows something else, or nothing: its depth may be of neither.
+  bool is_at_edge = false;
   /// By a part that was found.
   bool is_explained = false;
 };

@@ -15,6 +15,8 @@ namespace {
 
 /// Neighbouring pixels that are looked at lie about so far apart on what is 1 m away.
 constexpr double kPixel_m = 0.003;
+/// The uncertainty, of the median of what readings are off.
+constexpr double kSpread = 2.5;
 constexpr double kLeastUncertainty_m = 0.010;
 constexpr double kMostUncertainty_m = 0.025;
 /// So many pixels to each side of a point, at most, are looked at.
@@ -64,7 +66,7 @@ EvidenceView take_view(const DrawnFrame& drawn, const CalibrationCamera& source,
     }
   }
   // Of readings of the robot itself, which a joint that is off moves as it does what is carried.
-  const double spread_m = std::isnan(found.after.p90_m) ? 0 : found.after.p90_m;
+  const double spread_m = std::isnan(found.after.median_m) ? 0 : kSpread * found.after.median_m;
   view.uncertainty_m = std::clamp(spread_m, kLeastUncertainty_m, kMostUncertainty_m);
   return view;
 }

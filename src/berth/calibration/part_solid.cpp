@@ -47,7 +47,7 @@ CellSet grown(const CarriedCells& piece, const std::vector<EvidenceView>& views,
   }
   CellSet candidates;
   for (const MovingReading& reading : readings) {
-    if (reading.is_explained) continue;
+    if (reading.is_explained || reading.is_at_edge) continue;
     const Cell cell = cell_of(views[reading.view].pose.X_BL[link].inverse() * reading.p_B_m);
     if (near.contains(coarse_of(cell)) && !piece.cells.contains(cell)) candidates.insert(cell);
   }

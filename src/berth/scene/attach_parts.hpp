@@ -17,8 +17,8 @@ std::filesystem::path attached_file(const std::filesystem::path& new_file,
 void attach_parts(const std::filesystem::path& scene_file, const AttachedParts& parts,
                   const std::filesystem::path& new_file, SceneChange& change);
 
-/// Their meshes, in the links' frames. Each file is complete afterwards, or as it was before. Throws
-/// std::runtime_error where one cannot be written.
+/// Their meshes, in the links' frames. Each file is complete afterwards, or as it was before.
+/// Throws std::runtime_error where one cannot be written.
 void write_attached_parts(const AttachedParts& parts, const std::filesystem::path& new_file);
 
 }  // namespace berth

@@ -1,0 +1,39 @@
+// How well what a robot carries is found, in drawn cells.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "berth/robot/robot_model.hpp"
+#include "sim/drawn_carried.hpp"
+
+namespace berth {
+class LinkMeshes;
+}
+
+namespace berth::lab {
+
+/// One cell, and what was made of it.
+struct AttachedTrial {
+  int parts = 0;
+  /// Whether the thing's own link has a part.
+  bool is_found = false;
+  /// Of what was found on that link, the share that lies within 1 cm of the thing; and the other
+  /// way round. NaN where nothing was found.
+  double precision = 0;
+  double recall = 0;
+  /// Parts that are no thing that is carried: less than half of them lies within 1 cm of it.
+  int false_parts = 0;
+  /// Points of the room's surfaces that lie in a part at the pose of their image, and more than 2
+  /// cm outside of the thing.
+  int room_points = 0;
+  double explained_share = 0;
+  double time_s = 0;
+};
+
+/// With cameras that start 2 cm and 2 degrees off, and are calibrated first. Depends on its
+/// arguments alone, but for the time.
+AttachedTrial try_attached(const RobotModel& model, std::shared_ptr<const LinkMeshes> meshes,
+                           sim::DrawnKind kind, int poses, int cameras, std::uint32_t seed);
+
+}  // namespace berth::lab
