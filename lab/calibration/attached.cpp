@@ -83,6 +83,37 @@ int count_room_points(const RobotModel& model, const sim::DrawnCarryingCell& cel
   return count;
 }
 
+bool is_shown(const RobotModel& model, const sim::DrawnThing& thing, const Pose& X_BC,
+              const CalibrationCamera& camera, const CalibrationFrame& frame) {
+  RobotPose pose;
+  forward_kinematics(model, frame.joints.position, pose);
+  const Pose X_LC = pose.X_BL[thing.link].inverse() * X_BC;
+  int shown_px = 0;
+  for (int v = 0; v < camera.camera.height_px; v += 2) {
+    for (int u = 0; u < camera.camera.width_px; u += 2) {
+      if (std::isnan(frame.depth_m(u, v))) continue;
+      const Eigen::Vector3d p_L_m = X_LC * point_at(camera.camera, u, v, frame.depth_m(u, v));
+      shown_px += thing.distance_m(p_L_m) <= kNear_m;
+    }
+  }
+  return shown_px >= kShown_px;
+}
+
+int count_poses_shown(const RobotModel& model, const sim::DrawnCarryingCell& cell,
+                      const sim::CarryingRobot& drawn) {
+  if (cell.thing.pieces.empty()) return 0;
+  int count = 0;
+  for (std::size_t k = 0; k < cell.settings.positions.size(); ++k) {
+    bool is_shown_by_any = false;
+    for (std::size_t c = 0; c < drawn.cameras.size(); ++c) {
+      is_shown_by_any |= is_shown(model, cell.thing, cell.settings.X_BC[c], *drawn.cameras[c],
+                                  drawn.cameras[c]->frames[k]);
+    }
+    count += is_shown_by_any;
+  }
+  return count;
+}
+
 }  // namespace
 
 AttachedTrial try_attached(const RobotModel& model, std::shared_ptr<const LinkMeshes> meshes,
@@ -101,6 +132,7 @@ AttachedTrial try_attached(const RobotModel& model, std::shared_ptr<const LinkMe
   AttachedTrial trial;
   trial.time_s = stopwatch.ms() / 1000;
   trial.parts = static_cast<int>(attached.parts.size());
+  trial.poses_shown = count_poses_shown(model, cell, drawn);
   trial.precision = trial.recall = std::numeric_limits<double>::quiet_NaN();
   for (const AttachedPart& part : attached.parts) {
     trial.room_points += count_room_points(model, cell, part);

@@ -13,9 +13,14 @@ class LinkMeshes;
 
 namespace berth::lab {
 
+inline constexpr int kShown_px = 100;
+
 /// One cell, and what was made of it.
 struct AttachedTrial {
   int parts = 0;
+  /// In so many poses some camera shows the thing on kShown_px pixels or more of every other one in
+  /// both directions. Fewer than three of them prove nothing, however good the search is.
+  int poses_shown = 0;
   /// Whether the thing's own link has a part.
   bool is_found = false;
   /// Of what was found on that link, the share that lies within 1 cm of the thing; and the other

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <string_view>
 
+#include "berth/calibration/carried_cells.hpp"
 #include "lab/calibration/attached.hpp"
 
 namespace berth::lab {
@@ -25,10 +26,11 @@ constexpr std::array kKinds = {
 /// Of many trials.
 struct Tally {
   std::vector<double> precision, recall, time_s;
-  int trials = 0, false_parts = 0, with_room = 0;
+  int trials = 0, shown = 0, false_parts = 0, with_room = 0;
 
   void add(const AttachedTrial& trial) {
     ++trials;
+    shown += trial.poses_shown >= kLeastPlaces;
     false_parts += trial.false_parts;
     with_room += trial.room_points > 0;
     time_s.push_back(trial.time_s);
@@ -47,8 +49,8 @@ std::string share_text(std::vector<double> shares) {
 
 void print_row(const char* kind, int poses, int cameras, Tally tally) {
   std::ranges::sort(tally.time_s);
-  fmt::print("| {} | {} | {} | {} of {} | {} | {} | {} | {} | {:.2f} |\n", kind, poses, cameras,
-             tally.precision.size(), tally.trials, share_text(tally.precision),
+  fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {:.2f} |\n", kind, poses, cameras,
+             tally.trials, tally.shown, tally.precision.size(), share_text(tally.precision),
              share_text(tally.recall), tally.false_parts, tally.with_room,
              tally.time_s[tally.time_s.size() / 2]);
   std::fflush(stdout);
@@ -59,10 +61,11 @@ void print_row(const char* kind, int poses, int cameras, Tally tally) {
 void measure_attached(const std::vector<TrialRobot>& robots, const std::string& only, int seeds,
                       bool prints_each) {
   fmt::print(
-      "| carried | poses | cameras | found | precision at 1 cm: median, worst | recall | parts "
+      "| carried | poses | cameras | cells | shown in three poses | found | precision at 1 cm: "
+      "median, worst | recall | parts "
       "that "
       "are none | with a piece of the room | median s |\n"
-      "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
+      "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
   for (const Kind& kind : kKinds) {
     for (const int poses : {5, 10}) {
       for (const int cameras : {1, 3}) {
@@ -76,11 +79,12 @@ void measure_attached(const std::vector<TrialRobot>& robots, const std::string& 
             tally.add(trial);
             if (!prints_each) continue;
             fmt::print(stderr,
-                       "{} {} {} poses {} cameras {}: {} parts, found {}, precision {:.2f}, recall "
+                       "{} {} {} poses {} cameras {}: shown in {} poses, {} parts, found {}, "
+                       "precision {:.2f}, recall "
                        "{:.2f}, false {}, room {}, share {:.2f}, {:.2f} s\n",
-                       robot.name, kind.name, poses, cameras, seed, trial.parts, trial.is_found,
-                       trial.precision, trial.recall, trial.false_parts, trial.room_points,
-                       trial.explained_share, trial.time_s);
+                       robot.name, kind.name, poses, cameras, seed, trial.poses_shown, trial.parts,
+                       trial.is_found, trial.precision, trial.recall, trial.false_parts,
+                       trial.room_points, trial.explained_share, trial.time_s);
           }
         }
         if (tally.trials > 0) print_row(kind.name, poses, cameras, tally);
