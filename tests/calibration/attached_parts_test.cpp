@@ -6,6 +6,7 @@
 #include "sim/carrying_robot.hpp"
 #include "sim/nearest_on_mesh.hpp"
 #include "sim/shapes.hpp"
+#include "sim/winding_number.hpp"
 #include "tests/calibration/arms.hpp"
 
 namespace berth {
@@ -189,6 +190,54 @@ TEST(AttachedParts, APartThatFewPosesShowIsNotTaken) {
       settings.in_pose[k] = {box_at({0.02, 0.4, 0.4}, tool_B_m + 0.25 * to_camera.normalized())};
     }
     EXPECT_EQ(find(settings).parts.size(), shown < 3 ? 0U : 1U);
+  }
+}
+
+TEST(AttachedParts, WhatWasSeenFreeInTheBendOfAToolIsNoPartOfIt) {
+  Attachment bent = tool();
+  bent.mesh_A = make_box({0.05, 0.06, 0.20});
+  bent.mesh_A.append(make_box({0.20, 0.06, 0.05}),
+                     Eigen::Affine3d(Eigen::Translation3d(0.10, 0, 0.10)));
+  bent.X_LA = sim::translation(0, 0, 0.24);
+  sim::CarryingRobotSettings settings = cell();
+  settings.carried = {bent};
+  settings.X_BC.push_back(camera_at({0.4, -1.8, 0.8}));
+  const AttachedParts found = find(settings);
+  ASSERT_EQ(found.parts.size(), 1U);
+  const TriangleMesh& mesh_L = found.parts[0].mesh_L;
+  EXPECT_NEAR(sim::winding_number(mesh_L, {0, 0, 0.28}), 1, 1e-3) << "in the stem";
+  EXPECT_NEAR(sim::winding_number(mesh_L, {0.15, 0, 0.34}), 1, 1e-3) << "in the arm";
+  // 6 cm from both, and within the hull.
+  EXPECT_NEAR(sim::winding_number(mesh_L, {0.085, 0, 0.255}), 0, 1e-3);
+}
+
+TEST(AttachedParts, ACameraWhosePoseIsOffMakesNothingMoveForAnotherOne) {
+  // A round collar about joint 1: cameras that do not agree where it stands see it free in turn.
+  sim::CarryingRobotSettings settings = cell();
+  settings.positions.clear();
+  for (const double turn : {-1.0, -0.6, -0.2, 0.2, 0.6, 1.0}) {
+    settings.positions.push_back({turn, 0.3, 0, 1.2, 0, 0.9, 0});
+  }
+  settings.room.push_back({make_cylinder(0.25, 0.3), sim::translation(0, 0, 0.25)});
+  settings.X_BC.push_back(camera_at({1.5, -1.2, 0.9}));
+  sim::CarryingRobot drawn =
+      sim::draw_carrying_robot(bundled_arm().model, bundled_arm().meshes, settings, 1);
+  drawn.found.cameras[1].X_PC.translation() += Eigen::Vector3d(0.03, -0.03, 0.02);
+  EXPECT_TRUE(find_attached_parts(drawn.calibration_data, drawn.found).parts.empty());
+}
+
+TEST(AttachedParts, APartThatMovesByLessThanItsLengthIsNotTaken) {
+  Attachment rod = tool();
+  rod.mesh_A = make_box({0.06, 0.04, 0.34});
+  rod.X_LA = sim::translation(0, 0, 0.31);
+  sim::CarryingRobotSettings settings = cell();
+  settings.carried = {rod};
+  // Sideways: each place is free in the next image.
+  for (const double step : {0.10, 0.30}) {
+    SCOPED_TRACE(step);
+    settings.positions.clear();
+    for (int k = 0; k < 5; ++k) settings.positions.push_back({step * k, 0.6, 0, 1.2, 0, 0.9, 0});
+    EXPECT_EQ(find(settings).parts.size(), step > 0.2 ? 1U : 0U);
   }
 }
 
