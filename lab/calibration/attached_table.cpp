@@ -30,7 +30,7 @@ struct Tally {
 
   void add(const AttachedTrial& trial) {
     ++trials;
-    shown += trial.poses_shown >= kLeastPlaces;
+    shown += trial.poses_shown >= kLeastRoomPlaces;
     false_parts += trial.false_parts;
     with_room += trial.room_points > 0;
     time_s.push_back(trial.time_s);

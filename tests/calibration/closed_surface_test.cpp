@@ -85,7 +85,7 @@ TEST(ClosedSurface, HoldsAllCellsAndIsNotMuchLarger) {
     SCOPED_TRACE(i);
     const SolidCells solid = draw_body(random);
     const TriangleMesh mesh = closed_surface(solid, 0.008);
-    EXPECT_LE(mesh.triangles.size(), kMostTriangles);
+    EXPECT_LE(mesh.triangles.size(), kMostSurfaceTriangles);
     const std::vector<float> field = distance_field(solid, 10);
     const Cell size = solid.size + Cell::Constant(20);
     int inside = 0;

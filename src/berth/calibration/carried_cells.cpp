@@ -15,7 +15,7 @@ constexpr double kFairShare = 0.05;
 constexpr std::size_t kLeastCells = 200;
 /// Places of a piece that lie nearer to each other are one.
 constexpr double kOtherPlace_m = 0.04;
-constexpr std::size_t kSamplePoints = 50;
+constexpr std::size_t kPieceSamples = 50;
 /// Two neighbouring pixels show one surface up to this step, at 1 m.
 constexpr float kEdgeJump_m = 0.015F;
 
@@ -103,7 +103,7 @@ std::vector<int> pieces_of(const CellSet& cells) {
 
 std::vector<Eigen::Vector3d> sample_points(const CellSet& cells) {
   std::vector<Eigen::Vector3d> points;
-  const std::size_t step = std::max<std::size_t>(1, cells.size() / kSamplePoints);
+  const std::size_t step = std::max<std::size_t>(1, cells.size() / kPieceSamples);
   for (std::size_t i = 0; i < cells.size(); i += step)
     points.push_back(middle_of(cells.cells()[i]));
   return points;
@@ -169,7 +169,7 @@ bool is_at_edge(const DepthImage& depth_m, int u, int v) {
 }  // namespace
 
 bool CarriedCells::is_proven() const {
-  return cells.size() >= kLeastCells && places >= kLeastPlaces && apart_m > size_m;
+  return cells.size() >= kLeastCells && places >= kLeastRoomPlaces && apart_m > size_m;
 }
 
 std::vector<MovingReading> moving_readings(const std::vector<EvidenceView>& views) {

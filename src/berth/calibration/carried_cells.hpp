@@ -42,7 +42,7 @@ struct CarriedCells {
 };
 
 /// Fewer places of the room prove no part.
-inline constexpr int kLeastPlaces = 3;
+inline constexpr int kLeastRoomPlaces = 3;
 
 /// All pieces of a group.
 std::vector<CarriedCells> find_carried_cells(const RigidGroup& group,

@@ -197,7 +197,7 @@ TriangleMesh closed_surface(const SolidCells& solid, double padding_m) {
            (solid.first - Cell::Constant(margin)).cast<float>() + Eigen::Vector3f::Constant(0.5F)) *
           static_cast<float>(kCell_m);
     }
-    if (mesh.triangles.size() <= kMostTriangles) break;
+    if (mesh.triangles.size() <= kMostSurfaceTriangles) break;
   }
   return mesh;
 }
