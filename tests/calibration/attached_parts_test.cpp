@@ -174,8 +174,19 @@ TEST(AttachedParts, TooFewPosesAreRefused) {
             "or more");
 }
 
+TEST(AttachedParts, ACameraWhosePoseWasNotFoundIsNotAsked) {
+  sim::CarryingRobotSettings settings = cell();
+  settings.carried = {tool()};
+  sim::CarryingRobot drawn =
+      sim::draw_carrying_robot(bundled_arm().model, bundled_arm().meshes, settings, 1);
+  drawn.found.cameras[0].is_found = false;
+  EXPECT_EQ(find_attached_parts(drawn.calibration_data, drawn.found).refused,
+            "what the robot carries was not looked for: 0 different poses of the arm; expected 5 "
+            "or more");
+}
+
 TEST(AttachedParts, APartThatFewPosesShowIsNotTaken) {
-  // Boards hide the tool in all poses but two, or three.
+  // Boards close to the camera hide the tool in all poses but two, or three.
   for (const std::size_t shown : {2U, 3U}) {
     SCOPED_TRACE(shown);
     sim::CarryingRobotSettings settings = cell();
@@ -187,7 +198,7 @@ TEST(AttachedParts, APartThatFewPosesShowIsNotTaken) {
     for (std::size_t k = shown; k < settings.positions.size(); ++k) {
       const Eigen::Vector3d tool_B_m = hand_at(settings.positions[k]) * tool().X_LA.translation();
       const Eigen::Vector3d to_camera = settings.X_BC[0].translation() - tool_B_m;
-      settings.in_pose[k] = {box_at({0.02, 0.4, 0.4}, tool_B_m + 0.25 * to_camera.normalized())};
+      settings.in_pose[k] = {box_at({0.01, 0.06, 0.06}, tool_B_m + 0.9 * to_camera)};
     }
     EXPECT_EQ(find(settings).parts.size(), shown < 3 ? 0U : 1U);
   }

@@ -116,9 +116,8 @@ TEST(YamlEdit, PutsAnItemInFrontOfAList) {
                {"some.yaml:2: l: cannot be added to", "expected a list of items"});
   expect_parts(error_message([&] { with_list_item("some.yaml", "l:\n", "l", item); }),
                {"l: cannot be added to"});
-  expect_parts(
-      error_message([&] { with_list_item("some.yaml", "a: &x [1]\nl: *x\n", "l", item); }),
-      {"some.yaml", "an alias cannot be edited"});
+  expect_parts(error_message([&] { with_list_item("some.yaml", "a: &x [1]\nl: *x\n", "l", item); }),
+               {"some.yaml", "an alias cannot be edited"});
 }
 
 /// yaml-cpp reads it, but its marks are places in another text.

@@ -48,15 +48,18 @@ TEST(CalibrationJson, HasWhatIsCarried) {
   part.link = "hand";
   part.size_m << 0.12, 0.08, 0.2;
   part.padding_m = 0.007;
+  part.hidden_share = 0.25;
   part.places = 3;
   part.seen_in = {{0, 1}};
   part.explained_share = 0.5;
   report.attached = {{part}, "why"};
   const Json json = Json::parse(calibration_json(report));
-  EXPECT_EQ(json["attached"][0],
-            Json::parse(R"({"name":"hand_attached","link":"hand","size_m":[0.12,0.08,0.2],)"
-                        R"("padding_m":0.007,"places":3,"seen_in":[{"camera":"camera","frame":1}],)"
-                        R"("explained_share":0.5,"triangles":0,"is_taken":false})"));
+  EXPECT_EQ(
+      json["attached"][0],
+      Json::parse(
+          R"({"name":"hand_attached","link":"hand","size_m":[0.12,0.08,0.2],)"
+          R"("padding_m":0.007,"hidden_share":0.25,"places":3,"seen_in":[{"camera":"camera","frame":1}],)"
+          R"("explained_share":0.5,"triangles":0,"is_taken":false})"));
   EXPECT_EQ(json["attached_refused"], "why");
 }
 

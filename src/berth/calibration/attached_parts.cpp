@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "berth/calibration/closed_surface.hpp"
+#include "berth/calibration/part_solid.hpp"
 
 namespace berth {
 namespace {
@@ -13,6 +14,9 @@ namespace {
 constexpr int kMostParts = 8;
 /// Of two groups that explain nearly as much, the one nearer to the tip carries the part.
 constexpr double kAlike = 0.9;
+/// Of what comes and goes near the robot, the parts have to explain so much. Else something moves
+/// there on its own, and some of it may fit a link by chance.
+constexpr double kLeastExplained = 0.5;
 /// Two frames show different poses where a group moves by this: a point 30 cm beside its frame.
 constexpr double kOtherPose_m = 0.04;
 constexpr double kLever_m = 0.3;
@@ -83,8 +87,10 @@ int explain(const RigidGroup& group, const SolidCells& solid,
   return count;
 }
 
-double worst_uncertainty_m(const std::vector<EvidenceView>& views) {
-  return std::ranges::max(views, {}, &EvidenceView::uncertainty_m).uncertainty_m;
+/// What is known of a surface to the views' uncertainty lies half of that farther out, as a rule.
+double padding_of(const std::vector<EvidenceView>& views) {
+  const double worst_m = std::ranges::max(views, {}, &EvidenceView::uncertainty_m).uncertainty_m;
+  return std::max(kLeastSurfacePadding_m, worst_m / 2);
 }
 
 std::string new_name(const RobotModel& model, const std::string& link,
@@ -99,13 +105,18 @@ std::string new_name(const RobotModel& model, const std::string& link,
   return name;
 }
 
-AttachedPart part_of(const CarriedCells& piece, const SolidCells& solid,
+AttachedPart part_of(const CarriedCells& piece, const SolidCells& solid, double padding_m,
                      const std::vector<EvidenceView>& views, const RobotModel& model) {
   AttachedPart part;
   part.link = model.links[piece.group.link].name;
-  part.padding_m = std::max(kLeastSurfacePadding_m, worst_uncertainty_m(views) / 2);
-  part.mesh_L = closed_surface(solid, part.padding_m);
-  part.size_m = kCell_m * solid.size.cast<double>();
+  part.padding_m = padding_m;
+  part.mesh_L = closed_surface(solid, padding_m);
+  part.size_m = part.mesh_L.bounding_box_m().sizes().cast<double>();
+  const auto hidden = std::ranges::count_if(part.mesh_L.vertices_m, [&](const auto& p_L_m) {
+    return is_hidden(p_L_m.template cast<double>(), piece.group.link, views);
+  });
+  part.hidden_share =
+      static_cast<double>(hidden) / static_cast<double>(part.mesh_L.vertices_m.size());
   part.places = piece.places;
   for (const std::size_t k : piece.seen_in) {
     part.seen_in.push_back({views[k].camera_index, views[k].frame_number});
@@ -136,16 +147,25 @@ AttachedParts find_attached_parts(const CalibrationData& calibration_data,
   }
   find_moving(groups, views);
   std::vector<MovingReading> readings = moving_readings(views);
-  const auto all = std::ranges::count_if(readings, &MovingReading::is_left);
+  const auto all = static_cast<double>(std::ranges::count_if(readings, &MovingReading::is_left));
+  const double padding_m = padding_of(views);
+  double explained_share = 0;
   for (int i = 0; i < kMostParts; ++i) {
     const std::optional<CarriedCells> piece = best_piece(groups, views, readings, pause);
     if (!piece) break;
-    const SolidCells solid = solid_of(*piece, views, readings);
-    AttachedPart part = part_of(*piece, solid, views, model);
+    const SolidCells solid = solid_of(*piece, views, readings, padding_m);
+    AttachedPart part = part_of(*piece, solid, padding_m, views, model);
     part.name = new_name(model, part.link, result.parts);
-    part.explained_share = static_cast<double>(explain(piece->group, solid, views, readings)) /
-                           static_cast<double>(all);
+    part.explained_share = explain(piece->group, solid, views, readings) / all;
+    explained_share += part.explained_share;
     result.parts.push_back(std::move(part));
+  }
+  if (!result.parts.empty() && explained_share < kLeastExplained) {
+    result.parts.clear();
+    result.refused = fmt::format(
+        "what the robot carries was not found: {:.0f} % of the readings that come and go near it "
+        "fit none of its links; expected images in which nothing else moves",
+        100 * (1 - explained_share));
   }
   return result;
 }

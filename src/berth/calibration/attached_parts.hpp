@@ -18,8 +18,10 @@ struct AttachedPart {
   std::string link;
   TriangleMesh mesh_L;
   double padding_m = 0;
-  /// The lengths of its box along the axes of L, without padding.
+  /// The lengths of the mesh along the axes of L.
   Eigen::Vector3d size_m = Eigen::Vector3d::Zero();
+  /// Of its surface, what no image looks at: it is padded twice there, and may reach farther still.
+  double hidden_share = 0;
   /// It was seen at so many places of the room that differ.
   int places = 0;
   /// The images that show it: camera and CalibrationFrame::number.
@@ -53,8 +55,9 @@ inline constexpr std::size_t kLeastPosesForAttached = 5;
 /// Looks for what moves along with a link, with cameras, clocks and joints as in `found`. A place
 /// of a link's frame belongs to the link if readings lie there at two places of the room and more,
 /// none of which is one that may always be taken, and no image ever sees it free. So nothing that
-/// stands in the room is taken for a part: it was never seen free where it stands. `pause` is
-/// called now and then; to stop, it throws.
+/// stands in the room is taken for a part: it was never seen free where it stands. Where most of
+/// what comes and goes near the robot is no part's, all are refused: what moves on its own may fit
+/// a link by chance. `pause` is called now and then; to stop, it throws.
 AttachedParts find_attached_parts(
     const CalibrationData& calibration_data, const CalibrationResult& found,
     const std::function<void()>& pause = [] {});

@@ -1,7 +1,7 @@
 // Inside calibration/ only: a closed mesh around cells.
 #pragma once
 
-#include "berth/calibration/part_solid.hpp"
+#include "berth/calibration/solid_cells.hpp"
 #include "berth/robot/triangle_mesh.hpp"
 
 namespace berth {
@@ -14,10 +14,5 @@ TriangleMesh closed_surface(const SolidCells& solid, double padding_m);
 
 inline constexpr std::size_t kMostSurfaceTriangles = 800;
 inline constexpr double kLeastSurfacePadding_m = 0.005;
-
-/// How far each node is from the nearest cell that is solid, in cells; negative in the solid, by
-/// how far the nearest other cell is. Around the box of `solid` are `margin` cells more on each
-/// side; x fastest. For closed_surface() and its tests.
-std::vector<float> distance_field(const SolidCells& solid, int margin);
 
 }  // namespace berth

@@ -152,6 +152,7 @@ std::vector<EvidenceView> make_evidence_views(const CalibrationData& calibration
                                               const CalibrationResult& found) {
   std::vector<EvidenceView> views;
   for (std::size_t c = 0; c < calibration_data.cameras.size(); ++c) {
+    if (!found.cameras[c].is_found) continue;
     CalibrationData one = calibration_data;
     one.cameras = {calibration_data.cameras[c]};
     std::vector<EvidenceView> taken(one.cameras[0]->frames.size());
@@ -169,14 +170,23 @@ std::vector<EvidenceView> make_evidence_views(const CalibrationData& calibration
   return views;
 }
 
-bool sees_free(const EvidenceView& view, const Eigen::Vector3d& p_B_m, double margin_m) {
-  const double reach_m = view.uncertainty_m + margin_m;
-  const std::optional<Window> window = window_at(view, p_B_m, reach_m);
+bool sees_free(const EvidenceView& view, const Eigen::Vector3d& p_B_m) {
+  const std::optional<Window> window = window_at(view, p_B_m, view.uncertainty_m);
   if (!window) return false;
-  const auto far_m = static_cast<float>(window->p_C_m.z() + reach_m);
+  const auto far_m = static_cast<float>(window->p_C_m.z() + view.uncertainty_m);
   // No reading at the point itself tells nothing, one beside it neither yes nor no.
   if (!(view.depth_m(window->middle.u, window->middle.v) > far_m)) return false;
   return all_of(view, *window, [&](int u, int v) { return !(view.depth_m(u, v) <= far_m); });
+}
+
+bool may_hide(const EvidenceView& view, const Eigen::Vector3d& p_B_m) {
+  const Eigen::Vector3d p_C_m = view.X_CB * p_B_m;
+  if (p_C_m.z() < kLeastDepth_m) return true;
+  const std::optional<Pixel> at = pixel_of(view.camera, p_C_m);
+  if (!at) return true;
+  const double behind_m = view.depth_m(at->u, at->v) - p_C_m.z();
+  if (view.kind(at->u, at->v) != ReadingKind::fixed) return !(behind_m > 0);
+  return !(behind_m > -view.uncertainty_m);
 }
 
 bool sees_moving(const EvidenceView& view, const Eigen::Vector3d& p_B_m) {

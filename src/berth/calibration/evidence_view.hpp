@@ -38,13 +38,18 @@ struct EvidenceView {
   Eigen::Vector3d point_B_m(int u, int v) const;
 };
 
-/// Of all images whose joints are known, and where `found` puts the robot and the cameras.
+/// Of all images whose joints are known, by cameras whose pose was found, where `found` puts robot
+/// and cameras.
 std::vector<EvidenceView> make_evidence_views(const CalibrationData& calibration_data,
                                               const CalibrationResult& found);
 
-/// Whether the camera sees that nothing is there: all its readings within the uncertainty and
-/// `margin_m` beside the point lie farther behind it than that.
-bool sees_free(const EvidenceView& view, const Eigen::Vector3d& p_B_m, double margin_m = 0);
+/// Whether the camera sees that nothing is there: all its readings within the uncertainty beside
+/// the point lie farther behind it than that.
+bool sees_free(const EvidenceView& view, const Eigen::Vector3d& p_B_m);
+
+/// Whether the camera does not look into the point: it has no reading there, or a nearer one, which
+/// is of something that may always have been there only if it is nearer by the uncertainty.
+bool may_hide(const EvidenceView& view, const Eigen::Vector3d& p_B_m);
 
 /// Whether a reading of something that moves lies within the uncertainty of the point.
 bool sees_moving(const EvidenceView& view, const Eigen::Vector3d& p_B_m);

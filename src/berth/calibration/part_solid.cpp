@@ -2,8 +2,9 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
-#include <numeric>
 
 namespace berth {
 namespace {
@@ -99,14 +100,37 @@ SolidCells joined_to(const CarriedCells& piece, const CellSet& cells, SolidCells
   return solid;
 }
 
+/// With what lies within `reach_m` of it and is hidden in all views.
+SolidCells with_hidden(const SolidCells& seen, double reach_m, std::size_t link,
+                       const std::vector<EvidenceView>& views) {
+  const int margin = static_cast<int>(std::ceil(reach_m / kCell_m));
+  const std::vector<float> distance = distance_field(seen, margin);
+  SolidCells whole{seen.first - Cell::Constant(margin), seen.size + Cell::Constant(2 * margin), {}};
+  whole.is_solid.resize(distance.size());
+  tbb::parallel_for(0, whole.size.z(), [&](int z) {
+    for (int y = 0; y < whole.size.y(); ++y) {
+      for (int x = 0; x < whole.size.x(); ++x) {
+        const Cell cell = whole.first + Cell(x, y, z);
+        const std::size_t i = whole.index_of(cell);
+        whole.is_solid[i] = distance[i] <= 0 || (kCell_m * distance[i] <= reach_m &&
+                                                 is_hidden(middle_of(cell), link, views));
+      }
+    }
+  });
+  return whole;
+}
+
 }  // namespace
 
-double SolidCells::volume_m3() const {
-  return std::accumulate(is_solid.begin(), is_solid.end(), 0.0) * kCell_m * kCell_m * kCell_m;
+bool is_hidden(const Eigen::Vector3d& p_L_m, std::size_t link,
+               const std::vector<EvidenceView>& views) {
+  return std::ranges::all_of(views, [&](const EvidenceView& view) {
+    return may_hide(view, view.pose.X_BL[link] * p_L_m);
+  });
 }
 
 SolidCells solid_of(const CarriedCells& piece, const std::vector<EvidenceView>& views,
-                    const std::vector<MovingReading>& readings) {
+                    const std::vector<MovingReading>& readings, double hidden_m) {
   const CellSet more = grown(piece, views, readings);
   Hull hull;
   Eigen::AlignedBox3i box;
@@ -131,7 +155,8 @@ SolidCells solid_of(const CarriedCells& piece, const std::vector<EvidenceView>& 
   });
   SolidCells solid{box.min(), box.max() - box.min() + Cell::Ones(), {}};
   solid.is_solid.resize(static_cast<std::size_t>(solid.size.prod()));
-  return joined_to(piece, solid_cells, std::move(solid));
+  return with_hidden(joined_to(piece, solid_cells, std::move(solid)), hidden_m, piece.group.link,
+                     views);
 }
 
 }  // namespace berth

@@ -103,6 +103,7 @@ Json part_json(const AttachedPart& part, const CalibrationResult& result) {
           {"link", part.link},
           {"size_m", rounded(part.size_m)},
           {"padding_m", rounded(part.padding_m)},
+          {"hidden_share", rounded(part.hidden_share)},
           {"places", part.places},
           {"seen_in", seen_in},
           {"explained_share", rounded(part.explained_share)},

@@ -134,8 +134,7 @@ SceneCalibration calibrate_scene(const OpenScene& scene, const SceneCalibrationD
   const CalibrationResult& found = calibration.found;
   require_poses(scene, found);
   calibration.warnings = warnings_of(material, found);
-  calibration.attached =
-      find_attached_parts(material.calibration_data, found, settings.fit.pause);
+  calibration.attached = find_attached_parts(material.calibration_data, found, settings.fit.pause);
   for (AttachedPart& part : calibration.attached.parts) part.is_taken = settings.takes_part(part);
   const CarryingRobotData carrying(material.calibration_data, calibration.attached);
   const CalibrationData& calibration_data = carrying.calibration_data();
