@@ -4,7 +4,6 @@
 #include <limits>
 #include <numbers>
 
-#include "berth/calibration/attached_parts.hpp"
 #include "berth/fit/robot_pixels.hpp"
 #include "lab/measure/stopwatch.hpp"
 #include "sim/nearest_on_mesh.hpp"
@@ -18,6 +17,10 @@ constexpr double kNear_m = 0.01;
 /// So much of the room may lie in what pads a thing.
 constexpr double kPadding_m = 0.02;
 constexpr int kRoomStep_px = 4;
+/// So the cells are other ones.
+constexpr std::uint32_t kCompanySeed = 1000;
+constexpr double kCompanyOffset_m = 0.005;
+constexpr double kCompanyOffset_rad = 0.005;
 
 bool is_inside(const TriangleMesh& mesh, const Eigen::Vector3d& p_m) {
   return sim::winding_number(mesh, p_m) > 0.5;
@@ -149,6 +152,22 @@ AttachedTrial try_attached(const RobotModel& model, std::shared_ptr<const LinkMe
     }
   }
   return trial;
+}
+
+AttachedParts try_company(const RobotModel& model, std::shared_ptr<const LinkMeshes> meshes,
+                          sim::DrawnCompany company, int poses, int cameras, std::uint32_t seed) {
+  sim::DrawnCarryingCell cell =
+      sim::draw_carrying_cell(model, sim::DrawnKind::bare, poses, cameras, kCompanySeed + seed);
+  sim::Random random(seed);
+  sim::add_company(random, model, company, cell.settings);
+  sim::CarryingRobot drawn =
+      sim::draw_carrying_robot(model, std::move(meshes), cell.settings, seed);
+  for (std::size_t c = 0; c < drawn.cameras.size(); ++c) {
+    Pose& X_PC = drawn.found.cameras[c].X_PC;
+    X_PC = sim::miscalibrated(X_PC, kCompanyOffset_m, kCompanyOffset_rad,
+                              seed + static_cast<std::uint32_t>(c));
+  }
+  return find_attached_parts(drawn.calibration_data, drawn.found);
 }
 
 }  // namespace berth::lab

@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <string>
 
+#include "berth/calibration/attached_parts.hpp"
 #include "berth/robot/robot_model.hpp"
 #include "sim/drawn_carried.hpp"
+#include "sim/drawn_company.hpp"
 
 namespace berth {
 class LinkMeshes;
@@ -40,5 +42,10 @@ struct AttachedTrial {
 /// arguments alone, but for the time.
 AttachedTrial try_attached(const RobotModel& model, std::shared_ptr<const LinkMeshes> meshes,
                            sim::DrawnKind kind, int poses, int cameras, std::uint32_t seed);
+
+/// What is found of a robot that carries nothing, with company in its images. The cameras are off
+/// by half a centimetre and half a hundredth of a radian. Depends on its arguments alone.
+AttachedParts try_company(const RobotModel& model, std::shared_ptr<const LinkMeshes> meshes,
+                          sim::DrawnCompany company, int poses, int cameras, std::uint32_t seed);
 
 }  // namespace berth::lab

@@ -23,6 +23,18 @@ constexpr std::array kKinds = {
     Kind{sim::DrawnKind::tool, "tool"}, Kind{sim::DrawnKind::bent_tool, "bent tool"},
     Kind{sim::DrawnKind::cable_box, "cable box"}, Kind{sim::DrawnKind::bare, "nothing"}};
 
+constexpr std::array kCompanyNames = {"a person, elsewhere in each pose",
+                                      "a person who follows the tip",
+                                      "a hand that guides the tip",
+                                      "a table rolled in under the tip",
+                                      "another robot",
+                                      "another robot in the same poses"};
+
+bool is_taken(const TrialRobot& robot, const std::string& only) {
+  return std::ranges::find(kRobots, std::string_view(robot.name)) != kRobots.end() &&
+         robot.name.find(only) != std::string::npos;
+}
+
 /// Of many trials.
 struct Tally {
   std::vector<double> precision, recall, time_s;
@@ -71,8 +83,7 @@ void measure_attached(const std::vector<TrialRobot>& robots, const std::string& 
       for (const int cameras : {1, 3}) {
         Tally tally;
         for (const TrialRobot& robot : robots) {
-          if (std::ranges::find(kRobots, std::string_view(robot.name)) == kRobots.end()) continue;
-          if (robot.name.find(only) == std::string::npos) continue;
+          if (!is_taken(robot, only)) continue;
           for (int seed = 1; seed <= seeds; ++seed) {
             const AttachedTrial trial = try_attached(robot.model, robot.meshes, kind.kind, poses,
                                                      cameras, static_cast<std::uint32_t>(seed));
@@ -90,6 +101,29 @@ void measure_attached(const std::vector<TrialRobot>& robots, const std::string& 
         if (tally.trials > 0) print_row(kind.name, poses, cameras, tally);
       }
     }
+  }
+}
+
+void measure_company(const std::vector<TrialRobot>& robots, const std::string& only, int seeds) {
+  fmt::print(
+      "| beside a robot that carries nothing | cells | with a part | refused |\n"
+      "| --- | ---: | ---: | ---: |\n");
+  for (std::size_t i = 0; i < sim::kDrawnCompany.size(); ++i) {
+    int cells = 0, with_part = 0, refused = 0;
+    for (const TrialRobot& robot : robots) {
+      if (!is_taken(robot, only)) continue;
+      for (int k = 0; k < 2 * seeds; ++k) {
+        const bool is_small = k % 2 == 0;
+        const AttachedParts found =
+            try_company(robot.model, robot.meshes, sim::kDrawnCompany[i], is_small ? 5 : 8,
+                        is_small ? 1 : 2, static_cast<std::uint32_t>(1 + k / 2));
+        ++cells;
+        with_part += !found.parts.empty();
+        refused += !found.refused.empty();
+      }
+    }
+    fmt::print("| {} | {} | {} | {} |\n", kCompanyNames[i], cells, with_part, refused);
+    std::fflush(stdout);
   }
 }
 

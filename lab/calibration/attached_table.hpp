@@ -12,4 +12,7 @@ namespace berth::lab {
 void measure_attached(const std::vector<TrialRobot>& robots, const std::string& only, int seeds,
                       bool prints_each);
 
+/// Prints what is found of robots that carry nothing beside others that move, as measure_attached.
+void measure_company(const std::vector<TrialRobot>& robots, const std::string& only, int seeds);
+
 }  // namespace berth::lab

@@ -27,5 +27,26 @@ TEST(AttachedCells, ARobotThatCarriesNothingHasNoPart) {
   EXPECT_EQ(try_arm(sim::DrawnKind::bare, 5, 3).parts, 0);
 }
 
+/// Each of these had a part where the share of what is explained was not asked for.
+TEST(AttachedCells, WhatMovesOnItsOwnBesideTheRobotIsNoPartAndIsTold) {
+  struct Case {
+    sim::DrawnCompany company;
+    int poses, cameras;
+    std::uint32_t seed;
+  };
+  for (const Case& one :
+       {Case{sim::DrawnCompany::follower, 5, 1, 1}, Case{sim::DrawnCompany::guide, 8, 2, 1},
+        Case{sim::DrawnCompany::cart, 5, 1, 1}}) {
+    SCOPED_TRACE(static_cast<int>(one.company));
+    const AttachedParts found = lab::try_company(bundled_arm().model, bundled_arm().meshes,
+                                                 one.company, one.poses, one.cameras, one.seed);
+    EXPECT_TRUE(found.parts.empty());
+    EXPECT_TRUE(found.refused.ends_with(
+        "% of the readings that come and go near it fit none of its links; expected images in "
+        "which nothing else moves"))
+        << found.refused;
+  }
+}
+
 }  // namespace
 }  // namespace berth
