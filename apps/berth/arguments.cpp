@@ -321,6 +321,13 @@ void add_calibrate_options(CLI::App& command, CalibrateArguments& arguments) {
                    "Take the camera's depth error out of its readings from now on");
   command.add_flag("--background", arguments.background,
                    "Keep what the cameras see where the robot is not, as a PNG beside NEW.yaml");
+  command
+      .add_option("--attached", arguments.attached,
+                  "Whether what the robot carries and its URDF does not have becomes a part of it; "
+                  "ask takes none where there is no terminal to ask at (default: ask)")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, AttachedChoice>{
+          {"ask", AttachedChoice::ask}, {"yes", AttachedChoice::yes}, {"no", AttachedChoice::no}}))
+      ->type_name("ask|yes|no");
   add_format(command, "A table for people, or one JSON object (default: table)", arguments.format);
   add_threads(command, arguments.threads);
   command.footer("Example:\n  berth calibrate scene.yaml --out calibrated.yaml --report report");

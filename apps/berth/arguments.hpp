@@ -78,6 +78,9 @@ struct FilterArguments {
   int threads = 0;
 };
 
+/// Whether what the robot carries is taken for a part of it.
+enum class AttachedChoice { ask, yes, no };
+
 struct CalibrateArguments {
   std::filesystem::path scene;
   std::filesystem::path out;
@@ -85,6 +88,7 @@ struct CalibrateArguments {
   bool joint_zeros = false;
   bool correct_depth = false;
   bool background = false;
+  AttachedChoice attached = AttachedChoice::ask;
   OutputFormat format = OutputFormat::table;
   int threads = 0;
 };

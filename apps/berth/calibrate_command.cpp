@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "apps/berth/attached_question.hpp"
 #include "apps/berth/calibration_page.hpp"
 #include "apps/berth/commands.hpp"
 #include "apps/berth/run_frames.hpp"
@@ -12,6 +13,7 @@
 #include "berth/reports/calibration_json.hpp"
 #include "berth/reports/calibration_report.hpp"
 #include "berth/reports/calibration_table.hpp"
+#include "berth/scene/attach_parts.hpp"
 #include "berth/scene/calibrate_background.hpp"
 #include "berth/scene/calibrate_scene.hpp"
 
@@ -54,6 +56,7 @@ void calibrate_command(const CalibrateArguments& arguments) {
       stop_if_interrupted();
       progress.step();
     };
+    settings.takes_part = attached_question(arguments.attached, progress);
     calibration = calibrate_scene(scene, material, settings);
   }
   std::vector<std::string>& warnings = calibration.warnings;
@@ -70,13 +73,15 @@ void calibrate_command(const CalibrateArguments& arguments) {
         calibration.change);
   }
   const CalibrationReport report{&material.calibration_data, &calibration.found,
-                                 calibration.filters, arguments.correct_depth,
-                                 calibration.warnings};
+                                 calibration.filters,        arguments.correct_depth,
+                                 calibration.warnings,       calibration.attached};
   const std::string text = arguments.format == OutputFormat::json ? calibration_json(report) + "\n"
                                                                   : calibration_table(report);
   if (!arguments.report_folder.empty())
     write_calibration_page(arguments.report_folder, arguments.scene.string(), report);
+  attach_parts(arguments.scene, calibration.attached, arguments.out, calibration.change);
   write_backgrounds(backgrounds);
+  write_attached_parts(calibration.attached, arguments.out);
   write_rewritten_scene(arguments.scene, calibration.change, arguments.out);
   std::fputs(text.c_str(), stdout);
 }

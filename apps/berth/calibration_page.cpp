@@ -4,6 +4,7 @@
 
 #include <iterator>
 
+#include "apps/berth/calibration_page_attached.hpp"
 #include "apps/berth/calibration_page_camera.hpp"
 #include "apps/berth/calibration_page_style.hpp"
 #include "apps/berth/html_text.hpp"
@@ -59,6 +60,7 @@ void write_calibration_page(const std::filesystem::path& folder, const std::stri
   for (std::size_t camera = 0; camera < report.result->cameras.size(); ++camera) {
     html += camera_section(folder, report, camera);
   }
+  html += attached_section(folder, report);
   add_joint_offsets(report, out);
   html += "</main></body></html>\n";
   write_file_bytes(folder / "index.html", html);

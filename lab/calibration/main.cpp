@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "lab/calibration/attached_table.hpp"
 #include "lab/calibration/drawn.hpp"
 #include "lab/calibration/recordings.hpp"
 #include "sim/drawn_hand_camera.hpp"
@@ -18,6 +19,8 @@ int main(int argc, char** argv) {
   std::string robot;
   int starts = 0;
   double zero_deg = 0;
+  int attached_seeds = 0;
+  int company_seeds = 0;
   bool is_on_hand = false;
   bool is_on_upper_link = false;
   lab::DrawnTrials trials;
@@ -39,11 +42,22 @@ int main(int argc, char** argv) {
   app.add_option("--depth-share", trials.drawn.errors.depth_share);
   app.add_option("--clock-s", trials.drawn.errors.clock_offset_s);
   app.add_option("--joint-zero-deg", zero_deg);
+  app.add_option("--attached", attached_seeds,
+                 "Cells with what robots carry: so many of each robot, kind, poses and cameras");
+  app.add_option("--company", company_seeds,
+                 "The same of robots that carry nothing, with others in their images");
   app.add_flag("--each", trials.prints_each, "Tell each drawn scene on standard error");
   CLI11_PARSE(app, argc, argv);
   try {
     for (const char* name : {"xarm7_realsense", "lbr_med7_zed2i"}) {
       if (starts > 0) lab::measure_recording(data / "recordings" / name, trials.start, starts);
+    }
+    if (attached_seeds > 0) {
+      lab::measure_attached(lab::load_trial_robots(data / "robots"), robot, attached_seeds,
+                            trials.prints_each);
+    }
+    if (company_seeds > 0) {
+      lab::measure_company(lab::load_trial_robots(data / "robots"), robot, company_seeds);
     }
     if (trials.seeds == 0) return 0;
     trials.drawn.errors.joint_zero = zero_deg * std::numbers::pi / 180;

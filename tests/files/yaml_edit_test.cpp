@@ -93,6 +93,33 @@ TEST(YamlEdit, AddsWhatIsMissing) {
   for (const Case& good : table) EXPECT_EQ(edited(good.text, good.values), good.expected);
 }
 
+TEST(YamlEdit, PutsAnItemInFrontOfAList) {
+  struct Case {
+    std::string text;
+    std::string expected;
+  };
+  const std::vector<Case> table = {
+      {"a: 1 # one\n", "a: 1 # one\nl: [{k: 1, o p: \"b: c\"}]\n"},
+      {"{a: 1}\n", "{a: 1, l: [{k: 1, o p: \"b: c\"}]}\n"},
+      {"l: [] # none\n", "l: [{k: 1, o p: \"b: c\"}] # none\n"},
+      {"l: [{k: 2}, x]\n", "l: [{k: 1, o p: \"b: c\"}, {k: 2}, x]\n"},
+      {"l:\n  # of k\n  - k: 2\n    m: [3]\n  - {k: 4}\nb: 1\n",
+       "l:\n  # of k\n  - {k: 1, o p: \"b: c\"}\n  - k: 2\n    m: [3]\n  - {k: 4}\nb: 1\n"},
+      {"l:\r\n- 'x-y'\r\n", "l:\r\n- {k: 1, o p: \"b: c\"}\r\n- 'x-y'\r\n"},
+      {"\xEF\xBB\xBFl: []\n", "\xEF\xBB\xBFl: [{k: 1, o p: \"b: c\"}]\n"},
+  };
+  const std::vector<std::pair<std::string, std::string>> item = {{"k", "1"}, {"o p", "b: c"}};
+  for (const Case& good : table) {
+    EXPECT_EQ(with_list_item("some.yaml", good.text, "l", item), good.expected);
+  }
+  expect_parts(error_message([&] { with_list_item("some.yaml", "b: 1\nl: {a: 2}\n", "l", item); }),
+               {"some.yaml:2: l: cannot be added to", "expected a list of items"});
+  expect_parts(error_message([&] { with_list_item("some.yaml", "l:\n", "l", item); }),
+               {"l: cannot be added to"});
+  expect_parts(error_message([&] { with_list_item("some.yaml", "a: &x [1]\nl: *x\n", "l", item); }),
+               {"some.yaml", "an alias cannot be edited"});
+}
+
 /// yaml-cpp reads it, but its marks are places in another text.
 TEST(YamlEdit, RefusesTextsOfWideCharacters) {
   for (const char16_t* text : {u"m: {}\n", u"m: {k: 1}\n", u"m: {k: [1]}\n", u"m:\n  k: [1]\n"}) {

@@ -37,7 +37,30 @@ TEST(CalibrationJson, IsOneLineInTheOrderOfTheSchema) {
       R"({"depth_m":1.0,"rod_width_m":0.004,"finger_width_m":0.006},)"
       R"({"depth_m":2.0,"rod_width_m":0.012,"finger_width_m":null}],"rod_gap_m":0.04}],)"
       R"("joint_offsets":{"joint_2":0.004},"joints_not_determined":["joint_1"],)"
-      R"("warnings":["Two \"poses\"."]})");
+      R"("attached":[],"attached_refused":null,"warnings":["Two \"poses\"."]})");
+}
+
+TEST(CalibrationJson, HasWhatIsCarried) {
+  testing::SmallCalibrationData small(2);
+  CalibrationReport report = small.report();
+  AttachedPart part;
+  part.name = "hand_attached";
+  part.link = "hand";
+  part.size_m << 0.12, 0.08, 0.2;
+  part.padding_m = 0.007;
+  part.hidden_share = 0.25;
+  part.places = 3;
+  part.seen_in = {{0, 1}};
+  part.explained_share = 0.5;
+  report.attached = {{part}, "why"};
+  const Json json = Json::parse(calibration_json(report));
+  EXPECT_EQ(
+      json["attached"][0],
+      Json::parse(
+          R"({"name":"hand_attached","link":"hand","size_m":[0.12,0.08,0.2],)"
+          R"("padding_m":0.007,"hidden_share":0.25,"places":3,"seen_in":[{"camera":"camera","frame":1}],)"
+          R"("explained_share":0.5,"triangles":0,"is_taken":false})"));
+  EXPECT_EQ(json["attached_refused"], "why");
 }
 
 TEST(CalibrationJson, WhatIsNotKnownIsNull) {

@@ -55,6 +55,33 @@ TEST(CalibrationTable, SaysWhatWasFoundAndHowSureThatIs) {
       << table;
 }
 
+TEST(CalibrationTable, SaysWhatIsCarriedAndWhatBecomesOfIt) {
+  testing::SmallCalibrationData small;
+  CalibrationReport report = small.report();
+  AttachedPart part;
+  part.name = "hand_attached";
+  part.link = "hand";
+  part.size_m << 0.12, 0.08, 0.2;
+  part.hidden_share = 0.21;
+  part.places = 4;
+  part.seen_in = {{0, 0}, {0, 1}, {0, 2}, {0, 4}, {0, 3}};
+  part.explained_share = 0.93;
+  report.attached.parts = {part};
+  const std::string what =
+      "carried: hand carries something that its URDF does not have, 12 x 8 x 20 cm: 5 images show "
+      "it, at 4 places of the room, and 93 % of the readings that come and go near the robot are "
+      "its own. No image shows 21 % of its surface, where it may reach farther.\n";
+  EXPECT_TRUE(calibration_table(report).ends_with(
+      what +
+      "  It stays an obstacle. If it is a part of the robot, calibrate with --attached "
+      "yes.\n"));
+  report.attached.parts[0].is_taken = true;
+  EXPECT_TRUE(calibration_table(report).ends_with(
+      what + "  It is a part of the robot from now on, by the name hand_attached.\n"));
+  report.attached = {{}, "few poses"};
+  EXPECT_TRUE(calibration_table(report).ends_with("carried: few poses\n"));
+}
+
 TEST(CalibrationTable, WhatIsNotKnownIsADash) {
   testing::SmallCalibrationData small;
   small.found().before.median_m = std::nan("");

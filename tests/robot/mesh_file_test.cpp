@@ -2,11 +2,14 @@
 #include "berth/robot/mesh_file/mesh_file.hpp"
 
 #include <gtest/gtest.h>
+
 #include <sys/stat.h>
+#include <cstring>
 
 #include <algorithm>
 #include <limits>
 
+#include "berth/robot/mesh_file/stl_bytes.hpp"
 #include "tests/robot/error_text.hpp"
 #include "tests/robot/mesh_writing.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -50,6 +53,25 @@ TEST(StlFile, TextOfTwoSolidsGivesBoth) {
   const Triangles both = two_triangles();
   const auto file = folder.write("part.stl", text_stl({both[0]}) + text_stl({both[1]}));
   expect_two_triangles(read_mesh_file(file));
+}
+
+TEST(StlFile, WhatIsWrittenIsReadAgain) {
+  TriangleMesh mesh;
+  mesh.vertices_m = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0.25F, 0, 3.5F}};
+  mesh.triangles = {{0, 1, 2}, {0, 1, 3}, {2, 2, 3}};
+  const TemporaryFolder folder;
+  const std::string bytes = stl_bytes(mesh);
+  EXPECT_EQ(bytes.size(), 84 + 3 * 50U);
+  const TriangleMesh read = read_mesh_file(folder.write("part.stl", bytes));
+  ASSERT_GE(read.triangles.size(), 2U);
+  for (std::size_t t = 0; t < 2; ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(read.vertices_m[read.triangles[t][k]], mesh.vertices_m[mesh.triangles[t][k]]);
+    }
+  }
+  float normal_z = 0;
+  std::memcpy(&normal_z, bytes.data() + 84 + 8, sizeof normal_z);
+  EXPECT_EQ(normal_z, 1);
 }
 
 TEST(StlFile, CapitalEndingIsRead) {

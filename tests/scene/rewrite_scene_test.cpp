@@ -158,6 +158,24 @@ TEST_F(RewrittenScene, WritesOtherValuesAtTheirPlaces) {
   EXPECT_EQ(scene.cameras[1].settings.sensor.holes, HolePolicy::obstacle);
 }
 
+TEST_F(RewrittenScene, WritesWhatIsCarriedInFrontOfTheRest) {
+  SceneChange change;
+  change.attached = {{"hand", folder_ / "cell/new.attached.a.stl", "a"},
+                     {"arm", folder_ / "cell/new.attached.b.stl", "b"}};
+  const std::string text = scene_of(kBlockCamera);
+  for (const std::string& old : {std::string(), std::string("attached:\n  # held\n  - link: p\n"
+                                                            "    box: [1, 1, 1]\n")}) {
+    const SceneFile scene = reread(text + old, change);
+    ASSERT_EQ(scene.attached.size(), old.empty() ? 2U : 3U);
+    EXPECT_EQ(scene.attached[0].link, "arm");
+    EXPECT_EQ(scene.attached[0].name, "b");
+    EXPECT_EQ(scene.attached[1].mesh, folder_ / "cell/new.attached.a.stl");
+    if (!old.empty()) {
+      EXPECT_EQ(scene.attached[2].link, "p");
+    }
+  }
+}
+
 /// Also where the angles about x and z are not told apart.
 TEST_F(RewrittenScene, WritesPosesInTheUsersKindOfRotation) {
   sim::Random random(1);

@@ -197,11 +197,26 @@ void insert_value(const std::filesystem::path& file, const YamlPath& path, const
   }
 }
 
-/// Throws unless the new text has `values`, and all else as in the old one.
-void require_only_these_changed(const std::filesystem::path& file, const std::string& old_text,
-                                const std::string& new_text, const YamlScalars& values) {
-  YamlScalars expected = yaml_scalars(old_text);
-  for (const auto& [path, value] : values) expected[path] = value;
+/// Puts an item in front of a list's others. Returns false where the list is written in a way that
+/// cannot be edited.
+bool insert_first(std::string& text, const YAML::Node& list, const std::string& item) {
+  if (!list.IsSequence()) return false;
+  const std::size_t begin = begin_of(text, list);
+  if (text.substr(begin, 1) == "[") {
+    text.insert(begin + 1, list.size() == 0 ? item : item + ", ");
+    return true;
+  }
+  const std::size_t dash = text.rfind('-', begin_of(text, list[0]));
+  if (list.size() == 0 || dash == std::string::npos) return false;
+  const std::size_t line = text.rfind('\n', dash);
+  const std::size_t column = dash - (line == std::string::npos ? 0 : line + 1);
+  text.insert(dash, "- " + item + std::string(line_break_of(text)) + std::string(column, ' '));
+  return true;
+}
+
+/// Throws unless the new text has these values and no others.
+void require_values(const std::filesystem::path& file, const std::string& old_text,
+                    const std::string& new_text, const YamlScalars& expected) {
   const YamlScalars found = yaml_scalars(new_text);
   if (found == expected) return;
   const auto fail = [&](const YamlPath& path, const std::string& what, const std::string& value) {
@@ -218,6 +233,39 @@ void require_only_these_changed(const std::filesystem::path& file, const std::st
   }
 }
 
+/// All of the old text, with `values`.
+YamlScalars scalars_with(const std::string& old_text, const YamlScalars& values) {
+  YamlScalars scalars = yaml_scalars(old_text);
+  for (const auto& [path, value] : values) scalars[path] = value;
+  return scalars;
+}
+
+/// All of the old text, where the list `key` has one item more in front.
+YamlScalars scalars_with_first(const std::string& old_text, const std::string& key,
+                               const std::vector<std::pair<std::string, std::string>>& item) {
+  YamlScalars scalars;
+  for (const auto& [path, value] : yaml_scalars(old_text)) {
+    YamlPath moved = path;
+    if (path.size() > 1 && path[0] == key) moved[1] = std::to_string(std::stoi(path[1]) + 1);
+    scalars[moved] = value;
+  }
+  for (const auto& [name, value] : item) scalars[{key, "0", name}] = value;
+  return scalars;
+}
+
+/// As a YAML text whose bytes yaml-cpp counts, which is from behind its byte order mark on.
+template <class Edit>
+std::string edited_behind_mark(const std::filesystem::path& file, const std::string& text,
+                               const Edit& edit) {
+  const std::string mark = text.starts_with("\xEF\xBB\xBF") ? "\xEF\xBB\xBF" : "";
+  try {
+    return mark + edit(text.substr(mark.size()));
+  } catch (const YAML::Exception& error) {
+    throw_bad_file({file, error.mark.line + 1}, "cannot be edited: " + error.msg,
+                   "YAML without rare forms");
+  }
+}
+
 }  // namespace
 
 YamlScalars yaml_scalars(const std::string& text) {
@@ -227,24 +275,41 @@ YamlScalars yaml_scalars(const std::string& text) {
   return scalars;
 }
 
-std::string edited_yaml(const std::filesystem::path& file, const std::string& text,
+std::string edited_yaml(const std::filesystem::path& file, const std::string& whole,
                         const YamlScalars& values) {
-  // yaml-cpp counts a text's bytes from behind its byte order mark.
-  if (const std::string mark = "\xEF\xBB\xBF"; text.starts_with(mark)) {
-    return mark + edited_yaml(file, text.substr(mark.size()), values);
-  }
-  try {
+  return edited_behind_mark(file, whole, [&](const std::string& text) {
     std::string result = with_replaced(file, text, values);
     const YamlScalars old = yaml_scalars(text);
     for (const auto& [path, value] : values) {
       if (!old.contains(path)) insert_value(file, path, value, result);
     }
-    require_only_these_changed(file, text, result, values);
+    require_values(file, text, result, scalars_with(text, values));
     return result;
-  } catch (const YAML::Exception& error) {
-    throw_bad_file({file, error.mark.line + 1}, "cannot be edited: " + error.msg,
-                   "YAML without rare forms");
-  }
+  });
+}
+
+std::string with_list_item(const std::filesystem::path& file, const std::string& whole,
+                           const std::string& key,
+                           const std::vector<std::pair<std::string, std::string>>& item) {
+  return edited_behind_mark(file, whole, [&](const std::string& text) {
+    std::string entry;
+    for (const auto& [name, value] : item) {
+      entry += fmt::format("{}{}: {}", entry.empty() ? "" : ", ", scalar_as_yaml(name),
+                           scalar_as_yaml(value));
+    }
+    entry = "{" + entry + "}";
+    const YAML::Node document = YAML::Load(text);
+    const YAML::Node list = document[key];
+    std::string result = text;
+    const bool is_done = list.IsDefined()
+                             ? insert_first(result, list, entry)
+                             : insert_entry(result, document, fmt::format("{}: [{}]", key, entry));
+    if (!is_done) {
+      throw_bad_file(place_of(file, document, {key}), "cannot be added to", "a list of items");
+    }
+    require_values(file, text, result, scalars_with_first(text, key, item));
+    return result;
+  });
 }
 
 }  // namespace berth

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace berth {
@@ -26,5 +27,12 @@ YamlScalars yaml_scalars(const std::string& text);
 /// alias that would change too. `text` is the content of `file`, and one that load_yaml takes.
 std::string edited_yaml(const std::filesystem::path& file, const std::string& text,
                         const YamlScalars& values);
+
+/// `text` with a map of these keys and values as one more item, in front of the others, of the list
+/// `key` of the document; the list is added where it is missing. Every other byte stays. Checks and
+/// throws as edited_yaml does.
+std::string with_list_item(const std::filesystem::path& file, const std::string& text,
+                           const std::string& key,
+                           const std::vector<std::pair<std::string, std::string>>& item);
 
 }  // namespace berth

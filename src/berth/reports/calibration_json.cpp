@@ -94,6 +94,23 @@ Json calibrated_camera_json(const CalibrationReport& report, std::size_t index) 
   return json;
 }
 
+Json part_json(const AttachedPart& part, const CalibrationResult& result) {
+  Json seen_in = Json::array();
+  for (const AttachedPart::Sight& sight : part.seen_in) {
+    seen_in.push_back({{"camera", result.cameras[sight.camera].camera}, {"frame", sight.frame}});
+  }
+  return {{"name", part.name},
+          {"link", part.link},
+          {"size_m", rounded(part.size_m)},
+          {"padding_m", rounded(part.padding_m)},
+          {"hidden_share", rounded(part.hidden_share)},
+          {"places", part.places},
+          {"seen_in", seen_in},
+          {"explained_share", rounded(part.explained_share)},
+          {"triangles", part.mesh_L.triangles.size()},
+          {"is_taken", part.is_taken}};
+}
+
 }  // namespace
 
 std::string calibration_json(const CalibrationReport& report) {
@@ -109,6 +126,12 @@ std::string calibration_json(const CalibrationReport& report) {
     json["joint_offsets"][name] = rounded(offset);
   }
   json["joints_not_determined"] = report.result->joints_not_determined;
+  json["attached"] = Json::array();
+  for (const AttachedPart& part : report.attached.parts) {
+    json["attached"].push_back(part_json(part, *report.result));
+  }
+  const std::string& refused = report.attached.refused;
+  json["attached_refused"] = refused.empty() ? Json() : Json(refused);
   json["warnings"] = report.warnings;
   return json.dump();
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "berth/calibration/attached_parts.hpp"
 #include "berth/calibration/calibrate.hpp"
 #include "berth/calibration/filter_settings.hpp"
 #include "berth/fit/calibration_data.hpp"
@@ -21,6 +22,8 @@ struct CalibrationReport {
   bool corrects_depth = false;
   /// What the user should know before trusting the result, such as too few poses; each a sentence.
   std::vector<std::string> warnings;
+  /// What the robot carries.
+  AttachedParts attached = {};
 };
 
 /// Images of all cameras that were used.

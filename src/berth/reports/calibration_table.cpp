@@ -75,6 +75,13 @@ void add_joints(const CalibrationResult& result, Text out) {
   }
 }
 
+void add_attached(const AttachedParts& attached, Text out) {
+  if (!attached.refused.empty()) fmt::format_to(out, "carried: {}\n", attached.refused);
+  for (const AttachedPart& part : attached.parts) {
+    fmt::format_to(out, "carried: {}\n  {}\n", attached_text(part), attached_use_text(part));
+  }
+}
+
 }  // namespace
 
 std::string calibration_table(const CalibrationReport& report) {
@@ -86,6 +93,7 @@ std::string calibration_table(const CalibrationReport& report) {
     add_camera(report, i, std::back_inserter(text));
   }
   add_joints(*report.result, std::back_inserter(text));
+  add_attached(report.attached, std::back_inserter(text));
   return text;
 }
 

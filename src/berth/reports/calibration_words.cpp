@@ -135,4 +135,21 @@ std::string smallest_width_text(double width_m) {
                              : fmt::format("{:.0f} mm", 1e3 * width_m);
 }
 
+std::string attached_text(const AttachedPart& part) {
+  const Eigen::Vector3d size_cm = 100 * part.size_m;
+  return fmt::format(
+      "{} carries something that its URDF does not have, {:.0f} x {:.0f} x {:.0f} cm: {} images "
+      "show "
+      "it, at {} places of the room, and {:.0f} % of the readings that come and go near the robot "
+      "are its own. No image shows {:.0f} % of its surface, where it may reach farther.",
+      part.link, size_cm.x(), size_cm.y(), size_cm.z(), part.seen_in.size(), part.places,
+      100 * part.explained_share, 100 * part.hidden_share);
+}
+
+std::string attached_use_text(const AttachedPart& part) {
+  return part.is_taken
+             ? fmt::format("It is a part of the robot from now on, by the name {}.", part.name)
+             : "It stays an obstacle. If it is a part of the robot, calibrate with --attached yes.";
+}
+
 }  // namespace berth

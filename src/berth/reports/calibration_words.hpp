@@ -33,4 +33,11 @@ std::vector<std::string> consequences(const FilterProposal& proposal);
 /// "3 mm", or that even the widest is not kept.
 std::string smallest_width_text(double width_m);
 
+/// What a link carries that its URDF does not have, how large it is and how well that is proven, as
+/// a sentence.
+std::string attached_text(const AttachedPart& part);
+
+/// What becomes of it, as a sentence.
+std::string attached_use_text(const AttachedPart& part);
+
 }  // namespace berth

@@ -9,6 +9,7 @@
 
 #include "berth/calibration/moved_environment.hpp"
 #include "berth/scene/calibrated_robot.hpp"
+#include "berth/scene/carrying_robot_data.hpp"
 #include "berth/scene/plausibility.hpp"
 #include "berth/watch/frame_displacement.hpp"
 #include "berth/watch/seen_through.hpp"
@@ -128,12 +129,15 @@ std::vector<std::string> warnings_of(const SceneCalibrationData& material,
 
 SceneCalibration calibrate_scene(const OpenScene& scene, const SceneCalibrationData& material,
                                  const CalibrateSceneSettings& settings) {
-  const CalibrationData& calibration_data = material.calibration_data;
   SceneCalibration calibration;
-  calibration.found = calibrate(calibration_data, settings.fit);
+  calibration.found = calibrate(material.calibration_data, settings.fit);
   const CalibrationResult& found = calibration.found;
   require_poses(scene, found);
   calibration.warnings = warnings_of(material, found);
+  calibration.attached = find_attached_parts(material.calibration_data, found, settings.fit.pause);
+  for (AttachedPart& part : calibration.attached.parts) part.is_taken = settings.takes_part(part);
+  const CarryingRobotData carrying(material.calibration_data, calibration.attached);
+  const CalibrationData& calibration_data = carrying.calibration_data();
   for (std::size_t c = 0; c < scene.cameras.size(); ++c) {
     settings.fit.pause();
     const CameraSettings& present = scene.cameras[c].view->settings();

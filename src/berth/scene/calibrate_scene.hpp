@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "berth/calibration/attached_parts.hpp"
 #include "berth/scene/rewrite_scene.hpp"
 #include "berth/scene/scene_calibration.hpp"
 #include "berth/watch/watch_settings.hpp"
@@ -16,6 +17,9 @@ struct CalibrateSceneSettings {
   CalibrationSettings fit;
   /// Whether the depth error that was found is taken out of the readings from now on.
   bool correct_depth = false;
+  /// Asked about each part that the robot carries and its URDF does not have: whether it is one. By
+  /// default none is taken, since a thing of the room that is taken for the robot is never seen.
+  std::function<bool(const AttachedPart&)> takes_part = [](const AttachedPart&) { return false; };
 };
 
 /// What calibration found of a scene.
@@ -27,7 +31,10 @@ struct SceneCalibration {
   std::vector<WatchSettings> watches;
   /// What makes the result worse than it could be, in sentences.
   std::vector<std::string> warnings;
-  /// What to write into the scene file.
+  /// What the robot carries. The settings of filters and watches are those for a robot with the
+  /// parts that were taken.
+  AttachedParts attached;
+  /// What to write into the scene file, but for the parts: attach_parts() adds them.
   SceneChange change;
 };
 

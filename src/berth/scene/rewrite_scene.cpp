@@ -160,6 +160,18 @@ SceneFile with_backgrounds(SceneFile scene, const SceneChange& change) {
   return scene;
 }
 
+/// With what is carried in the order of the new file.
+SceneFile with_attached(SceneFile scene, const SceneChange& change) {
+  for (const SceneAttachmentChange& one : change.attached) {
+    SceneAttachment attachment;
+    attachment.link = one.link;
+    attachment.name = one.name;
+    attachment.mesh = fs::absolute(one.mesh);
+    scene.attached.insert(scene.attached.begin(), attachment);
+  }
+  return scene;
+}
+
 /// Throws unless the new scene has the given poses; cameras without one have theirs of before.
 void require_poses(const SceneFile& found, const SceneFile& scene, const SceneChange& change) {
   std::vector<Pose> wanted;
@@ -198,9 +210,14 @@ std::string rewritten_scene(const fs::path& scene_file, const SceneChange& chang
     changed[{"joint_offsets", joint}] = exact(offset);
   }
   for (const auto& [place, value] : change.values) changed[place] = value;
-  const std::string new_text = edited_yaml(scene_file, text, changed);
+  std::string new_text = edited_yaml(scene_file, text, changed);
+  for (const SceneAttachmentChange& one : change.attached) {
+    new_text = with_list_item(
+        scene_file, new_text, "attached",
+        {{"link", one.link}, {"mesh", one.mesh.filename().string()}, {"name", one.name}});
+  }
   const SceneFile new_scene = parse_scene(new_file, new_text);
-  require_same_files(new_scene, with_backgrounds(scene, change));
+  require_same_files(new_scene, with_attached(with_backgrounds(scene, change), change));
   require_poses(new_scene, scene, change);
   return new_text;
 }

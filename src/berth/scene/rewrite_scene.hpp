@@ -26,6 +26,14 @@ struct SceneCameraChange {
   std::optional<std::filesystem::path> background = std::nullopt;
 };
 
+/// Something more that the robot carries.
+struct SceneAttachmentChange {
+  std::string link;
+  /// In the link's frame; a file in the new scene's folder.
+  std::filesystem::path mesh;
+  std::string name;
+};
+
 /// New values of a scene file.
 struct SceneChange {
   std::vector<SceneCameraChange> cameras;
@@ -33,6 +41,8 @@ struct SceneChange {
   std::map<std::string, double> joint_offsets;
   /// Other values at their places in the file, such as {{"evaluation", "range_m"}, "0.8"}.
   YamlScalars values = {};
+  /// The last one stands first in the new file, and all of them before those that the old one has.
+  std::vector<SceneAttachmentChange> attached = {};
 };
 
 /// The text of `scene_file` with the changes, to be written to `new_file`, whose folder is there.

@@ -1,0 +1,61 @@
+// Inside calibration/ only: what each image says of places in the room, as evidence of what the
+// robot carries.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "berth/calibration/calibrate.hpp"
+#include "berth/calibration/rigid_groups.hpp"
+#include "berth/robot/kinematics.hpp"
+
+namespace berth {
+
+/// What a reading may show.
+enum class ReadingKind : std::uint8_t {
+  robot,          ///< the robot; or there is none
+  beside,         ///< the self filter takes it away, though it is not at the robot's depth
+  fixed,          ///< something that may always have been there
+  moving_beside,  ///< as beside, at a place that another image shows free
+  moving,         ///< something, at a place that another image shows free
+};
+
+/// One image of a calibration, with each step-th pixel of each step-th row.
+struct EvidenceView {
+  /// In CalibrationData::cameras, and CalibrationFrame::number.
+  std::size_t camera_index = 0;
+  int frame_number = 0;
+  Camera camera;
+  Pose X_BC = unset_pose();
+  Pose X_CB = unset_pose();
+  RobotPose pose;
+  /// With the camera's depth error taken out.
+  DepthImage depth_m;
+  Image<ReadingKind> kind;
+  /// Two images show one point of a surface up to so far apart.
+  double uncertainty_m = 0;
+
+  Eigen::Vector3d point_B_m(int u, int v) const;
+};
+
+/// Of all images whose joints are known, by cameras whose pose was found, where `found` puts robot
+/// and cameras.
+std::vector<EvidenceView> make_evidence_views(const CalibrationData& calibration_data,
+                                              const CalibrationResult& found);
+
+/// Whether the camera sees that nothing is there: all its readings within the uncertainty beside
+/// the point lie farther behind it than that.
+bool sees_free(const EvidenceView& view, const Eigen::Vector3d& p_B_m);
+
+/// Whether the camera does not look into the point: it has no reading there, or a nearer one, which
+/// is of something that may always have been there only if it is nearer by the uncertainty.
+bool may_hide(const EvidenceView& view, const Eigen::Vector3d& p_B_m);
+
+/// Whether a reading of something that moves lies within the uncertainty of the point.
+bool sees_moving(const EvidenceView& view, const Eigen::Vector3d& p_B_m);
+
+/// Tells what moves from what may be fixed, within reach of the groups: a place that never is free
+/// in another image may belong to the room.
+void find_moving(const std::vector<RigidGroup>& groups, std::vector<EvidenceView>& views);
+
+}  // namespace berth
