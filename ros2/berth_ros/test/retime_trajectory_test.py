@@ -79,6 +79,13 @@ def test_who_comes_late_goes_on_from_the_stop_that_was_sent():
     assert (np.diff(knots[:, 2]) / np.diff(knots[:, 0])).min() >= -FALLS - 1e-6
 
 
+def test_it_may_stop_at_once():
+    progress = retime_trajectory.Progress(4.0, 100.0)
+    progress.go_on(100.0, 100.2, 1.0, np.inf, np.inf)
+    assert [knot[2] for knot in progress.knots[-2:]] == [1.0, 1.0]
+    assert [knot[2] for knot in progress.piece(100.0, np.inf)[-2:]] == [1.0, 0.0]
+
+
 def test_positions_and_velocities_fit_together():
     made, step = way(), 1e-4
     for s in np.linspace(0, 3.99, 50):
