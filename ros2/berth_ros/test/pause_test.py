@@ -16,7 +16,7 @@ from launch import LaunchDescription
 from launch_ros.actions import Node
 
 # Three stops of a second, and as much again for people who walk up and away.
-TAKES_AT_MOST_S = 240
+TAKES_AT_MOST_S = 280
 
 
 def nodes_of(launch_file, is_retimed):
