@@ -188,8 +188,8 @@ void LiveNode::report_input(std::size_t camera, DiagnosticStatusWrapper& status)
   const double now_s = clock_.seconds(now);
   status.add("looked at over several images", explanations_->newest(camera).looks);
   const std::string trouble = camera_trouble(camera, report, robot, now_s);
+  const std::string lost = report.rate.trouble();
   if (trouble.empty()) {
-    const std::string lost = report.rate.trouble();
     return lost.empty() ? status.summary(DiagnosticStatus::OK, "ok")
                         : status.summary(DiagnosticStatus::WARN, lost);
   }
@@ -198,8 +198,9 @@ void LiveNode::report_input(std::size_t camera, DiagnosticStatusWrapper& status)
       !berth::is_used(
           berth::camera_state(report.newest.get(), now_s, robot.robot->settings().time).status);
   const bool is_waiting = report.trouble.empty() && (!report.newest || !robot.robot);
+  // Where none arrives any more, those before tell why.
   status.summary(is_lost && !is_waiting ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN,
-                 trouble);
+                 lost.empty() ? trouble : trouble + "; before: " + lost);
 }
 
 void LiveNode::report_frame(const berth::Frame& frame, const berth::Robot& robot,

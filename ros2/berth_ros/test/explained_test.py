@@ -1,5 +1,7 @@
 """What no single image tells is found over several: a focal length that is a tenth off, of a camera that sees the robot in its middle."""
+import functools
 import os
+import re
 import sys
 import time
 import unittest
@@ -20,7 +22,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from living_robot import spin_beside  # noqa: E402
 
 SCENE = os.path.join(get_package_share_directory("berth_ros"), "bundled", "scene.yaml")
-CAMERAS = ["left", "right"]
+CAMERAS = ["camera", "left", "right"]
 LOOKS = "looked at over several images"
 # A look takes ten seconds of one core where something is wrong.
 LOOKED_WITHIN_S = 100.0
@@ -34,7 +36,7 @@ def generate_test_description():
             "time.max_joints_age_s": 0.2}]),
         # camera_info goes through the test, which may change it.
         Node(package="berth_ros", executable="scene_player_node", output="screen", parameters=[{"scene": SCENE}],
-             remappings=[("left/camera_info", "told/camera_info")]),
+             remappings=[(f"{camera}/camera_info", f"told/{camera}/camera_info") for camera in CAMERAS]),
         launch_testing.actions.ReadyToTest(),
     ])
 
@@ -44,9 +46,10 @@ class Explained(unittest.TestCase):
     def setUpClass(cls):
         rclpy.init()
         cls.node = node = rclpy.create_node("relay")
-        cls.newest, cls.diagnostics, cls.log, cls.focal = None, {}, [], 1.0
-        cls.infos = node.create_publisher(CameraInfo, "left/camera_info", qos_profile_sensor_data)
-        node.create_subscription(CameraInfo, "told/camera_info", cls.on_info, qos_profile_sensor_data)
+        cls.newest, cls.diagnostics, cls.log, cls.focal = None, {}, [], dict.fromkeys(CAMERAS, 1.0)
+        cls.infos = {camera: node.create_publisher(CameraInfo, f"{camera}/camera_info", qos_profile_sensor_data) for camera in CAMERAS}
+        for camera in CAMERAS:
+            node.create_subscription(CameraInfo, f"told/{camera}/camera_info", functools.partial(cls.on_info, camera), qos_profile_sensor_data)
         node.create_subscription(LinkDistances, "distances", cls.on_distances, 10)
         node.create_subscription(DiagnosticArray, "/diagnostics", cls.on_diagnostics, 10)
         node.create_subscription(Log, "/rosout", lambda message: cls.log.append(message.msg), 100)
@@ -57,9 +60,9 @@ class Explained(unittest.TestCase):
         rclpy.try_shutdown()
 
     @classmethod
-    def on_info(cls, info):
-        info.k[0], info.k[4] = cls.focal * info.k[0], cls.focal * info.k[4]
-        cls.infos.publish(info)
+    def on_info(cls, camera, info):
+        info.k[0], info.k[4] = cls.focal[camera] * info.k[0], cls.focal[camera] * info.k[4]
+        cls.infos[camera].publish(info)
 
     @classmethod
     def on_distances(cls, message):
@@ -76,7 +79,7 @@ class Explained(unittest.TestCase):
             if self.newest is not None and what():
                 return time.monotonic() - begin
             time.sleep(0.05)
-        self.fail(f"{why}: not within {limit_s} s: {self.newest}, {self.status('left')}")
+        self.fail(f"{why}: not within {limit_s} s: {self.newest}, {[self.status(camera) for camera in CAMERAS]}")
 
     def status(self, camera):
         return self.diagnostics.get(f"camera {camera}", DiagnosticStatus())
@@ -94,18 +97,28 @@ class Explained(unittest.TestCase):
         for camera in CAMERAS:
             self.assertNotIn("focal", self.status(camera).message)
 
+    def is_named(self, camera, true_px, factor):
+        """The focal length is wrong for a while."""
+        number = CAMERAS.index(camera)
+        self.focal[camera] = factor
+        named_s = self.until(
+            lambda: (self.newest.cameras[number].status, self.newest.status) == (CameraState.IMPLAUSIBLE, LinkDistances.DEGRADED)
+            and "focal length" in self.status(camera).message, LOOKED_WITHIN_S, f"{camera}: f by a factor of {factor}")
+        print(f"{camera}: f by a factor of {factor}: named after {named_s:.1f} s: {self.status(camera).message}")
+        self.assertEqual(self.status(camera).level, DiagnosticStatus.ERROR)
+        told = re.search(r"with a focal length of (\d+) px in place of (\d+) px", self.status(camera).message)
+        self.assertTrue(told, self.status(camera).message)
+        self.assertAlmostEqual(int(told[1]), true_px, delta=0.02 * true_px)
+        self.assertAlmostEqual(int(told[2]), factor * true_px, delta=1)
+        for other in CAMERAS:
+            if other != camera:
+                self.assertNotIn("focal", self.status(other).message)
+        self.focal[camera] = 1.0
+        back_s = self.until(lambda: self.newest.status == LinkDistances.OK, 20, "mended")
+        print(f"mended: OK after {back_s:.1f} s")
+
     def test_02_a_focal_length_that_is_wrong_by_a_tenth(self):
-        for factor in (0.9, 1.1):
-            type(self).focal = factor
-            named_s = self.until(
-                lambda: (self.newest.cameras[0].status, self.newest.status) == (CameraState.IMPLAUSIBLE, LinkDistances.DEGRADED)
-                and "focal length" in self.status("left").message, LOOKED_WITHIN_S, f"f by a factor of {factor}")
-            print(f"f by a factor of {factor}: named after {named_s:.1f} s: {self.status('left').message}")
-            self.assertEqual(self.status("left").level, DiagnosticStatus.ERROR)
-            self.assertRegex(self.status("left").message, rf"with a focal length of 25\d px in place of {250 * factor:.0f} px")
-            self.assertEqual(self.newest.cameras[1].status, CameraState.OK)
-            type(self).focal = 1.0
-            back_s = self.until(lambda: self.newest.status == LinkDistances.OK, 20, "mended")
-            print(f"mended: OK after {back_s:.1f} s")
+        for camera, true_px, factor in (("left", 250, 0.9), ("left", 250, 1.1), ("camera", 525, 1.1), ("right", 400, 1.1)):
+            self.is_named(camera, true_px, factor)
         self.assertTrue(self.lines())
         print("\n".join(self.lines()))

@@ -68,17 +68,23 @@ class Images(LivingRobot):
         self.assertAlmostEqual(values["images a second that arrive"], 13.3, delta=2)
         self.assertTrue(self.until(lambda: self.logged("images of camera front", "DDS receive buffer")))
 
-    def test_03_all_that_arrive_again_are_well(self):
+    def test_03_where_none_arrives_any_more_the_buffer_is_named_too(self):
+        type(self).lost_of_three = 3
+        self.expect_said("camera front", "too_old", "; before: ", "DDS receive buffer")
+        type(self).lost_of_three = 1
+        self.expect_said("camera front", "of 20 images a second arrive")
+
+    def test_04_all_that_arrive_again_are_well(self):
         type(self).lost_of_three = 0
         self.expect_said("camera front", "ok")
 
-    def test_04_a_reliable_sender_reaches_them_all(self):
+    def test_05_a_reliable_sender_reaches_them_all(self):
         for camera in ("reliable", "overridden"):
             publisher = self.node.create_publisher(Image, f"{camera}/depth_image", 1)
             self.assertTrue(self.until(lambda publisher=publisher: publisher.get_subscription_count() == 1))
 
     @unittest.skipUnless(HAS_COMPRESSED, "compressed_depth_image_transport is not installed")
-    def test_05_compressed_images_are_taken(self):
+    def test_06_compressed_images_are_taken(self):
         publisher = self.node.create_publisher(CompressedImage, "packed/depth_image/compressedDepth", qos_profile_sensor_data)
         infos = self.node.create_publisher(CameraInfo, "packed/camera_info", qos_profile_sensor_data)
         info = CameraInfo(width=WIDTH, height=HEIGHT, k=[FOCAL, 0.0, 31.5, 0.0, FOCAL, 23.5, 0.0, 0.0, 1.0])
