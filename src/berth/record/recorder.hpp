@@ -22,6 +22,7 @@ struct RecordedFile {
   std::string data;
 };
 
+/// Where recordings are written, and of what.
 struct RecorderSettings {
   /// Where the first recording is written, an MCAP file; the next ones are FILE_2.mcap and so on,
   /// and nothing that is there is overwritten. The ring lies beside it, in the folder
