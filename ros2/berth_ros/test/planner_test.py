@@ -117,6 +117,7 @@ class Planners(LivingRobot):
         self.assertEqual(len(at_robot), 0, at_robot)
 
     def test_02_what_the_post_hides_is_unknown(self):
+        self.assertTrue(self.until(lambda: "unknown_points" in self.told))
         unknown = points_of(self.told["unknown_points"])
         behind = unknown[(abs(unknown[:, 0] - 0.64) < 0.06) & (abs(unknown[:, 1]) < 0.1) & (unknown[:, 2] > 0.1)
                          & (unknown[:, 2] < 0.4)]
