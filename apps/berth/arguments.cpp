@@ -174,6 +174,12 @@ void add_output(CLI::App& command, CommonArguments& arguments) {
   add_threads(command, arguments.threads);
 }
 
+void add_scene(CLI::App& command, std::filesystem::path& scene) {
+  command.add_option("scene", scene, "The scene: robot, cameras, depth images, joint angles")
+      ->required()
+      ->type_name("SCENE.yaml");
+}
+
 void add_port(CLI::App& command, int& port) {
   command.add_option("--port", port, "Port of the page; 0 takes any that is free (default: 8080)")
       ->check(CLI::Range(0, 65535))
@@ -228,10 +234,7 @@ SceneEvaluation EvaluationArguments::over(SceneEvaluation settings) const {
 }
 
 void add_run_options(CLI::App& command, RunArguments& arguments) {
-  command
-      .add_option("scene", arguments.scene, "The scene: robot, cameras, depth images, joint angles")
-      ->required()
-      ->type_name("SCENE.yaml");
+  add_scene(command, arguments.scene);
   command.add_option("--picture", arguments.picture_folder, "Draw each frame into this folder")
       ->type_name("DIR");
   add_evaluation(command, true, arguments.evaluation);
@@ -247,10 +250,7 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
 }
 
 void add_record_options(CLI::App& command, RecordArguments& arguments) {
-  command
-      .add_option("scene", arguments.scene, "The scene: robot, cameras, depth images, joint angles")
-      ->required()
-      ->type_name("SCENE.yaml");
+  add_scene(command, arguments.scene);
   command
       .add_option(
           "--out", arguments.out,
@@ -287,10 +287,7 @@ void add_replay_options(CLI::App& command, ReplayArguments& arguments) {
 }
 
 void add_filter_options(CLI::App& command, FilterArguments& arguments) {
-  command
-      .add_option("scene", arguments.scene, "The scene: robot, cameras, depth images, joint angles")
-      ->required()
-      ->type_name("SCENE.yaml");
+  add_scene(command, arguments.scene);
   command
       .add_option("--out", arguments.out_folder, "Folder for the images; made if it is not there")
       ->required()
@@ -363,10 +360,7 @@ void add_evaluate_options(CLI::App& command, EvaluateArguments& arguments) {
 }
 
 void add_view_options(CLI::App& command, ViewArguments& arguments) {
-  command
-      .add_option("scene", arguments.scene, "The scene: robot, cameras, depth images, joint angles")
-      ->required()
-      ->type_name("SCENE.yaml");
+  add_scene(command, arguments.scene);
   add_port(command, arguments.port);
   command
       .add_option("--bind", arguments.bind,
@@ -410,10 +404,7 @@ void add_init_options(CLI::App& command, InitArguments& arguments) {
 }
 
 void add_doctor_options(CLI::App& command, DoctorArguments& arguments) {
-  command
-      .add_option("scene", arguments.scene, "The scene: robot, cameras, depth images, joint angles")
-      ->required()
-      ->type_name("SCENE.yaml");
+  add_scene(command, arguments.scene);
   add_threads(command, arguments.threads);
   command.footer(
       "Exit status 0: nothing is wrong; 1: something is.\nExample:\n  berth doctor scene.yaml");

@@ -1,16 +1,13 @@
 #include "apps/berth/attached_picture.hpp"
 
-#include <algorithm>
 #include <cmath>
 
-#include "apps/berth/picture_canvas.hpp"
+#include "apps/berth/enlarged_picture.hpp"
 #include "berth/fit/robot_pixels.hpp"
 
 namespace berth::app {
 namespace {
 
-constexpr int kLeastWidth_px = 600;
-constexpr int kMostFactor = 4;
 constexpr double kTinted = 0.45;
 
 bool is_attached(const AttachedPicture& picture, int u, int v) {
@@ -36,20 +33,8 @@ Rgb color_at(const AttachedPicture& picture, int u, int v) {
 }  // namespace
 
 std::string attached_picture_png(const AttachedPicture& picture) {
-  const int width = picture.sensor_depth_m.width;
-  const int height = picture.sensor_depth_m.height;
-  const int factor = std::clamp((kLeastWidth_px + width - 1) / width, 1, kMostFactor);
-  Image<std::uint32_t> pixels(width * factor, height * factor);
-  for (int y = 0; y < pixels.height(); ++y) {
-    for (int x = 0; x < pixels.width(); ++x) {
-      const Rgb c = color_at(picture, x / factor, y / factor);
-      pixels(x, y) =
-          static_cast<std::uint32_t>(c.r) << 16 | static_cast<std::uint32_t>(c.g) << 8 | c.b;
-    }
-  }
-  PictureCanvas canvas(pixels.width(), pixels.height(), kBlack);
-  canvas.pixels({0, 0}, pixels);
-  return canvas.png();
+  return enlarged_png(picture.sensor_depth_m.width, picture.sensor_depth_m.height,
+                      [&](int u, int v, int, int) { return color_at(picture, u, v); });
 }
 
 }  // namespace berth::app

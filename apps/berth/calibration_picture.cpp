@@ -3,16 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/berth/picture_canvas.hpp"
+#include "apps/berth/enlarged_picture.hpp"
 #include "apps/berth/residual_colors.hpp"
 #include "berth/scene/calibrated_robot.hpp"
 
 namespace berth::app {
 namespace {
 
-/// Pictures are enlarged to at least this.
-constexpr int kLeastWidth_px = 600;
-constexpr int kMostFactor = 4;
 /// So that the robot stands out.
 constexpr double kDimmed = 0.4;
 
@@ -63,19 +60,10 @@ PixelRect robot_rect(const Image<LinkId>& link_id) {
 
 std::string calibration_picture_png(const CalibrationPicture& picture) {
   const PixelRect& part = picture.part;
-  const int width = part.u_end - part.u_begin, height = part.v_end - part.v_begin;
-  const int factor = std::clamp((kLeastWidth_px + width - 1) / width, 1, kMostFactor);
-  Image<std::uint32_t> pixels(width * factor, height * factor);
-  for (int y = 0; y < pixels.height(); ++y) {
-    for (int x = 0; x < pixels.width(); ++x) {
-      const Rgb c = color_at(picture, part.u_begin + x / factor, part.v_begin + y / factor, x, y);
-      pixels(x, y) =
-          static_cast<std::uint32_t>(c.r) << 16 | static_cast<std::uint32_t>(c.g) << 8 | c.b;
-    }
-  }
-  PictureCanvas canvas(pixels.width(), pixels.height(), kBlack);
-  canvas.pixels({0, 0}, pixels);
-  return canvas.png();
+  return enlarged_png(part.u_end - part.u_begin, part.v_end - part.v_begin,
+                      [&](int u, int v, int x, int y) {
+                        return color_at(picture, part.u_begin + u, part.v_begin + v, x, y);
+                      });
 }
 
 }  // namespace berth::app

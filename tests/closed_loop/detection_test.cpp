@@ -1,6 +1,7 @@
 // What the cell's cameras detect is what the monitor is told.
 #include <gtest/gtest.h>
 
+#include "berth/fit/robot_pixels.hpp"
 #include "berth/pipeline/frame_set.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "lab/closed_loop/cell_sensors.hpp"
@@ -74,8 +75,7 @@ class DrawnBalls {
       for (int u = 0; u < camera.width_px; ++u) {
         const float depth_m = frame.obstacles.depth_m(u, v);
         if (!std::isfinite(depth_m)) continue;
-        const Eigen::Vector3d p_C((u - camera.cx_px) / camera.fx_px * depth_m,
-                                  (v - camera.cy_px) / camera.fy_px * depth_m, depth_m);
+        const Eigen::Vector3d p_C = point_at(camera, u, v, depth_m);
         if ((p_C - X_CB * center_B).norm() < radius_m_ + kCellReadingError_m) return true;
       }
     }

@@ -10,12 +10,11 @@
 #include "berth/render/robot_renderer.hpp"
 #include "berth/robot/primitives.hpp"
 #include "sim/carrying_robot.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/cell_folder.hpp"
 
 namespace berth::testing {
 
-/// cell/scene.yaml and all that it names but the robot, in a folder that goes with the object.
-class CarryingCell {
+class CarryingCell : public CellFolder {
  public:
   /// `arm_folder` holds the bundled arm; `more` ends the scene file.
   explicit CarryingCell(const std::filesystem::path& arm_folder, bool carries = true,
@@ -25,42 +24,25 @@ class CarryingCell {
                           .environment_links = {"table"}})),
         drawn(sim::draw_carrying_robot(model, build_link_meshes(model), cell(carries, poses), 1)) {
     const CalibrationCamera& camera = *drawn.cameras[0];
-    const Camera& c = camera.camera;
-    folder_.write("cell/camera_info.yaml",
-                  fmt::format("image_width: {}\nimage_height: {}\ncamera_matrix:\n  rows: 3\n"
-                              "  cols: 3\n  data: [{}, 0, {}, 0, {}, {}, 0, 0, 1]\n"
-                              "distortion_model: plumb_bob\ndistortion_coefficients:\n  rows: 1\n"
-                              "  cols: 5\n  data: [0, 0, 0, 0, 0]\n",
-                              c.width_px, c.height_px, c.fx_px, c.cx_px, c.fy_px, c.cy_px));
-    std::string joints = "time";
-    for (const MovableJoint& joint : model.joints) joints += "," + joint.name;
-    std::filesystem::create_directories(folder_ / "cell/depth");
+    write_camera_info(camera.camera);
+    write_joints(model, camera.frames);
+    std::filesystem::create_directories(folder() / "cell/depth");
     for (const CalibrationFrame& frame : camera.frames) {
-      joints += fmt::format("\n{}", frame.number);
-      for (const double position : frame.joints.position) joints += fmt::format(",{}", position);
-      write_depth_png(folder_ / fmt::format("cell/depth/{:06}.png", frame.number), frame.depth_m,
+      write_depth_png(folder() / fmt::format("cell/depth/{:06}.png", frame.number), frame.depth_m,
                       0.001);
     }
-    folder_.write("cell/joints.csv", joints + "\n");
     const Pose X_PC = sim::miscalibrated(camera.X_PC, 0.02, 0.03, 1);
     const Eigen::Quaterniond q(X_PC.linear());
-    folder_.write("cell/scene.yaml",
-                  fmt::format("# Our cell.\nrobot:\n  urdf: {0}/arm.urdf\n"
-                              "  package_paths: {{berth_arm: {0}}}\n  environment_links: [table]\n"
-                              "cameras:\n  - name: camera\n    info: camera_info.yaml\n"
-                              "    pose: {{parent: {1}, xyz: [{2}, {3}, {4}], "
-                              "quaternion_xyzw: [{5}, {6}, {7}, {8}]}}\n"
-                              "    depth: depth/*.png\njoints: joints.csv\n{9}",
-                              arm_folder.string(), model.links.front().name, X_PC.translation().x(),
-                              X_PC.translation().y(), X_PC.translation().z(), q.x(), q.y(), q.z(),
-                              q.w(), more));
-  }
-
-  std::filesystem::path folder() const { return folder_.path(); }
-  std::filesystem::path scene() const { return folder_ / "cell/scene.yaml"; }
-  std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
-  void write(const std::string& name, const std::string& bytes) const {
-    folder_.write(name, bytes);
+    write("cell/scene.yaml",
+          fmt::format("# Our cell.\nrobot:\n  urdf: {0}/arm.urdf\n"
+                      "  package_paths: {{berth_arm: {0}}}\n  environment_links: [table]\n"
+                      "cameras:\n  - name: camera\n    info: camera_info.yaml\n"
+                      "    pose: {{parent: {1}, xyz: [{2}, {3}, {4}], "
+                      "quaternion_xyzw: [{5}, {6}, {7}, {8}]}}\n"
+                      "    depth: depth/*.png\njoints: joints.csv\n{9}",
+                      arm_folder.string(), model.links.front().name, X_PC.translation().x(),
+                      X_PC.translation().y(), X_PC.translation().z(), q.x(), q.y(), q.z(), q.w(),
+                      more));
   }
 
   RobotModel model;
@@ -90,8 +72,6 @@ class CarryingCell {
     }
     return settings;
   }
-
-  TemporaryFolder folder_;
 };
 
 }  // namespace berth::testing

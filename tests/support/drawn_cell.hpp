@@ -10,7 +10,7 @@
 #include "berth/render/robot_renderer.hpp"
 #include "sim/drawn_calibration_data.hpp"
 #include "sim/sensor_model.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/cell_folder.hpp"
 
 namespace berth::testing {
 
@@ -25,8 +25,7 @@ struct CellLines {
   std::string more = "";
 };
 
-/// cell/scene.yaml and all that it names but the robot, in a folder that goes with the object.
-class DrawnCell {
+class DrawnCell : public CellFolder {
  public:
   /// `arm_folder` holds the bundled arm.
   DrawnCell(const std::filesystem::path& arm_folder, const sim::DrawnCalibrationSettings& settings,
@@ -35,50 +34,21 @@ class DrawnCell {
                           .package_paths = {{"berth_arm", arm_folder}},
                           .environment_links = {"table"}})),
         drawn(sim::draw_calibration_data(model, build_link_meshes(model), settings, seed)) {
-    folder_.write("cell/camera_info.yaml", info_text());
-    folder_.write("cell/joints.csv", joints_text());
-    std::filesystem::create_directories(folder_ / "cell/depth");
+    write_camera_info(drawn.camera->camera);
+    write_joints(model, drawn.camera->frames);
+    std::filesystem::create_directories(folder() / "cell/depth");
     for (std::size_t f = 0; f < drawn.camera->frames.size(); ++f) {
       DepthImage raw = drawn.camera->frames[f].depth_m;
       for (float& z_m : raw.pixels()) z_m -= static_cast<float>(lines.depth_offset_m);
-      write_depth_png(folder_ / fmt::format("cell/depth/{:06}.png", f), raw, lines.depth_scale_m);
+      write_depth_png(folder() / fmt::format("cell/depth/{:06}.png", f), raw, lines.depth_scale_m);
     }
-    folder_.write("cell/scene.yaml", scene_text(arm_folder, lines, seed));
-  }
-
-  std::filesystem::path folder() const { return folder_.path(); }
-  std::filesystem::path scene() const { return folder_ / "cell/scene.yaml"; }
-  std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
-  void write(const std::string& name, const std::string& bytes) const {
-    folder_.write(name, bytes);
+    write("cell/scene.yaml", scene_text(arm_folder, lines, seed));
   }
 
   RobotModel model;
   sim::DrawnCalibrationData drawn;
 
  private:
-  std::string info_text() const {
-    const Camera& c = drawn.camera->camera;
-    return fmt::format(
-        "image_width: {}\nimage_height: {}\ncamera_matrix:\n  rows: 3\n  cols: 3\n"
-        "  data: [{}, 0, {}, 0, {}, {}, 0, 0, 1]\ndistortion_model: plumb_bob\n"
-        "distortion_coefficients:\n  rows: 1\n  cols: 5\n  data: [0, 0, 0, 0, 0]\n",
-        c.width_px, c.height_px, c.fx_px, c.cx_px, c.fy_px, c.cy_px);
-  }
-
-  /// A row for each image.
-  std::string joints_text() const {
-    std::string text = "time";
-    for (const MovableJoint& joint : model.joints) text += "," + joint.name;
-    text += "\n";
-    for (const CalibrationFrame& frame : drawn.camera->frames) {
-      text += fmt::format("{}", frame.number);
-      for (const double position : frame.joints.position) text += fmt::format(",{}", position);
-      text += "\n";
-    }
-    return text;
-  }
-
   std::string scene_text(const std::filesystem::path& arm_folder, const CellLines& lines,
                          std::uint32_t seed) const {
     const Pose X_PC = sim::miscalibrated(drawn.X_PC_true, lines.offset_m, lines.angle_rad, seed);
@@ -100,8 +70,6 @@ class DrawnCell {
         arm_folder.string(), model.links[drawn.camera->parent].name, p.x(), p.y(), p.z(), q.x(),
         q.y(), q.z(), q.w(), lines.depth_scale_m, lines.depth_offset_m, lines.more);
   }
-
-  TemporaryFolder folder_;
 };
 
 }  // namespace berth::testing
