@@ -49,17 +49,20 @@ def transform(parent, child, x=0.0, z=0.0, stamp=None):
     return made
 
 
-def spin_beside(node):
-    """Spins the node in a thread of its own, until rclpy is shut down."""
-    executor = SingleThreadedExecutor()
-    executor.add_node(node)
+def spin_beside(*nodes, executor=None):
+    """Spins the nodes in a thread of its own, which is returned, until rclpy is shut down."""
+    executor = executor or SingleThreadedExecutor()
+    for node in nodes:
+        executor.add_node(node)
 
     def spin():
         try:
             executor.spin()
         except ExternalShutdownException:
             pass
-    threading.Thread(target=spin, daemon=True).start()
+    thread = threading.Thread(target=spin, daemon=True)
+    thread.start()
+    return thread
 
 
 class LivingRobot(unittest.TestCase):

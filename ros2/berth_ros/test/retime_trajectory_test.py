@@ -2,7 +2,6 @@
 import importlib.machinery
 import importlib.util
 import pathlib
-import threading
 import time
 
 import numpy as np
@@ -13,7 +12,8 @@ from berth_msgs.msg import LinkSeparation, Separation
 from control_msgs.action import FollowJointTrajectory
 from control_msgs.msg import JointTrajectoryControllerState
 from rclpy.action import ActionClient
-from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
+from living_robot import spin_beside
+from rclpy.executors import MultiThreadedExecutor
 from rclpy.time import Time
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
@@ -127,17 +127,7 @@ class Controller:
         self.node.create_subscription(JointTrajectory, "joint_trajectory_controller/joint_trajectory", self.on_piece, 1)
         self.node.create_timer(0.01, self.tick)
         self.piece, self.is_active, self.scale = None, False, 1.0
-        executor = MultiThreadedExecutor(6)
-        for node in (self.node, self.retimer):
-            executor.add_node(node)
-
-        def spin():
-            try:
-                executor.spin()
-            except ExternalShutdownException:
-                pass
-        self.thread = threading.Thread(target=spin)
-        self.thread.start()
+        self.thread = spin_beside(self.node, self.retimer, executor=MultiThreadedExecutor(6))
         assert self.client.wait_for_server(10)
 
     def end(self):
