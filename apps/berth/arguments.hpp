@@ -2,13 +2,11 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <map>
-#include <optional>
 #include <string>
 
+#include "apps/berth/evaluation_options.hpp"
 #include "berth/scene/backend.hpp"
-#include "berth/scene/scene_evaluation.hpp"
 
 namespace CLI {
 class App;
@@ -21,22 +19,6 @@ enum class OutputFormat { table, json };
 /// Of berth/result/N.
 inline constexpr int kNewestSchema = 3;
 inline constexpr int kOldestSchema = 2;
-
-/// What the command line says about the evaluation; what it does not say is left to the scene file
-/// or, without one, to the defaults.
-struct EvaluationArguments {
-  std::optional<std::string> method;
-  /// Of `run` alone: three images without meshes and fates cannot tell.
-  std::optional<bool> visibility;
-  /// Settings of DistanceSettings and ImageSettings by name, as they were written.
-  std::map<std::string, std::string, std::less<>> given;
-
-  /// All throw std::invalid_argument for values outside their domain, and for those that the method
-  /// does not have.
-  ImageDistanceSettings settings_over(ImageDistanceSettings settings, Method method_used) const;
-  Method method_over(Method otherwise) const;
-  SceneEvaluation over(SceneEvaluation settings) const;
-};
 
 struct CommonArguments {
   EvaluationArguments evaluation;
