@@ -74,7 +74,8 @@ void calibrate_command(const CalibrateArguments& arguments) {
   }
   const CalibrationReport report{&material.calibration_data, &calibration.found,
                                  calibration.filters,        arguments.correct_depth,
-                                 calibration.warnings,       calibration.attached};
+                                 calibration.warnings,       calibration.attached,
+                                 calibration.detection};
   const std::string text = arguments.format == OutputFormat::json ? calibration_json(report) + "\n"
                                                                   : calibration_table(report);
   if (!arguments.report_folder.empty())

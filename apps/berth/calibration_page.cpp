@@ -6,6 +6,7 @@
 
 #include "apps/berth/calibration_page_attached.hpp"
 #include "apps/berth/calibration_page_camera.hpp"
+#include "apps/berth/calibration_page_detection.hpp"
 #include "apps/berth/calibration_page_style.hpp"
 #include "apps/berth/html_text.hpp"
 #include "berth/files/file_bytes.hpp"
@@ -61,6 +62,7 @@ void write_calibration_page(const std::filesystem::path& folder, const std::stri
     html += camera_section(folder, report, camera);
   }
   html += attached_section(folder, report);
+  html += detection_section(report.detection);
   add_joint_offsets(report, out);
   html += "</main></body></html>\n";
   write_file_bytes(folder / "index.html", html);

@@ -19,7 +19,8 @@ struct CalibrationHandle {
 
   CalibrationReport report() const {
     return {&material.calibration_data, &calibration.found, calibration.filters,
-            settings.correct_depth, calibration.warnings};
+            settings.correct_depth, calibration.warnings,
+            calibration.attached,   calibration.detection};
   }
 };
 

@@ -42,11 +42,7 @@ class Proposer {
  public:
   Proposer(const Camera& camera, const SelfFilterSettings& self_filter,
            const SensorSettings& sensor)
-      : camera_(camera), self_filter_(self_filter), sensor_(sensor) {
-    self_filter_.robot_region_scale = 0;
-    sensor_.average_frames = 0;
-    sensor_.background_frames = 0;
-  }
+      : camera_(camera), self_filter_(self_filter), sensor_(sensor) {}
 
   void add_frame(const DepthImage& depth_m, const RobotImage& robot) {
     each_robot_pixel(camera_, robot, [&](int u, int v, LinkId) {
@@ -66,6 +62,8 @@ class Proposer {
     count_leftovers();
     propose_speckle();
     draw_things();
+    out_.self_filter_settings = self_filter_;
+    out_.sensor_settings = sensor_;
     return std::move(out_);
   }
 
@@ -95,8 +93,10 @@ class Proposer {
 
   void filter_all() {
     SelfFilterWorkspace workspace;
+    SelfFilterSettings settings = self_filter_;
+    settings.robot_region_scale = 0;
     for (ProposedCamera& view : views_) {
-      self_filter(camera_, view.depth_m, view.robot, self_filter_, workspace, view.filtered);
+      self_filter(camera_, view.depth_m, view.robot, settings, workspace, view.filtered);
     }
   }
 

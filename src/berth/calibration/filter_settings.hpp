@@ -33,6 +33,9 @@ struct SmallestObstacle {
 struct FilterProposal {
   std::vector<ProposedSetting> self_filter;
   std::vector<ProposedSetting> sensor;
+  /// The camera's present settings with those.
+  SelfFilterSettings self_filter_settings;
+  SensorSettings sensor_settings;
   /// Readings of the robot lie behind the model by this, in the median. What stands before the
   /// robot by less than tolerance_m and this is taken for the robot.
   double bias_m = 0;

@@ -5,10 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "berth/self_filter/self_filter.hpp"
-#include "berth/sensor/phantoms.hpp"
-#include "berth/sensor/sensor_rules.hpp"
-
 namespace berth {
 namespace {
 
@@ -84,22 +80,14 @@ class Filter {
         return true;
       });
     }
-    SelfFilterSettings settings = *view.self_filter;
-    settings.robot_region_scale = 0;
-    self_filter(*view.camera, depth_m_, *view.robot, settings, workspace_, out_);
-    // One image: nothing is known of earlier ones.
-    SensorSettings sensor = *view.sensor;
-    sensor.average_frames = 0;
-    sensor.background_frames = 0;
-    apply_sensor_rules(depth_m_, *view.robot, {}, sensor, sensor_workspace_, out_);
-    drop_phantoms(*view.camera, depth_m_, sensor.phantom_radius_m, phantoms_, out_);
+    const ObstacleImage& left = filter_.run(view, depth_m_);
     std::vector<bool> result;
     for (const Thing& thing : things) {
       int count = 0;
       int pixels = 0;
       all_pixels(thing.pixels, [&](int u, int v) {
         ++pixels;
-        count += is_kept(out_.fate(u, v));
+        count += is_kept(left.fate(u, v));
         return true;
       });
       result.push_back(count > kKeptShare * pixels);
@@ -109,10 +97,7 @@ class Filter {
 
  private:
   DepthImage depth_m_;
-  SelfFilterWorkspace workspace_;
-  SensorWorkspace sensor_workspace_;
-  PhantomWorkspace phantoms_;
-  ObstacleImage out_;
+  DrawnImageFilter filter_;
 };
 
 /// In rows and columns over the whole image, where nothing of the robot is near.

@@ -4,19 +4,10 @@
 
 #include <vector>
 
+#include "berth/calibration/drawn_image_filter.hpp"
 #include "berth/calibration/filter_settings.hpp"
-#include "berth/types/robot_image.hpp"
 
 namespace berth {
-
-/// One image with the robot in it, and how it is filtered.
-struct FilteredCamera {
-  const Camera* camera = nullptr;
-  DepthView depth_m;
-  const RobotImage* robot = nullptr;
-  const SelfFilterSettings* self_filter = nullptr;
-  const SensorSettings* sensor = nullptr;
-};
 
 /// See SmallestObstacle. Over all views.
 SmallestObstacle smallest_obstacle(const std::vector<FilteredCamera>& views, double depth_m);

@@ -64,6 +64,23 @@ void add_proposal(const FilterProposal& proposal, Json& json) {
   json["rod_gap_m"] = rounded(proposal.rod_gap_m);
 }
 
+Json detection_json(const DetectedDiameters& detected) {
+  return {{"median", rounded(detected.median_m())}, {"worst", rounded(detected.worst_m())}};
+}
+
+/// Of all cameras together.
+Json cell_detection_json(const DetectionMap& map) {
+  Json json = detection_json(map.cell);
+  const bool has_worst = map.cell.in_view() > 0;
+  json["worst_at_base_m"] = has_worst ? rounded(map.places_B_m[map.cell.worst_place()]) : Json();
+  json["places"] = map.places_B_m.size();
+  json["in_view"] = map.cell.in_view();
+  json["step_m"] = rounded(map.step_m);
+  json["reach"] = {{"center_base_m", rounded(map.reach.center_B_m)},
+                   {"radius_m", rounded(map.reach.radius_m)}};
+  return json;
+}
+
 Json calibrated_camera_json(const CalibrationReport& report, std::size_t index) {
   const CameraCalibration& found = report.result->cameras[index];
   const CalibrationCamera& source = *report.calibration_data->cameras[index];
@@ -90,6 +107,9 @@ Json calibrated_camera_json(const CalibrationReport& report, std::size_t index) 
   json["not_determined"] = found.not_determined;
   json["refused"] = is_good ? Json() : Json(found.refused);
   json["frames"] = found.frames;
+  if (!report.detection.empty()) {
+    json["detection_m"] = detection_json(report.detection.cameras[index]);
+  }
   add_proposal(report.proposals[index], json);
   return json;
 }
@@ -121,6 +141,7 @@ std::string calibration_json(const CalibrationReport& report) {
   for (std::size_t i = 0; i < report.result->cameras.size(); ++i) {
     json["cameras"].push_back(calibrated_camera_json(report, i));
   }
+  if (!report.detection.empty()) json["detection_m"] = cell_detection_json(report.detection);
   json["joint_offsets"] = Json::object();
   for (const auto& [name, offset] : report.result->joint_offsets) {
     json["joint_offsets"][name] = rounded(offset);

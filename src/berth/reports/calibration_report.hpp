@@ -6,6 +6,7 @@
 
 #include "berth/calibration/attached_parts.hpp"
 #include "berth/calibration/calibrate.hpp"
+#include "berth/calibration/detection_map.hpp"
 #include "berth/calibration/filter_settings.hpp"
 #include "berth/fit/calibration_data.hpp"
 
@@ -24,6 +25,8 @@ struct CalibrationReport {
   std::vector<std::string> warnings;
   /// What the robot carries.
   AttachedParts attached = {};
+  /// What the cameras detect with the proposed settings; empty where nobody measured it.
+  DetectionMap detection = {};
 };
 
 /// Images of all cameras that were used.

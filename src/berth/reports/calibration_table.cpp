@@ -94,6 +94,9 @@ std::string calibration_table(const CalibrationReport& report) {
   }
   add_joints(*report.result, std::back_inserter(text));
   add_attached(report.attached, std::back_inserter(text));
+  for (const std::string& sentence : detection_texts(report.detection)) {
+    fmt::format_to(std::back_inserter(text), "detection: {}\n", sentence);
+  }
   return text;
 }
 

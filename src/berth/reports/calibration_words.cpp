@@ -135,6 +135,33 @@ std::string smallest_width_text(double width_m) {
                              : fmt::format("{:.0f} mm", 1e3 * width_m);
 }
 
+std::vector<std::string> detection_texts(const DetectionMap& map) {
+  if (map.empty()) return {};
+  const DetectedDiameters& cell = map.cell;
+  const auto percent = [](int part, std::size_t of) { return 100.0 * part / static_cast<double>(of); };
+  const Eigen::Vector3d& center_m = map.reach.center_B_m;
+  std::vector<std::string> texts{fmt::format(
+      "Of the places within {:.2f} m of ({:.2f}, {:.2f}, {:.2f}), the robot's reach, {:.0f} % are "
+      "in view of some camera.",
+      map.reach.radius_m, center_m.x(), center_m.y(), center_m.z(),
+      percent(cell.in_view(), map.places_B_m.size()))};
+  if (cell.in_view() == 0) return texts;
+  std::string told;
+  for (const double diameter_m : {0.02, 0.04, 0.08}) {
+    told += fmt::format("{}{:.0f} mm at {:.1f} %", told.empty() ? "" : ", of ", 1000 * diameter_m,
+                        percent(cell.told(diameter_m), static_cast<std::size_t>(cell.in_view())));
+  }
+  texts.push_back("Drawn there, balls of " + told + " of these are detected.");
+  const Eigen::Vector3d& worst_m = map.places_B_m[cell.worst_place()];
+  const std::string least =
+      std::isinf(cell.worst_m())
+          ? fmt::format("not even {:.0f} mm is detected everywhere", 1000 * kDrawnDiameters_m.back())
+          : fmt::format("{:.0f} mm is detected everywhere", 1000 * cell.worst_m());
+  texts.push_back(fmt::format("Of what is in view, {}; the worst place is ({:.2f}, {:.2f}, {:.2f}).",
+                              least, worst_m.x(), worst_m.y(), worst_m.z()));
+  return texts;
+}
+
 std::string attached_text(const AttachedPart& part) {
   const Eigen::Vector3d size_cm = 100 * part.size_m;
   return fmt::format(

@@ -33,6 +33,9 @@ std::vector<std::string> consequences(const FilterProposal& proposal);
 /// "3 mm", or that even the widest is not kept.
 std::string smallest_width_text(double width_m);
 
+/// What the cameras detect together, as sentences. None where nobody measured it.
+std::vector<std::string> detection_texts(const DetectionMap& map);
+
 /// What a link carries that its URDF does not have, how large it is and how well that is proven, as
 /// a sentence.
 std::string attached_text(const AttachedPart& part);

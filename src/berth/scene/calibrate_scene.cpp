@@ -11,6 +11,7 @@
 #include "berth/scene/calibrated_robot.hpp"
 #include "berth/scene/carrying_robot_data.hpp"
 #include "berth/scene/plausibility.hpp"
+#include "berth/scene/scene_detection.hpp"
 #include "berth/watch/frame_displacement.hpp"
 #include "berth/watch/seen_through.hpp"
 
@@ -125,6 +126,25 @@ std::vector<std::string> warnings_of(const SceneCalibrationData& material,
   return warnings;
 }
 
+/// What the monitor is told from now on: what is detected wherever a camera looks, and no less than
+/// what may hide from a camera.
+void tell_monitor(const OpenScene& scene, SceneCalibration& calibration) {
+  const double worst_m = calibration.detection.cell.worst_m();
+  if (!scene.separation || std::isnan(worst_m)) return;
+  if (std::isinf(worst_m)) {
+    calibration.warnings.push_back(fmt::format(
+        "separation.detection_m stays as it is: at some places not even balls of {:.0f} mm are "
+        "detected, see below",
+        1000 * kDrawnDiameters_m.back()));
+    return;
+  }
+  double told_m = worst_m;
+  for (const OpenCamera& camera : scene.cameras) {
+    told_m = std::max(told_m, camera.view->settings().space.detection_capability_m);
+  }
+  calibration.change.values[{"separation", "detection_m"}] = fmt::format("{}", told_m);
+}
+
 }  // namespace
 
 SceneCalibration calibrate_scene(const OpenScene& scene, const SceneCalibrationData& material,
@@ -150,6 +170,10 @@ SceneCalibration calibrate_scene(const OpenScene& scene, const SceneCalibrationD
                                                    calibration.filters[c], calibration.watches[c],
                                                    corrects));
   }
+  calibration.detection =
+      measure_detection_of(calibration_data, found, calibration.filters, settings.correct_depth,
+                           settings.fit.pause);
+  tell_monitor(scene, calibration);
   for (const auto& [joint, offset] : found.joint_offsets) {
     const auto before = scene.joint_offsets.find(joint);
     calibration.change.joint_offsets[joint] =

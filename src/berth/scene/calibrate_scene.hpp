@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "berth/calibration/attached_parts.hpp"
+#include "berth/calibration/detection_map.hpp"
 #include "berth/scene/rewrite_scene.hpp"
 #include "berth/scene/scene_calibration.hpp"
 #include "berth/watch/watch_settings.hpp"
@@ -34,6 +35,8 @@ struct SceneCalibration {
   /// What the robot carries. The settings of filters and watches are those for a robot with the
   /// parts that were taken.
   AttachedParts attached;
+  /// What the cameras detect with those settings.
+  DetectionMap detection;
   /// What to write into the scene file, but for the parts: attach_parts() adds them.
   SceneChange change;
 };
