@@ -49,7 +49,7 @@ svg .label { fill: var(--faint); font-size: 13px; }
 .key { display: inline-block; width: 1.1em; height: .8em; margin: 0 .35em 0 0; border-radius: .15em; vertical-align: baseline; }
 .key.before { background: none; border: 2px solid var(--before); }
 .key.after { background: var(--after); }
-.keys span { margin-right: 1.25rem; }
+.keys span { display: inline-block; margin-right: 1.25rem; }
 .slices { display: grid; grid-template-columns: repeat(auto-fill, minmax(8.5rem, 1fr)); gap: .75rem; margin: .75rem 0; }
 .scale { max-width: 36rem; margin: .5rem 0; }
 .scale .bar { height: 1rem; border-radius: .2rem; border: 1px solid var(--line); }

@@ -173,6 +173,18 @@ TEST(CalibrationPage, AllCamerasAndJointZerosAreTold) {
   EXPECT_TRUE(page.has("joint_1: these images do not tell"));
 }
 
+TEST(CalibrationPage, ShowsWhatTheCamerasDetect) {
+  const testing::SmallCalibrationData small(2);
+  EXPECT_FALSE(Page(small.report()).has("What the cameras detect"));
+  CalibrationReport report = small.report();
+  report.detection = testing::small_detection_map();
+  const Page page(report);
+  EXPECT_TRUE(page.has("What the cameras detect"));
+  EXPECT_TRUE(page.has("Of what is in view, 60 mm is detected everywhere; the worst place is (0.20, "
+                       "0.00, 1.00)."));
+  EXPECT_TRUE(page.has("z = 1.00 m"));
+}
+
 TEST(CalibrationPage, AFolderThatCannotBeMadeIsNamed) {
   const TemporaryFolder folder;
   folder.write("taken", "");

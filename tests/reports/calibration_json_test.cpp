@@ -40,6 +40,22 @@ TEST(CalibrationJson, IsOneLineInTheOrderOfTheSchema) {
       R"("attached":[],"attached_refused":null,"warnings":["Two \"poses\"."]})");
 }
 
+TEST(CalibrationJson, HasWhatIsDetected) {
+  testing::SmallCalibrationData small(2);
+  CalibrationReport report = small.report();
+  report.detection = testing::small_detection_map();
+  const Json json = Json::parse(calibration_json(report));
+  EXPECT_EQ(json["cameras"][0]["detection_m"], Json::parse(R"({"median":0.04,"worst":null})"));
+  EXPECT_EQ(json["detection_m"],
+            Json::parse(R"({"median":0.03,"worst":0.06,"worst_at_base_m":[0.2,0.0,1.0],)"
+                        R"("places":4,"in_view":3,"step_m":0.1,)"
+                        R"("reach":{"center_base_m":[0.0,0.0,1.0],"radius_m":0.3}})"));
+  for (DetectedDiameters* one : {&report.detection.cell, &report.detection.cameras[0]}) {
+    one->least_m.assign(4, std::nan(""));
+  }
+  EXPECT_EQ(Json::parse(calibration_json(report))["detection_m"]["worst_at_base_m"], nullptr);
+}
+
 TEST(CalibrationJson, HasWhatIsCarried) {
   testing::SmallCalibrationData small(2);
   CalibrationReport report = small.report();

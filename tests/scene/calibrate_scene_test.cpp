@@ -68,6 +68,22 @@ TEST(CalibrateScene, TheNewSceneHasPoseSettingsAndWatch) {
                 "camera camera: 4 different poses of the arm; five or more are better"});
 }
 
+TEST(CalibrateScene, TheMonitorIsToldWhatIsDetected) {
+  const Calibrated calibrated(kSmall, 2, {.more = "separation: {detection_m: 0.04}\n"});
+  const double worst_m = calibrated.calibration.detection.cell.worst_m();
+  ASSERT_GT(worst_m, 0.04) << "else it would stay";
+  ASSERT_LE(worst_m, 0.08);
+  EXPECT_EQ(calibrated.rewritten().separation->detection_m, worst_m);
+  expect_parts(calibrated.calibration.warnings.back(),
+               {"separation.detection_m: 0.04 becomes", "was 0.21 m and becomes 0.85 m"});
+}
+
+TEST(CalibrateScene, WithoutAMonitorNobodyIsToldWhatIsDetected) {
+  const Calibrated calibrated(kSmall, 2, {});
+  EXPECT_FALSE(calibrated.calibration.detection.empty());
+  EXPECT_TRUE(calibrated.calibration.change.values.empty());
+}
+
 TEST(CalibrateScene, JointOffsetsAreAddedToOldOnes) {
   constexpr double kOld = 0.02;
   sim::DrawnCalibrationSettings settings = kSmall;

@@ -2,6 +2,7 @@
 // the scene has wrong and a calibration, made up, has right.
 #pragma once
 
+#include <limits>
 #include <memory>
 
 #include "berth/reports/calibration_report.hpp"
@@ -27,5 +28,14 @@ class SmallCalibrationData {
 
   CameraCalibration& found() { return result.cameras[0]; }
 };
+
+/// Four places in a row, the last one in no camera's view.
+inline DetectionMap small_detection_map() {
+  DetectionMap map{{{0, 0, 1}, 0.3}, 0.1, {}, {}, {}};
+  for (const double x_m : {0.0, 0.1, 0.2, 0.3}) map.places_B_m.emplace_back(x_m, 0, 1);
+  map.cell.least_m = {0.02, 0.03, 0.06, std::numeric_limits<double>::quiet_NaN()};
+  map.cameras = {{{0.04, 0.02, std::numeric_limits<double>::infinity(), map.cell.least_m[3]}}};
+  return map;
+}
 
 }  // namespace berth::testing

@@ -17,8 +17,9 @@ namespace berth {
 namespace {
 
 constexpr double kNotInView = std::numeric_limits<double>::quiet_NaN();
-constexpr int kDraws = 100;
-constexpr int kMostMissed = 1;
+constexpr int kMostDraws = 100;
+/// So many draws, none of them missed, prove as much as 100 of which one is missed.
+constexpr int kEnoughInView = 50;
 constexpr int kLeastInView = 20;
 constexpr double kMostPlaces = 600;
 constexpr int kReachDraws = 1000;
@@ -53,10 +54,9 @@ void make_places(DetectionMap& map) {
 /// What became of the draws of one diameter at one place.
 struct Tally {
   int in_view = 0;
-  int missed = 0;
+  bool is_missed = false;
 
-  bool has_failed() const { return missed > kMostMissed; }
-  bool has_passed() const { return !has_failed() && in_view >= kLeastInView; }
+  bool is_settled() const { return is_missed || in_view >= kEnoughInView; }
 };
 
 /// What became of one ball.
@@ -83,7 +83,7 @@ class Measurement {
 
   void draw_all_of(double diameter_m, const std::function<void()>& pause) {
     tallies_.assign(is_open_.size(), {});
-    for (int draw = 0; draw < kDraws; ++draw) {
+    for (int draw = 0; draw < kMostDraws; ++draw) {
       pause();
       sights_.assign(is_open_.size(), Sight::none);
       place_balls(draw, diameter_m / 2);
@@ -103,7 +103,7 @@ class Measurement {
 
   bool is_asked(std::size_t by, std::size_t place) const {
     const std::size_t i = index(by, place);
-    return is_open_[i] && !tallies_[i].has_failed();
+    return is_open_[i] && !tallies_[i].is_settled();
   }
   bool is_asked(std::size_t place) const {
     for (std::size_t by = 0; by <= cameras_.size(); ++by) {
@@ -114,7 +114,7 @@ class Measurement {
 
   const DetectionImage& image(std::size_t camera, int draw) const {
     const auto& images = cameras_[camera].images;
-    return images[images.size() * static_cast<std::size_t>(draw) / kDraws];
+    return images[images.size() * static_cast<std::size_t>(draw) / kMostDraws];
   }
 
   /// Fills batches_.
@@ -182,8 +182,9 @@ class Measurement {
       }
     }
     for (std::size_t i = 0; i < tallies_.size(); ++i) {
+      if (tallies_[i].is_settled()) continue;
       tallies_[i].in_view += sights_[i] != Sight::none;
-      tallies_[i].missed += sights_[i] == Sight::missed;
+      tallies_[i].is_missed |= sights_[i] == Sight::missed;
     }
   }
 
@@ -191,8 +192,9 @@ class Measurement {
     for (std::size_t by = 0; by <= cameras_.size(); ++by) {
       for (std::size_t place = 0; place < place_count(); ++place) {
         const std::size_t i = index(by, place);
-        if (!is_open_[i] || tallies_[i].has_failed()) continue;
-        told_by(by).least_m[place] = tallies_[i].has_passed() ? diameter_m : kNotInView;
+        if (!is_open_[i] || tallies_[i].is_missed) continue;
+        const bool is_in_view = tallies_[i].in_view >= kLeastInView;
+        told_by(by).least_m[place] = is_in_view ? diameter_m : kNotInView;
         is_open_[i] = false;
       }
     }

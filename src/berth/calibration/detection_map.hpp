@@ -44,9 +44,9 @@ struct DetectionCamera {
 /// The balls that are drawn, m.
 inline constexpr std::array kDrawnDiameters_m{0.010, 0.014, 0.020, 0.030, 0.040, 0.060, 0.080};
 
-/// The least ball that is told at each place, m: of 100 draws in the cube around the place no more
-/// than one is missed. Infinite where the largest one is missed more often; NaN where fewer than 20
-/// draws stand in view.
+/// The least ball that is told at each place, m: of 50 draws in the cube around the place none is
+/// missed, or of 20 and more where the others of 100 are hidden. Infinite where the largest one is
+/// missed, too; NaN where fewer than 20 of 100 stand in view.
 struct DetectedDiameters {
   std::vector<double> least_m;
 

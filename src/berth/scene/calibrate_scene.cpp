@@ -12,6 +12,7 @@
 #include "berth/scene/carrying_robot_data.hpp"
 #include "berth/scene/plausibility.hpp"
 #include "berth/scene/scene_detection.hpp"
+#include "berth/separation/protective_distance.hpp"
 #include "berth/watch/frame_displacement.hpp"
 #include "berth/watch/seen_through.hpp"
 
@@ -129,20 +130,28 @@ std::vector<std::string> warnings_of(const SceneCalibrationData& material,
 /// What the monitor is told from now on: what is detected wherever a camera looks, and no less than
 /// what may hide from a camera.
 void tell_monitor(const OpenScene& scene, SceneCalibration& calibration) {
-  const double worst_m = calibration.detection.cell.worst_m();
-  if (!scene.separation || std::isnan(worst_m)) return;
-  if (std::isinf(worst_m)) {
-    calibration.warnings.push_back(fmt::format(
-        "separation.detection_m stays as it is: at some places not even balls of {:.0f} mm are "
-        "detected, see below",
+  double told_m = calibration.detection.cell.worst_m();
+  if (!scene.separation || std::isnan(told_m)) return;
+  if (std::isinf(told_m)) {
+    return calibration.warnings.push_back(fmt::format(
+        "separation.detection_m stays as it is; at some places in view not even balls of {:.0f} mm "
+        "are detected",
         1000 * kDrawnDiameters_m.back()));
-    return;
   }
-  double told_m = worst_m;
   for (const OpenCamera& camera : scene.cameras) {
     told_m = std::max(told_m, camera.view->settings().space.detection_capability_m);
   }
   calibration.change.values[{"separation", "detection_m"}] = fmt::format("{}", told_m);
+  SeparationSettings settings = *scene.separation;
+  const double before_m = settings.detection_m.value_or(told_m);
+  if (!(before_m < told_m)) return;
+  const double intrusion_before_m = intrusion_m(settings);
+  settings.detection_m = told_m;
+  calibration.warnings.push_back(fmt::format(
+      "separation.detection_m: {} becomes {}, since at some places in view nothing smaller is "
+      "detected; C, how far a part of a body may reach undetected, was {:.2f} m and becomes {:.2f} "
+      "m",
+      before_m, told_m, intrusion_before_m, intrusion_m(settings)));
 }
 
 }  // namespace
