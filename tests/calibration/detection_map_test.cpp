@@ -27,8 +27,8 @@ DetectionCamera looking_at_wall(const Camera& camera = kSmall, float wall_m = 4)
   return {camera, {}, {}, {image_of(image, sensed(image.robot, wall_m))}};
 }
 
-/// All of it in the image.
-const RobotReach kReach{{0, 0, 1.5}, 0.4};
+/// All of both in the image.
+const RobotReach kReach{{0, 0, 1.5}, 0.15}, kWideReach{{0, 0, 1.5}, 0.4};
 
 DetectionMap measure(const std::vector<DetectionCamera>& cameras,
                      const RobotReach& reach = kReach) {
@@ -36,11 +36,11 @@ DetectionMap measure(const std::vector<DetectionCamera>& cameras,
 }
 
 TEST(DetectionMap, HasPlacesWithinReachAlone) {
-  const DetectionMap map = measure({looking_at_wall()});
+  const DetectionMap map = measure({looking_at_wall()}, kWideReach);
   EXPECT_GE(map.places_B_m.size(), 400U);
   EXPECT_LE(map.places_B_m.size(), 650U);
   for (const Eigen::Vector3d& place_B_m : map.places_B_m) {
-    EXPECT_LE((place_B_m - kReach.center_B_m).norm(), kReach.radius_m);
+    EXPECT_LE((place_B_m - kWideReach.center_B_m).norm(), kWideReach.radius_m);
   }
   EXPECT_EQ(map.cell.least_m.size(), map.places_B_m.size());
   EXPECT_EQ(map.cell.in_view(), static_cast<int>(map.places_B_m.size()));
@@ -66,7 +66,7 @@ TEST(DetectionMap, ABallNeedsAsManyPixelsAsTheRulesAskFor) {
 TEST(DetectionMap, FartherAwayBallsHaveToBeLarger) {
   DetectionCamera camera = looking_at_wall();
   camera.sensor.speckle_px = 8;
-  const DetectionMap map = measure({camera});
+  const DetectionMap map = measure({camera}, kWideReach);
   EXPECT_EQ(map.cell.least_m[map.cell.worst_place()], map.cell.worst_m());
   double near_m = 0, far_m = HUGE_VAL;
   for (std::size_t i = 0; i < map.places_B_m.size(); ++i) {
@@ -103,7 +103,7 @@ TEST(DetectionMap, NothingIsSaidOfBallsAtTheRobot) {
   image.robot = {DepthImage(160, 120, kNoDepth), Image<LinkId>(160, 120, kNoLink)};
   add_plate({0, 0, 160, 120}, 1.5F, 1, image);
   const DetectionCamera camera{kSmall, {}, {}, {image_of(image, sensed(image.robot))}};
-  const DetectionMap map = measure({camera});
+  const DetectionMap map = measure({camera}, kWideReach);
   for (std::size_t i = 0; i < map.places_B_m.size(); ++i) {
     const double before_m = 1.5 - map.places_B_m[i].z();
     if (before_m < 0.05) {
