@@ -28,7 +28,7 @@ DetectionCamera looking_at_wall(const Camera& camera = kSmall, float wall_m = 4)
 }
 
 /// All of both in the image.
-const RobotReach kReach{{0, 0, 1.5}, 0.15}, kWideReach{{0, 0, 1.5}, 0.4};
+const RobotReach kReach{{0, 0, 1.5}, 0.1}, kWideReach{{0, 0, 1.5}, 0.4};
 
 DetectionMap measure(const std::vector<DetectionCamera>& cameras,
                      const RobotReach& reach = kReach) {
