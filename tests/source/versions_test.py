@@ -2,13 +2,13 @@
 """What versions.py takes for a version."""
 import unittest
 
-from versions import TOLD, differing, newest_day, version_of
+from versions import FORTHCOMING, TOLD, differing, newest_day, version_of
 
 WHERE = dict(TOLD)
 
 
 def told(pattern, text):
-    return list(differing({"file": (text, WHERE[pattern])}, "1.2.0"))
+    return list(differing({"file": (text, WHERE[pattern])}, ["1.2.0"]))
 
 
 class Versions(unittest.TestCase):
@@ -23,6 +23,11 @@ class Versions(unittest.TestCase):
             self.assertEqual(told(pattern, text.format("1.2.0")), [], pattern)
             self.assertEqual(told(pattern, text.format("1.3.0")), [("file", "1.3.0")], pattern)
             self.assertEqual(told(pattern, "nothing"), [("file", "no version")], pattern)
+
+    def test_what_ros_calls_forthcoming_is_allowed_until_the_release(self):
+        text = "Changelog\n=========\n\nForthcoming\n-----------\n\n1.1.0\n-----\n"
+        self.assertEqual(told("CHANGELOG.rst", text), [("file", FORTHCOMING)])
+        self.assertEqual(list(differing({"file": (text, WHERE["CHANGELOG.rst"])}, ["1.2.0", FORTHCOMING])), [])
 
     def test_a_release_has_a_day(self):
         self.assertEqual(newest_day("# Changes\n\n## 1.2.0, 2026-01-31\n## 1.1.0, 2025-01-31\n"), "2026-01-31")
