@@ -1,11 +1,17 @@
 #include "berth/results/result_schema.hpp"
 
 #include <algorithm>
+#include <array>
 #include <concepts>
+#include <cstdint>
+#include <optional>
+#include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "berth/files/json_schema.hpp"
 #include "berth/image_distance/method.hpp"
+#include "berth/pipeline/result.hpp"
 #include "berth/results/json_values.hpp"
 
 namespace berth {

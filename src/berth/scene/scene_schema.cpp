@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <initializer_list>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "berth/pipeline/request.hpp"
 #include "berth/scene/former_settings.hpp"
