@@ -30,51 +30,52 @@ inline Json range_schema(const Domain& domain, bool is_whole) {
   return domain.has_off ? Json{{"anyOf", {{{"const", 0}}, range}}} : range;
 }
 
+/// What a setting like this one may be.
 template <class T>
-struct ValueSchema {
-  static Json type(const Domain& domain) {
-    if constexpr (std::is_same_v<T, bool>) {
-      return {{"type", "boolean"}};
-    } else if constexpr (std::is_enum_v<T>) {
-      Json names = Json::array();
-      for (const T one : all_of(T{})) names.push_back(name_of(one));
-      return {{"enum", names}};
-    } else {
-      Json schema{{"type", std::is_integral_v<T> ? "integer" : "number"}};
-      schema.update(range_schema(domain, std::is_integral_v<T>));
-      return schema;
-    }
+Json value_schema(const Domain& domain, const T&) {
+  if constexpr (std::is_same_v<T, bool>) {
+    return {{"type", "boolean"}};
+  } else if constexpr (std::is_enum_v<T>) {
+    Json names = Json::array();
+    for (const T one : all_of(T{})) names.push_back(name_of(one));
+    return {{"enum", names}};
+  } else {
+    Json schema{{"type", std::is_integral_v<T> ? "integer" : "number"}};
+    schema.update(range_schema(domain, std::is_integral_v<T>));
+    return schema;
   }
-  /// Null where no file can say it.
-  static Json standing(const T& value) {
-    if constexpr (std::is_enum_v<T>) {
-      return name_of(value);
-    } else if constexpr (std::is_same_v<T, bool>) {
-      return value;
-    } else {
-      return std::isfinite(double(value)) ? number_json(value) : Json();
-    }
-  }
-};
+}
+template <class T>
+Json value_schema(const Domain& domain, const std::optional<T>&) {
+  return value_schema(domain, T{});
+}
 
+/// Null where no file can say it.
 template <class T>
-struct ValueSchema<std::optional<T>> {
-  static Json type(const Domain& domain) { return ValueSchema<T>::type(domain); }
-  static Json standing(const std::optional<T>& value) {
-    return value ? ValueSchema<T>::standing(*value) : Json();
+Json value_json(const T& value) {
+  if constexpr (std::is_enum_v<T>) {
+    return name_of(value);
+  } else if constexpr (std::is_same_v<T, bool>) {
+    return value;
+  } else {
+    return std::isfinite(static_cast<double>(value)) ? number_json(value) : Json();
   }
-};
+}
+template <class T>
+Json value_json(const std::optional<T>& value) {
+  return value ? value_json(*value) : Json();
+}
 
 /// One property for each setting, with its sentence and what stands in `settings` as its default.
 template <class Settings>
 Json setting_properties(const Settings& settings) {
   Json properties = Json::object();
-  visit_settings(settings, [&]<class T>(const Setting& setting, const T& value) {
+  visit_settings(settings, [&](const Setting& setting, const auto& value) {
     std::string sentence(setting.sentence);
     if (!setting.methods.empty()) sentence += " (methods: " + std::string(setting.methods) + ")";
     Json& property = properties[setting.name] =
-        schema::told(sentence, ValueSchema<T>::type(setting.domain));
-    if (Json standing = ValueSchema<T>::standing(value); !standing.is_null()) {
+        schema::told(sentence, value_schema(setting.domain, value));
+    if (Json standing = value_json(value); !standing.is_null()) {
       property["default"] = standing;
     }
   });
