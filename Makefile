@@ -1,5 +1,5 @@
 # Thin fronts of CMake. Each target does all set-up that it needs, on a bare Debian 12 too.
-.PHONY: demo view opengl python test test-ros2 build bench lab study closed-loop bench-gpu sanitize sanitize-thinned fuzz trust berth_trust trust-distances trust-real-images trust-long-runs trust-streams trust-whole-robot setup docs lint format clean
+.PHONY: demo view opengl python test test-ros2 build bench lab study closed-loop bench-gpu sanitize sanitize-thinned fuzz trust berth_trust trust-distances trust-real-images trust-long-runs trust-streams trust-whole-robot setup docs site release lint format clean
 
 # A fresh build folder is configured for berth alone, which needs the fewest packages. One that has more keeps it.
 product = test -e build/release/build.ninja || cmake --preset product
@@ -138,6 +138,15 @@ setup:
 docs:
 	scripts/setup.sh packages.txt packages-docs.txt
 	scripts/docs.sh
+
+# All pages and the API's, with search: build/site/index.html.
+site: python
+	scripts/setup.sh packages-docs.txt packages-site.txt
+	scripts/site.sh
+
+# Checks versions, changelog and what was promised, then makes all that a release has: build/release_files.
+release:
+	scripts/release.sh
 
 # clang-tidy over src and apps. PART: a part of the paths, such as src/berth/robot.
 lint:

@@ -234,6 +234,13 @@ void add_doctor_options(CLI::App& command, DoctorArguments& arguments) {
       "Exit status 0: nothing is wrong; 1: something is.\nExample:\n  berth doctor scene.yaml");
 }
 
+void add_schema_options(CLI::App& command, SchemaArguments& arguments) {
+  command.add_option("name", arguments.name, "Of what")
+      ->required()
+      ->check(CLI::IsMember({"scene", "result", "calibration"}));
+  command.footer("Example:\n  berth schema scene >scene.json");
+}
+
 void add_demo_options(CLI::App& command, DemoArguments& arguments) {
   command
       .add_option("--picture", arguments.picture_folder,

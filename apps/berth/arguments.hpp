@@ -101,6 +101,11 @@ struct InitArguments {
   std::filesystem::path out = "scene.yaml";
 };
 
+struct SchemaArguments {
+  /// "scene", "result" or "calibration".
+  std::string name;
+};
+
 struct DoctorArguments {
   std::filesystem::path scene;
   int threads = 0;
@@ -124,5 +129,6 @@ void add_view_options(CLI::App& command, ViewArguments& arguments);
 void add_demo_options(CLI::App& command, DemoArguments& arguments);
 void add_init_options(CLI::App& command, InitArguments& arguments);
 void add_doctor_options(CLI::App& command, DoctorArguments& arguments);
+void add_schema_options(CLI::App& command, SchemaArguments& arguments);
 
 }  // namespace berth::app

@@ -30,6 +30,7 @@ int run_command_line(int argc, const char* const* argv) {
   ViewArguments view;
   InitArguments init;
   DoctorArguments doctor;
+  SchemaArguments schema;
   std::filesystem::path pages_folder;
   CLI::App* demo_command = program.add_subcommand(
       "demo", "Run the bundled scene: a table of links and distances, and pictures");
@@ -51,11 +52,15 @@ int run_command_line(int argc, const char* const* argv) {
       program.add_subcommand("init", "Write a scene to begin with, from the robot's URDF");
   CLI::App* doctor_command = program.add_subcommand(
       "doctor", "All checks of a scene: what is wrong, and what to do next, in order");
+  CLI::App* schema_command = program.add_subcommand(
+      "schema",
+      "The JSON Schema of scene files, of results or of calibrations, for editors and programs");
   // For installing, and nobody's own use.
   CLI::App* pages_command = program.add_subcommand("write-pages", "")->group("");
   pages_command->add_option("folder", pages_folder)->required();
   add_init_options(*init_command, init);
   add_doctor_options(*doctor_command, doctor);
+  add_schema_options(*schema_command, schema);
   add_demo_options(*demo_command, demo);
   add_run_options(*run_command, run);
   add_record_options(*record_command, record);
@@ -87,6 +92,7 @@ int run_command_line(int argc, const char* const* argv) {
   }
   if (*init_command) return carry_out(0, [&] { app::init_command(init); });
   if (*doctor_command) return carry_out(doctor.threads, [&] { app::doctor_command(doctor); });
+  if (*schema_command) return carry_out(0, [&] { app::schema_command(schema); });
   if (*pages_command) return carry_out(0, [&] { write_command_pages(program, pages_folder); });
   if (*view_command) return carry_out(view.threads, [&] { app::view_command(view); });
   return carry_out(evaluate.threads, [&] { app::evaluate_command(evaluate); });

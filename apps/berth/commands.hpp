@@ -16,5 +16,6 @@ void view_command(const ViewArguments& arguments);
 void demo_command(const DemoArguments& arguments);
 void init_command(const InitArguments& arguments);
 void doctor_command(const DoctorArguments& arguments);
+void schema_command(const SchemaArguments& arguments);
 
 }  // namespace berth::app

@@ -6,6 +6,7 @@
 
 #include "apps/berth/commands.hpp"
 #include "apps/berth/new_scene.hpp"
+#include "apps/support/data_folders.hpp"
 #include "berth/files/error.hpp"
 #include "berth/files/file_bytes.hpp"
 
@@ -35,6 +36,7 @@ void init_command(const InitArguments& arguments) {
   for (const auto& [name, folder] : arguments.packages) scene.robot.package_paths[name] = folder;
   scene.camera = arguments.camera;
   scene.out = arguments.out;
+  scene.schema = scene_schema_file();
   const RobotModel model = load(scene.robot);
   write_file_bytes(arguments.out, new_scene_text(scene, model));
   fmt::print(

@@ -153,6 +153,7 @@ std::string new_scene_text(const NewScene& scene, const RobotModel& model) {
   const auto& kinds = camera_kinds();
   const CameraKind& kind = *std::ranges::find(kinds, scene.camera, &CameraKind::name);
   return fmt::format(
+      "# yaml-language-server: $schema={}\n"
       "# Made by berth init for robot \"{}\". Lines with FILL IN are yours to fill in; then:\n"
       "#   berth doctor SCENE                       what is wrong, and what to do next\n"
       "#   berth calibrate SCENE --out NEW.yaml     where the camera is, and settings that fit it\n"
@@ -161,7 +162,8 @@ std::string new_scene_text(const NewScene& scene, const RobotModel& model) {
       "evaluation: {{range_m: 1.0}}                 # how far to look\n"
       "# How fast the robot may go on beside people:\n"
       "# separation: {{}}\n",
-      model.name, robot_text(scene, model), camera_text(kind, model), joints_text(model));
+      scene.schema.string(), model.name, robot_text(scene, model), camera_text(kind, model),
+      joints_text(model));
 }
 
 }  // namespace berth::app

@@ -19,6 +19,8 @@ struct NewScene {
   std::string camera;
   /// Paths in the text are relative to its folder.
   std::filesystem::path out;
+  /// The JSON Schema of scene files, for editors.
+  std::filesystem::path schema;
 };
 
 /// Links that no joint moves and that carry none of those that one does: what the robot stands on

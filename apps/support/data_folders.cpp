@@ -10,10 +10,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path bundled_file(const char* name) {
+fs::path data_file(const char* name) {
   const fs::path program = fs::read_symlink("/proc/self/exe");
-  const fs::path places[] = {program.parent_path().parent_path() / "share/berth/bundled",
-                             fs::path(BERTH_SOURCE_DIR) / "data/bundled"};
+  const fs::path places[] = {program.parent_path().parent_path() / "share/berth",
+                             fs::path(BERTH_SOURCE_DIR) / "data"};
   for (const fs::path& folder : places) {
     if (fs::is_regular_file(folder / name)) return folder / name;
   }
@@ -23,8 +23,10 @@ fs::path bundled_file(const char* name) {
 
 }  // namespace
 
-fs::path bundled_scene_file() { return bundled_file("scene.yaml"); }
+fs::path bundled_scene_file() { return data_file("bundled/scene.yaml"); }
 
-fs::path bundled_one_camera_file() { return bundled_file("one_camera.yaml"); }
+fs::path bundled_one_camera_file() { return data_file("bundled/one_camera.yaml"); }
+
+fs::path scene_schema_file() { return data_file("schema/scene.json"); }
 
 }  // namespace berth::app

@@ -11,4 +11,7 @@ std::filesystem::path bundled_scene_file();
 /// The same with its first camera alone, for the methods that know one image.
 std::filesystem::path bundled_one_camera_file();
 
+/// What `berth schema scene` writes, in the same places. Throws as the others do.
+std::filesystem::path scene_schema_file();
+
 }  // namespace berth::app

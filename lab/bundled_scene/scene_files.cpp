@@ -54,7 +54,8 @@ projection_matrix:
 }
 
 std::string scene_yaml(std::span<const sim::BundledCamera> cameras, const std::string& evaluation) {
-  std::string text = fmt::format(R"(# Made by lab/bundled_scene; README.md says what it shows.
+  std::string text = fmt::format(R"(# yaml-language-server: $schema=../schema/scene.json
+# Made by lab/bundled_scene; README.md says what it shows.
 robot:
   urdf: arm/arm.urdf
   package_paths: {{berth_arm: arm}}

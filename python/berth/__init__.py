@@ -1,4 +1,4 @@
-"""Exact distances between a robot and what depth cameras see.
+"""Exact distances between a robot and what depth cameras see::
 
     robot = berth.Robot(berth.load_robot("arm.urdf"))
     view = berth.MountedCamera(robot, camera, "base_link", X_PC)

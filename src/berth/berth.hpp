@@ -33,3 +33,6 @@
 #include "berth/pipeline/robot.hpp"
 #include "berth/robot/joint_buffer.hpp"
 #include "berth/robot/robot_model.hpp"
+
+/// How far each link of a robot is from what depth cameras see.
+namespace berth {}

@@ -80,6 +80,8 @@ TEST(Usage, WrongCommandLineIsRefused) {
       {{"init", "robot.urdf", "--camera", "pinhole"}, "--camera"},
       {{"init", "robot.urdf", "--package", "parts"}, "--package"},
       {{"doctor"}, "scene"},
+      {{"schema"}, "name"},
+      {{"schema", "scenes"}, "scenes"},
       {{"demo", "scene.yaml"}, "scene.yaml"},
   };
   const TemporaryFolder folder;
@@ -100,7 +102,8 @@ TEST(Usage, HelpIsOnStandardOutputAndHasAnExample) {
   const TemporaryFolder folder;
   const std::vector<Words> table = {
       {"--help"},           {"run", "--help"},      {"record", "--help"},    {"replay", "--help"},
-      {"filter", "--help"}, {"evaluate", "--help"}, {"calibrate", "--help"}, {"demo", "--help"}};
+      {"filter", "--help"}, {"evaluate", "--help"}, {"calibrate", "--help"}, {"demo", "--help"},
+      {"schema", "--help"}};
   for (const Words& arguments : table) {
     const Outcome outcome = run_berth(folder / "", arguments);
     SCOPED_TRACE(arguments[0]);

@@ -48,6 +48,6 @@ class Pool {
   std::shared_ptr<Free> free_ = std::make_shared<Free>();
 };
 
-using FramePool = Pool<Frame>;
+using FramePool = Pool<Frame>;  ///< so that frames are not allocated anew
 
 }  // namespace berth

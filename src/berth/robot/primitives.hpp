@@ -11,7 +11,7 @@ inline constexpr double kMaxPrimitiveExcess = 0.0045;
 
 /// The shapes of URDF, in metres, centred at the origin; a cylinder's axis is z.
 TriangleMesh make_box(const Eigen::Vector3d& size_m);
-TriangleMesh make_cylinder(double radius_m, double length_m);
-TriangleMesh make_sphere(double radius_m);
+TriangleMesh make_cylinder(double radius_m, double length_m);  ///< along z
+TriangleMesh make_sphere(double radius_m);                     ///< as the others
 
 }  // namespace berth

@@ -15,15 +15,15 @@
 #include "berth/types/robot_image.hpp"
 
 namespace berth {
-
+/// Which shapes of a URDF are the robot.
 enum class GeometryKind {
   visual,     ///< the visual shapes, which the camera sees; a link without them has none
   collision,  ///< the collision shapes; a link without them has its visual ones, since the camera
               ///< sees those
 };
-
+/// As in a URDF.
 enum class JointType { fixed, revolute, continuous, prismatic };
-
+/// What a link is to the filter and to requests.
 enum class LinkRole {
   evaluated,    ///< filtered out of the image, and its distance is asked for
   environment,  ///< environment: filtered out, not evaluated

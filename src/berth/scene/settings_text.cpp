@@ -10,10 +10,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "berth/pipeline/mounted_camera.hpp"
-#include "berth/robot/joints_at_time.hpp"
-#include "berth/scene/scene_evaluation.hpp"
-#include "berth/separation/settings.hpp"
+#include "berth/scene/setting_groups.hpp"
 
 namespace berth {
 namespace {
@@ -100,27 +97,12 @@ struct TableWriter {
 std::string settings_table(std::string_view group) {
   std::string table = "| key | default | may be | what it does |\n| --- | --- | --- | --- |\n";
   const TableWriter write{table};
-  bool is_known = true;
-  if (group == "evaluation") {
-    const SceneEvaluation settings;
+  bool is_known = false;
+  visit_scene_groups([&](std::string_view name, const auto& settings) {
+    if (name != group) return;
+    is_known = true;
     visit_settings(settings, write);
-  } else if (group == "time") {
-    // What read_scene() begins with.
-    TimeSettings settings;
-    settings.joints = kOnlyBetweenSamples;
-    visit_settings(settings, write);
-  } else if (group == "separation") {
-    const SeparationSettings settings;
-    visit_settings(settings, write);
-  } else {
-    is_known = false;
-    const CameraSettings view = settings_of_real_camera();
-    visit_setting_groups(view, [&](std::string_view name, const auto& settings) {
-      if (name != group) return;
-      is_known = true;
-      visit_settings(settings, write);
-    });
-  }
+  });
   if (!is_known) {
     throw std::invalid_argument(fmt::format("settings group: \"{}\"; expected one of {}", group,
                                             fmt::join(kSettingGroups, ", ")));

@@ -17,7 +17,7 @@ enum class UnknownPolicy {
   ignore,        ///< only what is known counts
 };
 inline constexpr std::array kUnknownPolicies = {UnknownPolicy::stop, UnknownPolicy::assume_range,
-                                                UnknownPolicy::ignore};
+                                                UnknownPolicy::ignore};  ///< all of them
 constexpr std::string_view name_of(UnknownPolicy policy) {
   constexpr std::array<std::string_view, 3> kNames = {"stop", "assume_range", "ignore"};
   return kNames[static_cast<std::size_t>(policy)];

@@ -67,9 +67,9 @@ class Image {
 
 /// Depth in metres along the optical axis (z, not along the ray); NaN where there is none.
 using DepthImage = Image<float>;
-using DepthView = ImageView<float>;
+using DepthView = ImageView<float>;  ///< the same, of memory that somebody else holds
 
-inline constexpr float kNoDepth = std::numeric_limits<float>::quiet_NaN();
+inline constexpr float kNoDepth = std::numeric_limits<float>::quiet_NaN();  ///< no reading
 
 /// A pixel's coordinates; (-1, -1) where there is no pixel.
 struct Pixel {

@@ -25,8 +25,8 @@ struct Domain {
   std::string text(bool is_whole) const;
 };
 
-inline constexpr Domain kNotNegative{};
-inline constexpr Domain kAboveZero{.is_open = true};
+inline constexpr Domain kNotNegative{};               ///< 0 and more
+inline constexpr Domain kAboveZero{.is_open = true};  ///< without the 0
 
 /// What the list says of one setting.
 struct Setting {
