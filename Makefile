@@ -1,5 +1,5 @@
 # Thin fronts of CMake. Each target does all set-up that it needs, on a bare Debian 12 too.
-.PHONY: demo view opengl python test test-ros2 build bench lab study closed-loop bench-gpu sanitize sanitize-thinned fuzz trust berth_trust trust-distances trust-real-images trust-long-runs trust-streams trust-whole-robot setup docs site release lint format clean
+.PHONY: demo view opengl python test test-ros2 build bench lab study closed-loop bench-gpu sanitize sanitize-thinned fuzz trust berth_trust trust-distances trust-real-images trust-long-runs trust-streams trust-whole-robot setup docs site release deb wheel test-debian13 test-arm64 ros-release lint format clean
 
 # A fresh build folder is configured for berth alone, which needs the fewest packages. One that has more keeps it.
 product = test -e build/release/build.ninja || cmake --preset product
@@ -147,6 +147,27 @@ site: python
 # Checks versions, changelog and what was promised, then makes all that a release has: build/release_files.
 release:
 	scripts/release.sh
+
+# Debian packages, built, linted and tried in bare systems: build/deb. SUITE=trixie: of Debian 13.
+SUITE ?= bookworm
+deb:
+	scripts/deb.sh $(SUITE)
+
+# The Python wheel with its libraries inside: build/wheel.
+wheel:
+	scripts/wheel.sh
+
+# All tests in a bare Debian 13.
+test-debian13:
+	scripts/bare.sh trixie 'apt-get install -qq --no-install-recommends make; make test'
+
+# Cross-built for ARM64 in a bare Debian 12; the tests run in qemu, all but those that hold the clock against a limit.
+test-arm64:
+	scripts/bare.sh bookworm scripts/test_arm64.sh
+
+# The repositories that bloom releases ROS packages from: build/ros_release.
+ros-release:
+	scripts/ros_release.sh
 
 # clang-tidy over src and apps. PART: a part of the paths, such as src/berth/robot.
 lint:

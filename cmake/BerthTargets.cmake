@@ -2,6 +2,10 @@
 set(BERTH_COLD $<$<CONFIG:Release>:-O1>)
 # Without contraction of a * b + c all instruction sets compute the same bits.
 set(BERTH_VECTOR -ffp-contract=off)
+# Nor does other code take a * b + c for one operation where each processor has an instruction for it: ARM64 gives the bits of x86-64.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
+  add_compile_options(-ffp-contract=off)
+endif()
 
 # berth_sanitize(<target>)
 function(berth_sanitize target)

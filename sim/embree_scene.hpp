@@ -1,12 +1,11 @@
 // Embree's devices and scenes, and triangle meshes in them.
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <memory>
 
 #include "berth/robot/triangle_mesh.hpp"
 #include "berth/types/camera.hpp"
+#include "sim/embree.hpp"
 
 namespace berth::sim {
 

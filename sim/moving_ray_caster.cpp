@@ -36,10 +36,7 @@ void cast_row(RTCScene scene, const Camera& camera, const Pose& X_BC, int v, flo
     alignas(64) int valid[kPacket];
     for (int i = 0; i < kPacket; ++i) valid[i] = i < count ? -1 : 0;
     alignas(64) RTCRayHit16 rays = rays_of(camera, X_BC, u, v);
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    rtcIntersect16(valid, scene, &context, &rays);
+    intersect_packet(valid, scene, rays);
     for (int i = 0; i < count; ++i) {
       const bool is_hit = rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
       row_m[u + i] = is_hit ? rays.ray.tfar[i] : std::numeric_limits<float>::quiet_NaN();

@@ -48,9 +48,7 @@ SurfaceHit RayCaster::hit(double u, double v) const {
   RTCRayHit ray{};
   ray.ray = make_ray(Eigen::Vector3f::Zero(), direction, std::numeric_limits<float>::infinity());
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect1(scene_.get(), &context, &ray);
+  intersect(scene_.get(), ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
   const Eigen::Vector3f normal(ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z);
   return {ray.ray.tfar, ray.hit.geomID, ray.hit.primID,
@@ -70,9 +68,7 @@ bool RayCaster::is_blocked(const Eigen::Vector3f& from_C_m, const Eigen::Vector3
   const float margin = kOffset_m / way.norm();
   RTCRay ray = make_ray(from_C_m, way, 1 - margin);
   ray.tnear = margin;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcOccluded1(scene_.get(), &context, &ray);
+  occlude(scene_.get(), ray);
   return ray.tfar < 0;
 }
 

@@ -1,6 +1,5 @@
 #include "lab/bench/embree_rays.hpp"
 
-#include <embree3/rtcore.h>
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -10,6 +9,7 @@
 #include <stdexcept>
 
 #include "berth/render/link_rect.hpp"
+#include "sim/embree.hpp"
 #include "sim/embree_scene.hpp"
 
 namespace berth::lab {
@@ -117,10 +117,7 @@ struct EmbreeRays::State {
       packet.ray.id[i] = packet.ray.flags[i] = 0;
       packet.hit.geomID[i] = packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    rtcIntersect16(valid, scene.get(), &context, &packet);
+    sim::intersect_packet(valid, scene.get(), packet);
     for (int i = 0; i < kPacketRays; ++i) {
       if (valid[i] == 0) continue;
       const int u = u0 + i % kPacketSide;

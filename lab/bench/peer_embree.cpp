@@ -1,10 +1,10 @@
 // Embree's closest-point query over the obstacle points; Open3D's RaycastingScene asks it too.
-#include <embree3/rtcore.h>
 
 #include <cmath>
 
 #include "lab/bench/peer.hpp"
 #include "lab/bench/points.hpp"
+#include "sim/embree.hpp"
 #include "sim/embree_scene.hpp"
 
 namespace berth::lab {

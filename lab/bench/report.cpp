@@ -1,6 +1,5 @@
 #include "lab/bench/report.hpp"
 
-#include <embree3/rtcore_config.h>
 #include <fcl/config.h>
 #include <flann/config.h>
 #include <fmt/format.h>
@@ -13,6 +12,7 @@
 
 #include "lab/measure/instruction_set.hpp"
 #include "lab/measure/machine.hpp"
+#include "sim/embree.hpp"
 
 namespace berth::lab {
 namespace {

@@ -99,12 +99,14 @@ rcl_interfaces::msg::ParameterDescriptor descriptor_of(const berth::Setting& set
           std::string(name_of(one));
     }
   } else if constexpr (std::is_integral_v<T>) {
-    auto& range = descriptor.integer_range.emplace_back();
+    descriptor.integer_range.resize(1);  // Humble's emplace_back() gives a copy
+    auto& range = descriptor.integer_range.front();
     range.from_value = static_cast<std::int64_t>(least);
     range.to_value = setting.domain.most < 1e9 ? static_cast<std::int64_t>(setting.domain.most)
                                                : std::numeric_limits<int>::max();
   } else if constexpr (std::is_floating_point_v<T>) {
-    auto& range = descriptor.floating_point_range.emplace_back();
+    descriptor.floating_point_range.resize(1);  // Humble's emplace_back() gives a copy
+    auto& range = descriptor.floating_point_range.front();
     range.from_value = least;
     range.to_value = setting.domain.most;
     descriptor.additional_constraints = setting.domain.text(false);

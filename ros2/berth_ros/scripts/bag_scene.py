@@ -1,0 +1,1 @@
+../../../python/berth/bag_scene.py

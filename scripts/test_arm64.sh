@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# Builds all for ARM64 and runs the tests in qemu. For scripts/bare.sh: it adds the architecture to the system that it runs in.
+set -euo pipefail
+cd "$(dirname "$0")"
+dpkg --add-architecture arm64
+apt-get update -qq
+apt-get install -qq --no-install-recommends crossbuild-essential-arm64 qemu-user-static ccache cmake dart-doc fonts-dejavu-core glslang-tools ninja-build \
+  nlohmann-json3-dev pkg-config python3 \
+  $(grep -hE '^(lib|zlib)' packages.txt packages-opengl.txt packages-lab.txt packages-tests.txt | sed 's/$/:arm64/')
+cd ..
+cmake --preset arm64
+cmake --build --preset arm64
+ctest --preset arm64 -j2
