@@ -31,11 +31,11 @@ TEST(CalibrationJson, IsOneLineInTheOrderOfTheSchema) {
       R"("depth":{"offset_m":0.0,"scale":1.0},"dilation_px":0.0,"moved_m":0.02,"halves_m":0.003,)"
       R"("residual_m":{"before":{"median":0.02,"p90":0.02,"p99":0.02},)"
       R"("after":{"median":0.0,"p90":0.0,"p99":0.0}},"score":{"before":1.25,"after":1.75},)"
-      R"("not_determined":["clock_offset_s"],"refused":null,"frames":[0,1],)"
+      R"("not_determined":["clock_offset_s"],"refused":null,"frames":[0,1],"detection_m":null,)"
       R"("self_filter":{"tolerance_m":0.03,"padding_m":0.02},"sensor":{"speckle_px":20},"bias_m":0.004,)"
       R"("leftover_px":0,"largest_leftover_px":0,"smallest_obstacle":[)"
       R"({"depth_m":1.0,"rod_width_m":0.004,"finger_width_m":0.006},)"
-      R"({"depth_m":2.0,"rod_width_m":0.012,"finger_width_m":null}],"rod_gap_m":0.04}],)"
+      R"({"depth_m":2.0,"rod_width_m":0.012,"finger_width_m":null}],"rod_gap_m":0.04}],"detection_m":null,)"
       R"("joint_offsets":{"joint_2":0.004},"joints_not_determined":["joint_1"],)"
       R"("attached":[],"attached_refused":null,"warnings":["Two \"poses\"."]})");
 }

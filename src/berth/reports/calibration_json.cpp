@@ -107,9 +107,8 @@ Json calibrated_camera_json(const CalibrationReport& report, std::size_t index) 
   json["not_determined"] = found.not_determined;
   json["refused"] = is_good ? Json() : Json(found.refused);
   json["frames"] = found.frames;
-  if (!report.detection.empty()) {
-    json["detection_m"] = detection_json(report.detection.cameras[index]);
-  }
+  const DetectionMap& map = report.detection;
+  json["detection_m"] = map.empty() ? Json() : detection_json(map.cameras[index]);
   add_proposal(report.proposals[index], json);
   return json;
 }
@@ -141,7 +140,8 @@ std::string calibration_json(const CalibrationReport& report) {
   for (std::size_t i = 0; i < report.result->cameras.size(); ++i) {
     json["cameras"].push_back(calibrated_camera_json(report, i));
   }
-  if (!report.detection.empty()) json["detection_m"] = cell_detection_json(report.detection);
+  const DetectionMap& map = report.detection;
+  json["detection_m"] = map.empty() ? Json() : cell_detection_json(map);
   json["joint_offsets"] = Json::object();
   for (const auto& [name, offset] : report.result->joint_offsets) {
     json["joint_offsets"][name] = rounded(offset);

@@ -27,6 +27,28 @@ Json before_and_after(const Json& schema) {
   return map_of_all({{"before", schema}, {"after", schema}});
 }
 
+/// Of the balls that are drawn, over all places in view. Null where not even the largest is enough,
+/// or nothing is in view.
+Json detection_fields() {
+  return {{"median", told("the diameter that half of the places need", number_or_null())},
+          {"worst", told("the diameter that is detected at all of them", number_or_null())}};
+}
+
+/// By all cameras together.
+Json cell_detection_schema() {
+  Json fields = detection_fields();
+  fields.update(
+      {{"worst_at_base_m", told("where that is, in the base frame", three_or_null())},
+       {"places", told("of the robot's reach", count())},
+       {"in_view", told("how many of them some camera has in view", count())},
+       {"step_m", told("from one to the next", number())},
+       {"reach", told("a ball that the moving links stay in",
+                      map_of_all({{"center_base_m", list_of(number(), 3)},
+                                  {"radius_m", number()}}))}});
+  return told("the smallest ball that the cameras detect together; null where nobody measured it",
+              schema::or_null(map_of_all(fields)));
+}
+
 Json camera_fields() {
   const Json spread = map_of_all(
       {{"median", number_or_null()}, {"p90", number_or_null()}, {"p99", number_or_null()}});
@@ -54,7 +76,9 @@ Json camera_fields() {
                      before_and_after(number_or_null()))},
       {"not_determined", told("what the frames do not tell; it stayed as it was", list_of(text()))},
       {"refused", told("why the pose is the scene's own; null where it was found", text_or_null())},
-      {"frames", told("the numbers of its images that were used", list_of(count()))}};
+      {"frames", told("the numbers of its images that were used", list_of(count()))},
+      {"detection_m", told("the smallest ball that it detects; null where nobody measured it",
+                           schema::or_null(map_of_all(detection_fields())))}};
 }
 
 /// What goes on to the settings that fit the camera.
@@ -97,6 +121,7 @@ std::string calibration_schema() {
       {{"schema", {{"const", "berth/calibration/1"}}},
        {"frames_used", told("how many images were used, of all cameras", count())},
        {"cameras", list_of(map_of_all(camera))},
+       {"detection_m", cell_detection_schema()},
        {"joint_offsets", told("what is to be added to joints' positions, in rad or m",
                               {{"type", "object"}, {"additionalProperties", number()}})},
        {"joints_not_determined",
