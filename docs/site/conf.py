@@ -20,7 +20,9 @@ author = "The berth authors"
 version = re.search(r"project\(berth VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
 extensions = ["myst_parser", "sphinx.ext.autodoc"]
 root_doc = MAIN_PAGE
-include_patterns = ["*.md", "docs/**.md", "data/**.md", "lab/**.md", "ros2/**.md", API + "/**.rst"]
+include_patterns = ["*.md", "docs/**.md", "data/bundled/README.md", "lab/bench/RESULTS.md", "ros2/README.md", API + "/**.rst"]
+# In this order: CHANGELOG.md goes before the CHANGELOG.rst of ROS.
+source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
 myst_heading_anchors = 6
 default_role = "code"
 smartquotes = False
