@@ -5,6 +5,8 @@ set(BERTH_VECTOR -ffp-contract=off)
 # Nor does other code take a * b + c for one operation where each processor has an instruction for it: ARM64 gives the bits of x86-64.
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
   add_compile_options(-ffp-contract=off)
+  # Highway 1.0 compiles its NEON with AES, and GCC refuses the constructors of our structs of vectors, which it takes for code without.
+  list(APPEND BERTH_VECTOR -march=armv8-a+crypto)
 endif()
 
 # berth_sanitize(<target>)

@@ -17,7 +17,7 @@ git ls-files ':!debian' | pack "build/deb/berth_$version.orig.tar.xz" --transfor
 command -v npm >/dev/null || scripts/setup.sh packages-page.txt
 cp apps/view/page/package*.json build/deb/page
 (cd build/deb/page && npm ci --omit=dev --no-audit --no-fund --ignore-scripts --loglevel=error)
-(cd build/deb/page/node_modules && cp --parents -r three/{LICENSE,package.json,build/three.core.js,build/three.module.js,examples/jsm/{controls,lines}} \
+(cd build/deb/page/node_modules && cp --parents -r three/{LICENSE,package.json,src,build/three.core.js,build/three.module.js,examples/jsm/{controls,lines}} \
   uplot/{LICENSE,package.json,dist/uPlot.esm.js,dist/uPlot.min.css} ../../npm)
 (cd build/deb && pack "berth_$version.orig-npm.tar.xz" npm && rm -r page npm)
 
