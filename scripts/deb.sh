@@ -29,13 +29,13 @@ tar -xf "$work/berth_$version.orig.tar.xz" -C "$work"
 tar -xf "$work/berth_$version.orig-npm.tar.xz" -C "$work/$name"
 cp -r debian "$work/$name"
 scripts/bare.sh "$suite" "cd build/deb/$name
-  apt-get install -qq --no-install-recommends dpkg-dev devscripts lintian
+  apt-get install -qq --no-install-recommends dpkg-dev lintian
   apt-get build-dep -qq --no-install-recommends .
   dpkg-buildpackage -us -uc
   lintian --info --fail-on error ../berth_*.changes"
 rm -r "${work:?}/$name"
 mv "$work"/* build/deb
-cp -r build/deb "$work"
+cp build/deb/* "$work"
 scripts/bare.sh "$suite" 'apt-get install -qq --no-install-recommends ./build/deb/{berth,libberth}[_0]*.deb && debian/tests/bundled-scene'
 scripts/bare.sh "$suite" 'apt-get install -qq --no-install-recommends autopkgtest dpkg-dev apt-utils
   autopkgtest build/deb/*.deb build/deb/*.dsc -- null'
