@@ -2,9 +2,11 @@
 set(BERTH_COLD $<$<CONFIG:Release>:-O1>)
 # Without contraction of a * b + c all instruction sets compute the same bits.
 set(BERTH_VECTOR -ffp-contract=off)
-# Nor does other code take a * b + c for one operation where each processor has an instruction for it: ARM64 gives the bits of x86-64.
+# Nor does GCC in other code where each processor has an instruction for a * b + c, so that ARM64 is as near to x86-64 as can be. (Eigen does.)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
   add_compile_options(-ffp-contract=off)
+  # Highway 1.0 compiles its NEON with AES, and GCC refuses the constructors of our structs of vectors, which it takes for code without.
+  list(APPEND BERTH_VECTOR -march=armv8-a+crypto)
 endif()
 
 # berth_sanitize(<target>)

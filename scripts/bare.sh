@@ -7,6 +7,9 @@ if [ "$(id -u)" -ne 0 ]; then exec sudo --preserve-env=BERTH_DATA "$0" "$@"; fi
 cd "$(dirname "$0")/.."
 export suite=$1 command=$2 tree=$PWD kept=$PWD/build/bare/$1
 mkdir -p "$kept"/{packages,ccache,build}
+# Another run of this suite is waited for: apt wants the packages for itself.
+exec 9>"$kept/lock"
+flock 9
 if [ ! -d "$kept/system" ]; then
   scripts/setup.sh packages-bare.txt
   rm -rf "$kept/system.part"

@@ -17,7 +17,7 @@ git ls-files ':!debian' | pack "build/deb/berth_$version.orig.tar.xz" --transfor
 command -v npm >/dev/null || scripts/setup.sh packages-page.txt
 cp apps/view/page/package*.json build/deb/page
 (cd build/deb/page && npm ci --omit=dev --no-audit --no-fund --ignore-scripts --loglevel=error)
-(cd build/deb/page/node_modules && cp --parents -r three/{LICENSE,package.json,build/three.core.js,build/three.module.js,examples/jsm/{controls,lines}} \
+(cd build/deb/page/node_modules && cp --parents -r three/{LICENSE,package.json,src,build/three.core.js,build/three.module.js,examples/jsm/{controls,lines}} \
   uplot/{LICENSE,package.json,dist/uPlot.esm.js,dist/uPlot.min.css} ../../npm)
 (cd build/deb && pack "berth_$version.orig-npm.tar.xz" npm && rm -r page npm)
 
@@ -29,13 +29,13 @@ tar -xf "$work/berth_$version.orig.tar.xz" -C "$work"
 tar -xf "$work/berth_$version.orig-npm.tar.xz" -C "$work/$name"
 cp -r debian "$work/$name"
 scripts/bare.sh "$suite" "cd build/deb/$name
-  apt-get install -qq --no-install-recommends dpkg-dev devscripts lintian
+  apt-get install -qq --no-install-recommends dpkg-dev lintian
   apt-get build-dep -qq --no-install-recommends .
   dpkg-buildpackage -us -uc
   lintian --info --fail-on error ../berth_*.changes"
 rm -r "${work:?}/$name"
 mv "$work"/* build/deb
-cp -r build/deb "$work"
+cp build/deb/* "$work"
 scripts/bare.sh "$suite" 'apt-get install -qq --no-install-recommends ./build/deb/{berth,libberth}[_0]*.deb && debian/tests/bundled-scene'
 scripts/bare.sh "$suite" 'apt-get install -qq --no-install-recommends autopkgtest dpkg-dev apt-utils
   autopkgtest build/deb/*.deb build/deb/*.dsc -- null'

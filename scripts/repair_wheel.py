@@ -71,10 +71,15 @@ def carry_libraries(root, module):
         (folder / names[name]).chmod(0o755)
     files = [folder / name for name in names.values()]
     for file in [*files, module]:
-        needed = [part for old in run("patchelf", "--print-needed", file).split() if old in names
-                  for part in ("--replace-needed", old, names[old])]
-        own = [] if file == module else ["--set-soname", file.name]
-        run("patchelf", *needed, *own, "--force-rpath", "--set-rpath", "$ORIGIN/../berth.libs" if file == module else "$ORIGIN", file)
+        # One change for each run: patchelf 0.14 mixes up the strings of several.
+        for old in set(run("patchelf", "--print-needed", file).split()) & names.keys():
+            run("patchelf", "--replace-needed", old, names[old], file)
+        if file != module:
+            run("patchelf", "--set-soname", file.name, file)
+        run("patchelf", "--force-rpath", "--set-rpath", "$ORIGIN/../berth.libs" if file == module else "$ORIGIN", file)
+    outside = [name for name, file in libraries_of(module).items() if file.parent != folder.resolve()]
+    if outside:
+        sys.exit(f"repair_wheel: the module still takes these libraries from the system: {', '.join(outside)}")
     return files, {package_of(file) for file in libraries.values()}
 
 
