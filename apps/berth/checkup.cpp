@@ -233,7 +233,7 @@ Finding check_separation(const OpenScene& scene) {
     found.verdict = Verdict::advice;
     found.text =
         fmt::format("nobody has shown what the cameras detect, so C is {} m", kUnprovenIntrusion_m);
-    found.next = "Show it in the cell, and write separation.detection_m.";
+    found.next = "Run berth calibrate: it measures that, and writes separation.detection_m.";
   } else {
     found.text = "the scene says what the cameras detect";
   }

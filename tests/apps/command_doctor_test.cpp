@@ -134,7 +134,7 @@ TEST(Doctor, ADetectionThatNobodyHasShownGivesAdvice) {
   EXPECT_EQ(outcome.exit_status, 0) << outcome.out;
   expect_text(outcome,
               {"advice  separation: nobody has shown what the cameras detect, so C is 0.85 m",
-               "Show it in the cell, and write separation.detection_m."});
+               "Run berth calibrate: it measures that, and writes separation.detection_m."});
 }
 
 }  // namespace
