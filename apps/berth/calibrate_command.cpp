@@ -72,10 +72,7 @@ void calibrate_command(const CalibrateArguments& arguments) {
         },
         calibration.change);
   }
-  const CalibrationReport report{&material.calibration_data, &calibration.found,
-                                 calibration.filters,        arguments.correct_depth,
-                                 calibration.warnings,       calibration.attached,
-                                 calibration.detection};
+  const CalibrationReport report = report_of(material, calibration, arguments.correct_depth);
   const std::string text = arguments.format == OutputFormat::json ? calibration_json(report) + "\n"
                                                                   : calibration_table(report);
   if (!arguments.report_folder.empty())

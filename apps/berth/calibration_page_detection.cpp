@@ -43,9 +43,10 @@ void add_slice(const DetectionMap& map, double z_m, const std::vector<std::size_
                  center_m.x() - half_m, -center_m.y() - half_m, 2 * half_m, 2 * half_m, z_m);
   for (const std::size_t i : places) {
     const Eigen::Vector3d& at_m = map.places_B_m[i];
-    fmt::format_to(out, "<rect x=\"{:.4f}\" y=\"{:.4f}\" width=\"{:.4f}\" height=\"{:.4f}\" fill=\"{}\"/>",
-                   at_m.x() - map.step_m / 2, -at_m.y() - map.step_m / 2, 0.94 * map.step_m,
-                   0.94 * map.step_m, color_of(map.cell.least_m[i]));
+    fmt::format_to(
+        out, "<rect x=\"{:.4f}\" y=\"{:.4f}\" width=\"{:.4f}\" height=\"{:.4f}\" fill=\"{}\"/>",
+        at_m.x() - map.step_m / 2, -at_m.y() - map.step_m / 2, 0.94 * map.step_m, 0.94 * map.step_m,
+        color_of(map.cell.least_m[i]));
   }
   fmt::format_to(out, "</svg><figcaption>z = {:.2f} m</figcaption></figure>", z_m + 0.0);
 }
@@ -63,8 +64,9 @@ std::string detection_section(const DetectionMap& map) {
   for (const std::string& sentence : detection_texts(map)) {
     fmt::format_to(out, "<p>{}</p>\n", html_text(sentence));
   }
-  fmt::format_to(out, "<p class=\"faint keys\">The least ball that is detected, in slices through "
-                      "the reach, seen from above (x to the right, y upwards): ");
+  fmt::format_to(out,
+                 "<p class=\"faint keys\">The least ball that is detected, in slices through "
+                 "the reach, seen from above (x to the right, y upwards): ");
   for (const Shade& shade : kShades) add_key(shade.color, shade.text, out);
   add_key(kNotInView, "no camera has it in view", out);
   fmt::format_to(out, "</p>\n<div class=\"slices\">");

@@ -28,9 +28,7 @@ PageMessage state_message(const char* state, const std::string& error = "") {
 
 PageMessage found_message(const SceneCalibrationData& material,
                           const SceneCalibration& calibration) {
-  const CalibrationReport report{&material.calibration_data, &calibration.found,
-                                 calibration.filters, false, calibration.warnings,
-                                 calibration.attached, calibration.detection};
+  const CalibrationReport report = report_of(material, calibration, false);
   Json cameras = Json::array();
   for (const CameraCalibration& camera : calibration.found.cameras) {
     cameras.push_back({{"name", camera.camera},

@@ -18,9 +18,7 @@ struct CalibrationHandle {
   SceneCalibration calibration;
 
   CalibrationReport report() const {
-    return {&material.calibration_data, &calibration.found, calibration.filters,
-            settings.correct_depth, calibration.warnings,
-            calibration.attached,   calibration.detection};
+    return report_of(material, calibration, settings.correct_depth);
   }
 };
 

@@ -180,8 +180,9 @@ TEST(CalibrationPage, ShowsWhatTheCamerasDetect) {
   report.detection = testing::small_detection_map();
   const Page page(report);
   EXPECT_TRUE(page.has("What the cameras detect"));
-  EXPECT_TRUE(page.has("Of what is in view, 60 mm is detected everywhere; the worst place is (0.20, "
-                       "0.00, 1.00)."));
+  EXPECT_TRUE(
+      page.has("Of what is in view, 60 mm is detected everywhere; the worst place is (0.20, "
+               "0.00, 1.00)."));
   EXPECT_TRUE(page.has("z = 1.00 m"));
 }
 

@@ -82,8 +82,8 @@ class DrawnBalls {
   }
 
   bool has_reading(const std::vector<Frame>& frames, const Eigen::Vector3d& center_B) const {
-    return std::ranges::any_of(
-        frames, [&](const Frame& frame) { return has_reading(frame, center_B); });
+    return std::ranges::any_of(frames,
+                               [&](const Frame& frame) { return has_reading(frame, center_B); });
   }
 
  private:
@@ -140,8 +140,7 @@ TEST(UndetectedBalls, MuchSmallerBallsAreNotTold) {
 DetectionMap map_of_cell() {
   std::vector<DetectionCamera> cameras;
   for (const auto& view : cell_views(cell_robot(), {0, 1, 2}, kCellDetection_m)) {
-    cameras.push_back(
-        {view->camera(), view->settings().self_filter, view->settings().sensor, {}});
+    cameras.push_back({view->camera(), view->settings().self_filter, view->settings().sensor, {}});
   }
   DrawnBalls balls(kCellDetection_m);
   for (int i = 0; i < 10; ++i) {

@@ -62,13 +62,16 @@ TEST(CalibrationTable, SaysWhatIsDetected) {
   EXPECT_TRUE(calibration_table(report).ends_with(
       "detection: Of the places within 0.30 m of (0.00, 0.00, 1.00), the robot's reach, 75 % are "
       "in view of some camera.\n"
-      "detection: Drawn there, balls of 20 mm at 33.3 %, of 40 mm at 66.7 %, of 80 mm at 100.0 % of "
+      "detection: Drawn there, balls of 20 mm at 33.3 %, of 40 mm at 66.7 %, of 80 mm at 100.0 % "
+      "of "
       "these are detected.\n"
-      "detection: Of what is in view, 60 mm is detected everywhere; the worst place is (0.20, 0.00, "
+      "detection: Of what is in view, 60 mm is detected everywhere; the worst place is (0.20, "
+      "0.00, "
       "1.00).\n"));
   report.detection.cell.least_m[1] = std::numeric_limits<double>::infinity();
-  EXPECT_TRUE(says(calibration_table(report), "not even 80 mm is detected everywhere; the worst "
-                                              "place is (0.10, 0.00, 1.00)."));
+  EXPECT_TRUE(says(calibration_table(report),
+                   "not even 80 mm is detected everywhere; the worst "
+                   "place is (0.10, 0.00, 1.00)."));
   report.detection.cell.least_m.assign(4, std::nan(""));
   EXPECT_TRUE(calibration_table(report).ends_with("0 % are in view of some camera.\n"));
 }

@@ -147,7 +147,9 @@ class Measurement {
   void put(std::size_t camera, std::size_t place, const DrawnBall& ball,
            std::vector<BallRoom>& rooms) {
     std::size_t b = 0;
-    while (b < batches_.size() && !(batches_[b].camera == camera && rooms[b].take(cameras_[camera].camera, ball))) ++b;
+    while (b < batches_.size() &&
+           !(batches_[b].camera == camera && rooms[b].take(cameras_[camera].camera, ball)))
+      ++b;
     if (b == batches_.size()) {
       batches_.push_back({camera, {}, {}});
       rooms.emplace_back(cameras_[camera].camera).take(cameras_[camera].camera, ball);
@@ -216,16 +218,13 @@ class Measurement {
   tbb::enumerable_thread_specific<Scratch> scratch_;
 };
 
-/// The first link that a joint moves, with all that hangs on it, by their indices.
-std::vector<std::size_t> moved_links(const RobotModel& model) {
-  std::vector<std::size_t> moved;
-  for (std::size_t i = 0; i < model.links.size(); ++i) {
-    if (model.is_moved(i)) moved.push_back(i);
-  }
-  return moved;
-}
+/// A link that a joint moves, by its index, and the corners of its bounding box; none where it has
+/// no shape.
+struct MovedLink {
+  std::size_t index;
+  std::vector<Eigen::Vector3d> corners_L_m;
+};
 
-/// Of its bounding box; none where it has no triangles.
 std::vector<Eigen::Vector3d> corners_of(const TriangleMesh& mesh) {
   std::vector<Eigen::Vector3d> corners;
   if (mesh.empty()) return corners;
@@ -234,6 +233,14 @@ std::vector<Eigen::Vector3d> corners_of(const TriangleMesh& mesh) {
     corners.push_back(box_m.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
   }
   return corners;
+}
+
+std::vector<MovedLink> moved_links(const RobotModel& model) {
+  std::vector<MovedLink> moved;
+  for (std::size_t i = 0; i < model.links.size(); ++i) {
+    if (model.is_moved(i)) moved.push_back({i, corners_of(model.links[i].mesh_L)});
+  }
+  return moved;
 }
 
 double drawn_position(const MovableJoint& joint, Random& random) {
@@ -246,22 +253,22 @@ double drawn_position(const MovableJoint& joint, Random& random) {
 }  // namespace
 
 RobotReach robot_reach(const RobotModel& model) {
-  const std::vector<std::size_t> moved = moved_links(model);
+  const std::vector<MovedLink> moved = moved_links(model);
   if (moved.empty()) return {};
   Random random;
   RobotPose pose;
   RobotReach reach;
   std::vector<double> positions(model.joints.size(), 0);
   forward_kinematics(model, positions, pose);
-  reach.center_B_m = pose.X_BL[moved.front()].translation();
+  reach.center_B_m = pose.X_BL[moved.front().index].translation();
   for (int draw = 0; draw < kReachDraws; ++draw) {
     for (std::size_t j = 0; j < positions.size(); ++j) {
       positions[j] = drawn_position(model.joints[j], random);
     }
     forward_kinematics(model, positions, pose);
-    for (const std::size_t link : moved) {
-      for (const Eigen::Vector3d& corner_L_m : corners_of(model.links[link].mesh_L)) {
-        const Eigen::Vector3d at_B_m = pose.X_BL[link] * corner_L_m;
+    for (const MovedLink& link : moved) {
+      for (const Eigen::Vector3d& corner_L_m : link.corners_L_m) {
+        const Eigen::Vector3d at_B_m = pose.X_BL[link.index] * corner_L_m;
         reach.radius_m = std::max(reach.radius_m, (at_B_m - reach.center_B_m).norm());
       }
     }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "berth/types/grown_rect.hpp"
+
 namespace berth {
 namespace {
 
@@ -32,10 +34,6 @@ PixelRect pixels_of(const Camera& camera, const Eigen::Vector3d& center_C_m, dou
           static_cast<int>(std::ceil(u_last)) + 1, static_cast<int>(std::ceil(v_last)) + 1};
 }
 
-PixelRect grown(const PixelRect& rect, int by) {
-  return {rect.u_begin - by, rect.v_begin - by, rect.u_end + by, rect.v_end + by};
-}
-
 /// Where a pixel's ray enters the ball, and where it leaves it again; NaN where it misses it.
 struct Chord {
   float front_m;
@@ -46,8 +44,8 @@ Chord chord(const Camera& camera, const DrawnBall& ball, int u, int v) {
   const Eigen::Vector3d ray((u - camera.cx_px) / camera.fx_px, (v - camera.cy_px) / camera.fy_px,
                             1);
   const double a = ray.squaredNorm(), b = ray.dot(ball.center_C_m);
-  const double root = std::sqrt(
-      b * b - a * (ball.center_C_m.squaredNorm() - ball.radius_m * ball.radius_m));
+  const double root =
+      std::sqrt(b * b - a * (ball.center_C_m.squaredNorm() - ball.radius_m * ball.radius_m));
   return {static_cast<float>((b - root) / a), static_cast<float>((b + root) / a)};
 }
 
@@ -67,7 +65,7 @@ bool is_near_robot(const Camera& camera, const RobotImage& robot, const DrawnBal
   constexpr int kStep_px = 3;
   const double z_m = ball.center_C_m.z();
   const int room_px = static_cast<int>(std::ceil(camera.fx_px * kRobotRoom_m / z_m));
-  const PixelRect near = clip(grown(ball.pixels, room_px), camera.width_px, camera.height_px);
+  const PixelRect near = clip(grown_by(ball.pixels, room_px), camera.width_px, camera.height_px);
   for (int v = near.v_begin; v < near.v_end; v += kStep_px) {
     for (int u = near.u_begin; u < near.u_end; u += kStep_px) {
       const LinkId id = robot.link_id(u, v);
@@ -154,7 +152,7 @@ BallRoom::BallRoom(const Camera& camera)
 bool BallRoom::take(const Camera& camera, const DrawnBall& ball) {
   const double room_px = camera.fx_px * kBetweenBalls_m / 2 / ball.center_C_m.z();
   const PixelRect pixels =
-      clip(grown(ball.pixels, static_cast<int>(room_px)), camera.width_px, camera.height_px);
+      clip(grown_by(ball.pixels, static_cast<int>(room_px)), camera.width_px, camera.height_px);
   const auto each_tile = [&](const auto& is_good) {
     for (int v = pixels.v_begin / kTile_px; v <= (pixels.v_end - 1) / kTile_px; ++v) {
       for (int u = pixels.u_begin / kTile_px; u <= (pixels.u_end - 1) / kTile_px; ++u) {

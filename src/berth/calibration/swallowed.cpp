@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "berth/types/grown_rect.hpp"
+
 namespace berth {
 namespace {
 
@@ -49,10 +51,6 @@ bool all_pixels(const PixelRect& rect, const Holds& holds) {
     }
   }
   return true;
-}
-
-PixelRect grown(const PixelRect& rect, int by) {
-  return {rect.u_begin - by, rect.v_begin - by, rect.u_end + by, rect.v_end + by};
 }
 
 bool is_inside(const Camera& camera, const PixelRect& rect) {
@@ -112,7 +110,8 @@ std::vector<Thing> spread(const FilteredCamera& view, double width_m, double len
          u += room_px + camera.fx_px * width_m / depth_m + 0.37) {
       const Thing thing = thing_at(camera, u, v, width_m, length_m, depth_m);
       if (!is_inside(camera, thing.pixels) || !has_background(view, thing)) continue;
-      const PixelRect near = clip(grown(thing.pixels, room_px), camera.width_px, camera.height_px);
+      const PixelRect near =
+          clip(grown_by(thing.pixels, room_px), camera.width_px, camera.height_px);
       if (!all_pixels(near, [&](int a, int b) { return view.robot->link_id(a, b) == kNoLink; })) {
         continue;
       }
@@ -172,12 +171,12 @@ std::vector<Thing> beside(const FilteredCamera& view, double gap_m) {
       const Thing rod =
           thing_at(camera, u + (begins ? -off_px : off_px), v, kRodWidth_m, kFingerLength_m, z_m);
       const int gap_px = static_cast<int>(0.8 * camera.fx_px * gap_m / z_m);
-      const PixelRect near = grown(rod.pixels, gap_px);
+      const PixelRect near = grown_by(rod.pixels, gap_px);
       if (!is_inside(camera, near) || !has_background(view, rod)) continue;
       if (!all_pixels(near, [&](int a, int b) { return view.robot->link_id(a, b) == kNoLink; })) {
         continue;
       }
-      if (!is_apart(grown(rod.pixels, gap_px + kApart_px))) continue;
+      if (!is_apart(grown_by(rod.pixels, gap_px + kApart_px))) continue;
       things.push_back(rod);
     }
   }

@@ -9,6 +9,7 @@
 #include "berth/calibration/detection_map.hpp"
 #include "berth/calibration/filter_settings.hpp"
 #include "berth/fit/calibration_data.hpp"
+#include "berth/scene/calibrate_scene.hpp"
 
 namespace berth {
 
@@ -28,6 +29,11 @@ struct CalibrationReport {
   /// What the cameras detect with the proposed settings; empty where nobody measured it.
   DetectionMap detection = {};
 };
+
+/// Of a scene that was calibrated: it points into `material` and `calibration`, which have to
+/// outlive it.
+CalibrationReport report_of(const SceneCalibrationData& material,
+                            const SceneCalibration& calibration, bool corrects_depth);
 
 /// Images of all cameras that were used.
 int frames_used(const CalibrationReport& report);

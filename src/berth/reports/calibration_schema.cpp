@@ -37,14 +37,13 @@ Json detection_fields() {
 /// By all cameras together.
 Json cell_detection_schema() {
   Json fields = detection_fields();
-  fields.update(
-      {{"worst_at_base_m", told("where that is, in the base frame", three_or_null())},
-       {"places", told("of the robot's reach", count())},
-       {"in_view", told("how many of them some camera has in view", count())},
-       {"step_m", told("from one to the next", number())},
-       {"reach", told("a ball that the moving links stay in",
-                      map_of_all({{"center_base_m", list_of(number(), 3)},
-                                  {"radius_m", number()}}))}});
+  fields.update({{"worst_at_base_m", told("where that is, in the base frame", three_or_null())},
+                 {"places", told("of the robot's reach", count())},
+                 {"in_view", told("how many of them some camera has in view", count())},
+                 {"step_m", told("from one to the next", number())},
+                 {"reach", told("a ball that the moving links stay in",
+                                map_of_all({{"center_base_m", list_of(number(), 3)},
+                                            {"radius_m", number()}}))}});
   return told("the smallest ball that the cameras detect together; null where nobody measured it",
               schema::or_null(map_of_all(fields)));
 }

@@ -138,7 +138,9 @@ std::string smallest_width_text(double width_m) {
 std::vector<std::string> detection_texts(const DetectionMap& map) {
   if (map.empty()) return {};
   const DetectedDiameters& cell = map.cell;
-  const auto percent = [](int part, std::size_t of) { return 100.0 * part / static_cast<double>(of); };
+  const auto percent = [](int part, std::size_t of) {
+    return 100.0 * part / static_cast<double>(of);
+  };
   const Eigen::Vector3d& center_m = map.reach.center_B_m;
   std::vector<std::string> texts{fmt::format(
       "Of the places within {:.2f} m of ({:.2f}, {:.2f}, {:.2f}), the robot's reach, {:.0f} % are "
@@ -155,10 +157,12 @@ std::vector<std::string> detection_texts(const DetectionMap& map) {
   const Eigen::Vector3d& worst_m = map.places_B_m[cell.worst_place()];
   const std::string least =
       std::isinf(cell.worst_m())
-          ? fmt::format("not even {:.0f} mm is detected everywhere", 1000 * kDrawnDiameters_m.back())
+          ? fmt::format("not even {:.0f} mm is detected everywhere",
+                        1000 * kDrawnDiameters_m.back())
           : fmt::format("{:.0f} mm is detected everywhere", 1000 * cell.worst_m());
-  texts.push_back(fmt::format("Of what is in view, {}; the worst place is ({:.2f}, {:.2f}, {:.2f}).",
-                              least, worst_m.x(), worst_m.y(), worst_m.z()));
+  texts.push_back(
+      fmt::format("Of what is in view, {}; the worst place is ({:.2f}, {:.2f}, {:.2f}).", least,
+                  worst_m.x(), worst_m.y(), worst_m.z()));
   return texts;
 }
 

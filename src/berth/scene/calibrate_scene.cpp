@@ -179,9 +179,8 @@ SceneCalibration calibrate_scene(const OpenScene& scene, const SceneCalibrationD
                                                    calibration.filters[c], calibration.watches[c],
                                                    corrects));
   }
-  calibration.detection =
-      measure_detection_of(calibration_data, found, calibration.filters, settings.correct_depth,
-                           settings.fit.pause);
+  calibration.detection = measure_detection_of(calibration_data, found, calibration.filters,
+                                               settings.correct_depth, settings.fit.pause);
   tell_monitor(scene, calibration);
   for (const auto& [joint, offset] : found.joint_offsets) {
     const auto before = scene.joint_offsets.find(joint);

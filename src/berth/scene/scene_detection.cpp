@@ -21,8 +21,8 @@ std::vector<DetectionImage> images_of(CalibratedRobot& calibrated, const RobotMo
     forward_kinematics(model, calibrated.joints(k, CalibrationSide::after)->position, pose);
     const Pose X_BC = pose.X_BL[calibrated.source().parent] * calibrated.found().X_PC;
     const DepthImage& depth_m = frames[k].depth_m;
-    images.push_back({corrects_depth ? corrected(depth_m, calibrated.found().depth) : depth_m,
-                      *robot, X_BC});
+    images.push_back(
+        {corrects_depth ? corrected(depth_m, calibrated.found().depth) : depth_m, *robot, X_BC});
   }
   return images;
 }
@@ -35,7 +35,8 @@ DetectionMap measure_detection_of(const CalibrationData& calibration_data,
                                   const std::function<void()>& pause) {
   std::vector<DetectionCamera> cameras;
   for (std::size_t c = 0; c < filters.size(); ++c) {
-    cameras.push_back({calibration_data.cameras[c]->camera, filters[c].self_filter_settings,
+    cameras.push_back({calibration_data.cameras[c]->camera,
+                       filters[c].self_filter_settings,
                        filters[c].sensor_settings,
                        {}});
     CalibratedRobot calibrated(calibration_data, found, c);

@@ -9,7 +9,8 @@
 
 namespace berth {
 
-/// With the cameras where they were found, and the settings that were proposed. With `corrects_depth` readings are taken as `found` corrects them.
+/// With the cameras where they were found, and the settings that were proposed. With
+/// `corrects_depth` readings are taken as `found` corrects them.
 DetectionMap measure_detection_of(const CalibrationData& calibration_data,
                                   const CalibrationResult& found,
                                   const std::vector<FilterProposal>& filters, bool corrects_depth,

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "berth/types/grown_rect.hpp"
+
 namespace berth {
 namespace {
 
@@ -20,11 +22,6 @@ int gap2_px2(const PixelRect& a, const PixelRect& b) {
   const int du = gap_px(a.u_begin, a.u_end, b.u_begin, b.u_end);
   const int dv = gap_px(a.v_begin, a.v_end, b.v_begin, b.v_end);
   return du * du + dv * dv;
-}
-
-PixelRect grown_by(const PixelRect& rect, int reach_px) {
-  return {rect.u_begin - reach_px, rect.v_begin - reach_px, rect.u_end + reach_px,
-          rect.v_end + reach_px};
 }
 
 /// What two rectangles share.
