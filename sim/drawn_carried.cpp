@@ -6,6 +6,7 @@
 
 #include "berth/robot/primitives.hpp"
 #include "sim/drawn_obstacles.hpp"
+#include "sim/turn_between.hpp"
 
 namespace berth::sim {
 namespace {
@@ -18,7 +19,7 @@ constexpr int kThingsBeside = 4;
 
 /// The rotation whose z axis is `z`.
 Eigen::Matrix3d turned_to(const Eigen::Vector3d& z) {
-  return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), z).toRotationMatrix();
+  return turn_between(Eigen::Vector3d::UnitZ(), z).toRotationMatrix();
 }
 
 double extent_along(const TriangleMesh& mesh, const Eigen::Vector3d& from,

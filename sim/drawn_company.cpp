@@ -7,6 +7,7 @@
 
 #include "berth/robot/primitives.hpp"
 #include "sim/drawn_person.hpp"
+#include "sim/turn_between.hpp"
 
 namespace berth::sim {
 namespace {
@@ -27,7 +28,7 @@ double yaw_of(const Pose& X_BL) { return std::atan2(X_BL(1, 0), X_BL(0, 0)); }
 /// A limb between two points.
 DrawnObstacle limb(const Vector3d& from_B_m, const Vector3d& to_B_m, double radius_m) {
   const Vector3d way_m = to_B_m - from_B_m;
-  Pose X_BO(Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), way_m));
+  Pose X_BO(turn_between(Vector3d::UnitZ(), way_m));
   X_BO.translation() = from_B_m + way_m / 2;
   return {make_cylinder(radius_m, way_m.norm()), X_BO};
 }

@@ -9,6 +9,7 @@
 #include "berth/watch/seen_through.hpp"
 #include "sim/drawn_obstacles.hpp"
 #include "sim/sensor_model.hpp"
+#include "sim/turn_between.hpp"
 
 namespace berth::sim {
 namespace {
@@ -20,7 +21,7 @@ constexpr double kUpperArm_m = 0.30, kForearm_m = 0.35, kLeg_m = 0.85;
 void append_capsule(const Vector3d& from_B_m, const Vector3d& to_B_m, double radius_m,
                     TriangleMesh& out) {
   const Vector3d along_m = to_B_m - from_B_m;
-  const Eigen::Quaterniond turned = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), along_m);
+  const Eigen::Quaterniond turned = turn_between(Vector3d::UnitZ(), along_m);
   out.append(make_sphere(radius_m), Eigen::Affine3d(Eigen::Translation3d(from_B_m)));
   out.append(make_sphere(radius_m), Eigen::Affine3d(Eigen::Translation3d(to_B_m)));
   out.append(make_cylinder(radius_m, along_m.norm()),

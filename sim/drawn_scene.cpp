@@ -11,6 +11,7 @@
 #include "sim/drawn_camera.hpp"
 #include "sim/drawn_obstacles.hpp"
 #include "sim/embree_renderer.hpp"
+#include "sim/turn_between.hpp"
 
 namespace berth::sim {
 namespace {
@@ -145,8 +146,7 @@ void add_room(Random& random, const RobotExtent& robot, const Pose& X_BC,
   obstacles.push_back(box_at({size_m, size_m, kWallThickness_m}, X_BO));
   Eigen::Vector3d away = X_BC.linear().col(2);
   away.z() = 0;
-  X_BO.linear() =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), away).toRotationMatrix();
+  X_BO.linear() = turn_between(Eigen::Vector3d::UnitX(), away).toRotationMatrix();
   X_BO.translation() = robot.centre_B_m + robot.radius_m * random(1.1, 2.5) * away.normalized();
   obstacles.push_back(box_at({kWallThickness_m, size_m, size_m}, X_BO));
 }

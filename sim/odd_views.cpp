@@ -5,6 +5,7 @@
 
 #include "berth/robot/primitives.hpp"
 #include "sim/drawn_camera.hpp"
+#include "sim/turn_between.hpp"
 
 namespace berth::sim {
 namespace {
@@ -85,8 +86,7 @@ class OddViews {
       view.camera.fx_px *= 6;
       view.camera.fy_px *= 6;
       const Eigen::Vector3d to_tip = tip_B - view.X_BC.translation();
-      view.X_BC.linear() =
-          Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), to_tip).toRotationMatrix();
+      view.X_BC.linear() = turn_between(Eigen::Vector3d::UnitZ(), to_tip).toRotationMatrix();
     }
     return recast();
   }

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "sim/drawn_obstacles.hpp"
-#include "tests/distance/plain_distance.hpp"
+#include "tests/support/plain_distance.hpp"
 #include "tests/support/thinned.hpp"
 
 namespace berth::testing {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "tests/distance/mesh_world.hpp"
+#include "tests/support/mesh_world.hpp"
 #include "tests/support/thinned.hpp"
 
 namespace berth::testing {

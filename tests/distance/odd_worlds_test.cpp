@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "berth/robot/primitives.hpp"
-#include "tests/distance/plain_distance.hpp"
+#include "tests/support/plain_distance.hpp"
 #include "tests/support/thinned.hpp"
 
 namespace berth::testing {

@@ -4,7 +4,7 @@
 #include <tbb/global_control.h>
 
 #include "tests/distance/agreement.hpp"
-#include "tests/distance/mesh_world.hpp"
+#include "tests/support/mesh_world.hpp"
 #include "tests/support/only_target.hpp"
 #include "tests/support/thinned.hpp"
 

@@ -1,7 +1,7 @@
 // A program of its own, because allocation_count replaces the global operator new.
 #include <gtest/gtest.h>
 
-#include "tests/distance/mesh_world.hpp"
+#include "tests/support/mesh_world.hpp"
 #include "tests/support/allocation_count.hpp"
 
 namespace berth::testing {

@@ -10,7 +10,7 @@
 
 #include "sim/random.hpp"
 #include "tests/distance/agreement.hpp"
-#include "tests/distance/mesh_world.hpp"
+#include "tests/support/mesh_world.hpp"
 #include "tests/support/thinned.hpp"
 
 namespace berth::testing {

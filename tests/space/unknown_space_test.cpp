@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "tests/distance/plain_distance.hpp"
+#include "tests/support/plain_distance.hpp"
 #include "tests/support/thinned.hpp"
 
 namespace berth::testing {

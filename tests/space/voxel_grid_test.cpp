@@ -6,7 +6,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "tests/distance/plain_distance.hpp"
+#include "tests/support/plain_distance.hpp"
 #include "tests/support/thinned.hpp"
 
 namespace berth::testing {

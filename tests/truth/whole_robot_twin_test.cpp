@@ -11,6 +11,7 @@
 #include "sim/cube_content.hpp"
 #include "sim/drawn_obstacles.hpp"
 #include "sim/odd_views.hpp"
+#include "sim/turn_between.hpp"
 #include "tests/support/thinned.hpp"
 
 namespace berth::sim {
@@ -154,8 +155,7 @@ TEST(WholeRobotTwinOnPaper, ABoxBeforeAWall) {
   // Turned, so that one corner is the nearest point.
   Pose X_BL = Pose::Identity();
   X_BL.linear() =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d(1, 1, 1), Eigen::Vector3d::UnitZ())
-          .toRotationMatrix();
+      turn_between(Eigen::Vector3d(1, 1, 1), Eigen::Vector3d::UnitZ()).toRotationMatrix();
   X_BL.translation().z() = 1;
   const PointSpace space({wall_at(1.5)}, {});
   const TwinDistance twin = twin_distance(make_box({0.2, 0.2, 0.2}), X_BL, space, {});

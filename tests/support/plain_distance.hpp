@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "tests/distance/mesh_world.hpp"
+#include "tests/support/mesh_world.hpp"
 
 namespace berth::testing {
 

@@ -1,4 +1,4 @@
-#include "tests/distance/plain_distance.hpp"
+#include "tests/support/plain_distance.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "tests/distance/mesh_world.hpp"
+#include "tests/support/mesh_world.hpp"
 
 #include <cmath>
 
@@ -6,6 +6,7 @@
 #include "sim/drawn_obstacles.hpp"
 #include "sim/drawn_scene.hpp"
 #include "sim/embree_renderer.hpp"
+#include "sim/turn_between.hpp"
 
 namespace berth::testing {
 namespace {
@@ -36,7 +37,7 @@ MeshWorldView draw_view(sim::Random& random, const MeshWorldSettings& settings) 
   const Eigen::Vector3d away = draw_direction(random);
   const Eigen::Vector3d target_m = 0.2 * draw_direction(random);
   view.X_BC.linear() =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), -away).toRotationMatrix() *
+      sim::turn_between(Eigen::Vector3d::UnitZ(), -away).toRotationMatrix() *
       Eigen::AngleAxisd(random(-3, 3), Eigen::Vector3d::UnitZ()).toRotationMatrix();
   view.X_BC.translation() = target_m + random(0.7, 1.6) * away;
   return view;

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+namespace berth::sim {
+
+/// The shortest turn of `from` onto `to`: Eigen's FromTwoVectors, which takes half a minute to compile, compiled once.
+Eigen::Quaterniond turn_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+
+}  // namespace berth::sim
