@@ -111,31 +111,49 @@ function(berth_program name)
   berth_compile_options(${name} COLD)
 endfunction()
 
-# berth_test(<name> SOURCES ... DEPENDS ... SANITIZE ... [TIMING] [COST ...]): a GoogleTest program, each of its tests one line of
-# ctest. SANITIZE: the presets (asan, tsan) whose thinned run has it: the target asan_thinned and so on, the label in
-# ctest. TIMING: its tests hold the clock against a limit, and run apart, with the label `timing`. COST: about how many seconds
-# its longest test takes, where that is many; ctest begins with these.
+# berth_test(<name> SOURCES ... DEPENDS ... [ASAN] [TSAN <filter>] [TIMING] [COST ...]): a GoogleTest program, each of its tests one
+# line of ctest. ASAN: the thinned run under AddressSanitizer has it. TSAN: the thinned run under ThreadSanitizer has those of
+# its tests in which threads meet, which this filter names. TIMING: its tests hold the clock against a limit, and run apart, with
+# the label `timing`. COST: about how many seconds its longest test takes, where that is many; ctest begins with these.
 function(berth_test name)
-  cmake_parse_arguments(ARG "TIMING" "COST" "SOURCES;DEPENDS;SANITIZE" ${ARGN})
+  cmake_parse_arguments(ARG "ASAN;TIMING" "COST;TSAN" "SOURCES;DEPENDS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_DEPENDS} GTest::gtest_main)
   berth_compile_options(${name} TEST)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
-  foreach(preset ${ARG_SANITIZE})
+  foreach(preset asan tsan)
     if(NOT TARGET ${preset}_thinned)
       add_custom_target(${preset}_thinned)
     endif()
-    add_dependencies(${preset}_thinned ${name})
   endforeach()
-  set(labels ${ARG_SANITIZE})
+  set(labels)
+  if(ARG_ASAN)
+    add_dependencies(asan_thinned ${name})
+    list(APPEND labels asan)
+  endif()
   if(ARG_TIMING)
     list(APPEND labels timing)
   endif()
   if(NOT ARG_COST)
     set(ARG_COST 0)
   endif()
-  list(JOIN labels _ label)  # one word, because gtest_discover_tests takes no list
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 COST ${ARG_COST} LABELS "${label}")
+  set(others "*")
+  if(ARG_TSAN)
+    add_dependencies(tsan_thinned ${name})
+    set(others "-${ARG_TSAN}")
+    berth_discover_tests(${name} "${ARG_TSAN}" tsan ${labels})
+  endif()
+  if(NOT others STREQUAL "-*")
+    berth_discover_tests(${name} "${others}" ${labels})
+  endif()
+endfunction()
+
+# berth_discover_tests(<name> <filter> <label>...): of one program; part of berth_test.
+function(berth_discover_tests name filter)
+  set(label ${ARGN})
+  list(JOIN label _ label)  # one word, because gtest_discover_tests takes no list
+  gtest_discover_tests(${name} TEST_FILTER "${filter}" DISCOVERY_TIMEOUT 60
+                       PROPERTIES TIMEOUT 300 COST ${ARG_COST} LABELS "${label}")
 endfunction()
 
 # berth_vector_code(<target>): its sources compile parts of themselves once for each instruction set (Highway). Vectors without a fixed size (SVE, RVV) cannot be members of
