@@ -20,7 +20,7 @@ endfunction()
 # berth_precompiled_headers(<name> <options> <header>...): what many sources include, read once for all of them, with what nearly
 # all include. GCC 12 takes -O1 or -O3 from these headers, and not from the source's command: each kind of code has its own. Sources
 # that name Highway have none: there GCC 12 took a * b + c for one operation, and ended a search in a crash. No source needs them:
-# the preset `tsan` compiles without.
+# the preset `lint` compiles without.
 function(berth_precompiled_headers name options)
   add_library(${name} OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp)
   target_compile_features(${name} PRIVATE cxx_std_20)

@@ -156,12 +156,12 @@ TEST_P(GlLattices, StepsPassOverAThinObstacleAndCertifyNothing) {
 /// At the thesis's size: in smaller images 5 mm are less than a step.
 TEST_P(GlLattices, AreWithin5MillimetresForNineOfTenLinksWithStepsOf2) {
   CloseShare share;
-  for (std::uint32_t seed = 0; seed < 8; ++seed) {
+  for (std::uint32_t seed = 0; seed < 4; ++seed) {
     const sim::ImagePair images = sim::random_images(seed, 640, 480, 8);
     share.add(answer(Method::exact, images), found(images, {2, 2, 10, 2, 16}));
   }
   std::printf("%d of %d links within 5 mm\n", share.close, share.links);
-  EXPECT_GT(share.links, 50);
+  EXPECT_GT(share.links, 25);
   EXPECT_GE(share.close, 0.9 * share.links);
 }
 
