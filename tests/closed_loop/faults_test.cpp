@@ -27,22 +27,30 @@ double assumed_s() {
 /// From its greatest speed.
 constexpr double kStopping_s = 1.5 / kArmDeceleration_m_s2;
 
-class Faults : public ::testing::TestWithParam<std::tuple<Fault, const char*>> {};
+struct NamedFault {
+  std::string name;
+  Fault fault;
+};
+
+class Faults : public ::testing::TestWithParam<std::tuple<NamedFault, std::string>> {};
 
 TEST_P(Faults, StopTheArmInTime) {
-  const auto [fault, policy] = GetParam();
-  const EncounterResult result = run_with(fault, policy);
+  const auto& [fault, policy] = GetParam();
+  const EncounterResult result = run_with(fault.fault, policy.c_str());
   EXPECT_GT(result.phase_s, 0.5) << "it moved before";
   EXPECT_LE(result.commanded_stop_s, assumed_s());
   EXPECT_LE(result.stopped_s, assumed_s() + kController_s + kStopping_s);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Faults,
-                         ::testing::Combine(::testing::Values(Fault::late_images, Fault::no_images,
-                                                              Fault::covered_camera,
-                                                              Fault::no_joints,
-                                                              Fault::not_a_number),
-                                            ::testing::Values("path", "formula")));
+INSTANTIATE_TEST_SUITE_P(
+    All, Faults,
+    ::testing::Combine(::testing::Values(NamedFault{"late_images", Fault::late_images},
+                                         NamedFault{"no_images", Fault::no_images},
+                                         NamedFault{"covered_camera", Fault::covered_camera},
+                                         NamedFault{"no_joints", Fault::no_joints},
+                                         NamedFault{"not_a_number", Fault::not_a_number}),
+                       ::testing::Values("path", "formula")),
+    [](const auto& test) { return std::get<0>(test.param).name + "_" + std::get<1>(test.param); });
 
 // It is found where the arm is not seen where it should be: not within a frame.
 TEST(OtherFaults, ACameraThatWasBumpedIntoStopsTheArm) {
