@@ -86,17 +86,19 @@ TEST(Calibrate, AStartThatIsNotBetteredIsKeptAndSaysSo) {
 }
 
 TEST(Calibrate, TheClocksOffsetIsFound) {
-  constexpr double kOffset_s = -0.030;
-  DrawnCalibrationData drawn =
-      bundled_arm().draw({.moves = true, .errors = {.clock_offset_s = kOffset_s}}, 1);
-  disturb(drawn, 0.03, 3 * kDegree, 400);
-  const CalibrationResult found = calibrate(drawn.calibration_data);
-  expect_found(drawn, found);
-  EXPECT_NEAR(found.cameras[0].clock_offset_s, kOffset_s, 0.002);
-  EXPECT_LT(found.cameras[0].sigma_clock_s, 0.005);
-  EXPECT_EQ(std::count(found.cameras[0].not_determined.begin(),
-                       found.cameras[0].not_determined.end(), "clock_offset_s"),
-            0);
+  for (const double offset_s : {0.050, -0.030}) {
+    SCOPED_TRACE(offset_s);
+    DrawnCalibrationData drawn =
+        bundled_arm().draw({.moves = true, .errors = {.clock_offset_s = offset_s}}, 1);
+    disturb(drawn, 0.03, 3 * kDegree, 400);
+    const CalibrationResult found = calibrate(drawn.calibration_data);
+    expect_found(drawn, found);
+    EXPECT_NEAR(found.cameras[0].clock_offset_s, offset_s, 0.002);
+    EXPECT_LT(found.cameras[0].sigma_clock_s, 0.005);
+    EXPECT_EQ(std::count(found.cameras[0].not_determined.begin(),
+                         found.cameras[0].not_determined.end(), "clock_offset_s"),
+              0);
+  }
 }
 
 TEST(Calibrate, AnOffsetThatTheSceneHasIsBuiltUpon) {
@@ -140,18 +142,21 @@ TEST(Calibrate, ADepthErrorOfAPercentIsFound) {
 }
 
 TEST(Calibrate, AWrongFocalLengthIsRefusedAndTheRightOneTold) {
-  DrawnCalibrationData drawn = bundled_arm().draw({.width_px = 320, .height_px = 240}, 5);
-  disturb(drawn, 0.03, 3 * kDegree, 700);
-  const double right_px = drawn.camera->camera.fx_px;
-  drawn.camera->camera.fx_px *= 0.9;
-  drawn.camera->camera.fy_px *= 0.9;
-  const CameraCalibration found = calibrate(drawn.calibration_data).cameras[0];
-  EXPECT_FALSE(found.is_found);
-  const std::string before = "with a focal length of ";
-  const std::size_t at = found.refused.find(before);
-  ASSERT_NE(at, std::string::npos) << found.refused;
-  EXPECT_NEAR(std::stod(found.refused.substr(at + before.size())), right_px, 0.04 * right_px)
-      << found.refused;
+  for (const double factor : {0.9, 1.1}) {
+    SCOPED_TRACE(factor);
+    DrawnCalibrationData drawn = bundled_arm().draw({.width_px = 320, .height_px = 240}, 5);
+    disturb(drawn, 0.03, 3 * kDegree, 700);
+    const double right_px = drawn.camera->camera.fx_px;
+    drawn.camera->camera.fx_px *= factor;
+    drawn.camera->camera.fy_px *= factor;
+    const CameraCalibration found = calibrate(drawn.calibration_data).cameras[0];
+    EXPECT_FALSE(found.is_found);
+    const std::string before = "with a focal length of ";
+    const std::size_t at = found.refused.find(before);
+    ASSERT_NE(at, std::string::npos) << found.refused;
+    EXPECT_NEAR(std::stod(found.refused.substr(at + before.size())), right_px, 0.04 * right_px)
+        << found.refused;
+  }
 }
 
 }  // namespace

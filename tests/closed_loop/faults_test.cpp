@@ -1,6 +1,10 @@
 // A fault in each input stops the arm within the time that the protective distance assumes.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <string>
+#include <tuple>
+
 #include "lab/closed_loop/cell.hpp"
 #include "lab/closed_loop/policies.hpp"
 #include "lab/closed_loop/simulation.hpp"
@@ -62,10 +66,12 @@ TEST(OtherFaults, ACameraThatWasBumpedIntoStopsTheArm) {
 TEST(OtherFaults, AControllerThatObeysAsLateAsSaidHitsNobody) {
   SimulationSettings settings;
   settings.fault = Fault::late_controller;
-  const EncounterResult result =
-      simulate(2, *make_supervisor("path", settings.request_hz), settings);
-  EXPECT_EQ(result.contact_m_s, 0);
-  EXPECT_GT(result.least_moving_m, 0.1);
+  for (const char* policy : {"path", "formula"}) {
+    const EncounterResult result =
+        simulate(2, *make_supervisor(policy, settings.request_hz), settings);
+    EXPECT_EQ(result.contact_m_s, 0) << policy;
+    EXPECT_GT(result.least_moving_m, 0.1) << policy;
+  }
 }
 
 // Joint states that say what is not true come in time. The cameras see the arm where it should not
