@@ -49,7 +49,7 @@ class Messages {
   /// Waits until there are more of this kind than before.
   Json after(const std::string& kind, int before) {
     std::unique_lock lock(mutex_);
-    if (!changed_.wait_for(lock, std::chrono::minutes(5), [&] { return count_[kind] > before; })) {
+    if (!changed_.wait_for(lock, std::chrono::minutes(4), [&] { return count_[kind] > before; })) {
       throw std::runtime_error("no " + kind);
     }
     return json_of_message(newest_[kind]);

@@ -7,11 +7,10 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <random>
 
 #include "berth/calibration/drawn_ball.hpp"
 #include "berth/calibration/drawn_image_filter.hpp"
-#include "berth/robot/kinematics.hpp"
+#include "berth/calibration/repeatable_random.hpp"
 
 namespace berth {
 namespace {
@@ -22,18 +21,6 @@ constexpr int kMostDraws = 100;
 constexpr int kEnoughInView = 50;
 constexpr int kLeastInView = 20;
 constexpr double kMostPlaces = 600;
-constexpr int kReachDraws = 1000;
-
-/// The same numbers with every standard library, which its distributions do not give.
-class Random {
- public:
-  double operator()(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine_()) / static_cast<double>(engine_.max());
-  }
-
- private:
-  std::mt19937 engine_{1};
-};
 
 /// A grid over the ball whose cubes have so large an edge that there are not too many.
 void make_places(DetectionMap& map) {
@@ -126,21 +113,26 @@ class Measurement {
       const double half_m = map_.step_m / 2;
       Eigen::Vector3d center_B_m = map_.places_B_m[place];
       for (double& x : center_B_m) x += random_(-half_m, half_m);
-      std::vector<std::optional<DrawnBall>> balls;
-      bool is_possible = true;
-      for (std::size_t c = 0; c < cameras_.size() && is_possible; ++c) {
-        BallPlace found;
-        if (!cameras_[c].images.empty()) {
-          found = ball_at(cameras_[c].camera, image(c, draw), center_B_m, radius_m);
-        }
-        is_possible = found.is_possible;
-        balls.push_back(found.ball);
-      }
-      if (!is_possible) continue;
-      for (std::size_t c = 0; c < cameras_.size(); ++c) {
+      const auto balls = balls_at(center_B_m, draw, radius_m);
+      for (std::size_t c = 0; c < balls.size(); ++c) {
         if (balls[c]) put(c, place, *balls[c], rooms);
       }
     }
+  }
+
+  /// As each camera sees the ball; empty where it cannot be there in one of the images.
+  std::vector<std::optional<DrawnBall>> balls_at(const Eigen::Vector3d& center_B_m, int draw,
+                                                 double radius_m) const {
+    std::vector<std::optional<DrawnBall>> balls;
+    for (std::size_t c = 0; c < cameras_.size(); ++c) {
+      BallPlace found;
+      if (!cameras_[c].images.empty()) {
+        found = ball_at(cameras_[c].camera, image(c, draw), center_B_m, radius_m);
+      }
+      if (!found.is_possible) return {};
+      balls.push_back(found.ball);
+    }
+    return balls;
   }
 
   /// Into the first batch of the camera that has room.
@@ -209,7 +201,7 @@ class Measurement {
 
   const std::vector<DetectionCamera>& cameras_;
   DetectionMap& map_;
-  Random random_;
+  RepeatableRandom random_;
   /// Whether nothing is known yet, by camera and place; behind them those of the cell.
   std::vector<char> is_open_;
   std::vector<Tally> tallies_;
@@ -218,63 +210,7 @@ class Measurement {
   tbb::enumerable_thread_specific<Scratch> scratch_;
 };
 
-/// A link that a joint moves, by its index, and the corners of its bounding box; none where it has
-/// no shape.
-struct MovedLink {
-  std::size_t index;
-  std::vector<Eigen::Vector3d> corners_L_m;
-};
-
-std::vector<Eigen::Vector3d> corners_of(const TriangleMesh& mesh) {
-  std::vector<Eigen::Vector3d> corners;
-  if (mesh.empty()) return corners;
-  const Eigen::AlignedBox3d box_m = mesh.bounding_box_m().cast<double>();
-  for (int i = 0; i < 8; ++i) {
-    corners.push_back(box_m.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
-  }
-  return corners;
-}
-
-std::vector<MovedLink> moved_links(const RobotModel& model) {
-  std::vector<MovedLink> moved;
-  for (std::size_t i = 0; i < model.links.size(); ++i) {
-    if (model.is_moved(i)) moved.push_back({i, corners_of(model.links[i].mesh_L)});
-  }
-  return moved;
-}
-
-double drawn_position(const MovableJoint& joint, Random& random) {
-  if (std::isfinite(joint.lower) && std::isfinite(joint.upper)) {
-    return random(joint.lower, joint.upper);
-  }
-  return joint.type == JointType::prismatic ? 0 : random(-EIGEN_PI, EIGEN_PI);
-}
-
 }  // namespace
-
-RobotReach robot_reach(const RobotModel& model) {
-  const std::vector<MovedLink> moved = moved_links(model);
-  if (moved.empty()) return {};
-  Random random;
-  RobotPose pose;
-  RobotReach reach;
-  std::vector<double> positions(model.joints.size(), 0);
-  forward_kinematics(model, positions, pose);
-  reach.center_B_m = pose.X_BL[moved.front().index].translation();
-  for (int draw = 0; draw < kReachDraws; ++draw) {
-    for (std::size_t j = 0; j < positions.size(); ++j) {
-      positions[j] = drawn_position(model.joints[j], random);
-    }
-    forward_kinematics(model, positions, pose);
-    for (const MovedLink& link : moved) {
-      for (const Eigen::Vector3d& corner_L_m : link.corners_L_m) {
-        const Eigen::Vector3d at_B_m = pose.X_BL[link.index] * corner_L_m;
-        reach.radius_m = std::max(reach.radius_m, (at_B_m - reach.center_B_m).norm());
-      }
-    }
-  }
-  return reach;
-}
 
 int DetectedDiameters::in_view() const {
   return static_cast<int>(

@@ -6,24 +6,13 @@
 #include <functional>
 #include <vector>
 
+#include "berth/calibration/robot_reach.hpp"
 #include "berth/self_filter/settings.hpp"
 #include "berth/sensor/settings.hpp"
 #include "berth/types/camera.hpp"
 #include "berth/types/robot_image.hpp"
 
 namespace berth {
-
-struct RobotModel;
-
-/// A ball in the base frame B that the links stay in that joints move.
-struct RobotReach {
-  Eigen::Vector3d center_B_m = Eigen::Vector3d::Zero();
-  double radius_m = 0;
-};
-
-/// Of joint positions drawn within their limits; without limits, within a turn, and at 0 where it
-/// slides. Radius 0 where no joint moves a link that has a shape.
-RobotReach robot_reach(const RobotModel& model);
 
 /// One image, with the robot and the camera where they were.
 struct DetectionImage {
