@@ -147,8 +147,12 @@ endfunction()
 function(berth_discover_tests name filter)
   set(label ${ARGN})
   list(JOIN label _ label)  # one word, because gtest_discover_tests takes no list
+  set(timeout_s 300)
+  if(CMAKE_CROSSCOMPILING)  # an emulator takes some 15 times as long
+    set(timeout_s 6000)
+  endif()
   gtest_discover_tests(${name} TEST_FILTER "${filter}" DISCOVERY_TIMEOUT 60
-                       PROPERTIES TIMEOUT 300 COST ${ARG_COST} LABELS "${label}")
+                       PROPERTIES TIMEOUT ${timeout_s} COST ${ARG_COST} LABELS "${label}")
 endfunction()
 
 # berth_vector_code(<target>): its sources compile parts of themselves once for each instruction set (Highway). Vectors without a fixed size (SVE, RVV) cannot be members of

@@ -13,6 +13,9 @@ set(flags)
 if(SANITIZE)
   set(flags -DCMAKE_CXX_FLAGS=-fsanitize=${SANITIZE})
 endif()
+if(TOOLCHAIN)
+  list(APPEND flags -DCMAKE_TOOLCHAIN_FILE=${TOOLCHAIN})
+endif()
 run(${CMAKE_COMMAND} -S ${SOURCE}/examples -B ${WORK}/examples -G ${GENERATOR} ${flags}
     -DCMAKE_PREFIX_PATH=${WORK}/installed)
 run(${CMAKE_COMMAND} --build ${WORK}/examples)
@@ -76,7 +79,7 @@ file(WRITE ${WORK}/component/CMakeLists.txt "cmake_minimum_required(VERSION 3.22
 project(berth_component LANGUAGES CXX)
 find_package(berth REQUIRED COMPONENTS vulkan)
 ")
-execute_process(COMMAND ${CMAKE_COMMAND} -S ${WORK}/component -B ${WORK}/component/build -G ${GENERATOR}
+execute_process(COMMAND ${CMAKE_COMMAND} -S ${WORK}/component -B ${WORK}/component/build -G ${GENERATOR} ${flags}
                         -DCMAKE_PREFIX_PATH=${WORK}/installed
                 RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
 if(result EQUAL 0 OR NOT output MATCHES "berth has no component vulkan")
