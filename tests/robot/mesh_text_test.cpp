@@ -205,6 +205,18 @@ TEST(DaeFile, WhatIsNotGeometryIsNotRead) {
   expect_box(read("part.dae", text), {0, 0, 0}, {1, 2, 3});
 }
 
+TEST(DaeFile, MaterialsMayBeMissing) {
+  const std::string binding = R"(<bind_material><technique_common>
+    <instance_material symbol="red" target="#red">
+      <bind_vertex_input semantic="UV" input_semantic="TEXCOORD" input_set="0"/>
+      <bind_material/></instance_material></technique_common></bind_material>)";
+  const std::string node =
+      R"(<node id="n"><instance_geometry url="#shape">)" + binding + "</instance_geometry></node>";
+  std::string text = dae({.nodes = node});
+  text.replace(text.find("<triangles"), 10, R"(<triangles material="red")");
+  expect_box(read("part.dae", text), {0, 0, 0}, {1, 2, 3});
+}
+
 TEST(DaeFile, IsRefusedWithElementAndValue) {
   const std::string shape = R"(<instance_geometry url="#shape"/></node>)";
   const std::vector<std::pair<std::string, std::string>> all{

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <ranges>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -73,6 +74,7 @@ class Guard {
       if (!is_new) array->second = std::min(array->second, count);
     }
     if (name == "visual_scene") scenes_.push_back(node);
+    if (name == "bind_material") bindings_.push_back(node);
     if (const auto id = node.attribute("id"); id && name == "node") {
       if (!by_id_.emplace(id.value(), node).second)
         fail(node,
@@ -163,8 +165,13 @@ class Guard {
     return unfolded(target->second);
   }
 
-  /// Assimp need not look at what berth has no use for.
+  /// Assimp need not look at what berth has no use for. Where a binding names a material that there
+  /// is not, Assimp 5.4 ends the process.
   void remove_all_but_geometry() {
+    // One may stand in another one, which was found before it.
+    for (pugi::xml_node& binding : std::views::reverse(bindings_)) {
+      binding.parent().remove_child(binding);
+    }
     pugi::xml_node root = document_.document_element();
     constexpr std::array<std::string_view, 5> kKept{"asset", "library_geometries", "library_nodes",
                                                     "library_visual_scenes", "scene"};
@@ -182,6 +189,7 @@ class Guard {
   pugi::xml_document document_;
   std::vector<pugi::xml_node> scenes_;
   std::vector<pugi::xml_node> accessors_;
+  std::vector<pugi::xml_node> bindings_;
   std::map<std::string, std::size_t> array_count_;
   std::map<std::string, pugi::xml_node> by_id_;
   std::map<std::size_t, std::size_t> unfolded_;
