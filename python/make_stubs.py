@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Writes berth/_berth.pyi, the types of the module, with mypy's stubgen. --check: says whether it is up to date.
+"""Writes berth/_berth.pyi, the types of the module, with mypy's stubgen. --check: says whether it is up to date, and ends with 77
+where another mypy made it.
 
 The module has to be importable: PYTHONPATH=build/release/python python/make_stubs.py
 """
@@ -9,7 +10,10 @@ import subprocess
 import sys
 import tempfile
 
+from mypy.version import __version__ as mypy_version
+
 STUB = pathlib.Path(__file__).parent / "berth" / "_berth.pyi"
+HEADER = f"# Made by python/make_stubs.py with mypy {mypy_version}."
 # What stubgen cannot know.
 MENDED = [
     (r"_repr_png_: ClassVar\[function\] = \.\.\.", "def _repr_png_(self) -> bytes: ..."),
@@ -34,10 +38,13 @@ def made():
         text = re.sub(pattern, to, text)
     # Private and read-only parts of enums that say nothing.
     lines = [line for line in text.splitlines() if "__entries" not in line]
-    return "# Made by python/make_stubs.py.\n" + "\n".join(lines) + "\n\n__version__: str\n"
+    return HEADER + "\n" + "\n".join(lines) + "\n\n__version__: str\n"
 
 
 if sys.argv[1:] == ["--check"]:
+    if not STUB.read_text().startswith(HEADER + "\n"):
+        print(f"{STUB} was made with another mypy than {mypy_version}")
+        sys.exit(77)
     if STUB.read_text() != made():
         sys.exit(f"{STUB} is not what the module has; run python/make_stubs.py")
 else:

@@ -1,4 +1,4 @@
-# Made by python/make_stubs.py.
+# Made by python/make_stubs.py with mypy 1.0.1.
 from typing import Any, Union, ClassVar, Dict, List, Optional, Tuple, overload
 import numpy.typing
 import os

@@ -152,8 +152,6 @@ def residuals(calibration: berth.Calibration, ax: Optional[Axes] = None) -> Any:
 
 def png(axes: Any) -> bytes:
     """The figure of these axes as a PNG."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-
     out = io.BytesIO()
-    FigureCanvasAgg(axes.figure).print_png(out)
+    axes.figure.savefig(out, format="png")
     return out.getvalue()
