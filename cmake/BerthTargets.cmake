@@ -1,7 +1,13 @@
 # What nobody waits for is compiled in two thirds of the time: arguments, text, pages, tests.
 set(BERTH_COLD $<$<CONFIG:Release>:-O1>)
-# Without contraction of a * b + c all instruction sets compute the same bits.
+# Sources that name Highway compile parts of themselves once for each instruction set. Without contraction of a * b + c all of these compute the same bits.
 set(BERTH_VECTOR -ffp-contract=off)
+# Vectors without a fixed size (SVE, RVV) cannot be members of a struct; such machines use NEON. Processors with SSSE3 and without
+# SSE4 (2006, 2007) use one lane: a tenth of the time to compile.
+set(BERTH_VECTOR_DEFINITIONS "HWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128|HWY_RVV|HWY_SSSE3)")
+if(BERTH_SCALAR)
+  list(APPEND BERTH_VECTOR_DEFINITIONS HWY_COMPILE_ONLY_SCALAR)
+endif()
 # Nor does GCC in other code where each processor has an instruction for a * b + c, so that ARM64 is as near to x86-64 as can be. (Eigen does.)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
   add_compile_options(-ffp-contract=off)
@@ -33,13 +39,11 @@ function(berth_precompiled_headers name options)
     <optional> <span> <stdexcept> <string> <string_view> <utility> <vector> ${ARGN})
 endfunction()
 berth_precompiled_headers(berth_precompiled_hot "")
-berth_precompiled_headers(berth_precompiled_vector "${BERTH_VECTOR}")
 # For those who open scenes and tell of them.
 berth_precompiled_headers(berth_precompiled_cold "${BERTH_COLD}" <berth/scene/scene_run.hpp>)
 
-# berth_compile_options(<target> [HOT | VECTOR | COLD | TEST | OWN]): what all of berth is compiled with. HOT: what a loop
-# waits for. VECTOR: the same with sources that name Highway. COLD: what nobody waits for. TEST: COLD, with GoogleTest. OWN: COLD,
-# with precompiled headers of the target's own.
+# berth_compile_options(<target> [HOT | COLD | TEST | OWN]): what all of berth is compiled with. HOT: what a loop waits for. COLD: what
+# nobody waits for. TEST: COLD, with GoogleTest. OWN: COLD, with precompiled headers of the target's own.
 function(berth_compile_options target)
   set(kind HOT ${ARGN})
   list(GET kind -1 kind)
@@ -48,9 +52,7 @@ function(berth_compile_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor
                          $<$<BOOL:${BERTH_WARNINGS_AS_ERRORS}>:-Werror>)
   berth_sanitize(${target})
-  if(kind STREQUAL "VECTOR")
-    target_compile_options(${target} PRIVATE ${BERTH_VECTOR})
-  elseif(NOT kind STREQUAL "HOT")
+  if(NOT kind STREQUAL "HOT")
     # GCC 12 takes a moved std::string for one that is too short, where std's headers are precompiled.
     target_compile_options(${target} PRIVATE ${BERTH_COLD}
                            $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds -Wno-stringop-overflow -Wno-restrict>)
@@ -58,24 +60,31 @@ function(berth_compile_options target)
   if(kind STREQUAL "OWN")
     return()
   endif()
+  berth_vector_sources(${target})
   target_precompile_headers(${target} REUSE_FROM berth_precompiled_${precompiled})
   # As their owner has it: the definitions, and code for any address, in a program as well. -fpch-preprocess is for ccache.
   target_compile_options(${target} PRIVATE -fPIC $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
   target_compile_definitions(${target} PRIVATE $<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>)
+endfunction()
+
+# berth_vector_sources(<target>): part of berth_compile_options.
+function(berth_vector_sources target)
   get_target_property(sources ${target} SOURCES)
   foreach(source IN LISTS sources)
     file(STRINGS ${source} vectors REGEX "hwy/" LIMIT_COUNT 1)
     if(vectors)
-      set_source_files_properties(${source} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+      set_source_files_properties(${source} PROPERTIES SKIP_PRECOMPILE_HEADERS ON
+                                  COMPILE_OPTIONS "${BERTH_VECTOR}" COMPILE_DEFINITIONS "${BERTH_VECTOR_DEFINITIONS}")
+      target_link_libraries(${target} PRIVATE berth::vector)
     endif()
   endforeach()
 endfunction()
 
-# berth_library(<folder> SOURCES ... DEPENDS ... USES ... [COMPONENT opengl] [COLD | VECTOR]): one target for each folder of src/berth.
+# berth_library(<folder> SOURCES ... DEPENDS ... USES ... [COMPONENT opengl] [COLD]): one target for each folder of src/berth.
 # DEPENDS are libraries that its headers need, USES are those that only its sources need. COMPONENT: users get it only where
 # they ask find_package for it.
 function(berth_library folder)
-  cmake_parse_arguments(ARG "COLD;VECTOR" "COMPONENT" "SOURCES;DEPENDS;USES" ${ARGN})
+  cmake_parse_arguments(ARG "COLD" "COMPONENT" "SOURCES;DEPENDS;USES" ${ARGN})
   add_library(berth_${folder} ${ARG_SOURCES})
   add_library(berth::${folder} ALIAS berth_${folder})
   set_target_properties(berth_${folder} PROPERTIES EXPORT_NAME ${folder} VERSION ${PROJECT_VERSION}
@@ -85,9 +94,6 @@ function(berth_library folder)
   target_link_libraries(berth_${folder} PUBLIC ${ARG_DEPENDS} PRIVATE ${ARG_USES})
   if(ARG_COLD)
     berth_compile_options(berth_${folder} COLD)
-  elseif(ARG_VECTOR)
-    berth_compile_options(berth_${folder} VECTOR)
-    berth_vector_code(berth_${folder})
   else()
     berth_compile_options(berth_${folder})
   endif()
@@ -153,13 +159,4 @@ function(berth_discover_tests name filter)
   endif()
   gtest_discover_tests(${name} TEST_FILTER "${filter}" DISCOVERY_TIMEOUT 60
                        PROPERTIES TIMEOUT ${timeout_s} COST ${ARG_COST} LABELS "${label}")
-endfunction()
-
-# berth_vector_code(<target>): its sources compile parts of themselves once for each instruction set (Highway). Vectors without a fixed size (SVE, RVV) cannot be members of
-# a struct; such machines use NEON. Processors with SSSE3 and without SSE4 (2006, 2007) use one lane: a tenth of the time to compile.
-function(berth_vector_code target)
-  target_link_libraries(${target} PRIVATE berth::vector)
-  target_compile_definitions(${target} PRIVATE
-    "HWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128|HWY_RVV|HWY_SSSE3)"
-    $<$<BOOL:${BERTH_SCALAR}>:HWY_COMPILE_ONLY_SCALAR>)
 endfunction()

@@ -13,8 +13,11 @@
 #include "berth/distance/nearest_point-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace berth::mesh {
+namespace berth::testing {
 namespace HWY_NAMESPACE {
+
+using namespace mesh;
+using namespace mesh::HWY_NAMESPACE;
 
 CubeCorners corners_from(const std::array<float, 8>& squared_m2) {
   CubeCorners corners;
@@ -23,7 +26,7 @@ CubeCorners corners_from(const std::array<float, 8>& squared_m2) {
 }
 
 void points(const LinkPatches& link, float error_m, int hint, float slack_m, int count,
-            const Eigen::Vector3f* p_L_m, testing::PointBounds* out) {
+            const Eigen::Vector3f* p_L_m, PointBounds* out) {
   NearPoints near;
   near.count = count;
   std::copy_n(p_L_m, count, near.p_L_m);
@@ -60,11 +63,11 @@ void within(const std::array<float, 8>& squared_m2, float edge_m, const std::arr
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace berth::mesh
+}  // namespace berth::testing
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace berth::mesh {
+namespace berth::testing {
 
 HWY_EXPORT(points);
 HWY_EXPORT(by_field);
@@ -73,41 +76,31 @@ HWY_EXPORT(whole);
 HWY_EXPORT(centre);
 HWY_EXPORT(within);
 
-}  // namespace berth::mesh
-
-namespace berth::testing {
-
 void bound_points(const LinkPatches& link, float error_m, int hint, float slack_m, int count,
                   const Eigen::Vector3f* p_L_m, PointBounds* out) {
-  using namespace mesh;
   HWY_DYNAMIC_DISPATCH(points)(link, error_m, hint, slack_m, count, p_L_m, out);
 }
 
 float bound_by_field_m2(const LinkPatches& link, float error_m, int hint, float distance_m,
                         const Eigen::Vector3f& p_L_m) {
-  using namespace mesh;
   return HWY_DYNAMIC_DISPATCH(by_field)(link, error_m, hint, distance_m, p_L_m);
 }
 
 void bound_cube_children(const std::array<float, 8>& squared_m2, float edge_m,
                          std::array<float, 64>& out_m) {
-  using namespace mesh;
   HWY_DYNAMIC_DISPATCH(children)(squared_m2, edge_m, out_m);
 }
 
 float bound_cube(const std::array<float, 8>& squared_m2, float edge_m) {
-  using namespace mesh;
   return HWY_DYNAMIC_DISPATCH(whole)(squared_m2, edge_m);
 }
 
 float bound_cube_centre(const std::array<float, 8>& squared_m2, float edge_m) {
-  using namespace mesh;
   return HWY_DYNAMIC_DISPATCH(centre)(squared_m2, edge_m);
 }
 
 std::array<float, 8> bound_corners_within(const std::array<float, 8>& squared_m2, float edge_m,
                                           const std::array<float, 3>& t, float part) {
-  using namespace mesh;
   std::array<float, 8> out;
   HWY_DYNAMIC_DISPATCH(within)(squared_m2, edge_m, t, part, out);
   return out;
