@@ -1,6 +1,6 @@
 # What nobody waits for is compiled in two thirds of the time: arguments, text, pages, tests.
 set(BERTH_COLD $<$<CONFIG:Release>:-O1>)
-# Sources that name Highway compile parts of themselves once for each instruction set. Without contraction of a * b + c all of these compute the same bits.
+# Sources that name Highway, or a header that does, compile parts of themselves once for each instruction set. Without contraction of a * b + c all of these compute the same bits.
 set(BERTH_VECTOR -ffp-contract=off)
 # Vectors without a fixed size (SVE, RVV) cannot be members of a struct; such machines use NEON. Processors with SSSE3 and without
 # SSE4 (2006, 2007) use one lane: a tenth of the time to compile.
@@ -71,7 +71,7 @@ endfunction()
 function(berth_vector_sources target)
   get_target_property(sources ${target} SOURCES)
   foreach(source IN LISTS sources)
-    file(STRINGS ${source} vectors REGEX "hwy/" LIMIT_COUNT 1)
+    file(STRINGS ${source} vectors REGEX "hwy/|-inl.hpp" LIMIT_COUNT 1)
     if(vectors)
       set_source_files_properties(${source} PROPERTIES SKIP_PRECOMPILE_HEADERS ON
                                   COMPILE_OPTIONS "${BERTH_VECTOR}" COMPILE_DEFINITIONS "${BERTH_VECTOR_DEFINITIONS}")
