@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Builds all for ARM64 and runs the tests in qemu. For scripts/bare.sh: it adds the architecture to the system that it runs in.
+# Builds all for ARM64 and runs the tests in qemu, with these options of ctest. For scripts/bare.sh: it adds the architecture to the
+# system that it runs in.
 set -euo pipefail
 cd "$(dirname "$0")"
 dpkg --add-architecture arm64
@@ -17,4 +18,4 @@ fi
 cd ..
 cmake --preset arm64
 cmake --build --preset arm64
-ctest --preset arm64 -j2
+ctest --preset arm64 -j2 "$@"
