@@ -45,10 +45,10 @@ Comparison compare(const RobotImage& image, const CastRay& twin) {
         result.wrong.push_back({u, v});
       } else if (same(expected, found, kDepthTolerance)) {
         continue;
-      } else if (is_edge(twin, expected, u, v)) {
-        ++result.at_edges;
       } else if (is_tie(expected, found)) {
         ++result.ties;
+      } else if (is_edge(twin, expected, u, v)) {
+        ++result.at_edges;
       } else {
         result.wrong.push_back({u, v});
       }

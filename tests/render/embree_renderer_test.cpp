@@ -58,7 +58,8 @@ void expect_agreement(const RobotModel& model, std::uint32_t seed) {
   testing::Test::RecordProperty("robot_pixels", sum.robot_pixels);
   EXPECT_GT(sum.robot_pixels, 10000);
   EXPECT_LE(sum.at_edges, sum.robot_pixels / 1000);
-  EXPECT_LE(sum.ties, sum.robot_pixels / 1000);
+  // Two links of WidowX have a surface in one place, which fills 7 % of some images.
+  EXPECT_LE(sum.ties, sum.robot_pixels / 10);
 }
 
 TEST(RendererAndEmbree, AgreeOnTheBundledRobot) {
