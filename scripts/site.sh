@@ -13,9 +13,11 @@ done
 PYTHONPATH=build/release/python /usr/bin/python3 -B -m sphinx -q -E -W --keep-going -c docs/site -d build/site_cache build/site_pages build/site
 cp -r build/docs/html build/site/api/cpp
 cp -r data/schema build/site/
-# Debian's furo expects it from a server.
-cp /usr/share/nodejs/normalize.css/normalize.css build/site/_static/styles/
-sed -i 's,url(/javascript/normalize.css/,url(,' build/site/_static/styles/furo.css
+# The furo of Debian 12 expects it from a server; that of Debian 13 has it.
+if grep -q 'url(/javascript/normalize.css/' build/site/_static/styles/furo.css; then
+  cp /usr/share/nodejs/normalize.css/normalize.css build/site/_static/styles/
+  sed -i 's,url(/javascript/normalize.css/,url(,' build/site/_static/styles/furo.css
+fi
 cp build/site/README.html build/site/index.html
 # Sphinx has looked at links between the documents' pages. This looks at all that pages name.
 /usr/bin/python3 -B docs/site/links.py build/site
