@@ -1,6 +1,7 @@
 # What nobody waits for is compiled in two thirds of the time: arguments, text, pages, tests.
 set(BERTH_COLD $<$<CONFIG:Release>:-O1>)
-# Sources that name Highway, or a header that does, compile parts of themselves once for each instruction set. Without contraction of a * b + c all of these compute the same bits.
+# Sources that name Highway, or a header that does, compile parts of themselves once for each instruction set. Without contraction of
+# a * b + c all of these compute the same bits.
 set(BERTH_VECTOR -ffp-contract=off)
 # Vectors without a fixed size (SVE, RVV) cannot be members of a struct; such machines use NEON. Processors with SSSE3 and without
 # SSE4 (2006, 2007) use one lane: a tenth of the time to compile.
@@ -70,14 +71,18 @@ endfunction()
 # berth_vector_sources(<target>): part of berth_compile_options.
 function(berth_vector_sources target)
   get_target_property(sources ${target} SOURCES)
+  set(vector_sources)
   foreach(source IN LISTS sources)
     file(STRINGS ${source} vectors REGEX "hwy/|-inl.hpp" LIMIT_COUNT 1)
     if(vectors)
-      set_source_files_properties(${source} PROPERTIES SKIP_PRECOMPILE_HEADERS ON
-                                  COMPILE_OPTIONS "${BERTH_VECTOR}" COMPILE_DEFINITIONS "${BERTH_VECTOR_DEFINITIONS}")
-      target_link_libraries(${target} PRIVATE berth::vector)
+      list(APPEND vector_sources ${source})
     endif()
   endforeach()
+  if(vector_sources)
+    set_source_files_properties(${vector_sources} PROPERTIES SKIP_PRECOMPILE_HEADERS ON
+                                COMPILE_OPTIONS "${BERTH_VECTOR}" COMPILE_DEFINITIONS "${BERTH_VECTOR_DEFINITIONS}")
+    target_link_libraries(${target} PRIVATE berth::vector)
+  endif()
 endfunction()
 
 # berth_library(<folder> SOURCES ... DEPENDS ... USES ... [COMPONENT opengl] [COLD]): one target for each folder of src/berth.
@@ -149,14 +154,17 @@ function(berth_test name)
   endif()
 endfunction()
 
+# How many times as long a test may take. An emulator takes 50 to 150 times as long, and no test needs the time that it has.
+set(BERTH_TEST_PATIENCE 1)
+if(CMAKE_CROSSCOMPILING)
+  set(BERTH_TEST_PATIENCE 20)
+endif()
+
 # berth_discover_tests(<name> <filter> <label>...): of one program; part of berth_test.
 function(berth_discover_tests name filter)
   set(label ${ARGN})
   list(JOIN label _ label)  # one word, because gtest_discover_tests takes no list
-  set(timeout_s 300)
-  if(CMAKE_CROSSCOMPILING)  # an emulator takes some 15 times as long
-    set(timeout_s 6000)
-  endif()
+  math(EXPR timeout_s "300 * ${BERTH_TEST_PATIENCE}")
   gtest_discover_tests(${name} TEST_FILTER "${filter}" DISCOVERY_TIMEOUT 60
                        PROPERTIES TIMEOUT ${timeout_s} COST ${ARG_COST} LABELS "${label}")
 endfunction()

@@ -33,7 +33,7 @@ Eigen::AlignedBox3d box_B_m(const RobotModel& model, const RobotPose& pose) {
 }
 
 /// Random joints; the camera stands around the robot, near it, and inside.
-void expect_agreement(const RobotModel& model, std::uint32_t seed) {
+void expect_agreement(const RobotModel& model, std::uint32_t seed, double most_ties = 0.001) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> angle_rad(-1.5, 1.5);
   Comparison sum;
@@ -58,8 +58,7 @@ void expect_agreement(const RobotModel& model, std::uint32_t seed) {
   testing::Test::RecordProperty("robot_pixels", sum.robot_pixels);
   EXPECT_GT(sum.robot_pixels, 10000);
   EXPECT_LE(sum.at_edges, sum.robot_pixels / 1000);
-  // Two links of WidowX have a surface in one place, which fills 7 % of some images.
-  EXPECT_LE(sum.ties, sum.robot_pixels / 10);
+  EXPECT_LE(sum.ties, most_ties * sum.robot_pixels);
 }
 
 TEST(RendererAndEmbree, AgreeOnTheBundledRobot) {
@@ -73,7 +72,9 @@ class RendererAndEmbreeOn : public testing::TestWithParam<const char*> {};
 TEST_P(RendererAndEmbreeOn, Agree) {
   const auto urdf = data_folder() / "robots" / GetParam();
   if (!std::filesystem::exists(urdf)) GTEST_SKIP() << "no " << urdf << "; set BERTH_DATA";
-  expect_agreement(load_robot({.urdf = urdf}), 2);
+  // Two links of WidowX have a surface in one place, which fills 7 % of some images.
+  const bool has_ties = urdf.filename() == "widowx.urdf";
+  expect_agreement(load_robot({.urdf = urdf}), 2, has_ties ? 0.1 : 0.001);
 }
 
 INSTANTIATE_TEST_SUITE_P(Data, RendererAndEmbreeOn,
