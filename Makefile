@@ -161,7 +161,7 @@ wheel:
 test-debian13:
 	scripts/bare.sh trixie 'apt-get install -qq --no-install-recommends make; make test'
 
-# Cross-built for ARM64 in a bare Debian 12; the tests run in qemu, all but those that hold the clock against a limit: most of a day.
+# Cross-built for ARM64 in a bare Debian 12; the tests run in qemu, with a tenth of the random cases, all but those that hold the clock against a limit: hours.
 # TEST_OPTIONS: of ctest, such as "-R ^Robot".
 test-arm64:
 	scripts/bare.sh bookworm 'scripts/test_arm64.sh $(TEST_OPTIONS)'

@@ -2,8 +2,8 @@
 
 namespace berth {
 
-/// How many of `count` random cases a test runs: all, or a tenth under a sanitizer or with vector
-/// code for one lane (BERTH_SCALAR), which make them up to ten times as slow.
+/// How many of `count` random cases a test runs: all, or a tenth where they are ten to a hundred
+/// times as slow: under a sanitizer, with vector code for one lane (BERTH_SCALAR), in an emulator.
 template <class Count>
 constexpr Count thinned(Count count) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || defined(BERTH_THINNED)
