@@ -24,9 +24,9 @@ bool ask(const AttachedPart& part) {
 
 }  // namespace
 
-std::function<bool(const AttachedPart&)> attached_question(AttachedChoice choice,
-                                                           const ProgressBar& progress) {
-  return [choice, &progress](const AttachedPart& part) {
+std::function<bool(const AttachedPart&, const CalibrationResult&)> attached_question(
+    AttachedChoice choice, const ProgressBar& progress) {
+  return [choice, &progress](const AttachedPart& part, const CalibrationResult&) {
     if (choice != AttachedChoice::ask) return choice == AttachedChoice::yes;
     progress.clear();
     return ask(part);

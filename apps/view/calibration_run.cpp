@@ -4,9 +4,9 @@
 #include <exception>
 #include <utility>
 
+#include "apps/view/part_pictures.hpp"
 #include "berth/reports/calibration_table.hpp"
 #include "berth/reports/calibration_words.hpp"
-#include "berth/scene/calibrate_scene.hpp"
 
 namespace berth::app {
 namespace {
@@ -24,6 +24,22 @@ Json spread_json(const ResidualSpread& spread) {
 
 PageMessage state_message(const char* state, const std::string& error = "") {
   return json_message({{"type", "calibration_data"}, {"state", state}, {"error", error}});
+}
+
+PageMessage question_message(const AttachedPart& part, const std::vector<PartPicture>& pictures) {
+  Json entries = Json::array();
+  std::vector<std::span<const std::byte>> arrays;
+  for (const PartPicture& one : pictures) {
+    entries.push_back({{"camera", one.camera}, {"frame", one.frame}, {"bytes", one.png.size()}});
+    arrays.push_back(std::as_bytes(std::span(one.png)));
+  }
+  return binary_message({{"type", "calibration_data"},
+                         {"state", "asks"},
+                         {"error", ""},
+                         {"part", part.name},
+                         {"question", attached_text(part)},
+                         {"pictures", entries}},
+                        arrays);
 }
 
 PageMessage found_message(const SceneCalibrationData& material,
@@ -51,7 +67,11 @@ CalibrationRun::CalibrationRun(Publish publish) : publish_(std::move(publish)) {
 }
 
 CalibrationRun::~CalibrationRun() {
-  is_stopped_ = true;
+  {
+    const std::scoped_lock lock(mutex_);
+    is_stopped_ = true;
+  }
+  answered_.notify_all();
   if (thread_.joinable()) thread_.join();
 }
 
@@ -67,15 +87,27 @@ void CalibrationRun::start(std::shared_ptr<const OpenScene> scene) {
   });
 }
 
-void CalibrationRun::drop() {
-  const std::scoped_lock lock(mutex_);
-  is_stopped_ = true;
-  found_.reset();
-  publish_("calibration_data", state_message("none"));
+void CalibrationRun::answer(const std::string& part, bool is_taken) {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (part != asked_) return;
+    answer_ = is_taken;
+  }
+  answered_.notify_all();
 }
 
-std::optional<SceneChange> CalibrationRun::take() {
-  std::optional<SceneChange> found;
+void CalibrationRun::drop() {
+  {
+    const std::scoped_lock lock(mutex_);
+    is_stopped_ = true;
+    found_.reset();
+    publish_("calibration_data", state_message("none"));
+  }
+  answered_.notify_all();
+}
+
+std::optional<SceneCalibration> CalibrationRun::take() {
+  std::optional<SceneCalibration> found;
   {
     const std::scoped_lock lock(mutex_);
     found = std::exchange(found_, std::nullopt);
@@ -91,11 +123,14 @@ void CalibrationRun::run(const OpenScene& scene) {
       if (is_stopped_) throw CalibrationStopped{};
     };
     const SceneCalibrationData material = make_calibration_data(scene);
+    settings.takes_part = [&](const AttachedPart& part, const CalibrationResult& found) {
+      return ask(material, part, found);
+    };
     SceneCalibration calibration = calibrate_scene(scene, material, settings);
     const PageMessage message = found_message(material, calibration);
     const std::scoped_lock lock(mutex_);
     if (is_stopped_) return;
-    found_ = std::move(calibration.change);
+    found_ = std::move(calibration);
     publish_("calibration_data", message);
   } catch (const CalibrationStopped&) {
     return;
@@ -103,6 +138,22 @@ void CalibrationRun::run(const OpenScene& scene) {
     const std::scoped_lock lock(mutex_);
     if (!is_stopped_) publish_("calibration_data", state_message("failed", error.what()));
   }
+}
+
+bool CalibrationRun::ask(const SceneCalibrationData& material, const AttachedPart& part,
+                         const CalibrationResult& found) {
+  const PageMessage question =
+      question_message(part, part_pictures(material.calibration_data, found, part));
+  std::unique_lock lock(mutex_);
+  if (is_stopped_) throw CalibrationStopped{};
+  asked_ = part.name;
+  answer_.reset();
+  publish_("calibration_data", question);
+  answered_.wait(lock, [this] { return is_stopped_ || answer_; });
+  asked_.clear();
+  if (is_stopped_) throw CalibrationStopped{};
+  publish_("calibration_data", state_message("runs"));
+  return *answer_;
 }
 
 }  // namespace berth::app

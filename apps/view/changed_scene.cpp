@@ -7,6 +7,7 @@
 
 #include "berth/files/error.hpp"
 #include "berth/files/file_bytes.hpp"
+#include "berth/scene/attach_parts.hpp"
 
 namespace berth::app {
 namespace {
@@ -45,6 +46,11 @@ void require_file_name(const std::string& name) {
       name));
 }
 
+void require_nothing_at(const fs::path& file) {
+  if (fs::symlink_status(file).type() == fs::file_type::not_found) return;
+  throw std::runtime_error(fmt::format("{}: is there already; expected a new name", file.string()));
+}
+
 }  // namespace
 
 ChangedScene::ChangedScene(const fs::path& file)
@@ -76,7 +82,13 @@ void ChangedScene::set_pose(std::size_t camera, const std::optional<Pose>& X_PC)
   take(std::move(change));
 }
 
-void ChangedScene::add(const SceneChange& more) {
+std::vector<Attachment> ChangedScene::carried() const {
+  std::vector<Attachment> attached;
+  for (const AttachedPart& part : carried_.parts) attached.push_back(attachment_of(part));
+  return attached;
+}
+
+void ChangedScene::add(const SceneChange& more, const AttachedParts& parts) {
   SceneChange change = change_;
   for (const SceneCameraChange& from : more.cameras) {
     const auto named = [&](const SceneCamera& one) { return one.name == from.camera; };
@@ -93,19 +105,24 @@ void ChangedScene::add(const SceneChange& more) {
   }
   for (const auto& [joint, offset] : more.joint_offsets) change.joint_offsets[joint] = offset;
   take(std::move(change));
+  std::ranges::copy_if(parts.parts, std::back_inserter(carried_.parts), &AttachedPart::is_taken);
 }
 
-void ChangedScene::reset() { take({}); }
+void ChangedScene::reset() {
+  take({});
+  carried_ = {};
+}
 
 fs::path ChangedScene::save(const fs::path& folder, const std::string& name) const {
   require_file_name(name);
   const fs::path file = folder / name;
-  if (fs::symlink_status(file).type() != fs::file_type::not_found) {
-    throw std::runtime_error(
-        fmt::format("{}: is there already; expected a new name", file.string()));
-  }
+  require_nothing_at(file);
+  for (const AttachedPart& part : carried_.parts) require_nothing_at(attached_file(file, part));
   require_same_file();
-  write_rewritten_scene(file_, change_, file);
+  SceneChange change = change_;
+  attach_parts(file_, carried_, file, change);
+  write_attached_parts(carried_, file);
+  write_rewritten_scene(file_, change, file);
   return file;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "berth/calibration/attached_parts.hpp"
 #include "berth/scene/rewrite_scene.hpp"
 #include "berth/scene/scene_file.hpp"
 
@@ -22,6 +23,8 @@ class ChangedScene {
   const SceneFile& now() const { return now_; }
   /// What save() writes.
   const SceneChange& change() const { return change_; }
+  /// What the robot carries besides what the file names.
+  std::vector<Attachment> carried() const;
 
   // Each of these throws std::runtime_error with the setting, the value and what was expected, and
   // then leaves all as it was.
@@ -32,14 +35,15 @@ class ChangedScene {
            const std::optional<std::string>& text);
   /// Without a pose it is as in the file again.
   void set_pose(std::size_t camera, const std::optional<Pose>& X_PC);
-  /// Puts these changes over those that are there.
-  void add(const SceneChange& change);
+  /// Puts these changes over those that are there, and those of the parts that are taken on the
+  /// robot.
+  void add(const SceneChange& change, const AttachedParts& parts = {});
   /// All as in the file again.
   void reset();
 
-  /// Writes the scene with its changes to a new file of this name in `folder`, and returns its
-  /// path. Throws for a name that is no plain one of a .yaml file, and where something of this name
-  /// is there.
+  /// Writes the scene with its changes to a new file of this name in `folder`, with the meshes of
+  /// what is carried beside it, and returns its path. Throws for a name that is no plain one of a
+  /// .yaml file, and where something of these names is there.
   std::filesystem::path save(const std::filesystem::path& folder, const std::string& name) const;
 
  private:
@@ -53,6 +57,7 @@ class ChangedScene {
   SceneFile original_;
   SceneFile now_;
   SceneChange change_;
+  AttachedParts carried_;
 };
 
 }  // namespace berth::app

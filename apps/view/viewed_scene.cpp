@@ -110,8 +110,7 @@ ViewedScene::ViewedScene(const fs::path& file, fs::path folder, Publish publish,
                   wake_.notify_one();
                 }),
       data_(publish_) {
-  publish_("scene", scene_message(*scene_, shown_->steps(), note_of(changed_.original())));
-  publish_("mesh", mesh_message(scene_->robot->model()));
+  publish_robot();
   publish_("settings", settings_message(changed_));
   show(first_step_of_all(shown_->steps(), scene_->cameras.size()));
   timeline_.start(scene_);
@@ -180,10 +179,13 @@ void ViewedScene::carry_out(const Request& request) {
   if (what == "space") return show_space(request.at("on").get<bool>());
   if (what == "reset") return change([](ChangedScene& scene) { scene.reset(); });
   if (what == "calibration_data") return data_.start(scene_);
+  if (what == "answer_calibration_data") {
+    return data_.answer(request.at("part").get<std::string>(), request.at("is_taken").get<bool>());
+  }
   if (what == "drop_calibration_data") return data_.drop();
   if (what == "take_calibration_data") {
     if (const auto found = data_.take()) {
-      change([&](ChangedScene& scene) { scene.add(*found); });
+      change([&](ChangedScene& scene) { scene.add(found->change, found->attached); });
     }
     return;
   }
@@ -198,13 +200,16 @@ void ViewedScene::change(const std::function<void(ChangedScene&)>& change) {
   ChangedScene changed = changed_;
   try {
     change(changed);
-    auto scene = std::make_shared<const OpenScene>(reopen_scene(*scene_, as_mesh(changed.now())));
+    auto scene = std::make_shared<const OpenScene>(
+        reopen_scene(*scene_, as_mesh(changed.now()), changed.carried()));
     auto shown = std::make_unique<SceneRun>(*scene, SceneRun::SingleSteps{});
     changed_ = std::move(changed);
     shown_ = std::move(shown);
     shown_scene_ = scene;
+    const bool carries_other = scene->robot->attached().size() != scene_->robot->attached().size();
     scene_ = std::move(scene);
     timeline_.stop();
+    if (carries_other) publish_robot();
     show(step_);
     timeline_.start(scene_);
   } catch (...) {
@@ -215,6 +220,11 @@ void ViewedScene::change(const std::function<void(ChangedScene&)>& change) {
   publish_("settings", settings_message(changed_));
   // What was refused before holds no longer.
   tell(false, "");
+}
+
+void ViewedScene::publish_robot() {
+  publish_("scene", scene_message(*scene_, shown_->steps(), note_of(changed_.original())));
+  publish_("mesh", mesh_message(scene_->robot->model()));
 }
 
 void ViewedScene::set(const Request& request) {

@@ -33,6 +33,7 @@ namespace berth::app {
 ///     {"do": "pose", "camera": 0, "xyz_m": [0, 0, 1], "rpy_rad": [0, 0, 0]}
 ///     {"do": "space", "on": true}
 ///     {"do": "save", "name": "mine.yaml"}
+///     {"do": "answer_calibration_data", "part": "link_7_attached", "is_taken": true}
 ///     {"do": "reset"}, {"do": "calibration_data"}, {"do": "drop_calibration_data"}, {"do":
 ///     "take_calibration_data"}
 ///
@@ -66,6 +67,8 @@ class ViewedScene {
   void change(const std::function<void(ChangedScene&)>& change);
   void set(const Request& request);
   void set_pose(const Request& request);
+  /// What stays as it is while the robot carries the same.
+  void publish_robot();
   void show(std::size_t step);
   /// Publishes the images that the pages have not.
   void publish_images();

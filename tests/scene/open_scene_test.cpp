@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "berth/robot/primitives.hpp"
 #include "berth/scene/learn_background.hpp"
 #include "tests/support/error_message.hpp"
 #include "tests/support/same_bits.hpp"
@@ -158,6 +159,28 @@ TEST(ReopenedScene, IsThatOfTheChangedFile) {
   EXPECT_EQ(scene.robot->settings(), expected.robot->settings());
   EXPECT_EQ(position_of(scene), position_of(expected));
   EXPECT_EQ(scene.joint_offsets, expected.joint_offsets);
+}
+
+TEST(ReopenedScene, CarriesWhatItIsToldTo) {
+  SceneFile file = bundled_file();
+  SceneAttachment& box = file.attached.emplace_back();
+  box.link = "arm_link_3";
+  box.name = "box";
+  box.box_m = {0.1, 0.1, 0.1};
+  const OpenScene before = open_scene(file);
+  const std::vector<Attachment> carried = {
+      {"ball", "arm_link_7", make_sphere(0.05), Pose::Identity(), true}};
+  const OpenScene carries = reopen_scene(before, file, carried);
+  const auto names = [](const OpenScene& scene) {
+    std::vector<std::string> all;
+    for (const Attachment& one : scene.robot->attached()) all.push_back(one.name);
+    return all;
+  };
+  EXPECT_EQ(names(carries), (std::vector<std::string>{"box", "ball"}));
+  EXPECT_TRUE(carries.robot->model().find_link("ball"));
+  EXPECT_EQ(carries.cameras[0].view->robot(), carries.robot);
+  EXPECT_EQ(reopen_scene(carries, file, carried).robot, carries.robot);
+  EXPECT_EQ(names(reopen_scene(carries, file)), std::vector<std::string>{"box"});
 }
 
 TEST(ReopenedScene, RefusesWhatAnOpenedOneDoes) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "berth/files/file_bytes.hpp"
+#include "berth/robot/primitives.hpp"
 #include "berth/scene/rpy.hpp"
 #include "tests/support/error_message.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -96,6 +97,34 @@ TEST_F(ChangedSceneTest, SavesANewFileThatIsTheScene) {
   EXPECT_EQ(scene_.save(folder_.path(), "new.yaml"), folder_ / "new.yaml");
   EXPECT_EQ(read_scene(folder_ / "new.yaml").evaluation.distance.range_m, 0.5);
   EXPECT_EQ(read_file_bytes(file_), before);
+}
+
+TEST_F(ChangedSceneTest, CarriesThePartsThatAreTaken) {
+  AttachedParts parts;
+  for (const char* name : {"tool", "person"}) {
+    AttachedPart& part = parts.parts.emplace_back();
+    part.name = name;
+    part.link = "arm_link_7";
+    part.mesh_L = make_sphere(0.05);
+    part.is_taken = true;
+  }
+  parts.parts.back().is_taken = false;
+  scene_.add({}, parts);
+  ASSERT_EQ(scene_.carried().size(), 1U);
+  EXPECT_EQ(scene_.carried()[0].name, "tool");
+  scene_.save(folder_.path(), "new.yaml");
+  const SceneFile saved = read_scene(folder_ / "new.yaml");
+  ASSERT_EQ(saved.attached.size(), 1U);
+  EXPECT_EQ(saved.attached[0].name, "tool");
+  EXPECT_EQ(saved.attached[0].mesh, folder_ / "new.attached.tool.stl");
+  EXPECT_TRUE(fs::exists(folder_ / "new.attached.tool.stl"));
+
+  folder_.write("other.attached.tool.stl", "mine");
+  expect_parts(error_message([&] { scene_.save(folder_.path(), "other.yaml"); }),
+               {"other.attached.tool.stl", "is there already", "expected a new name"});
+  EXPECT_FALSE(fs::exists(folder_ / "other.yaml"));
+  scene_.reset();
+  EXPECT_TRUE(scene_.carried().empty());
 }
 
 TEST_F(ChangedSceneTest, SavesNowhereElse) {

@@ -8,9 +8,11 @@
 #include <cstring>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "apps/view/space_grid.hpp"
 #include "berth/files/file_bytes.hpp"
+#include "tests/support/carrying_cell.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace berth::app {
@@ -340,6 +342,86 @@ TEST(CalibrationOfViewedScene, IsFoundAndTaken) {
   const int before = messages.count("settings");
   EXPECT_EQ(ask({{"do", "take_calibration_data"}}, "calibration_data")["state"], "taken");
   EXPECT_LT(from_truth_m(messages.after("settings", before)["poses"][0]), 0.01);
+}
+
+class CarryingViewedScene : public ::testing::Test {
+ protected:
+  /// The state after the next message of it.
+  Json ask(const Json& request) {
+    const int before = messages_.count("calibration_data");
+    viewed_.receive(request.dump());
+    return messages_.after("calibration_data", before);
+  }
+  Json next() { return messages_.after("calibration_data", messages_.count("calibration_data")); }
+  /// Calibrates until it asks.
+  Json question() {
+    EXPECT_EQ(ask({{"do", "calibration_data"}})["state"], "runs");
+    return next();
+  }
+  static Json answer(const Json& part, bool is_taken) {
+    return {{"do", "answer_calibration_data"}, {"part", part}, {"is_taken", is_taken}};
+  }
+  /// Until it is done: requests are carried out one after another.
+  void save() {
+    viewed_.receive(R"({"do": "save", "name": "new.yaml"})");
+    viewed_.receive(R"({"do": "show", "step": 5})");
+    messages_.shown_for_good(5);
+  }
+  std::set<std::string> links() {
+    std::set<std::string> names;
+    const Json scene = messages_.json("scene");
+    for (const Json& link : scene["links"]) names.insert(link["name"]);
+    return names;
+  }
+
+  testing::CarryingCell cell_{BERTH_SOURCE_DIR "/data/bundled/arm"};
+  const TemporaryFolder folder_;
+  Messages messages_;
+  ViewedScene viewed_{cell_ / "cell/scene.yaml", folder_.path(),
+                      [this](const std::string& kind, PageMessage message) {
+                        messages_.take(kind, std::move(message));
+                      }};
+};
+
+TEST_F(CarryingViewedScene, AsksWhetherWhatItCarriesIsAPart) {
+  const Json asked = question();
+  ASSERT_EQ(asked["state"], "asks") << asked;
+  EXPECT_EQ(asked["part"], "arm_link_7_attached");
+  EXPECT_TRUE(asked["question"].get<std::string>().starts_with(
+      "arm_link_7 carries something that its URDF does not have"));
+  ASSERT_EQ(asked["pictures"].size(), 1U);
+  EXPECT_EQ(asked["pictures"][0]["camera"], "camera");
+  EXPECT_GT(asked["pictures"][0]["bytes"], 1000);
+  EXPECT_NE(messages_.newest("calibration_data").bytes.find("\x89PNG"), std::string::npos);
+  EXPECT_FALSE(links().contains("arm_link_7_attached"));
+
+  EXPECT_EQ(ask(answer("arm_link_7_attached", true))["state"], "runs");
+  ASSERT_EQ(next()["state"], "found");
+  EXPECT_EQ(ask({{"do", "take_calibration_data"}})["state"], "taken");
+  save();
+  EXPECT_TRUE(links().contains("arm_link_7_attached"));
+  EXPECT_EQ(folder_.names(),
+            (std::vector<std::string>{"new.attached.arm_link_7_attached.stl", "new.yaml"}));
+  EXPECT_TRUE(open_scene(folder_ / "new.yaml").robot->model().find_link("arm_link_7_attached"));
+}
+
+TEST_F(CarryingViewedScene, WhatIsNoPartStaysAnObstacle) {
+  ASSERT_EQ(question()["state"], "asks");
+  // An answer to another question counts for nothing.
+  viewed_.receive(answer("arm_link_6_attached", true).dump());
+  EXPECT_EQ(ask(answer("arm_link_7_attached", false))["state"], "runs");
+  EXPECT_EQ(next()["state"], "found");
+  EXPECT_EQ(ask({{"do", "take_calibration_data"}})["state"], "taken");
+  save();
+  EXPECT_EQ(folder_.names(), std::vector<std::string>{"new.yaml"});
+  EXPECT_FALSE(links().contains("arm_link_7_attached"));
+}
+
+TEST_F(CarryingViewedScene, EndsWhileItAsks) {
+  ASSERT_EQ(question()["state"], "asks");
+  EXPECT_EQ(ask({{"do", "drop_calibration_data"}})["state"], "none");
+  // It can begin anew, and the program can end.
+  ASSERT_EQ(question()["state"], "asks");
 }
 
 TEST(MonitoredScene, TellsHowFastTheRobotMayGoAtEachStep) {

@@ -164,7 +164,9 @@ SceneCalibration calibrate_scene(const OpenScene& scene, const SceneCalibrationD
   require_poses(scene, found);
   calibration.warnings = warnings_of(material, found);
   calibration.attached = find_attached_parts(material.calibration_data, found, settings.fit.pause);
-  for (AttachedPart& part : calibration.attached.parts) part.is_taken = settings.takes_part(part);
+  for (AttachedPart& part : calibration.attached.parts) {
+    part.is_taken = settings.takes_part(part, found);
+  }
   const CarryingRobotData carrying(material.calibration_data, calibration.attached);
   const CalibrationData& calibration_data = carrying.calibration_data();
   for (std::size_t c = 0; c < scene.cameras.size(); ++c) {

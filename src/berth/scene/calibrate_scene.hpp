@@ -18,9 +18,11 @@ struct CalibrateSceneSettings {
   CalibrationSettings fit;
   /// Whether the depth error that was found is taken out of the readings from now on.
   bool correct_depth = false;
-  /// Asked about each part that the robot carries and its URDF does not have: whether it is one. By
-  /// default none is taken, since a thing of the room that is taken for the robot is never seen.
-  std::function<bool(const AttachedPart&)> takes_part = [](const AttachedPart&) { return false; };
+  /// Asked about each part that the robot carries and its URDF does not have, with the poses that
+  /// were found: whether it is one. By default none is taken, since a thing of the room that is
+  /// taken for the robot is never seen.
+  std::function<bool(const AttachedPart&, const CalibrationResult&)> takes_part =
+      [](const AttachedPart&, const CalibrationResult&) { return false; };
 };
 
 /// What calibration found of a scene.

@@ -176,6 +176,16 @@ void take_method(const SceneFile& source, OpenScene& scene) {
   with_file_named(source, [&] { validate(scene.image_settings); });
 }
 
+/// The robot with the first `kept` of what is on it, and with `more`.
+std::shared_ptr<const Robot> carrying(const std::shared_ptr<const Robot>& robot, std::size_t kept,
+                                      const std::vector<Attachment>& more) {
+  std::vector<Attachment> attached = robot->attached();
+  if (attached.size() == kept + more.size()) return robot;
+  attached.erase(attached.begin() + static_cast<std::ptrdiff_t>(kept), attached.end());
+  attached.insert(attached.end(), more.begin(), more.end());
+  return std::make_shared<const Robot>(robot->bare(), robot->settings(), std::move(attached));
+}
+
 /// A scene, each of whose images was checked by `check`.
 OpenScene open_with(const SceneFile& source,
                     const std::function<void(OpenCamera&, std::size_t frame)>& check) {
@@ -242,7 +252,8 @@ OpenScene open_scene_with_images(const SceneFile& source,
 
 OpenScene open_scene(const std::filesystem::path& file) { return open_scene(read_scene(file)); }
 
-OpenScene reopen_scene(const OpenScene& before, const SceneFile& changed) {
+OpenScene reopen_scene(const OpenScene& before, const SceneFile& changed,
+                       const std::vector<Attachment>& carried) {
   OpenScene scene;
   scene.file = changed.file;
   scene.warnings = changed.warnings;
@@ -251,8 +262,10 @@ OpenScene reopen_scene(const OpenScene& before, const SceneFile& changed) {
                      ? before.joints
                      : std::make_shared<const JointTrajectory>(
                            read_trajectory(before.robot->model(), changed));
-  scene.robot =
-      with_file_named(changed, [&] { return with_settings(before.robot, changed.evaluation); });
+  scene.robot = with_file_named(changed, [&] {
+    return with_settings(carrying(before.robot, changed.attached.size(), carried),
+                         changed.evaluation);
+  });
   take_method(changed, scene);
   scene.separation = checked_separation(changed);
   scene.frame_count = before.frame_count;

@@ -80,7 +80,10 @@ OpenScene open_scene_with_images(
 
 /// open_scene(changed) where `changed` differs from the file of `before` in settings of requests
 /// and cameras, in poses, clocks and joint offsets alone: robot and images are those of `before`,
-/// so that it takes a moment. Throws as open_scene does.
-OpenScene reopen_scene(const OpenScene& before, const SceneFile& changed);
+/// so that it takes a moment. The robot has `carried` on it besides what the file names, and
+/// nothing else; each that `before` has on it as well has to be the same. Throws as open_scene
+/// does.
+OpenScene reopen_scene(const OpenScene& before, const SceneFile& changed,
+                       const std::vector<Attachment>& carried = {});
 
 }  // namespace berth

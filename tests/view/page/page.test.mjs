@@ -1,7 +1,7 @@
 // The page as its user sees it, with the bundled scene.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
-import { cpSync, readFileSync, writeFileSync } from "node:fs";
+import { cpSync, existsSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { endAll, isReady, isThere, openPage, startBerth, startBrowser, temporaryFolder, until } from "./browser.mjs";
@@ -434,6 +434,39 @@ test("a taken port is told with the next free one", () => {
   assert.equal(run.status, 1);
   assert.equal(String(run.stdout), "");
   assert.match(String(run.stderr), new RegExp(`port ${port} of 127.0.0.1 is taken; expected a free one, such as --port \\d+`));
+});
+
+const data = process.env.BERTH_DATA ?? join(process.env.BERTH_SOURCE_DIR, "../shared/data");
+const gripper = join(data, "recordings/lbr_med7_realsense/scene.yaml");
+
+test("a gripper that no URDF has becomes a part of the robot by a click", { skip: !existsSync(gripper) && `${gripper} is missing` }, async () => {
+  const other = await startBerth(["view", gripper, "--port", "0", "--save-to", place.folder], place.folder);
+  const page = await open(other.url);
+  const links = () => page.locator("#links tbody tr").count();
+  const before = await links();
+  await click(page, "#panel-tabs button:nth-child(3)");
+  await click(page, "#calibrate");
+  await isThere(page, "#is-part");
+  assert.match(await text(page, "#attached-question"), /^lbr_link_7 carries something that its URDF does not have, \d+ x \d+ x \d+ cm/);
+  await until(page, () => [...document.querySelectorAll("figure img")].some((image) => image.complete && image.naturalWidth > 100));
+  await click(page, "#is-part");
+  await isThere(page, "#take-calibration");
+  await click(page, "#take-calibration");
+  await until(page, () => /^Taken/.test(document.querySelector("#panels p:nth-child(2)")?.textContent));
+  await click(page, "#panel-tabs button:nth-child(1)");
+  await until(page, (count) => document.querySelectorAll("#links tbody tr").length > count, before);
+  assert.equal(await links(), before + 1);
+  await showSettings(page);
+  await page.fill("#save-name", "with_gripper.yaml");
+  await page.locator("#save").dispatchEvent("submit");
+  await until(page, () => /^saved as/.test(document.getElementById("notice").textContent));
+  assert.ok(existsSync(join(place.folder, "with_gripper.attached.lbr_link_7_attached.stl")));
+  const run = spawnSync(process.env.BERTH, ["run", "with_gripper.yaml", "--format", "json"], { cwd: place.folder });
+  assert.equal(run.status, 0, String(run.stderr));
+  assert.match(String(run.stdout), /lbr_link_7_attached/);
+  assert.deepEqual(page.errors, []);
+  await page.close();
+  await other.end();
 });
 
 test("Ctrl-C ends it at once, whatever it does", async () => {

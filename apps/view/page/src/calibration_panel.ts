@@ -22,6 +22,7 @@ export class CalibrationPanel {
       const wait = make("p", {}, [make("progress"), " It runs; this takes a minute or so."]);
       return this.element.replaceChildren(text, wait, button("stop-calibration", "Stop", "drop_calibration_data"));
     }
+    if (found.state === "asks") return this.element.replaceChildren(text, ...this.question(found));
     if (found.state === "failed") {
       return this.element.replaceChildren(text, make("p", { className: "refused", textContent: found.error }), start);
     }
@@ -36,6 +37,23 @@ export class CalibrationPanel {
       make("div", { className: "row" }, [button("take-calibration", "Take it", "take_calibration_data"), button("drop-calibration", "Leave it", "drop_calibration_data")]),
       make("details", {}, [make("summary", { textContent: "The whole report" }), make("pre", { textContent: found.report ?? "" })]),
     );
+  }
+
+  /** Whether the robot carries what was found. */
+  private question(found: CalibrationData): HTMLElement[] {
+    const answer = (id: string, textContent: string, is_taken: boolean) =>
+      make("button", { id, textContent, onclick: () => this.send({ do: "answer_calibration_data", part: found.part, is_taken }) });
+    const pictures = found.pictures!.map(({ camera, frame, png }) => {
+      const image = make("img", { src: URL.createObjectURL(new Blob([png as BlobPart], { type: "image/png" })), alt: `what was found, seen by ${camera}` });
+      image.onload = () => URL.revokeObjectURL(image.src);
+      return make("figure", {}, [image, make("figcaption", { textContent: `${camera}, image ${frame}` })]);
+    });
+    return [
+      make("p", { id: "attached-question", textContent: found.question! }),
+      make("p", { textContent: "Is what is drawn in orange the robot's in each image, and nothing of the room? What is taken by mistake is never seen as an obstacle again." }),
+      make("div", { className: "row" }, [answer("is-part", "It is a part of the robot", true), answer("is-no-part", "It is not", false)]),
+      ...pictures,
+    ];
   }
 
   private residuals(found: CalibrationData): HTMLElement {

@@ -216,8 +216,8 @@ function nearestOfAll(): { step: number; link: string } | undefined {
   timeline.nearest.forEach((row, step) => {
     if (row === null) return;
     const distance_m = timeline!.links.distance_m[row][step]!;
-    const link = scene!.links.find((one) => one.id === row + 1)!.name;
-    if (distance_m < (best?.distance_m ?? Infinity)) best = { step, link, distance_m };
+    const link = scene!.links.find((one) => one.id === row + 1)?.name;
+    if (link !== undefined && distance_m < (best?.distance_m ?? Infinity)) best = { step, link, distance_m };
   });
   return best;
 }

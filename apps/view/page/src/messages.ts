@@ -170,8 +170,12 @@ interface Spread {
 
 export interface CalibrationData {
   type: "calibration_data";
-  state: "none" | "runs" | "found" | "failed" | "taken";
+  state: "none" | "runs" | "asks" | "found" | "failed" | "taken";
   error: string;
+  /** What it asks about: whether this is a part of the robot, with an image of each camera that shows it. */
+  part?: string;
+  question?: string;
+  pictures?: { camera: string; frame: number; bytes: number; png: Uint8Array }[];
   cameras?: { name: string; headline: string; before: Spread; after: Spread }[];
   warnings?: string[];
   report?: string;
@@ -264,6 +268,8 @@ export function readBinary(data: ArrayBuffer): Message {
   } else if (header.type === "space") {
     const [x, y, z] = header.cells;
     header.sight = take(Uint8Array, 1, x * y * z);
+  } else if (header.type === "calibration_data") {
+    for (const picture of header.pictures) picture.png = take(Uint8Array, 1, picture.bytes);
   }
   return header;
 }

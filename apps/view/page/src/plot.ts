@@ -116,7 +116,8 @@ export class Plot {
     const rows = this.evaluated().map((link, row) => ({ link, row })).filter(({ link }) => link.is_moved);
     const status = this.timeline?.links.status;
     for (let i = 0; status && i < (status[0]?.length ?? 0); ++i) {
-      if (rows.every(({ row }) => ["ok", "none_in_range"].includes(status[row][i]))) continue;
+      // What the robot has just taken up has no curve yet.
+      if (rows.every(({ row }) => !status[row] || ["ok", "none_in_range"].includes(status[row][i]))) continue;
       ctx.fillRect(x(i) - 2, bbox.top + bbox.height - 7, 4, 7);
     }
     this.timeline?.speed?.state.forEach((state, i) => {
