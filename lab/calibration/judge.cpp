@@ -42,11 +42,27 @@ bool is_like_robot(const RobotImage& robot, int u, int v, float z_m) {
   return false;
 }
 
-void count_mask(const std::filesystem::path& file, const Camera& camera, const Frame& frame,
-                DepthView depth_m, Judgement& judgement) {
-  const Image<LinkId> mask = read_link_ids_png(file, camera);
-  for (int v = 0; v < camera.height_px; ++v) {
-    for (int u = 0; u < camera.width_px; ++u) {
+/// None where there is none of the depth image's size: colour and depth have grids of their own
+/// then.
+std::optional<Image<LinkId>> read_mask(const std::filesystem::path& folder, std::size_t image,
+                                       const Camera& camera) {
+  for (const std::string& name :
+       {fmt::format("robot_mask_{:06}.png", image), fmt::format("robot_mask_{}.png", image)}) {
+    const std::filesystem::path file = folder / "reference" / name;
+    if (!std::filesystem::exists(file)) continue;
+    try {
+      return read_link_ids_png(file, camera);
+    } catch (const std::runtime_error&) {
+      return std::nullopt;
+    }
+  }
+  return std::nullopt;
+}
+
+void count_mask(const Image<LinkId>& mask, const Frame& frame, DepthView depth_m,
+                Judgement& judgement) {
+  for (int v = 0; v < mask.height(); ++v) {
+    for (int u = 0; u < mask.width(); ++u) {
       if (mask(u, v) == 0) continue;
       ++judgement.mask_pixels;
       if (!is_kept(frame.obstacles.fate(u, v))) continue;
@@ -99,7 +115,10 @@ SceneFile with_result(SceneFile scene, const Calibrated& calibrated) {
 Judgement judge(const SceneFile& file, const std::filesystem::path& folder) {
   const OpenScene scene = open_scene(file);
   const OpenCamera& camera = scene.cameras.front();
-  const ExpectedRanges ranges = read_expected_ranges(folder / "expected.tsv");
+  ExpectedRanges ranges;
+  if (const auto tsv = folder / "expected.tsv"; std::filesystem::exists(tsv)) {
+    ranges = read_expected_ranges(tsv);
+  }
   const std::vector<std::string> names = scene.robot->model().evaluated_link_names();
   Observer observer(camera.view);
   MethodQuery query(scene.robot, scene.method, scene.image_settings);
@@ -109,14 +128,16 @@ Judgement judge(const SceneFile& file, const std::filesystem::path& folder) {
     const DepthImage depth_m = camera.read_depth(i);
     observer.observe(depth_m, camera.at_exposure[i], frame);
     for (const LinkResult& link : query.ask({.frames = frame}).links) {
+      if (ranges.empty()) continue;
       const ExpectedRange& range = ranges.at({static_cast<int>(i), names[link.id - 1]});
       const bool is_inside = link.distance_m >= range.min_m && link.distance_m <= range.max_m;
       (range.is_checked ? judgement.checked : judgement.estimates) += 1;
       (range.is_checked ? judgement.checked_in_range : judgement.estimates_in_range) += is_inside;
       judgement.too_far += !(link.distance_m <= range.max_m + kFarMargin_m);
     }
-    count_mask(folder / fmt::format("reference/robot_mask_{:06}.png", i), camera.view->camera(),
-               frame, depth_m, judgement);
+    if (const auto mask = read_mask(folder, i, camera.view->camera())) {
+      count_mask(*mask, frame, depth_m, judgement);
+    }
   }
   return judgement;
 }

@@ -1,4 +1,4 @@
-// What a calibration is worth on a real recording whose distances and masks are known.
+// What a calibration is worth on a real recording whose distances or masks are known.
 #pragma once
 
 #include <filesystem>
@@ -26,7 +26,8 @@ SceneFile with_result(SceneFile scene, const Calibrated& calibrated);
 /// a square of 60 cm.
 double apart_m(const Pose& X_PC, const Pose& X_PC_other, double depth_m);
 
-/// Counts over all frames and links of a recording (expected.tsv, reference/robot_mask_*.png).
+/// Counts over all frames and links of a recording: expected.tsv, and reference/robot_mask_*.png
+/// where that is of the depth image's size; what there is of both.
 struct Judgement {
   int checked = 0;
   int checked_in_range = 0;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <filesystem>
 #include <numbers>
@@ -49,8 +50,11 @@ int main(int argc, char** argv) {
   app.add_flag("--each", trials.prints_each, "Tell each drawn scene on standard error");
   CLI11_PARSE(app, argc, argv);
   try {
-    for (const char* name : {"xarm7_realsense", "lbr_med7_zed2i"}) {
-      if (starts > 0) lab::measure_recording(data / "recordings" / name, trials.start, starts);
+    if (starts > 0) {
+      const std::filesystem::directory_iterator folders(data / "recordings");
+      std::vector<std::filesystem::path> recordings(begin(folders), end(folders));
+      std::ranges::sort(recordings);
+      for (const auto& folder : recordings) lab::measure_recording(folder, trials.start, starts);
     }
     if (attached_seeds > 0) {
       lab::measure_attached(lab::load_trial_robots(data / "robots"), robot, attached_seeds,
