@@ -10,7 +10,7 @@ apt-get install -qq --no-install-recommends crossbuild-essential-arm64 qemu-user
   $(grep -hE '^(lib|zlib)' packages.txt packages-opengl.txt packages-lab.txt packages-tests.txt | sed 's/$/:arm64/')
 # Programs of ARM64 that tests start run in qemu, too. The kernel knows of that for as long as the tests take, unless it did before.
 formats=/proc/sys/fs/binfmt_misc
-mount -t binfmt_misc binfmt_misc $formats
+[ -e $formats/register ] || mount -t binfmt_misc binfmt_misc $formats
 if [ ! -e $formats/qemu-aarch64 ]; then
   cat /usr/lib/binfmt.d/qemu-aarch64.conf >$formats/register
   trap 'echo -1 >$formats/qemu-aarch64' EXIT
