@@ -40,6 +40,7 @@ double own_of_reading(const PointView& view, const SpaceSettings& settings, int 
       return sensed_m + settings.behind_robot_m;
     case PixelFate::edge:
     case PixelFate::flying_patch:
+    case PixelFate::soft:
     case PixelFate::speckle:
     case PixelFate::outside_region:
       return sensed_m - settings.free_space_margin_m;

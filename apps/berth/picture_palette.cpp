@@ -63,6 +63,8 @@ Rgb fate_color(PixelFate fate) {
       return {0x6C, 0xA8, 0x3C};
     case PixelFate::outside_region:
       return {0xB8, 0xA4, 0x3A};
+    case PixelFate::soft:
+      return {0xD8, 0x7A, 0x4A};
     case PixelFate::speckle:
       return {0xE0, 0xB0, 0x20};
     case PixelFate::averaged:

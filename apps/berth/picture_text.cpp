@@ -86,6 +86,8 @@ std::string fate_text(PixelFate fate) {
       return "flying patch at the robot";
     case PixelFate::outside_region:
       return "ignored: outside region";
+    case PixelFate::soft:
+      return "where something soft hangs";
     case PixelFate::speckle:
       return "speckle";
     case PixelFate::averaged:

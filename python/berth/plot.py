@@ -28,6 +28,7 @@ FATE_COLORS = {
     "edge": "#C24A4A",
     "flying_patch": "#6CA83C",
     "outside_region": "#B8A43A",
+    "soft": "#D87A4A",
     "speckle": "#E0B020",
     "averaged": "#B0C8E0",
     "background": "#20B870",

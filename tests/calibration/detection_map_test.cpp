@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "berth/robot/primitives.hpp"
 #include "berth/robot/robot_model.hpp"
 #include "tests/fit/hand_made_image.hpp"
 
@@ -112,6 +113,27 @@ TEST(DetectionMap, NothingIsSaidOfBallsAtTheRobot) {
       EXPECT_LE(map.cell.least_m[i], 0.04) << before_m;
     }
   }
+}
+
+TEST(DetectionMap, NothingIsDetectedWhereSomethingSoftMayHang) {
+  const Eigen::Vector3d middle_m(0, 0, 1.5);
+  const SoftBody body(0, make_sphere(0.25));
+  DetectionCamera camera = looking_at_wall();
+  const DetectionMap without = measure({camera}, kWideReach);
+  camera.images[0].soft = {{&body, Pose(Eigen::Translation3d(-middle_m))}};
+  const DetectionMap map = measure({camera}, kWideReach);
+  int inside = 0;
+  for (std::size_t i = 0; i < map.places_B_m.size(); ++i) {
+    const double off_m = (map.places_B_m[i] - middle_m).norm();
+    if (off_m < 0.12) {
+      ++inside;
+      EXPECT_TRUE(std::isinf(map.cell.least_m[i])) << off_m;
+    }
+    if (off_m > 0.38) {
+      EXPECT_LE(map.cell.least_m[i], without.cell.least_m[i] + 0.02) << off_m;
+    }
+  }
+  EXPECT_GT(inside, 5);
 }
 
 TEST(DetectionMap, DropoutsCost) {

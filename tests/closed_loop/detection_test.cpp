@@ -11,6 +11,7 @@
 #include "sim/random.hpp"
 #include "sim/shapes.hpp"
 #include "sim/true_clearance.hpp"
+#include "sim/turn_between.hpp"
 
 namespace berth::lab {
 namespace {
@@ -57,7 +58,9 @@ class DrawnThings {
     while (true) {
       const double range_m = random_(0.1, 1), angle_rad = random_(-3.14, 3.14);
       Pose X_BP = Pose::Identity();
-      if (length_m_ > 0) X_BP.linear() = turned_to(sim::draw_point(random_, 1));
+      if (length_m_ > 0) {
+        X_BP = Pose(sim::turn_between(Eigen::Vector3d::UnitZ(), sim::draw_point(random_, 1)));
+      }
       X_BP.translation() << range_m * std::cos(angle_rad), range_m * std::sin(angle_rad),
           random_(0, 1.1);
       const double clearance_m = clearance_.at(pose_, {X_BP});
@@ -90,10 +93,6 @@ class DrawnThings {
   }
 
  private:
-  static Eigen::Matrix3d turned_to(const Eigen::Vector3d& axis) {
-    return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis).toRotationMatrix();
-  }
-
   /// From the ball's centre or the rod's axis.
   double off_m(Eigen::Vector3d p_P) const {
     p_P.z() -= std::clamp(p_P.z(), -length_m_ / 2, length_m_ / 2);

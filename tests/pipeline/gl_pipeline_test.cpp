@@ -4,6 +4,7 @@
 #include "berth/image_distance/opengl/gl_image_query.hpp"
 #include "berth/image_distance/opengl/gl_observer.hpp"
 #include "berth/pipeline/observer.hpp"
+#include "berth/robot/primitives.hpp"
 #include "berth/scene/open_scene.hpp"
 #include "tests/pipeline/flying_pixels.hpp"
 #include "tests/support/error_message.hpp"
@@ -192,6 +193,15 @@ TEST_F(GlPipeline, AWatchIsRefusedByName) {
               "watch: a camera is watched on the CPU alone; expected max_seen_through and "
               "max_displacement_m to be 0 on OpenGL");
   }
+}
+
+TEST_F(GlPipeline, WhatIsSoftIsRefused) {
+  Attachment hose{"hose", "arm_link_7", make_sphere(0.1)};
+  hose.is_soft = true;
+  const auto view = with_robot(*camera_.view, attach(*camera_.view->robot(), hose));
+  EXPECT_EQ(
+      error_message<std::invalid_argument>([&] { GlObserver observer(view); }),
+      "attached: what is soft is taken out on the CPU alone; expected nothing soft on OpenGL");
 }
 
 TEST_F(GlPipeline, AnImageOfAnotherSizeIsRefused) {

@@ -263,5 +263,33 @@ TEST_F(WholeRobot, WhatIsAttachedIsPartOfItsLinkOrALinkOfItsOwn) {
             std::string::npos);
 }
 
+TEST_F(WholeRobot, WhatIsSoftIsRejected) {
+  Frame bare_frame;
+  observe(17, bare_frame);
+  const LinkResult bare = Query(view_->robot()).ask({bare_frame}).links.back();
+  ASSERT_TRUE(bare.occupied.is_known());
+  // Where the nearest thing is, something soft may hang.
+  const RobotModel& model = view_->robot()->model();
+  const std::string hand = model.evaluated_link_names().back();
+  Attachment hose{"hose", hand, make_sphere(0.1)};
+  hose.X_LA.translation() = bare_frame.pose.X_BL[*model.find_link(hand)].inverse() *
+                            bare.occupied.obstacle_point_B_m.cast<double>();
+  hose.is_soft = true;
+  const auto robot = attach(*view_->robot(), hose);
+  EXPECT_EQ(robot->model().links.size(), model.links.size());
+  const auto view = with_robot(*view_, robot);
+  Frame frame;
+  Observer(view).observe(camera_.read_depth(17), camera_.at_exposure[17], frame);
+  EXPECT_GT(frame.obstacles.count_of(PixelFate::soft), 10);
+  const LinkResult soft = Query(robot).ask({frame}).links.back();
+  EXPECT_GT(soft.occupied.distance_m, bare.occupied.distance_m + 0.01F);
+  EXPECT_NEAR(soft.visibility.rejected_distance_m, bare.occupied.distance_m, 0.01);
+  EXPECT_TRUE(detach(*robot, "hose")->model().soft_bodies.empty());
+
+  hose.mesh_A.triangles.pop_back();
+  EXPECT_EQ(error_message<std::invalid_argument>([&] { attach(*view_->robot(), hose); }),
+            "attached \"hose\": the mesh is not closed; expected one that encloses a space");
+}
+
 }  // namespace
 }  // namespace berth

@@ -183,6 +183,17 @@ TEST(ReopenedScene, CarriesWhatItIsToldTo) {
   EXPECT_EQ(names(reopen_scene(carries, file)), std::vector<std::string>{"box"});
 }
 
+TEST(OpenedScene, HasWhatIsSoftAsNoLink) {
+  const std::string lines = "attached: [{link: arm_link_7, name: hose, sphere: 0.1, soft: true}]\n";
+  const OpenScene scene = open_with(kSevenColumns, lines);
+  ASSERT_EQ(scene.robot->attached().size(), 1U);
+  EXPECT_TRUE(scene.robot->attached()[0].is_soft);
+  EXPECT_FALSE(scene.robot->model().find_link("hose"));
+  ASSERT_EQ(scene.robot->model().soft_bodies.size(), 1U);
+  EXPECT_EQ(scene.robot->model().soft_bodies[0].link(),
+            *scene.robot->model().find_link("arm_link_7"));
+}
+
 TEST(ReopenedScene, RefusesWhatAnOpenedOneDoes) {
   const OpenScene before = open_scene(bundled_file());
   SceneFile changed = bundled_file();

@@ -29,7 +29,9 @@ inline DroppedScene dropped_scene(std::uint32_t seed) {
       if (std::isnan(scene.sensor_depth_m(u, v))) {
         fate = PixelFate::no_reading;
       } else if (block < 8) {
-        fate = block < 4 ? PixelFate::flying_patch : PixelFate::speckle;
+        fate = block < 3   ? PixelFate::flying_patch
+               : block < 6 ? PixelFate::speckle
+                           : PixelFate::soft;
         scene.obstacles.depth_m(u, v) = kNoDepth;
       } else if (block == 8) {
         fate = PixelFate::edge;

@@ -8,14 +8,15 @@
 namespace berth::testing {
 namespace {
 
-TEST(Rejected, FlyingPatchesAndSpeckleHaveTheirReadingAndNothingElseHasOne) {
+TEST(Rejected, FlyingPatchesSpeckleAndWhatIsSoftHaveTheirReadingAndNothingElseHasOne) {
   DroppedScene scene = dropped_scene(3);
   RejectedImage rejected;
   find_rejected(scene.sensor_depth_m, scene.obstacles, rejected);
   for (int v = 0; v < kDroppedHeight_px; ++v) {
     for (int u = 0; u < kDroppedWidth_px; ++u) {
       const PixelFate fate = scene.obstacles.fate(u, v);
-      if (fate == PixelFate::flying_patch || fate == PixelFate::speckle) {
+      if (fate == PixelFate::flying_patch || fate == PixelFate::speckle ||
+          fate == PixelFate::soft) {
         ASSERT_EQ(rejected.depth_m(u, v), scene.sensor_depth_m(u, v));
         ASSERT_TRUE(u >= rejected.extent.u_begin && u < rejected.extent.u_end);
         ASSERT_TRUE(v >= rejected.extent.v_begin && v < rejected.extent.v_end);

@@ -159,7 +159,7 @@ class Measurement {
       drawn = at.depth_m;
       for (const DrawnBall& ball : batch.balls) draw_ball(camera.camera, at.depth_m, ball, drawn);
       const ObstacleImage& left = filter.run(
-          {&camera.camera, drawn, &at.robot, &camera.self_filter, &camera.sensor}, drawn);
+          {&camera.camera, drawn, &at.robot, &camera.self_filter, &camera.sensor, &at.soft}, drawn);
       for (std::size_t i = 0; i < batch.balls.size(); ++i) {
         const bool is_left = is_told(batch.balls[i], at.depth_m, drawn, left);
         sights_[index(batch.camera, batch.places[i])] = is_left ? Sight::told : Sight::missed;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "berth/calibration/robot_reach.hpp"
+#include "berth/self_filter/drop_soft.hpp"
 #include "berth/self_filter/settings.hpp"
 #include "berth/sensor/settings.hpp"
 #include "berth/types/camera.hpp"
@@ -19,6 +20,7 @@ struct DetectionImage {
   DepthImage depth_m;
   RobotImage robot;
   Pose X_BC = unset_pose();
+  std::vector<PosedSoftBody> soft = {};
 };
 
 /// A camera with the settings that its images are filtered with.

@@ -6,6 +6,7 @@ const ObstacleImage& DrawnImageFilter::run(const FilteredCamera& camera, DepthVi
   SelfFilterSettings settings = *camera.self_filter;
   settings.robot_region_scale = 0;
   self_filter(*camera.camera, depth_m, *camera.robot, settings, workspace_, out_);
+  if (camera.soft) drop_soft(*camera.camera, *camera.soft, out_);
   SensorSettings sensor = *camera.sensor;
   sensor.average_frames = 0;
   sensor.background_frames = 0;

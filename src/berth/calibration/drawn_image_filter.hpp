@@ -2,6 +2,7 @@
 // into.
 #pragma once
 
+#include "berth/self_filter/drop_soft.hpp"
 #include "berth/self_filter/self_filter.hpp"
 #include "berth/sensor/phantoms.hpp"
 #include "berth/sensor/sensor_rules.hpp"
@@ -16,6 +17,8 @@ struct FilteredCamera {
   const RobotImage* robot = nullptr;
   const SelfFilterSettings* self_filter = nullptr;
   const SensorSettings* sensor = nullptr;
+  /// Null: none.
+  const std::vector<PosedSoftBody>* soft = nullptr;
 };
 
 /// One for each thread.

@@ -8,6 +8,7 @@
 #include "berth/calibration/found_estimate.hpp"
 #include "berth/fit/frame_drawer.hpp"
 #include "berth/fit/robot_pixels.hpp"
+#include "berth/self_filter/drop_soft.hpp"
 #include "berth/self_filter/self_filter.hpp"
 
 namespace berth {
@@ -34,8 +35,8 @@ ReadingKind kind_of(PixelFate fate, float z_m, float robot_m, float tolerance_m)
   return std::abs(z_m - robot_m) < tolerance_m ? ReadingKind::robot : ReadingKind::beside;
 }
 
-EvidenceView take_view(const DrawnFrame& drawn, const CalibrationCamera& source,
-                       const CameraCalibration& found) {
+EvidenceView take_view(const DrawnFrame& drawn, const RobotModel& model,
+                       const CalibrationCamera& source, const CameraCalibration& found) {
   const CalibrationFrame& frame = source.frames[drawn.frame_index];
   const DepthImage depth_m = corrected(frame.depth_m, found.depth);
   SelfFilterSettings filter;
@@ -43,6 +44,9 @@ EvidenceView take_view(const DrawnFrame& drawn, const CalibrationCamera& source,
   SelfFilterWorkspace workspace;
   ObstacleImage filtered;
   self_filter(source.camera, depth_m, drawn.robot, filter, workspace, filtered);
+  std::vector<PosedSoftBody> soft;
+  pose_soft_bodies(model, drawn.posed.pose, drawn.posed.X_BC, soft);
+  drop_soft(source.camera, soft, filtered);
 
   const int step = std::max(1, static_cast<int>(std::lround(kPixel_m * source.camera.fx_px)));
   CalibrationCamera no_frames;
@@ -158,8 +162,8 @@ std::vector<EvidenceView> make_evidence_views(const CalibrationData& calibration
     std::vector<EvidenceView> taken(one.cameras[0]->frames.size());
     FrameDrawer(one, {1}).draw(1, found_estimate(one, found.cameras[c], found), {},
                                FrameChoice::all, [&](const DrawnFrame& drawn) {
-                                 taken[drawn.frame_index] =
-                                     take_view(drawn, *one.cameras[0], found.cameras[c]);
+                                 taken[drawn.frame_index] = take_view(
+                                     drawn, *one.model, *one.cameras[0], found.cameras[c]);
                                });
     for (EvidenceView& view : taken) {
       if (view.pose.X_BL.empty()) continue;

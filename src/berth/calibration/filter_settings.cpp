@@ -35,6 +35,7 @@ double rounded_up(double length_m) { return std::ceil(length_m * 100 - 1e-6) / 1
 struct ProposedCamera {
   DepthImage depth_m;
   RobotImage robot;
+  std::vector<PosedSoftBody> soft;
   ObstacleImage filtered;
 };
 
@@ -44,7 +45,8 @@ class Proposer {
            const SensorSettings& sensor)
       : camera_(camera), self_filter_(self_filter), sensor_(sensor) {}
 
-  void add_frame(const DepthImage& depth_m, const RobotImage& robot) {
+  void add_frame(const DepthImage& depth_m, const RobotImage& robot,
+                 const std::vector<PosedSoftBody>& soft) {
     each_robot_pixel(camera_, robot, [&](int u, int v, LinkId) {
       const float behind_m = depth_m(u, v) - robot.depth_m(u, v);
       if (std::abs(behind_m) < kRobotLike_m) behind_m_.push_back(behind_m);
@@ -53,7 +55,7 @@ class Proposer {
     std::vector<FitRow> rows;
     append_outline_rows(camera_, depth_m, robot, CameraEstimate{}, 1, {reach_px, 0.05}, rows);
     for (const FitRow& row : rows) overshoot_m_.push_back(static_cast<float>(row.residual_m));
-    views_.push_back({depth_m, robot, {}});
+    views_.push_back({depth_m, robot, soft, {}});
   }
 
   FilterProposal run() {
@@ -97,6 +99,7 @@ class Proposer {
     settings.robot_region_scale = 0;
     for (ProposedCamera& view : views_) {
       self_filter(camera_, view.depth_m, view.robot, settings, workspace, view.filtered);
+      drop_soft(camera_, view.soft, view.filtered);
     }
   }
 
@@ -187,7 +190,8 @@ class Proposer {
     std::vector<FilteredCamera> views;
     const std::size_t step = std::max<std::size_t>(1, views_.size() / kDrawnInto);
     for (std::size_t f = 0; f < views_.size() && views.size() < kDrawnInto; f += step) {
-      views.push_back({&camera_, views_[f].depth_m, &views_[f].robot, &self_filter_, &sensor_});
+      const ProposedCamera& view = views_[f];
+      views.push_back({&camera_, view.depth_m, &view.robot, &self_filter_, &sensor_, &view.soft});
     }
     for (const double depth_m : {1.0, 1.5, 2.0}) {
       out_.smallest.push_back(smallest_obstacle(views, depth_m));
@@ -213,15 +217,19 @@ FilterProposal propose_filter(const CalibrationData& calibration_data, std::size
   one.cameras = {calibration_data.cameras[camera_index]};
   const CameraCalibration& camera = found.cameras[camera_index];
   std::vector<RobotImage> robots(one.cameras[0]->frames.size());
+  std::vector<std::vector<PosedSoftBody>> soft(robots.size());
   FrameDrawer(one, {1}).draw(
-      1, found_estimate(one, camera, found), {}, FrameChoice::all,
-      [&](const DrawnFrame& drawn) { robots[drawn.frame_index] = drawn.robot; });
+      1, found_estimate(one, camera, found), {}, FrameChoice::all, [&](const DrawnFrame& drawn) {
+        robots[drawn.frame_index] = drawn.robot;
+        pose_soft_bodies(*one.model, drawn.posed.pose, drawn.posed.X_BC, soft[drawn.frame_index]);
+      });
   Proposer proposer(one.cameras[0]->camera, self_filter, sensor);
   for (std::size_t f = 0; f < robots.size(); ++f) {
     // Its joints are not known at the clock that was found.
     if (robots[f].depth_m.pixels().empty()) continue;
     const DepthImage& depth_m = one.cameras[0]->frames[f].depth_m;
-    proposer.add_frame(corrects_depth ? corrected(depth_m, camera.depth) : depth_m, robots[f]);
+    proposer.add_frame(corrects_depth ? corrected(depth_m, camera.depth) : depth_m, robots[f],
+                       soft[f]);
   }
   return proposer.run();
 }

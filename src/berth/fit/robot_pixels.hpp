@@ -29,11 +29,6 @@ void each_robot_pixel(const Camera& camera, const RobotImage& robot, const Take&
   }
 }
 
-/// The point at the depth z of a pixel, in C.
-inline Eigen::Vector3d point_at(const Camera& camera, int u, int v, double z_m) {
-  return {(u - camera.cx_px) / camera.fx_px * z_m, (v - camera.cy_px) / camera.fy_px * z_m, z_m};
-}
-
 /// NaN of nothing. Reorders the values.
 inline double quantile(std::vector<float>& values, double share) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();

@@ -7,6 +7,7 @@
 #include "berth/pipeline/robot_drawing.hpp"
 #include "berth/pipeline/timeliness.hpp"
 #include "berth/render/robot_renderer.hpp"
+#include "berth/self_filter/drop_soft.hpp"
 #include "berth/self_filter/self_filter.hpp"
 #include "berth/sensor/sensor_rules.hpp"
 #include "berth/watch/frame_displacement.hpp"
@@ -50,6 +51,7 @@ struct Observer::Parts {
   std::optional<RobotRenderer> region_renderer;
   RobotImage region;
   SelfFilterWorkspace workspace;
+  std::vector<PosedSoftBody> soft;
   SensorWorkspace sensor;
   Background background;
   FrameClock clock;
@@ -82,12 +84,14 @@ void Observer::observe(DepthView depth_m, const JointState& at_exposure, Frame& 
 
 void Observer::Parts::filter(DepthView depth_m, Frame& frame) {
   const SelfFilterSettings& settings = view->settings().self_filter;
-  if (!region_renderer) {
+  if (region_renderer) {
+    region_renderer->render(frame.pose, frame.X_BC, region);
+    self_filter(view->camera(), depth_m, frame.robot, region, settings, workspace, frame.obstacles);
+  } else {
     self_filter(view->camera(), depth_m, frame.robot, settings, workspace, frame.obstacles);
-    return;
   }
-  region_renderer->render(frame.pose, frame.X_BC, region);
-  self_filter(view->camera(), depth_m, frame.robot, region, settings, workspace, frame.obstacles);
+  pose_soft_bodies(view->robot()->model(), frame.pose, frame.X_BC, soft);
+  drop_soft(view->camera(), soft, frame.obstacles);
 }
 
 void Observer::observe(DepthView depth_m, double stamp_s, const JointBuffer& joints, Frame& frame,

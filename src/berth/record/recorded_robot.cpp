@@ -120,7 +120,8 @@ std::vector<Attachment> attached_of(const mcap::FileReader& file, const Json& js
   for (const Json& one : json) {
     all.push_back({one.at("name").get<std::string>(), one.at("link").get<std::string>(),
                    read_mesh(file, one.at("mesh")), pose_of(one.at("X_LA")),
-                   one.at("is_link").get<bool>(), one.at("is_sharp").get<bool>()});
+                   one.at("is_link").get<bool>(), one.at("is_sharp").get<bool>(),
+                   one.value("is_soft", false)});
   }
   return all;
 }
@@ -143,6 +144,7 @@ void append_robot(const Robot& robot, std::vector<mcap::Attachment>& out) {
                         {"X_LA", exact(one.X_LA)},
                         {"is_link", one.is_link},
                         {"is_sharp", one.is_sharp},
+                        {"is_soft", one.is_soft},
                         {"mesh", append_mesh(one.mesh_A, one.name, out)}});
   }
   const Json json = {{"name", model.name},

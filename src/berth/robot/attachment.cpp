@@ -31,6 +31,16 @@ RobotModel with_attachment(const RobotModel& model, const Attachment& attachment
     fail(attachment, "the pose X_LA is not set; expected finite numbers");
   }
   RobotModel result = model;
+  if (attachment.is_soft) {
+    TriangleMesh mesh_L;
+    mesh_L.append(attachment.mesh_A, Eigen::Affine3d(attachment.X_LA));
+    try {
+      result.soft_bodies.emplace_back(parent, mesh_L);
+    } catch (const std::invalid_argument& error) {
+      fail(attachment, error.what());
+    }
+    return result;
+  }
   if (!attachment.is_link) {
     result.links[parent].mesh_L.append(attachment.mesh_A, Eigen::Affine3d(attachment.X_LA));
     return result;

@@ -20,12 +20,15 @@ struct Attachment {
   bool is_link = false;
   /// Whether somebody may be hurt by it at any speed: then no contact is tolerable.
   bool is_sharp = false;
+  /// Whether it bends: the mesh is where it may be. What is read there is rejected, as what a rule
+  /// drops, and it is no link.
+  bool is_soft = false;
 };
 
 /// The robot with the thing on it. A link of its own gets the next id, after all others. Throws
 /// std::invalid_argument that names the attachment and what was expected: a link that there is not,
-/// or that is ignored or environment, a mesh without triangles, a pose that is not finite, a name
-/// that a link has already.
+/// or that is ignored or environment, a mesh without triangles, a soft one that is not closed, a
+/// pose that is not finite, a name that a link has already.
 RobotModel with_attachment(const RobotModel& model, const Attachment& attachment);
 
 }  // namespace berth

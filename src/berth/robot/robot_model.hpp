@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "berth/robot/soft_body.hpp"
 #include "berth/robot/triangle_mesh.hpp"
 #include "berth/types/camera.hpp"
 #include "berth/types/robot_image.hpp"
@@ -77,6 +78,8 @@ struct RobotModel {
   std::vector<std::string> mimic_joints;
   /// evaluated_links[i] is the index in `links` of the link with the id i + 1.
   std::vector<std::size_t> evaluated_links;
+  /// What hangs on it and bends (Attachment::is_soft).
+  std::vector<SoftBody> soft_bodies = {};
 
   int link_count() const { return static_cast<int>(evaluated_links.size()); }
   std::vector<std::string> evaluated_link_names() const;

@@ -226,7 +226,7 @@ std::vector<Attachment> attachments_of(const SceneFile& scene) {
   for (const SceneAttachment& from : scene.attached) {
     const bool is_link = !from.name.empty();
     attached.push_back({is_link ? from.name : fmt::format("{} at {}", from.link, from.place),
-                        from.link, mesh_of(from), from.X_LA, is_link, from.is_sharp});
+                        from.link, mesh_of(from), from.X_LA, is_link, from.is_sharp, from.is_soft});
   }
   return attached;
 }

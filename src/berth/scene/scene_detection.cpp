@@ -23,6 +23,7 @@ std::vector<DetectionImage> images_of(CalibratedRobot& calibrated, const RobotMo
     const DepthImage& depth_m = frames[k].depth_m;
     images.push_back(
         {corrects_depth ? corrected(depth_m, calibrated.found().depth) : depth_m, *robot, X_BC});
+    pose_soft_bodies(model, pose, X_BC, images.back().soft);
   }
   return images;
 }

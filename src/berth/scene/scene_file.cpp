@@ -51,7 +51,8 @@ std::vector<SceneCamera> read_cameras(const YamlValue& value, const CameraSettin
 }
 
 SceneAttachment read_attachment(const YamlValue& value) {
-  const YamlMap map(value, {"link", "name", "mesh", "box", "cylinder", "sphere", "pose", "sharp"});
+  const YamlMap map(value,
+                    {"link", "name", "mesh", "box", "cylinder", "sphere", "pose", "sharp", "soft"});
   SceneAttachment attachment;
   attachment.link = map.at("link").text();
   map.read("name", &YamlValue::text, attachment.name);
@@ -88,6 +89,7 @@ SceneAttachment read_attachment(const YamlValue& value) {
     attachment.X_LA = read_pose(YamlMap(*pose, {"xyz", "quaternion_xyzw", "rpy"}));
   }
   map.read("sharp", &YamlValue::boolean, attachment.is_sharp);
+  map.read("soft", &YamlValue::boolean, attachment.is_soft);
   attachment.place = fmt::format("{}:{}", map.place().file.string(), map.place().line);
   return attachment;
 }

@@ -56,6 +56,7 @@ struct SceneAttachment {
   std::optional<double> sphere_radius_m;
   Pose X_LA = Pose::Identity();
   bool is_sharp = false;
+  bool is_soft = false;
   /// Such as "scene.yaml:12", for messages about what the file names.
   std::string place;
 };

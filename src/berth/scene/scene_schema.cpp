@@ -158,7 +158,9 @@ Json attached_schema() {
        {"sphere", told("its radius, in metres", above_0())},
        {"pose", told("in the link's frame", pose_schema(false))},
        {"sharp", told("whether no contact is tolerable, at whatever speed",
-                      {{"type", "boolean"}, {"default", false}})}},
+                      {{"type", "boolean"}, {"default", false}})},
+       {"soft", told("whether it bends, and the shape is where it may be",
+                     {{"type", "boolean"}, {"default", false}})}},
       {"link"});
   part["oneOf"] = one_of({"mesh", "box", "cylinder", "sphere"});
   return part;

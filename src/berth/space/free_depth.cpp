@@ -132,8 +132,9 @@ float own_of_reading(float sensed_m, float obstacle_m, PixelFate fate, float mar
       return sensed_m + behind_m;
     case PixelFate::edge:
     case PixelFate::flying_patch:
-    case PixelFate::speckle:
     case PixelFate::outside_region:
+    case PixelFate::soft:
+    case PixelFate::speckle:
       return sensed_m - margin_m;
     case PixelFate::obstacle:
     case PixelFate::no_reading:

@@ -32,6 +32,11 @@ struct ImagePoint {
   double v;
 };
 
+/// The point at the depth z of a pixel, in C.
+inline Eigen::Vector3d point_at(const Camera& camera, int u, int v, double z_m) {
+  return {(u - camera.cx_px) / camera.fx_px * z_m, (v - camera.cy_px) / camera.fy_px * z_m, z_m};
+}
+
 /// Where a point before the camera (z > 0) projects to, in or beside the image.
 inline ImagePoint project(const Camera& camera, const Eigen::Vector3d& p_C_m) {
   return {camera.fx_px * p_C_m.x() / p_C_m.z() + camera.cx_px,

@@ -22,20 +22,21 @@ enum class PixelFate : std::uint8_t {
                    ///< near the robot: the camera smeared it there
   outside_region,  ///< not seen through the enlarged robot, where
                    ///< SelfFilterSettings::robot_region_scale is set
+  soft,            ///< where something soft may hang that is attached to the robot
   speckle,         ///< a blob of fewer pixels than count as an obstacle
   averaged,        ///< kept, at the mean of the pixel's last readings: it is nearer than the newest
   background,      ///< kept, at the depth that the pixel had when the robot was elsewhere; its own
                    ///< reading shows the robot, or was dropped
   hole,            ///< kept: it has no reading, and HolePolicy says that something is there
 };
-inline constexpr int kPixelFateCount = 13;
+inline constexpr int kPixelFateCount = 14;
 /// The self filter gives those up to `outside_region`.
 inline constexpr int kSelfFilterFateCount = 9;
 
 /// By enumerator.
 inline constexpr std::array<std::string_view, kPixelFateCount> kPixelFateNames = {
-    "obstacle",     "no_reading",     "robot",   "environment", "padding",    "dilation", "edge",
-    "flying_patch", "outside_region", "speckle", "averaged",    "background", "hole"};
+    "obstacle",     "no_reading",     "robot", "environment", "padding",  "dilation",   "edge",
+    "flying_patch", "outside_region", "soft",  "speckle",     "averaged", "background", "hole"};
 
 constexpr std::string_view name_of(PixelFate fate) {
   return kPixelFateNames[static_cast<std::size_t>(fate)];

@@ -27,6 +27,12 @@ void require_no_watch(const WatchSettings& watch) {
       "max_displacement_m to be 0 on OpenGL");
 }
 
+void require_nothing_soft(const RobotModel& model) {
+  if (model.soft_bodies.empty()) return;
+  throw std::invalid_argument(
+      "attached: what is soft is taken out on the CPU alone; expected nothing soft on OpenGL");
+}
+
 }  // namespace
 
 struct GlObserver::Parts {
@@ -53,6 +59,7 @@ GlObserver::GlObserver(std::shared_ptr<const MountedCamera> view)
   const CameraSettings& settings = parts_->view->settings();
   require_no_sensor_rules(settings.sensor);
   require_no_watch(settings.watch);
+  require_nothing_soft(parts_->view->robot()->model());
   const double scale = settings.self_filter.robot_region_scale;
   if (scale == 0) return;
   parts_->region_renderer.emplace(robot_region(parts_->view->robot()->model(), scale),
