@@ -4,7 +4,7 @@
 # anything was found, 2 where the arguments are wrong.
 set -eu
 cd "$(dirname "$0")/.."
-all="png camera_info scene joints_csv urdf stl obj dae"
+all="png camera_info scene joints_csv urdf stl obj dae recording"
 
 usage() {
   echo "fuzz: $1; expected SECONDS [READER...], readers: $all" >&2
@@ -45,7 +45,7 @@ for reader in "$@"; do
   found=build/fuzz/found/$reader
   mkdir -p "$corpus" "$found"
   echo "fuzz $reader for $seconds s, log: $found.log"
-  if build/fuzz/fuzz_"$reader" -max_total_time="$seconds" -max_len=8192 -timeout=10 -rss_limit_mb=2048 \
+  if build/fuzz/fuzz_"$reader" -max_total_time="$seconds" -max_len=16384 -timeout=10 -rss_limit_mb=2048 \
     -print_final_stats=1 -artifact_prefix="$found/" "$corpus" "tests/broken_files/$reader" >"$found.log" 2>&1; then
     sed -n 's/^stat::number_of_executed_units: */  nothing found, inputs: /p' "$found.log"
   else

@@ -5,6 +5,7 @@
 #include "berth/files/camera_info.hpp"
 #include "berth/files/joints_csv.hpp"
 #include "berth/files/png.hpp"
+#include "berth/record/replay.hpp"
 #include "berth/robot/joint_trajectory.hpp"
 #include "berth/robot/kinematics.hpp"
 #include "berth/robot/mesh_file/mesh_file.hpp"
@@ -56,18 +57,27 @@ void read_mesh(Bytes bytes) {
   read_as(name, bytes, [](const auto& file) { read_mesh_file(file); });
 }
 
+void read_recording(Bytes bytes) {
+  read_as("stop.mcap", bytes, [](const auto& file) {
+    Replay replay(file);
+    while (replay.next()) {
+    }
+  });
+}
+
 constexpr const char* kStl = "mesh.stl";
 constexpr const char* kObj = "mesh.obj";
 constexpr const char* kDae = "mesh.dae";
 
-constexpr std::array<ReaderInput, 8> kInputs{{{"png", read_png},
+constexpr std::array<ReaderInput, 9> kInputs{{{"png", read_png},
                                               {"camera_info", read_info},
                                               {"scene", read_scene_file},
                                               {"joints_csv", read_joints},
                                               {"urdf", read_robot},
                                               {"stl", read_mesh<kStl>},
                                               {"obj", read_mesh<kObj>},
-                                              {"dae", read_mesh<kDae>}}};
+                                              {"dae", read_mesh<kDae>},
+                                              {"recording", read_recording}}};
 
 }  // namespace
 

@@ -14,7 +14,7 @@ struct ReaderInput {
   void (*read)(std::span<const std::uint8_t> bytes);
 };
 
-/// png, camera_info, scene, joints_csv, urdf, stl, obj, dae.
+/// png, camera_info, scene, joints_csv, urdf, stl, obj, dae, recording.
 std::span<const ReaderInput> reader_inputs();
 
 }  // namespace berth

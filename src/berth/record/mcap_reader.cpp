@@ -16,6 +16,8 @@ namespace {
 
 /// Above what a recorder packs together, or attaches.
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
+/// Two MiB and one image: what a few bytes may claim to unpack to.
+constexpr std::uint64_t kMostUnpackedBytes = std::uint64_t{256} << 20;
 
 /// Takes a record's content apart.
 class Fields {
@@ -202,8 +204,8 @@ void FileReader::take_chunk(const Place& place, std::string_view content,
   const auto crc = fields.number<std::uint32_t>();
   const std::string_view compression = fields.text();
   const std::string_view packed = fields.take(fields.number<std::uint64_t>());
-  if (size > kMostBytes) {
-    fail(fmt::format("byte {}: a chunk of {} bytes", place.offset, size), "at most 1 GiB");
+  if (size > kMostUnpackedBytes) {
+    fail(fmt::format("byte {}: a chunk of {} bytes", place.offset, size), "at most 256 MiB");
   }
   if (compression == "zstd") {
     records.resize(size);
@@ -242,6 +244,7 @@ bool FileReader::next(Message& out) {
     }
     Fields fields(*this, std::string_view(records_).substr(at_));
     const auto opcode = fields.number<std::uint8_t>();
+    if (opcode == 0) fail("damaged: a record without a kind in a chunk", "one as it was written");
     const std::string_view content = fields.take(fields.number<std::uint64_t>());
     at_ = records_.size() - fields.rest().size();
     if (static_cast<Opcode>(opcode) != Opcode::message) {
