@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <ranges>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -169,8 +168,9 @@ class Guard {
   /// is not, Assimp 5.4 ends the process.
   void remove_all_but_geometry() {
     // One may stand in another one, which was found before it.
-    for (pugi::xml_node& binding : std::views::reverse(bindings_)) {
-      binding.parent().remove_child(binding);
+    // No std::views: clang 14, which the fuzzers are built with, cannot compile libstdc++'s.
+    for (auto binding = bindings_.rbegin(); binding != bindings_.rend(); ++binding) {
+      binding->parent().remove_child(*binding);
     }
     pugi::xml_node root = document_.document_element();
     constexpr std::array<std::string_view, 5> kKept{"asset", "library_geometries", "library_nodes",
