@@ -9,6 +9,7 @@
 #include "berth/files/error.hpp"
 #include "berth/record/exact_json.hpp"
 #include "berth/record/ply.hpp"
+#include "berth/robot/plausible_size.hpp"
 
 namespace berth {
 namespace {
@@ -158,7 +159,9 @@ void append_robot(const Robot& robot, std::vector<mcap::Attachment>& out) {
 std::shared_ptr<const Robot> read_robot(const mcap::FileReader& file,
                                         const EvaluationSettings& settings) {
   const Json json = Json::parse(file.attachment(kRobotFile).data);
-  return std::make_shared<const Robot>(model_of(file, json), settings,
+  RobotModel model = model_of(file, json);
+  require_plausible_size(kRobotFile, model);
+  return std::make_shared<const Robot>(std::move(model), settings,
                                        attached_of(file, json.at("attached")));
 }
 

@@ -8,6 +8,9 @@
 namespace berth {
 namespace {
 
+/// Nobody carries what reaches farther; a mesh of 2 cm in millimetres does.
+constexpr double kFarthestPart_m = 20;
+
 [[noreturn]] void fail(const Attachment& attachment, const std::string& what) {
   throw std::invalid_argument(fmt::format("attached \"{}\": {}", attachment.name, what));
 }
@@ -27,6 +30,13 @@ std::size_t find_evaluated(const RobotModel& model, const Attachment& attachment
 RobotModel with_attachment(const RobotModel& model, const Attachment& attachment) {
   const std::size_t parent = find_evaluated(model, attachment);
   if (attachment.mesh_A.empty()) fail(attachment, "the mesh has no triangles; expected some");
+  for (const Eigen::Vector3f& p_A_m : attachment.mesh_A.vertices_m) {
+    const double reach_m = p_A_m.cast<double>().norm();
+    if (reach_m <= kFarthestPart_m) continue;
+    fail(attachment, fmt::format("the mesh reaches {:g} m from its origin; expected at most {:g} m "
+                                 "(one in millimetres is a thousand times as large)",
+                                 reach_m, kFarthestPart_m));
+  }
   if (!attachment.X_LA.matrix().allFinite()) {
     fail(attachment, "the pose X_LA is not set; expected finite numbers");
   }

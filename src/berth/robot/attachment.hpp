@@ -27,8 +27,9 @@ struct Attachment {
 
 /// The robot with the thing on it. A link of its own gets the next id, after all others. Throws
 /// std::invalid_argument that names the attachment and what was expected: a link that there is not,
-/// or that is ignored or environment, a mesh without triangles, a soft one that is not closed, a
-/// pose that is not finite, a name that a link has already.
+/// or that is ignored or environment, a mesh without triangles, or that reaches farther than 20 m
+/// from its origin, a soft one that is not closed, a pose that is not finite, a name that a link
+/// has already.
 RobotModel with_attachment(const RobotModel& model, const Attachment& attachment);
 
 }  // namespace berth

@@ -34,10 +34,10 @@ bool has_area(const TriangleMesh& mesh_L) {
 
 }  // namespace
 
-void require_plausible_size(const std::filesystem::path& urdf, const RobotModel& model) {
+void require_plausible_size(const std::filesystem::path& file, const RobotModel& model) {
   for (const Link& link : model.links) {
     const auto fail = [&](const std::string& what) {
-      throw std::runtime_error(fmt::format("{}: link \"{}\": {}", urdf.string(), link.name, what));
+      throw std::runtime_error(fmt::format("{}: link \"{}\": {}", file.string(), link.name, what));
     };
     const double offset_m = link.joint.X_PJ.translation().norm();
     if (!(offset_m <= kFarthestAnything_m)) {

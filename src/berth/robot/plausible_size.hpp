@@ -1,4 +1,4 @@
-// Inside robot/ only.
+// Inside robot/, and for who reads a robot from elsewhere.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@ namespace berth {
 /// Refuses what is no robot's size: a link to evaluate that reaches farther than 100 m from its
 /// origin, as one in millimetres does; environment or a joint farther than 100 km from its parent,
 /// and what is not finite. A link of points alone, which no camera sees. Throws std::runtime_error
-/// that names the URDF, the link, the value and what was expected.
-void require_plausible_size(const std::filesystem::path& urdf, const RobotModel& model);
+/// that names the file, the link, the value and what was expected.
+void require_plausible_size(const std::filesystem::path& file, const RobotModel& model);
 
 }  // namespace berth
