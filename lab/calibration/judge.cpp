@@ -18,17 +18,6 @@ namespace {
 constexpr int kNear_px = 10;
 constexpr float kLikeRobot_m = 0.10F;
 
-void set(const std::vector<ProposedSetting>& proposed, auto& settings) {
-  for (const ProposedSetting& one : proposed) {
-    visit_settings(settings, [&](const Setting& setting, auto& value) {
-      if (setting.name != one.key) return;
-      if constexpr (std::is_arithmetic_v<std::remove_reference_t<decltype(value)>>) {
-        value = static_cast<std::remove_reference_t<decltype(value)>>(one.value);
-      }
-    });
-  }
-}
-
 /// Whether the reading lies at the robot's own depth: else it shows what is behind the robot, and
 /// the colour image's mask and the depth image do not agree to the pixel.
 bool is_like_robot(const RobotImage& robot, int u, int v, float z_m) {
@@ -101,15 +90,21 @@ double apart_m(const Pose& X_PC, const Pose& X_PC_other, double depth_m) {
   return sum_m / count;
 }
 
-SceneFile with_result(SceneFile scene, const Calibrated& calibrated) {
-  const CalibrationResult& found = calibrated.found;
-  SceneCamera& camera = scene.cameras[0];
-  camera.X_PC = found.cameras[0].X_PC;
-  camera.clock_offset_s = found.cameras[0].clock_offset_s;
+SceneFile with_result(SceneFile scene, const CalibrationResult& found,
+                      std::span<const FilterProposal> filters) {
+  for (std::size_t c = 0; c < filters.size(); ++c) {
+    SceneCamera& camera = scene.cameras[c];
+    camera.X_PC = found.cameras[c].X_PC;
+    camera.clock_offset_s = found.cameras[c].clock_offset_s;
+    camera.settings.self_filter = filters[c].self_filter_settings;
+    camera.settings.sensor = filters[c].sensor_settings;
+  }
   for (const auto& [joint, offset] : found.joint_offsets) scene.joint_offsets[joint] += offset;
-  set(calibrated.proposal.self_filter, camera.settings.self_filter);
-  set(calibrated.proposal.sensor, camera.settings.sensor);
   return scene;
+}
+
+SceneFile with_result(SceneFile scene, const Calibrated& calibrated) {
+  return with_result(std::move(scene), calibrated.found, {&calibrated.proposal, 1});
 }
 
 Judgement judge(const SceneFile& file, const std::filesystem::path& folder) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 
 #include "berth/calibration/calibrate.hpp"
@@ -19,7 +20,10 @@ struct Calibrated {
 };
 Calibrated calibration_data(const SceneFile& file);
 
-/// The scene with what was found of its first camera.
+/// The scene with what was found of its first cameras, and with the filters proposed for each.
+SceneFile with_result(SceneFile scene, const CalibrationResult& found,
+                      std::span<const FilterProposal> filters);
+/// The same of its first camera.
 SceneFile with_result(SceneFile scene, const Calibrated& calibrated);
 
 /// How far robot points so deep before the camera lie apart for two of its poses: in the mean over

@@ -12,6 +12,7 @@
 #include "berth/robot/primitives.hpp"
 #include "berth/scene/scene_calibration.hpp"
 #include "berth/scene/scene_detection.hpp"
+#include "lab/calibration/judge.hpp"
 #include "sim/random.hpp"
 #include "sim/ray_caster.hpp"
 #include "sim/sensor_model.hpp"
@@ -31,23 +32,18 @@ struct CalibratedScene {
 };
 
 CalibratedScene calibrate_scene(const std::string& path) {
-  SceneFile file = read_scene_to_calibrate(path);
+  const SceneFile file = read_scene_to_calibrate(path);
   const OpenScene given = open_scene(file);
   const SceneCalibrationData material = make_calibration_data(given);
   const CalibrationResult found = calibrate(material.calibration_data);
   std::vector<FilterProposal> filters;
   for (std::size_t c = 0; c < file.cameras.size(); ++c) {
-    CameraSettings& settings = file.cameras[c].settings;
+    const CameraSettings& settings = file.cameras[c].settings;
     filters.push_back(propose_filter(material.calibration_data, c, found, false,
                                      settings.self_filter, settings.sensor));
-    settings.self_filter = filters[c].self_filter_settings;
-    settings.sensor = filters[c].sensor_settings;
-    file.cameras[c].X_PC = found.cameras[c].X_PC;
-    file.cameras[c].clock_offset_s = found.cameras[c].clock_offset_s;
   }
-  for (const auto& [joint, offset] : found.joint_offsets) file.joint_offsets[joint] += offset;
   DetectionMap map = measure_detection_of(material.calibration_data, found, filters, false, [] {});
-  return {open_scene(file), std::move(map)};
+  return {open_scene(with_result(file, found, filters)), std::move(map)};
 }
 
 /// A ball, or a rod that holds one in its middle.
