@@ -50,8 +50,8 @@ void BlackBox::retire() {
 
 std::unique_ptr<berth::Recorder> BlackBox::make(
     const Views& views, std::optional<berth::SeparationSettings> separation) const {
-  Views known;
-  std::ranges::copy_if(views, std::back_inserter(known), [](const auto& view) { return view; });
+  Views known = views;
+  std::erase(known, nullptr);
   if (known.empty()) return nullptr;
   try {
     const std::shared_ptr<const berth::Robot> robot = known.front()->robot();
