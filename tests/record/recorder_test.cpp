@@ -156,6 +156,21 @@ TEST_F(RecorderTest, LosesRequestsAboutFramesThatItWasNotGiven) {
   EXPECT_EQ(found.lost_requests, 1);
 }
 
+TEST_F(RecorderTest, BeginsWithTheFirstRequestWhoseFramesItWasGiven) {
+  const auto black_box = recorder(settings());
+  observe();
+  for (int i = 0; i < 2; ++i) ask(*black_box, false);
+  EXPECT_EQ(black_box->counts().requests, 0);
+  for (int i = 0; i < 3; ++i) step(*black_box);
+  black_box->write();
+  black_box->finish();
+  const ReplaySummary found = replay(file());
+  EXPECT_EQ(found.requests, 3);
+  EXPECT_EQ(found.different, 0) << found.first_difference;
+  EXPECT_EQ(found.lost_requests, 0);
+  EXPECT_EQ(black_box->counts().lost_requests, 0);
+}
+
 TEST_F(RecorderTest, HasTheImagesThatComeBetweenARequestThatBeginsASegmentAndTheNext) {
   const auto black_box = recorder(settings());
   for (int i = 0; i < 12; ++i) {

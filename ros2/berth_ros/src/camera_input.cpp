@@ -224,9 +224,9 @@ void CameraInput::make_live(const ImageMessage& image) {
                            robot_->settings().time.max_joints_age_s};
   auto live = std::make_unique<berth::LiveCamera>(
       view, *joints_, settings_.live,
-      [this, kept = joints_](const berth::Frame& frame, berth::DepthView,
+      [this, kept = joints_](const berth::Frame& frame, berth::DepthView depth_m,
                              const std::shared_ptr<const void>& with) {
-        on_frame_(frame, std::static_pointer_cast<const ImageMessage>(with));
+        on_frame_(frame, depth_m, std::static_pointer_cast<const ImageMessage>(with));
       },
       [this, source](double stamp_s) { return place_at(source, stamp_s); });
   live->distrust(is_distrusted(mount));

@@ -47,8 +47,8 @@ struct CameraReport {
 class CameraInput {
  public:
   using ImageMessage = sensor_msgs::msg::Image;
-  using OnFrame =
-      std::function<void(const berth::Frame&, const std::shared_ptr<const ImageMessage>&)>;
+  using OnFrame = std::function<void(const berth::Frame&, berth::DepthView depth_m,
+                                     const std::shared_ptr<const ImageMessage>&)>;
 
   /// `on_frame` is called in the camera's own thread. Images come by `images`, a plain node, since
   /// image_transport knows no other; callbacks of `node` pass `gate`. Frames are placed in

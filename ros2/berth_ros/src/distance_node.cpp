@@ -5,6 +5,7 @@
 #include <chrono>
 #include <rclcpp_components/register_node_macro.hpp>
 #include <std_msgs/msg/float64.hpp>
+#include <std_srvs/srv/trigger.hpp>
 #include <visualization_msgs/msg/marker_array.hpp>
 
 #include "berth/pipeline/query.hpp"
@@ -31,7 +32,7 @@ rcl_interfaces::msg::ParameterDescriptor rate(const std::string& text, double mo
   return descriptor;
 }
 
-rcl_interfaces::msg::ParameterDescriptor described_number(const std::string& text) {
+rcl_interfaces::msg::ParameterDescriptor described(const std::string& text) {
   rcl_interfaces::msg::ParameterDescriptor descriptor;
   descriptor.description = text;
   descriptor.read_only = true;
@@ -52,8 +53,9 @@ class DistanceNode : public LiveNode {
     marker_hz_ = declare_parameter("marker_rate_hz", 10.0, rate("markers a second; 0: none", 100));
     velocity_window_s_ = declare_parameter(
         "velocity_window_s", 0.02,
-        described_number("over how long a time of joint states velocities are measured, where no "
-                         "planned_joint_states come"));
+        described("over how long a time of joint states velocities are measured, where no "
+                  "planned_joint_states come"));
+    declare_recording();
     planners_.emplace(*this, clock_, [this] { return space_now(); });
     begin();
   }
@@ -62,6 +64,30 @@ class DistanceNode : public LiveNode {
 
  private:
   using LinkDistances = berth_msgs::msg::LinkDistances;
+  using Trigger = std_srvs::srv::Trigger;
+
+  void declare_recording() {
+    berth::RecorderSettings settings;
+    settings.file = declare_parameter(
+        "record.file", "",
+        described("an MCAP file for what the monitor saw and said before it stopped the "
+                  "robot, for `berth replay`; the next ones are FILE_2.mcap and so on; "
+                  "empty: nothing is recorded"));
+    settings.seconds = declare_parameter("record.seconds", settings.seconds,
+                                         described("how many of the last seconds a recording has"));
+    black_box_.emplace(settings, [logger = get_logger()](const std::string& sentence) {
+      RCLCPP_WARN(logger, "%s", sentence.c_str());
+    });
+    if (settings.file.empty()) return;
+    write_recording_ = create_service<Trigger>(
+        "~/record", [this](const std::shared_ptr<Trigger::Request>&,
+                           const std::shared_ptr<Trigger::Response>& response) {
+          const std::lock_guard lock(query_mutex_);
+          response->success = black_box_->write();
+          response->message = response->success ? "the log tells the file once it is written"
+                                                : "no image was recorded yet";
+        });
+  }
 
   void configure_outputs() override {
     const rclcpp::QoS qos = rclcpp::QoS(10);
@@ -98,6 +124,7 @@ class DistanceNode : public LiveNode {
     planners_->clean();
     planned_subscription_.reset();
     keep_space(nullptr);
+    black_box_->use(nullptr, {}, 0);
     distances_.reset();
     at_exposure_.reset();
     separation_.reset();
@@ -115,7 +142,8 @@ class DistanceNode : public LiveNode {
         group_);
   }
 
-  void on_joints() override {
+  void on_joints(const sensor_msgs::msg::JointState& state) override {
+    black_box_->push_joints(clock_.seconds(state.header.stamp), state.name, state.position);
     if (question_hz_ == 0) ask();
   }
   void on_robot() override {
@@ -134,6 +162,7 @@ class DistanceNode : public LiveNode {
     monitor_.reset();
     planned_ = {};
     const std::optional<berth::SeparationSettings> separation = separation_settings();
+    black_box_->use(now.robot, separation, camera_names().size());
     may_be_degraded_ = separation && separation->camera != berth::UnknownPolicy::stop;
     if (!now.robot) return;
     if (separation) monitor_.emplace(now.robot, *separation, velocity_window_s_);
@@ -189,14 +218,16 @@ class DistanceNode : public LiveNode {
     // Later than any image and any joint state that it asks about.
     const rclcpp::Time now = this->now();
     const double now_s = clock_.seconds(now);
-    result_ =
-        query_->ask({.frames = ready ? berth::NewestFrames(ready) : berth::NewestFrames(frames),
-                     .joints = requested_joints(joints, now_s),
-                     .now_s = now_s,
-                     .X_WB = root_at(*robot_.robot, joints.newest_stamp_s())});
+    const berth::Request request{
+        .frames = ready ? berth::NewestFrames(ready) : berth::NewestFrames(frames),
+        .joints = requested_joints(joints, now_s),
+        .now_s = now_s,
+        .X_WB = root_at(*robot_.robot, joints.newest_stamp_s())};
+    result_ = black_box_->ask(*query_, request);
     to_message(result_, base_frame(), now, clock_, message);
     if (monitor_) {
-      monitor_->update(result_, joints, planned_, now_s, query_->frames(), separation_message_);
+      monitor_->update(*black_box_, result_, joints, planned_, now_s, query_->frames(),
+                       separation_message_);
     } else {
       say_unmonitored(separation_message_);
       if (result_.status != berth::ResultStatus::ok) {
@@ -244,9 +275,10 @@ class DistanceNode : public LiveNode {
     if (robot_.robot) planned_.take(message, robot_.robot->model(), clock_.seconds(this->now()));
   }
 
-  void on_frame(std::size_t camera, const berth::Frame& frame,
+  void on_frame(std::size_t camera, const berth::Frame& frame, berth::DepthView depth_m,
                 const std::shared_ptr<const sensor_msgs::msg::Image>&) override {
-    if (const std::shared_ptr<RobotSpace> space = this->space()) space->take_frames();
+    black_box_->put(camera, frame, depth_m);
+    if (const std::shared_ptr<RobotSpace> space = this->space()) space->take_frame(camera);
     if (at_exposure_->get_subscription_count() == 0) return;
     auto message = std::make_unique<LinkDistances>();
     const auto look = [this](const berth::Robot& robot) { return frames(robot); };
@@ -322,6 +354,8 @@ class DistanceNode : public LiveNode {
   double velocity_window_s_ = 0;
   /// What the monitor does without a camera was chosen by the user.
   bool may_be_degraded_ = false;
+  std::optional<BlackBox> black_box_;
+  rclcpp::Service<Trigger>::SharedPtr write_recording_;
   std::optional<SpeedMonitor> monitor_;
   std::optional<PlannerTopics> planners_;
   PlannedVelocity planned_;

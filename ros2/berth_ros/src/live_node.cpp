@@ -151,10 +151,10 @@ void LiveNode::make_cameras() {
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     inputs_.push_back(std::make_unique<CameraInput>(
         *this, gate(), images_->node(), cameras[i], settings_.world_frame(), clock_, *transforms_,
-        [this, i](const berth::Frame& frame,
+        [this, i](const berth::Frame& frame, berth::DepthView depth_m,
                   const std::shared_ptr<const sensor_msgs::msg::Image>& image) {
           explanations_->put(i, frame, image);
-          if (is_answering()) on_frame(i, frame, image);
+          if (is_answering()) on_frame(i, frame, depth_m, image);
         }));
   }
 }
@@ -314,7 +314,7 @@ void LiveNode::on_joint_state(const sensor_msgs::msg::JointState& state) {
     if (!trouble.empty()) ++refused_joint_messages_;
   }
   look_again();
-  on_joints();
+  on_joints(state);
 }
 
 }  // namespace berth_ros

@@ -72,9 +72,9 @@ class LiveNode : public rclcpp_lifecycle::LifecycleNode {
   /// No callback runs any more.
   virtual void clean_outputs() = 0;
   /// A frame was observed, in its camera's thread.
-  virtual void on_frame(std::size_t camera, const berth::Frame& frame,
+  virtual void on_frame(std::size_t camera, const berth::Frame& frame, berth::DepthView depth_m,
                         const std::shared_ptr<const sensor_msgs::msg::Image>& image) = 0;
-  virtual void on_joints() {}
+  virtual void on_joints(const sensor_msgs::msg::JointState&) {}
   /// The robot is another one, or there is none any more.
   virtual void on_robot() {}
 

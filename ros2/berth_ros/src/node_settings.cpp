@@ -61,7 +61,9 @@ bool is_among(const auto& keys, const std::string& name) {
 bool is_of_other_node(const std::string& name, bool has_one_camera) {
   if (!has_one_camera) return name == "camera" || is_among(kCameraKeys, name);
   if (is_among(kDistanceKeys, name) || name.ends_with("_rate_hz")) return true;
-  if (name.rfind("separation.", 0) == 0 || name.rfind("planner.", 0) == 0) return true;
+  for (const std::string group : {"separation.", "planner.", "record."}) {
+    if (name.rfind(group, 0) == 0) return true;
+  }
   // One camera's own: the names of cameras are anybody's choice.
   const std::size_t dot = name.find('.');
   if (dot == std::string::npos) return false;

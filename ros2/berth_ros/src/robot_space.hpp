@@ -3,7 +3,6 @@
 
 #include <functional>
 #include <memory>
-#include <mutex>
 
 #include "berth/live/live_space.hpp"
 #include "live_node.hpp"
@@ -18,8 +17,9 @@ class RobotSpace {
 
   RobotSpace(const LiveRobot& robot, std::size_t cameras, Look look);
 
-  /// To be called when a frame has come. From any thread; returns at once.
-  void take_frames();
+  /// Takes the camera's newest frame: to be called by its thread, when it has come. Returns at
+  /// once.
+  void take_frame(std::size_t camera);
   /// What is ready; null where a camera does not stand for its frame in it any more, since it is
   /// another one, or elsewhere.
   std::shared_ptr<const berth::PreparedSpace> ready(const LiveFrames& now) const;
@@ -28,8 +28,6 @@ class RobotSpace {
  private:
   LiveRobot robot_;
   Look look_;
-  /// Who has it puts frames that are at least as new as those before.
-  std::mutex mutex_;
   berth::LiveSpace space_;
 };
 

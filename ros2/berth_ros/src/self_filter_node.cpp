@@ -35,7 +35,7 @@ class SelfFilterNode : public LiveNode {
     robot_depth_.reset();
   }
 
-  void on_frame(std::size_t, const berth::Frame& frame,
+  void on_frame(std::size_t, const berth::Frame& frame, berth::DepthView,
                 const std::shared_ptr<const Image>& image) override {
     // Without the robot's pose nobody knows which pixels are the robot's: no image is better.
     if (frame.time.status != berth::TimeStatus::ok || !frame.watch.is_trusted()) return;

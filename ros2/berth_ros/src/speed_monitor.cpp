@@ -50,14 +50,14 @@ SpeedMonitor::SpeedMonitor(std::shared_ptr<const berth::Robot> robot,
                            const berth::SeparationSettings& settings, double velocity_window_s)
     : robot_(std::move(robot)), monitor_(robot_, settings), velocity_window_s_(velocity_window_s) {}
 
-void SpeedMonitor::update(berth::Result& result, const berth::JointBuffer& joints,
-                          PlannedVelocity& planned, double now_s, const berth::FrameSet& frames,
-                          Separation& out) {
+void SpeedMonitor::update(BlackBox& black_box, berth::Result& result,
+                          const berth::JointBuffer& joints, PlannedVelocity& planned, double now_s,
+                          const berth::FrameSet& frames, Separation& out) {
   joints.velocity(velocity_window_s_, velocity_);
   out.is_planned = planned.is_there();
   const std::vector<double>& velocity =
       out.is_planned ? planned.at(now_s, robot_->settings().time.max_frame_age_s) : velocity_;
-  result.separation = monitor_.update(result, velocity, now_s, &frames);
+  result.separation = black_box.update(monitor_, result, velocity, now_s, frames);
   const berth::Separation& separation = *result.separation;
   out.state = static_cast<std::uint8_t>(separation.state);
   out.speed_scale = separation.speed_scale;

@@ -9,6 +9,7 @@
 
 #include "berth/robot/joint_buffer.hpp"
 #include "berth/separation/monitor.hpp"
+#include "black_box.hpp"
 
 namespace berth_ros {
 
@@ -36,9 +37,11 @@ class SpeedMonitor {
                double velocity_window_s);
 
   /// Sets Result::separation, and what is about speeds in `out`. Velocities are those of `planned`
-  /// where any came, else those of the joints. `frames` are those that the result is about.
-  void update(berth::Result& result, const berth::JointBuffer& joints, PlannedVelocity& planned,
-              double now_s, const berth::FrameSet& frames, berth_msgs::msg::Separation& out);
+  /// where any came, else those of the joints. `frames` are those that the result is about, which
+  /// `black_box` was asked for.
+  void update(BlackBox& black_box, berth::Result& result, const berth::JointBuffer& joints,
+              PlannedVelocity& planned, double now_s, const berth::FrameSet& frames,
+              berth_msgs::msg::Separation& out);
 
  private:
   std::shared_ptr<const berth::Robot> robot_;

@@ -36,7 +36,7 @@ def test_a_file_for_both_nodes_is_taken_by_both(tmp_path):
     file = tmp_path / "both.yaml"
     file.write_text("/**:\n  ros__parameters:\n    cameras: [front]\n    question_rate_hz: 50.0\n    planner.edge_m: 0.05\n"
                     "    front.max_wait_s: 0.2\n    front.self_filter.padding_m: 0.03\n    separation.monitor: false\n    max_wait_s: 0.2\n"
-                    "    self_filter.padding_m: 0.02\n    front.reliability: reliable\n")
+                    "    self_filter.padding_m: 0.02\n    front.reliability: reliable\n    record.seconds: 10.0\n")
     for node in ("distance_node", "self_filter_node"):
         code, said = run(node, "--params-file", str(file))
         assert code == 0, said
@@ -48,6 +48,7 @@ def test_a_file_for_both_nodes_is_taken_by_both(tmp_path):
     ("scene:=nowhere.yaml", ["nowhere.yaml"]),
     ("urdf_path:=nowhere.urdf", ["nowhere.urdf"]),
     ("srdf_path:=nowhere.srdf", ["nowhere.srdf"]),
+    ("record.file:=/nowhere/a.mcap", ["record.file", "/nowhere/a.mcap", "/nowhere is not"]),
     ("planner.edge_m:=0.001", ["planner.edge_m", "0.001", "expected at least 0.005"]),
     ("planner.box_min_m:=[0.0, 0.0]", ["planner.box_min_m", "2 numbers; expected 3"]),
     ("planner.box_min_m:=[2.0, 0.0, 0.0]", ["planner.box_min_m", "the box of the voxels is empty"]),

@@ -42,6 +42,7 @@ TEST(SpeedMonitor, LooksAlongTheRobotsWayAsTheLibraryDoes) {
   berth::SeparationMonitor twin(scene.robot, lenient());
   const berth::JointBuffer no_joints(scene.robot->model(), 2);
   PlannedVelocity planned;
+  BlackBox black_box({}, {});
   int along_the_way = 0;
   for (std::size_t k = 0; k < camera.at_exposure.size(); k += 3) {
     const auto frame = std::make_shared<berth::Frame>();
@@ -54,7 +55,7 @@ TEST(SpeedMonitor, LooksAlongTheRobotsWayAsTheLibraryDoes) {
     scene.joints->velocity(frame->stamp_s, velocity);
     planned.take(message_of(scene.robot->model(), velocity), scene.robot->model(), now_s);
     berth_msgs::msg::Separation out;
-    monitor.update(result, no_joints, planned, now_s, query.frames(), out);
+    monitor.update(black_box, result, no_joints, planned, now_s, query.frames(), out);
     const berth::Separation& expected = twin.update(result, velocity, now_s, &query.frames());
     EXPECT_EQ(out.basis, name_of(expected.basis)) << k;
     EXPECT_EQ(out.speed_scale, expected.speed_scale) << k;

@@ -167,7 +167,8 @@ bool Recorder::Parts::open(const Query& query, const Request& request, bool begi
   // Much may have come since the request began.
   if (!are_kept(request, begins) || (is_broken && !begins)) {
     ++number;
-    lose_request();
+    // About frames of before the recorder: then it has not begun, and nothing is lost.
+    if (asked || lost_images > 0) lose_request();
     return false;
   }
   for (const Frame* frame : request.frames.get()) {

@@ -92,8 +92,8 @@ class Recorder {
   void push_joints(double stamp_s, std::span<const std::string> names,
                    std::span<const double> positions);
 
-  /// query.ask(request), recorded but for its look-ahead, whose last digits depend on how threads
-  /// share it. In one thread.
+  /// query.ask(request), recorded from the first one on whose frames were all put, but for its
+  /// look-ahead, whose last digits depend on how threads share it. In one thread.
   const Result& ask(Query& query, const Request& request);
   /// monitor.update(...), recorded: after ask(), in its thread, with what it gave. Throws
   /// std::invalid_argument where the recorder was made without settings of a monitor.
