@@ -1,8 +1,9 @@
 // What must not change an answer by more than the tolerance: instruction sets, threads, first
-// guesses.
+// guesses. And what must not change a bit of it: what others have asked before.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "sim/random.hpp"
 #include "tests/distance/agreement.hpp"
 #include "tests/support/mesh_world.hpp"
 #include "tests/support/only_target.hpp"
@@ -82,6 +83,72 @@ TEST(MeshSameAnswers, FromAnyFirstGuess) {
                    out);
     expect_same(out, cold);
   }
+}
+
+void expect_equal(const SpacePair& a, const SpacePair& b) {
+  EXPECT_EQ(a.lower_bound_m, b.lower_bound_m);
+  ASSERT_EQ(a.is_known(), b.is_known());
+  if (!a.is_known()) return;
+  EXPECT_EQ(a.distance_m, b.distance_m);
+  EXPECT_EQ(a.robot_point_B_m, b.robot_point_B_m);
+  EXPECT_EQ(a.obstacle_point_B_m, b.obstacle_point_B_m);
+}
+
+/// The points that both know; returns how many.
+int expect_equal_fields(const LinkPatches& a, const LinkPatches& b) {
+  int both = 0;
+  for (const float distance_m : {0.1f, 0.5f, 1.0f}) {
+    const mesh::FieldGrid& of_a = *a.field->grid_for(distance_m);
+    const mesh::FieldGrid& of_b = *b.field->grid_for(distance_m);
+    const std::array<int, 3> count = of_a.all().count;
+    const auto points = static_cast<std::size_t>(count[0] * count[1] * count[2]);
+    for (std::size_t i = 0; i < points; ++i) {
+      if (of_a.squared_m2(i) == 0 || of_b.squared_m2(i) == 0) continue;
+      ++both;
+      EXPECT_EQ(of_a.squared_m2(i), of_b.squared_m2(i));
+    }
+  }
+  return both;
+}
+
+/// A stream about a robot that nobody has asked of, and the same stream after and between requests
+/// of others about that robot elsewhere, as another thread's are.
+TEST(MeshSameAnswers, WhateverOthersHaveAsked) {
+  int both = 0;
+  for (std::uint32_t seed = 0; seed < thinned(20u); ++seed) {
+    const MeshWorld world = world_of(seed);
+    const PreparedWorld alone(world), shared(world);
+    MeshWorkspace of_alone, of_shared;
+    std::vector<WholeLinkDistance> out_alone, out_shared;
+    sim::Random random(seed);
+    RobotPose pose = world.pose;
+    for (int i = 0; i < 20; ++i) {
+      RobotPose elsewhere = pose;
+      for (Pose& X_BL : elsewhere.X_BL) X_BL.translation() += sim::draw_point(random, 0.2);
+      for (Pose& X_BL : pose.X_BL) {
+        X_BL = X_BL * Eigen::Translation3d(sim::draw_point(random, 0.01)) *
+               Eigen::AngleAxisd(random(-0.05, 0.05), Eigen::Vector3d::UnitZ());
+      }
+      MeshWorkspace of_others;
+      std::vector<WholeLinkDistance> others;
+      mesh_distances(shared.patches(), elsewhere, shared.space(), {2.0, kTolerance_m}, of_others,
+                     others);
+      mesh_distances(alone.patches(), pose, alone.space(), {1.0, kTolerance_m}, of_alone,
+                     out_alone);
+      mesh_distances(shared.patches(), pose, shared.space(), {1.0, kTolerance_m}, of_shared,
+                     out_shared);
+      for (std::size_t k = 0; k < out_alone.size(); ++k) {
+        expect_equal(out_alone[k].occupied, out_shared[k].occupied);
+        expect_equal(out_alone[k].nearest, out_shared[k].nearest);
+      }
+      if (HasFailure()) return;
+    }
+    for (std::size_t i = 0; i < alone.patches().links.size(); ++i) {
+      both += expect_equal_fields(alone.patches().links[i], shared.patches().links[i]);
+    }
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(both, thinned(2000));
 }
 
 }  // namespace

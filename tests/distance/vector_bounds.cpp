@@ -36,10 +36,9 @@ void points(const LinkPatches& link, float error_m, int hint, float slack_m, int
   }
 }
 
-float by_field(const LinkPatches& link, float error_m, int hint, float distance_m,
-               const Eigen::Vector3f& p_L_m) {
+float by_field(const LinkPatches& link, int hint, float distance_m, const Eigen::Vector3f& p_L_m) {
   const FieldGrid* const grid = link.field->grid_for(distance_m);
-  return grid ? field_bound_m2(*grid, NearestPointSearch(link, error_m), p_L_m, hint) : 0;
+  return grid ? field_bound_m2(*grid, link, p_L_m, hint) : 0;
 }
 
 void children(const std::array<float, 8>& squared_m2, float edge_m, std::array<float, 64>& out_m) {
@@ -81,9 +80,9 @@ void bound_points(const LinkPatches& link, float error_m, int hint, float slack_
   HWY_DYNAMIC_DISPATCH(points)(link, error_m, hint, slack_m, count, p_L_m, out);
 }
 
-float bound_by_field_m2(const LinkPatches& link, float error_m, int hint, float distance_m,
+float bound_by_field_m2(const LinkPatches& link, int hint, float distance_m,
                         const Eigen::Vector3f& p_L_m) {
-  return HWY_DYNAMIC_DISPATCH(by_field)(link, error_m, hint, distance_m, p_L_m);
+  return HWY_DYNAMIC_DISPATCH(by_field)(link, hint, distance_m, p_L_m);
 }
 
 void bound_cube_children(const std::array<float, 8>& squared_m2, float edge_m,

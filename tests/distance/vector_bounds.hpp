@@ -21,7 +21,7 @@ void bound_points(const LinkPatches& link, float error_m, int hint, float slack_
                   const Eigen::Vector3f* p_L_m, PointBounds* out);
 
 /// Of a point about `distance_m` from the link by its field: less than the square of its distance.
-float bound_by_field_m2(const LinkPatches& link, float error_m, int hint, float distance_m,
+float bound_by_field_m2(const LinkPatches& link, int hint, float distance_m,
                         const Eigen::Vector3f& p_L_m);
 
 /// Of a cube's children from the squared distances of its corners.

@@ -87,6 +87,20 @@ TEST_F(RecorderTest, WritesNothingForAStopWhereThatIsOffAndNoMoreThanItsMost) {
                {"stop 3 is not written", "most_files is 1"});
 }
 
+TEST_F(RecorderTest, WritesWhatIsAskedForHoweverManyStopsThereWere) {
+  RecorderSettings with = settings();
+  with.most_files = 1;
+  with.after_stop_s = 10;
+  const auto black_box = recorder(with);
+  for (int i = 0; i < 3; ++i) {
+    step(*black_box);
+    step(*black_box, true);
+    black_box->write();
+  }
+  black_box->finish();
+  EXPECT_EQ(folder_.names(), (std::vector<std::string>{"stop.mcap", "stop_2.mcap", "stop_3.mcap"}));
+}
+
 TEST_F(RecorderTest, WritesNothingWhereNothingWasAsked) {
   RecorderSettings with = settings();
   std::string told;

@@ -48,21 +48,26 @@ struct CubeLanes {
   }
 };
 
+/// Corner i of each cube, in the link's frame.
+HWY_INLINE Vectors corners_L_m(const NearCubes& near, const CubeLanes& cubes, int i) {
+  const Vectors low_m = moved(near.X_LO, {load(cubes.x_m), load(cubes.y_m), load(cubes.z_m)});
+  const auto along = [&](int row) {
+    float sum = 0;
+    for (int k = 0; k < 3; ++k) sum += i >> k & 1 ? near.X_LO.r[row][k] : 0.0f;
+    return Lanes(sum);
+  };
+  return mul_add(load(cubes.edge_m), {along(0), along(1), along(2)}, low_m);
+}
+
 /// The least distances of cubes by the field at their corners; 0 where it does not tell.
 HWY_INLINE Lanes cube_bounds(const NearCubes& near, const FieldPoints& field,
                              const CubeLanes& cubes) {
-  const Vectors low_m = moved(near.X_LO, {load(cubes.x_m), load(cubes.y_m), load(cubes.z_m)});
   const Lanes edge_m = load(cubes.edge_m);
   const Lanes zero(0.0f);
   Lanes f[8] = {zero, zero, zero, zero, zero, zero, zero, zero};
   LaneMask tells = zero >= zero;
   for (int i = 0; i < 8; ++i) {
-    const auto along = [&](int row) {
-      float sum = 0;
-      for (int k = 0; k < 3; ++k) sum += i >> k & 1 ? near.X_LO.r[row][k] : 0.0f;
-      return Lanes(sum);
-    };
-    const Vectors corner_m = mul_add(edge_m, {along(0), along(1), along(2)}, low_m);
+    const Vectors corner_m = corners_L_m(near, cubes, i);
     // Where a point lies is rounded in two frames.
     const Lanes bound_m = root(field_bounds_m2(field, corner_m)) - Lanes(2 * near.error_m);
     tells = both(tells, bound_m > zero);
@@ -71,20 +76,53 @@ HWY_INLINE Lanes cube_bounds(const NearCubes& near, const FieldPoints& field,
   return select(tells, least_distance(f, edge_m * edge_m), zero);
 }
 
+bool is_by_corners(const Item& item) {
+  return (item.patch & kOpened) == 0 && Cube::of_key(item.space).level <= kGreatestByCorners;
+}
+
+/// Makes the field known around the corners of those cubes of which it does not tell: else what is
+/// found would depend on what anybody has asked for before. Returns whether there was anything.
+HWY_INLINE bool know_corners(const NearCubes& near, const FieldGrid& grid, const CubeLanes& cubes,
+                             const float* bound_m, const std::uint32_t* places, int count,
+                             const LinkSearch& search) {
+  std::uint32_t untold = 0;
+  for (int k = 0; k < count; ++k) {
+    const bool is_told = bound_m[k] > 0 || !is_by_corners(search.front.item(places[k]));
+    untold |= static_cast<std::uint32_t>(!is_told) << k;
+  }
+  bool has_found = false;
+  for (int i = 0; i < 8 && untold != 0; ++i) {
+    const Vectors corner_m = corners_L_m(near, cubes, i);
+    alignas(64) float x_m[kLanes], y_m[kLanes], z_m[kLanes];
+    store(corner_m.x, x_m);
+    store(corner_m.y, y_m);
+    store(corner_m.z, z_m);
+    for (std::uint32_t left = untold; left != 0; left &= left - 1) {
+      const int k = __builtin_ctz(left);
+      const auto hint = static_cast<int>(search.front.item(places[k]).patch);
+      has_found |= know_cell(grid, *search.link, {x_m[k], y_m[k], z_m[k]}, hint);
+    }
+  }
+  return has_found;
+}
+
 /// Those of `count` items of the front at `places` that are no nearer than the limit stay there,
 /// with what is known of them now.
-HWY_INLINE void take_or_raise(const NearCubes& near, const FieldPoints& field, float limit_m,
+HWY_INLINE void take_or_raise(const NearCubes& near, const FieldGrid& grid, float limit_m,
                               const std::uint32_t* places, int count, LinkSearch& search) {
   CubeLanes cubes;
   for (int i = 0; i < kLanes; ++i) {
     cubes.set(i, near, Cube::of_key(search.front.item(places[std::min(i, count - 1)]).space));
   }
+  const FieldPoints field = grid.all();
   alignas(64) float bound_m[kLanes];
   store(cube_bounds(near, field, cubes), bound_m);
+  if (know_corners(near, grid, cubes, bound_m, places, count, search)) {
+    store(cube_bounds(near, field, cubes), bound_m);
+  }
   for (int i = 0; i < count; ++i) {
     const Item& item = search.front.item(places[i]);
-    const bool is_whole = (item.patch & kOpened) == 0;
-    if (is_whole && Cube::of_key(item.space).level <= kGreatestByCorners) {
+    if (is_by_corners(item)) {
       search.front.raise(places[i], bound_m[i]);
       if (bound_m[i] >= limit_m) continue;
     }
@@ -97,11 +135,10 @@ void take_cubes(LinkSearch& search) {
   const FieldGrid* const grid = search.link->field->grid_for(limit_m);
   if (!grid) return search.front.take_below(limit_m, search.items);
   const NearCubes near(search);
-  const FieldPoints field = grid->all();
   const std::vector<std::uint32_t>& places = search.front.find_below(limit_m);
   for (std::size_t i = 0; i < places.size(); i += kLanes) {
     const int count = static_cast<int>(std::min<std::size_t>(kLanes, places.size() - i));
-    take_or_raise(near, field, limit_m, &places[i], count, search);
+    take_or_raise(near, *grid, limit_m, &places[i], count, search);
   }
 }
 

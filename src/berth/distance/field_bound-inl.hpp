@@ -15,6 +15,7 @@
 #include <limits>
 
 #include "berth/distance/cube_corners-inl.hpp"
+#include "berth/distance/leaf-inl.hpp"
 #include "berth/distance/link_field.hpp"
 #include "berth/distance/nearest_point-inl.hpp"
 #include "berth/distance/patches-inl.hpp"
@@ -26,10 +27,10 @@ namespace HWY_NAMESPACE {
 using IntTag = hn::RebindToSigned<FloatTag>;
 using Ints = hn::Vec<IntTag>;
 
-/// Finds from the mesh what nobody has asked for yet of the cell that holds a point. Returns
-/// whether there is one.
-inline bool know_cell(const FieldGrid& grid, const NearestPointSearch& mesh,
-                      const Eigen::Vector3f& p_L_m, int hint) {
+/// Finds from the mesh what nobody has asked for yet of the cell that holds a point; `hint` is a
+/// leaf that may be near. Returns whether there was anything to find.
+inline bool know_cell(const FieldGrid& grid, const LinkPatches& link, const Eigen::Vector3f& p_L_m,
+                      int hint) {
   std::array<int, 3> cell;
   Eigen::Vector3f at;
   if (!grid.cell_of(p_L_m, cell, at)) return false;
@@ -40,8 +41,9 @@ inline bool know_cell(const FieldGrid& grid, const NearestPointSearch& mesh,
     place[unknown.count] = i;
     unknown.p_L_m[unknown.count++] = grid.corner_L_m(cell, i);
   }
-  if (unknown.count == 0) return true;
-  mesh.find(hint, 0, unknown);
+  if (unknown.count == 0) return false;
+  // The grid's own roundings: those of who asks would depend on where the link is.
+  NearestPointSearch(link, rounding_m(grid.reach_m())).find(hint, 0, unknown);
   for (int k = 0; k < unknown.count; ++k) {
     const float lower_m = unknown.distance[k].lower_m;
     // Above 0, since it is known; that is as good as 0.
@@ -102,9 +104,9 @@ HWY_INLINE Lanes field_bounds_m2(const FieldPoints& field, const Vectors& p_L_m)
 }
 
 /// The same of a single point, in a cell that becomes known.
-HWY_INLINE float field_bound_m2(const FieldGrid& grid, const NearestPointSearch& mesh,
+HWY_INLINE float field_bound_m2(const FieldGrid& grid, const LinkPatches& link,
                                 const Eigen::Vector3f& p_L_m, int hint) {
-  if (!know_cell(grid, mesh, p_L_m, hint)) return 0;
+  know_cell(grid, link, p_L_m, hint);
   return hn::GetLane(
       field_bounds_m2(grid.all(), {Lanes(p_L_m.x()), Lanes(p_L_m.y()), Lanes(p_L_m.z())}).v);
 }

@@ -26,6 +26,7 @@ void FieldGrid::place(float edge_m, const Eigen::Vector3f& low_L_m,
                       const Eigen::Vector3f& high_L_m) {
   edge_m_ = edge_m;
   low_L_m_ = low_L_m;
+  reach_m_ = low_L_m.cwiseAbs().cwiseMax(high_L_m.cwiseAbs()).norm() + 2 * edge_m;
   for (int k = 0; k < 3; ++k) {
     count_[k] = static_cast<std::size_t>(std::ceil((high_L_m[k] - low_L_m[k]) / edge_m)) + 2;
   }

@@ -19,7 +19,8 @@ struct FieldPoints {
 
 /// Points side by side on a grid in the link's frame L, and the squares of their distances from its
 /// surface. Nobody knows them at first: who asks for one finds it, and it is kept for all. Any
-/// number of threads may ask at a time, since all of them find the same.
+/// number of threads may ask at a time: what is found is the same bit for bit, whoever asks, and
+/// from where.
 class FieldGrid {
  public:
   FieldGrid() = default;
@@ -31,6 +32,8 @@ class FieldGrid {
   void place(float edge_m, const Eigen::Vector3f& low_L_m, const Eigen::Vector3f& high_L_m);
 
   float edge_m() const { return edge_m_; }
+  /// No point of the grid is farther from the origin of L.
+  float reach_m() const { return reach_m_; }
   /// Where the cell lies that holds a point; whether it is in the grid.
   bool cell_of(const Eigen::Vector3f& p_L_m, std::array<int, 3>& cell,
                Eigen::Vector3f& place) const;
@@ -71,6 +74,7 @@ class FieldGrid {
   float* begin() const;
 
   float edge_m_ = 0;
+  float reach_m_ = 0;
   Eigen::Vector3f low_L_m_ = Eigen::Vector3f::Zero();
   std::array<std::size_t, 3> count_ = {};
   mutable std::atomic<float*> points_m2_ = nullptr;

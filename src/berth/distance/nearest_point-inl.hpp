@@ -38,7 +38,8 @@ class NearestPointSearch {
   NearestPointSearch(const LinkPatches& link, float error_m) : link_(link), error_m_(error_m) {}
 
   /// Begins with the triangles of the leaf `hint`. The distances' bounds are at most `slack_m` and
-  /// some roundings apart.
+  /// some roundings apart. Without slack they are the same for any hint, and beside any other
+  /// points: the least of all triangles, whose roundings are their own.
   void find(int hint, float slack_m, NearPoints& points) const {
     Query query{slack_m, hint, points, {}};
     const std::uint32_t all = (1u << points.count) - 1;
@@ -97,7 +98,7 @@ class NearestPointSearch {
     void take(int point, float squared_m2, int triangle) {
       const float wanted_m = std::max(std::sqrt(squared_m2) - slack_m, 0.0f);
       found[point].upper2_m2 = squared_m2;
-      found[point].wanted2_m2 = wanted_m * wanted_m;
+      found[point].wanted2_m2 = slack_m > 0 ? wanted_m * wanted_m : squared_m2;
       found[point].triangle = triangle;
     }
   };
@@ -216,12 +217,13 @@ class NearestPointSearch {
     if (least2_m2 < found.upper2_m2) {
       query.take(point, least2_m2, first + __builtin_ctzll(bits_of(length2 <= Lanes(least2_m2))));
     }
-    const float upper_m = std::sqrt(found.upper2_m2);
-    std::uint64_t open =
-        bits_of(behind < length2 * Lanes(kBehind) - Lanes(0.25f * error_m_ * upper_m));
+    std::uint64_t open = bits_of(behind < length2 * Lanes(kBehind));
     if (open == 0) return;
+    const Lanes length = root(length2);
+    open &= bits_of(behind < length2 * Lanes(kBehind) - length * Lanes(0.25f * error_m_));
     // Whose plane is beyond what is known need not be looked at.
-    open &= bits_of(behind < root(length2) * Lanes(upper_m));
+    const float upper_m = std::sqrt(found.upper2_m2);
+    open &= bits_of(behind * Lanes(kBehind) < length * Lanes(upper_m));
     for (; open != 0; open &= open - 1) {
       visit_triangle(query, first + __builtin_ctzll(open), point);
     }

@@ -111,7 +111,7 @@ FieldCorners field_corners(const CubeSearch& search, const Cube& cube, float bou
   FieldCorners out;
   for (int i = 0; i < 8; ++i) {
     if (!(bound_m2[i] > 0)) {
-      bound_m2[i] = field_bound_m2(*grid, search.mesh, points.one(i), hint);
+      bound_m2[i] = field_bound_m2(*grid, *search.link.link, points.one(i), hint);
     }
     // Where a point lies is rounded in two frames.
     const float rounded_m = std::sqrt(bound_m2[i]) - 2 * search.error_m;

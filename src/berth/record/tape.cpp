@@ -187,7 +187,7 @@ void Tape::take(const Waiting& one) {
   } else if (one.answer) {
     take(*one.answer);
   } else if (one.is_write) {
-    write_ring();
+    write_ring(true);
   } else {
     ring_->add(kJointsChannel, time_ns(one.stamp_s), one.joints);
   }
@@ -223,10 +223,10 @@ void Tape::take(RecordedAnswer& answer) {
   write_ring();
 }
 
-void Tape::write_ring() {
+void Tape::write_ring(bool is_asked_for) {
   if (due_s_.has_value()) {
     due_s_.reset();
-    if (++stops_ > settings_.most_files) {
+    if (++stops_ > settings_.most_files && !is_asked_for) {
       return tell(fmt::format("{}: the recording of stop {} is not written: most_files is {}",
                               settings_.file.string(), stops_, settings_.most_files));
     }

@@ -91,7 +91,8 @@ class Tape {
   void take(const Waiting& one);
   void take(const RecordedImage& image);
   void take(RecordedAnswer& answer);
-  void write_ring();
+  /// Of stops no more than RecorderSettings::most_files; what is asked for always.
+  void write_ring(bool is_asked_for = false);
   void note(const std::filesystem::path& file, const std::string& error);
   void tell(const std::string& sentence);
 
