@@ -30,6 +30,10 @@ inline constexpr SensorErrors kKinectErrors{.step_m_at_1m = 0.003,
                                             .mixed_share = 0.1,
                                             .outline_px = 2};
 
+/// Of a camera that reads nothing beside what stands out, nor here and there.
+inline constexpr SensorErrors kDarkErrors{
+    .noise_m_at_1m = 0.0015, .dropout_share = 0.02, .outline_px = 2};
+
 /// All of them, by what follows.
 void add_errors(const SensorErrors& errors, std::uint32_t seed, DepthImage& depth_m);
 

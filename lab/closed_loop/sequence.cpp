@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -50,12 +49,6 @@ void add_things(std::uint32_t seed, std::vector<TriangleMesh>& meshes, std::vect
   }
 }
 
-/// One camera's ideal image, and what it shows of what is in no model.
-struct IdealImage {
-  DepthImage depth_m;
-  DepthImage obstacles_m;
-};
-
 /// Arm, cell, people and things, as they move.
 class World {
  public:
@@ -82,17 +75,18 @@ class World {
     X_BP_.insert(X_BP_.end(), X_BO_.begin(), X_BO_.end());
   }
 
-  IdealImage look(std::size_t camera) {
-    const CellCamera& c = cameras_[camera];
-    IdealImage image{rays_.cast(c.camera, c.X_BC, all_poses(X_BP_)), {}};
-    image.obstacles_m = image.depth_m;
-    const DepthImage modelled_m =
-        rays_.cast(c.camera, c.X_BC, all_poses(sim::nowhere(meshes_.size())));
-    auto& pixels = image.obstacles_m.pixels();
+  /// A camera's ideal image.
+  DepthImage look(std::size_t camera) { return cast(camera, X_BP_); }
+
+  /// What it shows of what is in no model.
+  DepthImage obstacles_m(std::size_t camera) {
+    DepthImage image_m = look(camera);
+    const DepthImage modelled_m = cast(camera, sim::nowhere(meshes_.size()));
+    auto& pixels = image_m.pixels();
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       if (pixels[i] == modelled_m.pixels()[i]) pixels[i] = kNoDepth;
     }
-    return image;
+    return image_m;
   }
 
   /// Of each link that a joint moves, the nearest points of it and of what is in no model.
@@ -111,17 +105,21 @@ class World {
   }
 
   /// How the first `cameras` see a point that is not finite where nothing is in range.
-  sim::ObstacleSight sight(const Eigen::Vector3d& p_B, const std::vector<IdealImage>& images,
+  sim::ObstacleSight sight(const Eigen::Vector3d& p_B, const std::vector<DepthImage>& obstacles_m,
                            int cameras) const {
     sim::ObstacleSight best = sim::ObstacleSight::outside;
     for (std::size_t k = 0; k < static_cast<std::size_t>(cameras) && p_B.allFinite(); ++k) {
       const Eigen::Vector3d p_C = cameras_[k].X_BC.inverse() * p_B;
-      best = std::min(best, sim::sight_of(p_C, cameras_[k].camera, images[k].obstacles_m));
+      best = std::min(best, sim::sight_of(p_C, cameras_[k].camera, obstacles_m[k]));
     }
     return best;
   }
 
  private:
+  DepthImage cast(std::size_t camera, const std::vector<Pose>& X_BP) {
+    return rays_.cast(cameras_[camera].camera, cameras_[camera].X_BC, all_poses(X_BP));
+  }
+
   std::vector<TriangleMesh> all_meshes(std::uint32_t seed) {
     add_things(seed, meshes_, X_BO_);
     std::vector<TriangleMesh> all;
@@ -249,22 +247,22 @@ class Sequence {
       next_s_[k] += 1 / settings_.image_hz;
       has_image |= k == 0;
       if (!is_asked) continue;
-      const IdealImage image = world_.look(k);
-      for (const auto& judged : judged_) judged->see(k, image.depth_m, time_s, joints_);
+      const DepthImage depth_m = world_.look(k);
+      for (const auto& judged : judged_) judged->see(k, depth_m, time_s, joints_);
     }
     return has_image;
   }
 
   void judge() {
-    std::vector<IdealImage> now;
-    for (std::size_t k = 0; k < cameras_.size(); ++k) now.push_back(world_.look(k));
+    std::vector<DepthImage> now_m;
+    for (std::size_t k = 0; k < cameras_.size(); ++k) now_m.push_back(world_.obstacles_m(k));
     const double range_m = robot_->settings().distance.range_m;
     const std::vector<sim::SurfacePair> truth = world_.nearest(range_m);
     for (std::size_t c = 0; c < conditions_.size(); ++c) {
       SequenceInstant& instant = instants_[c].emplace_back();
       for (const sim::SurfacePair& pair : truth) {
         instant.push_back({pair.distance_m, range_m, range_m,
-                           world_.sight(pair.b_m, now, conditions_[c].cameras)});
+                           world_.sight(pair.b_m, now_m, conditions_[c].cameras)});
       }
       judged_[c]->tell(instant);
     }
@@ -326,13 +324,12 @@ std::string row(const SequenceCondition& condition, const std::vector<SequenceIn
 std::vector<SequenceCondition> sequence_conditions() {
   SpaceSettings no_closing;
   no_closing.detection_capability_m = 0;
-  const sim::SensorErrors dark{.noise_m_at_1m = 0.0015, .dropout_share = 0.02, .outline_px = 2};
   std::vector<SequenceCondition> conditions;
   for (const int cameras : {1, 2, 3}) conditions.push_back({.name = "clean", .cameras = cameras});
   for (const int cameras : {1, 2, 3}) {
-    conditions.push_back({"dark outlines, dropouts", dark, {}, cameras});
+    conditions.push_back({"dark outlines, dropouts", sim::kDarkErrors, {}, cameras});
   }
-  conditions.push_back({"… `detection_capability_m: 0`", dark, no_closing, 3});
+  conditions.push_back({"… `detection_capability_m: 0`", sim::kDarkErrors, no_closing, 3});
   conditions.push_back({"sensor model", sim::kKinectErrors, {}, 3});
   return conditions;
 }
@@ -346,9 +343,9 @@ std::vector<std::vector<SequenceInstant>> run_sequence(
 std::string sequence_table(const std::vector<SequenceCondition>& conditions,
                            const std::vector<std::vector<SequenceInstant>>& instants) {
   std::string table =
-      "| images | instants | links at 0 though > 5 cm | instants with one | > 2 cm too large, in "
-      "an "
-      "image | instants with one | greatest [mm] | readings > 5 cm too small |\n"
+      "| images | instants | links at 0 though > 5 cm | instants with one "
+      "| > 2 cm too large, in an image | instants with one | greatest [mm] | readings > 5 cm too "
+      "small |\n"
       "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n";
   for (std::size_t c = 0; c < conditions.size(); ++c) table += row(conditions[c], instants[c]);
   return table;

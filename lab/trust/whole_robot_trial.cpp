@@ -198,7 +198,7 @@ std::vector<WholeRobotCondition> whole_robot_conditions() {
   all.image = sim::kKinectErrors;
   all.pose = off;
   WholeRobotCondition& dark = add("dark outlines, default filter", MeasuredFilter::berth);
-  dark.image = {.noise_m_at_1m = 0.0015, .dropout_share = 0.02, .outline_px = 2};
+  dark.image = sim::kDarkErrors;
   add("0 to 50 ms out of step, ideal filter", MeasuredFilter::ideal).most_age_s = 0.05;
   WholeRobotCondition& untold = add("… and age not told", MeasuredFilter::ideal);
   untold.most_age_s = 0.05;

@@ -30,11 +30,10 @@ double most_too_large_m(const Instants& instants) {
 }
 
 TEST(Sequence, DarkOutlinesHideNothingFromThreeCamerasThatDetectFourCentimetres) {
-  const sim::SensorErrors dark{.noise_m_at_1m = 0.0015, .dropout_share = 0.02, .outline_px = 2};
   SpaceSettings no_closing;
   no_closing.detection_capability_m = 0;
-  const std::vector<SequenceCondition> conditions = {{"dark", dark, {}, 3},
-                                                     {"and every hole hides", dark, no_closing, 3}};
+  const std::vector<SequenceCondition> conditions = {
+      {"dark", sim::kDarkErrors, {}, 3}, {"and every hole hides", sim::kDarkErrors, no_closing, 3}};
   const auto instants = run_sequence(100, conditions, {.every_s = 0.6, .is_full_size = true});
   ASSERT_GE(instants[0].size(), 8u);
   EXPECT_EQ(instants[0].size(), instants[1].size());
