@@ -120,7 +120,7 @@ trust-whole-robot: setup
 	$(call trust_table,whole_robot,--whole-robot)
 trust-sequences: lab
 	cmake --build --preset release --target measure_sequences
-	mkdir -p build/trust && build/release/lab/measure_sequences --full-size >build/trust/sequences.md && cat build/trust/sequences.md
+	mkdir -p build/trust && build/release/lab/measure_sequences >build/trust/sequences.md && cat build/trust/sequences.md
 
 # Adds the Python module to what build/release has: build/release/python/berth.
 python:

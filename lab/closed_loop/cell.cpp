@@ -24,11 +24,6 @@ std::string cell_urdf(const std::string& file) {
   return urdf.insert(urdf.rfind("</robot>"), floor);
 }
 
-Camera halved(const Camera& camera) {
-  return {camera.width_px / 2, camera.height_px / 2,           camera.fx_px / 2,
-          camera.fy_px / 2,    (camera.width_px / 2 - 1) / 2., (camera.height_px / 2 - 1) / 2.};
-}
-
 int speckle_px(const Camera& camera, double detection_m) {
   constexpr double kFar_m = 2.2, kShare = 0.4;
   const double diameter_px = camera.fx_px * detection_m / kFar_m;
@@ -50,7 +45,7 @@ RobotModel cell_model() {
 std::vector<CellCamera> cell_cameras() {
   std::vector<CellCamera> cameras;
   for (const sim::BundledCamera& camera : sim::bundled_cameras()) {
-    cameras.push_back({camera.name, halved(camera.camera), camera.place.X_TC()});
+    cameras.push_back({camera.name, camera.camera, camera.place.X_TC()});
   }
   return cameras;
 }

@@ -12,14 +12,14 @@
 namespace berth::lab {
 namespace {
 
-void measure(int first, int encounters, const SequenceSettings& settings) {
+void measure(int first, int encounters) {
   const std::vector<SequenceCondition> conditions = sequence_conditions();
   std::vector<std::vector<std::vector<SequenceInstant>>> runs(static_cast<std::size_t>(encounters));
   tbb::parallel_for(0, encounters, [&](int i) {
     // Else a waiting thread would begin another encounter on top of this one.
     tbb::this_task_arena::isolate([&] {
       runs[static_cast<std::size_t>(i)] =
-          run_sequence(static_cast<std::uint32_t>(first + i), conditions, settings);
+          run_sequence(static_cast<std::uint32_t>(first + i), conditions);
     });
   });
   std::vector<std::vector<SequenceInstant>> all(conditions.size());
@@ -39,16 +39,13 @@ int main(int argc, char** argv) {
       "An arm goes round its pick-and-place cycle while people reach in, among things that are in "
       "no model. Prints how often, and by how much, berth's distances are not the true ones.");
   int first = 0, encounters = 11;
-  berth::lab::SequenceSettings settings;
   program.add_option("--encounters", encounters, "how many")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   program.add_option("--first", first, "the number of the first one")
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
-  program.add_flag("--full-size", settings.is_full_size,
-                   "images as large as the bundled scene's, not half of it");
   if (const auto status = berth::app::parse_command_line(program, argc, argv)) return *status;
   return berth::app::carry_out("measure_sequences", 0,
-                               [&] { berth::lab::measure(first, encounters, settings); });
+                               [&] { berth::lab::measure(first, encounters); });
 }

@@ -10,7 +10,6 @@
 #include "berth/pipeline/query.hpp"
 #include "lab/closed_loop/cell.hpp"
 #include "lab/closed_loop/moving_arm.hpp"
-#include "sim/bundled_camera.hpp"
 #include "sim/drawn_obstacles.hpp"
 #include "sim/mesh_distance.hpp"
 #include "sim/moving_ray_caster.hpp"
@@ -27,13 +26,6 @@ constexpr double kTouching_m = 0.001;
 constexpr double kFree_m = 0.05;
 /// What is more is counted as too large.
 constexpr double kTooLarge_m = 0.02;
-
-std::vector<CellCamera> cameras_of(bool is_full_size) {
-  std::vector<CellCamera> cameras = cell_cameras();
-  const auto full = sim::bundled_cameras();
-  for (std::size_t k = 0; is_full_size && k < full.size(); ++k) cameras[k].camera = full[k].camera;
-  return cameras;
-}
 
 /// Things around the arm, where it does not reach them.
 void add_things(std::uint32_t seed, std::vector<TriangleMesh>& meshes, std::vector<Pose>& X_BP) {
@@ -207,7 +199,7 @@ class Sequence {
            const SequenceSettings& settings)
       : conditions_(conditions),
         settings_(settings),
-        cameras_(cameras_of(settings.is_full_size)),
+        cameras_(cell_cameras()),
         world_(seed, cameras_),
         robot_(std::make_shared<const Robot>(world_.model(), EvaluationSettings{})),
         joints_(world_.model(), 500),

@@ -24,8 +24,6 @@ struct SequenceSettings {
   double image_hz = 30;
   /// From one instant that is judged to the next.
   double every_s = 0.2;
-  /// Images of the bundled scene's size, not of half of it.
-  bool is_full_size = false;
 };
 
 /// One link that a joint moves, at one instant. Distances of at most the range; the range where

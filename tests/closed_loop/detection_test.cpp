@@ -140,7 +140,7 @@ TEST_P(Detection, AlmostAllBallsOfThisDiameterAreTold) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfTheCell, Detection,
-                         ::testing::Values(0.02, kCellDetection_m, 0.03, 0.04));
+                         ::testing::Values(0.014, kCellDetection_m, 0.03, 0.04));
 
 // Else the test above could not fail.
 TEST(UndetectedBalls, MuchSmallerBallsAreNotTold) {
@@ -191,16 +191,13 @@ bool is_in_view(const std::vector<DetectionImage>& images, const Eigen::Vector3d
 // mixed pixels among it.
 class DetectionMapOfTheCell : public ::testing::Test {
  protected:
-  static void SetUpTestSuite() { map_ = std::make_unique<DetectionMap>(map_of_cell()); }
-  static void TearDownTestSuite() { map_.reset(); }
-
   /// Where the map says that a ball of this diameter is detected, so is what holds such a ball.
-  static void expect_readings_of(DrawnThings things, double diameter_m) {
+  void expect_readings_of(DrawnThings things, double diameter_m) const {
     int promised = 0, left = 0;
     for (int i = 0; i < 60; ++i) {
       const Pose X_BP = things.draw_place();
       const Eigen::Vector3d center_B = X_BP.translation();
-      if (!(least_near_m(*map_, center_B) <= diameter_m)) continue;
+      if (!(least_near_m(map_, center_B) <= diameter_m)) continue;
       if (!is_in_view(things.take_empty_images(), center_B, diameter_m / 2)) continue;
       ++promised;
       left += things.has_reading(things.take_frames(X_BP), X_BP);
@@ -209,19 +206,17 @@ class DetectionMapOfTheCell : public ::testing::Test {
     EXPECT_GE(left, promised * 97 / 100) << diameter_m;
   }
 
-  static inline std::unique_ptr<DetectionMap> map_;
+ private:
+  const DetectionMap map_ = map_of_cell();
 };
 
-TEST_F(DetectionMapOfTheCell, SaysOfWhichBallsAReadingIsLeft) {
+// A rod is as thin as the ball, in any direction.
+TEST_F(DetectionMapOfTheCell, SaysOfWhichBallsAndRodsAReadingIsLeft) {
+  constexpr double kBall = 0, kRod_m = 0.2;
   for (const double diameter_m : {0.02, 0.03}) {
-    expect_readings_of(DrawnThings(diameter_m), diameter_m);
-  }
-}
-
-// As thin as the ball, in any direction.
-TEST_F(DetectionMapOfTheCell, SaysOfWhichRodsAReadingIsLeft) {
-  for (const double diameter_m : {0.02, 0.03}) {
-    expect_readings_of(DrawnThings(diameter_m, 0.2), diameter_m);
+    for (const double length_m : {kBall, kRod_m}) {
+      expect_readings_of(DrawnThings(diameter_m, length_m), diameter_m);
+    }
   }
 }
 

@@ -34,7 +34,7 @@ TEST(Sequence, DarkOutlinesHideNothingFromThreeCamerasThatDetectFourCentimetres)
   no_closing.detection_capability_m = 0;
   const std::vector<SequenceCondition> conditions = {
       {"dark", sim::kDarkErrors, {}, 3}, {"and every hole hides", sim::kDarkErrors, no_closing, 3}};
-  const auto instants = run_sequence(100, conditions, {.every_s = 0.6, .is_full_size = true});
+  const auto instants = run_sequence(100, conditions, {.every_s = 0.6});
   ASSERT_GE(instants[0].size(), 8u);
   EXPECT_EQ(instants[0].size(), instants[1].size());
   for (const SequenceInstant& instant : instants[0]) EXPECT_EQ(instant.size(), 7u);

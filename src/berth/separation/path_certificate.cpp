@@ -9,10 +9,9 @@ namespace berth {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// The scale is found to this.
-constexpr double kScaleStep = 0.015;
-/// At first it is looked for so far below the scale of the request before.
-constexpr double kFirstFall = 0.06;
+/// The scale is found to this. Below that of the request before it is looked for at once, then each
+/// time so much farther below.
+constexpr double kScaleStep = 0.004, kFartherBelow = 3;
 /// A stretch is halved so often before it is taken for too near.
 constexpr int kMostDepth = 2;
 /// Clearances that are asked for in one request. What they did not show is taken for too near.
@@ -45,7 +44,11 @@ PathScale PathCertificate::greatest_scale(const PathRequest& request, double lea
     }
   };
   try_scale(before);
-  try_scale(std::min(before, too_much) - kFirstFall);
+  const auto is_any_shown = [&] { return out.scale > least; };
+  for (double fall = kScaleStep; !is_any_shown() && too_much - fall > least;
+       fall *= kFartherBelow) {
+    try_scale(too_much - fall);
+  }
   while (too_much - out.scale > kScaleStep) try_scale((out.scale + too_much) / 2);
   out.link = critical_;
   return out;
