@@ -47,9 +47,9 @@ const std::vector<Row>& rows() {
        [](double hz) {
          return monitor({0, 1, 2}, cell_separation(hz), ShownBy::straight_on);
        }},
-      {{"fine", "three cameras that detect 20 mm"},
+      {{"fine", "three cameras that detect 14 mm"},
        [](double hz) {
-         return monitor({0, 1, 2}, cell_separation(hz, 0.02));
+         return monitor({0, 1, 2}, cell_separation(hz, 0.014));
        }},
       {{"coarse", "three cameras that detect 40 mm"},
        [](double hz) {
