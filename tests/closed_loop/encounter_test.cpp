@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "berth/calibration/calibrate.hpp"
-#include "berth/render/link_meshes.hpp"
 #include "lab/closed_loop/cell.hpp"
 #include "lab/closed_loop/cell_sensors.hpp"
 #include "lab/closed_loop/moving_arm.hpp"
@@ -178,11 +177,11 @@ std::vector<CalibrationCamera> cameras_to_calibrate(const RobotModel& model) {
 }
 
 TEST(ClosedLoop, TheMonitorAllowsForWhatCalibrationLeavesUnexplained) {
-  const RobotModel model = cell_model();
-  const std::vector<CalibrationCamera> cameras = cameras_to_calibrate(model);
+  const auto robot = cell_robot();
+  const std::vector<CalibrationCamera> cameras = cameras_to_calibrate(robot->model());
   CalibrationData data;
-  data.model = &model;
-  data.meshes = std::make_shared<LinkMeshes>(model);
+  data.model = &robot->model();
+  data.meshes = robot->meshes();
   for (const CalibrationCamera& camera : cameras) data.cameras.push_back(&camera);
   double greatest_m = 0;
   for (const CameraCalibration& found : calibrate(data, {.is_near = true}).cameras) {

@@ -44,8 +44,7 @@ PathScale PathCertificate::greatest_scale(const PathRequest& request, double lea
     }
   };
   try_scale(before);
-  const auto is_any_shown = [&] { return out.scale > least; };
-  for (double fall = kScaleStep; !is_any_shown() && too_much - fall > least;
+  for (double fall = kScaleStep; out.scale <= least && too_much - fall > least;
        fall *= kFartherBelow) {
     try_scale(too_much - fall);
   }
