@@ -22,12 +22,15 @@ void require_library(const char* what, std::initializer_list<const char*> names,
                   dlerror(), package));
 }
 
-void require_client_extension(const char* name) {
-  if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, name)) {
-    throw GlUnavailable(fmt::format(
-        "OpenGL: EGL has no {}; expected it of Mesa (package libegl-mesa0) or the GPU's driver",
-        name));
-  }
+bool has_client_extension(const char* name) {
+  return epoxy_has_egl_extension(EGL_NO_DISPLAY, name);
+}
+
+void require_client_extension(const char* name, bool has_it) {
+  if (has_it) return;
+  throw GlUnavailable(fmt::format(
+      "OpenGL: EGL has no {}; expected it of Mesa (package libegl-mesa0) or the GPU's driver",
+      name));
 }
 
 bool is_software(EGLDeviceEXT device) {
@@ -41,8 +44,12 @@ bool is_software(EGLDeviceEXT device) {
 std::vector<EglDevice> open_egl_devices() {
   require_library("EGL", {"libEGL.so.1"}, "libegl1");
   require_library("OpenGL", {"libOpenGL.so.0", "libGL.so.1"}, "libopengl0 or libgl1");
-  require_client_extension("EGL_EXT_device_enumeration");
-  require_client_extension("EGL_EXT_platform_device");
+  // A driver may tell the older extension alone, of which enumeration is a part.
+  constexpr const char* kEnumeration = "EGL_EXT_device_enumeration";
+  require_client_extension(kEnumeration, has_client_extension(kEnumeration) ||
+                                             has_client_extension("EGL_EXT_device_base"));
+  constexpr const char* kPlatform = "EGL_EXT_platform_device";
+  require_client_extension(kPlatform, has_client_extension(kPlatform));
 
   EGLint count = 0;
   eglQueryDevicesEXT(0, nullptr, &count);
