@@ -4,18 +4,36 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "berth/space/far_reaching.hpp"
 #include "berth/space/least_of_rows.hpp"
+#include "berth/vector/divide_up.hpp"
 
 #ifndef BERTH_AGED_DEPTH_RINGS
 #define BERTH_AGED_DEPTH_RINGS
 namespace berth {
-/// What lies beside a row on either side, so that it can be spread in place: two vectors, and twice
-/// as much as the greatest ring reaches to both sides.
+/// What lies beside a row on either side: four vectors, and as much as the greatest ring reaches.
 constexpr int kMargin = 128;
+/// Rows begin at a multiple of so many numbers, the most that a vector has.
+constexpr int kAlign = 16;
 /// Which rings occur is known for so many pixels of a row at once.
 constexpr int kBlock_px = 64;
+
+/// What a ring's row is made of.
+struct RingRow {
+  /// The next greater ring's rows above, beside and below, from column 0 on; null where it has
+  /// nothing there.
+  const float* beyond[3] = {};
+  const float* own_m = nullptr;
+  const std::uint8_t* reach = nullptr;
+  const std::uint32_t* reaches = nullptr;
+  /// Where pixels of this ring are.
+  AgingWorkspace::Blocks own;
+  int ring = 0;
+  float moved_m = 0;
+  int width = 0;
+};
 }  // namespace berth
 #endif
 
@@ -74,35 +92,49 @@ void count_borders(const float* sensed_m, const float* borders_m, int count, int
   }
 }
 
-/// What the pixels with this reach have left, the greatest float elsewhere.
-void take_ring(const float* own_m, const std::uint8_t* reach, int ring, float moved_m, int width,
-               float* out) {
-  const auto wanted = hn::Set(NumberTag(), ring);
-  for_row(
-      0, width,
-      [&](int u) {
-        const auto numbers = hn::PromoteTo(NumberTag(), hn::LoadU(ByteTag(), reach + u));
-        const LaneMask is_wanted = hn::RebindMask(FloatTag(), hn::Eq(numbers, wanted));
-        const Lanes left = greatest(load(own_m + u) - Lanes(moved_m), Lanes(0.0f));
-        store(select(is_wanted, left, Lanes(kHoldsNothing_m)), out + u);
-      },
-      [&](int u) {
-        out[u] = reach[u] == ring ? std::max(0.0f, own_m[u] - moved_m) : kHoldsNothing_m;
-      });
+/// The least of each number in [begin - kLanes, end + kLanes) and its two neighbours; beside
+/// [begin, end) there is nothing.
+HWY_INLINE void fill_least_of_neighbours(float* x, int begin, int end, float* out) {
+  for (int i = 1; i <= 2; ++i) store(Lanes(kHoldsNothing_m), x + begin - i * kLanes);
+  for (int i = 0; i < 2; ++i) store(Lanes(kHoldsNothing_m), x + end + i * kLanes);
+  for (int u = begin - kLanes; u < end + kLanes; u += kLanes) {
+    store(least(least(load(x + u - 1), load(x + u)), load(x + u + 1)), out + u);
+  }
 }
 
-/// x[i] becomes the least of x[i] to x[i + 2 reach] for i in [-2 reach, width); kMargin numbers are
-/// there on either side.
-void spread_in_row(float* x, int reach, int width) {
-  int side = 1;
-  const int wanted = 2 * reach + 1;
-  const int begin = -2 * reach;
-  const int end = width + 2 * reach;
-  for (; 2 * side <= wanted; side *= 2) {
-    for (int i = begin; i < end; i += kLanes) store(least(load(x + i), load(x + i + side)), x + i);
+/// Takes what the pixels of this ring have left into x, in the blocks that have any.
+HWY_INLINE void take_own(const RingRow& row, float* x) {
+  const auto wanted = hn::Set(NumberTag(), row.ring);
+  for (int block = row.own.begin; block < row.own.end; ++block) {
+    if ((row.reaches[block] >> row.ring & 1) == 0) continue;
+    for_row(
+        block * kBlock_px, std::min((block + 1) * kBlock_px, row.width),
+        [&](int u) {
+          const auto numbers = hn::PromoteTo(NumberTag(), hn::LoadU(ByteTag(), row.reach + u));
+          const LaneMask is_wanted = hn::RebindMask(FloatTag(), hn::Eq(numbers, wanted));
+          const Lanes left = greatest(load(row.own_m + u) - Lanes(row.moved_m), Lanes(0.0f));
+          store(least(load(x + u), select(is_wanted, left, Lanes(kHoldsNothing_m))), x + u);
+        },
+        [&](int u) {
+          if (row.reach[u] == row.ring) {
+            x[u] = std::min(x[u], std::max(0.0f, row.own_m[u] - row.moved_m));
+          }
+        });
   }
-  const int last = wanted - side;
-  for (int i = begin; i < end; i += kLanes) store(least(load(x + i), load(x + i + last)), x + i);
+}
+
+/// Writes `part` of a ring's row, in whole blocks, and a vector on either side.
+void fill_ring(const RingRow& row, AgingWorkspace::Part part, float* x, float* out) {
+  const float* const above = row.beyond[0];
+  const float* const beside = row.beyond[1];
+  const float* const below = row.beyond[2];
+  for (int u = part.begin; u < part.end; u += kLanes) {
+    Lanes beyond(kHoldsNothing_m);
+    if (above) beyond = least(load(above + u), least(load(beside + u), load(below + u)));
+    store(beyond, x + u);
+  }
+  take_own(row, x);
+  fill_least_of_neighbours(x, part.begin, part.end, out);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -113,12 +145,11 @@ HWY_AFTER_NAMESPACE();
 namespace berth {
 
 HWY_EXPORT(count_borders);
-HWY_EXPORT(take_ring);
-HWY_EXPORT(spread_in_row);
+HWY_EXPORT(fill_ring);
 
 namespace {
 
-int blocks_of(int width) { return (width + kBlock_px - 1) / kBlock_px; }
+int blocks_of(int width) { return divide_up(width, kBlock_px); }
 
 /// Writes workspace.reach and .reaches; returns all reaches that occur, a bit each.
 std::uint32_t find_reaches(const Reach& reach, const DepthImage& sensor_depth_m,
@@ -142,10 +173,10 @@ std::uint32_t find_reaches(const Reach& reach, const DepthImage& sensor_depth_m,
 
 constexpr std::uint32_t kFarBit = 1u << (kMostRing + 1);
 
-/// The others: what a pixel of reach r has left is spread along its row by r at once, and then from
-/// ring r to ring r - 1 by one row up and down, until ring 0 has all. All rings go down the image
-/// together, each a row behind the next greater one, so that of each only three rows are kept. Of a
-/// row only that part is touched to which a ring's pixels reach.
+/// The others: what a pixel of reach r has left goes on from ring r to ring r - 1 by one pixel to
+/// all sides, and from ring 0 by one more to the image. All rings go down the image together, each
+/// a row behind the next greater one, so that of each only three rows are kept, each pixel with
+/// its neighbours in the row. Of a row only that part is touched to which a ring's pixels reach.
 class Rings {
  public:
   Rings(const DepthImage& own_m, float moved_m, int greatest, AgingWorkspace& workspace)
@@ -154,19 +185,25 @@ class Rings {
         greatest_(greatest),
         workspace_(workspace),
         width_(own_m.width()),
-        height_(own_m.height()) {
-    workspace.rows.assign(std::size_t(3 * (greatest + 1) + 1) * width_ + 2 * kMargin,
-                          kHoldsNothing_m);
-    workspace.parts.assign(std::size_t(3 * (greatest + 1)), {});
+        height_(own_m.height()),
+        stride_(divide_up(width_, kAlign) * kAlign + 2 * kMargin) {
+    const auto slots = static_cast<std::size_t>(3 * (greatest + 1));
+    workspace.rows.assign((slots + 1) * stride_ + kAlign, kHoldsNothing_m);
+    void* begin = workspace.rows.data();
+    std::size_t room = workspace.rows.size() * sizeof(float);
+    rows_ = static_cast<float*>(std::align(kAlign * sizeof(float), sizeof(float), begin, room));
+    workspace.parts.assign(slots, {});
     find_ring_blocks(blocks_of(width_));
   }
 
   void run(DepthImage& out) {
-    for (int step = 0; step < height_ + greatest_; ++step) {
+    for (int step = 0; step <= height_ + greatest_; ++step) {
       for (int ring = greatest_; ring >= 0; --ring) {
         const int v = step - (greatest_ - ring);
-        if (v >= 0 && v < height_) fill(ring, v, ring == 0 ? out.row(v) : row(ring, v));
+        if (v >= 0 && v < height_) fill(ring, v);
       }
+      const int v = step - greatest_ - 1;
+      if (v >= 0) finish(v, out.row(v));
     }
   }
 
@@ -174,33 +211,46 @@ class Rings {
   using Part = AgingWorkspace::Part;
 
   std::size_t slot(int ring, int v) const { return std::size_t(3 * ring + v % 3); }
-  float* row(int ring, int v) { return workspace_.rows.data() + slot(ring, v) * width_; }
-  float* scratch() {
-    return workspace_.rows.data() + std::size_t(3 * (greatest_ + 1)) * width_ + kMargin;
-  }
+  float* row_at(std::size_t slot) { return rows_ + slot * stride_ + kMargin; }
 
-  void fill(int ring, int v, float* out) {
+  void fill(int ring, int v) {
     Part& kept = workspace_.parts[slot(ring, v)];
-    // The image's row had other content before.
-    const Part before = ring == 0 ? Part{0, width_} : kept;
-    const Part beyond = ring < greatest_ ? take_rings_beyond(ring + 1, v, out) : Part{};
-    const Part pixels = pixels_of(ring, v);
-    const Part reached = pixels.is_empty() ? Part{}
-                                           : Part{std::max(pixels.begin - ring, 0),
-                                                  std::min(pixels.end + ring, width_)};
-    kept = join(beyond, reached);
-    // Nothing is there outside of what is beyond.
-    clear_beside(beyond, join(before, kept), out);
-    if (pixels.is_empty()) return;
-    const float* const spread = spread_own(ring, v, pixels);
-    take_least(spread + reached.begin, reached.end - reached.begin, out + reached.begin);
+    float* const out = row_at(slot(ring, v));
+    RingRow row{.own_m = own_m_.row(v),
+                .reach = workspace_.reach.row(v),
+                .reaches = &workspace_.reaches[static_cast<std::size_t>(blocks_of(width_)) * v],
+                .own = workspace_.ring_blocks[std::size_t(greatest_ + 1) * v + ring],
+                .ring = ring,
+                .moved_m = moved_m_,
+                .width = width_};
+    Part touched;
+    if (ring < greatest_) touched = take_rows(ring + 1, v, row.beyond);
+    touched = join(touched, {row.own.begin * kBlock_px, std::min(row.own.end * kBlock_px, width_)});
+    const Part before = kept;
+    kept = touched.is_empty() ? Part{} : Part{touched.begin - 1, touched.end + 1};
+    // Nothing is there outside of it.
+    const int middle = kept.is_empty() ? before.end : kept.begin;
+    fill_endless(middle - before.begin, out + before.begin);
+    if (kept.is_empty()) return;
+    fill_endless(before.end - kept.end, out + kept.end);
+    HWY_DYNAMIC_DISPATCH(fill_ring)
+    (row, {touched.begin & -kAlign, (touched.end + kAlign - 1) & -kAlign},
+     row_at(std::size_t(3 * (greatest_ + 1))), out);
   }
 
-  /// Columns of `all` that are not among those of `filled`, which lies in it or is empty.
-  static void clear_beside(const Part& filled, const Part& all, float* out) {
-    const int middle = filled.is_empty() ? all.end : filled.begin;
-    fill_endless(middle - all.begin, out + all.begin);
-    if (!filled.is_empty()) fill_endless(all.end - filled.end, out + filled.end);
+  /// E of a row: nothing is free at the image's ends.
+  void finish(int v, float* out) {
+    if (v == 0 || v + 1 == height_ || width_ < 3) {
+      std::fill_n(out, width_, 0.0f);
+      return;
+    }
+    const float* rows[3];
+    if (take_rows(0, v, rows).is_empty()) {
+      fill_endless(width_, out);
+    } else {
+      take_least_of(rows, width_, out);
+    }
+    out[0] = out[width_ - 1] = 0;
   }
 
   static Part join(const Part& a, const Part& b) {
@@ -209,26 +259,16 @@ class Rings {
     return {std::min(a.begin, b.begin), std::max(a.end, b.end)};
   }
 
-  /// What the next greater ring has around the row, one row up and down.
-  Part take_rings_beyond(int ring, int v, float* out) {
-    const float* rows[3];
+  /// A ring's rows around v, and where they hold anything; null where nowhere.
+  Part take_rows(int ring, int v, const float* (&rows)[3]) {
     Part part;
     for (int i = 0; i < 3; ++i) {
-      const int y = std::clamp(v - 1 + i, 0, height_ - 1);
-      rows[i] = row(ring, y);
-      part = join(part, workspace_.parts[slot(ring, y)]);
+      const std::size_t at = slot(ring, std::clamp(v - 1 + i, 0, height_ - 1));
+      rows[i] = row_at(at);
+      part = join(part, workspace_.parts[at]);
     }
-    if (part.is_empty()) return part;
-    for (const float*& from : rows) from += part.begin;
-    take_least_of(rows, part.end - part.begin, out + part.begin);
+    if (part.is_empty()) std::ranges::fill(rows, nullptr);
     return part;
-  }
-
-  /// Where in the row pixels of this ring are.
-  Part pixels_of(int ring, int v) const {
-    const AgingWorkspace::Blocks& blocks =
-        workspace_.ring_blocks[std::size_t(greatest_ + 1) * v + ring];
-    return {blocks.begin * kBlock_px, std::min(blocks.end * kBlock_px, width_)};
   }
 
   /// Writes workspace.ring_blocks.
@@ -249,34 +289,20 @@ class Rings {
     }
   }
 
-  /// What these pixels hold of the row; of others nothing is said.
-  const float* spread_own(int ring, int v, const Part& pixels) {
-    float* const x = scratch() + pixels.begin;
-    const int count = pixels.end - pixels.begin;
-    HWY_DYNAMIC_DISPATCH(take_ring)
-    (own_m_.row(v) + pixels.begin, workspace_.reach.row(v) + pixels.begin, ring, moved_m_, count,
-     x);
-    if (ring > 0) {
-      fill_endless(kMargin, x - kMargin);
-      fill_endless(kMargin, x + count);
-      HWY_DYNAMIC_DISPATCH(spread_in_row)(x, ring, count);
-    }
-    return scratch() - ring;
-  }
-
   const DepthImage& own_m_;
   float moved_m_;
   int greatest_;
   AgingWorkspace& workspace_;
   int width_;
   int height_;
+  std::size_t stride_;
+  float* rows_;
 };
 
 }  // namespace
 
-void age_own_free_depth(const Camera& camera, const DepthImage& sensor_depth_m,
-                        const DepthImage& own_m, double moved_m, AgingWorkspace& workspace,
-                        DepthImage& out) {
+void age_free_depth(const Camera& camera, const DepthImage& sensor_depth_m, const DepthImage& own_m,
+                    double moved_m, AgingWorkspace& workspace, DepthImage& out) {
   const int width = own_m.width();
   const int height = own_m.height();
   if (out.width() != width || out.height() != height) out.resize(width, height, 0);

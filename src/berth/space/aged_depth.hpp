@@ -9,7 +9,7 @@
 
 namespace berth {
 
-/// The memory of age_own_free_depth().
+/// The memory of age_free_depth().
 struct AgingWorkspace {
   /// Some columns of a row.
   struct Part {
@@ -42,11 +42,11 @@ struct AgingWorkspace {
   std::vector<DepthImage> levels;
 };
 
-/// What each pixel still frees after something may have moved by `moved_m`: that much less, and
-/// what a pixel with a reading S has left holds for all that are no more than
-/// ceil(f moved_m / S) pixels from it sideways, f the greater of both focal lengths.
-void age_own_free_depth(const Camera& camera, const DepthImage& sensor_depth_m,
-                        const DepthImage& own_m, double moved_m, AgingWorkspace& workspace,
-                        DepthImage& out);
+/// E after something may have moved by `moved_m`: each pixel has that much less left, and what a
+/// pixel with a reading S has left holds for all that are no more than ceil(f moved_m / S) pixels
+/// from it sideways, f the greater of both focal lengths. Of that, the least of 3 x 3 pixels is
+/// free (find_free_depth).
+void age_free_depth(const Camera& camera, const DepthImage& sensor_depth_m, const DepthImage& own_m,
+                    double moved_m, AgingWorkspace& workspace, DepthImage& out);
 
 }  // namespace berth

@@ -104,7 +104,7 @@ int greatest_reach(const Reach& reach, const DepthImage& sensor_depth_m, const P
       nearest_m = row[u] < nearest_m ? row[u] : nearest_m;
     }
   }
-  return reach.of(nearest_m, sensor_depth_m.width() + sensor_depth_m.height());
+  return reach.of(nearest_m, sensor_depth_m.width() + sensor_depth_m.height()) + 1;
 }
 
 /// Writes workspace.far_reach and .left_m of a row.
@@ -113,7 +113,8 @@ void find_far_reaches(const Reach& reach, const DepthImage& sensor_depth_m, cons
   const int most = own_m.width() + own_m.height();
   for (int u = pixels.u_begin; u < pixels.u_end; ++u) {
     const bool is_far = workspace.reach(u, v) > kMostRing;
-    workspace.far_reach[u] = is_far ? reach.of(sensor_depth_m(u, v), most) : 0;
+    // One more for the least of 3 x 3 pixels.
+    workspace.far_reach[u] = is_far ? reach.of(sensor_depth_m(u, v), most) + 1 : 0;
     workspace.left_m[u] = std::max(0.0f, own_m(u, v) - moved_m);
   }
 }

@@ -37,9 +37,8 @@ UnknownSpace::UnknownSpace() : slots_(kSlots), used_(kMostBlocks) {}
 
 void UnknownSpace::age(const PosedSpace& posed, AgedSpace& aged, FreeingCamera& view) {
   const CameraSpace& space = *posed.space;
-  age_own_free_depth(space.camera, space.sensor_depth_m, space.own_free_depth_m,
-                     space.settings.obstacle_speed_m_s * posed.age_s, aging_, aged.own_m);
-  find_free_depth(aged.own_m, aged.free_depth_m);
+  age_free_depth(space.camera, space.sensor_depth_m, space.own_free_depth_m,
+                 space.settings.obstacle_speed_m_s * posed.age_s, aging_, aged.free_depth_m);
   build_depth_windows(aged.free_depth_m, aged.windows);
   view.free_depth_m = &aged.free_depth_m;
   view.free_windows = &aged.windows;

@@ -54,7 +54,7 @@ class UnknownSpace {
 
   /// Begins anew with these views, which have to outlive it; reuses its memory. Nobody may ask
   /// meanwhile. A view whose age is above its free_space_max_age_s frees nothing; a lesser one
-  /// shrinks what it frees (age_own_free_depth). Throws std::invalid_argument for more than
+  /// shrinks what it frees (age_free_depth). Throws std::invalid_argument for more than
   /// kMostViews, an age below 0 or a pose that is not finite. A view that `aged` has at the same
   /// age is not aged again: `aged` has to outlive it then, unchanged.
   void assign(std::span<const PosedSpace> views, const UnknownSpace* aged = nullptr);
@@ -82,7 +82,6 @@ class UnknownSpace {
   };
   /// E of a view that has aged.
   struct AgedSpace {
-    DepthImage own_m;
     DepthImage free_depth_m;
     DepthWindows windows;
   };
