@@ -36,6 +36,7 @@ class Steps {
         play_{film.joints->first_s(), film.joints->last_s(), settings.speed, 0},
         robot_(robot_for(film, told)),
         query_(robot_),
+        frame_pools_(film.cameras.size()),
         frames_(film.cameras.size()) {
     for (const FilmedCamera& camera : film.cameras) {
       // Images are made for all that the scene tells, whatever is asked.
@@ -67,7 +68,7 @@ class Steps {
 
   void take_image(const Shown& image, double now_s, bool counts) {
     joints_at(image.time_s);
-    const std::shared_ptr<Frame> frame = frame_pool_.take();
+    const std::shared_ptr<Frame> frame = frame_pools_[image.camera].take();
     const Stopwatch observing(CLOCK_THREAD_CPUTIME_ID);
     observers_[image.camera].observe(film_.cameras[image.camera].depth_m[image.frame], joints_,
                                      *frame);
@@ -100,7 +101,8 @@ class Steps {
   std::shared_ptr<const Robot> robot_;
   std::vector<Observer> observers_;
   Query query_;
-  FramePool frame_pool_;
+  /// One for each camera, as LiveCamera has: its images have one size.
+  std::vector<FramePool> frame_pools_;
   Pool<PreparedSpace> space_pool_;
   std::vector<std::shared_ptr<const Frame>> frames_;
   std::shared_ptr<const PreparedSpace> prepared_;
