@@ -169,7 +169,7 @@ TEST_F(PathCertificates, HoldWhereverTheRobotIsAndLeaveLittleAside) {
     draw_way(seed, seed % 2 == 1);
     const double scale = certificate.greatest_scale(request(), 0, 0.5, 1).scale;
     SCOPED_TRACE(::testing::Message() << seed << " scale " << scale);
-    EXPECT_LE(certificate.asked(), 10);
+    EXPECT_LE(certificate.steps(), PathCertificate::kMostSteps);
     if (scale > 0) {
       EXPECT_GE(least_margin_m(settings, scale), -1e-4);
     }
@@ -211,7 +211,7 @@ TEST_F(PathCertificates, AskForNothingWhereTheWayIsNotTold) {
   draw_way(3, true);
   path_.resize(5);
   EXPECT_EQ(certificate.greatest_scale(request(), 0.04, 0.5, 1).scale, 0.04);
-  EXPECT_EQ(certificate.asked(), 0);
+  EXPECT_EQ(certificate.steps(), 0);
 }
 
 /// A box on a rail.
@@ -289,6 +289,74 @@ TEST(PathCertificate, TheFormulaIsNeverLessCarefulWhereTheRobotRunsStraightAtThe
     }
   }
   EXPECT_GT(between, 3);
+}
+
+/// The greatest scale at which a box that drives away from a wall always has its room, by the
+/// definition at each tenth of a millimetre.
+double greatest_scale_away(const SeparationSettings& settings, double distance_m, double speed_m_s,
+                           double contact_m_s) {
+  const double a = settings.deceleration_m_s2;
+  const auto has_room = [&](double scale) {
+    const double stops_s = std::max(0.0, scale * speed_m_s - contact_m_s) / a;
+    for (double x_m = 0; x_m < 1.5; x_m += 1e-4) {
+      const double within_s =
+          (std::sqrt(contact_m_s * contact_m_s + 2 * a * x_m) - contact_m_s) / a;
+      const double needed_m =
+          settings.human_speed_m_s * (settings.reaction_time_s + std::min(stops_s, within_s)) +
+          settings.robot_uncertainty_m;
+      if (distance_m + x_m < needed_m) return false;
+    }
+    return true;
+  };
+  if (has_room(1)) return 1;
+  double scale = 0, too_much = 1;
+  while (too_much - scale > 1e-4) {
+    const double middle = (scale + too_much) / 2;
+    (has_room(middle) ? scale : too_much) = middle;
+  }
+  return scale;
+}
+
+TEST(PathCertificate, NeedsWhatTheDefinitionSaysWhereTheRobotDrivesAway) {
+  const auto robot = slider();
+  SeparationSettings settings;
+  settings.acceleration_m_s2 = 0;
+  settings.unknown = UnknownPolicy::ignore;
+  const std::vector<HullPoints> hulls = {hull_points(robot->model().links[1].mesh_L)};
+  int between = 0;
+  for (float wall_m = 0.3F; wall_m < 1.2F; wall_m += 0.06F) {
+    const Frame frame = wall_frame(robot, wall_m);
+    Query query(robot);
+    const Result result = query.ask({.frames = frame, .joints = JointState{0, {0.0}}});
+    const double distance_m = result.links[0].occupied.lower_bound_m;
+    const std::vector<PathLink> links = {
+        {true, settings.robot_uncertainty_m, distance_m, distance_m}};
+    for (const double speed : {0.3, 0.8, 1.5}) {
+      for (const double contact_m_s : {0.0, 0.1, 0.25}) {
+        SCOPED_TRACE(::testing::Message() << wall_m << ' ' << speed << ' ' << contact_m_s);
+        const std::vector<double> velocity = {-speed};
+        PathCertificate certificate(robot, settings, hulls);
+        const double found = certificate
+                                 .greatest_scale({.pose = result.pose,
+                                                  .motion = velocity,
+                                                  .space = query.frames().space(),
+                                                  .reaction_time_s = settings.reaction_time_s,
+                                                  .travel_time_s = settings.reaction_time_s,
+                                                  .planned_m_s = speed,
+                                                  .robot_m_s = speed,
+                                                  .contact_m_s = contact_m_s,
+                                                  .links = links},
+                                                 0, 0.5, 1)
+                                 .scale;
+        const double exact =
+            greatest_scale_away(settings, result.links[0].occupied.distance_m, speed, contact_m_s);
+        EXPECT_LE(found, exact + 1e-3);
+        EXPECT_GE(found, exact - 0.07);
+        between += exact > 0 && exact < 1;
+      }
+    }
+  }
+  EXPECT_GT(between, 20);
 }
 
 }  // namespace

@@ -89,6 +89,23 @@ TEST(ProtectiveDistance, TheLongestTimeToStopWithinAWay) {
   EXPECT_NEAR(time_to_stop_within_s(settings, 0.01, 1), 0.3, 1e-5) << "a brake takes time to grip";
 }
 
+TEST(ProtectiveDistance, WhereAContactIsTolerableTheRobotOnlyBrakesDownToItsSpeed) {
+  SeparationSettings settings = no_terms();
+  settings.human_speed_m_s = 1;
+  settings.deceleration_m_s2 = 2;
+  EXPECT_NEAR(stopping_from(settings, 1, 0.5).time_s, 0.25, 1e-12);
+  EXPECT_NEAR(stopping_from(settings, 1, 0.5).distance_m, 0.1875, 1e-12);
+  EXPECT_EQ(stopping_from(settings, 0.4, 0.5).time_s, 0) << "it is slow enough";
+  EXPECT_EQ(time_to_stop_within_s(settings, 0, 1, 0.5), 0);
+  EXPECT_NEAR(time_to_stop_within_s(settings, 0.1875, 9, 0.5), 0.25, 1e-12);
+  EXPECT_NEAR(time_to_stop_within_s(settings, 0.1875, 0.7, 0.5), 0.1, 1e-12);
+  EXPECT_NEAR(protective_distance_m(settings, {.contact_m_s = 0.5}, {1, 1}), 0.25 + 0.1875, 1e-12);
+  // A table does not say when the robot is so slow: what counts is when it stands.
+  settings.stopping = {{0.5, 0.3, 0.05}, {1, 0.5, 0.25}};
+  EXPECT_NEAR(stopping_from(settings, 1, 0.5).time_s, 0.5, 1e-12);
+  EXPECT_NEAR(time_to_stop_within_s(settings, 0.25, 1, 0.5), 0.5, 1e-5);
+}
+
 TEST(ProtectiveDistance, ASlowLinkBrakesAsLongAsTheFastestPoint) {
   SeparationSettings settings = no_terms();
   settings.human_speed_m_s = 1;

@@ -1,5 +1,6 @@
 #include "berth/distance/clearance.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "berth/distance/link_search.hpp"
@@ -33,14 +34,19 @@ void start_clearance(const LinkPatches& link, const Pose& X_BL, double needed_m,
 
 /// Searches until one pair is nearer than the range, or none can be.
 template <class Search>
-Clearance decide(LinkSearch& search, Search search_on) {
-  for (int steps = 0; steps < kMostSteps; steps += kStepsAtOnce) {
+Clearance decide(int most_steps, LinkSearch& search, Search search_on) {
+  Clearance out;
+  while (out.steps + kStepsAtOnce <= std::min(most_steps, kMostSteps)) {
     search_on(kStepsAtOnce);
-    if (search.is_known()) return {false, search.best_m};
+    out.steps += kStepsAtOnce;
+    if (search.is_known()) {
+      out.nearest_m = search.best_m;
+      return out;
+    }
     if (search.is_done()) break;
   }
-  return {!search.is_beyond_cubes && search.lower_bound_m() >= search.range_m,
-          std::numeric_limits<float>::infinity()};
+  out.is_clear = !search.is_beyond_cubes && search.lower_bound_m() >= search.range_m;
+  return out;
 }
 
 }  // namespace
@@ -61,12 +67,16 @@ Clearance find_clearance(const LinkPatches& link, const Pose& X_BL, const Unknow
   const bool is_shadow = request.unknown && space.views().size() < 2;
   start_clearance(link, X_BL, request.needed_m, search);
   mesh::start_in_views(space, search);
-  const Clearance readings =
-      decide(search, [&](int steps) { mesh::search_views(space, is_shadow, steps, search); });
+  const Clearance readings = decide(request.most_steps, search, [&](int steps) {
+    mesh::search_views(space, is_shadow, steps, search);
+  });
   if (!readings.is_clear || is_shadow || !request.unknown) return readings;
   start_clearance(link, X_BL, request.needed_m, search);
   mesh::start_in_cubes(search);
-  return decide(search, [&](int steps) { mesh::search_cubes(space, steps, search); });
+  Clearance all = decide(request.most_steps - readings.steps, search,
+                         [&](int steps) { mesh::search_cubes(space, steps, search); });
+  all.steps += readings.steps;
+  return all;
 }
 
 }  // namespace berth

@@ -14,6 +14,8 @@ struct ClearanceRequest {
   double needed_m = 0;
   /// Whether unknown space counts, or only what is occupied.
   bool unknown = true;
+  /// It is given up before so many pieces of the link and of space have been taken apart.
+  int most_steps = 192;
 };
 
 /// Whether a link has room.
@@ -23,6 +25,8 @@ struct Clearance {
   /// The length of a pair that is nearer; infinite where none was found. Where it is not clear
   /// either, the search was given up.
   float nearest_m = std::numeric_limits<float>::infinity();
+  /// What it took, in the same pieces, rounded up.
+  int steps = 0;
 };
 
 /// The memory of find_clearance(); one for each thread.

@@ -96,10 +96,9 @@ struct SeparationMonitor::Parts {
   void make_certificate();
   /// How fast the motors let the scale rise; where nobody told what they do, there is no limit.
   double rise_per_s() const;
-  void decide(const Result& result, double most);
-  /// The scale that a contact at SeparationSettings::contact_speed_m_s leaves; 0 where it is not to
-  /// be thought of.
-  double contact_scale(const Result& result) const;
+  void decide(double most);
+  /// The scale that a tolerable contact leaves.
+  double contact_scale() const;
 
   std::shared_ptr<const Robot> robot;
   SeparationSettings settings;
@@ -113,6 +112,8 @@ struct SeparationMonitor::Parts {
   double robot_m_s = 0;
   /// What the cameras may miss by their settings.
   double least_detection_m = 0;
+  /// SeparationSettings::contact_speed_m_s; 0 where no contact is to be thought of now.
+  double contact_m_s = 0;
   ScaleRise rise;
   /// Null until somebody gives frames.
   std::unique_ptr<PathCertificate> certificate;
@@ -184,7 +185,7 @@ const Separation& SeparationMonitor::Parts::update(const Result& result,
   } else {
     rise.most(now_s, 0);
   }
-  decide(result, most);
+  decide(most);
   return out;
 }
 
@@ -208,6 +209,7 @@ SeparationReason SeparationMonitor::Parts::begin(const Result& result,
 void SeparationMonitor::Parts::update_links(const Result& result) {
   out.camera = settings.camera == UnknownPolicy::ignore ? -1 : lost_camera(result.cameras);
   least_detection_m = detection_capability_m(result.cameras);
+  contact_m_s = holds_sharp || !is_healthy(result) ? 0 : settings.contact_speed_m_s;
   const LinkSeparation* least = nullptr;
   measure_speeds(result);
   for (std::size_t i = 0; i < out.links.size(); ++i) {
@@ -243,7 +245,7 @@ void SeparationMonitor::Parts::update_link(const Result& result, std::size_t i) 
   }
   const ProtectiveTerms terms{out.reaction_time_s,
                               settings.camera_uncertainty_m.value_or(camera_uncertainty(result, i)),
-                              least_detection_m};
+                              least_detection_m, contact_m_s};
   const LinkSpeed speed{link.speed_m_s, robot_m_s};
   link.distance_m = near.distance_m;
   link.required_m = protective_distance_m(settings, terms, speed);
@@ -251,8 +253,8 @@ void SeparationMonitor::Parts::update_link(const Result& result, std::size_t i) 
   link.speed_scale = greatest_speed_scale(settings, terms, speed, link.distance_m);
   link.reason = link.speed_scale < 1 ? near.reason : SeparationReason::none;
   path_links[i] = {.is_moved = true,
-                   .added_m = intrusion_m(settings, least_detection_m) + terms.camera_uncertainty_m +
-                              settings.robot_uncertainty_m,
+                   .added_m = intrusion_m(settings, least_detection_m) +
+                              terms.camera_uncertainty_m + settings.robot_uncertainty_m,
                    .known_m = known_m(result.links[i]),
                    .assumed_m = near.distance_m};
 }
@@ -278,6 +280,7 @@ void SeparationMonitor::Parts::look_along_path(const Result& result, const Plann
        .travel_time_s = settings.reaction_time_s + std::clamp(joints_s, 0.0, oldest_s),
        .planned_m_s = planned_m_s,
        .robot_m_s = robot_m_s,
+       .contact_m_s = contact_m_s,
        .links = path_links},
       formula, rise.scale(), most);
   if (!(found.scale > formula)) return;
@@ -319,18 +322,18 @@ double SeparationMonitor::Parts::rise_per_s() const {
   return is_limited ? settings.acceleration_m_s2 / robot_m_s : std::numeric_limits<double>::max();
 }
 
-double SeparationMonitor::Parts::contact_scale(const Result& result) const {
-  if (settings.contact_speed_m_s <= 0 || holds_sharp || !is_healthy(result)) return 0;
-  return robot_m_s > settings.contact_speed_m_s ? settings.contact_speed_m_s / robot_m_s : 1;
+double SeparationMonitor::Parts::contact_scale() const {
+  if (contact_m_s <= 0) return 0;
+  return robot_m_s > contact_m_s ? contact_m_s / robot_m_s : 1;
 }
 
-void SeparationMonitor::Parts::decide(const Result& result, double most) {
+void SeparationMonitor::Parts::decide(double most) {
   if (most < out.speed_scale) {
     out.reason = SeparationReason::speeding_up;
     out.link = kNoLink;
     out.speed_scale = most;
   }
-  const double contact = most > 0 ? std::min(contact_scale(result), most) : 0;
+  const double contact = most > 0 ? std::min(contact_scale(), most) : 0;
   const bool is_contact = out.speed_scale < contact;
   out.speed_scale = std::max(out.speed_scale, contact);
   rise.take(out.speed_scale);

@@ -14,8 +14,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kScaleStep = 0.004, kFartherBelow = 3;
 /// A stretch is halved so often before it is taken for too near.
 constexpr int kMostDepth = 2;
-/// Clearances that are asked for in one request. What they did not show is taken for too near.
-constexpr int kMostAsked = 10;
 
 }  // namespace
 
@@ -30,7 +28,7 @@ PathCertificate::PathCertificate(std::shared_ptr<const Robot> robot,
 
 PathScale PathCertificate::greatest_scale(const PathRequest& request, double least, double before,
                                           double most) {
-  asked_ = 0;
+  steps_ = 0;
   PathScale out{least, -1};
   if (!(most > least) || !lay(request, most)) return out;
   if (is_shown(request, most)) return {most, -1};
@@ -55,7 +53,8 @@ PathScale PathCertificate::greatest_scale(const PathRequest& request, double lea
 
 bool PathCertificate::lay(const PathRequest& request, double scale) {
   is_straight_ = request.motion.path.empty();
-  const Stopping stopping = stopping_from(settings_, scale * request.robot_m_s);
+  const Stopping stopping =
+      stopping_from(settings_, scale * request.robot_m_s, request.contact_m_s);
   if (std::isinf(stopping.distance_m)) return false;
   constexpr double kRoom = 1.05;
   double end_s = kRoom * scale * request.travel_time_s;
@@ -91,19 +90,26 @@ int PathCertificate::find_needs(const PathRequest& request, double scale) {
   while (braked < BrakingPath::kPieces && path_.time_s(braked) < travelled_s) ++braked;
   const double full_m_s =
       is_straight_ ? request.robot_m_s : std::max(request.planned_m_s, path_.fastest_m_s(braked));
-  const Stopping stopping = stopping_from(settings_, scale * full_m_s);
+  const Stopping stopping = stopping_from(settings_, scale * full_m_s, request.contact_m_s);
   if (std::isinf(stopping.distance_m)) return -1;
   const double turning_m = this->turning_m(scale, stopping.time_s, request.travel_time_s);
   // Straight on, what was gained in speed goes anywhere; it is in turning_m.
   const double along = is_straight_ && full_m_s > 0 ? request.planned_m_s / full_m_s : 1;
   const double end_m = path_.way_m(braked) + along * stopping.distance_m;
+  const auto needed_in = [&](double braking_s) {
+    return settings_.human_speed_m_s * (request.reaction_time_s + braking_s) + turning_m;
+  };
+  most_needed_m_ = needed_in(stopping.time_s);
+  // By a table nobody looks farther than to the most (need_in).
+  const double most_m_s = settings_.stopping.empty() ? kInfinity : scale * full_m_s;
   for (int n = 0; n < BrakingPath::kNodes; ++n) {
     // Stopping right here takes the longest.
-    const double braking_s =
-        std::min(stopping.time_s,
-                 time_to_stop_within_s(settings_, path_.most_way_m(n) / along, scale * full_m_s));
-    needed_m_[static_cast<Node>(n)] =
-        settings_.human_speed_m_s * (request.reaction_time_s + braking_s) + turning_m;
+    const double braking_s = along > 0
+                                 ? time_to_stop_within_s(settings_, path_.most_way_m(n) / along,
+                                                         most_m_s, request.contact_m_s)
+                                 : stopping.time_s;
+    rising_m_[static_cast<Node>(n)] = needed_in(braking_s);
+    needed_m_[static_cast<Node>(n)] = std::min(most_needed_m_, needed_in(braking_s));
     if (n >= braked && path_.way_m(n) >= end_m) return n;
   }
   return -1;
@@ -132,25 +138,36 @@ double PathCertificate::moved_m(std::size_t i, int from, int node) {
 }
 
 PathCertificate::PieceNeed PathCertificate::need_in(std::size_t i, int piece) const {
-  const double before_m = needed_m_[static_cast<Node>(piece)];
-  const double after_m = needed_m_[static_cast<Node>(piece) + 1];
+  const auto before = static_cast<Node>(piece), after = before + 1;
   // The nodes' ways are known to some bends; away from the start the root is flat.
   constexpr double kBends = 5;
   const double bend_m = kBends * path_.bend_m(i, piece) + added_m_[i];
+  const double most_m = most_needed_m_ + bend_m;
   // At the start the root is steep, and a brake's table may be any curve.
-  if (piece == 0 || !settings_.stopping.empty()) return {after_m + bend_m, after_m + bend_m};
+  if (piece == 0 || !settings_.stopping.empty()) {
+    return {needed_m_[after] + bend_m, needed_m_[after] + bend_m};
+  }
   // What is needed grows with the root of the way, which lies above the line between two nodes by
-  // a quarter of (root q - root p)^2 / (root q + root p).
-  const double growth_m = after_m - before_m;
-  const double roots_m = after_m + before_m - 2 * needed_m_[0];
+  // a quarter of (root q - root p)^2 / (root q + root p), until it is the most.
+  const double growth_m = rising_m_[after] - rising_m_[before];
+  const double roots_m = rising_m_[after] + rising_m_[before] - 2 * rising_m_[0];
   const double above_m = roots_m > 0 ? growth_m * growth_m / (4 * roots_m) : 0;
-  return {before_m + above_m + bend_m, after_m + above_m + bend_m};
+  const double from_m = rising_m_[before] + above_m + bend_m;
+  const double to_m = rising_m_[after] + above_m + bend_m;
+  const bool has_corner = from_m < most_m && most_m < to_m;
+  return {std::min(from_m, most_m), std::min(to_m, most_m),
+          has_corner ? (most_m - from_m) / (to_m - from_m) : 1};
+}
+
+double PathCertificate::needed_for(std::size_t i, int sample, int piece) {
+  const PieceNeed need = need_in(i, piece);
+  const double before_m = moved_m(i, sample, piece), after_m = moved_m(i, sample, piece + 1);
+  return std::max({need.before_m + before_m, need.after_m + after_m,
+                   need.after_m + before_m + need.corner * (after_m - before_m)});
 }
 
 bool PathCertificate::covers(std::size_t i, int sample, double clear_m, int piece) {
-  const PieceNeed need = need_in(i, piece);
-  return clear_m - moved_m(i, sample, piece) >= need.before_m &&
-         clear_m - moved_m(i, sample, piece + 1) >= need.after_m;
+  return clear_m >= needed_for(i, sample, piece);
 }
 
 bool PathCertificate::is_covered(std::size_t i, int piece) {
@@ -164,9 +181,7 @@ bool PathCertificate::is_covered(std::size_t i, int piece) {
 double PathCertificate::needed_from(std::size_t i, int sample, Stretch stretch) {
   double needed_m = needed_m_[static_cast<Node>(sample)] + added_m_[i];
   for (int p = stretch.first; p < stretch.last; ++p) {
-    const PieceNeed need = need_in(i, p);
-    needed_m = std::max({needed_m, need.before_m + moved_m(i, sample, p),
-                         need.after_m + moved_m(i, sample, p + 1)});
+    needed_m = std::max(needed_m, needed_for(i, sample, p));
   }
   constexpr double kRounding_m = 1e-9;
   return needed_m + kRounding_m;
@@ -176,11 +191,14 @@ bool PathCertificate::has_room(const PathRequest& request, std::size_t i, int no
                                double needed_m) {
   Known& at = known(i, node);
   if (at.clear_m >= needed_m) return true;
-  if (at.nearest_m < needed_m || asked_ >= kMostAsked) return false;
-  ++asked_;
-  const Clearance found = find_clearance(
-      robot_->patches()->links[i], path_.X_BL(i, node), request.space,
-      {.needed_m = needed_m, .unknown = settings_.unknown != UnknownPolicy::ignore}, workspace_);
+  if (at.nearest_m < needed_m || steps_ >= kMostSteps) return false;
+  const Clearance found =
+      find_clearance(robot_->patches()->links[i], path_.X_BL(i, node), request.space,
+                     {.needed_m = needed_m,
+                      .unknown = settings_.unknown != UnknownPolicy::ignore,
+                      .most_steps = kMostSteps - steps_},
+                     workspace_);
+  steps_ += found.steps;
   if (found.is_clear) {
     at.clear_m = needed_m;
   } else {

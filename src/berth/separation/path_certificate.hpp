@@ -36,6 +36,8 @@ struct PathRequest {
   /// Of the robot's fastest point, at full speed, and with what it may gain.
   double planned_m_s = 0;
   double robot_m_s = 0;
+  /// At this speed it need not brake any more: a contact is tolerable.
+  double contact_m_s = 0;
   std::span<const PathLink> links;
 };
 
@@ -46,21 +48,26 @@ struct PathScale {
   int link = -1;
 };
 
-/// For all links and all places x where the robot may be from the request until it stands:
+/// For all links and all places x where the robot may be from the request until it stands, or a
+/// contact is tolerable:
 ///   lower bound(link at x) >= v_h (T_r + T(x)) + C + Z_d + Z_r
 /// T(x) is how long it may brake and still be at x, whatever it did during the reaction time. Of
 /// no place in between only a sample is looked at: what a bound at one pose says of the others is
 /// less by how far the link moves. Once made, nothing allocates.
 class PathCertificate {
  public:
+  /// Pieces that all clearances of one request may take apart, most of them of less than a
+  /// microsecond. What they did not show by then is taken for too near.
+  static constexpr int kMostSteps = 450;
+
   PathCertificate(std::shared_ptr<const Robot> robot, const SeparationSettings& settings,
                   const std::vector<HullPoints>& hulls);
 
   /// The greatest scale of at most `most` that is shown, at least `least`, which is taken for
   /// shown. Begins at `before`, that of the request before.
   PathScale greatest_scale(const PathRequest& request, double least, double before, double most);
-  /// How many clearances were asked for in the last request.
-  int asked() const { return asked_; }
+  /// Pieces that the last request's clearances took apart.
+  int steps() const { return steps_; }
   /// The place of the link that is looked at first, since it was the first that was too near; -1:
   /// none was yet.
   int critical_link() const { return critical_; }
@@ -74,10 +81,12 @@ class PathCertificate {
     double nearest_m = 0;
   };
   /// What a link needs at both ends of a piece, so that it has what it needs in between: what is
-  /// needed there lies below the line between both, and so does how far the link moves.
+  /// needed there lies below the line between both, or below one up to a corner, at this share of
+  /// the piece, and then as much as at the end. How far the link moves lies below a line, too.
   struct PieceNeed {
     double before_m;
     double after_m;
+    double corner = 1;
   };
   /// A part of the way, from a node to another.
   struct Stretch {
@@ -96,6 +105,8 @@ class PathCertificate {
   bool covers(std::size_t i, int sample, double clear_m, int piece);
   bool is_covered(std::size_t i, int piece);
   PieceNeed need_in(std::size_t i, int piece) const;
+  /// How much room at a sample shows that all of the piece has what it needs.
+  double needed_for(std::size_t i, int sample, int piece);
   double needed_from(std::size_t i, int sample, Stretch stretch);
   /// Whether the link has so much room at a node; asks where it is not known yet.
   bool has_room(const PathRequest& request, std::size_t i, int node, double needed_m);
@@ -113,9 +124,12 @@ class PathCertificate {
   std::vector<double> moved_m_;
   std::vector<double> added_m_;
   std::array<double, BrakingPath::kNodes> needed_m_ = {};
+  /// What is needed grows with the way, up to the most.
+  std::array<double, BrakingPath::kNodes> rising_m_ = {};
+  double most_needed_m_ = 0;
   bool is_straight_ = true;
   int critical_ = -1;
-  int asked_ = 0;
+  int steps_ = 0;
 };
 
 }  // namespace berth

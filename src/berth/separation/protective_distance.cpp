@@ -18,12 +18,12 @@ Stopping between(const StoppingRow& low, const StoppingRow& high, double speed_m
 
 }  // namespace
 
-Stopping stopping_from(const SeparationSettings& settings, double speed_m_s) {
-  if (speed_m_s <= 0) return {};
+Stopping stopping_from(const SeparationSettings& settings, double speed_m_s, double end_m_s) {
+  if (speed_m_s <= end_m_s) return {};
   const std::vector<StoppingRow>& rows = settings.stopping;
   if (rows.empty()) {
     const double a = settings.deceleration_m_s2;
-    return {speed_m_s / a, speed_m_s * speed_m_s / (2 * a)};
+    return {(speed_m_s - end_m_s) / a, (speed_m_s * speed_m_s - end_m_s * end_m_s) / (2 * a)};
   }
   const auto above = std::ranges::lower_bound(rows, speed_m_s, {}, &StoppingRow::speed_m_s);
   if (above == rows.end()) {
@@ -35,11 +35,12 @@ Stopping stopping_from(const SeparationSettings& settings, double speed_m_s) {
   return between(*(above - 1), *above, speed_m_s);
 }
 
-double time_to_stop_within_s(const SeparationSettings& settings, double distance_m,
-                             double most_m_s) {
+double time_to_stop_within_s(const SeparationSettings& settings, double distance_m, double most_m_s,
+                             double end_m_s) {
   if (settings.stopping.empty()) {
-    return std::min(std::sqrt(2 * distance_m / settings.deceleration_m_s2),
-                    most_m_s / settings.deceleration_m_s2);
+    const double a = settings.deceleration_m_s2;
+    const double within_m_s = std::sqrt(end_m_s * end_m_s + 2 * a * distance_m);
+    return std::max(0.0, std::min(within_m_s, most_m_s) - end_m_s) / a;
   }
   double enough_m_s = 0;
   double too_much_m_s = most_m_s;
@@ -62,7 +63,7 @@ double intrusion_m(const SeparationSettings& settings, double least_detection_m)
 
 double protective_distance_m(const SeparationSettings& settings, const ProtectiveTerms& terms,
                              const LinkSpeed& speed) {
-  const Stopping stopping = stopping_from(settings, speed.robot_m_s);
+  const Stopping stopping = stopping_from(settings, speed.robot_m_s, terms.contact_m_s);
   if (std::isinf(stopping.distance_m)) return stopping.distance_m;
   const double person_m = settings.human_speed_m_s * (terms.reaction_time_s + stopping.time_s);
   const double share = speed.robot_m_s > 0 ? speed.link_m_s / speed.robot_m_s : 1;

@@ -11,16 +11,17 @@ struct Stopping {
   double distance_m = 0;
 };
 
-/// Both are infinite above the last row of the settings' table.
-Stopping stopping_from(const SeparationSettings& settings, double speed_m_s);
+/// Until it goes at end_m_s. By the settings' table until it stands, since a table does not tell
+/// how it gets there; both are infinite above the last row.
+Stopping stopping_from(const SeparationSettings& settings, double speed_m_s, double end_m_s = 0);
 
-/// The longest time that the robot may brake for if it stands within distance_m: from the greatest
-/// speed up to most_m_s that it can be stopped from over that way.
-double time_to_stop_within_s(const SeparationSettings& settings, double distance_m,
-                             double most_m_s);
+/// The longest time that the robot may brake for if that ends within distance_m: from the greatest
+/// speed up to most_m_s that it can brake from over that way, as by stopping_from().
+double time_to_stop_within_s(const SeparationSettings& settings, double distance_m, double most_m_s,
+                             double end_m_s = 0);
 
-/// C: that of the settings; else from the detection capability that was shown, but no less than what
-/// the cameras are set to tell: 8 (d - 14 mm) up to d = 40 mm; else kUnprovenIntrusion_m.
+/// C: that of the settings; else from the detection capability that was shown, but no less than
+/// what the cameras are set to tell: 8 (d - 14 mm) up to d = 40 mm; else kUnprovenIntrusion_m.
 double intrusion_m(const SeparationSettings& settings, double least_detection_m = 0);
 
 /// The terms of the protective distance that no speed changes.
@@ -32,6 +33,8 @@ struct ProtectiveTerms {
   /// What is smaller may hide from the cameras by their settings
   /// (SpaceSettings::detection_capability_m).
   double least_detection_m = 0;
+  /// At this speed the robot need not brake any more: a contact is tolerable.
+  double contact_m_s = 0;
 };
 
 /// How fast a link moves, and the robot that it belongs to.
@@ -43,7 +46,7 @@ struct LinkSpeed {
 };
 
 /// S = v_h (T_r + T_s) + v_r T_r + S_s + C + Z_d + Z_r, with the robot's T_s, and the link's part
-/// of its S_s. It grows with the speed.
+/// of its S_s, both until it stands or a contact is tolerable. It grows with the speed.
 double protective_distance_m(const SeparationSettings& settings, const ProtectiveTerms& terms,
                              const LinkSpeed& speed);
 
