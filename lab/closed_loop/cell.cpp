@@ -70,9 +70,10 @@ double conforming_zone_m(double robot_m_s) {
   return kReach_m + protective_distance_m(settings, terms, {robot_m_s, robot_m_s});
 }
 
-std::shared_ptr<const Robot> cell_robot() {
+std::shared_ptr<const Robot> cell_robot(std::optional<double> deadline_us) {
   EvaluationSettings settings;
   settings.distance.range_m = kCellRange_m;
+  settings.distance.deadline_us = deadline_us;
   return std::make_shared<const Robot>(cell_model(), settings);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,8 +52,8 @@ inline constexpr double kArmFullSpeed_m_s = 1.45;
 /// How far distances are looked for: above what the arm needs at full speed.
 inline constexpr double kCellRange_m = 2;
 
-/// With berth's default settings but for the range.
-std::shared_ptr<const Robot> cell_robot();
+/// With berth's default settings but for the range, and a deadline where one is given.
+std::shared_ptr<const Robot> cell_robot(std::optional<double> deadline_us = {});
 
 /// Of these cameras, by their place in cell_cameras(). Settings are the defaults, but for d, and
 /// for speckle: these cameras mix pixels at outlines. So what shows less than 40 % of a ball of d

@@ -10,13 +10,15 @@ namespace berth::lab {
 void Supervisor::see(std::size_t, const DepthImage&, double, const JointBuffer&) {}
 
 MonitorSupervisor::MonitorSupervisor(Method method, std::vector<int> cameras,
-                                     const SeparationSettings& settings, ShownBy shown)
-    : robot_(cell_robot()),
+                                     const SeparationSettings& settings, ShownBy shown,
+                                     std::optional<double> deadline_us)
+    : robot_(cell_robot(deadline_us)),
       cameras_(std::move(cameras)),
       frames_(cameras_.size()),
       query_(robot_, method),
       monitor_(robot_, settings),
-      shown_(shown) {
+      shown_(shown),
+      prepares_images_(deadline_us.has_value()) {
   for (const auto& view : cell_views(robot_, cameras_, settings.detection_m.value())) {
     observers_.push_back(std::make_unique<Observer>(view));
   }
@@ -27,13 +29,20 @@ void MonitorSupervisor::see(std::size_t which, const DepthImage& depth_m, double
   auto frame = std::make_shared<Frame>();
   observers_[which]->observe(depth_m, stamp_s, joints, *frame);
   frames_[which] = std::move(frame);
-  has_new_image_ = true;
+  JointState now;
+  if (!prepares_images_ || joints.newest(now) != TimeStatus::ok) return;
+  const auto space =
+      spaces_.take([this] { return std::make_unique<PreparedSpace>(robot_, cameras_.size()); });
+  space->prepare(frames_, &now);
+  space_ = space;
 }
 
 double MonitorSupervisor::scale(const Situation& situation) {
   using Clock = std::chrono::steady_clock;
   const auto asked = Clock::now();
-  result_ = &query_.ask({.frames = frames_, .joints = situation.joints, .now_s = situation.now_s});
+  result_ = &query_.ask({.frames = space_ ? NewestFrames(space_) : NewestFrames(frames_),
+                         .joints = situation.joints,
+                         .now_s = situation.now_s});
   const auto answered = Clock::now();
   PlannedMotion motion(situation.plan.velocity_rad_s);
   if (shown_ == ShownBy::along_path) motion.path = situation.path;
@@ -44,7 +53,7 @@ double MonitorSupervisor::scale(const Situation& situation) {
     return std::chrono::duration<double, std::micro>(done - start).count();
   };
   monitor_us_.push_back(since(answered));
-  if (!std::exchange(has_new_image_, false)) request_us_.push_back(since(asked));
+  request_us_.push_back(since(asked));
   return last_->speed_scale;
 }
 

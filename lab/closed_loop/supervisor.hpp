@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "berth/pipeline/frame_pool.hpp"
 #include "berth/pipeline/observer.hpp"
+#include "berth/pipeline/prepared_space.hpp"
 #include "berth/separation/evasion.hpp"
 #include "berth/separation/monitor.hpp"
 #include "lab/closed_loop/path.hpp"
@@ -75,8 +78,10 @@ enum class ShownBy {
 /// berth. The cameras tell what is as large as settings.detection_m.
 class MonitorSupervisor : public Supervisor {
  public:
+  /// With a deadline requests are those of a running robot: each has so long, and an image's space
+  /// is made ready when it comes, as LiveSpace's thread does, not by the first request about it.
   MonitorSupervisor(Method method, std::vector<int> cameras, const SeparationSettings& settings,
-                    ShownBy shown = ShownBy::along_path);
+                    ShownBy shown = ShownBy::along_path, std::optional<double> deadline_us = {});
   std::vector<int> cameras() const override { return cameras_; }
   void see(std::size_t which, const DepthImage& depth_m, double stamp_s,
            const JointBuffer& joints) override;
@@ -86,8 +91,7 @@ class MonitorSupervisor : public Supervisor {
   const Result& result() const { return *result_; }
   /// How long the monitor took, in each request.
   const std::vector<double>& monitor_us() const { return monitor_us_; }
-  /// Requests and monitor, but for the first request after an image: where it counts, another
-  /// thread has made that image's space ready (LiveSpace).
+  /// Requests and monitor.
   const std::vector<double>& request_us() const { return request_us_; }
   /// Null where it has none yet.
   const std::shared_ptr<const Frame>& newest(std::size_t which) const { return frames_[which]; }
@@ -102,7 +106,9 @@ class MonitorSupervisor : public Supervisor {
   ShownBy shown_;
   const Separation* last_ = nullptr;
   const Result* result_ = nullptr;
-  bool has_new_image_ = false;
+  bool prepares_images_;
+  Pool<PreparedSpace> spaces_;
+  std::shared_ptr<const PreparedSpace> space_;
   std::vector<double> monitor_us_;
   std::vector<double> request_us_;
 };
