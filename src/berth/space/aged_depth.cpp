@@ -123,7 +123,7 @@ HWY_INLINE void take_own(const RingRow& row, float* x) {
   }
 }
 
-/// Writes `part` of a ring's row, in whole blocks, and a vector on either side.
+/// Writes `part` of a ring's row, of whole vectors, and one more on either side.
 void fill_ring(const RingRow& row, AgingWorkspace::Part part, float* x, float* out) {
   const float* const above = row.beyond[0];
   const float* const beside = row.beyond[1];
