@@ -17,8 +17,7 @@ MonitorSupervisor::MonitorSupervisor(Method method, std::vector<int> cameras,
       frames_(cameras_.size()),
       query_(robot_, method),
       monitor_(robot_, settings),
-      shown_(shown),
-      prepares_images_(deadline_us.has_value()) {
+      shown_(shown) {
   for (const auto& view : cell_views(robot_, cameras_, settings.detection_m.value())) {
     observers_.push_back(std::make_unique<Observer>(view));
   }
@@ -29,8 +28,9 @@ void MonitorSupervisor::see(std::size_t which, const DepthImage& depth_m, double
   auto frame = std::make_shared<Frame>();
   observers_[which]->observe(depth_m, stamp_s, joints, *frame);
   frames_[which] = std::move(frame);
+  if (!robot_->settings().distance.deadline_us) return;
   JointState now;
-  if (!prepares_images_ || joints.newest(now) != TimeStatus::ok) return;
+  if (joints.newest(now) != TimeStatus::ok) return;
   const auto space =
       spaces_.take([this] { return std::make_unique<PreparedSpace>(robot_, cameras_.size()); });
   space->prepare(frames_, &now);

@@ -106,7 +106,6 @@ class MonitorSupervisor : public Supervisor {
   ShownBy shown_;
   const Separation* last_ = nullptr;
   const Result* result_ = nullptr;
-  bool prepares_images_;
   Pool<PreparedSpace> spaces_;
   std::shared_ptr<const PreparedSpace> space_;
   std::vector<double> monitor_us_;

@@ -248,6 +248,37 @@ Frame wall_frame(const std::shared_ptr<const Robot>& robot, float wall_x_m) {
   return frame;
 }
 
+/// What is asked of the box, and the greatest scale for it, between `least` and `most`.
+struct SliderCase {
+  const std::shared_ptr<const Robot>& robot;
+  const SeparationSettings& settings;
+  const Result& result;
+  const UnknownSpace& space;
+  /// Along the rail.
+  double velocity_m_s;
+  double contact_m_s = 0;
+
+  double greatest_scale(double least, double before, double most) const {
+    const std::vector<HullPoints> hulls = {hull_points(robot->model().links[1].mesh_L)};
+    const double distance_m = result.links[0].occupied.lower_bound_m;
+    const std::vector<PathLink> links = {
+        {true, settings.robot_uncertainty_m, distance_m, distance_m}};
+    const std::vector<double> velocity = {velocity_m_s};
+    return PathCertificate(robot, settings, hulls)
+        .greatest_scale({.pose = result.pose,
+                         .motion = velocity,
+                         .space = space,
+                         .reaction_time_s = settings.reaction_time_s,
+                         .travel_time_s = settings.reaction_time_s,
+                         .planned_m_s = std::abs(velocity_m_s),
+                         .robot_m_s = std::abs(velocity_m_s),
+                         .contact_m_s = contact_m_s,
+                         .links = links},
+                        least, before, most)
+        .scale;
+  }
+};
+
 TEST(PathCertificate, TheFormulaIsNeverLessCarefulWhereTheRobotRunsStraightAtTheObstacle) {
   const auto robot = slider();
   SeparationSettings settings;
@@ -267,21 +298,8 @@ TEST(PathCertificate, TheFormulaIsNeverLessCarefulWhereTheRobotRunsStraightAtThe
       const std::vector<double> velocity = {speed};
       const double formula =
           SeparationMonitor(robot, settings).update(result, velocity, 0).speed_scale;
-      const std::vector<HullPoints> hulls = {hull_points(robot->model().links[1].mesh_L)};
-      const std::vector<PathLink> links = {
-          {true, settings.robot_uncertainty_m, distance_m, distance_m}};
-      PathCertificate certificate(robot, settings, hulls);
-      const double path = certificate
-                              .greatest_scale({.pose = result.pose,
-                                               .motion = velocity,
-                                               .space = query.frames().space(),
-                                               .reaction_time_s = settings.reaction_time_s,
-                                               .travel_time_s = settings.reaction_time_s,
-                                               .planned_m_s = speed,
-                                               .robot_m_s = speed,
-                                               .links = links},
-                                              0, formula, std::min(1.0, formula + 0.15))
-                              .scale;
+      const SliderCase asked{robot, settings, result, query.frames().space(), speed};
+      const double path = asked.greatest_scale(0, formula, std::min(1.0, formula + 0.15));
       // The scale is found to a step, and the way is cut into pieces.
       EXPECT_LE(formula, path + 0.03) << wall_m << ' ' << speed;
       EXPECT_LE(path, formula + 0.1) << "it runs straight at it: there is nothing to be gained";
@@ -322,32 +340,17 @@ TEST(PathCertificate, NeedsWhatTheDefinitionSaysWhereTheRobotDrivesAway) {
   SeparationSettings settings;
   settings.acceleration_m_s2 = 0;
   settings.unknown = UnknownPolicy::ignore;
-  const std::vector<HullPoints> hulls = {hull_points(robot->model().links[1].mesh_L)};
   int between = 0;
   for (float wall_m = 0.3F; wall_m < 1.2F; wall_m += 0.06F) {
     const Frame frame = wall_frame(robot, wall_m);
     Query query(robot);
     const Result result = query.ask({.frames = frame, .joints = JointState{0, {0.0}}});
-    const double distance_m = result.links[0].occupied.lower_bound_m;
-    const std::vector<PathLink> links = {
-        {true, settings.robot_uncertainty_m, distance_m, distance_m}};
     for (const double speed : {0.3, 0.8, 1.5}) {
       for (const double contact_m_s : {0.0, 0.1, 0.25}) {
         SCOPED_TRACE(::testing::Message() << wall_m << ' ' << speed << ' ' << contact_m_s);
-        const std::vector<double> velocity = {-speed};
-        PathCertificate certificate(robot, settings, hulls);
-        const double found = certificate
-                                 .greatest_scale({.pose = result.pose,
-                                                  .motion = velocity,
-                                                  .space = query.frames().space(),
-                                                  .reaction_time_s = settings.reaction_time_s,
-                                                  .travel_time_s = settings.reaction_time_s,
-                                                  .planned_m_s = speed,
-                                                  .robot_m_s = speed,
-                                                  .contact_m_s = contact_m_s,
-                                                  .links = links},
-                                                 0, 0.5, 1)
-                                 .scale;
+        const SliderCase asked{robot,  settings,   result, query.frames().space(),
+                               -speed, contact_m_s};
+        const double found = asked.greatest_scale(0, 0.5, 1);
         const double exact =
             greatest_scale_away(settings, result.links[0].occupied.distance_m, speed, contact_m_s);
         EXPECT_LE(found, exact + 1e-3);

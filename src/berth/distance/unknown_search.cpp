@@ -14,39 +14,11 @@
 #include "berth/distance/field_bound-inl.hpp"
 #include "berth/distance/leaf-inl.hpp"
 #include "berth/distance/nearest_point-inl.hpp"
+#include "berth/distance/top_patches-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace berth::mesh {
 namespace HWY_NAMESPACE {
-
-/// The link's patches of the finest level that has no more than kMost, in B.
-struct TopPatches {
-  static constexpr int kMost = 32;
-
-  /// Of each: centre, axis, half height, radius.
-  alignas(64) float numbers[8][kMost + kLanes];
-  int count = 0;
-
-  TopPatches(const LinkPatches& link, const Pose& X_BL) {
-    std::size_t level = 0;
-    while (link.levels[level].count > kMost) ++level;
-    count = link.levels[level].count;
-    const Motion motion = motion_of(X_BL);
-    for (int k = 0; k < count; k += kLanes) {
-      const Patches patches = load_patches(link.levels[level], k, motion);
-      const Lanes all[] = {patches.centre.x, patches.centre.y, patches.centre.z,    patches.axis.x,
-                           patches.axis.y,   patches.axis.z,   patches.half_height, patches.radius};
-      for (int i = 0; i < 8; ++i) store(all[i], numbers[i] + k);
-    }
-  }
-
-  Patches many(int k) const {
-    return {{load(numbers[0] + k), load(numbers[1] + k), load(numbers[2] + k)},
-            {load(numbers[3] + k), load(numbers[4] + k), load(numbers[5] + k)},
-            load(numbers[6] + k),
-            load(numbers[7] + k)};
-  }
-};
 
 /// A search for one link among the cubes of unknown space. A cube's distance is bounded by those of
 /// its corners; where nothing is hidden in it, it is dropped before these are asked for.
@@ -209,55 +181,6 @@ void try_nearest(CubeSearch& search, const Cube& cube, int hint) {
   if ((point_m - on_link_m).norm() < search.link.best_m) try_point(search, point_m, hint);
 }
 
-/// The same patch in every lane.
-HWY_INLINE Patches broadcast_patch(const TopPatches& patches, int k) {
-  const auto& f = patches.numbers;
-  return {{Lanes(f[0][k]), Lanes(f[1][k]), Lanes(f[2][k])},
-          {Lanes(f[3][k]), Lanes(f[4][k]), Lanes(f[5][k])},
-          Lanes(f[6][k]),
-          Lanes(f[7][k])};
-}
-
-/// Great cubes are far from being like their corners: the cylinders of the link's patches bound the
-/// distances of their children.
-HWY_INLINE void bound_by_patches(const CubeSearch& search, const Cube& cube, std::uint64_t wanted,
-                                 float (&out_m)[64]) {
-  const TopPatches& patches = search.patches;
-  const auto edge_m = static_cast<float>(cube.edge_m());
-  const Eigen::Vector3f middle_m = (cube.corner_m().array() + cube.edge_m() / 2).cast<float>();
-  const Boxes whole{{Lanes(middle_m.x()), Lanes(middle_m.y()), Lanes(middle_m.z())},
-                    Lanes(edge_m / 2)};
-  alignas(64) float of_whole_m[TopPatches::kMost + kLanes];
-  Lanes nearest(HUGE_VALF);
-  for (int k = 0; k < patches.count; k += kLanes) {
-    const Lanes bound = patch_bound(patches.many(k), whole);
-    store(bound, of_whole_m + k);
-    nearest = least(nearest, bound);
-  }
-  // Farther than this from all of the cube, a patch is not the nearest of any child.
-  const float beyond_m =
-      std::min(search.link.limit_m() + search.error_m, least_lane(nearest) + 2 * edge_m);
-  float others_m = HUGE_VALF;
-  int near[TopPatches::kMost], count = 0;
-  for (int k = 0; k < patches.count; ++k) {
-    if (of_whole_m[k] < beyond_m) {
-      near[count++] = k;
-    } else {
-      others_m = std::min(others_m, of_whole_m[k]);
-    }
-  }
-  for (int i = 0; i < 64; i += kLanes) {
-    if (!has_wanted(wanted, i)) continue;
-    const CubePoints centre = child_centres(cube, i);
-    const Boxes boxes{{centre.x, centre.y, centre.z}, Lanes(edge_m / 8)};
-    Lanes bound(others_m);
-    for (int j = 0; j < count; ++j) {
-      bound = least(bound, patch_bound(broadcast_patch(patches, near[j]), boxes));
-    }
-    store(bound - Lanes(search.error_m), out_m + i);
-  }
-}
-
 /// The best points of a cube that has its turn for the first time.
 void try_cube(CubeSearch& search, const Cube& cube, const CubeCorners& corners, int hint) {
   const auto edge_m = static_cast<float>(cube.edge_m());
@@ -349,7 +272,8 @@ void expand(CubeSearch& search, Item& item, Fresh& fresh) {
   const bool is_opened = (item.patch & kOpened) != 0;
   alignas(64) float child_bounds_m[64];
   if (cube.level > kGreatestByCorners) {
-    bound_by_patches(search, cube, item.left, child_bounds_m);
+    bound_by_patches(search.patches, cube, item.left, link.limit_m(), search.error_m,
+                     child_bounds_m);
     const int hint = static_cast<int>(item.patch & ~kOpened);
     return part_cube(item, cube, child_bounds_m, link.limit_m(), hint, fresh);
   }

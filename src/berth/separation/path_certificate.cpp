@@ -109,7 +109,6 @@ int PathCertificate::find_needs(const PathRequest& request, double scale) {
                                                          most_m_s, request.contact_m_s)
                                  : stopping.time_s;
     rising_m_[static_cast<Node>(n)] = needed_in(braking_s);
-    needed_m_[static_cast<Node>(n)] = std::min(most_needed_m_, needed_in(braking_s));
     if (n >= braked && path_.way_m(n) >= end_m) return n;
   }
   return -1;
@@ -145,7 +144,7 @@ PathCertificate::PieceNeed PathCertificate::need_in(std::size_t i, int piece) co
   const double most_m = most_needed_m_ + bend_m;
   // At the start the root is steep, and a brake's table may be any curve.
   if (piece == 0 || !settings_.stopping.empty()) {
-    return {needed_m_[after] + bend_m, needed_m_[after] + bend_m};
+    return {needed_at(piece + 1) + bend_m, needed_at(piece + 1) + bend_m};
   }
   // What is needed grows with the root of the way, which lies above the line between two nodes by
   // a quarter of (root q - root p)^2 / (root q + root p), until it is the most.
@@ -179,7 +178,7 @@ bool PathCertificate::is_covered(std::size_t i, int piece) {
 }
 
 double PathCertificate::needed_from(std::size_t i, int sample, Stretch stretch) {
-  double needed_m = needed_m_[static_cast<Node>(sample)] + added_m_[i];
+  double needed_m = needed_at(sample) + added_m_[i];
   for (int p = stretch.first; p < stretch.last; ++p) {
     needed_m = std::max(needed_m, needed_for(i, sample, p));
   }
@@ -217,7 +216,7 @@ bool PathCertificate::is_clear(const PathRequest& request, std::size_t i, Stretc
   const double from_end_m = needed_from(i, stretch.last, stretch);
   const double from_middle_m = needed_from(i, middle, stretch);
   const int sample = from_end_m <= from_middle_m ? stretch.last : middle;
-  const double here_m = needed_m_[static_cast<Node>(sample)] + added_m_[i];
+  const double here_m = needed_at(sample) + added_m_[i];
   if (has_room(request, i, sample, std::min(from_end_m, from_middle_m))) return true;
   if (known(i, sample).nearest_m < here_m) return false;
   if (depth == kMostDepth || stretch.last - stretch.first == 1) return false;
@@ -228,7 +227,7 @@ bool PathCertificate::is_clear(const PathRequest& request, std::size_t i, Stretc
 bool PathCertificate::is_link_clear(const PathRequest& request, std::size_t i, int last) {
   const PathLink& link = request.links[i];
   if (!link.is_moved) return true;
-  const double here_m = needed_m_[0] + added_m_[i];
+  const double here_m = needed_at(0) + added_m_[i];
   if (last == 0) return link.assumed_m >= here_m && has_room(request, i, 0, here_m);
   if (link.assumed_m < link.known_m) {
     // Where it is, is not known: it may be wherever the link goes.

@@ -1,6 +1,7 @@
 // Inside separation/ only: the greatest speed whose stop is clear all along the robot's way.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <span>
@@ -96,7 +97,7 @@ class PathCertificate {
 
   bool lay(const PathRequest& request, double scale);
   bool is_shown(const PathRequest& request, double scale);
-  /// Sets needed_m_ but for what each link adds; the node where the robot stands, -1 where the
+  /// Sets rising_m_ and most_needed_m_; the node where the robot stands, -1 where the
   /// way is not known so far.
   int find_needs(const PathRequest& request, double scale);
   double turning_m(double scale, double stopping_s, double travel_s) const;
@@ -104,6 +105,10 @@ class PathCertificate {
   bool is_clear(const PathRequest& request, std::size_t i, Stretch stretch, int depth);
   bool covers(std::size_t i, int sample, double clear_m, int piece);
   bool is_covered(std::size_t i, int piece);
+  /// Without what each link adds.
+  double needed_at(int node) const {
+    return std::min(most_needed_m_, rising_m_[static_cast<Node>(node)]);
+  }
   PieceNeed need_in(std::size_t i, int piece) const;
   /// How much room at a sample shows that all of the piece has what it needs.
   double needed_for(std::size_t i, int sample, int piece);
@@ -123,7 +128,6 @@ class PathCertificate {
   /// By link and both nodes; negative where not known yet.
   std::vector<double> moved_m_;
   std::vector<double> added_m_;
-  std::array<double, BrakingPath::kNodes> needed_m_ = {};
   /// What is needed grows with the way, up to the most.
   std::array<double, BrakingPath::kNodes> rising_m_ = {};
   double most_needed_m_ = 0;

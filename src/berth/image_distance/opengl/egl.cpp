@@ -22,15 +22,14 @@ void require_library(const char* what, std::initializer_list<const char*> names,
                   dlerror(), package));
 }
 
-bool has_client_extension(const char* name) {
-  return epoxy_has_egl_extension(EGL_NO_DISPLAY, name);
-}
-
-void require_client_extension(const char* name, bool has_it) {
-  if (has_it) return;
+/// One of these.
+void require_client_extension(std::initializer_list<const char*> names) {
+  for (const char* name : names) {
+    if (epoxy_has_egl_extension(EGL_NO_DISPLAY, name)) return;
+  }
   throw GlUnavailable(fmt::format(
       "OpenGL: EGL has no {}; expected it of Mesa (package libegl-mesa0) or the GPU's driver",
-      name));
+      *names.begin()));
 }
 
 bool is_software(EGLDeviceEXT device) {
@@ -45,11 +44,8 @@ std::vector<EglDevice> open_egl_devices() {
   require_library("EGL", {"libEGL.so.1"}, "libegl1");
   require_library("OpenGL", {"libOpenGL.so.0", "libGL.so.1"}, "libopengl0 or libgl1");
   // A driver may tell the older extension alone, of which enumeration is a part.
-  constexpr const char* kEnumeration = "EGL_EXT_device_enumeration";
-  require_client_extension(kEnumeration, has_client_extension(kEnumeration) ||
-                                             has_client_extension("EGL_EXT_device_base"));
-  constexpr const char* kPlatform = "EGL_EXT_platform_device";
-  require_client_extension(kPlatform, has_client_extension(kPlatform));
+  require_client_extension({"EGL_EXT_device_enumeration", "EGL_EXT_device_base"});
+  require_client_extension({"EGL_EXT_platform_device"});
 
   EGLint count = 0;
   eglQueryDevicesEXT(0, nullptr, &count);
