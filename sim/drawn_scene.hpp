@@ -15,6 +15,8 @@ namespace berth::sim {
 struct DrawnSceneSettings {
   int width_px = 640;
   int height_px = 480;
+  /// Whether each further camera has an image of a size of its own.
+  bool sizes_differ = true;
   /// Obstacles around the robot, besides floor and wall; fewer where there is no room for them.
   int least_obstacles = 1;
   int most_obstacles = 8;

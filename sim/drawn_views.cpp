@@ -93,15 +93,15 @@ DrawnViews draw_views(const RobotModel& model, const std::vector<MeshTree>& link
   drawn.views.push_back(cast_view(model, scene.pose, scene.obstacles, scene.camera, scene.X_BC));
   Random random(seed + 0x9e3779b9U);
   while (static_cast<int>(drawn.views.size()) < cameras) {
-    drawn.views.push_back(
-        draw_view(random, model, scene, kSizes[drawn.views.size() % kSizes.size()]));
+    const double size = settings.sizes_differ ? kSizes[drawn.views.size() % kSizes.size()] : 1;
+    drawn.views.push_back(draw_view(random, model, scene, size));
   }
   return drawn;
 }
 
 PointView point_view(const DrawnView& view) {
   return {view.camera,         view.X_BC, view.depth_m, view.obstacles.depth_m,
-          view.obstacles.fate, view.age_s};
+          view.obstacles.fate, {},        view.age_s};
 }
 
 PointSpace point_space(const std::vector<DrawnView>& views, const SpaceSettings& settings) {

@@ -98,7 +98,8 @@ void measure_whole_robot(const std::vector<TrialRobot>& robots, int scenes,
   std::atomic<int> done = 0;
   tbb::parallel_for(0, scenes, [&](int i) {
     const int seed = options.first + i;
-    const auto settings = options.is_full_size ? sim::DrawnSceneSettings{} : settings_of(seed);
+    const auto settings =
+        options.is_full_size ? sim::DrawnSceneSettings{.sizes_differ = false} : settings_of(seed);
     tbb::this_task_arena::isolate([&] {
       trials[i] = run_whole_robot_trial(robot_of(robots, seed), settings,
                                         static_cast<std::uint32_t>(seed), conditions);
@@ -144,7 +145,7 @@ int main(int argc, char** argv) {
                   "With --whole-robot: the seed of the first scene")
       ->check(CLI::Range(0, 1000000));
   program.add_flag("--full-size", whole_robot_options.is_full_size,
-                   "With --whole-robot: the first camera of every scene has 640 x 480 pixels");
+                   "With --whole-robot: all cameras have 640 x 480 pixels");
   program.add_option("--condition", whole_robot_options.conditions,
                      "With --whole-robot: only the conditions whose names hold one of these");
   program
