@@ -33,8 +33,16 @@ double own_of_reading(const PointView& view, const SpaceSettings& settings, int 
       if (std::isnan(sensed_m)) return kNone;
       return std::min(obstacle_m - settings.free_space_margin_m,
                       sensed_m + settings.behind_robot_m);
+    case PixelFate::environment: {
+      double freed_m = sensed_m - settings.free_space_margin_m;
+      if (view.environment_back_m.pixels().empty()) return freed_m;
+      const double back_m = view.environment_back_m(u, v);
+      const bool is_far = back_m > sensed_m + settings.behind_robot_m;
+      const double solid_m = is_far ? sensed_m + settings.behind_robot_m : back_m;
+      if (solid_m > freed_m) freed_m = solid_m;
+      return freed_m;
+    }
     case PixelFate::robot:
-    case PixelFate::environment:
     case PixelFate::padding:
     case PixelFate::dilation:
       return sensed_m + settings.behind_robot_m;

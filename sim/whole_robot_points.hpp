@@ -21,6 +21,8 @@ struct PointView {
   /// F, and what became of each pixel of S.
   DepthImage obstacle_depth_m;
   Image<PixelFate> fate;
+  /// Where environment ends along each pixel's ray; of no size where that is not known.
+  DepthImage environment_back_m = {};
   /// By how much it is older than the newest one.
   double age_s = 0;
 };

@@ -15,7 +15,7 @@ double ExactYardstick::ms(const WholeRobotScene& scene, int links) {
 
 void SceneSpaces::build_view(const WholeRobotScene& scene, int k) {
   const CameraImages& view = scene.views[k];
-  build_camera_space(scene.camera, view.depth_m, view.obstacles, {}, spaces_[k]);
+  build_camera_space(scene.camera, view.depth_m, view.obstacles, {}, {}, spaces_[k]);
 }
 
 void SceneSpaces::build_all(const WholeRobotScene& scene) {

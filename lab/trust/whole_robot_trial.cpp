@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "berth/distance/mesh_distances.hpp"
+#include "berth/pipeline/environment_back.hpp"
 #include "berth/self_filter/self_filter.hpp"
 #include "berth/sensor/phantoms.hpp"
 #include "lab/trust/scene_images.hpp"
@@ -74,6 +75,7 @@ struct SensedView {
   DepthImage sensed_m;
   RobotImage robot;
   ObstacleImage obstacles;
+  DepthImage environment_back_m;
   double age_s = 0;
 };
 
@@ -92,7 +94,8 @@ class Measured {
     std::vector<PosedSpace> posed;
     for (std::size_t k = 0; k < views_.size(); ++k) {
       const SensedView& view = views_[k];
-      build_camera_space(view.camera, view.sensed_m, view.obstacles, condition_.space, spaces[k]);
+      build_camera_space(view.camera, view.sensed_m, view.obstacles, view.environment_back_m,
+                         condition_.space, spaces[k]);
       posed.push_back({&spaces[k], view.X_BC, condition_.knows_age ? view.age_s : 0});
       under.mesh.push_back(ask(posed));
     }
@@ -133,6 +136,8 @@ class Measured {
     sensed.X_BC = images.believed_X_BC(condition_.pose);
     sensed.sensed_m = images.sensed(condition_.image);
     sensed.robot = images.believed(condition_.pose);
+    EnvironmentBack environment(robot_.model, sensed.camera);
+    sensed.environment_back_m = environment.at(drawn_.scene.pose, sensed.X_BC);
     if (condition_.filter == MeasuredFilter::ideal) {
       sensed.obstacles = view.obstacles;
     } else {

@@ -204,7 +204,7 @@ TEST(LastRequest, ASpaceThatBeginsAnewIsAnotherOne) {
   ObstacleImage nothing = view.obstacles;
   for (float& depth_m : nothing.depth_m.pixels()) depth_m = 20;
   for (PixelFate& fate : nothing.fate.pixels()) fate = PixelFate::obstacle;
-  build_camera_space(view.camera, nothing.depth_m, nothing, {}, far_space);
+  build_camera_space(view.camera, nothing.depth_m, nothing, {}, {}, far_space);
   UnknownSpace space;
   const PosedSpace far[] = {{&far_space, view.X_BC, 0}};
   space.assign(far);

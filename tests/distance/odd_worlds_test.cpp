@@ -33,7 +33,7 @@ TEST(MeshOdd, EmptyImages) {
     MeshWorld world = draw_mesh_world(settings, 1);
     for (MeshWorldView& view : world.views) {
       view.camera.width_px = view.camera.height_px = 0;
-      view.sensor_depth_m = DepthImage();
+      view.sensor_depth_m = view.environment_back_m = DepthImage();
       view.obstacles = ObstacleImage();
     }
     for (const auto& link : PreparedWorld(world).ask({})) expect_nothing_near(link, 1);
@@ -87,6 +87,7 @@ MeshWorld wall_world(const Pose& X_BC, TriangleMesh link_L, const Pose& X_BL) {
   view.camera = {64, 48, 60, 60, 31.5, 23.5};
   view.X_BC = X_BC;
   view.sensor_depth_m = DepthImage(64, 48, 1.0f);
+  view.environment_back_m = DepthImage();
   view.obstacles.depth_m = view.sensor_depth_m;
   view.obstacles.fate = Image<PixelFate>(64, 48, PixelFate::obstacle);
   world.views.push_back(view);

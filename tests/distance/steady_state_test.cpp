@@ -1,8 +1,8 @@
 // A program of its own, because allocation_count replaces the global operator new.
 #include <gtest/gtest.h>
 
-#include "tests/support/mesh_world.hpp"
 #include "tests/support/allocation_count.hpp"
+#include "tests/support/mesh_world.hpp"
 
 namespace berth::testing {
 namespace {
@@ -21,8 +21,8 @@ TEST(MeshSteadyState, NothingIsAllocatedOnceTheSceneWasSeen) {
   const auto frame_and_requests = [&] {
     for (int k = 0; k < 3; ++k) {
       const MeshWorldView& view = world.views[k];
-      build_camera_space(view.camera, view.sensor_depth_m, view.obstacles, world.settings,
-                         spaces[k]);
+      build_camera_space(view.camera, view.sensor_depth_m, view.obstacles, view.environment_back_m,
+                         world.settings, spaces[k]);
       posed[k] = {&spaces[k], view.X_BC, view.age_s};
     }
     space.assign(posed);

@@ -38,13 +38,13 @@ SlowRenderer::SlowRenderer(const RobotModel& model, const RobotPose& pose, const
   }
 }
 
-sim::RayHit SlowRenderer::hit(double u, double v) const {
+sim::RayHit SlowRenderer::hit_beyond(double u, double v, double least_m) const {
   const Eigen::Vector3d direction((u - camera_.cx_px) / camera_.fx_px,
                                   (v - camera_.cy_px) / camera_.fy_px, 1);
   sim::RayHit nearest;
   for (const Triangle& triangle : triangles_) {
     const double depth_m = ray_triangle(direction, triangle.corners_C_m);
-    if (depth_m < nearest.depth_m) nearest = {triangle.id, depth_m};
+    if (depth_m > least_m && depth_m < nearest.depth_m) nearest = {triangle.id, depth_m};
   }
   return nearest;
 }

@@ -17,7 +17,9 @@ class SlowRenderer {
                const Camera& camera);
 
   /// What the ray through (u, v), in pixels, meets first.
-  sim::RayHit hit(double u, double v) const;
+  sim::RayHit hit(double u, double v) const { return hit_beyond(u, v, 0); }
+  /// What it meets first of what is deeper than this.
+  sim::RayHit hit_beyond(double u, double v, double least_m) const;
 
  private:
   struct Triangle {

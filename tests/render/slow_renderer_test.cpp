@@ -65,6 +65,61 @@ TEST(RendererAndTwin, AgreeOnRandomRobots) {
   EXPECT_LE(sum.at_edges, sum.robot_pixels / 300);
 }
 
+/// What lies behind the first surface of each ray, by both.
+Comparison render_both_behind(const RobotModel& model, const RobotPose& pose, const Pose& X_BC,
+                              const Camera& camera) {
+  RobotImage first, image;
+  RobotRenderer renderer(build_link_meshes(model), camera);
+  renderer.render(pose, X_BC, first);
+  renderer.render_behind(pose, X_BC, first, image);
+  const SlowRenderer twin(model, pose, X_BC, camera);
+  const Comparison result = compare(image, [&](double u, double v) {
+    const sim::RayHit hit = twin.hit(u, v);
+    return hit.id == kNoLink ? hit : twin.hit_beyond(u, v, hit.depth_m * (1 + 1e-5));
+  });
+  EXPECT_TRUE(result.wrong.empty()) << result.wrong.size() << " pixels, the first at "
+                                    << result.wrong[0].u << " " << result.wrong[0].v;
+  return result;
+}
+
+TEST(RendererAndTwin, AgreeOnWhatLiesBehindTheFirstSurface) {
+  std::mt19937 random(43);
+  Comparison sum;
+  for (int trial = 0; trial < thinned(25); ++trial) {
+    SCOPED_TRACE(trial);
+    std::vector<TriangleMesh> meshes;
+    std::vector<Pose> X_CL;
+    for (int i = 0; i < 4; ++i) {
+      meshes.push_back(random_mesh(random));
+      X_CL.push_back(
+          random_pose(random, {Eigen::Vector3d(-1.2, -1, -0.7), Eigen::Vector3d(1.2, 1, 3)}));
+    }
+    const Pose X_BC = random_pose(random, {Eigen::Vector3d(-2, -2, -2), Eigen::Vector3d(2, 2, 2)});
+    const Comparison result = render_both_behind(robot_of(std::move(meshes)),
+                                                 pose_seen_at(X_BC, X_CL), X_BC, kSmallCamera);
+    sum.robot_pixels += result.robot_pixels;
+    sum.at_edges += result.at_edges;
+  }
+  RecordProperty("at_edges", sum.at_edges);
+  RecordProperty("robot_pixels", sum.robot_pixels);
+  EXPECT_GT(sum.robot_pixels, 1000);
+  EXPECT_LE(sum.at_edges, sum.robot_pixels / 200);
+}
+
+TEST(RobotRenderer, NothingOfWhatLiesBehindStaysForTheNextImage) {
+  const RobotModel model = robot_of({make_box({0.4, 0.3, 0.2})});
+  RobotRenderer renderer(build_link_meshes(model), kSmallCamera);
+  RobotImage first, behind, again;
+  const RobotPose pose = pose_seen_at(Pose::Identity(), {at(0, 0, 1)});
+  renderer.render(pose, Pose::Identity(), first);
+  renderer.render_behind(pose, Pose::Identity(), first, behind);
+  EXPECT_NEAR(first.depth_m(22, 17), 0.9, 1e-5);
+  EXPECT_NEAR(behind.depth_m(22, 17), 1.1, 1e-5);
+  renderer.render(pose, Pose::Identity(), again);
+  EXPECT_EQ(again.link_id.pixels(), first.link_id.pixels());
+  EXPECT_EQ(again.depth_m(22, 17), first.depth_m(22, 17));
+}
+
 TEST(RendererAndTwin, AgreeAtImageSizesOfAnyRemainder) {
   std::mt19937 random(3);
   const RobotModel model = robot_of({make_sphere(0.8), make_box({1, 0.3, 0.2})});

@@ -88,7 +88,7 @@ void look(SeenRoom& view, const std::vector<sim::DrawnObstacle>& room, int robot
       view.obstacles.depth_m.pixels()[i] = kNoDepth;
     }
   }
-  build_camera_space(view.camera, sensed_m, view.obstacles, {}, view.space);
+  build_camera_space(view.camera, sensed_m, view.obstacles, {}, {}, view.space);
 }
 
 /// What one image says of a ball.

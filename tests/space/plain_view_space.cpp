@@ -26,7 +26,7 @@ void for_pixels(const DepthView& image, PixelRect rect, Action action) {
 PixelRect three_by_three(int u, int v) { return {u - 1, v - 1, u + 2, v + 2}; }
 
 /// Definition 1 for a pixel that the sensor or the filter has something of. May be NaN.
-float freed_by_reading(float sensed_m, float kept_m, PixelFate fate,
+float freed_by_reading(float sensed_m, float kept_m, float environment_back_m, PixelFate fate,
                        const SpaceSettings& settings) {
   const float to_robot_m = sensed_m + static_cast<float>(settings.behind_robot_m);
   const auto margin_m = static_cast<float>(settings.free_space_margin_m);
@@ -34,9 +34,13 @@ float freed_by_reading(float sensed_m, float kept_m, PixelFate fate,
     return std::isnan(sensed_m) ? 0 : std::min(kept_m - margin_m, to_robot_m);
   }
   if (is_kept(fate) || fate == PixelFate::no_reading) return kept_m - margin_m;
-  const bool is_robot = fate == PixelFate::robot || fate == PixelFate::environment ||
-                        fate == PixelFate::padding || fate == PixelFate::dilation;
-  return is_robot ? to_robot_m : sensed_m - margin_m;
+  const float before_m = sensed_m - margin_m;
+  if (fate == PixelFate::environment && environment_back_m > before_m) {
+    return environment_back_m < to_robot_m ? environment_back_m : to_robot_m;
+  }
+  const bool is_robot =
+      fate == PixelFate::robot || fate == PixelFate::padding || fate == PixelFate::dilation;
+  return is_robot ? to_robot_m : before_m;
 }
 
 /// Where the two nearer and farther ranges of a cell lie, from its readings or its parts' ranges.
@@ -90,13 +94,14 @@ int blocks(int pixels, int side_px) {
 }  // namespace
 
 void plain_own_free_depth(DepthView sensor_depth_m, const ObstacleImage& obstacles,
-                          const SpaceSettings& settings, DepthImage& out) {
+                          DepthView environment_back_m, const SpaceSettings& settings,
+                          DepthImage& out) {
   const auto is_empty = [&](int u, int v) {
     return std::isnan(sensor_depth_m(u, v)) && std::isnan(obstacles.depth_m(u, v));
   };
   const auto freed_at = [&](int u, int v) {
-    return freed_by_reading(sensor_depth_m(u, v), obstacles.depth_m(u, v), obstacles.fate(u, v),
-                            settings);
+    return freed_by_reading(sensor_depth_m(u, v), obstacles.depth_m(u, v), environment_back_m(u, v),
+                            obstacles.fate(u, v), settings);
   };
   out = DepthImage(sensor_depth_m.width, sensor_depth_m.height, 0);
   for (int v = 0; v < out.height(); ++v) {

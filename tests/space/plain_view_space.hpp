@@ -6,7 +6,8 @@
 namespace berth::testing {
 
 void plain_own_free_depth(DepthView sensor_depth_m, const ObstacleImage& obstacles,
-                          const SpaceSettings& settings, DepthImage& out);
+                          DepthView environment_back_m, const SpaceSettings& settings,
+                          DepthImage& out);
 void plain_free_depth_of(const DepthImage& own_m, DepthImage& out);
 void plain_depth_cells(DepthView depth_m, DepthCells& cells);
 void plain_depth_windows(DepthView image, DepthWindows& windows);

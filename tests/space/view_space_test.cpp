@@ -11,9 +11,10 @@ namespace {
 
 /// Steps in depth, holes alone and in patches, and every fate.
 void draw(sim::Random& random, int width, int height, double holes, DepthImage& sensor_depth_m,
-          ObstacleImage& obstacles) {
+          ObstacleImage& obstacles, DepthImage& environment_back_m) {
   sensor_depth_m.resize(width, height, kNoDepth);
   obstacles.depth_m.resize(width, height, kNoDepth);
+  environment_back_m.resize(width, height, kNoDepth);
   obstacles.fate.resize(width, height, PixelFate::obstacle);
   const bool any_fate = random.chance(0.5);
   for (int v = 0; v < height; ++v) {
@@ -21,6 +22,9 @@ void draw(sim::Random& random, int width, int height, double holes, DepthImage& 
       const bool is_patch = holes > 0 && (u / 6 + v / 5) % 4 == 0;
       const double depth_m = (u / 5 + v / 3) % 3 + random(0.01, 0.04);
       if (!is_patch && !random.chance(holes)) sensor_depth_m(u, v) = static_cast<float>(depth_m);
+      if (random.chance(0.8)) {
+        environment_back_m(u, v) = static_cast<float>(depth_m + random(-0.1, 0.5));
+      }
       obstacles.fate(u, v) = static_cast<PixelFate>(
           any_fate || random.chance(0.1) ? random.whole(0, kPixelFateCount - 1) : 0);
       if (any_fate ? random.chance(0.5) : obstacles.fate(u, v) == PixelFate::obstacle) {
@@ -66,9 +70,9 @@ TEST(CameraSpace, IsToTheBitThatOfThePlainWay) {
       for (const NoReading no_reading : kNoReadings) {
         SCOPED_TRACE(std::to_string(width) + " x " + std::to_string(height) + ", holes " +
                      std::to_string(holes));
-        DepthImage sensor_depth_m, own_m, free_m;
+        DepthImage sensor_depth_m, environment_back_m, own_m, free_m;
         ObstacleImage obstacles;
-        draw(random, width, height, holes, sensor_depth_m, obstacles);
+        draw(random, width, height, holes, sensor_depth_m, obstacles, environment_back_m);
         SpaceSettings settings;
         settings.no_reading = no_reading;
         Camera camera{};
@@ -76,8 +80,8 @@ TEST(CameraSpace, IsToTheBitThatOfThePlainWay) {
         camera.height_px = height;
         camera.fx_px = random(40, 300);
         camera.fy_px = random(40, 300);
-        build_camera_space(camera, sensor_depth_m, obstacles, settings, fast);
-        plain_own_free_depth(sensor_depth_m, obstacles, settings, own_m);
+        build_camera_space(camera, sensor_depth_m, obstacles, environment_back_m, settings, fast);
+        plain_own_free_depth(sensor_depth_m, obstacles, environment_back_m, settings, own_m);
         own_m =
             sim::plainly_freed_beside_robot(camera, sensor_depth_m, obstacles.depth_m,
                                             obstacles.fate, own_m, settings.detection_capability_m);

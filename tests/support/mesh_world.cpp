@@ -45,16 +45,16 @@ MeshWorldView draw_view(sim::Random& random, const MeshWorldSettings& settings) 
 
 PixelFate draw_fate(sim::Random& random) {
   constexpr PixelFate kFates[] = {
-      PixelFate::edge,       PixelFate::flying_patch, PixelFate::speckle,
-      PixelFate::padding,    PixelFate::dilation,     PixelFate::averaged,
-      PixelFate::background, PixelFate::hole,         PixelFate::outside_region};
-  return kFates[random.whole(0, 8)];
+      PixelFate::edge,           PixelFate::flying_patch, PixelFate::speckle,    PixelFate::padding,
+      PixelFate::dilation,       PixelFate::averaged,     PixelFate::background, PixelFate::hole,
+      PixelFate::outside_region, PixelFate::environment};
+  return kFates[random.whole(0, 9)];
 }
 
 void cast(sim::Random& random, const MeshWorldSettings& settings, const sim::EmbreeRenderer& robot,
           const sim::EmbreeRenderer& obstacles, MeshWorldView& view) {
   view.sensor_depth_m = DepthImage(settings.width_px, settings.height_px, kNoDepth);
-  view.obstacles.depth_m = view.sensor_depth_m;
+  view.obstacles.depth_m = view.environment_back_m = view.sensor_depth_m;
   view.obstacles.fate =
       Image<PixelFate>(settings.width_px, settings.height_px, PixelFate::no_reading);
   for (int v = 0; v < settings.height_px; ++v) {
@@ -74,6 +74,10 @@ void cast(sim::Random& random, const MeshWorldSettings& settings, const sim::Emb
       if (random.chance(0.02)) fate = draw_fate(random);
       if (is_kept(fate)) view.obstacles.depth_m(u, v) = sensed_m;
       if (fate == PixelFate::hole) sensed_m = kNoDepth;
+      // Before the reading, behind it, farther than the robot may reach, or not known.
+      if (random.chance(0.8)) {
+        view.environment_back_m(u, v) = sensed_m + static_cast<float>(random(-0.1, 0.5));
+      }
     }
   }
 }
@@ -107,8 +111,8 @@ PreparedWorld::PreparedWorld(const MeshWorld& world)
   std::vector<PosedSpace> posed;
   for (std::size_t k = 0; k < world.views.size(); ++k) {
     const MeshWorldView& view = world.views[k];
-    build_camera_space(view.camera, view.sensor_depth_m, view.obstacles, world.settings,
-                       spaces_[k]);
+    build_camera_space(view.camera, view.sensor_depth_m, view.obstacles, view.environment_back_m,
+                       world.settings, spaces_[k]);
     posed.push_back({&spaces_[k], view.X_BC, view.age_s});
   }
   space_.assign(posed);

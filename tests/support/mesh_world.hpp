@@ -26,6 +26,7 @@ struct MeshWorldView {
   Pose X_BC = Pose::Identity();
   DepthImage sensor_depth_m;
   ObstacleImage obstacles;
+  DepthImage environment_back_m;
   double age_s = 0;
 };
 

@@ -23,8 +23,15 @@ double own_of_reading(const MeshWorldView& view, const SpaceSettings& settings, 
                                            sensed_m + settings.behind_robot_m);
   }
   if (is_kept(fate)) return obstacle_m - settings.free_space_margin_m;
-  const bool is_robot = fate == PixelFate::robot || fate == PixelFate::environment ||
-                        fate == PixelFate::padding || fate == PixelFate::dilation;
+  if (fate == PixelFate::environment) {
+    const bool has_back = view.environment_back_m.width() > 0;
+    const double back_m = has_back ? view.environment_back_m(u, v) : std::nan("");
+    const double solid_m = std::fmin(back_m, sensed_m + settings.behind_robot_m);
+    const double before_m = sensed_m - settings.free_space_margin_m;
+    return std::isnan(back_m) ? before_m : std::fmax(before_m, solid_m);
+  }
+  const bool is_robot =
+      fate == PixelFate::robot || fate == PixelFate::padding || fate == PixelFate::dilation;
   return is_robot ? sensed_m + settings.behind_robot_m : sensed_m - settings.free_space_margin_m;
 }
 

@@ -186,7 +186,8 @@ class Asked {
     std::vector<PosedSpace> posed;
     for (std::size_t k = 0; k < spaces_.size(); ++k) {
       const DrawnView& view = mesh_case.views[k];
-      build_camera_space(view.camera, view.depth_m, view.obstacles, mesh_case.settings, spaces_[k]);
+      build_camera_space(view.camera, view.depth_m, view.obstacles, {}, mesh_case.settings,
+                         spaces_[k]);
       posed.push_back({&spaces_[k], view.X_BC, view.age_s});
     }
     hidden_.assign(posed);

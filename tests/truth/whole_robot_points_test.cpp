@@ -46,8 +46,7 @@ TEST(WholeRobotPoints, NoCameraFreesWhatItHidesItself) {
 TEST(WholeRobotPoints, EachFateFreesWhatItShould) {
   const SpaceSettings settings{
       .free_space_margin_m = 0.02, .behind_robot_m = 0.3, .detection_capability_m = 0};
-  for (const PixelFate fate :
-       {PixelFate::robot, PixelFate::environment, PixelFate::padding, PixelFate::dilation}) {
+  for (const PixelFate fate : {PixelFate::robot, PixelFate::padding, PixelFate::dilation}) {
     PointView view = wall_at(1);
     for (int v = 4; v < 9; ++v) {
       for (int u = 4; u < 9; ++u) drop(view, u, v, fate);
@@ -63,6 +62,24 @@ TEST(WholeRobotPoints, EachFateFreesWhatItShould) {
     EXPECT_NEAR(free_at(view, 7, 7, settings), 0.48, 1e-6);
     EXPECT_NEAR(free_at(view, 8, 8, settings), 0.98, 1e-6);
   }
+}
+
+TEST(WholeRobotPoints, EnvironmentFreesUpToItsBack) {
+  const SpaceSettings settings{
+      .free_space_margin_m = 0.02, .behind_robot_m = 0.3, .detection_capability_m = 0};
+  PointView view = wall_at(1);
+  for (const auto& [back_m, free_m] :
+       {std::pair{0.9F, 0.98}, {1.03F, 1.03}, {2.0F, 1.3}, {kNoDepth, 0.98}}) {
+    for (float& m : view.sensor_depth_m.pixels()) m = 3;
+    for (float& m : view.obstacle_depth_m.pixels()) m = 3;
+    view.environment_back_m = DepthImage(kFlatCamera.width_px, kFlatCamera.height_px, kNoDepth);
+    view.environment_back_m(6, 6) = back_m;
+    view.sensor_depth_m(6, 6) = 1;
+    drop(view, 6, 6, PixelFate::environment);
+    EXPECT_NEAR(free_at(view, 6, 6, settings), free_m, 1e-6) << back_m;
+  }
+  view.environment_back_m = {};
+  EXPECT_NEAR(free_at(view, 6, 6, settings), 0.98, 1e-6);
 }
 
 TEST(WholeRobotPoints, ALearnedBackgroundFreesNoMoreThanTheSensorSaw) {

@@ -3,6 +3,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "berth/pipeline/environment_back.hpp"
 #include "berth/pipeline/prepare_frame.hpp"
 #include "berth/pipeline/robot_drawing.hpp"
 #include "berth/pipeline/timeliness.hpp"
@@ -37,6 +38,7 @@ struct Observer::Parts {
       : view(std::move(of)),
         use(for_what),
         drawing(*view->robot(), view->camera()),
+        environment_back(view->robot()->model(), view->camera()),
         watch(view->settings().watch, displacement_of(*view, std::move(measure))) {
     if (view->region_meshes()) region_renderer.emplace(view->region_meshes(), view->camera());
   }
@@ -47,6 +49,7 @@ struct Observer::Parts {
   std::shared_ptr<const MountedCamera> view;
   FrameUse use;
   RobotDrawing drawing;
+  EnvironmentBack environment_back;
   /// Of the robot-shaped region, where there is one.
   std::optional<RobotRenderer> region_renderer;
   RobotImage region;
@@ -79,7 +82,11 @@ void Observer::observe(DepthView depth_m, const JointState& at_exposure, Frame& 
   parts_->filter(depth_m, frame);
   apply_sensor_rules(depth_m, frame.robot, parts_->background, parts_->view->settings().sensor,
                      parts_->sensor, frame.obstacles);
-  prepare_frame(depth_m, parts_->use, frame);
+  DepthView environment_back_m;
+  if (parts_->use == FrameUse::any_query) {
+    environment_back_m = parts_->environment_back.at(frame.pose, frame.X_BC);
+  }
+  prepare_frame(depth_m, environment_back_m, parts_->use, frame);
 }
 
 void Observer::Parts::filter(DepthView depth_m, Frame& frame) {

@@ -14,10 +14,11 @@ bool is_blind(const ObstacleImage& obstacles) {
   return static_cast<double>(pixels - without) < kLeastReadOfImage * static_cast<double>(pixels);
 }
 
-void prepare_space(DepthView sensor_depth_m, Frame& frame) {
+void prepare_space(DepthView sensor_depth_m, DepthView environment_back_m, Frame& frame) {
   const Camera& camera = frame.view->camera();
   const SpaceSettings& settings = frame.view->settings().space;
-  build_camera_space(camera, sensor_depth_m, frame.obstacles, settings, frame.space->seen);
+  build_camera_space(camera, sensor_depth_m, frame.obstacles, environment_back_m, settings,
+                     frame.space->seen);
   if (frame.view->robot()->settings().distance.mean_direction) {
     build_reading_tiles(camera, frame.obstacles.depth_m, frame.space->reading_tiles);
   }
@@ -30,7 +31,8 @@ void prepare_space(DepthView sensor_depth_m, Frame& frame) {
 
 }  // namespace
 
-void prepare_frame(DepthView sensor_depth_m, FrameUse use, Frame& frame) {
+void prepare_frame(DepthView sensor_depth_m, DepthView environment_back_m, FrameUse use,
+                   Frame& frame) {
   const EvaluationSettings& settings = frame.view->robot()->settings();
   if (use == FrameUse::any_query) {
     drop_phantoms(frame.view->camera(), sensor_depth_m,
@@ -44,7 +46,7 @@ void prepare_frame(DepthView sensor_depth_m, FrameUse use, Frame& frame) {
   }
   frame.is_blind = is_blind(frame.obstacles);
   if (use == FrameUse::any_query) {
-    prepare_space(sensor_depth_m, frame);
+    prepare_space(sensor_depth_m, environment_back_m, frame);
   } else {
     clear_space(*frame.space);
   }

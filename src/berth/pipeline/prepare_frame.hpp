@@ -6,6 +6,7 @@ namespace berth {
 
 /// Makes of a frame's images what they say of space. `sensor_depth_m` is the image that
 /// frame.obstacles was made of.
-void prepare_frame(DepthView sensor_depth_m, FrameUse use, Frame& frame);
+void prepare_frame(DepthView sensor_depth_m, DepthView environment_back_m, FrameUse use,
+                   Frame& frame);
 
 }  // namespace berth

@@ -19,6 +19,7 @@ namespace HWY_NAMESPACE {
 /// Rectangles of at most so many pixels are filled side by side.
 constexpr float kSmall_pixels = 16;
 
+template <Layer layer>
 HWY_INLINE void draw_vector(const ImageTriangles& triangles, int first, PixelKey id,
                             Canvas& canvas) {
   const FloatTag d;
@@ -29,21 +30,23 @@ HWY_INLINE void draw_vector(const ImageTriangles& triangles, int first, PixelKey
   const auto pixels =
       hn::Mul(hn::Add(hn::Load(d, planes.last_du), one), hn::Add(hn::Load(d, planes.last_dv), one));
   const auto small = hn::Le(pixels, hn::Set(d, kSmall_pixels));
-  fill_small(planes, hn::And(sound, small), id, canvas.keys);
+  fill_small<layer>(planes, hn::And(sound, small), id, canvas.keys);
   std::uint32_t others = bits_of(hn::AndNot(small, sound));
   for (; others != 0; others &= others - 1) {
-    RowFiller(planes, std::countr_zero(others), id).fill(canvas.keys);
+    RowFiller<layer>(planes, std::countr_zero(others), id).fill(canvas.keys);
   }
 }
 
+template <Layer layer>
 HWY_INLINE void draw_waiting(PixelKey id, Canvas& canvas) {
   for (int first = 0; first < canvas.waiting.count; first += kLanes) {
-    draw_vector(canvas.waiting, first, id, canvas);
+    draw_vector<layer>(canvas.waiting, first, id, canvas);
   }
   canvas.waiting.count = 0;
 }
 
 /// Slow and right for every triangle.
+template <Layer layer>
 void draw_exactly(const TriangleBlock& block, int lane, const LinkInImage& view, Canvas& canvas) {
   std::array<Eigen::Vector3d, 3> corners;
   for (int corner = 0; corner < 3; ++corner) {
@@ -52,10 +55,12 @@ void draw_exactly(const TriangleBlock& block, int lane, const LinkInImage& view,
     corners[corner] = view.to_pixel_L * p_L;
   }
   if (!plan_exactly(corners, view.rect, 0, canvas.planes)) return;
-  RowFiller(canvas.planes, 0, id_part(view.id)).fill(canvas.keys);
+  RowFiller<layer>(canvas.planes, 0, id_part(view.id)).fill(canvas.keys);
 }
 
-void draw(std::span<const TriangleBlock> blocks, const LinkInImage& view, Canvas& canvas) {
+template <Layer layer>
+HWY_INLINE void draw_all(std::span<const TriangleBlock> blocks, const LinkInImage& view,
+                         Canvas& canvas) {
   const Projection projection(view);
   const PixelKey id = id_part(view.id);
   canvas.used = true;
@@ -63,12 +68,19 @@ void draw(std::span<const TriangleBlock> blocks, const LinkInImage& view, Canvas
     for (int lane = 0; lane < TriangleBlock::kTriangles; lane += kLanes) {
       std::uint32_t hard = project_block(block, lane, projection, canvas.waiting);
       for (; hard != 0; hard &= hard - 1) {
-        draw_exactly(block, lane + std::countr_zero(hard), view, canvas);
+        draw_exactly<layer>(block, lane + std::countr_zero(hard), view, canvas);
       }
     }
-    if (canvas.waiting.count >= ImageTriangles::kFull) draw_waiting(id, canvas);
+    if (canvas.waiting.count >= ImageTriangles::kFull) draw_waiting<layer>(id, canvas);
   }
-  draw_waiting(id, canvas);
+  draw_waiting<layer>(id, canvas);
+}
+
+void draw(std::span<const TriangleBlock> blocks, const LinkInImage& view, Canvas& canvas) {
+  draw_all<Layer::first>(blocks, view, canvas);
+}
+void draw_behind(std::span<const TriangleBlock> blocks, const LinkInImage& view, Canvas& canvas) {
+  draw_all<Layer::behind>(blocks, view, canvas);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -79,10 +91,15 @@ HWY_AFTER_NAMESPACE();
 namespace berth {
 
 HWY_EXPORT(draw);
+HWY_EXPORT(draw_behind);
 
 void draw_triangles(std::span<const TriangleBlock> blocks, const LinkInImage& view,
                     Canvas& canvas) {
-  HWY_DYNAMIC_DISPATCH(draw)(blocks, view, canvas);
+  if (canvas.keys.ceilings() == nullptr) {
+    HWY_DYNAMIC_DISPATCH(draw)(blocks, view, canvas);
+  } else {
+    HWY_DYNAMIC_DISPATCH(draw_behind)(blocks, view, canvas);
+  }
 }
 
 }  // namespace berth

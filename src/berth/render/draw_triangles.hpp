@@ -35,7 +35,8 @@ struct Canvas {
   TrianglePlanes planes;
 };
 
-/// Raises the keys of the pixels whose centres lie in the triangles, whatever their winding.
+/// Raises the keys of the pixels whose centres lie in the triangles, whatever their winding; where
+/// the keys have ceilings, by what lies behind them.
 void draw_triangles(std::span<const TriangleBlock> blocks, const LinkInImage& view, Canvas& canvas);
 
 }  // namespace berth

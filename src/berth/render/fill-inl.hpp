@@ -27,7 +27,11 @@ HWY_INLINE FloatVector plane_at(const float (&plane)[3][size], FloatVector du, F
   return hn::Add(at_row, hn::Mul(hn::Load(d, plane[1]), du));
 }
 
+/// What of the triangles counts: all, or what lies behind the ceilings of the keys.
+enum class Layer { first, behind };
+
 /// Fills small triangles side by side: all lanes walk through their own rectangles, pixel by pixel.
+template <Layer layer>
 HWY_INLINE void fill_small(const TrianglePlanes& planes, LaneMask lanes, PixelKey id,
                            KeyImage& keys) {
   const FloatTag d;
@@ -56,6 +60,7 @@ HWY_INLINE void fill_small(const TrianglePlanes& planes, LaneMask lanes, PixelKe
       hn::Store(hn::Add(first_pixel, hn::ConvertTo(di, offset)), di, pixel);
       for (; hits != 0; hits &= hits - 1) {
         const int i = std::countr_zero(hits);
+        if (layer == Layer::behind && !(inverse_depth[i] < keys.ceilings()[pixel[i]])) continue;
         PixelKey& key = keys.data()[pixel[i]];
         key = std::max(key, make_key(inverse_depth[i], id));
       }
@@ -76,6 +81,7 @@ constexpr int kRowLanes = static_cast<int>(hn::MaxLanes(Keys()));
 static_assert(kRowLanes <= KeyImage::kPadding);
 
 /// One triangle, a row of pixels at a time.
+template <Layer layer>
 class RowFiller {
  public:
   RowFiller(const TrianglePlanes& planes, int lane, PixelKey id)
@@ -93,8 +99,9 @@ class RowFiller {
   }
 
   void fill(KeyImage& keys) const {
-    PixelKey* row = keys.row(v_) + u_;
-    for (int dv = 0; dv < rows_; ++dv, row += keys.width()) fill_row(static_cast<float>(dv), row);
+    for (int dv = 0; dv < rows_; ++dv) {
+      fill_row(static_cast<float>(dv), keys, keys.place(u_, v_ + dv));
+    }
   }
 
  private:
@@ -109,7 +116,7 @@ class RowFiller {
     }
   }
 
-  HWY_INLINE void fill_row(float dv, PixelKey* row) const {
+  HWY_INLINE void fill_row(float dv, KeyImage& keys, std::ptrdiff_t first_pixel) const {
     float edge_at_row[3];
     for (int i = 0; i < 3; ++i) edge_at_row[i] = edge_[i][0] + edge_[i][2] * dv;
     float first = 0;
@@ -117,12 +124,12 @@ class RowFiller {
     if (last_du_ >= 2 * kRowLanes) shorten(edge_at_row, first, last);
     const float depth_at_row = depth_[0] + depth_[2] * dv;
     for (float du = first; du <= last; du += kRowLanes) {
-      fill_vector(edge_at_row, depth_at_row, du, row + static_cast<int>(du));
+      fill_vector(edge_at_row, depth_at_row, du, keys, first_pixel + static_cast<int>(du));
     }
   }
 
   HWY_INLINE void fill_vector(const float (&edge_at_row)[3], float depth_at_row, float first_du,
-                              PixelKey* pixels) const {
+                              KeyImage& keys, std::ptrdiff_t pixel) const {
     const RowFloats d;
     const auto du = hn::Add(hn::Set(d, first_du), hn::Iota(d, 0.0F));
     const auto at = [&](float at_row, float slope) HWY_ATTR {
@@ -131,15 +138,18 @@ class RowFiller {
     const auto nearest_edge =
         hn::Min(hn::Min(at(edge_at_row[0], edge_[0][1]), at(edge_at_row[1], edge_[1][1])),
                 at(edge_at_row[2], edge_[2][1]));
-    const auto inside =
-        hn::And(hn::Ge(nearest_edge, hn::Zero(d)), hn::Le(du, hn::Set(d, last_du_)));
+    auto inside = hn::And(hn::Ge(nearest_edge, hn::Zero(d)), hn::Le(du, hn::Set(d, last_du_)));
     if (hn::AllFalse(d, inside)) return;
     const auto depth =
         hn::Min(hn::Max(at(depth_at_row, depth_[1]), hn::Set(d, lo_)), hn::Set(d, hi_));
+    if constexpr (layer == Layer::behind) {
+      inside = hn::And(inside, hn::Lt(depth, hn::LoadU(d, keys.ceilings() + pixel)));
+    }
     const auto bits = hn::BitCast(RowInts(), hn::IfThenElseZero(inside, depth));
     const Keys dk;
-    const auto keys = hn::Or(hn::ShiftLeft<32>(hn::PromoteTo(dk, bits)), hn::Set(dk, id_));
-    hn::StoreU(hn::Max(keys, hn::LoadU(dk, pixels)), dk, pixels);
+    const auto found = hn::Or(hn::ShiftLeft<32>(hn::PromoteTo(dk, bits)), hn::Set(dk, id_));
+    PixelKey* const at_pixel = keys.data() + pixel;
+    hn::StoreU(hn::Max(found, hn::LoadU(dk, at_pixel)), dk, at_pixel);
   }
 
   PixelKey id_;

@@ -35,11 +35,19 @@ class KeyImage {
       : width_(width), keys_(static_cast<std::size_t>(width) * height + kPadding) {}
 
   int width() const { return width_; }
+  std::ptrdiff_t place(int u, int v) const { return static_cast<std::ptrdiff_t>(v) * width_ + u; }
   PixelKey* data() { return keys_.data(); }
-  PixelKey* row(int v) { return keys_.data() + static_cast<std::ptrdiff_t>(v) * width_; }
+  PixelKey* row(int v) { return keys_.data() + place(0, v); }
+
+  /// The inverse depth from which on each pixel's surfaces do not count, where only those behind
+  /// others do. As long as the keys.
+  const float* ceilings() const { return ceilings_; }
+  void set_ceilings(const float* ceilings) { ceilings_ = ceilings; }
+  std::size_t size() const { return keys_.size(); }
 
  private:
   int width_;
+  const float* ceilings_ = nullptr;
   std::vector<PixelKey> keys_;
 };
 

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "berth/render/robot_renderer.hpp"
 #include "berth/render/triangle_block.hpp"
 #include "berth/robot/robot_model.hpp"
 
@@ -22,7 +23,7 @@ class LinkMeshes {
   };
 
   /// Leaves out ignored links, links without geometry, and triangles without area.
-  explicit LinkMeshes(const RobotModel& model);
+  LinkMeshes(const RobotModel& model, DrawnLinks drawn);
 
   const std::vector<LinkMesh>& links() const { return links_; }
 

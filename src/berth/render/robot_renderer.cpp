@@ -42,6 +42,9 @@ std::vector<Chunk> chunks_of(const LinkMeshes& meshes) {
   return chunks;
 }
 
+/// What lies behind a surface by a lesser share of its depth is the same surface, drawn once more.
+constexpr float kSameDepth = 1e-5F;
+
 /// Gives the image its size. One that has it stays as it is.
 void fit(const Camera& camera, RobotImage& image) {
   const auto fits = [&](const auto& pixels) {
@@ -55,8 +58,8 @@ void fit(const Camera& camera, RobotImage& image) {
 
 }  // namespace
 
-std::shared_ptr<const LinkMeshes> build_link_meshes(const RobotModel& model) {
-  return std::make_shared<const LinkMeshes>(model);
+std::shared_ptr<const LinkMeshes> build_link_meshes(const RobotModel& model, DrawnLinks drawn) {
+  return std::make_shared<const LinkMeshes>(model, drawn);
 }
 
 struct RobotRenderer::State {
@@ -66,6 +69,8 @@ struct RobotRenderer::State {
   std::vector<LinkInImage> views;
   /// One for each thread; the first of them have been drawn on.
   std::vector<Canvas> canvases;
+  /// Of the canvases, where only what lies behind other surfaces is drawn.
+  std::vector<float> ceilings;
 
   State(std::shared_ptr<const LinkMeshes> link_meshes, const Camera& c)
       : meshes(std::move(link_meshes)),
@@ -87,6 +92,15 @@ struct RobotRenderer::State {
     return extent;
   }
 
+  void set_ceilings(const RobotImage& first) {
+    const auto pixels = static_cast<std::size_t>(camera.width_px) * camera.height_px;
+    ceilings.assign(pixels + KeyImage::kPadding, 0);
+    for (std::size_t i = 0; i < pixels; ++i) {
+      if (first.link_id.pixels()[i] == kNoLink) continue;
+      ceilings[i] = (1 - kSameDepth) / first.depth_m.pixels()[i];
+    }
+  }
+
   /// No more than the work and the putting together of their images are worth.
   int threads() const {
     const auto allowed =
@@ -96,10 +110,11 @@ struct RobotRenderer::State {
     return static_cast<int>(std::clamp<std::size_t>(chunks.size() / kChunksPerThread, 1, most));
   }
 
-  void draw(int threads) {
+  void draw(int threads, bool is_behind) {
     while (canvases.size() < static_cast<std::size_t>(threads)) {
       canvases.push_back({KeyImage(camera.width_px, camera.height_px), false, {}, {}});
     }
+    for (Canvas& canvas : canvases) canvas.keys.set_ceilings(is_behind ? ceilings.data() : nullptr);
     std::atomic<std::size_t> next = 0;
     const auto draw_on = [&](Canvas& canvas) {
       for (std::size_t i = next++; i < chunks.size(); i = next++) {
@@ -123,6 +138,15 @@ struct RobotRenderer::State {
                       });
     for (Canvas& canvas : drawn) canvas.used = false;
   }
+
+  void render(const RobotPose& pose, const Pose& X_BC, bool is_behind, RobotImage& image) {
+    const PixelRect extent = look(pose, X_BC.inverse());
+    const int most = threads();
+    fit(camera, image);
+    draw(most, is_behind);
+    show(most, extent, image);
+    image.extent = extent;
+  }
 };
 
 RobotRenderer::RobotRenderer(std::shared_ptr<const LinkMeshes> meshes, const Camera& camera)
@@ -133,13 +157,16 @@ RobotRenderer& RobotRenderer::operator=(RobotRenderer&&) noexcept = default;
 
 void RobotRenderer::render(const RobotPose& pose, const Pose& X_BC, RobotImage& image) {
   require_finite(X_BC);
-  State& state = *state_;
-  const PixelRect extent = state.look(pose, X_BC.inverse());
-  const int threads = state.threads();
-  fit(state.camera, image);
-  state.draw(threads);
-  state.show(threads, extent, image);
-  image.extent = extent;
+  state_->render(pose, X_BC, false, image);
+}
+
+void RobotRenderer::render_behind(const RobotPose& pose, const Pose& X_BC, const RobotImage& first,
+                                  RobotImage& image) {
+  require_finite(X_BC);
+  assert(first.link_id.width() == state_->camera.width_px &&
+         first.link_id.height() == state_->camera.height_px);
+  state_->set_ceilings(first);
+  state_->render(pose, X_BC, true, image);
 }
 
 }  // namespace berth

@@ -12,7 +12,12 @@ namespace berth {
 /// The robot's triangles, ready to be drawn: built once, then constant, shared by all renderers and
 /// threads.
 class LinkMeshes;
-std::shared_ptr<const LinkMeshes> build_link_meshes(const RobotModel& model);
+enum class DrawnLinks {
+  all,          ///< but ignored ones
+  environment,  ///< those of the role environment alone
+};
+std::shared_ptr<const LinkMeshes> build_link_meshes(const RobotModel& model,
+                                                    DrawnLinks drawn = DrawnLinks::all);
 
 /// Renders one robot into one camera. Each thread that renders has its own.
 class RobotRenderer {
@@ -32,6 +37,12 @@ class RobotRenderer {
   /// the number of threads (TBB's) nor on the instruction set. Throws std::invalid_argument if X_BC
   /// is not finite, and then leaves `image` as it was.
   void render(const RobotPose& pose, const Pose& X_BC, RobotImage& image);
+
+  /// The same of what lies behind what `first` shows, by more than rounding: the next surface of
+  /// each ray, where it leaves a body that is solid. Nothing where `first` shows nothing, which has
+  /// the camera's size.
+  void render_behind(const RobotPose& pose, const Pose& X_BC, const RobotImage& first,
+                     RobotImage& image);
 
  private:
   struct State;

@@ -16,13 +16,14 @@ void copy(DepthView from, DepthImage& to) {
 }  // namespace
 
 void build_camera_space(const Camera& camera, DepthView sensor_depth_m,
-                        const ObstacleImage& obstacles, const SpaceSettings& settings,
-                        CameraSpace& out) {
+                        const ObstacleImage& obstacles, DepthView environment_back_m,
+                        const SpaceSettings& settings, CameraSpace& out) {
   assert(sensor_depth_m.width == camera.width_px && sensor_depth_m.height == camera.height_px);
   build_reading_space(camera, obstacles.depth_m, settings, out);
   if (out.is_empty()) return;
   copy(sensor_depth_m, out.sensor_depth_m);
-  find_own_free_depth(sensor_depth_m, obstacles, settings, out.own_free_depth_m);
+  find_own_free_depth(sensor_depth_m, obstacles, environment_back_m, settings,
+                      out.own_free_depth_m);
   free_holes_beside_robot(camera, sensor_depth_m, obstacles, settings.detection_capability_m,
                           out.robot_holes, out.own_free_depth_m);
   close_free_depth(camera, settings.detection_capability_m, out.closing, out.own_free_depth_m);

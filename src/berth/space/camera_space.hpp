@@ -42,11 +42,12 @@ struct CameraSpace {
 };
 
 /// Writes `out`, whose memory it reuses. `sensor_depth_m` is the raw image S, `obstacles` what the
-/// self filter made of it, which `out` goes on to refer to; both have the camera's size. Throws
-/// std::invalid_argument for bad settings.
+/// self filter made of it, which `out` goes on to refer to; both have the camera's size.
+/// `environment_back_m` is that of find_own_free_depth(). Throws std::invalid_argument for bad
+/// settings.
 void build_camera_space(const Camera& camera, DepthView sensor_depth_m,
-                        const ObstacleImage& obstacles, const SpaceSettings& settings,
-                        CameraSpace& out);
+                        const ObstacleImage& obstacles, DepthView environment_back_m,
+                        const SpaceSettings& settings, CameraSpace& out);
 
 /// The same for requests about readings alone (MeshRequest::hidden is false): such a view frees
 /// nothing.

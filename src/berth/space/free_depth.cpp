@@ -12,6 +12,8 @@ struct FreeDepthRow {
   const float* sensed_m = nullptr;
   const float* obstacle_m = nullptr;
   const std::uint8_t* fate = nullptr;
+  /// Null where nothing is known of the environment.
+  const float* environment_back_m = nullptr;
 };
 }  // namespace berth
 #endif
@@ -38,11 +40,18 @@ struct FreeDepthPixels {
   Lanes sensed_m;
   Lanes obstacle_m;
   hn::Vec<WholeTag> fate;
+  /// 0 where it is not known.
+  Lanes environment_back_m;
 
   HWY_INLINE FreeDepthPixels(const FreeDepthRow& row, int u)
       : sensed_m(load(row.sensed_m + u)),
         obstacle_m(load(row.obstacle_m + u)),
-        fate(hn::PromoteTo(WholeTag(), hn::LoadU(FateTag(), row.fate + u))) {}
+        fate(hn::PromoteTo(WholeTag(), hn::LoadU(FateTag(), row.fate + u))),
+        environment_back_m(0.0f) {
+    if (row.environment_back_m == nullptr) return;
+    const Lanes back_m = load(row.environment_back_m + u);
+    environment_back_m = hn::IfThenZeroElse(is_nan(back_m), back_m.v);
+  }
 
   /// Whether the fate is one of these and those between them.
   HWY_INLINE LaneMask is_within(PixelFate first, PixelFate last) const {
@@ -52,6 +61,9 @@ struct FreeDepthPixels {
     return hn::RebindMask(FloatTag(), hn::And(hn::Gt(fate, before), hn::Gt(after, fate)));
   }
   HWY_INLINE LaneMask is_robot() const { return is_within(PixelFate::robot, PixelFate::dilation); }
+  HWY_INLINE Lanes of_environment_m(float margin_m, Lanes most_m) const {
+    return greater_or_first(sensed_m - Lanes(margin_m), least(most_m, environment_back_m));
+  }
   HWY_INLINE LaneMask is_dropped() const {
     static_assert(static_cast<int>(PixelFate::dilation) + 1 == static_cast<int>(PixelFate::edge));
     return is_within(PixelFate::edge, PixelFate::speckle);
@@ -74,6 +86,8 @@ void fill_own(const FreeDepthRow& row, int width, float margin_m, float behind_m
         auto own = hn::IfThenElse(pixels.is_within(PixelFate::background, PixelFate::background),
                                   background_m.v, before_m.v);
         own = hn::IfThenElse(pixels.is_robot(), robot_m.v, own);
+        own = hn::IfThenElse(pixels.is_within(PixelFate::environment, PixelFate::environment),
+                             pixels.of_environment_m(margin_m, robot_m).v, own);
         own = hn::IfThenElse(pixels.is_dropped(), (pixels.sensed_m - Lanes(margin_m)).v, own);
         own = hn::IfThenElseZero(hn::Gt(own, hn::Zero(FloatTag())), own);
         store(hn::IfThenElse(pixels.is_hole(), Lanes(of_hole_m).v, own), own_m + u);
@@ -120,13 +134,16 @@ bool is_empty(float sensed_m, float obstacle_m) {
   return std::isnan(sensed_m) && std::isnan(obstacle_m);
 }
 
-float own_of_reading(float sensed_m, float obstacle_m, PixelFate fate, float margin_m,
-                     float behind_m) {
+float own_of_reading(float sensed_m, float obstacle_m, float environment_back_m, PixelFate fate,
+                     float margin_m, float behind_m) {
   switch (fate) {
     case PixelFate::background:
       return std::isnan(sensed_m) ? 0 : std::min(obstacle_m - margin_m, sensed_m + behind_m);
+    case PixelFate::environment: {
+      const float back_m = std::isnan(environment_back_m) ? 0 : environment_back_m;
+      return std::max(sensed_m - margin_m, std::min(sensed_m + behind_m, back_m));
+    }
     case PixelFate::robot:
-    case PixelFate::environment:
     case PixelFate::padding:
     case PixelFate::dilation:
       return sensed_m + behind_m;
@@ -146,7 +163,7 @@ float own_of_reading(float sensed_m, float obstacle_m, PixelFate fate, float mar
 }
 
 float own_of_pixel(DepthView sensor_depth_m, const ObstacleImage& obstacles,
-                   const SpaceSettings& settings, int u, int v) {
+                   DepthView environment_back_m, const SpaceSettings& settings, int u, int v) {
   const auto margin_m = static_cast<float>(settings.free_space_margin_m);
   const auto behind_m = static_cast<float>(settings.behind_robot_m);
   const float sensed_m = sensor_depth_m(u, v);
@@ -154,15 +171,17 @@ float own_of_pixel(DepthView sensor_depth_m, const ObstacleImage& obstacles,
   if (is_empty(sensed_m, obstacle_m)) {
     return settings.no_reading == NoReading::free ? kEndless_m : 0;
   }
+  const float back_m = environment_back_m.width > 0 ? environment_back_m(u, v) : kNoDepth;
   const float own_m =
-      own_of_reading(sensed_m, obstacle_m, obstacles.fate(u, v), margin_m, behind_m);
+      own_of_reading(sensed_m, obstacle_m, back_m, obstacles.fate(u, v), margin_m, behind_m);
   return own_m > 0 ? own_m : 0;
 }
 
 }  // namespace
 
 void find_own_free_depth(DepthView sensor_depth_m, const ObstacleImage& obstacles,
-                         const SpaceSettings& settings, DepthImage& out) {
+                         DepthView environment_back_m, const SpaceSettings& settings,
+                         DepthImage& out) {
   // Below this width a row may not fit a whole vector of any instruction set.
   constexpr int kLeastWidth = 16;
   const int width = sensor_depth_m.width;
@@ -174,12 +193,13 @@ void find_own_free_depth(DepthView sensor_depth_m, const ObstacleImage& obstacle
   for (int v = 0; v < height; ++v) {
     if (width < kLeastWidth) {
       for (int u = 0; u < width; ++u) {
-        out(u, v) = own_of_pixel(sensor_depth_m, obstacles, settings, u, v);
+        out(u, v) = own_of_pixel(sensor_depth_m, obstacles, environment_back_m, settings, u, v);
       }
       continue;
     }
     const FreeDepthRow row{sensor_depth_m.row(v), obstacles.depth_m.row(v),
-                           reinterpret_cast<const std::uint8_t*>(obstacles.fate.row(v))};
+                           reinterpret_cast<const std::uint8_t*>(obstacles.fate.row(v)),
+                           environment_back_m.width > 0 ? environment_back_m.row(v) : nullptr};
     HWY_DYNAMIC_DISPATCH(fill_own)(row, width, margin_m, behind_m, of_hole_m, out.row(v));
   }
 }

@@ -9,12 +9,16 @@ namespace berth {
 
 /// What each pixel frees by itself (whole-robot definition 1); 0 where that is nothing, and the
 /// greatest float where nothing ends it. With a reading in F it is F - m, where F is a learned
-/// background the lesser of that and S + rho; with a reading of the robot or environment, beside it
-/// included, S + rho; with another one that was dropped, S - m. A pixel without a reading frees
+/// background the lesser of that and S + rho; with a reading of the robot, or beside robot or
+/// environment, S + rho; with one of environment up to its back, but at least S - m and at most
+/// S + rho; with another one that was dropped, S - m. A pixel without a reading frees
 /// nothing, unless SpaceSettings::no_reading says that it is free (close_free_depth() comes
-/// after). All sizes are equal; reuses out's memory.
+/// after). `environment_back_m` is where the solid of the environment ends along each pixel's ray;
+/// NaN where it is not known, and an image of no size where it is nowhere. All other sizes are
+/// equal; reuses out's memory.
 void find_own_free_depth(DepthView sensor_depth_m, const ObstacleImage& obstacles,
-                         const SpaceSettings& settings, DepthImage& out);
+                         DepthView environment_back_m, const SpaceSettings& settings,
+                         DepthImage& out);
 
 /// Free depth E (definition 2): the least of 3 x 3 pixels; 0 in the outermost ring.
 void find_free_depth(const DepthImage& own_m, DepthImage& out);

@@ -28,7 +28,8 @@ struct SpaceSettings {
   /// m: a reading frees what is nearer to the camera than it by more than this.
   double free_space_margin_m = 0.02;
   /// rho: where the self filter took a reading for the robot, what is up to this far behind it is
-  /// free as well: what the robot hides is no obstacle.
+  /// free as well: what the robot hides is no obstacle. Environment is free up to its model's back,
+  /// and at most so far.
   double behind_robot_m = 0.3;
   NoReading no_reading = NoReading::unknown;
   /// d: a ball of this diameter is the least thing that has to be told. What hides none of them

@@ -1,6 +1,7 @@
 #include "berth/image_distance/opengl/gl_frame.hpp"
 
 #include "berth/image_distance/opengl/gl_frame_images.hpp"
+#include "berth/pipeline/environment_back.hpp"
 #include "berth/pipeline/mounted_camera.hpp"
 #include "berth/pipeline/prepare_frame.hpp"
 
@@ -18,7 +19,8 @@ void read_back(const GlFrame& frame, Frame& out, FrameUse use) {
   read_back(frame.images->obstacles, out.obstacles);
   DepthImage sensor_depth_m;
   read_back(frame.images->sensor_depth_m, sensor_depth_m);
-  prepare_frame(sensor_depth_m, use, out);
+  EnvironmentBack environment_back(out.view->robot()->model(), out.view->camera());
+  prepare_frame(sensor_depth_m, environment_back.at(out.pose, out.X_BC), use, out);
 }
 
 }  // namespace berth

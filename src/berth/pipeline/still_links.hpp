@@ -1,0 +1,37 @@
+// Inside pipeline/ only.
+#pragma once
+
+#include <vector>
+
+#include "berth/robot/kinematics.hpp"
+#include "berth/robot/robot_model.hpp"
+
+namespace berth {
+
+/// Tells whether links stand still before a camera, so that they need not be drawn again.
+class StillLinks {
+ public:
+  /// Links of which no point has moved by more than this in the camera's frame stand still: a
+  /// reading is not known to a hundred times as much.
+  static constexpr double kStill_m = 1e-5;
+
+  /// Of all links but ignored ones, or of the environment alone.
+  StillLinks(const RobotModel& model, bool environment_alone);
+
+  /// Whether they stand where they stood at the last drawn_at().
+  bool stand_at(const RobotPose& pose, const Pose& X_BC) const;
+  void drawn_at(const RobotPose& pose, const Pose& X_BC);
+
+ private:
+  struct Drawn {
+    std::size_t link;
+    /// From its frame's origin.
+    double reach_m;
+    /// When it was drawn.
+    Pose X_CL;
+  };
+  std::vector<Drawn> links_;
+  bool has_drawn_ = false;
+};
+
+}  // namespace berth
