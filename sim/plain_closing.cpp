@@ -5,12 +5,14 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace berth::sim {
 namespace {
 
-constexpr int kMost_mm = 65535;
+constexpr double kCountsPerMetre = 2048;
+constexpr int kMost = 65535;
 
 /// The pixels (x, y) whose centres are within this of (0, 0).
 std::vector<Pixel> pixels_within(double radius_px) {
@@ -24,22 +26,22 @@ std::vector<Pixel> pixels_within(double radius_px) {
   return pixels;
 }
 
-/// Depths in mm, 0 beside the image.
+/// Counted depths, 0 beside the image.
 class Depths {
  public:
-  explicit Depths(const DepthImage& depth_m) : mm_(depth_m.width(), depth_m.height(), 0) {
+  explicit Depths(const DepthImage& depth_m) : counts_(depth_m.width(), depth_m.height(), 0) {
     for (int v = 0; v < depth_m.height(); ++v) {
       for (int u = 0; u < depth_m.width(); ++u) {
-        mm_(u, v) = static_cast<int>(std::min(depth_m(u, v) * 1000.0f, 1.0f * kMost_mm));
+        counts_(u, v) = static_cast<int>(std::min(depth_m(u, v) * kCountsPerMetre, 1.0 * kMost));
       }
     }
   }
   int operator()(int u, int v) const {
-    return u < 0 || v < 0 || u >= mm_.width() || v >= mm_.height() ? 0 : mm_(u, v);
+    return u < 0 || v < 0 || u >= counts_.width() || v >= counts_.height() ? 0 : counts_(u, v);
   }
 
  private:
-  Image<int> mm_;
+  Image<int> counts_;
 };
 
 /// Balls that cover all blocks of side x side pixels within so many blocks of one, wherever their
@@ -64,13 +66,13 @@ class Discs {
   double least_radius_px() const { return least_radius_px_; }
 
   /// The least depth at which such a disc that may hold (u, v) frees nothing deeper.
-  int least_mm(const Depths& mm, int u, int v) const {
-    int least = kMost_mm;
+  int least_count(const Depths& counts, int u, int v) const {
+    int least = kMost;
     for (const Pixel& block : reached_) {
       int greatest = 0;
       for (const Pixel& p : covered_) {
-        greatest = std::max(
-            greatest, mm((u / side_ + block.u) * side_ + p.u, (v / side_ + block.v) * side_ + p.v));
+        greatest = std::max(greatest, counts((u / side_ + block.u) * side_ + p.u,
+                                             (v / side_ + block.v) * side_ + p.v));
         if (greatest >= least) break;
       }
       least = std::min(least, greatest);
@@ -97,18 +99,18 @@ class Discs {
 };
 
 /// The same for two pixels side by side.
-int least_of_pairs(const Depths& mm, int u, int v) {
-  int least = kMost_mm;
+int least_of_pairs(const Depths& counts, int u, int v) {
+  int least = kMost;
   for (const Pixel& p : {Pixel{1, 0}, Pixel{-1, 0}, Pixel{0, 1}, Pixel{0, -1}}) {
-    least = std::min(least, std::max(mm(u, v), mm(u + p.u, v + p.v)));
+    least = std::min(least, std::max(counts(u, v), counts(u + p.u, v + p.v)));
   }
   return least;
 }
 
 /// Where a disc stays as it is from this depth on, and the one that holds there.
 struct Tier {
-  int until_mm;
-  std::function<int(int u, int v)> least_mm;
+  int until;
+  std::function<int(int u, int v)> least_count;
 };
 
 /// The middle of the pixel (x, y) from the farthest corner of a quarter of (0, 0): `right` and
@@ -143,10 +145,20 @@ float freed_by_robot_m(const Image<PixelFate>& fate, const DepthImage& own_m, do
       }
     }
   }
-  return *std::min_element(quarters_m.begin(), quarters_m.end());
+  return plainly_counted(*std::min_element(quarters_m.begin(), quarters_m.end()));
 }
 
 }  // namespace
+
+float plainly_counted(float depth_m) {
+  if (!(depth_m < std::numeric_limits<float>::max())) return depth_m;
+  return static_cast<float>(std::min(std::floor(depth_m * kCountsPerMetre), kMost - 1.0) /
+                            kCountsPerMetre);
+}
+
+double plainly_counted_up(double length_m) {
+  return std::ceil(length_m * kCountsPerMetre) / kCountsPerMetre;
+}
 
 DepthImage plainly_freed_beside_robot(const Camera& camera, DepthView sensor_depth_m,
                                       DepthView obstacle_depth_m, const Image<PixelFate>& fate,
@@ -168,28 +180,28 @@ DepthImage plainly_closed(const Camera& camera, const DepthImage& own_m,
                           double detection_capability_m) {
   DepthImage closed_m = own_m;
   if (!(detection_capability_m > 0)) return closed_m;
-  const Depths mm(own_m);
+  const Depths counts(own_m);
   const double ball_px_m = std::min(camera.fx_px, camera.fy_px) * detection_capability_m / 2;
-  const auto depth_mm = [&](double radius_px) {
-    return static_cast<int>(std::min(1000 * ball_px_m / radius_px, 1.0 * kMost_mm));
+  const auto depth_of = [&](double radius_px) {
+    return static_cast<int>(std::min(kCountsPerMetre * ball_px_m / radius_px, 1.0 * kMost));
   };
   std::vector<Tier> tiers;
   for (const Discs& discs : {Discs(2, 2), Discs(2, 1), Discs(1, 2), Discs(1, 1)}) {
-    tiers.push_back({depth_mm(discs.least_radius_px()),
-                     [&mm, discs](int u, int v) { return discs.least_mm(mm, u, v); }});
+    tiers.push_back({depth_of(discs.least_radius_px()),
+                     [&counts, discs](int u, int v) { return discs.least_count(counts, u, v); }});
   }
-  tiers.push_back({depth_mm(1), [&mm](int u, int v) { return least_of_pairs(mm, u, v); }});
+  tiers.push_back({depth_of(1), [&counts](int u, int v) { return least_of_pairs(counts, u, v); }});
   for (int v = 0; v < own_m.height(); ++v) {
     for (int u = 0; u < own_m.width(); ++u) {
-      int found_mm = 0;
+      int found = 0;
       for (const Tier& tier : tiers) {
-        found_mm = std::max(found_mm, tier.least_mm(u, v));
-        if (found_mm < tier.until_mm) break;
-        found_mm = tier.until_mm;
+        found = std::max(found, tier.least_count(u, v));
+        if (found < tier.until) break;
+        found = tier.until;
       }
-      const float most_m =
-          static_cast<float>(found_mm) * 0.001f - static_cast<float>(detection_capability_m / 2);
-      closed_m(u, v) = std::max(own_m(u, v), most_m);
+      const double most_m =
+          found / kCountsPerMetre - plainly_counted_up(detection_capability_m / 2);
+      closed_m(u, v) = std::max(own_m(u, v), static_cast<float>(most_m));
     }
   }
   return closed_m;

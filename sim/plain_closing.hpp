@@ -7,6 +7,12 @@
 
 namespace berth::sim {
 
+/// Rounded down to what depths of space are counted in, 1/2048 m; what is beyond 32 m is just
+/// before it, unless nothing ends it.
+float plainly_counted(float depth_m);
+/// The same upwards, of a length.
+double plainly_counted_up(double length_m);
+
 /// What each pixel frees (`own_m`), where one without a reading is a hole beside the robot; the
 /// slow twin of free_holes_beside_robot(). S, F and the fates have the same size.
 DepthImage plainly_freed_beside_robot(const Camera& camera, DepthView sensor_depth_m,

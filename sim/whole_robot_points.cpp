@@ -2,127 +2,84 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "sim/plain_aging.hpp"
 #include "sim/plain_closing.hpp"
 
 namespace berth::sim {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// The own free depth of a pixel that frees nothing.
-constexpr double kNone = 0;
-
-/// Calls action(x, y) for the pixels of the image that lie up to `reach` from (u, v) sideways.
-template <class Action>
-void for_square(const DepthImage& image, int u, int v, int reach, Action action) {
-  for (int y = std::max(v - reach, 0); y <= std::min(v + reach, image.height() - 1); ++y) {
-    for (int x = std::max(u - reach, 0); x <= std::min(u + reach, image.width() - 1); ++x) {
-      action(x, y);
-    }
-  }
-}
+constexpr float kNone = 0;
 
 /// What a pixel with a reading, or with something that a sensor rule put there, frees by itself.
-double own_of_reading(const PointView& view, const SpaceSettings& settings, int u, int v) {
-  const double sensed_m = view.sensor_depth_m(u, v);
-  const double obstacle_m = view.obstacle_depth_m(u, v);
+/// Floats, as the images are: what is rounded down may hang on a last bit.
+float own_of_reading(const PointView& view, const SpaceSettings& settings, int u, int v) {
+  const float sensed_m = view.sensor_depth_m(u, v);
+  const float obstacle_m = view.obstacle_depth_m(u, v);
+  const auto margin_m = static_cast<float>(settings.free_space_margin_m);
+  const auto behind_m = static_cast<float>(settings.behind_robot_m);
   switch (view.fate(u, v)) {
     case PixelFate::background:
       if (std::isnan(sensed_m)) return kNone;
-      return std::min(obstacle_m - settings.free_space_margin_m,
-                      sensed_m + settings.behind_robot_m);
+      return std::min(obstacle_m - margin_m, sensed_m + behind_m);
     case PixelFate::environment: {
-      double freed_m = sensed_m - settings.free_space_margin_m;
+      float freed_m = sensed_m - margin_m;
       if (view.environment_back_m.pixels().empty()) return freed_m;
-      const double back_m = view.environment_back_m(u, v);
-      const bool is_far = back_m > sensed_m + settings.behind_robot_m;
-      const double solid_m = is_far ? sensed_m + settings.behind_robot_m : back_m;
+      const float back_m = view.environment_back_m(u, v);
+      const float solid_m = back_m > sensed_m + behind_m ? sensed_m + behind_m : back_m;
       if (solid_m > freed_m) freed_m = solid_m;
       return freed_m;
     }
     case PixelFate::robot:
     case PixelFate::padding:
     case PixelFate::dilation:
-      return sensed_m + settings.behind_robot_m;
+      return sensed_m + behind_m;
     case PixelFate::edge:
     case PixelFate::flying_patch:
     case PixelFate::soft:
     case PixelFate::speckle:
     case PixelFate::outside_region:
-      return sensed_m - settings.free_space_margin_m;
+      return sensed_m - margin_m;
     case PixelFate::obstacle:
     case PixelFate::averaged:
     case PixelFate::hole:
     case PixelFate::no_reading:
       break;
   }
-  return obstacle_m - settings.free_space_margin_m;
+  return obstacle_m - margin_m;
 }
 
 bool is_empty(const PointView& view, int u, int v) {
   return std::isnan(view.sensor_depth_m(u, v)) && std::isnan(view.obstacle_depth_m(u, v));
 }
 
-Image<double> own_free_depth_m(const PointView& view, const SpaceSettings& settings) {
+DepthImage own_free_depth_m(const PointView& view, const SpaceSettings& settings) {
   const int width = view.camera.width_px;
   const int height = view.camera.height_px;
   DepthImage own_m(width, height, kNone);
   for (int v = 0; v < height; ++v) {
     for (int u = 0; u < width; ++u) {
-      const double of_hole_m = settings.no_reading == NoReading::free ? kInfinity : kNone;
-      const double freed_m =
-          is_empty(view, u, v) ? of_hole_m : own_of_reading(view, settings, u, v);
-      if (freed_m > 0) own_m(u, v) = static_cast<float>(freed_m);
+      const float of_hole_m = settings.no_reading == NoReading::free ? HUGE_VALF : kNone;
+      const float freed_m = is_empty(view, u, v) ? of_hole_m : own_of_reading(view, settings, u, v);
+      if (freed_m > 0) own_m(u, v) = plainly_counted(freed_m);
     }
   }
   own_m = plainly_freed_beside_robot(view.camera, view.sensor_depth_m, view.obstacle_depth_m,
                                      view.fate, own_m, settings.detection_capability_m);
-  const DepthImage closed_m = plainly_closed(view.camera, own_m, settings.detection_capability_m);
-  Image<double> all_m(width, height, kNone);
-  std::ranges::copy(closed_m.pixels(), all_m.pixels().begin());
-  return all_m;
-}
-
-/// What was that far away may have come nearer since, and sideways.
-Image<double> aged(const PointView& view, const SpaceSettings& settings,
-                   const Image<double>& own_m) {
-  const double moved_m = settings.obstacle_speed_m_s * view.age_s;
-  Image<double> aged_m = own_m;
-  for (double& m : aged_m.pixels()) m -= moved_m;
-  for (int v = 0; v < own_m.height(); ++v) {
-    for (int u = 0; u < own_m.width(); ++u) {
-      const double sensed_m = view.sensor_depth_m(u, v);
-      if (std::isnan(sensed_m)) continue;
-      const double f_px = std::max(view.camera.fx_px, view.camera.fy_px);
-      // Beyond the image's size it makes no difference.
-      const int reach_px = static_cast<int>(
-          std::min(std::ceil(f_px * moved_m / sensed_m), own_m.width() + own_m.height() + 0.0));
-      for_square(view.sensor_depth_m, u, v, reach_px, [&](int x, int y) {
-        aged_m(x, y) = std::min(aged_m(x, y), own_m(u, v) - moved_m);
-      });
-    }
-  }
-  return aged_m;
+  return plainly_closed(view.camera, own_m, settings.detection_capability_m);
 }
 
 }  // namespace
 
 Image<double> free_depth_m(const PointView& view, const SpaceSettings& settings) {
-  const int width = view.camera.width_px;
-  const int height = view.camera.height_px;
-  Image<double> free_m(width, height, kNone);
+  Image<double> free_m(view.camera.width_px, view.camera.height_px, kNone);
   if (view.age_s > settings.free_space_max_age_s) return free_m;
-  Image<double> own_m = own_free_depth_m(view, settings);
-  if (view.age_s > 0) own_m = aged(view, settings, own_m);
-  for (int v = 1; v < height - 1; ++v) {
-    for (int u = 1; u < width - 1; ++u) {
-      free_m(u, v) = kInfinity;
-      for_square(view.sensor_depth_m, u, v, 1,
-                 [&](int x, int y) { free_m(u, v) = std::min(free_m(u, v), own_m(x, y)); });
-    }
-  }
+  const DepthImage aged_m =
+      plainly_aged(view.camera, view.sensor_depth_m, own_free_depth_m(view, settings),
+                   settings.obstacle_speed_m_s * view.age_s);
+  std::ranges::copy(aged_m.pixels(), free_m.pixels().begin());
   return free_m;
 }
 
@@ -151,7 +108,8 @@ bool PointSpace::is_behind(std::size_t k, const Eigen::Vector3d& p_B) const {
   const Eigen::Vector3d p_C = views_[k].X_BC.inverse() * p_B;
   const Pixel pixel = plain_pixel_of(views_[k].camera, p_C);
   if (pixel == Pixel{}) return false;
-  return p_C.z() > views_[k].obstacle_depth_m(pixel.u, pixel.v) + settings_.surface_thickness_m;
+  return p_C.z() > plainly_counted(views_[k].obstacle_depth_m(pixel.u, pixel.v)) +
+                       settings_.surface_thickness_m;
 }
 
 bool PointSpace::is_free(std::size_t k, const Eigen::Vector3d& p_B) const {

@@ -127,7 +127,7 @@ class UnderTheTable : public ::testing::Test {
     Observer(view).observe(depth_m, JointState{}, frame);
     EXPECT_EQ(frame.obstacles.fate(18, 23), PixelFate::environment);
     // As far as it sees, less the table's distance.
-    return frame.space->seen.free_depth_m(18, 23) - 1.5;
+    return in_metres(frame.space->seen.free_depth(18, 23)) - 1.5;
   }
 };
 

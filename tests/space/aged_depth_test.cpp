@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/plain_aging.hpp"
 #include "sim/random.hpp"
 #include "tests/support/only_target.hpp"
 #include "tests/support/thinned.hpp"
@@ -14,7 +15,10 @@
 namespace berth::testing {
 namespace {
 
-/// Its pixels' readings, and what each frees.
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kCount_m = 1 / 2048.0F;
+
+/// Its pixels' readings, and what each frees; both counted in 1/2048 m.
 struct AgedCase {
   Camera camera;
   DepthImage sensed_m;
@@ -25,40 +29,13 @@ struct AgedCase {
 /// How many pixels beside it this reading holds.
 double reach_of(const AgedCase& asked, int u, int v) {
   const double sensed_m = asked.sensed_m(u, v);
-  if (std::isnan(sensed_m)) return 0;
-  return std::ceil(std::max(asked.camera.fx_px, asked.camera.fy_px) * asked.moved_m / sensed_m);
+  if (std::isnan(sensed_m) || asked.moved_m == 0) return 0;
+  const double spread_px_m = std::max(asked.camera.fx_px, asked.camera.fy_px) * asked.moved_m;
+  return sensed_m > 0 ? std::ceil(spread_px_m / sensed_m) : 1e6;
 }
 
-DepthImage plain_aged(const AgedCase& asked) {
-  const int width = asked.own_m.width();
-  const int height = asked.own_m.height();
-  DepthImage out(width, height, std::numeric_limits<float>::max());
-  for (int v = 0; v < height; ++v) {
-    for (int u = 0; u < width; ++u) {
-      const float left_m = std::max(0.0F, asked.own_m(u, v) - static_cast<float>(asked.moved_m));
-      const int reach = static_cast<int>(std::min(reach_of(asked, u, v), 1.0 * width + height));
-      for (int y = std::max(0, v - reach); y <= std::min(height - 1, v + reach); ++y) {
-        for (int x = std::max(0, u - reach); x <= std::min(width - 1, u + reach); ++x) {
-          out(x, y) = std::min(out(x, y), left_m);
-        }
-      }
-    }
-  }
-  return out;
-}
-
-/// The least of 3 x 3 pixels; nothing at the image's ends.
-DepthImage plain_free(const DepthImage& left_m) {
-  DepthImage out(left_m.width(), left_m.height(), 0);
-  for (int v = 1; v + 1 < left_m.height(); ++v) {
-    for (int u = 1; u + 1 < left_m.width(); ++u) {
-      out(u, v) = std::numeric_limits<float>::max();
-      for (int i = 0; i < 9; ++i) {
-        out(u, v) = std::min(out(u, v), left_m(u - 1 + i % 3, v - 1 + i / 3));
-      }
-    }
-  }
-  return out;
+float counted(double depth_m) {
+  return static_cast<float>(std::floor(depth_m / kCount_m) * kCount_m);
 }
 
 /// Readings from `near_m` to `far_m`, in patches, with holes and single pixels among them.
@@ -71,27 +48,65 @@ AgedCase draw_case(sim::Random& random, int width, int height, double near_m, do
     for (int u = 0; u < width; ++u) {
       const bool is_first = u % patch == 0 && v % patch == 0;
       float& sensed_m = out.sensed_m(u, v);
-      sensed_m = is_first || random.chance(0.02) ? static_cast<float>(random(near_m, far_m))
+      sensed_m = is_first || random.chance(0.02) ? counted(random(near_m, far_m))
                                                  : out.sensed_m(u - u % patch, v - v % patch);
       if (random.chance(0.05)) sensed_m = kNoDepth;
       const double before_m = std::isnan(sensed_m) ? 1 : sensed_m;
-      out.own_m(u, v) = static_cast<float>(before_m * random(0.9, 1.1));
+      out.own_m(u, v) = counted(before_m * random(0.9, 1.1));
       if (random.chance(0.05)) out.own_m(u, v) = 0;
-      if (random.chance(0.05)) out.own_m(u, v) = std::numeric_limits<float>::max();
+      if (random.chance(0.05)) out.own_m(u, v) = kInfinity;
     }
   }
   return out;
 }
 
+UnitImage units_of(const DepthImage& depth_m) {
+  UnitImage out(depth_m.width(), depth_m.height());
+  for (std::size_t i = 0; i < out.pixels().size(); ++i) {
+    const float m = depth_m.pixels()[i];
+    out.pixels()[i] = std::isfinite(m) ? static_cast<std::uint16_t>(m / kCount_m) : 65535;
+  }
+  return out;
+}
+
+void age(const AgedCase& asked, AgingWorkspace& workspace, DepthWindows& out) {
+  age_free_depth(asked.camera, units_of(asked.sensed_m), units_of(asked.own_m), asked.moved_m,
+                 workspace, out);
+}
+
 void expect_as_defined(const AgedCase& asked, AgingWorkspace& workspace) {
-  const DepthImage expected_m = plain_free(plain_aged(asked));
-  DepthImage found_m;
-  age_free_depth(asked.camera, asked.sensed_m, asked.own_m, asked.moved_m, workspace, found_m);
-  ASSERT_EQ(found_m.width(), expected_m.width());
-  ASSERT_EQ(found_m.height(), expected_m.height());
+  const DepthImage expected_m =
+      sim::plainly_aged(asked.camera, asked.sensed_m, asked.own_m, asked.moved_m);
+  DepthWindows found;
+  age(asked, workspace, found);
+  ASSERT_EQ(found.width(), expected_m.width());
+  ASSERT_EQ(found.height(), expected_m.height());
   for (int v = 0; v < expected_m.height(); ++v) {
     for (int u = 0; u < expected_m.width(); ++u) {
-      ASSERT_EQ(found_m(u, v), expected_m(u, v)) << "pixel " << u << " " << v;
+      ASSERT_EQ(in_metres(found(u, v)), expected_m(u, v)) << "pixel " << u << " " << v;
+    }
+  }
+}
+
+/// The least that all pixels within its reach have left, and no blocks.
+TEST(AgedDepth, HoldsForAtLeastThePixelsWithinReach) {
+  sim::Random random(3);
+  AgingWorkspace workspace;
+  for (int i = 0; i < thinned(60); ++i) {
+    AgedCase asked = draw_case(random, random.whole(3, 120), random.whole(3, 60), 0.05, 0.6);
+    asked.moved_m = random(0, 0.1);
+    DepthWindows found;
+    age(asked, workspace, found);
+    for (int v = 0; v < found.height(); ++v) {
+      for (int u = 0; u < found.width(); ++u) {
+        const double left_m = std::max(0.0, asked.own_m(u, v) - asked.moved_m);
+        const int reach = static_cast<int>(reach_of(asked, u, v)) + 1;
+        for (int y = std::max(0, v - reach); y <= std::min(found.height() - 1, v + reach); ++y) {
+          for (int x = std::max(0, u - reach); x <= std::min(found.width() - 1, u + reach); ++x) {
+            ASSERT_LE(in_metres(found(x, y)), left_m) << i << ": " << u << " " << v;
+          }
+        }
+      }
     }
   }
 }
@@ -127,9 +142,10 @@ TEST(AgedDepth, EachReachAloneReachesJustSoFar) {
                    DepthImage(kSide, kSide, kNoDepth),
                    DepthImage(kSide, kSide, 5),
                    0.02};
-    // 500 px x 0.02 m / S is this reach exactly; an odd one lies just beyond the number below.
-    asked.sensed_m(75, 75) = static_cast<float>(10.0 / reach);
-    if (reach % 2 == 1) asked.sensed_m(75, 75) = static_cast<float>(10.0 / (reach - 0.999));
+    // 500 px x 0.02 m / S is this reach, some of them exactly; an odd one lies just beyond the
+    // number below.
+    asked.sensed_m(75, 75) = counted(10.0 / reach);
+    if (reach % 2 == 1) asked.sensed_m(75, 75) = counted(10.0 / (reach - 0.999));
     asked.own_m(75, 75) = 1;
     expect_as_defined(asked, workspace);
     if (HasFatalFailure()) return;
@@ -138,13 +154,15 @@ TEST(AgedDepth, EachReachAloneReachesJustSoFar) {
 
 TEST(AgedDepth, ASurfaceRightBeforeTheCameraHoldsForTheWholeImage) {
   AgingWorkspace workspace;
-  AgedCase asked{{64, 48, 60, 60, 32, 24}, DepthImage(64, 48, 2), DepthImage(64, 48, 1.9F), 0.05};
-  asked.sensed_m(3, 40) = 0.01F;
+  AgedCase asked{{64, 48, 60, 60, 32, 24}, DepthImage(64, 48, 2), DepthImage(64, 48, 1.875F), 0.05};
+  asked.sensed_m(3, 40) = 20 * kCount_m;
   asked.own_m(3, 40) = 0;
   expect_as_defined(asked, workspace);
-  DepthImage found_m;
-  age_free_depth(asked.camera, asked.sensed_m, asked.own_m, asked.moved_m, workspace, found_m);
-  for (const float left_m : found_m.pixels()) ASSERT_EQ(left_m, 0);
+  DepthWindows found;
+  age(asked, workspace, found);
+  for (int v = 0; v < 48; ++v) {
+    for (int u = 0; u < 64; ++u) ASSERT_EQ(found(u, v), 0);
+  }
 }
 
 TEST(AgedDepth, OnEveryInstructionSetAndWithMemoryOfAnyImageBefore) {

@@ -129,8 +129,8 @@ Verdict judge(const SeenRoom& view, const Eigen::Vector3d& centre_B, double radi
 
 bool is_free(const std::vector<SeenRoom>& views, const Eigen::Vector3d& p_B) {
   for (const SeenRoom& view : views) {
-    const FreeingCamera camera{
-        &view.space, view.X_BC, view.X_BC.inverse(), 0, &view.space.free_depth_m, nullptr};
+    const FreeingCamera camera{&view.space, view.X_BC, view.X_BC.inverse(), 0,
+                               &view.space.free_depth};
     if (is_seen_free(camera, p_B)) return true;
   }
   return false;

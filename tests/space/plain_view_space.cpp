@@ -7,10 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "sim/plain_closing.hpp"
+
 namespace berth::testing {
 namespace {
 
-constexpr float kEndless_m = std::numeric_limits<float>::max();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// Calls action(x, y) for each pixel of the rectangle that the image has.
@@ -87,6 +88,12 @@ std::vector<Range> ranges_of(const DepthCells::Level& level, int column, int row
   return parts;
 }
 
+/// A depth in metres as the windows count it.
+std::uint16_t count_of(float depth_m) {
+  if (depth_m == kInfinity) return 65535;
+  return static_cast<std::uint16_t>(std::max(0.0f, 2048 * sim::plainly_counted(depth_m)));
+}
+
 int blocks(int pixels, int side_px) {
   return static_cast<int>(std::ceil(static_cast<double>(pixels) / side_px));
 }
@@ -110,9 +117,9 @@ void plain_own_free_depth(DepthView sensor_depth_m, const ObstacleImage& obstacl
       if (!is_empty(u, v)) {
         own_m = freed_at(u, v);
       } else {
-        own_m = settings.no_reading == NoReading::free ? kEndless_m : 0;
+        own_m = settings.no_reading == NoReading::free ? kInfinity : 0;
       }
-      if (own_m > 0) out(u, v) = own_m;
+      if (own_m > 0) out(u, v) = sim::plainly_counted(own_m);
     }
   }
 }
@@ -157,20 +164,21 @@ void plain_depth_windows(DepthView image, DepthWindows& windows) {
   windows = {};
   do {
     DepthWindows::Level level;
-    level.side_px = windows.levels.empty() ? 4 : 2 * windows.levels.back().side_px;
-    level.step_px = std::max(2, level.side_px / 4);
+    level.side_px = windows.levels.empty() ? 1 : 2 * windows.levels.back().side_px;
+    level.step_px = level.side_px == 1 ? 1 : std::max(2, level.side_px / 4);
     level.columns = blocks(image.width, level.step_px);
     level.rows = blocks(image.height, level.step_px);
     for (int v = 0; v < image.height; v += level.step_px) {
       for (int u = 0; u < image.width; u += level.step_px) {
-        float& least_m = level.least.emplace_back(kInfinity);
+        float least_m = kInfinity;
         for_pixels(image, {u, v, u + level.side_px, v + level.side_px}, [&](int x, int y) {
           if (image(x, y) < least_m) least_m = image(x, y);
         });
+        level.least.push_back(count_of(least_m));
       }
     }
     windows.levels.push_back(std::move(level));
-  } while (windows.levels.back().side_px < std::max(image.width, image.height));
+  } while (windows.levels.back().side_px < std::max({4, image.width, image.height}));
   windows.level_count = static_cast<int>(windows.levels.size());
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "berth/distance/convex_pair.hpp"
+#include "sim/plain_aging.hpp"
 #include "sim/plain_closing.hpp"
 
 namespace berth::testing {
@@ -13,34 +14,34 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-double own_of_reading(const MeshWorldView& view, const SpaceSettings& settings, int u, int v) {
-  const double sensed_m = view.sensor_depth_m(u, v);
-  const double obstacle_m = view.obstacles.depth_m(u, v);
+/// Floats, as the images are: what is rounded down may hang on a last bit.
+float own_of_reading(const MeshWorldView& view, const SpaceSettings& settings, int u, int v) {
+  const float sensed_m = view.sensor_depth_m(u, v);
+  const float obstacle_m = view.obstacles.depth_m(u, v);
+  const auto margin_m = static_cast<float>(settings.free_space_margin_m);
+  const auto behind_m = static_cast<float>(settings.behind_robot_m);
   const PixelFate fate = view.obstacles.fate(u, v);
   if (fate == PixelFate::background) {
-    return std::isnan(sensed_m) ? 0
-                                : std::min(obstacle_m - settings.free_space_margin_m,
-                                           sensed_m + settings.behind_robot_m);
+    return std::isnan(sensed_m) ? 0 : std::min(obstacle_m - margin_m, sensed_m + behind_m);
   }
-  if (is_kept(fate)) return obstacle_m - settings.free_space_margin_m;
+  if (is_kept(fate)) return obstacle_m - margin_m;
   if (fate == PixelFate::environment) {
     const bool has_back = view.environment_back_m.width() > 0;
-    const double back_m = has_back ? view.environment_back_m(u, v) : std::nan("");
-    const double solid_m = std::fmin(back_m, sensed_m + settings.behind_robot_m);
-    const double before_m = sensed_m - settings.free_space_margin_m;
-    return std::isnan(back_m) ? before_m : std::fmax(before_m, solid_m);
+    const float back_m = has_back ? view.environment_back_m(u, v) : kNoDepth;
+    const float solid_m = std::fmin(back_m, sensed_m + behind_m);
+    return std::isnan(back_m) ? sensed_m - margin_m : std::fmax(sensed_m - margin_m, solid_m);
   }
   const bool is_robot =
       fate == PixelFate::robot || fate == PixelFate::padding || fate == PixelFate::dilation;
-  return is_robot ? sensed_m + settings.behind_robot_m : sensed_m - settings.free_space_margin_m;
+  return is_robot ? sensed_m + behind_m : sensed_m - margin_m;
 }
 
-double own_free_depth(const MeshWorldView& view, const SpaceSettings& settings, int u, int v) {
+float own_free_depth(const MeshWorldView& view, const SpaceSettings& settings, int u, int v) {
   const DepthImage& S = view.sensor_depth_m;
   if (!std::isnan(S(u, v)) || !std::isnan(view.obstacles.depth_m(u, v))) {
     return own_of_reading(view, settings, u, v);
   }
-  return settings.no_reading == NoReading::free ? kInfinity : 0;
+  return settings.no_reading == NoReading::free ? HUGE_VALF : 0;
 }
 
 /// What each pixel frees by itself, and beyond what is too small to hide anybody.
@@ -48,8 +49,8 @@ DepthImage closed_free_depth(const MeshWorldView& view, const SpaceSettings& set
   DepthImage own_m(view.camera.width_px, view.camera.height_px, 0);
   for (int v = 0; v < own_m.height(); ++v) {
     for (int u = 0; u < own_m.width(); ++u) {
-      const auto freed_m = static_cast<float>(own_free_depth(view, settings, u, v));
-      if (freed_m > 0) own_m(u, v) = freed_m;
+      const float freed_m = own_free_depth(view, settings, u, v);
+      if (freed_m > 0) own_m(u, v) = sim::plainly_counted(freed_m);
     }
   }
   own_m =
@@ -69,36 +70,12 @@ std::optional<Pixel> plain_pixel(const Camera& camera, const Eigen::Vector3d& p_
 }  // namespace
 
 Image<double> plain_free_depth(const MeshWorldView& view, const SpaceSettings& settings) {
-  const int width = view.camera.width_px;
-  const int height = view.camera.height_px;
-  Image<double> free_m(width, height, 0);
+  Image<double> free_m(view.camera.width_px, view.camera.height_px, 0);
   if (view.age_s > settings.free_space_max_age_s) return free_m;
-  const double moved_m = settings.obstacle_speed_m_s * view.age_s;
-  const double f_px = std::max(view.camera.fx_px, view.camera.fy_px);
-  Image<double> left_m(width, height, kInfinity);
-  const DepthImage closed_m = closed_free_depth(view, settings);
-  for (int v = 0; v < height; ++v) {
-    for (int u = 0; u < width; ++u) {
-      const double own_m = closed_m(u, v) - moved_m;
-      const double sensed_m = view.sensor_depth_m(u, v);
-      const double reach = std::isnan(sensed_m) ? 0 : std::ceil(f_px * moved_m / sensed_m);
-      for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-          if (std::abs(x - u) > reach || std::abs(y - v) > reach) continue;
-          left_m(x, y) = std::min(left_m(x, y), own_m);
-        }
-      }
-    }
-  }
-  for (int v = 1; v + 1 < height; ++v) {
-    for (int u = 1; u + 1 < width; ++u) {
-      double least_m = kInfinity;
-      for (int y = v - 1; y <= v + 1; ++y) {
-        for (int x = u - 1; x <= u + 1; ++x) least_m = std::min(least_m, left_m(x, y));
-      }
-      free_m(u, v) = std::max(least_m, 0.0);
-    }
-  }
+  const DepthImage aged_m =
+      sim::plainly_aged(view.camera, view.sensor_depth_m, closed_free_depth(view, settings),
+                        settings.obstacle_speed_m_s * view.age_s);
+  std::ranges::copy(aged_m.pixels(), free_m.pixels().begin());
   return free_m;
 }
 
@@ -135,8 +112,8 @@ bool PlainSpace::is_behind(std::size_t k, const Eigen::Vector3d& p_B) const {
   const MeshWorldView& view = world_.views[k];
   const Eigen::Vector3d p_C = view.X_BC.inverse() * p_B;
   const auto pixel = plain_pixel(view.camera, p_C);
-  return pixel &&
-         p_C.z() > view.obstacles.depth_m(pixel->u, pixel->v) + world_.settings.surface_thickness_m;
+  return pixel && p_C.z() > sim::plainly_counted(view.obstacles.depth_m(pixel->u, pixel->v)) +
+                                world_.settings.surface_thickness_m;
 }
 
 bool PlainSpace::is_free(std::size_t k, const Eigen::Vector3d& p_B) const {

@@ -9,6 +9,8 @@ namespace berth::sim {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Depths are counted in 1/2048 m, and so is what is subtracted.
+constexpr double kRounding_m = 2.0 / 2048;
 
 double free_at(const PointView& view, int u, int v, const SpaceSettings& settings = {}) {
   return free_depth_m(view, settings)(u, v);
@@ -51,16 +53,16 @@ TEST(WholeRobotPoints, EachFateFreesWhatItShould) {
     for (int v = 4; v < 9; ++v) {
       for (int u = 4; u < 9; ++u) drop(view, u, v, fate);
     }
-    EXPECT_NEAR(free_at(view, 6, 6, settings), 1.3, 1e-6);
-    EXPECT_NEAR(free_at(view, 4, 6, settings), 0.98, 1e-6) << "the least of 3 x 3";
+    EXPECT_NEAR(free_at(view, 6, 6, settings), 1.3, kRounding_m);
+    EXPECT_NEAR(free_at(view, 4, 6, settings), 0.98, kRounding_m) << "the least of 3 x 3";
   }
   for (const PixelFate fate : {PixelFate::edge, PixelFate::flying_patch, PixelFate::soft,
                                PixelFate::speckle, PixelFate::outside_region}) {
     PointView view = wall_at(1);
     view.sensor_depth_m(6, 6) = 0.5F;
     drop(view, 6, 6, fate);
-    EXPECT_NEAR(free_at(view, 7, 7, settings), 0.48, 1e-6);
-    EXPECT_NEAR(free_at(view, 8, 8, settings), 0.98, 1e-6);
+    EXPECT_NEAR(free_at(view, 7, 7, settings), 0.48, kRounding_m);
+    EXPECT_NEAR(free_at(view, 8, 8, settings), 0.98, kRounding_m);
   }
 }
 
@@ -87,9 +89,9 @@ TEST(WholeRobotPoints, ALearnedBackgroundFreesNoMoreThanTheSensorSaw) {
   PointView view = wall_at(1);
   view.fate(6, 6) = PixelFate::background;
   view.sensor_depth_m(6, 6) = 0.5F;
-  EXPECT_NEAR(free_at(view, 6, 6, settings), 0.8, 1e-6) << "robot before the background";
+  EXPECT_NEAR(free_at(view, 6, 6, settings), 0.8, kRounding_m) << "robot before the background";
   view.sensor_depth_m(6, 6) = 0.9F;
-  EXPECT_NEAR(free_at(view, 6, 6, settings), 0.98, 1e-6);
+  EXPECT_NEAR(free_at(view, 6, 6, settings), 0.98, kRounding_m);
   view.sensor_depth_m(6, 6) = kNoDepth;
   EXPECT_EQ(free_at(view, 6, 6, settings), 0);
   EXPECT_EQ(free_at(view, 5, 5, settings), 0);
@@ -109,7 +111,7 @@ TEST(WholeRobotPoints, WhatIsTooSmallToHideABallDoesNotHide) {
   EXPECT_EQ(free_at(view, 10, 10, off), 0);
   EXPECT_NEAR(free_at(view, 10, 10, settings), 0.88, kMillimetre_m);
   for (int v = 0; v < 31; ++v) view.sensor_depth_m(15, v) = view.obstacle_depth_m(15, v) = 0.7F;
-  EXPECT_NEAR(free_at(view, 15, 10, off), 0.68, 1e-6);
+  EXPECT_NEAR(free_at(view, 15, 10, off), 0.68, kRounding_m);
   EXPECT_NEAR(free_at(view, 15, 10, settings), 0.88, kMillimetre_m) << "behind a cable";
   for (int v = 8; v < 24; ++v) {
     for (int u = 20; u < 36; ++u) make_hole(u, v);
@@ -132,13 +134,13 @@ TEST(WholeRobotPoints, AgeMovesReadingsNearerAndSideways) {
   view.age_s = 0.1;
   const SpaceSettings settings{.free_space_margin_m = 0.02, .obstacle_speed_m_s = 1};
   // 40 px * 0.1 m / 1 m: 4 px, and one of the 3 x 3.
-  EXPECT_NEAR(free_at(view, 25, 15, settings), 0.88, 1e-6);
-  EXPECT_NEAR(free_at(view, 26, 15, settings), 1.88, 1e-6);
+  EXPECT_NEAR(free_at(view, 25, 15, settings), 0.88, kRounding_m);
+  EXPECT_NEAR(free_at(view, 26, 15, settings), 1.88, kRounding_m);
   view.age_s = 0.21;
   EXPECT_EQ(free_at(view, 26, 15, settings), 0);
   view.age_s = 0;
-  EXPECT_NEAR(free_at(view, 21, 15, settings), 0.98, 1e-6);
-  EXPECT_NEAR(free_at(view, 22, 15, settings), 1.98, 1e-6);
+  EXPECT_NEAR(free_at(view, 21, 15, settings), 0.98, kRounding_m);
+  EXPECT_NEAR(free_at(view, 22, 15, settings), 1.98, kRounding_m);
 }
 
 }  // namespace

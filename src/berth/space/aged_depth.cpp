@@ -3,35 +3,49 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <memory>
 
-#include "berth/space/far_reaching.hpp"
-#include "berth/space/least_of_rows.hpp"
 #include "berth/vector/divide_up.hpp"
 
 #ifndef BERTH_AGED_DEPTH_RINGS
 #define BERTH_AGED_DEPTH_RINGS
 namespace berth {
+/// Pixels of a greater ring are taken together.
+constexpr int kMostRing = 24;
 /// What lies beside a row on either side: four vectors, and as much as the greatest ring reaches.
-constexpr int kMargin = 128;
+constexpr int kMargin = 160;
 /// Rows begin at a multiple of so many numbers, the most that a vector has.
-constexpr int kAlign = 16;
+constexpr int kAlign = 32;
 /// Which rings occur is known for so many pixels of a row at once.
 constexpr int kBlock_px = 64;
+
+/// A reading below the first r of these is of ring r at least; kMostRing + 1 stands for all beyond.
+using RingBorders = std::array<DepthUnits, kMostRing + 1>;
 
 /// What a ring's row is made of.
 struct RingRow {
   /// The next greater ring's rows above, beside and below, from column 0 on; null where it has
   /// nothing there.
-  const float* beyond[3] = {};
-  const float* own_m = nullptr;
-  const std::uint8_t* reach = nullptr;
-  const std::uint32_t* reaches = nullptr;
-  /// Where pixels of this ring are.
-  AgingWorkspace::Blocks own;
+  const DepthUnits* beyond[3] = {};
+  const DepthUnits* sensed = nullptr;
+  const DepthUnits* own = nullptr;
+  const std::uint32_t* rings = nullptr;
+  /// Where pixels of this ring are, and the readings that are of it.
+  AgingWorkspace::Blocks blocks;
   int ring = 0;
-  float moved_m = 0;
+  DepthUnits first = 0;
+  DepthUnits last = 0;
+  DepthUnits moved = 0;
+  int width = 0;
+};
+
+/// Two rows of an image, which become one.
+struct RowPair {
+  const DepthUnits* sensed[2];
+  const DepthUnits* own[2];
+  /// Readings before this one reach far.
+  DepthUnits far = 0;
+  DepthUnits moved = 0;
   int width = 0;
 };
 }  // namespace berth
@@ -48,93 +62,139 @@ HWY_BEFORE_NAMESPACE();
 namespace berth {
 namespace HWY_NAMESPACE {
 
-using ByteTag = hn::Rebind<std::uint8_t, FloatTag>;
-using NumberTag = hn::Rebind<std::int32_t, FloatTag>;
-
-/// How many of the borders some readings lie before. Returns a bit for each number that occurs.
-HWY_INLINE std::uint32_t count_in_block(const float* sensed_m, const float* borders_m, int count,
-                                        int width, std::uint8_t* out) {
-  std::uint32_t found = 0;
-  const auto one = [&](int u) {
-    int number = 0;
-    while (number < count && sensed_m[u] < borders_m[number]) ++number;
-    out[u] = static_cast<std::uint8_t>(number);
-    found |= 1u << number;
-  };
-  for_row(
-      0, width,
-      [&](int u) HWY_ATTR {
-        const Lanes sensed = load(sensed_m + u);
-        Lanes numbers(0.0f);
-        std::uint64_t before = bits_of(Lanes(0.0f) <= Lanes(0.0f));
-        for (int i = 0; i < count; ++i) {
-          const LaneMask is_before = sensed < Lanes(borders_m[i]);
-          const std::uint64_t bits = bits_of(is_before);
-          if (bits != before) found |= 1u << i;
-          before = bits;
-          if (bits == 0) break;
-          numbers = numbers + hn::IfThenElseZero(is_before, Lanes(1.0f).v);
-        }
-        if (before != 0) found |= 1u << count;
-        hn::StoreU(hn::DemoteTo(ByteTag(), hn::ConvertTo(NumberTag(), numbers.v)), ByteTag(),
-                   out + u);
-      },
-      one);
-  return found;
+/// The ring of a reading; `ring` is where to look first.
+HWY_INLINE int ring_of(DepthUnits sensed, const RingBorders& borders, int ring) {
+  while (ring <= kMostRing && sensed < borders[ring]) ++ring;
+  while (ring > 0 && sensed >= borders[ring - 1]) --ring;
+  return ring;
 }
 
-/// The same for a row, with the bits of each kBlock_px of it.
-void count_borders(const float* sensed_m, const float* borders_m, int count, int width,
-                   std::uint8_t* out, std::uint32_t* found) {
-  for (int u = 0; u < width; u += kBlock_px) {
-    *found++ =
-        count_in_block(sensed_m + u, borders_m, count, std::min(kBlock_px, width - u), out + u);
+/// A bit for each ring from the least to the greatest that occurs in each kBlock_px of a row;
+/// `of_none` for pixels without a reading.
+void find_rings_of_row(const DepthUnits* sensed, const RingBorders& borders, std::uint32_t of_none,
+                       int width, std::uint32_t* found) {
+  int near = 0, far = 0;
+  for (int begin = 0; begin < width; begin += kBlock_px) {
+    const int end = std::min(begin + kBlock_px, width);
+    // One more than a reading is 0 where there is none. Such loops are the compiler's to make
+    // vectors of.
+    DepthUnits least = kEndlessUnits, least_next = kEndlessUnits, greatest_next = 0;
+    for (int u = begin; u < end; ++u) {
+      const auto next = static_cast<DepthUnits>(sensed[u] + 1);
+      least = std::min(least, sensed[u]);
+      least_next = std::min(least_next, next);
+      greatest_next = std::max(greatest_next, next);
+    }
+    std::uint32_t rings = least_next == 0 ? of_none : 0;
+    if (greatest_next > 0) {
+      near = ring_of(least, borders, near);
+      far = ring_of(static_cast<DepthUnits>(greatest_next - 1), borders, far);
+      rings |= (2u << near) - (1u << far);
+    }
+    *found++ = rings;
   }
 }
 
-/// The least of each number in [begin - kLanes, end + kLanes) and its two neighbours; beside
+/// `own` less `moved`; nothing ends what had no end.
+HWY_INLINE Shorts left_of(Shorts own, DepthUnits moved) {
+  const ShortTag d;
+  const auto left = hn::SaturatedSub(own, hn::Set(d, moved));
+  return hn::IfThenElse(hn::Eq(own, hn::Set(d, kEndlessUnits)), own, left);
+}
+HWY_INLINE DepthUnits left_of(DepthUnits own, DepthUnits moved) {
+  if (own == kEndlessUnits) return own;
+  return static_cast<DepthUnits>(own > moved ? own - moved : 0);
+}
+
+/// The least of each number in [begin - kShorts, end + kShorts) and its two neighbours; beside
 /// [begin, end) there is nothing.
-HWY_INLINE void fill_least_of_neighbours(float* x, int begin, int end, float* out) {
-  for (int i = 1; i <= 2; ++i) store(Lanes(kHoldsNothing_m), x + begin - i * kLanes);
-  for (int i = 0; i < 2; ++i) store(Lanes(kHoldsNothing_m), x + end + i * kLanes);
-  for (int u = begin - kLanes; u < end + kLanes; u += kLanes) {
-    store(least(least(load(x + u - 1), load(x + u)), load(x + u + 1)), out + u);
+HWY_INLINE void fill_least_of_neighbours(DepthUnits* x, int begin, int end, DepthUnits* out) {
+  const auto nothing = hn::Set(ShortTag(), kEndlessUnits);
+  for (int i = 1; i <= 2; ++i) store_shorts(nothing, x + begin - i * kShorts);
+  for (int i = 0; i < 2; ++i) store_shorts(nothing, x + end + i * kShorts);
+  for (int u = begin - kShorts; u < end + kShorts; u += kShorts) {
+    const auto beside = hn::Min(load_shorts(x + u - 1), load_shorts(x + u + 1));
+    store_shorts(hn::Min(beside, load_shorts(x + u)), out + u);
   }
 }
 
 /// Takes what the pixels of this ring have left into x, in the blocks that have any.
-HWY_INLINE void take_own(const RingRow& row, float* x) {
-  const auto wanted = hn::Set(NumberTag(), row.ring);
-  for (int block = row.own.begin; block < row.own.end; ++block) {
-    if ((row.reaches[block] >> row.ring & 1) == 0) continue;
-    for_row(
+HWY_INLINE void take_own(const RingRow& row, DepthUnits* x) {
+  const ShortTag d;
+  const auto first = hn::Set(d, row.first);
+  const auto last = hn::Set(d, row.last);
+  const auto nothing = hn::Set(d, kEndlessUnits);
+  for (int block = row.blocks.begin; block < row.blocks.end; ++block) {
+    if ((row.rings[block] >> row.ring & 1) == 0) continue;
+    for_row<kShorts>(
         block * kBlock_px, std::min((block + 1) * kBlock_px, row.width),
         [&](int u) {
-          const auto numbers = hn::PromoteTo(NumberTag(), hn::LoadU(ByteTag(), row.reach + u));
-          const LaneMask is_wanted = hn::RebindMask(FloatTag(), hn::Eq(numbers, wanted));
-          const Lanes left = greatest(load(row.own_m + u) - Lanes(row.moved_m), Lanes(0.0f));
-          store(least(load(x + u), select(is_wanted, left, Lanes(kHoldsNothing_m))), x + u);
+          const auto sensed = load_shorts(row.sensed + u);
+          const auto is_wanted = hn::Eq(hn::Min(hn::Max(sensed, first), last), sensed);
+          const auto left = left_of(load_shorts(row.own + u), row.moved);
+          store_shorts(hn::Min(load_shorts(x + u), hn::IfThenElse(is_wanted, left, nothing)),
+                       x + u);
         },
         [&](int u) {
-          if (row.reach[u] == row.ring) {
-            x[u] = std::min(x[u], std::max(0.0f, row.own_m[u] - row.moved_m));
-          }
+          if (row.sensed[u] < row.first || row.sensed[u] > row.last) return;
+          x[u] = std::min(x[u], left_of(row.own[u], row.moved));
         });
   }
 }
 
 /// Writes `part` of a ring's row, of whole vectors, and one more on either side.
-void fill_ring(const RingRow& row, AgingWorkspace::Part part, float* x, float* out) {
-  const float* const above = row.beyond[0];
-  const float* const beside = row.beyond[1];
-  const float* const below = row.beyond[2];
-  for (int u = part.begin; u < part.end; u += kLanes) {
-    Lanes beyond(kHoldsNothing_m);
-    if (above) beyond = least(load(above + u), least(load(beside + u), load(below + u)));
-    store(beyond, x + u);
+void fill_ring(const RingRow& row, AgingWorkspace::Part part, DepthUnits* x, DepthUnits* out) {
+  for (int u = part.begin; u < part.end; u += kShorts) {
+    auto beyond = hn::Set(ShortTag(), kEndlessUnits);
+    if (row.beyond[0]) {
+      beyond = hn::Min(hn::Min(load_shorts(row.beyond[0] + u), load_shorts(row.beyond[1] + u)),
+                       load_shorts(row.beyond[2] + u));
+    }
+    store_shorts(beyond, x + u);
   }
   take_own(row, x);
   fill_least_of_neighbours(x, part.begin, part.end, out);
+}
+
+/// out[i] is the least of the three rows' i-th.
+void fill_least_of_rows(const DepthUnits* const (&rows)[3], int width, DepthUnits* out) {
+  for_row<kShorts>(
+      0, width,
+      [&](int u) {
+        const auto beside = hn::Min(load_shorts(rows[0] + u), load_shorts(rows[2] + u));
+        store_shorts(hn::Min(beside, load_shorts(rows[1] + u)), out + u);
+      },
+      [&](int u) {
+        out[u] = std::min({rows[0][u], rows[1][u], rows[2][u]});
+      });
+}
+
+/// Of what reaches far in two rows the least in each column: its reading, and what it has left.
+void fill_far(const RowPair& rows, DepthUnits* HWY_RESTRICT sensed, DepthUnits* HWY_RESTRICT left) {
+  const auto of_row = [&](int i, int u) {
+    return rows.sensed[i][u] < rows.far ? rows.sensed[i][u] : kEndlessUnits;
+  };
+  const auto left_in_row = [&](int i, int u) {
+    return rows.sensed[i][u] < rows.far ? left_of(rows.own[i][u], rows.moved) : kEndlessUnits;
+  };
+  for (int u = 0; u < rows.width; ++u) {
+    sensed[u] = std::min(of_row(0, u), of_row(1, u));
+    left[u] = std::min(left_in_row(0, u), left_in_row(1, u));
+  }
+}
+
+/// The least of each two neighbours.
+void halve(const DepthUnits* from, int count, DepthUnits* HWY_RESTRICT out) {
+  for (int i = 0; i < count; ++i) out[i] = std::min(from[2 * i], from[2 * i + 1]);
+}
+
+/// Takes each number into two neighbours.
+void take_twice(const DepthUnits* from, int width, DepthUnits* HWY_RESTRICT out) {
+  for (int i = 0; i < width / 2; ++i) {
+    out[2 * i] = std::min(out[2 * i], from[i]);
+    out[2 * i + 1] = std::min(out[2 * i + 1], from[i]);
+  }
+  if (width % 2 != 0) out[width - 1] = std::min(out[width - 1], from[width / 2]);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -144,66 +204,82 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace berth {
 
-HWY_EXPORT(count_borders);
+HWY_EXPORT(find_rings_of_row);
 HWY_EXPORT(fill_ring);
+HWY_EXPORT(fill_least_of_rows);
+HWY_EXPORT(fill_far);
+HWY_EXPORT(halve);
+HWY_EXPORT(take_twice);
 
 namespace {
 
-int blocks_of(int width) { return divide_up(width, kBlock_px); }
-
-/// Writes workspace.reach and .reaches; returns all reaches that occur, a bit each.
-std::uint32_t find_reaches(const Reach& reach, const DepthImage& sensor_depth_m,
-                           AgingWorkspace& workspace) {
-  const int width = sensor_depth_m.width();
-  const int height = sensor_depth_m.height();
-  if (workspace.reach.width() != width || workspace.reach.height() != height) {
-    workspace.reach.resize(width, height, 0);
-  }
-  const int blocks = blocks_of(width);
-  workspace.reaches.resize(static_cast<std::size_t>(blocks) * height);
-  for (int v = 0; v < height; ++v) {
-    HWY_DYNAMIC_DISPATCH(count_borders)
-    (sensor_depth_m.row(v), reach.borders_m(), kMostRing + 1, width, workspace.reach.row(v),
-     &workspace.reaches[static_cast<std::size_t>(blocks) * v]);
-  }
-  std::uint32_t all = 0;
-  for (const std::uint32_t some : workspace.reaches) all |= some;
-  return all;
-}
-
 constexpr std::uint32_t kFarBit = 1u << (kMostRing + 1);
 
-/// The others: what a pixel of reach r has left goes on from ring r to ring r - 1 by one pixel to
-/// all sides, and from ring 0 by one more to the image. All rings go down the image together, each
-/// a row behind the next greater one, so that of each only three rows are kept, each pixel with
-/// its neighbours in the row. Of a row only that part is touched to which a ring's pixels reach.
+int blocks_of(int width) { return divide_up(width, kBlock_px); }
+
+void fill_endless(int count, DepthUnits* x) {
+  if (count > 0) std::fill_n(x, count, kEndlessUnits);
+}
+
+/// A pixel that holds up to r + 1 pixels away, in pixels of this side q + 1 or more of them, is of
+/// ring q: r >= side q, or S < f moved / (side q - 1).
+RingBorders borders_of(double spread_m, int side_px) {
+  RingBorders borders;
+  for (int q = 1; q <= kMostRing + 1; ++q) {
+    const double reach_px = static_cast<double>(side_px) * q - 1;
+    const double border = std::ceil(kUnitsPerMetre * spread_m / reach_px);
+    borders[q - 1] =
+        spread_m > 0 ? static_cast<DepthUnits>(std::min(border, 1.0 * kEndlessUnits)) : 0;
+  }
+  return borders;
+}
+
+/// What one level is made of.
+struct LevelImages {
+  const UnitImage& sensor_depth;
+  const UnitImage& own;
+  DepthUnits moved;
+  RingBorders borders;
+  /// What the level beyond holds, if there is one.
+  const UnitImage* beyond;
+  bool is_image;
+};
+
+/// What a pixel of ring r has left goes on from ring r to ring r - 1 by one pixel to all sides, and
+/// from ring 0 by one more to the image. All rings go down the image together, each a row behind
+/// the next greater one, so that of each only three rows are kept, each pixel with its neighbours
+/// in the row. Of a row only that part is touched to which a ring's pixels reach.
 class Rings {
  public:
-  Rings(const DepthImage& own_m, float moved_m, int greatest, AgingWorkspace& workspace)
-      : own_m_(own_m),
-        moved_m_(moved_m),
-        greatest_(greatest),
+  Rings(const LevelImages& images, AgingWorkspace::Level& level, AgingWorkspace& workspace)
+      : images_(images),
+        level_(level),
         workspace_(workspace),
-        width_(own_m.width()),
-        height_(own_m.height()),
+        width_(images.own.width()),
+        height_(images.own.height()),
         stride_(divide_up(width_, kAlign) * kAlign + 2 * kMargin) {
-    const auto slots = static_cast<std::size_t>(3 * (greatest + 1));
-    workspace.rows.assign((slots + 1) * stride_ + kAlign, kHoldsNothing_m);
+    std::uint32_t found = 1;
+    for (const std::uint32_t some : level.rings) found |= some & (kFarBit - 1);
+    greatest_ = std::bit_width(found) - 1;
+    const auto slots = static_cast<std::size_t>(3 * (greatest_ + 1));
+    workspace.rows.assign((slots + 1) * stride_ + kAlign, kEndlessUnits);
     void* begin = workspace.rows.data();
-    std::size_t room = workspace.rows.size() * sizeof(float);
-    rows_ = static_cast<float*>(std::align(kAlign * sizeof(float), sizeof(float), begin, room));
+    std::size_t room = workspace.rows.size() * sizeof(DepthUnits);
+    rows_ = static_cast<DepthUnits*>(
+        std::align(kAlign * sizeof(DepthUnits), sizeof(DepthUnits), begin, room));
     workspace.parts.assign(slots, {});
     find_ring_blocks(blocks_of(width_));
   }
 
-  void run(DepthImage& out) {
+  /// The rows of `out` follow each other.
+  void run(DepthUnits* out) {
     for (int step = 0; step <= height_ + greatest_; ++step) {
       for (int ring = greatest_; ring >= 0; --ring) {
         const int v = step - (greatest_ - ring);
         if (v >= 0 && v < height_) fill(ring, v);
       }
       const int v = step - greatest_ - 1;
-      if (v >= 0) finish(v, out.row(v));
+      if (v >= 0) finish(v, out + static_cast<std::ptrdiff_t>(v) * width_);
     }
   }
 
@@ -211,21 +287,25 @@ class Rings {
   using Part = AgingWorkspace::Part;
 
   std::size_t slot(int ring, int v) const { return std::size_t(3 * ring + v % 3); }
-  float* row_at(std::size_t slot) { return rows_ + slot * stride_ + kMargin; }
+  DepthUnits* row_at(std::size_t slot) { return rows_ + slot * stride_ + kMargin; }
 
   void fill(int ring, int v) {
     Part& kept = workspace_.parts[slot(ring, v)];
-    float* const out = row_at(slot(ring, v));
-    RingRow row{.own_m = own_m_.row(v),
-                .reach = workspace_.reach.row(v),
-                .reaches = &workspace_.reaches[static_cast<std::size_t>(blocks_of(width_)) * v],
-                .own = workspace_.ring_blocks[std::size_t(greatest_ + 1) * v + ring],
-                .ring = ring,
-                .moved_m = moved_m_,
-                .width = width_};
+    DepthUnits* const out = row_at(slot(ring, v));
+    RingRow row{
+        .sensed = images_.sensor_depth.row(v),
+        .own = images_.own.row(v),
+        .rings = &level_.rings[static_cast<std::size_t>(blocks_of(width_)) * v],
+        .blocks = level_.ring_blocks[std::size_t(greatest_ + 1) * v + ring],
+        .ring = ring,
+        .first = images_.borders[ring],
+        .last = ring == 0 ? kEndlessUnits : static_cast<DepthUnits>(images_.borders[ring - 1] - 1),
+        .moved = images_.moved,
+        .width = width_};
     Part touched;
     if (ring < greatest_) touched = take_rows(ring + 1, v, row.beyond);
-    touched = join(touched, {row.own.begin * kBlock_px, std::min(row.own.end * kBlock_px, width_)});
+    touched =
+        join(touched, {row.blocks.begin * kBlock_px, std::min(row.blocks.end * kBlock_px, width_)});
     const Part before = kept;
     kept = touched.is_empty() ? Part{} : Part{touched.begin - 1, touched.end + 1};
     // Nothing is there outside of it.
@@ -238,19 +318,20 @@ class Rings {
      row_at(std::size_t(3 * (greatest_ + 1))), out);
   }
 
-  /// E of a row: nothing is free at the image's ends.
-  void finish(int v, float* out) {
-    if (v == 0 || v + 1 == height_ || width_ < 3) {
-      std::fill_n(out, width_, 0.0f);
+  /// What holds in a row: nothing is free at the image's ends.
+  void finish(int v, DepthUnits* out) {
+    if (images_.is_image && (v == 0 || v + 1 == height_ || width_ < 3)) {
+      std::fill_n(out, width_, DepthUnits{0});
       return;
     }
-    const float* rows[3];
+    const DepthUnits* rows[3];
     if (take_rows(0, v, rows).is_empty()) {
       fill_endless(width_, out);
     } else {
-      take_least_of(rows, width_, out);
+      HWY_DYNAMIC_DISPATCH(fill_least_of_rows)(rows, width_, out);
     }
-    out[0] = out[width_ - 1] = 0;
+    if (images_.beyond) HWY_DYNAMIC_DISPATCH(take_twice)(images_.beyond->row(v / 2), width_, out);
+    if (images_.is_image) out[0] = out[width_ - 1] = 0;
   }
 
   static Part join(const Part& a, const Part& b) {
@@ -260,7 +341,7 @@ class Rings {
   }
 
   /// A ring's rows around v, and where they hold anything; null where nowhere.
-  Part take_rows(int ring, int v, const float* (&rows)[3]) {
+  Part take_rows(int ring, int v, const DepthUnits* (&rows)[3]) {
     Part part;
     for (int i = 0; i < 3; ++i) {
       const std::size_t at = slot(ring, std::clamp(v - 1 + i, 0, height_ - 1));
@@ -271,15 +352,13 @@ class Rings {
     return part;
   }
 
-  /// Writes workspace.ring_blocks.
+  /// Writes ring_blocks.
   void find_ring_blocks(int blocks) {
-    workspace_.ring_blocks.assign(std::size_t(greatest_ + 1) * height_, {});
-    const std::uint32_t rings = (std::uint32_t{2} << greatest_) - 1;
+    level_.ring_blocks.assign(std::size_t(greatest_ + 1) * height_, {});
     for (int v = 0; v < height_; ++v) {
-      AgingWorkspace::Blocks* const of_row =
-          &workspace_.ring_blocks[std::size_t(greatest_ + 1) * v];
+      AgingWorkspace::Blocks* const of_row = &level_.ring_blocks[std::size_t(greatest_ + 1) * v];
       for (int i = 0; i < blocks; ++i) {
-        std::uint32_t found = workspace_.reaches[std::size_t(blocks) * v + i] & rings;
+        std::uint32_t found = level_.rings[std::size_t(blocks) * v + i] & (kFarBit - 1);
         for (; found != 0; found &= found - 1) {
           AgingWorkspace::Blocks& of_ring = of_row[std::countr_zero(found)];
           if (of_ring.end == 0) of_ring.begin = static_cast<std::int16_t>(i);
@@ -289,32 +368,98 @@ class Rings {
     }
   }
 
-  const DepthImage& own_m_;
-  float moved_m_;
-  int greatest_;
+  const LevelImages& images_;
+  AgingWorkspace::Level& level_;
   AgingWorkspace& workspace_;
   int width_;
   int height_;
+  int greatest_ = 0;
   std::size_t stride_;
-  float* rows_;
+  DepthUnits* rows_;
+};
+
+/// One image's way through the levels.
+class Aging {
+ public:
+  Aging(double spread_m, AgingWorkspace& workspace) : spread_m_(spread_m), workspace_(workspace) {}
+
+  /// What this level's pixels hold, and those that it was made of reach far.
+  void run(std::size_t n, const UnitImage& sensor_depth, const UnitImage& own, DepthUnits moved,
+           DepthUnits* out) {
+    LevelImages images{sensor_depth, own, moved, borders_of(spread_m_, 1 << n), nullptr, n == 0};
+    // The greatest ring holds for an image that is no larger.
+    const bool is_last = std::max(own.width(), own.height()) <= kMostRing;
+    if (is_last) images.borders[kMostRing] = 0;
+    if (find_rings(images, workspace_.levels[n].rings)) {
+      AgingWorkspace::Level& next = workspace_.levels[n + 1];
+      take_together(images, workspace_.levels[n].rings, next);
+      run(n + 1, next.sensor_depth, next.left, 0, next.held.pixels().data());
+      images.beyond = &next.held;
+    }
+    Rings(images, workspace_.levels[n], workspace_).run(out);
+  }
+
+ private:
+  /// Whether some pixels reach far.
+  static bool find_rings(const LevelImages& images, std::vector<std::uint32_t>& rings) {
+    const int width = images.own.width();
+    const auto blocks = static_cast<std::size_t>(blocks_of(width));
+    rings.resize(blocks * images.own.height());
+    for (int v = 0; v < images.own.height(); ++v) {
+      HWY_DYNAMIC_DISPATCH(find_rings_of_row)
+      (images.sensor_depth.row(v), images.borders, images.is_image ? 1 : 0, width,
+       &rings[blocks * v]);
+    }
+    return std::ranges::any_of(rings, [](std::uint32_t some) { return (some & kFarBit) != 0; });
+  }
+
+  /// Fills the next level with what reaches far.
+  void take_together(const LevelImages& images, const std::vector<std::uint32_t>& rings,
+                     AgingWorkspace::Level& next) {
+    const int width = images.own.width();
+    const int height = images.own.height();
+    const int columns = divide_up(width, 2);
+    for (UnitImage* image : {&next.sensor_depth, &next.left, &next.held}) {
+      set_size(columns, divide_up(height, 2), *image);
+    }
+    for (auto& row : workspace_.far) row.assign(2 * columns, kEndlessUnits);
+    const auto has_far = [&](int v) {
+      const std::uint32_t* const of_row = &rings[std::size_t(blocks_of(width)) * v];
+      return std::any_of(of_row, of_row + blocks_of(width),
+                         [](std::uint32_t some) { return (some & kFarBit) != 0; });
+    };
+    for (int v = 0; v < height; v += 2) {
+      const int below = std::min(v + 1, height - 1);
+      if (!has_far(v) && !has_far(below)) {
+        fill_endless(columns, next.sensor_depth.row(v / 2));
+        fill_endless(columns, next.left.row(v / 2));
+        continue;
+      }
+      const UnitImage& sensed = images.sensor_depth;
+      const RowPair rows{{sensed.row(v), sensed.row(below)},
+                         {images.own.row(v), images.own.row(below)},
+                         images.borders[kMostRing],
+                         images.moved,
+                         width};
+      auto& [far_sensed, far_left] = workspace_.far;
+      HWY_DYNAMIC_DISPATCH(fill_far)(rows, far_sensed.data(), far_left.data());
+      HWY_DYNAMIC_DISPATCH(halve)(far_sensed.data(), columns, next.sensor_depth.row(v / 2));
+      HWY_DYNAMIC_DISPATCH(halve)(far_left.data(), columns, next.left.row(v / 2));
+    }
+  }
+
+  double spread_m_;
+  AgingWorkspace& workspace_;
 };
 
 }  // namespace
 
-void age_free_depth(const Camera& camera, const DepthImage& sensor_depth_m, const DepthImage& own_m,
-                    double moved_m, AgingWorkspace& workspace, DepthImage& out) {
-  const int width = own_m.width();
-  const int height = own_m.height();
-  if (out.width() != width || out.height() != height) out.resize(width, height, 0);
-  if (width == 0 || height == 0) return;
-  const Reach reach(camera, moved_m);
-  const auto moved = static_cast<float>(moved_m);
-  const std::uint32_t reaches = find_reaches(reach, sensor_depth_m, workspace);
-  const std::uint32_t in_rings = reaches & (kFarBit - 1);
-  Rings(own_m, moved, std::bit_width(in_rings | 1) - 1, workspace).run(out);
-  if ((reaches & kFarBit) != 0) {
-    hold_far_reaching(reach, sensor_depth_m, own_m, moved, workspace, out);
-  }
+void age_free_depth(const Camera& camera, const UnitImage& sensor_depth, const UnitImage& own,
+                    double moved_m, AgingWorkspace& workspace, DepthWindows& out) {
+  DepthWindows::Level& image = begin_depth_windows(own.width(), own.height(), out);
+  if (own.pixels().empty()) return;
+  Aging(std::max(camera.fx_px, camera.fy_px) * moved_m, workspace)
+      .run(0, sensor_depth, own, units_up(moved_m), image.row(0));
 }
 
 }  // namespace berth

@@ -1,11 +1,12 @@
 // What is left of free space after something may have moved.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
+#include "berth/space/depth_windows.hpp"
 #include "berth/types/camera.hpp"
-#include "berth/types/image.hpp"
 
 namespace berth {
 
@@ -23,30 +24,40 @@ struct AgingWorkspace {
     std::int16_t begin = 0;
     std::int16_t end = 0;
   };
+  /// The image, or what reaches far in it, in pixels of twice the side of those of the level
+  /// before.
+  struct Level {
+    /// S, what is left, and what of it holds; not used for the image itself.
+    UnitImage sensor_depth;
+    UnitImage left;
+    UnitImage held;
+    /// Bit r of a block of a row: some pixel may be of ring r. Row by row.
+    std::vector<std::uint32_t> rings;
+    /// Of each row those blocks that have pixels of a ring, ring by ring.
+    std::vector<Blocks> ring_blocks;
+  };
 
-  /// How many pixels beside it each pixel holds, at most the number of rings and one.
-  Image<std::uint8_t> reach;
-  /// Bit r of a block of a row: some pixel's reach is r. Row by row.
-  std::vector<std::uint32_t> reaches;
-  /// Of each row those blocks that have pixels of a ring, ring by ring.
-  std::vector<Blocks> ring_blocks;
+  static constexpr int kMostLevels = 24;
+  std::array<Level, kMostLevels> levels;
   /// Three rows of each ring, and a row to work on.
-  std::vector<float> rows;
+  std::vector<DepthUnits> rows;
   /// What of each of them is touched.
   std::vector<Part> parts;
-  /// What each pixel of a row has left, and how many pixels beside it it holds; 0 where rings do
-  /// it.
-  std::vector<float> left_m;
-  std::vector<int> far_reach;
-  /// levels[k]: values that hold in squares of 2^k x 2^k pixels, by their first pixel.
-  std::vector<DepthImage> levels;
+  /// Two rows of what reaches far.
+  std::array<std::vector<DepthUnits>, 2> far;
 };
 
-/// E after something may have moved by `moved_m`: each pixel has that much less left, and what a
-/// pixel with a reading S has left holds for all that are no more than ceil(f moved_m / S) pixels
-/// from it sideways, f the greater of both focal lengths. Of that, the least of 3 x 3 pixels is
-/// free (find_free_depth).
-void age_free_depth(const Camera& camera, const DepthImage& sensor_depth_m, const DepthImage& own_m,
-                    double moved_m, AgingWorkspace& workspace, DepthImage& out);
+/// E after something may have moved by `moved_m`: each pixel has that much less left, rounded up to
+/// units, unless nothing ends it; and what a pixel with a reading S has left holds for all that are
+/// no more than r = ceil(f moved_m / S) pixels from it sideways, f the greater of both focal
+/// lengths and S rounded down to units. Of that, the least of 3 x 3 pixels is free
+/// (find_free_depth), so that it holds up to r + 1 pixels away.
+///
+/// Pixels with r + 1 above 25 are taken together in blocks of 2 x 2: the least that they have
+/// left, and the least of their S. It holds for all blocks that are no more than (r + 1) / 2 from
+/// it, rounded up. Blocks for which that is above 25 are taken together in the same way, and so on.
+/// So it holds a little farther than it has to: by less than 2 blocks.
+void age_free_depth(const Camera& camera, const UnitImage& sensor_depth, const UnitImage& own,
+                    double moved_m, AgingWorkspace& workspace, DepthWindows& out);
 
 }  // namespace berth

@@ -22,14 +22,14 @@ void build_camera_space(const Camera& camera, DepthView sensor_depth_m,
   build_reading_space(camera, obstacles.depth_m, settings, out);
   if (out.is_empty()) return;
   copy(sensor_depth_m, out.sensor_depth_m);
-  find_own_free_depth(sensor_depth_m, obstacles, environment_back_m, settings,
-                      out.own_free_depth_m);
+  find_own_free_depth(sensor_depth_m, obstacles, environment_back_m, settings, out.sensor_depth,
+                      out.obstacle_windows, out.own_free_depth);
   free_holes_beside_robot(camera, sensor_depth_m, obstacles, settings.detection_capability_m,
-                          out.robot_holes, out.own_free_depth_m);
-  close_free_depth(camera, settings.detection_capability_m, out.closing, out.own_free_depth_m);
-  find_free_depth(out.own_free_depth_m, out.free_depth_m);
-  build_depth_windows(out.obstacle_depth_m, out.obstacle_windows);
-  build_depth_windows(out.free_depth_m, out.free_windows);
+                          out.robot_holes, out.own_free_depth);
+  close_free_depth(camera, settings.detection_capability_m, out.closing, out.own_free_depth);
+  find_free_depth(out.own_free_depth, out.free_depth);
+  build_depth_windows(out.obstacle_windows);
+  build_depth_windows(out.free_depth);
   out.has_free_depth = true;
 }
 

@@ -26,17 +26,19 @@ struct CameraSpace {
   bool has_free_depth = false;
   /// E: a point that projects into this pixel is seen free while it is nearer to the camera than
   /// this; 0 where the pixel frees nothing (whole-robot definition 2).
-  DepthImage free_depth_m;
+  DepthWindows free_depth;
+  /// F, rounded down: what lies farther than a surface layer behind this is hidden (definition 5).
+  DepthWindows obstacle_windows;
 
   /// S, and what each pixel by itself frees (definition 1): what E is made of once more, when
   /// newer frames have made this one old.
+  UnitImage sensor_depth;
+  UnitImage own_free_depth;
+  /// S as it was read.
   DepthImage sensor_depth_m;
-  DepthImage own_free_depth_m;
   /// Scratch.
   RobotHolesWorkspace robot_holes;
   ClosingWorkspace closing;
-  DepthWindows obstacle_windows;
-  DepthWindows free_windows;
 
   bool is_empty() const { return obstacle_depth_m.width == 0 || obstacle_depth_m.height == 0; }
 };

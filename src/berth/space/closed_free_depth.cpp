@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #ifndef BERTH_CLOSED_FREE_DEPTH
 #define BERTH_CLOSED_FREE_DEPTH
@@ -13,8 +12,6 @@ namespace berth {
 constexpr int kClosingMargin_px = 64;
 /// As far as the tiers look beyond a pixel or block.
 constexpr int kClosingReach = 6;
-/// A depth in mm that stands for all that are greater.
-constexpr int kMostDepth_mm = 65535;
 
 /// The blocks in a disc around one, row by row: reach(dy) is how far they go to both sides.
 struct DiscRows {
@@ -27,10 +24,10 @@ struct DiscRows {
 /// Row buffers that are used in turn, for each length of run.
 struct RunRing {
   static constexpr int kRows = 16;
-  std::uint16_t* first = nullptr;
+  DepthUnits* first = nullptr;
   int stride = 0;
   /// Row y of the runs that reach so far to both sides.
-  std::uint16_t* row(int reach_px, int y) const {
+  DepthUnits* row(int reach_px, int y) const {
     return first + static_cast<std::ptrdiff_t>(reach_px * kRows + (y & (kRows - 1))) * stride;
   }
 };
@@ -48,12 +45,6 @@ HWY_BEFORE_NAMESPACE();
 namespace berth {
 namespace HWY_NAMESPACE {
 
-using ShortTag = hn::CappedTag<std::uint16_t, 32>;
-using Shorts = hn::Vec<ShortTag>;
-constexpr int kShorts = static_cast<int>(hn::MaxLanes(ShortTag()));
-
-HWY_INLINE Shorts load_shorts(const std::uint16_t* x) { return hn::LoadU(ShortTag(), x); }
-
 struct TakeGreatest {
   HWY_INLINE Shorts operator()(Shorts a, Shorts b) const { return hn::Max(a, b); }
 };
@@ -66,12 +57,12 @@ struct TakeLeast {
 template <class Take>
 HWY_INLINE void fill_runs(const RunRing& ring, int y, int most, int begin, int end, Take take) {
   for (int reach = 1; reach <= most; ++reach) {
-    const std::uint16_t* const from = ring.row(reach - 1, y);
-    std::uint16_t* const to = ring.row(reach, y);
+    const DepthUnits* const from = ring.row(reach - 1, y);
+    DepthUnits* const to = ring.row(reach, y);
     for (int x = begin + reach; x < end - reach; x += kShorts) {
       auto of_run = take(load_shorts(from + x - 1), load_shorts(from + x + 1));
       if (reach == 1) of_run = take(of_run, load_shorts(from + x));
-      hn::StoreU(of_run, ShortTag(), to + x);
+      store_shorts(of_run, to + x);
     }
   }
 }
@@ -86,7 +77,7 @@ void fill_least_runs(const RunRing& ring, int y, int most, int begin, int end) {
 /// What a disc around each pixel of row y has, put together from the runs of its rows.
 template <class Take>
 HWY_INLINE void fill_discs(const RunRing& ring, const DiscRows& disc, int y, int begin, int end,
-                           std::uint16_t* out, Take take) {
+                           DepthUnits* out, Take take) {
   for (int x = begin; x < end; x += kShorts) {
     auto all = load_shorts(ring.row(disc.reach(0), y) + x);
     for (int dy = 1; dy <= disc.last_row; ++dy) {
@@ -94,44 +85,44 @@ HWY_INLINE void fill_discs(const RunRing& ring, const DiscRows& disc, int y, int
       all = take(all, take(load_shorts(ring.row(reach, y - dy) + x),
                            load_shorts(ring.row(reach, y + dy) + x)));
     }
-    hn::StoreU(all, ShortTag(), out + x);
+    store_shorts(all, out + x);
   }
 }
 
 void fill_greatest_of_discs(const RunRing& ring, const DiscRows& disc, int y, int begin, int end,
-                            std::uint16_t* out) {
+                            DepthUnits* out) {
   fill_discs(ring, disc, y, begin, end, out, TakeGreatest());
 }
 void fill_least_of_discs(const RunRing& ring, const DiscRows& disc, int y, int begin, int end,
-                         std::uint16_t* out) {
+                         DepthUnits* out) {
   fill_discs(ring, disc, y, begin, end, out, TakeLeast());
 }
 
 /// The least that two neighbours, one of them the pixel itself, both have at most.
-void fill_pairs(const std::uint16_t* above, const std::uint16_t* middle, const std::uint16_t* below,
-                int width, std::uint16_t* out) {
+void fill_pairs(const DepthUnits* above, const DepthUnits* middle, const DepthUnits* below,
+                int width, DepthUnits* out) {
   for (int x = 0; x < width; x += kShorts) {
     const auto of_neighbours =
         hn::Min(hn::Min(load_shorts(above + x), load_shorts(below + x)),
                 hn::Min(load_shorts(middle + x - 1), load_shorts(middle + x + 1)));
-    hn::StoreU(hn::Max(load_shorts(middle + x), of_neighbours), ShortTag(), out + x);
+    store_shorts(hn::Max(load_shorts(middle + x), of_neighbours), out + x);
   }
 }
 
-/// Where `out` is below `top_mm` it stays; elsewhere it becomes what the next tier says, but at
+/// Where `out` is below `top` it stays; elsewhere it becomes what the next tier says, but at
 /// least that.
-void go_on_from(const std::uint16_t* next, std::uint16_t top_mm, int width, std::uint16_t* out) {
+void go_on_from(const DepthUnits* next, DepthUnits top, int width, DepthUnits* out) {
   const ShortTag d;
-  const auto top = hn::Set(d, top_mm);
+  const auto tops = hn::Set(d, top);
   for (int x = 0; x < width; x += kShorts) {
     const auto was = load_shorts(out + x);
-    const auto is_settled = hn::Lt(was, top);
-    hn::StoreU(hn::IfThenElse(is_settled, was, hn::Max(top, load_shorts(next + x))), d, out + x);
+    const auto is_settled = hn::Lt(was, tops);
+    store_shorts(hn::IfThenElse(is_settled, was, hn::Max(tops, load_shorts(next + x))), out + x);
   }
 }
 
 /// Whether some number is at least this; what stands beyond the row's end counts, and is 0.
-bool has_at_least(const std::uint16_t* row, std::uint16_t least, int width) {
+bool has_at_least(const DepthUnits* row, DepthUnits least, int width) {
   const ShortTag d;
   auto most = hn::Zero(d);
   for (int x = 0; x < width; x += kShorts) most = hn::Max(most, load_shorts(row + x));
@@ -139,51 +130,33 @@ bool has_at_least(const std::uint16_t* row, std::uint16_t least, int width) {
 }
 
 /// The greatest of each 2 x 2 pixels of two rows. Such loops are the compiler's to make vectors of.
-void fill_blocks(const std::uint16_t* above, const std::uint16_t* below, int count,
-                 std::uint16_t* HWY_RESTRICT out) {
+void fill_blocks(const DepthUnits* above, const DepthUnits* below, int count,
+                 DepthUnits* HWY_RESTRICT out) {
   for (int i = 0; i < count; ++i) {
-    const std::uint16_t first = std::max(above[2 * i], below[2 * i]);
-    const std::uint16_t second = std::max(above[2 * i + 1], below[2 * i + 1]);
+    const DepthUnits first = std::max(above[2 * i], below[2 * i]);
+    const DepthUnits second = std::max(above[2 * i + 1], below[2 * i + 1]);
     out[i] = std::max(first, second);
   }
 }
 
 /// Each number twice.
-void fill_twice(const std::uint16_t* from, int count, std::uint16_t* HWY_RESTRICT out) {
+void fill_twice(const DepthUnits* from, int count, DepthUnits* HWY_RESTRICT out) {
   for (int i = 0; i < count; ++i) out[2 * i] = out[2 * i + 1] = from[i];
 }
 
-/// Whole mm, rounded down.
-void fill_mm(const float* depth_m, int width, std::uint16_t* out) {
-  using WholeTag = hn::Rebind<std::int32_t, FloatTag>;
-  using HalfTag = hn::Rebind<std::uint16_t, FloatTag>;
-  for_row(
+/// Raises depths to these, at most `most`, less `half`.
+void raise(const DepthUnits* closed, DepthUnits most, DepthUnits half, int width, DepthUnits* own) {
+  const ShortTag d;
+  for_row<kShorts>(
       0, width,
       [&](int u) {
-        const Lanes mm = least(load(depth_m + u) * Lanes(1000.0f), Lanes(float(kMostDepth_mm)));
-        hn::StoreU(hn::DemoteTo(HalfTag(), hn::ConvertTo(WholeTag(), mm.v)), HalfTag(), out + u);
+        const auto capped = hn::Min(load_shorts(closed + u), hn::Set(d, most));
+        const auto raised = hn::SaturatedSub(capped, hn::Set(d, half));
+        store_shorts(hn::Max(raised, load_shorts(own + u)), own + u);
       },
       [&](int u) {
-        out[u] = static_cast<std::uint16_t>(std::min(depth_m[u] * 1000.0f, float(kMostDepth_mm)));
-      });
-}
-
-/// Raises depths to so many mm, at most `most_mm`, less `less_m`.
-void raise(const std::uint16_t* depth_mm, std::uint16_t most_mm, float less_m, int width,
-           float* depth_m) {
-  using WholeTag = hn::Rebind<std::int32_t, FloatTag>;
-  using HalfTag = hn::Rebind<std::uint16_t, FloatTag>;
-  for_row(
-      0, width,
-      [&](int u) {
-        const auto mm = hn::PromoteTo(WholeTag(), hn::LoadU(HalfTag(), depth_mm + u));
-        const Lanes capped = least(Lanes(hn::ConvertTo(FloatTag(), mm)), Lanes(float(most_mm)));
-        const Lanes m = capped * Lanes(0.001f) - Lanes(less_m);
-        store(greatest(m, load(depth_m + u)), depth_m + u);
-      },
-      [&](int u) {
-        const auto mm = static_cast<float>(std::min(depth_mm[u], most_mm));
-        depth_m[u] = std::max(mm * 0.001f - less_m, depth_m[u]);
+        const DepthUnits capped = std::min(closed[u], most);
+        own[u] = std::max<DepthUnits>(own[u], capped > half ? capped - half : 0);
       });
 }
 
@@ -203,7 +176,6 @@ HWY_EXPORT(fill_blocks);
 HWY_EXPORT(fill_twice);
 HWY_EXPORT(go_on_from);
 HWY_EXPORT(has_at_least);
-HWY_EXPORT(fill_mm);
 HWY_EXPORT(raise);
 
 namespace {
@@ -243,14 +215,14 @@ DiscRows reached_by(const ClosingTier& tier) {
 class Closing {
  public:
   Closing(const Camera& camera, double detection_capability_m, ClosingWorkspace& workspace,
-          DepthImage& own_m)
-      : width_(own_m.width()),
-        height_(own_m.height()),
+          UnitImage& own)
+      : width_(own.width()),
+        height_(own.height()),
         stride_(width_ + 2 * kClosingMargin_px),
         ball_px_m_(std::min(camera.fx_px, camera.fy_px) * detection_capability_m / 2),
-        half_m_(static_cast<float>(detection_capability_m / 2)),
+        half_(units_up(detection_capability_m / 2)),
         workspace_(workspace),
-        own_m_(own_m),
+        own_(own),
         rows_end_(height_) {
     if (workspace.width == width_ && workspace.height == height_) return;
     workspace.width = width_;
@@ -261,45 +233,46 @@ class Closing {
 
   void run() {
     for (int v = 0; v < height_; ++v) {
-      HWY_DYNAMIC_DISPATCH(fill_mm)(own_m_.row(v), width_, own_mm(1, v));
+      std::copy_n(own_.row(v), width_, own_row(1, v));
     }
     for (int v = 0; v < (height_ + 1) / 2; ++v) {
       HWY_DYNAMIC_DISPATCH(fill_blocks)
-      (own_mm(1, 2 * v), own_mm(1, 2 * v + 1), (width_ + 1) / 2, own_mm(2, v));
+      (own_row(1, 2 * v), own_row(1, 2 * v + 1), (width_ + 1) / 2, own_row(2, v));
     }
     for (const ClosingTier& tier : kClosingTiers) {
       if (rows_begin_ >= rows_end_) break;
       close(tier);
-      go_on_above(top_mm(tier.least_radius_px()));
+      go_on_above(top(tier.least_radius_px()));
     }
     for (int v = rows_begin_; v < rows_end_; ++v) {
       HWY_DYNAMIC_DISPATCH(fill_pairs)
-      (own_mm(1, v - 1), own_mm(1, v), own_mm(1, v + 1), width_, scratch(0));
+      (own_row(1, v - 1), own_row(1, v), own_row(1, v + 1), width_, scratch(0));
       take(scratch(0), v);
     }
-    const std::uint16_t most_mm = top_mm(1);
+    const DepthUnits most = top(1);
     for (int v = 0; v < height_; ++v) {
-      HWY_DYNAMIC_DISPATCH(raise)(closed_mm(v), most_mm, half_m_, width_, own_m_.row(v));
+      HWY_DYNAMIC_DISPATCH(raise)(closed_row(v), most, half_, width_, own_.row(v));
     }
   }
 
  private:
-  /// The depth in mm at which the ball covers discs of this radius.
-  std::uint16_t top_mm(double radius_px) const {
-    return static_cast<std::uint16_t>(std::min(1000 * ball_px_m_ / radius_px, 1.0 * kMostDepth_mm));
+  /// The depth at which the ball covers discs of this radius.
+  DepthUnits top(double radius_px) const {
+    return static_cast<DepthUnits>(
+        std::min(kUnitsPerMetre * ball_px_m_ / radius_px, 1.0 * kEndlessUnits));
   }
   int first_coarse() const { return height_ + 2 * kClosingReach; }
   int first_closed() const { return first_coarse() + (height_ + 1) / 2 + 2 * kClosingReach; }
   int first_scratch() const { return first_closed() + height_; }
-  std::uint16_t* at(int row) {
+  DepthUnits* at(int row) {
     return workspace_.rows.data() + static_cast<std::ptrdiff_t>(row) * stride_ + kClosingMargin_px;
   }
   /// A row of the image's blocks with this side.
-  std::uint16_t* own_mm(int side_px, int v) {
+  DepthUnits* own_row(int side_px, int v) {
     return at(kClosingReach + v + (side_px == 1 ? 0 : first_coarse()));
   }
-  std::uint16_t* closed_mm(int v) { return at(first_closed() + v); }
-  std::uint16_t* scratch(int number) { return at(first_scratch() + number); }
+  DepthUnits* closed_row(int v) { return at(first_closed() + v); }
+  DepthUnits* scratch(int number) { return at(first_scratch() + number); }
   RunRing ring(int number) {
     const std::ptrdiff_t size = std::ptrdiff_t(RunRing::kRows) * (kClosingReach + 1) * stride_;
     return {workspace_.rings.data() + number * size + kClosingMargin_px, stride_};
@@ -319,7 +292,7 @@ class Closing {
     const RunRing greatest = ring(0);
     const RunRing least = ring(1);
     for (int v = begin - beside - ahead; v < end + beside + ahead; ++v) {
-      std::copy_n(own_mm(side_px, v) - kClosingReach, width + 2 * kClosingReach,
+      std::copy_n(own_row(side_px, v) - kClosingReach, width + 2 * kClosingReach,
                   greatest.row(0, v) - kClosingReach);
       HWY_DYNAMIC_DISPATCH(fill_greatest_runs)
       (greatest, v, looked_at.reach(0), -aside - ahead, width + aside + ahead);
@@ -344,16 +317,16 @@ class Closing {
     }
   }
 
-  void take(const std::uint16_t* next_mm, int v) {
-    HWY_DYNAMIC_DISPATCH(go_on_from)(next_mm, before_mm_, width_, closed_mm(v));
-    std::fill_n(closed_mm(v) + width_, kClosingMargin_px, std::uint16_t{0});
+  void take(const DepthUnits* next, int v) {
+    HWY_DYNAMIC_DISPATCH(go_on_from)(next, before_, width_, closed_row(v));
+    std::fill_n(closed_row(v) + width_, kClosingMargin_px, DepthUnits{0});
   }
 
   /// The next tier has something to say from this depth on, and in some rows nothing.
-  void go_on_above(std::uint16_t top_mm) {
-    before_mm_ = top_mm;
+  void go_on_above(DepthUnits top) {
+    before_ = top;
     const auto has_more = [&](int v) {
-      return HWY_DYNAMIC_DISPATCH(has_at_least)(closed_mm(v), top_mm, width_);
+      return HWY_DYNAMIC_DISPATCH(has_at_least)(closed_row(v), top, width_);
     };
     while (rows_begin_ < rows_end_ && !has_more(rows_begin_)) ++rows_begin_;
     while (rows_begin_ < rows_end_ && !has_more(rows_end_ - 1)) --rows_end_;
@@ -364,13 +337,13 @@ class Closing {
   int stride_;
   /// The ball's radius in the image at 1 m.
   double ball_px_m_;
-  float half_m_;
+  DepthUnits half_;
   ClosingWorkspace& workspace_;
-  DepthImage& own_m_;
+  UnitImage& own_;
   int rows_begin_ = 0;
   int rows_end_;
   /// What the tiers before have an answer up to.
-  std::uint16_t before_mm_ = 0;
+  DepthUnits before_ = 0;
 };
 
 }  // namespace
@@ -383,9 +356,9 @@ double ClosingTier::least_radius_px() const {
 double ClosingTier::reach_px() const { return least_radius_px() + side_px * std::sqrt(0.5); }
 
 void close_free_depth(const Camera& camera, double detection_capability_m,
-                      ClosingWorkspace& workspace, DepthImage& own_m) {
-  if (!(detection_capability_m > 0) || own_m.pixels().empty()) return;
-  Closing(camera, detection_capability_m, workspace, own_m).run();
+                      ClosingWorkspace& workspace, UnitImage& own) {
+  if (!(detection_capability_m > 0) || own.pixels().empty()) return;
+  Closing(camera, detection_capability_m, workspace, own).run();
 }
 
 }  // namespace berth

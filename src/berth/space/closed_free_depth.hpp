@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "berth/space/depth_units.hpp"
 #include "berth/types/camera.hpp"
-#include "berth/types/image.hpp"
 
 namespace berth {
 
@@ -15,10 +15,10 @@ struct ClosingWorkspace {
   /// The size of the images that it was made for.
   int width = 0;
   int height = 0;
-  /// Depths in mm, with zeros around the image.
-  std::vector<std::uint16_t> rows;
+  /// Depths, with zeros around the image.
+  std::vector<DepthUnits> rows;
   /// The rows that are being worked on.
-  std::vector<std::uint16_t> rings;
+  std::vector<DepthUnits> rings;
 };
 
 /// Discs that a ball covers wherever its centre lies: all blocks of side_px x side_px pixels, that
@@ -35,7 +35,7 @@ struct ClosingTier {
 /// The greatest first.
 inline constexpr std::array<ClosingTier, 4> kClosingTiers = {{{2, 2}, {2, 1}, {1, 2}, {1, 1}}};
 
-/// Raises what a pixel frees (`own_m`, as of find_own_free_depth()) where no ball of the diameter
+/// Raises what a pixel frees (`own`, as of find_own_free_depth()) where no ball of the diameter
 /// d = `detection_capability_m` could stand that this camera would have missed.
 ///
 /// A ball at the depth l covers the pixels in a disc of the radius r = f d / 2 l, f being the
@@ -43,10 +43,10 @@ inline constexpr std::array<ClosingTier, 4> kClosingTiers = {{{2, 2}, {2, 1}, {1
 /// unseen only if each of them frees l at most; then all pixels of the greatest tier do that has
 /// least_radius_px() <= r, around some block that the ball's pixels are within reach_px() of. Below
 /// all tiers a ball covers two neighbours (4) at least, while r >= 1; beyond that depth nothing is
-/// known. A pixel frees the least l at which it may be part of a ball, in whole mm, less d / 2, if
-/// that is more than own_m. Beside the image nothing is free: a ball may stand half in it. Off
-/// where d is 0.
+/// known. A pixel frees the least l at which it may be part of a ball, less d / 2, if that is more
+/// than `own`; all in units, d / 2 rounded up. Beside the image nothing is free: a ball may stand
+/// half in it. Off where d is 0.
 void close_free_depth(const Camera& camera, double detection_capability_m,
-                      ClosingWorkspace& workspace, DepthImage& own_m);
+                      ClosingWorkspace& workspace, UnitImage& own);
 
 }  // namespace berth

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #ifndef BERTH_FREE_DEPTH_ROW
 #define BERTH_FREE_DEPTH_ROW
@@ -14,6 +13,13 @@ struct FreeDepthRow {
   const std::uint8_t* fate = nullptr;
   /// Null where nothing is known of the environment.
   const float* environment_back_m = nullptr;
+};
+
+/// The same in units, and what each pixel frees.
+struct UnitRow {
+  DepthUnits* sensed = nullptr;
+  DepthUnits* obstacle = nullptr;
+  DepthUnits* own = nullptr;
 };
 }  // namespace berth
 #endif
@@ -29,7 +35,6 @@ HWY_BEFORE_NAMESPACE();
 namespace berth {
 namespace HWY_NAMESPACE {
 
-constexpr float kMostDepth_m = std::numeric_limits<float>::max();
 using FateTag = hn::Rebind<std::uint8_t, FloatTag>;
 using WholeTag = hn::Rebind<std::int32_t, FloatTag>;
 
@@ -71,14 +76,24 @@ struct FreeDepthPixels {
   HWY_INLINE LaneMask is_hole() const { return hn::And(is_nan(sensed_m), is_nan(obstacle_m)); }
 };
 
-/// own_of_reading() of many pixels, and 0 where that is less or NaN; `of_hole_m` where there is
-/// neither a reading nor an obstacle.
-void fill_own(const FreeDepthRow& row, int width, float margin_m, float behind_m, float of_hole_m,
-              float* own_m) {
+/// units_of(), but `of_nan` for NaN.
+HWY_INLINE void store_units(Lanes depth_m, DepthUnits of_nan, DepthUnits* out) {
+  using HalfTag = hn::Rebind<DepthUnits, FloatTag>;
+  const Lanes units = clamp(depth_m * Lanes(kUnitsPerMetre), Lanes(0.0f), Lanes(float(kMostUnits)));
+  const auto whole =
+      hn::ConvertTo(WholeTag(), select(is_nan(depth_m), Lanes(float(of_nan)), units).v);
+  hn::StoreU(hn::DemoteTo(HalfTag(), whole), HalfTag(), out);
+}
+
+/// own_of_pixel() of many; `of_hole` where there is neither a reading nor an obstacle.
+void fill_own(const FreeDepthRow& row, int width, float margin_m, float behind_m,
+              DepthUnits of_hole, const UnitRow& out) {
   for_row(
       0, width,
       [&](int u) {
         const FreeDepthPixels pixels(row, u);
+        store_units(pixels.sensed_m, kEndlessUnits, out.sensed + u);
+        store_units(pixels.obstacle_m, kEndlessUnits, out.obstacle + u);
         const Lanes robot_m = pixels.sensed_m + Lanes(behind_m);
         const Lanes before_m = pixels.obstacle_m - Lanes(margin_m);
         const Lanes background_m =
@@ -89,27 +104,29 @@ void fill_own(const FreeDepthRow& row, int width, float margin_m, float behind_m
         own = hn::IfThenElse(pixels.is_within(PixelFate::environment, PixelFate::environment),
                              pixels.of_environment_m(margin_m, robot_m).v, own);
         own = hn::IfThenElse(pixels.is_dropped(), (pixels.sensed_m - Lanes(margin_m)).v, own);
-        own = hn::IfThenElseZero(hn::Gt(own, hn::Zero(FloatTag())), own);
-        store(hn::IfThenElse(pixels.is_hole(), Lanes(of_hole_m).v, own), own_m + u);
+        // A hole is NaN, and what else is NaN frees nothing.
+        own = hn::IfThenZeroElse(is_nan(own), own);
+        own = hn::IfThenElse(pixels.is_hole(), pixels.sensed_m.v, own);
+        store_units(own, of_hole, out.own + u);
       },
       [](int) {});
 }
 
 /// The least of 3 x 3 pixels in the columns [1, width - 1).
-void fill_least(const float* above, const float* middle, const float* below, int width,
-                float* out) {
+void fill_least(const DepthUnits* above, const DepthUnits* middle, const DepthUnits* below,
+                int width, DepthUnits* out) {
   const auto of_column = [&](int u) {
-    return least(least(load(above + u), load(middle + u)), load(below + u));
+    return hn::Min(hn::Min(load_shorts(above + u), load_shorts(middle + u)),
+                   load_shorts(below + u));
   };
-  for_row(
+  for_row<kShorts>(
       1, width - 1,
       [&](int u) {
-        const Lanes all = least(least(of_column(u - 1), of_column(u)), of_column(u + 1));
-        store(least(all, Lanes(kMostDepth_m)), out + u);
+        store_shorts(hn::Min(hn::Min(of_column(u - 1), of_column(u)), of_column(u + 1)), out + u);
       },
       [&](int u) {
-        float all = kMostDepth_m;
-        for (const float* row : {above, middle, below}) {
+        DepthUnits all = kEndlessUnits;
+        for (const DepthUnits* row : {above, middle, below}) {
           all = std::min({all, row[u - 1], row[u], row[u + 1]});
         }
         out[u] = all;
@@ -127,8 +144,6 @@ HWY_EXPORT(fill_own);
 HWY_EXPORT(fill_least);
 
 namespace {
-
-constexpr float kEndless_m = std::numeric_limits<float>::max();
 
 bool is_empty(float sensed_m, float obstacle_m) {
   return std::isnan(sensed_m) && std::isnan(obstacle_m);
@@ -162,60 +177,59 @@ float own_of_reading(float sensed_m, float obstacle_m, float environment_back_m,
   return obstacle_m - margin_m;
 }
 
-float own_of_pixel(DepthView sensor_depth_m, const ObstacleImage& obstacles,
-                   DepthView environment_back_m, const SpaceSettings& settings, int u, int v) {
-  const auto margin_m = static_cast<float>(settings.free_space_margin_m);
-  const auto behind_m = static_cast<float>(settings.behind_robot_m);
-  const float sensed_m = sensor_depth_m(u, v);
-  const float obstacle_m = obstacles.depth_m(u, v);
-  if (is_empty(sensed_m, obstacle_m)) {
-    return settings.no_reading == NoReading::free ? kEndless_m : 0;
-  }
-  const float back_m = environment_back_m.width > 0 ? environment_back_m(u, v) : kNoDepth;
-  const float own_m =
-      own_of_reading(sensed_m, obstacle_m, back_m, obstacles.fate(u, v), margin_m, behind_m);
-  return own_m > 0 ? own_m : 0;
+/// Pixel u of a row.
+DepthUnits own_of_pixel(const FreeDepthRow& row, int u, float margin_m, float behind_m,
+                        DepthUnits of_hole) {
+  if (is_empty(row.sensed_m[u], row.obstacle_m[u])) return of_hole;
+  const float back_m = row.environment_back_m ? row.environment_back_m[u] : kNoDepth;
+  const float own_m = own_of_reading(row.sensed_m[u], row.obstacle_m[u], back_m,
+                                     static_cast<PixelFate>(row.fate[u]), margin_m, behind_m);
+  return std::isnan(own_m) ? DepthUnits{0} : units_of(own_m);
 }
 
 }  // namespace
 
 void find_own_free_depth(DepthView sensor_depth_m, const ObstacleImage& obstacles,
                          DepthView environment_back_m, const SpaceSettings& settings,
-                         DepthImage& out) {
+                         UnitImage& sensor_depth, DepthWindows& obstacle_windows, UnitImage& own) {
   // Below this width a row may not fit a whole vector of any instruction set.
   constexpr int kLeastWidth = 16;
   const int width = sensor_depth_m.width;
   const int height = sensor_depth_m.height;
   const auto margin_m = static_cast<float>(settings.free_space_margin_m);
   const auto behind_m = static_cast<float>(settings.behind_robot_m);
-  const float of_hole_m = settings.no_reading == NoReading::free ? kEndless_m : 0;
-  if (out.width() != width || out.height() != height) out.resize(width, height, 0);
+  const DepthUnits of_hole = settings.no_reading == NoReading::free ? kEndlessUnits : 0;
+  set_size(width, height, sensor_depth);
+  set_size(width, height, own);
+  DepthWindows::Level& obstacle = begin_depth_windows(width, height, obstacle_windows);
   for (int v = 0; v < height; ++v) {
-    if (width < kLeastWidth) {
-      for (int u = 0; u < width; ++u) {
-        out(u, v) = own_of_pixel(sensor_depth_m, obstacles, environment_back_m, settings, u, v);
-      }
-      continue;
-    }
     const FreeDepthRow row{sensor_depth_m.row(v), obstacles.depth_m.row(v),
                            reinterpret_cast<const std::uint8_t*>(obstacles.fate.row(v)),
                            environment_back_m.width > 0 ? environment_back_m.row(v) : nullptr};
-    HWY_DYNAMIC_DISPATCH(fill_own)(row, width, margin_m, behind_m, of_hole_m, out.row(v));
+    const UnitRow out{sensor_depth.row(v), obstacle.row(v), own.row(v)};
+    if (width >= kLeastWidth) {
+      HWY_DYNAMIC_DISPATCH(fill_own)(row, width, margin_m, behind_m, of_hole, out);
+      continue;
+    }
+    for (int u = 0; u < width; ++u) {
+      out.sensed[u] = units_of(row.sensed_m[u]);
+      out.obstacle[u] = units_of(row.obstacle_m[u]);
+      out.own[u] = own_of_pixel(row, u, margin_m, behind_m, of_hole);
+    }
   }
 }
 
-void find_free_depth(const DepthImage& own_m, DepthImage& out) {
-  const int width = own_m.width();
-  const int height = own_m.height();
-  if (out.width() != width || out.height() != height) out.resize(width, height, 0);
+void find_free_depth(const UnitImage& own, DepthWindows& out) {
+  const int width = own.width();
+  const int height = own.height();
+  DepthWindows::Level& image = begin_depth_windows(width, height, out);
   for (int v = 0; v < height; ++v) {
-    float* const row = out.row(v);
+    DepthUnits* const row = image.row(v);
     if (v == 0 || v + 1 == height || width < 3) {
-      std::fill_n(row, width, 0.0f);
+      std::fill_n(row, width, DepthUnits{0});
       continue;
     }
-    HWY_DYNAMIC_DISPATCH(fill_least)
-    (own_m.row(v - 1), own_m.row(v), own_m.row(v + 1), width, row);
+    HWY_DYNAMIC_DISPATCH(fill_least)(own.row(v - 1), own.row(v), own.row(v + 1), width, row);
     row[0] = row[width - 1] = 0;
   }
 }

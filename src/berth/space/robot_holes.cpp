@@ -40,7 +40,7 @@ class QuarterReach {
 };
 const QuarterReach kReach;
 
-void set_size(const DepthImage& like, Image<std::uint8_t>& image) {
+void set_size(const UnitImage& like, Image<std::uint8_t>& image) {
   if (image.width() == like.width() && image.height() == like.height()) return;
   image.resize(like.width(), like.height(), kNoRow);
 }
@@ -58,33 +58,33 @@ void count_rows(const PixelFate* fate, const std::uint8_t* before, int width,
 /// One image's holes.
 class RobotHoles {
  public:
-  RobotHoles(float ball_px_m, DepthView sensor_depth_m, const ObstacleImage& obstacles,
-             RobotHolesWorkspace& workspace, DepthImage& own_m)
-      : ball_px_m_(ball_px_m),
+  RobotHoles(float ball_px, DepthView sensor_depth_m, const ObstacleImage& obstacles,
+             RobotHolesWorkspace& workspace, UnitImage& own)
+      : ball_px_(ball_px),
         sensor_depth_m_(sensor_depth_m),
         obstacles_(obstacles),
         workspace_(workspace),
-        own_m_(own_m) {
-    set_size(own_m, workspace.above);
-    set_size(own_m, workspace.below);
-    workspace.none.assign(own_m.width(), kNoRow);
+        own_(own) {
+    set_size(own, workspace.above);
+    set_size(own, workspace.below);
+    workspace.none.assign(own.width(), kNoRow);
   }
 
   void run() {
     count_all_rows();
-    for (int v = 0; v < own_m_.height(); ++v) free_row(v);
+    for (int v = 0; v < own_.height(); ++v) free_row(v);
   }
 
  private:
   void count_all_rows() {
-    const int width = own_m_.width();
+    const int width = own_.width();
     const std::uint8_t* before = workspace_.none.data();
-    for (int v = 0; v < own_m_.height(); ++v) {
+    for (int v = 0; v < own_.height(); ++v) {
       count_rows(obstacles_.fate.row(v), before, width, workspace_.above.row(v));
       before = workspace_.above.row(v);
     }
     before = workspace_.none.data();
-    for (int v = own_m_.height() - 1; v >= 0; --v) {
+    for (int v = own_.height() - 1; v >= 0; --v) {
       count_rows(obstacles_.fate.row(v), before, width, workspace_.below.row(v));
       before = workspace_.below.row(v);
     }
@@ -93,11 +93,11 @@ class RobotHoles {
   /// Blocks of columns without a hole, or far from the robot, are passed over.
   void free_row(int v) {
     constexpr int kBlock_px = 16;
-    const float* const own_m = own_m_.row(v);
-    for (int begin = 0; begin < own_m_.width(); begin += kBlock_px) {
-      const int end = std::min(begin + kBlock_px, own_m_.width());
+    const DepthUnits* const own = own_.row(v);
+    for (int begin = 0; begin < own_.width(); begin += kBlock_px) {
+      const int end = std::min(begin + kBlock_px, own_.width());
       int without = 0;
-      for (int u = begin; u < end; ++u) without += int(!(own_m[u] > 0));
+      for (int u = begin; u < end; ++u) without += int(own[u] == 0);
       if (without == 0 || !has_robot(begin - kMostRobotHole_px, end + kMostRobotHole_px, v)) {
         continue;
       }
@@ -111,7 +111,7 @@ class RobotHoles {
     const std::uint8_t* const above = workspace_.above.row(v);
     const std::uint8_t* const below = workspace_.below.row(v);
     std::uint8_t least = kNoRow;
-    for (int u = std::max(begin, 0); u < std::min(end, own_m_.width()); ++u) {
+    for (int u = std::max(begin, 0); u < std::min(end, own_.width()); ++u) {
       least = std::min({least, above[u], below[u]});
     }
     return least < kNoRow;
@@ -119,53 +119,54 @@ class RobotHoles {
 
   /// A hole that was freed before shows no robot: nobody goes on from it.
   bool is_hole(int u, int v) const {
-    return !(own_m_(u, v) > 0) && obstacles_.fate(u, v) != PixelFate::robot &&
+    return own_(u, v) == 0 && obstacles_.fate(u, v) != PixelFate::robot &&
            std::isnan(sensor_depth_m_(u, v)) && std::isnan(obstacles_.depth_m(u, v));
   }
 
   void free_hole(int u, int v) {
-    Quarters frees_m = {};
+    Quarters frees = {};
     const auto take_column = [&](int aside) {
       const int x = u + aside;
-      if (x < 0 || x >= own_m_.width()) return;
+      if (x < 0 || x >= own_.width()) return;
       const int above = workspace_.above(x, v);
       const int below = workspace_.below(x, v);
-      if (above < kNoRow) take(own_m_(x, v - above), kReach.at(aside, -above), frees_m);
-      if (below < kNoRow) take(own_m_(x, v + below), kReach.at(aside, below), frees_m);
+      if (above < kNoRow) take(own_(x, v - above), kReach.at(aside, -above), frees);
+      if (below < kNoRow) take(own_(x, v + below), kReach.at(aside, below), frees);
     };
     take_column(0);
     for (int aside = 1; aside <= kMostRobotHole_px; ++aside) {
       // Nobody farther aside can make it more.
-      const float most_m = ball_px_m_ * *std::ranges::max_element(kReach.at(aside, 0));
-      if (most_m <= *std::ranges::min_element(frees_m)) break;
+      const float most = ball_px_ * *std::ranges::max_element(kReach.at(aside, 0));
+      if (most <= *std::ranges::min_element(frees)) break;
       take_column(-aside);
       take_column(aside);
     }
-    own_m_(u, v) = *std::ranges::min_element(frees_m);
+    own_(u, v) = static_cast<DepthUnits>(*std::ranges::min_element(frees));
   }
 
-  void take(float robot_frees_m, const Quarters& per_px, Quarters& frees_m) const {
-    for (std::size_t i = 0; i < frees_m.size(); ++i) {
-      frees_m[i] = std::max(frees_m[i], std::min(robot_frees_m, ball_px_m_ * per_px[i]));
+  void take(DepthUnits robot_frees, const Quarters& per_px, Quarters& frees) const {
+    for (std::size_t i = 0; i < frees.size(); ++i) {
+      frees[i] = std::max(frees[i], std::min<float>(robot_frees, ball_px_ * per_px[i]));
     }
   }
 
-  float ball_px_m_;
+  /// The ball's radius in the image at a depth of one unit.
+  float ball_px_;
   DepthView sensor_depth_m_;
   const ObstacleImage& obstacles_;
   RobotHolesWorkspace& workspace_;
-  DepthImage& own_m_;
+  UnitImage& own_;
 };
 
 }  // namespace
 
 void free_holes_beside_robot(const Camera& camera, DepthView sensor_depth_m,
                              const ObstacleImage& obstacles, double detection_capability_m,
-                             RobotHolesWorkspace& workspace, DepthImage& own_m) {
-  if (!(detection_capability_m > 0) || own_m.pixels().empty()) return;
-  const auto ball_px_m =
-      static_cast<float>(std::min(camera.fx_px, camera.fy_px) * detection_capability_m / 2);
-  RobotHoles(ball_px_m, sensor_depth_m, obstacles, workspace, own_m).run();
+                             RobotHolesWorkspace& workspace, UnitImage& own) {
+  if (!(detection_capability_m > 0) || own.pixels().empty()) return;
+  const auto ball_px = kUnitsPerMetre * static_cast<float>(std::min(camera.fx_px, camera.fy_px) *
+                                                           detection_capability_m / 2);
+  RobotHoles(ball_px, sensor_depth_m, obstacles, workspace, own).run();
 }
 
 }  // namespace berth

@@ -14,16 +14,24 @@ HWY_BEFORE_NAMESPACE();
 namespace berth {
 namespace HWY_NAMESPACE {
 
-/// Calls many(i) for kLanes numbers from i on until all of [begin, end) had their turn, some of
-/// them twice; one(i) where there are fewer than kLanes.
-template <class Many, class One>
+/// A vector of 16-bit numbers.
+using ShortTag = hn::CappedTag<std::uint16_t, 32>;
+using Shorts = hn::Vec<ShortTag>;
+constexpr int kShorts = static_cast<int>(hn::MaxLanes(ShortTag()));
+
+HWY_INLINE Shorts load_shorts(const std::uint16_t* x) { return hn::LoadU(ShortTag(), x); }
+HWY_INLINE void store_shorts(Shorts x, std::uint16_t* out) { hn::StoreU(x, ShortTag(), out); }
+
+/// Calls many(i) for `count` numbers from i on until all of [begin, end) had their turn, some of
+/// them twice; one(i) where there are fewer than `count`.
+template <int count = kLanes, class Many, class One>
 HWY_INLINE void for_row(int begin, int end, Many many, One one) {
-  if (end - begin < kLanes) {
+  if (end - begin < count) {
     for (int i = begin; i < end; ++i) one(i);
     return;
   }
-  for (int i = begin; i <= end - kLanes; i += kLanes) many(i);
-  if ((end - begin) % kLanes != 0) many(end - kLanes);
+  for (int i = begin; i <= end - count; i += count) many(i);
+  if ((end - begin) % count != 0) many(end - count);
 }
 
 /// `wanted` numbers: those of the row, or where it has only `count` of them, a copy in `padded`

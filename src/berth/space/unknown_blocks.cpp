@@ -17,8 +17,6 @@ namespace HWY_NAMESPACE {
 using IntTag = hn::RebindToSigned<FloatTag>;
 using Ints = hn::Vec<IntTag>;
 
-/// A rectangle is looked up pixel by pixel up to this side, else in four windows.
-constexpr int kMostPixels = 4;
 /// What rounding may do to a pixel's coordinate.
 constexpr float kPixelError = 2e-3f;
 /// A cube that reaches nearer to the camera's plane has no rectangle.
@@ -36,30 +34,39 @@ struct Projection {
   std::uint64_t meets, inside, through;
 };
 
-/// The windows of which four cover so many pixels beyond the first.
-HWY_INLINE const DepthWindows::Level& level_for(const DepthWindows& windows, int span) {
-  int n = 0;
-  while (n + 1 < windows.level_count && windows.levels[n].longest_px() <= span) ++n;
-  return windows.levels[n];
+/// Some of the image's, or a level's, numbers: each is the lower half of the 32 bits at its place.
+HWY_INLINE Ints gather(const DepthUnits* from, Ints places) {
+  const IntTag ints;
+  const auto pairs =
+      hn::GatherOffset(ints, reinterpret_cast<const std::int32_t*>(from), hn::ShiftLeft<1>(places));
+  return hn::And(pairs, hn::Set(ints, 0xFFFF));
 }
 
-/// The least of each cube's pixels; a NaN counts as +inf.
-HWY_INLINE Lanes least_of(DepthView image, const DepthWindows& windows, const Projection& cubes) {
+/// in_metres() of many.
+HWY_INLINE Lanes metres_of(Ints units) {
+  const LaneMask is_endless =
+      hn::RebindMask(FloatTag(), hn::Eq(units, hn::Set(IntTag(), kEndlessUnits)));
+  const Lanes depth_m = Lanes(hn::ConvertTo(FloatTag(), units)) * Lanes(1 / kUnitsPerMetre);
+  return select(is_endless, Lanes(HUGE_VALF), depth_m);
+}
+
+/// The least of each cube's pixels.
+HWY_INLINE Lanes least_of_m(const DepthWindows& windows, const Projection& cubes) {
   const IntTag ints;
-  Lanes all(HUGE_VALF);
-  if (cubes.span < kMostPixels) {
+  Ints all = hn::Set(ints, kEndlessUnits);
+  if (cubes.span < DepthWindows::kMostPixels) {
+    const DepthWindows::Level& image = windows.levels[0];
     for (int dv = 0; dv <= cubes.span; ++dv) {
       const Ints row = hn::Mul(hn::Min(hn::Add(cubes.v0, hn::Set(ints, dv)), cubes.v1),
-                               hn::Set(ints, static_cast<int>(image.stride)));
+                               hn::Set(ints, image.columns));
       for (int du = 0; du <= cubes.span; ++du) {
         const Ints column = hn::Min(hn::Add(cubes.u0, hn::Set(ints, du)), cubes.u1);
-        const Lanes x = hn::GatherIndex(FloatTag(), image.data, hn::Add(row, column));
-        all = least(all, nan_to_infinity(x));
+        all = hn::Min(all, gather(image.least.data(), hn::Add(row, column)));
       }
     }
-    return all;
+    return metres_of(all);
   }
-  const DepthWindows::Level& level = level_for(windows, cubes.span);
+  const DepthWindows::Level& level = windows.level_for(cubes.span + 1);
   const int shift = __builtin_ctz(static_cast<unsigned>(level.step_px));
   // The first window that ends behind the last pixel, from its last pixel on.
   const Ints to_first = hn::Set(ints, level.step_px - level.side_px);
@@ -73,10 +80,10 @@ HWY_INLINE Lanes least_of(DepthView image, const DepthWindows& windows, const Pr
   for (const Ints row : rows) {
     const Ints begin = hn::Mul(row, hn::Set(ints, level.columns));
     for (const Ints column : columns) {
-      all = least(all, hn::GatherIndex(FloatTag(), level.least.data(), hn::Add(begin, column)));
+      all = hn::Min(all, gather(level.least.data(), hn::Add(begin, column)));
     }
   }
-  return all;
+  return metres_of(all);
 }
 
 struct Interval {
@@ -154,48 +161,27 @@ HWY_INLINE std::uint64_t hides_some(const CameraSpace& space, const Projection& 
   const Lanes surface(static_cast<float>(space.settings.surface_thickness_m));
   std::uint64_t hides = 0;
   if (cubes.meets != 0) {
-    const Lanes depth = least_of(space.obstacle_depth_m, space.obstacle_windows, cubes);
-    hides = cubes.meets & bits_of(Lanes(cubes.zb) > depth + surface);
+    const Lanes depth_m = least_of_m(space.obstacle_windows, cubes);
+    hides = cubes.meets & bits_of(Lanes(cubes.zb) > depth_m + surface);
   }
   if (cubes.through == 0) return hides;
   // Any pixel may see what reaches through the camera's plane.
-  const Lanes least_depth(
-      space.obstacle_windows.levels[space.obstacle_windows.level_count - 1].least[0]);
-  return hides | (cubes.through & bits_of(Lanes(cubes.zb) > least_depth + surface));
+  const DepthWindows::Level& all =
+      space.obstacle_windows.levels[space.obstacle_windows.level_count - 1];
+  const Lanes least_m(in_metres(all.least[0]));
+  return hides | (cubes.through & bits_of(Lanes(cubes.zb) > least_m + surface));
 }
 
 /// The cubes all of whose points the view sees free.
 HWY_INLINE std::uint64_t frees_all(const FreeingCamera& view, const Projection& cubes) {
   if (cubes.inside == 0) return 0;
-  return cubes.inside &
-         bits_of(Lanes(cubes.zb) < least_of(*view.free_depth_m, *view.free_windows, cubes));
+  return cubes.inside & bits_of(Lanes(cubes.zb) < least_of_m(*view.free_depth, cubes));
 }
 
-/// The least of the pixels that one cube projects into: the first lane's.
-HWY_INLINE float least_of_first(DepthView image, const DepthWindows& windows,
-                                const Projection& cube) {
-  const auto first = [](Ints x) { return hn::GetLane(x); };
-  const int u0 = first(cube.u0), v0 = first(cube.v0), u1 = first(cube.u1), v1 = first(cube.v1);
-  float all = HUGE_VALF;
-  if (cube.span < kMostPixels) {
-    for (int v = v0; v <= v1; ++v) {
-      for (int u = u0; u <= u1; ++u) {
-        if (image(u, v) < all) all = image(u, v);
-      }
-    }
-    return all;
-  }
-  const DepthWindows::Level& level = level_for(windows, cube.span);
-  const int shift = __builtin_ctz(static_cast<unsigned>(level.step_px));
-  const auto last = [&](int begin, int end) {
-    return std::max(begin >> shift, (end + level.step_px - level.side_px) >> shift);
-  };
-  for (const int row : {v0 >> shift, last(v0, v1)}) {
-    for (const int column : {u0 >> shift, last(u0, u1)}) {
-      all = std::min(all, level.least[static_cast<std::size_t>(row) * level.columns + column]);
-    }
-  }
-  return all;
+/// The pixels of the first cube.
+HWY_INLINE PixelRect first_rect(const Projection& cubes) {
+  return {hn::GetLane(cubes.u0), hn::GetLane(cubes.v0), hn::GetLane(cubes.u1) + 1,
+          hn::GetLane(cubes.v1) + 1};
 }
 
 /// What a view says of all of a cube at once, so that nobody need ask for its children.
@@ -216,13 +202,13 @@ HWY_INLINE WholeCube look_at_whole(const FreeingCamera& view, const Cube& cube) 
   const float zb_m = hn::GetLane(seen.zb);
   whole.hides_none = (seen.through & 1) == 0;
   if ((seen.meets & 1) != 0) {
-    const float end_m = least_of_first(space.obstacle_depth_m, space.obstacle_windows, seen) +
+    const float end_m = berth::least_of_m(space.obstacle_windows, first_rect(seen)) +
                         static_cast<float>(space.settings.surface_thickness_m);
     whole.hides_none = whole.hides_none && !(zb_m > end_m);
   }
-  whole.frees_none = view.free_depth_m == nullptr || (seen.meets & 1) == 0;
+  whole.frees_none = view.free_depth == nullptr || (seen.meets & 1) == 0;
   whole.frees_all = !whole.frees_none && (seen.inside & 1) != 0 &&
-                    zb_m < least_of_first(*view.free_depth_m, *view.free_windows, seen);
+                    zb_m < berth::least_of_m(*view.free_depth, first_rect(seen));
   return whole;
 }
 

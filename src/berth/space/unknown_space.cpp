@@ -27,21 +27,19 @@ void require(bool holds, const char* what) {
 }  // namespace
 
 bool is_seen_free(const FreeingCamera& view, const Eigen::Vector3d& p_B) {
-  if (view.free_depth_m == nullptr) return false;
+  if (view.free_depth == nullptr) return false;
   const Eigen::Vector3d p_C = view.X_CB * p_B;
   const auto pixel = pixel_of(view.space->camera, p_C);
-  return pixel && p_C.z() < (*view.free_depth_m)(pixel->u, pixel->v);
+  return pixel && p_C.z() < in_metres((*view.free_depth)(pixel->u, pixel->v));
 }
 
 UnknownSpace::UnknownSpace() : slots_(kSlots), used_(kMostBlocks) {}
 
-void UnknownSpace::age(const PosedSpace& posed, AgedSpace& aged, FreeingCamera& view) {
+void UnknownSpace::age(const PosedSpace& posed, DepthWindows& aged) {
   const CameraSpace& space = *posed.space;
-  age_free_depth(space.camera, space.sensor_depth_m, space.own_free_depth_m,
-                 space.settings.obstacle_speed_m_s * posed.age_s, aging_, aged.free_depth_m);
-  build_depth_windows(aged.free_depth_m, aged.windows);
-  view.free_depth_m = &aged.free_depth_m;
-  view.free_windows = &aged.windows;
+  age_free_depth(space.camera, space.sensor_depth, space.own_free_depth,
+                 space.settings.obstacle_speed_m_s * posed.age_s, aging_, aged);
+  build_depth_windows(aged);
 }
 
 void UnknownSpace::assign(std::span<const PosedSpace> views, const UnknownSpace* aged) {
@@ -60,18 +58,17 @@ void UnknownSpace::assign(std::span<const PosedSpace> views, const UnknownSpace*
   for (std::size_t k = 0; k < views.size(); ++k) {
     const CameraSpace& space = *views[k].space;
     const double age_s = views[k].age_s;
-    FreeingCamera view{&space, views[k].X_BC, views[k].X_BC.inverse(), age_s, nullptr, nullptr};
+    FreeingCamera view{&space, views[k].X_BC, views[k].X_BC.inverse(), age_s, nullptr};
     const FreeingCamera* const same = aged ? aged->find_aged(space, age_s) : nullptr;
     if (!space.has_free_depth || age_s > space.settings.free_space_max_age_s) {
       // Frees nothing.
     } else if (age_s == 0 || views.size() < 2) {
-      view.free_depth_m = &space.free_depth_m;
-      view.free_windows = &space.free_windows;
+      view.free_depth = &space.free_depth;
     } else if (same) {
-      view.free_depth_m = same->free_depth_m;
-      view.free_windows = same->free_windows;
+      view.free_depth = same->free_depth;
     } else {
-      age(views[k], aged_[k], view);
+      age(views[k], aged_[k]);
+      view.free_depth = &aged_[k];
     }
     views_.push_back(view);
   }
@@ -80,7 +77,7 @@ void UnknownSpace::assign(std::span<const PosedSpace> views, const UnknownSpace*
 const FreeingCamera* UnknownSpace::find_aged(const CameraSpace& space, double age_s) const {
   if (views_.size() < 2) return nullptr;
   const auto same = std::ranges::find_if(views_, [&](const FreeingCamera& view) {
-    return view.space == &space && view.age_s == age_s && view.free_depth_m;
+    return view.space == &space && view.age_s == age_s && view.free_depth;
   });
   return same == views_.end() ? nullptr : &*same;
 }
@@ -90,9 +87,11 @@ std::optional<HidingPixel> UnknownSpace::hiding_pixel(const Eigen::Vector3d& p_B
     const CameraSpace& space = *views_[k].space;
     const Eigen::Vector3d p_C = views_[k].X_CB * p_B;
     const auto pixel = pixel_of(space.camera, p_C);
-    if (!pixel) continue;
-    const double surface_end_m = static_cast<double>(space.obstacle_depth_m(pixel->u, pixel->v)) +
-                                 space.settings.surface_thickness_m;
+    // One that was made for readings alone hides nothing.
+    if (!pixel || !space.has_free_depth) continue;
+    const double surface_end_m =
+        static_cast<double>(in_metres(space.obstacle_windows(pixel->u, pixel->v))) +
+        space.settings.surface_thickness_m;
     if (!(p_C.z() > surface_end_m)) continue;
     bool is_free = false;
     for (std::size_t j = 0; j < views_.size() && !is_free; ++j) {

@@ -30,8 +30,7 @@ struct FreeingCamera {
   Pose X_CB = Pose::Identity();
   double age_s = 0;
   /// E at this age; null where the view frees nothing.
-  const DepthImage* free_depth_m = nullptr;
-  const DepthWindows* free_windows = nullptr;
+  const DepthWindows* free_depth = nullptr;
 };
 
 /// Whether 0 < z < E (whole-robot definition 3).
@@ -80,18 +79,13 @@ class UnknownSpace {
     std::atomic<std::uint64_t> key{0};
     std::atomic<std::uint64_t> possible{0};
   };
-  /// E of a view that has aged.
-  struct AgedSpace {
-    DepthImage free_depth_m;
-    DepthWindows windows;
-  };
-
-  void age(const PosedSpace& posed, AgedSpace& aged, FreeingCamera& view);
+  void age(const PosedSpace& posed, DepthWindows& aged);
   const FreeingCamera* find_aged(const CameraSpace& space, double age_s) const;
 
   std::uint64_t serial_number_ = 0;
   std::vector<FreeingCamera> views_;
-  std::vector<AgedSpace> aged_;
+  /// E of the views that have aged.
+  std::vector<DepthWindows> aged_;
   AgingWorkspace aging_;
   /// A hash table with open addresses, and which of its slots are in use.
   mutable std::vector<Slot> slots_;

@@ -20,8 +20,6 @@ constexpr double kFar_px = 1e6;
 constexpr double kFarthest_m = 1e6;
 /// What reaches nearer to the camera's plane may project anywhere.
 constexpr double kLeastDepth_m = 1e-4;
-/// A rectangle is looked up pixel by pixel up to this side, else in four windows.
-constexpr int kMostPixels = 4;
 
 /// Where a voxel projects to.
 struct Footprint {
@@ -30,38 +28,6 @@ struct Footprint {
   PixelRect rect;
   bool is_before_camera = false;
 };
-
-float least_of_pixels(DepthView image, const PixelRect& rect) {
-  float least = HUGE_VALF;
-  for (int v = rect.v_begin; v < rect.v_end; ++v) {
-    for (int u = rect.u_begin; u < rect.u_end; ++u) {
-      // A NaN is less than nothing.
-      if (image(u, v) < least) least = image(u, v);
-    }
-  }
-  return least;
-}
-
-/// The least of a rectangle in the image, and of little else; a NaN counts as +inf.
-float least_of(DepthView image, const DepthWindows& windows, const PixelRect& rect) {
-  const int side = std::max(rect.u_end - rect.u_begin, rect.v_end - rect.v_begin);
-  if (side <= kMostPixels) return least_of_pixels(image, rect);
-  int n = 0;
-  while (n + 1 < windows.level_count && windows.levels[n].longest_px() < side) ++n;
-  const DepthWindows::Level& level = windows.levels[n];
-  const auto places = [&](int begin, int end) {
-    const int first = begin / level.step_px;
-    return std::array{first,
-                      std::max(first, (end - 1 + level.step_px - level.side_px) / level.step_px)};
-  };
-  float least = HUGE_VALF;
-  for (const int row : places(rect.v_begin, rect.v_end)) {
-    for (const int column : places(rect.u_begin, rect.u_end)) {
-      least = std::min(least, level.least[row * level.columns + column]);
-    }
-  }
-  return least;
-}
 
 /// A view of voxels of one size.
 class VoxelView {
@@ -89,9 +55,8 @@ class VoxelView {
   }
 
   bool sees_all_free(const Footprint& at) const {
-    if (view_.free_depth_m == nullptr || !at.is_before_camera) return false;
-    return in_image(at.rect) == at.rect &&
-           at.far_m < least_of(*view_.free_depth_m, *view_.free_windows, at.rect);
+    if (view_.free_depth == nullptr || !at.is_before_camera) return false;
+    return in_image(at.rect) == at.rect && at.far_m < least_of_m(*view_.free_depth, at.rect);
   }
 
   bool may_hide(const Footprint& at) const {
@@ -99,8 +64,7 @@ class VoxelView {
     // It was made for readings alone.
     if (!space.has_free_depth) return false;
     const double surface_end_m =
-        least_of(space.obstacle_depth_m, space.obstacle_windows, in_image(at.rect)) +
-        space.settings.surface_thickness_m;
+        least_of_m(space.obstacle_windows, in_image(at.rect)) + space.settings.surface_thickness_m;
     return at.far_m > surface_end_m;
   }
 

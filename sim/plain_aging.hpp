@@ -1,0 +1,14 @@
+// What age leaves of free depth: the definition as it is written down.
+#pragma once
+
+#include "berth/types/camera.hpp"
+#include "berth/types/image.hpp"
+
+namespace berth::sim {
+
+/// Free depth E of an image whose pixels free `own_m`, after something may have moved by `moved_m`;
+/// the slow twin of age_free_depth(), and with 0 m that of find_free_depth().
+DepthImage plainly_aged(const Camera& camera, const DepthImage& sensor_depth_m,
+                        const DepthImage& own_m, double moved_m);
+
+}  // namespace berth::sim
