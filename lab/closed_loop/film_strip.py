@@ -36,7 +36,7 @@ def main(folder, out):
         axes.text(share * time[-1], axes.get_ylim()[1], " " + "ABCDEFGH"[i], va="top", fontsize=10, fontweight="bold")
     axes.set_xlabel("time [s]")
     axes.set_ylim(bottom=0)
-    axes.legend(loc="upper right", frameon=False)
+    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=3, frameon=False)
     figure.savefig(out, dpi=100)
 
 

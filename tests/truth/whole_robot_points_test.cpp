@@ -78,10 +78,10 @@ TEST(WholeRobotPoints, EnvironmentFreesUpToItsBack) {
     view.environment_back_m(6, 6) = back_m;
     view.sensor_depth_m(6, 6) = 1;
     drop(view, 6, 6, PixelFate::environment);
-    EXPECT_NEAR(free_at(view, 6, 6, settings), free_m, 1e-6) << back_m;
+    EXPECT_NEAR(free_at(view, 6, 6, settings), free_m, kRounding_m) << back_m;
   }
   view.environment_back_m = {};
-  EXPECT_NEAR(free_at(view, 6, 6, settings), 0.98, 1e-6);
+  EXPECT_NEAR(free_at(view, 6, 6, settings), 0.98, kRounding_m);
 }
 
 TEST(WholeRobotPoints, ALearnedBackgroundFreesNoMoreThanTheSensorSaw) {
