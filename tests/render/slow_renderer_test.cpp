@@ -36,23 +36,36 @@ Comparison render_one(const TriangleMesh& mesh, const Pose& X_CL) {
   return render_both(robot_of({mesh}), pose_seen_at(X_BC, {X_CL}), X_BC);
 }
 
+struct RandomRobot {
+  RobotModel model;
+  std::vector<Pose> X_CL;
+};
+
+/// Four links, some of which stand behind the camera, around it, or outside of the image.
+RandomRobot random_robot(std::mt19937& random) {
+  std::vector<TriangleMesh> meshes;
+  std::vector<Pose> X_CL;
+  for (int i = 0; i < 4; ++i) {
+    meshes.push_back(random_mesh(random));
+    X_CL.push_back(
+        random_pose(random, {Eigen::Vector3d(-1.2, -1, -0.7), Eigen::Vector3d(1.2, 1, 3)}));
+  }
+  return {robot_of(std::move(meshes)), std::move(X_CL)};
+}
+
+Pose random_camera(std::mt19937& random) {
+  return random_pose(random, {Eigen::Vector3d(-2, -2, -2), Eigen::Vector3d(2, 2, 2)});
+}
+
 TEST(RendererAndTwin, AgreeOnRandomRobots) {
   std::mt19937 random(42);
   Comparison sum;
   for (int trial = 0; trial < thinned(25); ++trial) {
     SCOPED_TRACE(trial);
-    std::vector<TriangleMesh> meshes;
-    std::vector<Pose> X_CL;
-    for (int i = 0; i < 4; ++i) {
-      meshes.push_back(random_mesh(random));
-      // Some stand behind the camera, around it, or outside of the image.
-      X_CL.push_back(
-          random_pose(random, {Eigen::Vector3d(-1.2, -1, -0.7), Eigen::Vector3d(1.2, 1, 3)}));
-    }
-    RobotModel model = robot_of(std::move(meshes));
+    auto [model, X_CL] = random_robot(random);
     if (trial % 4 == 1) set_last_role(model, LinkRole::environment);
     if (trial % 4 == 2) set_last_role(model, LinkRole::ignored);
-    const Pose X_BC = random_pose(random, {Eigen::Vector3d(-2, -2, -2), Eigen::Vector3d(2, 2, 2)});
+    const Pose X_BC = random_camera(random);
     const Comparison result = render_both(model, pose_seen_at(X_BC, X_CL), X_BC);
     sum.pixels += result.pixels;
     sum.robot_pixels += result.robot_pixels;
@@ -87,16 +100,10 @@ TEST(RendererAndTwin, AgreeOnWhatLiesBehindTheFirstSurface) {
   Comparison sum;
   for (int trial = 0; trial < thinned(25); ++trial) {
     SCOPED_TRACE(trial);
-    std::vector<TriangleMesh> meshes;
-    std::vector<Pose> X_CL;
-    for (int i = 0; i < 4; ++i) {
-      meshes.push_back(random_mesh(random));
-      X_CL.push_back(
-          random_pose(random, {Eigen::Vector3d(-1.2, -1, -0.7), Eigen::Vector3d(1.2, 1, 3)}));
-    }
-    const Pose X_BC = random_pose(random, {Eigen::Vector3d(-2, -2, -2), Eigen::Vector3d(2, 2, 2)});
-    const Comparison result = render_both_behind(robot_of(std::move(meshes)),
-                                                 pose_seen_at(X_BC, X_CL), X_BC, kSmallCamera);
+    const auto [model, X_CL] = random_robot(random);
+    const Pose X_BC = random_camera(random);
+    const Comparison result =
+        render_both_behind(model, pose_seen_at(X_BC, X_CL), X_BC, kSmallCamera);
     sum.robot_pixels += result.robot_pixels;
     sum.at_edges += result.at_edges;
   }

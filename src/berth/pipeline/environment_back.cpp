@@ -1,15 +1,10 @@
 #include "berth/pipeline/environment_back.hpp"
 
-#include <algorithm>
-
 namespace berth {
 
 EnvironmentBack::EnvironmentBack(const RobotModel& model, const Camera& camera)
-    : still_(model, true) {
-  const bool has_environment = std::ranges::any_of(model.links, [](const Link& link) {
-    return link.role == LinkRole::environment && !link.mesh_L.triangles.empty();
-  });
-  if (!has_environment) return;
+    : still_(model, DrawnLinks::environment) {
+  if (still_.is_empty()) return;
   renderer_.emplace(build_link_meshes(model, DrawnLinks::environment), camera);
 }
 

@@ -13,7 +13,7 @@ namespace berth {
 class RobotDrawing {
  public:
   RobotDrawing(const Robot& robot, const Camera& camera)
-      : renderer_(robot.meshes(), camera), still_(robot.model(), false) {}
+      : renderer_(robot.meshes(), camera), still_(robot.model(), DrawnLinks::all) {}
 
   /// As RobotRenderer::render(); of a robot that stands still as it was rendered last.
   void draw(const RobotPose& pose, const Pose& X_BC, RobotImage& image);

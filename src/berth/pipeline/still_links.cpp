@@ -17,11 +17,10 @@ double reach_of(const TriangleMesh& mesh_L) {
 
 }  // namespace
 
-StillLinks::StillLinks(const RobotModel& model, bool environment_alone) {
+StillLinks::StillLinks(const RobotModel& model, DrawnLinks drawn) {
   for (std::size_t i = 0; i < model.links.size(); ++i) {
     const Link& link = model.links[i];
-    if (link.mesh_L.triangles.empty() || link.role == LinkRole::ignored) continue;
-    if (environment_alone && link.role != LinkRole::environment) continue;
+    if (link.mesh_L.triangles.empty() || !is_drawn(link, drawn)) continue;
     links_.push_back({i, reach_of(link.mesh_L), Pose::Identity()});
   }
 }

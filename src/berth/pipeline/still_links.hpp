@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "berth/render/robot_renderer.hpp"
 #include "berth/robot/kinematics.hpp"
 #include "berth/robot/robot_model.hpp"
 
@@ -15,8 +16,10 @@ class StillLinks {
   /// reading is not known to a hundred times as much.
   static constexpr double kStill_m = 1e-5;
 
-  /// Of all links but ignored ones, or of the environment alone.
-  StillLinks(const RobotModel& model, bool environment_alone);
+  StillLinks(const RobotModel& model, DrawnLinks drawn);
+
+  /// Whether there is nothing that could be drawn.
+  bool is_empty() const { return links_.empty(); }
 
   /// Whether they stand where they stood at the last drawn_at().
   bool stand_at(const RobotPose& pose, const Pose& X_BC) const;

@@ -43,7 +43,6 @@ class KeyImage {
   /// others do. As long as the keys.
   const float* ceilings() const { return ceilings_; }
   void set_ceilings(const float* ceilings) { ceilings_ = ceilings; }
-  std::size_t size() const { return keys_.size(); }
 
  private:
   int width_;

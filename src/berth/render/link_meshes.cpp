@@ -43,8 +43,7 @@ std::vector<TriangleBlock> blocks_of(const TriangleMesh& mesh_L) {
 LinkMeshes::LinkMeshes(const RobotModel& model, DrawnLinks drawn) {
   for (std::size_t i = 0; i < model.links.size(); ++i) {
     const Link& link = model.links[i];
-    if (link.role == LinkRole::ignored) continue;
-    if (drawn == DrawnLinks::environment && link.role != LinkRole::environment) continue;
+    if (!is_drawn(link, drawn)) continue;
     std::vector<TriangleBlock> blocks = blocks_of(link.mesh_L);
     if (blocks.empty()) continue;
     links_.push_back({i, link.id, link.mesh_L.bounding_box_m(), std::move(blocks)});

@@ -58,6 +58,11 @@ void fit(const Camera& camera, RobotImage& image) {
 
 }  // namespace
 
+bool is_drawn(const Link& link, DrawnLinks drawn) {
+  return drawn == DrawnLinks::environment ? link.role == LinkRole::environment
+                                          : link.role != LinkRole::ignored;
+}
+
 std::shared_ptr<const LinkMeshes> build_link_meshes(const RobotModel& model, DrawnLinks drawn) {
   return std::make_shared<const LinkMeshes>(model, drawn);
 }

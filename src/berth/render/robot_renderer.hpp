@@ -12,10 +12,12 @@ namespace berth {
 /// The robot's triangles, ready to be drawn: built once, then constant, shared by all renderers and
 /// threads.
 class LinkMeshes;
+/// Which links are drawn. Those without geometry show nothing.
 enum class DrawnLinks {
   all,          ///< but ignored ones
   environment,  ///< those of the role environment alone
 };
+bool is_drawn(const Link& link, DrawnLinks drawn);
 std::shared_ptr<const LinkMeshes> build_link_meshes(const RobotModel& model,
                                                     DrawnLinks drawn = DrawnLinks::all);
 

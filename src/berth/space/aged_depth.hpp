@@ -56,7 +56,8 @@ struct AgingWorkspace {
 /// Pixels with r + 1 above 25 are taken together in blocks of 2 x 2: the least that they have
 /// left, and the least of their S. It holds for all blocks that are no more than (r + 1) / 2 from
 /// it, rounded up. Blocks for which that is above 25 are taken together in the same way, and so on.
-/// So it holds a little farther than it has to: by less than 2 blocks.
+/// So it holds farther than it has to: by less than 2 blocks for a pixel alone, and by more where a
+/// block holds pixels of different reach.
 void age_free_depth(const Camera& camera, const UnitImage& sensor_depth, const UnitImage& own,
                     double moved_m, AgingWorkspace& workspace, DepthWindows& out);
 

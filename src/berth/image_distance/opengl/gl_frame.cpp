@@ -1,5 +1,7 @@
 #include "berth/image_distance/opengl/gl_frame.hpp"
 
+#include <optional>
+
 #include "berth/image_distance/opengl/gl_frame_images.hpp"
 #include "berth/pipeline/environment_back.hpp"
 #include "berth/pipeline/mounted_camera.hpp"
@@ -19,8 +21,13 @@ void read_back(const GlFrame& frame, Frame& out, FrameUse use) {
   read_back(frame.images->obstacles, out.obstacles);
   DepthImage sensor_depth_m;
   read_back(frame.images->sensor_depth_m, sensor_depth_m);
-  EnvironmentBack environment_back(out.view->robot()->model(), out.view->camera());
-  prepare_frame(sensor_depth_m, environment_back.at(out.pose, out.X_BC), use, out);
+  std::optional<EnvironmentBack> environment;
+  DepthView environment_back_m;
+  if (use == FrameUse::any_query) {
+    environment.emplace(out.view->robot()->model(), out.view->camera());
+    environment_back_m = environment->at(out.pose, out.X_BC);
+  }
+  prepare_frame(sensor_depth_m, environment_back_m, use, out);
 }
 
 }  // namespace berth
