@@ -107,9 +107,27 @@ TEST_F(Live, OfImagesThatWaitTheOldestAreDropped) {
   for (std::size_t i = 0; i < kMostWaitingImages + 2; ++i) push(i);
   EXPECT_EQ(camera_->counts().dropped, 2);
   push_joints_until(10);
-  ASSERT_TRUE(observed(kMostWaitingImages));
+  ASSERT_TRUE(observed(1));
   EXPECT_EQ(camera_->newest()->stamp_s, stamp_s(kMostWaitingImages + 1));
   EXPECT_EQ(camera_->counts().stale, 0);
+}
+
+TEST_F(Live, OfImagesThatAreReadyTheNewestIsObserved) {
+  std::vector<double> stamps_s;
+  start({.max_wait_s = kPatient_s},
+        [&](const Frame& frame, DepthView, const std::shared_ptr<const void>&) {
+          stamps_s.push_back(frame.stamp_s);
+          if (stamps_s.size() > 1) return;
+          for (const std::size_t i : {1, 2, 3}) push(i);
+        });
+  push_joints_until((stamp_s(2) + stamp_s(3)) / 2);
+  push(0);
+  ASSERT_TRUE(observed(2));
+  EXPECT_EQ(camera_->counts().dropped, 1);
+  push_joints_until(10);
+  ASSERT_TRUE(observed(3));
+  camera_.reset();
+  EXPECT_EQ(stamps_s, (std::vector{stamp_s(0), stamp_s(2), stamp_s(3)}));
 }
 
 TEST_F(Live, AnImageThatComesTwiceAndOneFromBeforeAreNoNewFrames) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "berth/live/turns.hpp"
 #include "berth/pipeline/observer.hpp"
 
 namespace berth {
@@ -48,11 +49,7 @@ void LiveCamera::push(double stamp_s, DepthImage depth_m, std::shared_ptr<const 
   require_size(view_->camera(), depth_m);
   {
     const std::lock_guard lock(mutex_);
-    if (waiting_.size() == kMostWaitingImages) {
-      spare_.push_back(std::move(waiting_.front().depth_m));
-      waiting_.pop_front();
-      ++counts_.dropped;
-    }
+    if (waiting_.size() == kMostWaitingImages) drop_oldest();
     waiting_.push_back({stamp_s, std::move(depth_m), std::move(with), steady_now_s()});
   }
   changed_.notify_one();
@@ -96,23 +93,50 @@ bool LiveCamera::is_ready(const Waiting& image) const {
          steady_now_s() >= image.since_s + settings_.max_wait_s;
 }
 
-std::optional<LiveCamera::Waiting> LiveCamera::next_image(const std::stop_token& stop) {
+bool LiveCamera::wait_for_image(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (true) {
-    if (!changed_.wait(lock, stop, [&] { return !waiting_.empty(); })) return std::nullopt;
+    if (!changed_.wait(lock, stop, [&] { return !waiting_.empty(); })) return false;
     // While it waits, a newer image may take its place.
     const double wait_s = waiting_.front().since_s + settings_.max_wait_s - steady_now_s();
     changed_.wait_for(lock, stop, std::chrono::duration<double>(std::max(0.0, wait_s)),
                       [&] { return is_ready(waiting_.front()); });
-    if (stop.stop_requested()) return std::nullopt;
-    if (!is_ready(waiting_.front())) continue;
-    Waiting image = std::move(waiting_.front());
-    waiting_.pop_front();
-    return image;
+    if (stop.stop_requested()) return false;
+    if (is_ready(waiting_.front())) return true;
   }
 }
 
-void LiveCamera::keep(const Waiting& image, const std::shared_ptr<Frame>& frame, double begin_s) {
+std::optional<LiveCamera::Waiting> LiveCamera::take_newest() {
+  const std::lock_guard lock(mutex_);
+  // Of three that wait the first one may have been dropped, and the others still wait for joints.
+  if (waiting_.empty() || !is_ready(waiting_.front())) return std::nullopt;
+  while (waiting_.size() > 1 && is_ready(waiting_[1])) drop_oldest();
+  Waiting image = std::move(waiting_.front());
+  waiting_.pop_front();
+  return image;
+}
+
+void LiveCamera::drop_oldest() {
+  spare_.push_back(std::move(waiting_.front().depth_m));
+  waiting_.pop_front();
+  ++counts_.dropped;
+}
+
+std::shared_ptr<const Frame> LiveCamera::observe(Observer& observer, const Waiting& image) {
+  const double begin_s = steady_now_s();
+  const std::shared_ptr<Frame> frame = pool_.take();
+  observer.observe(image.depth_m, image.stamp_s, joints_.buffer(), *frame, settings_.clock_offset_s,
+                   place_of(image));
+  if (is_distrusted_) {
+    const bool is_told_only = view_->settings().watch.tell_only;
+    (is_told_only ? frame->watch.is_unconfirmed : frame->watch.is_implausible) = true;
+  }
+  keep(image, frame, begin_s);
+  return frame;
+}
+
+void LiveCamera::keep(const Waiting& image, const std::shared_ptr<const Frame>& frame,
+                      double begin_s) {
   const std::lock_guard lock(mutex_);
   newest_ = frame;
   ++counts_.images;
@@ -124,16 +148,12 @@ void LiveCamera::keep(const Waiting& image, const std::shared_ptr<Frame>& frame,
 
 void LiveCamera::run(const std::stop_token& stop) {
   Observer observer(view_);
-  while (std::optional<Waiting> image = next_image(stop)) {
-    const double begin_s = steady_now_s();
-    const std::shared_ptr<Frame> frame = pool_.take();
-    observer.observe(image->depth_m, image->stamp_s, joints_.buffer(), *frame,
-                     settings_.clock_offset_s, place_of(*image));
-    if (is_distrusted_) {
-      const bool is_told_only = view_->settings().watch.tell_only;
-      (is_told_only ? frame->watch.is_unconfirmed : frame->watch.is_implausible) = true;
-    }
-    keep(*image, frame, begin_s);
+  while (wait_for_image(stop)) {
+    const ImageTurn turn;
+    std::optional<Waiting> image = take_newest();
+    if (!image) continue;
+    const std::shared_ptr<const Frame> frame = observe(observer, *image);
+    // Within the turn: so a frame that is put into a LiveSpace there is made ready next.
     if (on_frame_) on_frame_(*frame, image->depth_m, image->with);
     const std::lock_guard lock(mutex_);
     spare_.push_back(std::move(image->depth_m));

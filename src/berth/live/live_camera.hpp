@@ -18,6 +18,8 @@
 
 namespace berth {
 
+class Observer;
+
 /// How images and joints of a running camera go together.
 struct LiveCameraSettings {
   /// The joints' clock at an exposure is the image's stamp plus this.
@@ -28,7 +30,8 @@ struct LiveCameraSettings {
   double max_wait_s = 0.1;
 };
 
-/// How many images wait at most; of more the oldest is dropped, since a newer one tells more.
+/// How many images wait at most. Of more the oldest is dropped; of several whose joints are known
+/// all but the newest are, since a newer one tells more.
 inline constexpr std::size_t kMostWaitingImages = 3;
 
 /// What became of a camera's images.
@@ -36,7 +39,7 @@ struct LiveCameraCounts {
   std::int64_t images = 0;   ///< that were observed
   std::int64_t dropped = 0;  ///< that were not, since newer ones had come
   std::int64_t stale = 0;    ///< whose time was not ok
-  double last_wait_s = 0;    ///< of the newest image, for its joints
+  double last_wait_s = 0;    ///< of the newest image, for its joints and for a processor
   double longest_wait_s = 0;
   double last_observe_s = 0;  ///< how long it took to observe the newest image
 };
@@ -55,8 +58,9 @@ class LiveCamera {
       std::function<void(const Frame&, DepthView depth_m, const std::shared_ptr<const void>& with)>;
 
   /// `joints` outlives it. `on_frame` is called in the camera's thread, after newest() has the
-  /// frame; it must not throw. Without `find_place` the camera stands as its mount says, and the
-  /// root stands still. Throws std::invalid_argument for a setting outside of its domain.
+  /// frame; it must not throw, and wait for no other thread, since other images wait for it.
+  /// Without `find_place` the camera stands as its mount says, and the root stands still. Throws
+  /// std::invalid_argument for a setting outside of its domain.
   LiveCamera(std::shared_ptr<const MountedCamera> view, const JointIntake& joints,
              LiveCameraSettings settings = {}, OnFrame on_frame = {}, FindPlace find_place = {});
   /// Ends the thread; images that wait are dropped.
@@ -92,9 +96,13 @@ class LiveCamera {
   };
 
   void run(const std::stop_token& stop);
-  /// The oldest image that is ready; none at the end.
-  std::optional<Waiting> next_image(const std::stop_token& stop);
-  void keep(const Waiting& image, const std::shared_ptr<Frame>& frame, double begin_s);
+  /// Whether there is one that is ready; not so at the end.
+  bool wait_for_image(const std::stop_token& stop);
+  /// The newest image that is ready.
+  std::optional<Waiting> take_newest();
+  void drop_oldest();
+  std::shared_ptr<const Frame> observe(Observer& observer, const Waiting& image);
+  void keep(const Waiting& image, const std::shared_ptr<const Frame>& frame, double begin_s);
   /// Whether the joints after its exposure are there, or it has waited long enough.
   bool is_ready(const Waiting& image) const;
   bool has_joints(const Waiting& image) const;

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <stdexcept>
 
+#include "berth/live/turns.hpp"
 #include "berth/pipeline/request.hpp"
 
 namespace berth {
@@ -53,12 +54,17 @@ LiveSpaceCounts LiveSpace::counts() const {
   return counts_;
 }
 
+bool LiveSpace::wait_for_frames(const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  return changed_.wait(lock, stop, [this] { return has_changed_; });
+}
+
 void LiveSpace::run(const std::stop_token& stop) {
   std::vector<std::shared_ptr<const Frame>> frames;
-  while (true) {
+  while (wait_for_frames(stop)) {
+    const ImageTurn turn;
     {
-      std::unique_lock lock(mutex_);
-      if (!changed_.wait(lock, stop, [this] { return has_changed_; })) return;
+      const std::lock_guard lock(mutex_);
       has_changed_ = false;
       frames = frames_;
     }

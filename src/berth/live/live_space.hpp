@@ -43,6 +43,8 @@ class LiveSpace {
 
  private:
   void run(const std::stop_token& stop);
+  /// Whether some are new; not so at the end.
+  bool wait_for_frames(const std::stop_token& stop);
   void prepare(const std::vector<std::shared_ptr<const Frame>>& frames);
 
   std::shared_ptr<const Robot> robot_;
