@@ -59,7 +59,7 @@ class PathCertificate {
  public:
   /// Pieces that all clearances of one request may take apart, most of them of less than a
   /// microsecond. What they did not show by then is taken for too near.
-  static constexpr int kMostSteps = 450;
+  static constexpr int kMostSteps = 200;
 
   PathCertificate(std::shared_ptr<const Robot> robot, const SeparationSettings& settings,
                   const std::vector<HullPoints>& hulls);
