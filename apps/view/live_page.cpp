@@ -15,10 +15,17 @@ namespace {
 constexpr std::size_t kMostLiveColumns = 900;
 constexpr std::chrono::milliseconds kBetweenCurves{250};
 
-/// The camera's own image, where the frame has kept it.
-const DepthImage& sensor_depth_of(const Frame& frame) {
-  return frame.space->seen.has_free_depth ? frame.space->seen.sensor_depth_m
-                                          : frame.obstacles.depth_m;
+/// The camera's own image, to half a millimetre, where the frame has kept it.
+DepthImage sensor_depth_of(const Frame& frame) {
+  if (!frame.space->seen.has_free_depth) return frame.obstacles.depth_m;
+  const UnitImage& kept = frame.space->seen.sensor_depth;
+  DepthImage depth_m(kept.width(), kept.height(), kNoDepth);
+  for (int v = 0; v < kept.height(); ++v) {
+    for (int u = 0; u < kept.width(); ++u) {
+      if (kept(u, v) != kEndlessUnits) depth_m(u, v) = in_metres(kept(u, v));
+    }
+  }
+  return depth_m;
 }
 
 }  // namespace

@@ -116,8 +116,8 @@ Verdict judge(const SeenRoom& view, const Eigen::Vector3d& centre_B, double radi
       const double under = b * b - a * (c.squaredNorm() - radius_m * radius_m);
       if (under <= 0) continue;
       const double front_m = (b - std::sqrt(under)) / a;
-      const float sensed_m = view.space.sensor_depth_m(u, v);
-      const bool is_read = !std::isnan(sensed_m);
+      const float sensed_m = in_metres(view.space.sensor_depth(u, v));
+      const bool is_read = std::isfinite(sensed_m);
       if (is_read && view.ideal_m(u, v) > front_m) return {false, false};
       // What the robot hides is no obstacle, up to 30 cm behind it.
       const float own_m = !is_read ? 0 : sensed_m + (view.is_robot(u, v) != 0 ? 0.3f : -0.02f);

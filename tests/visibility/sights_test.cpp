@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "sim/random.hpp"
@@ -21,7 +20,7 @@ struct DrawnView {
   Camera camera{kWidth_px, kHeight_px, 55, 50, 29.3, 20.8};
   RobotImage robot{DepthImage(kWidth_px, kHeight_px, 0), Image<LinkId>(kWidth_px, kHeight_px, 0)};
   ObstacleImage obstacles;
-  DepthImage sensor_depth_m{kWidth_px, kHeight_px, 0};
+  UnitImage sensor_depth{kWidth_px, kHeight_px, 0};
   Pose X_CB = Pose::Identity();
 
   explicit DrawnView(sim::Random& random) {
@@ -40,13 +39,13 @@ struct DrawnView {
     const bool has_none = fate == PixelFate::no_reading || fate == PixelFate::hole;
     const auto reading_m = static_cast<float>(random(0.5, 2.5));
     obstacles.fate(u, v) = fate;
-    sensor_depth_m(u, v) = has_none ? kNoDepth : reading_m;
+    sensor_depth(u, v) = has_none ? kEndlessUnits : units_of(reading_m);
     if (is_kept(fate)) obstacles.depth_m(u, v) = static_cast<float>(random(0.5, 2.5));
     robot.depth_m(u, v) = random.chance(0.5) ? kNoDepth : static_cast<float>(random(0.5, 2.5));
   }
 
   SeeingCamera seeing() const {
-    return {{camera, robot, obstacles, Tolerance{0.02F, 0.005F, 0.002F}}, sensor_depth_m, X_CB};
+    return {{camera, robot, obstacles, Tolerance{0.02F, 0.005F, 0.002F}}, sensor_depth, X_CB};
   }
 };
 
@@ -54,8 +53,8 @@ struct DrawnView {
 Sight plain_surface_sight(const SeeingCamera& view, const Eigen::Vector3d& p_C_m) {
   const std::optional<Pixel> pixel = pixel_of(view.frame.camera, p_C_m);
   if (!pixel) return Sight::outside_image;
-  const float reading_m = view.sensor_depth_m(pixel->u, pixel->v);
-  if (std::isnan(reading_m)) return Sight::no_reading;
+  if (view.sensor_depth(pixel->u, pixel->v) == kEndlessUnits) return Sight::no_reading;
+  const float reading_m = in_metres(view.sensor_depth(pixel->u, pixel->v));
   const float least_m = view.frame.tolerance.least_reading_m(static_cast<float>(p_C_m.z()));
   const PixelFate fate = view.frame.obstacles.fate(pixel->u, pixel->v);
   if (is_kept(fate)) {

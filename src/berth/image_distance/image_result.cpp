@@ -75,7 +75,7 @@ void tell_image_visibility(const Robot& robot, const Frame& frame, const AskedRo
   const double range_m = robot.settings().distance.range_m;
   find_visibility(robot.model(), robot.sample_points(), seen, asked, distances, range_m,
                   workspace.visibility, workspace.links);
-  if (!frame.space->rejected.extent.empty() && workspace.rejected_number != frame.number) {
+  if (!frame.space->rejected.pixels.empty() && workspace.rejected_number != frame.number) {
     workspace.rejected_depth.build(frame.space->rejected.depth_m);
     workspace.rejected_number = frame.number;
   }

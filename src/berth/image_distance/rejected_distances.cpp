@@ -10,7 +10,7 @@ void find_rejected_distances(const Camera& camera, const RobotImage& robot,
                              const LinkDistances& distances, double range_m,
                              RejectedWorkspace& workspace, std::vector<LinkVisibility>& out) {
   assert(out.size() == distances.links.size());
-  const bool has_any = !rejected.extent.empty();
+  const bool has_any = !rejected.pixels.empty();
   if (has_any) {
     ImageDistanceSettings settings;
     settings.range_m = range_m;

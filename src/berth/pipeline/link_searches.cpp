@@ -127,7 +127,7 @@ void LinkSearches::tell_visibility(const FrameSet& frames, const RobotPose& pose
     const MountedCamera& view = *frame.view;
     views_.push_back(
         {{view.camera(), frame.robot, frame.obstacles, tolerance_of(view.settings().self_filter)},
-         frame.space->seen.sensor_depth_m,
+         frame.space->seen.sensor_depth,
          frames.X_BC(k).inverse()});
   }
   const DistanceSettings& settings = robot_->settings().distance;

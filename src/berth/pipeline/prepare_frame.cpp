@@ -22,7 +22,7 @@ void prepare_space(DepthView sensor_depth_m, DepthView environment_back_m, Frame
   if (frame.view->robot()->settings().distance.mean_direction) {
     build_reading_tiles(camera, frame.obstacles.depth_m, frame.space->reading_tiles);
   }
-  frame.space->has_rejected_space = !frame.space->rejected.extent.empty();
+  frame.space->has_rejected_space = !frame.space->rejected.pixels.empty();
   if (frame.space->has_rejected_space) {
     build_reading_space(camera, frame.space->rejected.depth_m, settings,
                         frame.space->rejected_space);

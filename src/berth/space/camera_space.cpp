@@ -1,27 +1,14 @@
 #include "berth/space/camera_space.hpp"
 
-#include <algorithm>
 #include <cassert>
 
 namespace berth {
-namespace {
-
-void copy(DepthView from, DepthImage& to) {
-  if (to.width() != from.width || to.height() != from.height) {
-    to.resize(from.width, from.height, kNoDepth);
-  }
-  for (int v = 0; v < from.height; ++v) std::copy_n(from.row(v), from.width, to.row(v));
-}
-
-}  // namespace
-
 void build_camera_space(const Camera& camera, DepthView sensor_depth_m,
                         const ObstacleImage& obstacles, DepthView environment_back_m,
                         const SpaceSettings& settings, CameraSpace& out) {
   assert(sensor_depth_m.width == camera.width_px && sensor_depth_m.height == camera.height_px);
   build_reading_space(camera, obstacles.depth_m, settings, out);
   if (out.is_empty()) return;
-  copy(sensor_depth_m, out.sensor_depth_m);
   find_own_free_depth(sensor_depth_m, obstacles, environment_back_m, settings, out.sensor_depth,
                       out.obstacle_windows, out.own_free_depth);
   free_holes_beside_robot(camera, sensor_depth_m, obstacles, settings.detection_capability_m,

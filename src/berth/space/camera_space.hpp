@@ -30,12 +30,10 @@ struct CameraSpace {
   /// F, rounded down: what lies farther than a surface layer behind this is hidden (definition 5).
   DepthWindows obstacle_windows;
 
-  /// S, and what each pixel by itself frees (definition 1): what E is made of once more, when
-  /// newer frames have made this one old.
+  /// S, rounded down, and what each pixel by itself frees (definition 1): what E is made of once
+  /// more, when newer frames have made this one old.
   UnitImage sensor_depth;
   UnitImage own_free_depth;
-  /// S as it was read.
-  DepthImage sensor_depth_m;
   /// Scratch.
   RobotHolesWorkspace robot_holes;
   ClosingWorkspace closing;

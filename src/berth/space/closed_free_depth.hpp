@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "berth/space/depth_units.hpp"
 #include "berth/types/camera.hpp"
+#include "berth/types/depth_units.hpp"
 
 namespace berth {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "berth/space/depth_units.hpp"
+#include "berth/types/depth_units.hpp"
 
 namespace berth {
 

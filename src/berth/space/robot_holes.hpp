@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "berth/space/depth_units.hpp"
 #include "berth/types/camera.hpp"
+#include "berth/types/depth_units.hpp"
 #include "berth/types/image.hpp"
 #include "berth/types/obstacle_image.hpp"
 

@@ -10,28 +10,15 @@ bool is_rejected(PixelFate fate) {
   return fate == PixelFate::flying_patch || fate == PixelFate::soft || fate == PixelFate::speckle;
 }
 
-void add(Pixel p, PixelRect& extent) {
-  if (extent.empty()) {
-    extent = {p.u, p.v, p.u + 1, p.v + 1};
-    return;
-  }
-  extent = {std::min(extent.u_begin, p.u), std::min(extent.v_begin, p.v),
-            std::max(extent.u_end, p.u + 1), std::max(extent.v_end, p.v + 1)};
-}
-
 }  // namespace
 
 void clear_rejected(int width, int height, RejectedImage& out) {
   if (out.depth_m.width() != width || out.depth_m.height() != height) {
     out.depth_m.resize(width, height, kNoDepth);
   } else {
-    // Faster than all pixels.
-    for (int v = out.extent.v_begin; v < out.extent.v_end; ++v) {
-      std::fill(out.depth_m.row(v) + out.extent.u_begin, out.depth_m.row(v) + out.extent.u_end,
-                kNoDepth);
-    }
+    for (const Pixel p : out.pixels) out.depth_m(p.u, p.v) = kNoDepth;
   }
-  out.extent = {};
+  out.pixels.clear();
 }
 
 void find_rejected(DepthView sensor_depth_m, const ObstacleImage& obstacles, RejectedImage& out) {
@@ -50,7 +37,7 @@ void find_rejected(DepthView sensor_depth_m, const ObstacleImage& obstacles, Rej
     for (int u = 0; u < width; ++u) {
       if (!is_rejected(fate[u])) continue;
       out.depth_m(u, v) = sensor_depth_m(u, v);
-      add({u, v}, out.extent);
+      out.pixels.push_back({u, v});
     }
   }
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "berth/types/image.hpp"
 #include "berth/types/obstacle_image.hpp"
 
@@ -10,8 +12,8 @@ namespace berth {
 struct RejectedImage {
   /// The sensor's depth at such pixels; NaN elsewhere.
   DepthImage depth_m;
-  /// Holds them all; empty where there are none.
-  PixelRect extent;
+  /// All of them.
+  std::vector<Pixel> pixels;
 };
 
 /// Leaves an image of this size without rejected pixels.

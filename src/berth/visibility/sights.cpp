@@ -104,7 +104,7 @@ HWY_INLINE Lanes sights_in(const SeeingCamera& view, const FateCodes& fates,
     const auto v = static_cast<int>(shown.v[i]);
     const auto fate = static_cast<std::size_t>(frame.obstacles.fate.row(v)[u]);
     obstacle_m[i] = frame.obstacles.depth_m.row(v)[u];
-    other_m[i] = of_surface ? view.sensor_depth_m.row(v)[u] : frame.robot.depth_m.row(v)[u];
+    other_m[i] = of_surface ? in_metres(view.sensor_depth(u, v)) : frame.robot.depth_m.row(v)[u];
     fate_sight[i] = fates.sight[fate];
     fate_robot[i] = fates.is_robot[fate];
   }
@@ -118,7 +118,7 @@ HWY_INLINE Lanes sights_in(const SeeingCamera& view, const FateCodes& fates,
                                  of_surface ? other < before : least_reading(other) <= before);
   Lanes sight = select(is_robot, code(Sight::hidden_by_robot), load(fate_sight));
   sight = select(load(obstacle_m) < before, code(Sight::hidden_by_obstacles), sight);
-  if (of_surface) sight = select(hn::Eq(other.v, other.v), sight, code(Sight::no_reading));
+  if (of_surface) sight = select(other < Lanes(HUGE_VALF), sight, code(Sight::no_reading));
   return select(shown.is_inside, sight, code(Sight::outside_image));
 }
 
