@@ -68,7 +68,7 @@ void LiveSpace::run(const std::stop_token& stop) {
       has_changed_ = false;
       frames = frames_;
     }
-    prepare(frames);
+    turn.run([&] { prepare(frames); });
   }
 }
 

@@ -1,15 +1,22 @@
 #include "berth/live/turns.hpp"
 
 #include <tbb/info.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 
 namespace berth {
 namespace {
 
-Turns& image_turns() {
-  static Turns turns(std::max(1, tbb::info::default_concurrency() - 1));
-  return turns;
+struct ImageCores {
+  int count = std::max(1, tbb::info::default_concurrency() - 1);
+  Turns turns{count};
+  tbb::task_arena arena{count};
+};
+
+ImageCores& image_cores() {
+  static ImageCores cores;
+  return cores;
 }
 
 }  // namespace
@@ -32,7 +39,8 @@ void Turns::give_back() {
   changed_.notify_all();
 }
 
-ImageTurn::ImageTurn() { image_turns().wait(image_turns().ask()); }
-ImageTurn::~ImageTurn() { image_turns().give_back(); }
+ImageTurn::ImageTurn() { image_cores().turns.wait(image_cores().turns.ask()); }
+ImageTurn::~ImageTurn() { image_cores().turns.give_back(); }
+void ImageTurn::run(const std::function<void()>& work) const { image_cores().arena.execute(work); }
 
 }  // namespace berth

@@ -2,6 +2,7 @@
 
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <mutex>
 
 namespace berth {
@@ -33,6 +34,9 @@ class ImageTurn {
   ~ImageTurn();
   ImageTurn(const ImageTurn&) = delete;
   ImageTurn& operator=(const ImageTurn&) = delete;
+
+  /// Runs it, with the help of TBB's workers on those processors alone.
+  void run(const std::function<void()>& work) const;
 };
 
 }  // namespace berth
