@@ -179,6 +179,22 @@ TEST_F(LiveSpaceScene, ItEndsWhileItWorksAndLeavesWhatIsHeld) {
   expect_same(query.ask({.frames = newest}), plain.ask({.frames = frames}));
 }
 
+TEST_F(LiveSpaceScene, ItMayEndInTheTurnOfACamera) {
+  auto space = std::make_unique<LiveSpace>(robot(), 1, joints_);
+  const SharedFrame frame = observe(0, 3);
+  std::atomic<bool> has_ended = false;
+  LiveCamera camera(scene_.cameras[0].view, joints_, {.max_wait_s = 30},
+                    [&](const Frame&, DepthView, const std::shared_ptr<const void>&) {
+                      space->put(0, frame);
+                      // So that its thread waits for a turn.
+                      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+                      space.reset();
+                      has_ended = true;
+                    });
+  camera.push(scene_.cameras[0].source.stamps_s[0], scene_.cameras[0].read_depth(0));
+  EXPECT_TRUE(comes_true([&] { return has_ended.load(); }));
+}
+
 TEST_F(LiveSpaceScene, OldFramesGoBack) {
   LiveSpace space(robot(), 1, joints_);
   std::weak_ptr<const Frame> first;

@@ -19,7 +19,7 @@ TEST(Turns, GoInTheOrderInWhichTheyWereAskedFor) {
     std::vector<std::jthread> threads;
     for (std::int64_t place = 19; place >= 0; --place) {
       threads.emplace_back([&, place] {
-        turns.wait(place);
+        EXPECT_TRUE(turns.wait(place, {}));
         order.push_back(place);
         turns.give_back();
       });
@@ -38,7 +38,7 @@ TEST(Turns, SoManyWorkAtATime) {
     for (int i = 0; i < 8; ++i) {
       threads.emplace_back([&] {
         for (int round = 0; round < 50; ++round) {
-          turns.wait(turns.ask());
+          EXPECT_TRUE(turns.wait(turns.ask(), {}));
           const int now = ++at_work;
           for (int seen = most; seen < now && !most.compare_exchange_weak(seen, now);) continue;
           // The first three wait for each other: they must work at the same time.
@@ -52,6 +52,19 @@ TEST(Turns, SoManyWorkAtATime) {
     }
   }
   EXPECT_EQ(most, kAtATime);
+}
+
+TEST(Turns, WhoStopsWaitingHoldsNobodyUp) {
+  Turns turns(1);
+  const std::int64_t first = turns.ask(), second = turns.ask(), third = turns.ask();
+  EXPECT_TRUE(turns.wait(first, {}));
+  std::stop_source stop;
+  std::jthread waiting([&] { EXPECT_FALSE(turns.wait(second, stop.get_token())); });
+  stop.request_stop();
+  waiting.join();
+  turns.give_back();
+  EXPECT_TRUE(turns.wait(third, {}));
+  turns.give_back();
 }
 
 }  // namespace

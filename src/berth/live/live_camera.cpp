@@ -149,7 +149,8 @@ void LiveCamera::keep(const Waiting& image, const std::shared_ptr<const Frame>& 
 void LiveCamera::run(const std::stop_token& stop) {
   Observer observer(view_);
   while (wait_for_image(stop)) {
-    const ImageTurn turn;
+    const ImageTurn turn(stop);
+    if (!turn.has_come()) return;
     std::optional<Waiting> image = take_newest();
     if (!image) continue;
     std::shared_ptr<const Frame> frame;

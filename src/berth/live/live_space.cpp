@@ -62,7 +62,8 @@ bool LiveSpace::wait_for_frames(const std::stop_token& stop) {
 void LiveSpace::run(const std::stop_token& stop) {
   std::vector<std::shared_ptr<const Frame>> frames;
   while (wait_for_frames(stop)) {
-    const ImageTurn turn;
+    const ImageTurn turn(stop);
+    if (!turn.has_come()) return;
     {
       const std::lock_guard lock(mutex_);
       has_changed_ = false;

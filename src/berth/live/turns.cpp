@@ -23,24 +23,39 @@ ImageCores& image_cores() {
 
 std::int64_t Turns::ask() {
   const std::lock_guard lock(mutex_);
+  waiting_.push_back(asked_);
   return asked_++;
 }
 
-void Turns::wait(std::int64_t place) {
-  std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return place < given_back_ + at_a_time_; });
+bool Turns::wait(std::int64_t place, const std::stop_token& stop) {
+  bool has_come = false;
+  {
+    std::unique_lock lock(mutex_);
+    has_come = changed_.wait(lock, stop,
+                             [&] { return waiting_.front() == place && at_work_ < at_a_time_; });
+    std::erase(waiting_, place);
+    at_work_ += has_come;
+  }
+  // The next one may be first now.
+  changed_.notify_all();
+  return has_come;
 }
 
 void Turns::give_back() {
   {
     const std::lock_guard lock(mutex_);
-    ++given_back_;
+    --at_work_;
   }
   changed_.notify_all();
 }
 
-ImageTurn::ImageTurn() { image_cores().turns.wait(image_cores().turns.ask()); }
-ImageTurn::~ImageTurn() { image_cores().turns.give_back(); }
+ImageTurn::ImageTurn(const std::stop_token& stop)
+    : has_come_(image_cores().turns.wait(image_cores().turns.ask(), stop)) {}
+
+ImageTurn::~ImageTurn() {
+  if (has_come_) image_cores().turns.give_back();
+}
+
 void ImageTurn::run(const std::function<void()>& work) const { image_cores().arena.execute(work); }
 
 }  // namespace berth

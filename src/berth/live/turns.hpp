@@ -2,8 +2,10 @@
 
 #include <condition_variable>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <mutex>
+#include <stop_token>
 
 namespace berth {
 
@@ -11,32 +13,40 @@ namespace berth {
 /// goes to and fro between two pieces, both are done when the longer one is.
 class Turns {
  public:
-  explicit Turns(std::int64_t at_a_time) : at_a_time_(at_a_time) {}
+  explicit Turns(int at_a_time) : at_a_time_(at_a_time) {}
 
-  /// A place in the row. Its owner has to wait for it and give it back.
+  /// A place in the row, which its owner has to wait for.
   std::int64_t ask();
-  void wait(std::int64_t place);
+  /// Whether it came to that place's turn, which then has to be given back, before `stop`.
+  bool wait(std::int64_t place, const std::stop_token& stop);
   void give_back();
 
  private:
-  const std::int64_t at_a_time_;
+  const int at_a_time_;
   std::mutex mutex_;
-  std::condition_variable changed_;
+  std::condition_variable_any changed_;
   std::int64_t asked_ = 0;
-  std::int64_t given_back_ = 0;
+  std::deque<std::int64_t> waiting_;
+  int at_work_ = 0;
 };
 
 /// While it lives, its thread may make an image ready. All of a process share the processors but
 /// one, which is left to who asks.
 class ImageTurn {
  public:
-  ImageTurn();
+  /// Waits for it. So who has a turn may end a thread that waits for one.
+  explicit ImageTurn(const std::stop_token& stop);
   ~ImageTurn();
   ImageTurn(const ImageTurn&) = delete;
   ImageTurn& operator=(const ImageTurn&) = delete;
 
+  /// Not so where it was to stop before.
+  bool has_come() const { return has_come_; }
   /// Runs it, with the help of TBB's workers on those processors alone.
   void run(const std::function<void()>& work) const;
+
+ private:
+  bool has_come_;
 };
 
 }  // namespace berth
