@@ -153,8 +153,7 @@ void LiveCamera::run(const std::stop_token& stop) {
     if (!turn.has_come()) return;
     std::optional<Waiting> image = take_newest();
     if (!image) continue;
-    std::shared_ptr<const Frame> frame;
-    turn.run([&] { frame = observe(observer, *image); });
+    const std::shared_ptr<const Frame> frame = observe(observer, *image);
     // Within the turn: so a frame that is put into a LiveSpace there is made ready next.
     if (on_frame_) on_frame_(*frame, image->depth_m, image->with);
     const std::lock_guard lock(mutex_);

@@ -69,7 +69,7 @@ void LiveSpace::run(const std::stop_token& stop) {
       has_changed_ = false;
       frames = frames_;
     }
-    turn.run([&] { prepare(frames); });
+    prepare(frames);
   }
 }
 

@@ -1,22 +1,15 @@
 #include "berth/live/turns.hpp"
 
 #include <tbb/info.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 
 namespace berth {
 namespace {
 
-struct ImageCores {
-  int count = std::max(1, tbb::info::default_concurrency() - 1);
-  Turns turns{count};
-  tbb::task_arena arena{count};
-};
-
-ImageCores& image_cores() {
-  static ImageCores cores;
-  return cores;
+Turns& image_turns() {
+  static Turns turns(std::max(1, tbb::info::default_concurrency() - 1));
+  return turns;
 }
 
 }  // namespace
@@ -50,12 +43,10 @@ void Turns::give_back() {
 }
 
 ImageTurn::ImageTurn(const std::stop_token& stop)
-    : has_come_(image_cores().turns.wait(image_cores().turns.ask(), stop)) {}
+    : has_come_(image_turns().wait(image_turns().ask(), stop)) {}
 
 ImageTurn::~ImageTurn() {
-  if (has_come_) image_cores().turns.give_back();
+  if (has_come_) image_turns().give_back();
 }
-
-void ImageTurn::run(const std::function<void()>& work) const { image_cores().arena.execute(work); }
 
 }  // namespace berth

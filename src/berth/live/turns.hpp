@@ -3,7 +3,6 @@
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
-#include <functional>
 #include <mutex>
 #include <stop_token>
 
@@ -42,8 +41,6 @@ class ImageTurn {
 
   /// Not so where it was to stop before.
   bool has_come() const { return has_come_; }
-  /// Runs it, with the help of TBB's workers on those processors alone.
-  void run(const std::function<void()>& work) const;
 
  private:
   bool has_come_;
