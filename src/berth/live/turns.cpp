@@ -7,9 +7,10 @@
 namespace berth {
 namespace {
 
+/// Never destroyed: a camera that is static may end after all that is not.
 Turns& image_turns() {
-  static Turns turns(std::max(1, tbb::info::default_concurrency() - 1));
-  return turns;
+  static Turns* const turns = new Turns(std::max(1, tbb::info::default_concurrency() - 1));
+  return *turns;
 }
 
 }  // namespace
