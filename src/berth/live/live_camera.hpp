@@ -58,7 +58,7 @@ class LiveCamera {
       std::function<void(const Frame&, DepthView depth_m, const std::shared_ptr<const void>& with)>;
 
   /// `joints` outlives it. `on_frame` is called in the camera's thread, after newest() has the
-  /// frame; it must not throw, and wait for no other thread, since other images wait for it.
+  /// frame; it must not throw, nor wait for another thread: other images wait for it.
   /// Without `find_place` the camera stands as its mount says, and the root stands still. Throws
   /// std::invalid_argument for a setting outside of its domain.
   LiveCamera(std::shared_ptr<const MountedCamera> view, const JointIntake& joints,
