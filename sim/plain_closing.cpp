@@ -160,6 +160,13 @@ double plainly_counted_up(double length_m) {
   return std::ceil(length_m * kCountsPerMetre) / kCountsPerMetre;
 }
 
+double plainly_told_m(const SpaceSettings& settings, const Camera& camera) {
+  // A ball that covers a pixel, the four around it, and the middle of any pixel that it is in.
+  const double radius_px = 1 + std::sqrt(0.5);
+  const double suits_cm = 600 * radius_px / std::min(camera.fx_px, camera.fy_px);
+  return settings.detection_capability_m.value_or(std::max(4.0, std::round(suits_cm)) / 100);
+}
+
 DepthImage plainly_freed_beside_robot(const Camera& camera, DepthView sensor_depth_m,
                                       DepthView obstacle_depth_m, const Image<PixelFate>& fate,
                                       const DepthImage& own_m, double detection_capability_m) {

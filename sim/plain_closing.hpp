@@ -1,6 +1,7 @@
 // What is too small to hide anybody does not hide: the definition as it is written down.
 #pragma once
 
+#include "berth/space/settings.hpp"
 #include "berth/types/camera.hpp"
 #include "berth/types/image.hpp"
 #include "berth/types/obstacle_image.hpp"
@@ -12,6 +13,9 @@ namespace berth::sim {
 float plainly_counted(float depth_m);
 /// The same upwards, of a length.
 double plainly_counted_up(double length_m);
+
+/// d of these settings for this camera; the slow twin of detection_capability_m().
+double plainly_told_m(const SpaceSettings& settings, const Camera& camera);
 
 /// What each pixel frees (`own_m`), where one without a reading is a hole beside the robot; the
 /// slow twin of free_holes_beside_robot(). S, F and the fates have the same size.

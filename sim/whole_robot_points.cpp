@@ -66,9 +66,10 @@ DepthImage own_free_depth_m(const PointView& view, const SpaceSettings& settings
       if (freed_m > 0) own_m(u, v) = plainly_counted(freed_m);
     }
   }
+  const double told_m = plainly_told_m(settings, view.camera);
   own_m = plainly_freed_beside_robot(view.camera, view.sensor_depth_m, view.obstacle_depth_m,
-                                     view.fate, own_m, settings.detection_capability_m);
-  return plainly_closed(view.camera, own_m, settings.detection_capability_m);
+                                     view.fate, own_m, told_m);
+  return plainly_closed(view.camera, own_m, told_m);
 }
 
 }  // namespace

@@ -72,6 +72,9 @@ Finding detection_of(const OpenScene& scene, const OpenCamera& camera,
                     width_text(one.rod_width_m), width_text(one.finger_width_m));
   }
   if (filter.smallest.empty()) found.text = "no image has room to measure it";
+  found.text += fmt::format(
+      "; pixels without a reading hide nothing below {:.0f} mm",
+      1000 * detection_capability_m(camera.view->settings().space, camera.view->camera()));
   // Endless where it promises nothing.
   const double promised_m =
       scene.separation ? scene.separation->detection_m.value_or(HUGE_VAL) : HUGE_VAL;

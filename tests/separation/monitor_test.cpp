@@ -102,7 +102,8 @@ TEST_F(Monitor, WhatTheCamerasMayMissByTheirSettingsCounts) {
   settings.intrusion_m.reset();
   settings.detection_m = 0.02;
   const LinkSeparation promised = update(settings).links.back();
-  const double told_m = frames_[0]->view->settings().space.detection_capability_m;
+  const double told_m =
+      detection_capability_m(frames_[0]->view->settings().space, frames_[0]->view->camera());
   settings.detection_m = told_m;
   const LinkSeparation told = update(settings).links.back();
   EXPECT_GT(told_m, 0.02);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <string_view>
@@ -97,24 +98,31 @@ struct Verdict {
   bool is_at_fault = false;
 };
 
+/// At least those that a ball before the lens covers.
+PixelRect pixels_around(const Camera& camera, const Eigen::Vector3d& c, double radius_m) {
+  if (c.z() < 2 * radius_m) return {0, 0, camera.width_px, camera.height_px};
+  const ImagePoint middle = project(camera, c);
+  const double reach_px = 2 + 2 * camera.fx_px * radius_m / (c.z() - radius_m);
+  return clip(
+      {static_cast<int>(middle.u - reach_px), static_cast<int>(middle.v - reach_px),
+       static_cast<int>(middle.u + reach_px) + 1, static_cast<int>(middle.v + reach_px) + 1},
+      camera.width_px, camera.height_px);
+}
+
 Verdict judge(const SeenRoom& view, const Eigen::Vector3d& centre_B, double radius_m) {
   const Eigen::Vector3d c = view.X_BC.inverse() * centre_B;
   const Camera& camera = view.camera;
-  if (c.z() < 2 * radius_m) return {};
+  if (c.z() < -radius_m) return {};
   Verdict verdict;
-  const ImagePoint middle = project(camera, c);
-  const double reach_px = 2 + 2 * camera.fx_px * radius_m / (c.z() - radius_m);
-  const PixelRect around =
-      clip({static_cast<int>(middle.u - reach_px), static_cast<int>(middle.v - reach_px),
-            static_cast<int>(middle.u + reach_px) + 1, static_cast<int>(middle.v + reach_px) + 1},
-           camera.width_px, camera.height_px);
+  const PixelRect around = pixels_around(camera, c, radius_m);
   for (int v = around.v_begin; v < around.v_end; ++v) {
     for (int u = around.u_begin; u < around.u_end; ++u) {
       const Eigen::Vector3d ray((u - camera.cx_px) / camera.fx_px,
                                 (v - camera.cy_px) / camera.fy_px, 1);
       const double a = ray.squaredNorm(), b = ray.dot(c);
       const double under = b * b - a * (c.squaredNorm() - radius_m * radius_m);
-      if (under <= 0) continue;
+      // Of a camera in the ball, what is before the lens.
+      if (under <= 0 || (b <= 0 && c.norm() > radius_m)) continue;
       const double front_m = (b - std::sqrt(under)) / a;
       const float sensed_m = in_metres(view.space.sensor_depth(u, v));
       const bool is_read = std::isfinite(sensed_m);
@@ -169,32 +177,51 @@ void put_ball(const std::vector<SeenRoom>& views, const Eigen::Vector3d& centre_
   count.wholly += free == points;
 }
 
-/// Balls of the detection capability, or of this share of it.
-BallCount count_balls(const sim::SensorErrors& errors, int rooms, double share = 1,
-                      int robots = 0) {
+/// Where not the default: images of half the size, balls of this share of what the cameras tell,
+/// things that are the robot.
+struct Room {
+  bool is_coarse = false;
+  double share = 1;
+  int robots = 0;
+};
+
+Camera draw_camera(sim::Random& random, bool is_coarse) {
+  if (is_coarse) return {160, 120, random(90, 165), random(90, 165), 79.5, 59.5};
+  return {320, 240, random(220, 330), random(220, 330), 159.5, 119.5};
+}
+
+/// Of the one that tells the least.
+double told_m(const std::vector<SeenRoom>& views) {
+  double told_m = 0;
+  for (const SeenRoom& view : views) {
+    told_m = std::max(told_m, detection_capability_m({}, view.camera));
+  }
+  return told_m;
+}
+
+BallCount count_balls(const sim::SensorErrors& errors, int rooms, const Room& with = {}) {
   constexpr int kBallsPerRoom = 2500;
-  const double radius_m = share * SpaceSettings{}.detection_capability_m / 2;
   BallCount count;
   for (int seed = 0; seed < rooms; ++seed) {
     sim::Random random(static_cast<std::uint32_t>(seed));
     const auto room = draw_room(random);
     std::vector<SeenRoom> views(3);
     for (SeenRoom& view : views) {
-      view.camera = {320, 240, random(220, 330), random(220, 330), 159.5, 119.5};
+      view.camera = draw_camera(random, with.is_coarse);
       view.X_BC = draw_place(random);
-      look(view, room, robots, errors, random.whole(0, 1000000));
+      look(view, room, with.robots, errors, random.whole(0, 1000000));
     }
     for (int i = 0; i < kBallsPerRoom; ++i) {
-      put_ball(views, sim::draw_point(random, 1.2), radius_m, count);
+      put_ball(views, sim::draw_point(random, 1.2), with.share * told_m(views) / 2, count);
     }
   }
   return count;
 }
 
-void expect_sound(const char* name, const sim::SensorErrors& errors, int robots = 0) {
+void expect_sound(const char* name, const sim::SensorErrors& errors, const Room& with = {}) {
   const char* const full = std::getenv("BERTH_BALLS");
   const bool is_full = full && std::string_view(full) == "full";
-  const BallCount count = count_balls(errors, is_full ? 400 : thinned(20), 1, robots);
+  const BallCount count = count_balls(errors, is_full ? 400 : thinned(20), with);
   fmt::print(
       "{}: {} balls, {} that no image excludes, {} of them behind a reading that is wrong by more "
       "than the margin, or the robot's; of the others partly free {}, nearer to the middle than "
@@ -219,12 +246,31 @@ TEST(DetectionCapability, NoBallIsCalledFreeInNoisyImages) {
 }
 
 TEST(DetectionCapability, NoBallBesideTheRobotIsCalledFree) {
-  expect_sound("dark, three things are the robot", {.dropout_share = 0.02, .outline_px = 2}, 3);
+  expect_sound("dark, three things are the robot", {.dropout_share = 0.02, .outline_px = 2},
+               {.robots = 3});
+}
+
+TEST(DetectionCapability, NoBallIsCalledFreeInCoarseImages) {
+  expect_sound("coarse, dark, three things are the robot", {.dropout_share = 0.02, .outline_px = 2},
+               {.is_coarse = true, .robots = 3});
+}
+
+TEST(DetectionCapability, FollowsACoarseCameraUnlessItIsSet) {
+  const auto told_m = [](double focal_px, SpaceSettings settings = {}) {
+    return detection_capability_m(settings, {320, 240, focal_px, focal_px + 100, 159.5, 119.5});
+  };
+  EXPECT_EQ(told_m(580), 0.04);
+  EXPECT_EQ(told_m(228), 0.04);
+  EXPECT_EQ(told_m(227), 0.05);
+  EXPECT_EQ(told_m(130), 0.08);
+  EXPECT_EQ(told_m(130, {.detection_capability_m = 0.04}), 0.04);
+  EXPECT_EQ(told_m(580, {.detection_capability_m = 0.0}), 0.0);
 }
 
 /// Else the tests above would find nothing either if there was something.
 TEST(DetectionCapability, BallsThatAreSmallerAreFreed) {
-  const BallCount count = count_balls({.dropout_share = 0.1, .outline_px = 2}, thinned(10), 0.1);
+  const BallCount count =
+      count_balls({.dropout_share = 0.1, .outline_px = 2}, thinned(10), {.share = 0.1});
   EXPECT_GT(count.middle, 0);
 }
 

@@ -96,10 +96,10 @@ void expect_that_of_the_plain_way() {
         camera.fy_px = random(40, 300);
         build_camera_space(camera, sensor_depth_m, obstacles, environment_back_m, settings, fast);
         plain_own_free_depth(sensor_depth_m, obstacles, environment_back_m, settings, own_m);
-        own_m =
-            sim::plainly_freed_beside_robot(camera, sensor_depth_m, obstacles.depth_m,
-                                            obstacles.fate, own_m, settings.detection_capability_m);
-        own_m = sim::plainly_closed(camera, own_m, settings.detection_capability_m);
+        const double told_m = sim::plainly_told_m(settings, camera);
+        own_m = sim::plainly_freed_beside_robot(camera, sensor_depth_m, obstacles.depth_m,
+                                                obstacles.fate, own_m, told_m);
+        own_m = sim::plainly_closed(camera, own_m, told_m);
         plain_free_depth_of(own_m, free_m);
         expect_same(fast.own_free_depth, own_m);
         for (std::size_t i = 0; i < own_m.pixels().size(); ++i) {

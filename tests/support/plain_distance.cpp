@@ -53,10 +53,10 @@ DepthImage closed_free_depth(const MeshWorldView& view, const SpaceSettings& set
       if (freed_m > 0) own_m(u, v) = sim::plainly_counted(freed_m);
     }
   }
-  own_m =
-      sim::plainly_freed_beside_robot(view.camera, view.sensor_depth_m, view.obstacles.depth_m,
-                                      view.obstacles.fate, own_m, settings.detection_capability_m);
-  return sim::plainly_closed(view.camera, own_m, settings.detection_capability_m);
+  const double told_m = sim::plainly_told_m(settings, view.camera);
+  own_m = sim::plainly_freed_beside_robot(view.camera, view.sensor_depth_m, view.obstacles.depth_m,
+                                          view.obstacles.fate, own_m, told_m);
+  return sim::plainly_closed(view.camera, own_m, told_m);
 }
 
 std::optional<Pixel> plain_pixel(const Camera& camera, const Eigen::Vector3d& p_C) {

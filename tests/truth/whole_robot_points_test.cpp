@@ -132,7 +132,8 @@ TEST(WholeRobotPoints, AgeMovesReadingsNearerAndSideways) {
   PointView view = wall_at(2);
   view.sensor_depth_m(20, 15) = view.obstacle_depth_m(20, 15) = 1;
   view.age_s = 0.1;
-  const SpaceSettings settings{.free_space_margin_m = 0.02, .obstacle_speed_m_s = 1};
+  const SpaceSettings settings{
+      .free_space_margin_m = 0.02, .detection_capability_m = 0.04, .obstacle_speed_m_s = 1};
   // 40 px * 0.1 m / 1 m: 4 px, and one of the 3 x 3.
   EXPECT_NEAR(free_at(view, 25, 15, settings), 0.88, kRounding_m);
   EXPECT_NEAR(free_at(view, 26, 15, settings), 1.88, kRounding_m);

@@ -137,6 +137,8 @@ class LiveNode : public rclcpp_lifecycle::LifecycleNode {
   /// What several images say is wrong with the camera as it is; empty where nothing is, or nobody
   /// knows.
   std::string explanation(std::size_t camera, const CameraReport& report) const;
+  /// Why the monitor's C is not that of what it was told the cameras detect; empty: it is.
+  std::string protection_trouble(const CameraReport& report) const;
   void report_robot(diagnostic_updater::DiagnosticStatusWrapper& status);
   void report_joints(diagnostic_updater::DiagnosticStatusWrapper& status);
   void report_camera(std::size_t camera, diagnostic_updater::DiagnosticStatusWrapper& status);

@@ -4,6 +4,7 @@
 
 #include "berth/pipeline/camera_state.hpp"
 #include "berth/results/result_text.hpp"
+#include "berth/separation/detection.hpp"
 #include "live_node.hpp"
 
 namespace berth_ros {
@@ -65,6 +66,7 @@ void LiveNode::watch() {
     log_->tell(name, camera_trouble(i, report, robot, clock_s), now_s,
                !report.pose_trouble.empty());
     log_->tell(name + " over several images", explanation(i, report), now_s);
+    log_->tell("protection by " + name, protection_trouble(report), now_s);
   }
 }
 
@@ -107,6 +109,12 @@ std::string LiveNode::camera_trouble(std::size_t number, const CameraReport& rep
   // Images that wait for transforms may also be dropped for newer ones, until the last one is old.
   const bool lacks_pose = !trouble.empty() && !report.pose_trouble.empty();
   return lacks_pose ? trouble + ": " + report.pose_trouble : trouble;
+}
+
+std::string LiveNode::protection_trouble(const CameraReport& report) const {
+  const std::optional<berth::SeparationSettings> separation = separation_settings();
+  if (!separation || !report.newest) return "";
+  return berth::detection_trouble(*separation, *report.newest->view);
 }
 
 std::string LiveNode::explanation(std::size_t camera, const CameraReport& report) const {

@@ -139,7 +139,8 @@ void tell_monitor(const OpenScene& scene, SceneCalibration& calibration) {
         1000 * kDrawnDiameters_m.back()));
   }
   for (const OpenCamera& camera : scene.cameras) {
-    told_m = std::max(told_m, camera.view->settings().space.detection_capability_m);
+    told_m = std::max(told_m,
+                      detection_capability_m(camera.view->settings().space, camera.view->camera()));
   }
   calibration.change.values[{"separation", "detection_m"}] = fmt::format("{}", told_m);
   SeparationSettings settings = *scene.separation;

@@ -15,6 +15,7 @@
 #include "berth/robot/mesh_file/mesh_file.hpp"
 #include "berth/robot/primitives.hpp"
 #include "berth/robot/robot_model.hpp"
+#include "berth/separation/detection.hpp"
 
 namespace berth {
 namespace {
@@ -163,6 +164,12 @@ OpenCamera& add_camera(const SceneFile& source, const Camera& pinhole, OpenScene
   camera.view = with_file_named(source, [&] {
     return std::make_shared<const MountedCamera>(scene.robot, mount, from.settings);
   });
+  if (scene.separation) {
+    const std::string trouble = detection_trouble(*scene.separation, *camera.view);
+    if (!trouble.empty()) {
+      scene.warnings.push_back(fmt::format("{}: {}", source.file.string(), trouble));
+    }
+  }
   find_joints(*scene.joints, camera);
   if (from.background) {
     camera.background_m = read_depth_png(*from.background, pinhole, kBackgroundScale_m);

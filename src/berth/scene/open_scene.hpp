@@ -36,7 +36,7 @@ struct OpenCamera {
 /// A scene whose files were all read and checked.
 struct OpenScene {
   std::filesystem::path file;
-  /// SceneFile::warnings.
+  /// SceneFile::warnings, and those that need the cameras' intrinsics.
   std::vector<std::string> warnings;
   std::shared_ptr<const Robot> robot;
   /// How its frames are asked, and with what settings where images are compared.

@@ -124,26 +124,13 @@ SeparationSettings read_separation(const YamlValue& value) {
   return settings;
 }
 
-/// Where C stands on nothing, or on less than the cameras are set to tell.
+/// Where C stands on nothing.
 void warn_of_what_is_not_shown(SceneFile& scene, int line) {
-  const SeparationSettings& separation = *scene.separation;
-  if (separation.intrusion_m) return;
-  const std::string place = fmt::format("{}:{}: separation", scene.file.string(), line);
-  if (!separation.detection_m) {
-    scene.warnings.push_back(
-        fmt::format("{}: nobody has shown how small a thing the cameras detect; C is {} m. Set "
-                    "detection_m or intrusion_m",
-                    place, kUnprovenIntrusion_m));
-    return;
-  }
-  for (const SceneCamera& camera : scene.cameras) {
-    const double told_m = camera.settings.space.detection_capability_m;
-    if (told_m <= *separation.detection_m) continue;
-    scene.warnings.push_back(fmt::format(
-        "{}.detection_m: {}; expected at least space.detection_capability_m of camera "
-        "\"{}\", {}: what is smaller may hide from it. C is {:.3f} m",
-        place, *separation.detection_m, camera.name, told_m, intrusion_m(separation, told_m)));
-  }
+  if (scene.separation->intrusion_m || scene.separation->detection_m) return;
+  scene.warnings.push_back(
+      fmt::format("{}:{}: separation: nobody has shown how small a thing the cameras detect; C is "
+                  "{} m. Set detection_m or intrusion_m",
+                  scene.file.string(), line, kUnprovenIntrusion_m));
 }
 
 }  // namespace

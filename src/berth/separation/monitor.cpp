@@ -10,6 +10,7 @@
 #include "berth/pipeline/frame_set.hpp"
 #include "berth/pipeline/mounted_camera.hpp"
 #include "berth/separation/camera_uncertainty.hpp"
+#include "berth/separation/detection.hpp"
 #include "berth/separation/link_speed.hpp"
 #include "berth/separation/near_link.hpp"
 #include "berth/separation/path_certificate.hpp"
@@ -46,17 +47,6 @@ double age_s(const Result& result) {
   take(result.time.frame_age_s);
   take(result.time.joints_age_s);
   return oldest_s;
-}
-
-/// Of the cameras in use, the one that may miss the most by its settings.
-double detection_capability_m(std::span<const CameraResult> cameras) {
-  double least_m = 0;
-  for (const CameraResult& camera : cameras) {
-    if (!camera.mounted || !is_used(camera.status)) continue;
-    const SpaceSettings& space = camera.mounted->settings().space;
-    least_m = std::max(least_m, space.detection_capability_m);
-  }
-  return least_m;
 }
 
 bool allows_less(const LinkSeparation& a, const LinkSeparation& b) {
@@ -208,7 +198,7 @@ SeparationReason SeparationMonitor::Parts::begin(const Result& result,
 
 void SeparationMonitor::Parts::update_links(const Result& result) {
   out.camera = settings.camera == UnknownPolicy::ignore ? -1 : lost_camera(result.cameras);
-  least_detection_m = detection_capability_m(result.cameras);
+  least_detection_m = berth::least_detection_m(result.cameras);
   contact_m_s = holds_sharp || !is_healthy(result) ? 0 : settings.contact_speed_m_s;
   const LinkSeparation* least = nullptr;
   measure_speeds(result);

@@ -11,9 +11,10 @@ void build_camera_space(const Camera& camera, DepthView sensor_depth_m,
   if (out.is_empty()) return;
   find_own_free_depth(sensor_depth_m, obstacles, environment_back_m, settings, out.sensor_depth,
                       out.obstacle_windows, out.own_free_depth);
-  free_holes_beside_robot(camera, sensor_depth_m, obstacles, settings.detection_capability_m,
-                          out.robot_holes, out.own_free_depth);
-  close_free_depth(camera, settings.detection_capability_m, out.closing, out.own_free_depth);
+  const double told_m = detection_capability_m(settings, camera);
+  free_holes_beside_robot(camera, sensor_depth_m, obstacles, told_m, out.robot_holes,
+                          out.own_free_depth);
+  close_free_depth(camera, told_m, out.closing, out.own_free_depth);
   find_free_depth(out.own_free_depth, out.free_depth);
   build_depth_windows(out.obstacle_windows);
   build_depth_windows(out.free_depth);
