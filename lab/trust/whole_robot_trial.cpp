@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "berth/distance/mesh_distances.hpp"
@@ -79,6 +80,17 @@ struct SensedView {
   double age_s = 0;
 };
 
+/// Each reading is of what the pixel shows in truth.
+void filter_ideally(const ObstacleImage& truth, SensedView& sensed) {
+  sensed.obstacles = truth;
+  for (std::size_t i = 0; i < truth.fate.pixels().size(); ++i) {
+    const float sensed_m = sensed.sensed_m.pixels()[i];
+    const bool is_obstacle = truth.fate.pixels()[i] == PixelFate::obstacle;
+    sensed.obstacles.depth_m.pixels()[i] = is_obstacle ? sensed_m : kNoDepth;
+    if (std::isnan(sensed_m)) sensed.obstacles.fate.pixels()[i] = PixelFate::no_reading;
+  }
+}
+
 /// One drawn scene under one condition.
 class Measured {
  public:
@@ -139,15 +151,15 @@ class Measured {
     EnvironmentBack environment(robot_.model, sensed.camera);
     sensed.environment_back_m = environment.at(drawn_.scene.pose, sensed.X_BC);
     if (condition_.filter == MeasuredFilter::ideal) {
-      sensed.obstacles = view.obstacles;
+      filter_ideally(view.obstacles, sensed);
     } else {
       SelfFilterWorkspace workspace;
       self_filter(sensed.camera, sensed.sensed_m, sensed.robot, condition_.self_filter, workspace,
                   sensed.obstacles);
-      PhantomWorkspace phantoms;
-      drop_phantoms(sensed.camera, sensed.sensed_m, condition_.phantom_radius_m, phantoms,
-                    sensed.obstacles);
     }
+    PhantomWorkspace phantoms;
+    drop_phantoms(sensed.camera, sensed.sensed_m, condition_.phantom_radius_m, phantoms,
+                  sensed.obstacles);
     return sensed;
   }
 
@@ -186,6 +198,7 @@ std::vector<WholeRobotCondition> whole_robot_conditions() {
   };
   add("clean images, ideal filter", MeasuredFilter::ideal);
   add("clean images, default filter", MeasuredFilter::berth);
+  add("sensor, ideal filter", MeasuredFilter::ideal).image = sim::kKinectErrors;
   add("sensor, default filter", MeasuredFilter::berth).image = sim::kKinectErrors;
   // What calibration finds with this sensor and drawn robots (docs/calibration.md): what is left of
   // the pose's error, and settings. The tolerance is what the noise of 99 % of the readings needs,

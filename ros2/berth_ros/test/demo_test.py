@@ -14,6 +14,7 @@ from ament_index_python.packages import get_package_share_directory
 from berth_msgs.msg import CameraState, LinkDistances, Separation
 from launch import LaunchDescription
 from launch_ros.actions import Node
+from rcl_interfaces.msg import Log
 from rcl_interfaces.srv import SetParameters
 from rclpy.parameter import Parameter
 from sensor_msgs.msg import Image, JointState
@@ -46,7 +47,8 @@ def generate_test_description():
         # With its defaults it stops looking once no distance can change by more than the tolerance.
         Node(package="berth_ros", executable="distance_node", name="usual_node", output="screen", parameters=[{
             "cameras": ["camera", "left", "right"], "environment_links": ["table"], "evaluation.range_m": 1.0,
-            "question_rate_hz": 10.0}], remappings=[(name, "usual/" + name) for name in ("distances", "separation", "distances_at_exposure")]),
+            "separation.monitor": True, "separation.detection_m": 0.02,
+            "question_rate_hz": 10.0}], remappings=[(name, "usual/" + name) for name in ("distances", "separation", "speed_scale", "distances_at_exposure")]),
         Node(package="berth_ros", executable="self_filter_node", name="left_filter", output="screen",
              remappings=[("depth_image", "left/depth_image"), ("camera_info", "left/camera_info")],
              parameters=[{"environment_links": ["table"]}]),
@@ -62,12 +64,13 @@ class Demo(unittest.TestCase):
         rclpy.init()
         cls.node = rclpy.create_node("listener")
         cls.at_exposure, cls.usual, cls.distances, cls.separations, cls.scales = [], [], [], [], []
-        cls.left, cls.world = {}, {}
+        cls.left, cls.world, cls.log = {}, {}, []
         node = cls.node
         node.create_subscription(LinkDistances, "distances_at_exposure", cls.at_exposure.append, 100)
         node.create_subscription(LinkDistances, "usual/distances_at_exposure", cls.usual.append, 100)
         node.create_subscription(LinkDistances, "distances", cls.distances.append, 100)
         node.create_subscription(Separation, "separation", cls.separations.append, 100)
+        node.create_subscription(Log, "/rosout", lambda m: cls.log.append(m), 100)
         node.create_subscription(Float64, "speed_scale", lambda m: cls.scales.append(m.data), 100)
         qos = rclpy.qos.qos_profile_sensor_data
         node.create_subscription(Image, "left/depth_image", lambda m: keep(cls.left, m, 200), qos)
@@ -174,6 +177,11 @@ class Demo(unittest.TestCase):
         stale = self.distances[-1]
         self.assertEqual(stale.status, LinkDistances.STALE, "the scene has ended")
         self.assertTrue(all(math.isnan(link.distance_m) for link in stale.links))
+
+    def test_what_may_hide_from_a_camera_is_logged(self):
+        said = [m.msg for m in list(self.log) if m.name == "usual_node" and "protection by camera left: separation.detection_m: 0.02" in m.msg]
+        self.assertEqual(len(said), 1, said)
+        self.assertIn('expected at least space.detection_capability_m of camera "left", 0.04', said[0])
 
     def test_separation_is_the_least_of_the_links_that_move(self):
         known = self.known()
