@@ -156,10 +156,10 @@ class Measured {
       SelfFilterWorkspace workspace;
       self_filter(sensed.camera, sensed.sensed_m, sensed.robot, condition_.self_filter, workspace,
                   sensed.obstacles);
+      PhantomWorkspace phantoms;
+      drop_phantoms(sensed.camera, sensed.sensed_m, condition_.phantom_radius_m, phantoms,
+                    sensed.obstacles);
     }
-    PhantomWorkspace phantoms;
-    drop_phantoms(sensed.camera, sensed.sensed_m, condition_.phantom_radius_m, phantoms,
-                  sensed.obstacles);
     return sensed;
   }
 
