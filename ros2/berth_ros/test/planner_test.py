@@ -29,6 +29,8 @@ def generate_test_description():
         Node(package="berth_ros", executable="distance_node", output="screen", parameters=[{
             "use_sim_time": True, "cameras": ["front"], "question_rate_hz": 50.0, "planner.edge_m": EDGE_M,
             "planner.box_min_m": [-0.5, -0.5, -1.0], "planner.box_max_m": [1.0, 0.5, 0.8],
+            # What so coarse a camera tells by default is wider than the post.
+            "space.detection_capability_m": 0.04,
             "planner.occupancy_heights_m": [-0.2, 0.0], **rates}]),
         launch_testing.actions.ReadyToTest(),
     ])
