@@ -57,8 +57,6 @@ Rgb fate_color(PixelFate fate) {
       return {0x2F, 0x9C, 0xA6};
     case PixelFate::environment:
       return {0x8A, 0x6A, 0x3C};
-    case PixelFate::edge:
-      return {0xC2, 0x4A, 0x4A};
     case PixelFate::flying_patch:
       return {0x6C, 0xA8, 0x3C};
     case PixelFate::outside_region:

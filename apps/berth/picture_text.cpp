@@ -80,10 +80,8 @@ std::string fate_text(PixelFate fate) {
       return "dilated silhouette";
     case PixelFate::environment:
       return "environment";
-    case PixelFate::edge:
-      return "mixed edge pixel";
     case PixelFate::flying_patch:
-      return "flying patch at the robot";
+      return "unknown: flying patch";
     case PixelFate::outside_region:
       return "ignored: outside region";
     case PixelFate::soft:
@@ -95,7 +93,7 @@ std::string fate_text(PixelFate fate) {
     case PixelFate::background:
       return "kept: background";
     case PixelFate::hole:
-      return "kept: filled hole";
+      return "hidden: cannot be read any more";
   }
   return "";
 }

@@ -32,7 +32,7 @@ RecordingCount count_view(const JudgedView& view, const FilterChoice& choice) {
   SensorWorkspace sensor;
   ObstacleImage obstacles;
   self_filter(view.camera, view.depth_m, view.robot, choice.filter, workspace, obstacles);
-  apply_sensor_rules(view.depth_m, view.robot, {}, choice.sensor, sensor, obstacles);
+  apply_sensor_rules(view.camera, view.depth_m, view.robot, {}, choice.sensor, sensor, obstacles);
   const LinkDistances distances = distances_of(view, obstacles.depth_m);
   const auto rejected = with_rejected(view.camera, view.robot, view.depth_m, obstacles, distances);
   RecordingCount count;

@@ -34,9 +34,8 @@ std::string FilterGrid::heading() const {
   name(environment_padding_m, "environment_padding_m", heading);
   name(padding_depth_m, "padding_depth_m", heading);
   name(dilation_px, "dilation_px", heading);
-  name(edge_jump_m, "edge_jump_m", heading);
+  name(surface_tolerance_m, "surface_tolerance_m", heading);
   name(flying_patch_radius_m, "flying_patch_radius_m", heading);
-  name(flying_patch_jump_m, "flying_patch_jump_m", heading);
   name(speckle_px, "speckle_px", heading);
   return heading;
 }
@@ -55,13 +54,11 @@ std::vector<FilterChoice> FilterGrid::choices() const {
   cross(
       dilation_px, [](FilterChoice & c) -> auto& { return c.filter.dilation_px; }, all);
   cross(
-      edge_jump_m, [](FilterChoice & c) -> auto& { return c.filter.edge_jump_m; }, all);
+      surface_tolerance_m, [](FilterChoice & c) -> auto& { return c.filter.surface_tolerance_m; },
+      all);
   cross(
       flying_patch_radius_m,
       [](FilterChoice & c) -> auto& { return c.filter.flying_patch_radius_m; }, all);
-  cross(
-      flying_patch_jump_m, [](FilterChoice & c) -> auto& { return c.filter.flying_patch_jump_m; },
-      all);
   cross(
       speckle_px, [](FilterChoice & c) -> auto& { return c.sensor.speckle_px; }, all);
   return all;

@@ -49,9 +49,8 @@ int main(int argc, char** argv) {
   app.add_option("--environment_padding_m", grid.environment_padding_m)->delimiter(',');
   app.add_option("--padding_depth_m", grid.padding_depth_m)->delimiter(',');
   app.add_option("--dilation_px", grid.dilation_px)->delimiter(',');
-  app.add_option("--edge_jump_m", grid.edge_jump_m)->delimiter(',');
+  app.add_option("--surface_tolerance_m", grid.surface_tolerance_m)->delimiter(',');
   app.add_option("--flying_patch_radius_m", grid.flying_patch_radius_m)->delimiter(',');
-  app.add_option("--flying_patch_jump_m", grid.flying_patch_jump_m)->delimiter(',');
   app.add_option("--speckle_px", grid.speckle_px)->delimiter(',');
   CLI11_PARSE(app, argc, argv);
   try {

@@ -44,22 +44,19 @@ struct NamedSettings {
 };
 
 std::vector<NamedSettings> filter_settings() {
-  const auto make = [](double tolerance_m, double padding_m, double edge_jump_m,
-                       double flying_patch_radius_m) {
+  const auto make = [](double tolerance_m, double padding_m, double flying_patch_radius_m) {
     SelfFilterSettings settings;
     settings.tolerance_m = tolerance_m;
     settings.padding_m = padding_m;
-    settings.edge_jump_m = edge_jump_m;
     settings.flying_patch_radius_m = flying_patch_radius_m;
     return settings;
   };
-  return {{"defaults: 5 cm, 2 cm, edges, flying patches", {}},
+  return {{"defaults: 5 cm, 2 cm, flying patches", {}},
           {"defaults, the rejected distance where there is one", {}, true},
-          {"no flying patches: 5 cm, 2 cm, edges", make(0.05, 0.02, 0.03, 0)},
-          {"5 cm, 2 cm", make(0.05, 0.02, 0, 0)},
-          {"2 cm, 1 cm", make(0.02, 0.01, 0, 0)},
-          {"1 cm, 0 cm", make(0.01, 0, 0, 0)},
-          {"1 mm, 0 cm", make(0.001, 0, 0, 0)}};
+          {"5 cm, 2 cm", make(0.05, 0.02, 0)},
+          {"2 cm, 1 cm", make(0.02, 0.01, 0)},
+          {"1 cm, 0 cm", make(0.01, 0, 0)},
+          {"1 mm, 0 cm", make(0.001, 0, 0)}};
 }
 
 void add_distance_alone(std::vector<Condition>& conditions) {

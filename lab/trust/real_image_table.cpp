@@ -60,7 +60,7 @@ std::vector<RealImageRules> all_real_image_rules() {
   no_padding.padding_m = 0;
   narrow.tolerance_m = 0.02;
   narrow.padding_m = 0.01;
-  narrow.edge_jump_m = narrow.flying_patch_radius_m = 0;
+  narrow.flying_patch_radius_m = 0;
   SensorSettings small_blobs, large_blobs, background;
   small_blobs.speckle_px = 20;
   large_blobs.speckle_px = 60;
@@ -84,7 +84,8 @@ std::vector<Estimate> estimate(const RealScene& scene, const RealImageRules& rul
   SensorWorkspace sensor;
   ObstacleImage obstacles;
   self_filter(camera, scene.depth_m, scene.robot_image, rules.self_filter, workspace, obstacles);
-  apply_sensor_rules(scene.depth_m, scene.robot_image, learned(*scene.image, rules.sensor),
+  const Background background = learned(*scene.image, rules.sensor);
+  apply_sensor_rules(camera, scene.depth_m, scene.robot_image, {.background = &background},
                      rules.sensor, sensor, obstacles);
   const LinkDistances distances =
       exact_distances(*scene.robot, camera, scene.robot_image, obstacles.depth_m);

@@ -25,7 +25,6 @@ FATE_COLORS = {
     "environment": "#8A6A3C",
     "padding": "#8E5FB8",
     "dilation": "#2F9CA6",
-    "edge": "#C24A4A",
     "flying_patch": "#6CA83C",
     "outside_region": "#B8A43A",
     "soft": "#D87A4A",

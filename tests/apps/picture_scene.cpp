@@ -159,10 +159,7 @@ PixelFate fate_of(const DepthImage& room, const DepthImage& sensor, const RobotI
   if (near_robot(robot, u, v, 2 * pad_px)) return PixelFate::dilation;
   const Place p = place(room, u, v);
   if (std::hypot(p.x - 0.07, p.y - 0.70) < 0.022) return PixelFate::flying_patch;
-  const bool at_edge =
-      u > 0 && v > 0 &&
-      (std::abs(room(u, v) - room(u - 1, v)) > 0.3 || std::abs(room(u, v) - room(u, v - 1)) > 0.3);
-  return at_edge ? PixelFate::edge : PixelFate::obstacle;
+  return PixelFate::obstacle;
 }
 
 ObstacleImage make_obstacles(const DepthImage& room, const DepthImage& sensor,

@@ -32,7 +32,7 @@ SelfFilterSettings no_rules() {
   settings.tolerance_m = 0;
   settings.padding_m = 0;
   settings.padding_depth_m = 100;
-  settings.edge_jump_m = 0;
+  settings.surface_tolerance_m = 0;
   settings.flying_patch_radius_m = 0;
   return settings;
 }

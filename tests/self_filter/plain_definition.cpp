@@ -20,7 +20,9 @@ class PlainFilter {
 
   ObstacleImage run() {
     for_each([&](int u, int v) { fate_(u, v) = fate_alone(u, v); });
-    if (settings_.flying_patch_radius_m > 0) drop_flying_patches();
+    is_thing_ = Image<std::uint8_t>(camera_.width_px, camera_.height_px, 0);
+    if (settings_.surface_tolerance_m != 0.0) find_surface_things();
+    if (settings_.flying_patch_radius_m > 0) judge_flying_patches();
     ObstacleImage out;
     out.fate = fate_;
     out.depth_m = DepthImage(camera_.width_px, camera_.height_px, kNoDepth);
@@ -53,7 +55,7 @@ class PlainFilter {
       return is_link(u, v) ? PixelFate::robot : PixelFate::environment;
     if (is_padding(u, v)) return PixelFate::padding;
     if (is_dilation(u, v)) return PixelFate::dilation;
-    return is_mixed(u, v, 1, 0) || is_mixed(u, v, 0, 1) ? PixelFate::edge : PixelFate::obstacle;
+    return PixelFate::obstacle;
   }
 
   bool belongs(int u, int v, float z) const { return sensor_(u, v) >= least_m(z); }
@@ -136,46 +138,203 @@ class PlainFilter {
     });
   }
 
-  bool is_mixed(int u, int v, int du, int dv) const {
-    const auto jump_at_1m = static_cast<float>(settings_.edge_jump_m);
-    if (jump_at_1m <= 0 || !is_inside(u - 2 * du, v - 2 * dv) || !is_inside(u + 2 * du, v + 2 * dv))
-      return false;
-    const float z = sensor_(u, v);
-    const float before = sensor_(u - du, v - dv);
-    const float after = sensor_(u + du, v + dv);
-    const float jump = jump_at_1m * std::max(1.0F, z * z);
-    const bool is_flat = std::abs(before - sensor_(u - 2 * du, v - 2 * dv)) <= jump &&
-                         std::abs(after - sensor_(u + 2 * du, v + 2 * dv)) <= jump;
-    return is_flat &&
-           ((z - before > jump && after - z > jump) || (z - after > jump && before - z > jump));
-  }
-
   bool is_near(int u, int v) const {
     return std::any_of(outline_.begin(), outline_.end(), [&](const Pixel& p) {
       return is_link(p.u, p.v) && is_beside(u, v, p, settings_.flying_patch_radius_m);
     });
   }
 
-  void drop_flying_patches() {
+  static double growth(double z) { return std::max(0.8, 0.65 + 0.35 * z * z); }
+
+  /// 98 of 100 readings of a surface stay below it on either side of their median, to 0.1 mm.
+  double measured_tolerance_m(bool of_environment) const {
+    std::vector<int> tenths_mm;
+    for (int v = first(robot_.extent.v_begin); v < camera_.height_px; v += 2) {
+      for (int u = first(robot_.extent.u_begin); u < camera_.width_px; u += 2) {
+        const float z = robot_.depth_m(u, v);
+        if (std::isnan(z) || (robot_.link_id(u, v) == kEnvironmentLink) != of_environment) continue;
+        const double off = sensor_(u, v) - z;
+        if (!(std::abs(off) <= 0.05 * growth(z)) || !goes_on(u, v, z)) continue;
+        const double bin = std::floor((off / growth(z) + 0.05) / 1e-4);
+        tenths_mm.push_back(static_cast<int>(std::min(bin, 999.0)) + 1 - 500);
+      }
+    }
+    if (tenths_mm.size() < 100) return 0.025;
+    std::sort(tenths_mm.begin(), tenths_mm.end());
+    const auto below = [&](double share) {
+      const auto wanted = static_cast<std::size_t>(std::ceil(share * tenths_mm.size()));
+      return 1e-4 * tenths_mm[wanted - 1];
+    };
+    const double most = below(0.98), median = below(0.5);
+    return std::clamp(median < 0 ? most - 2 * median : most, 0.010, 0.025);
+  }
+
+  static int first(int begin) { return std::max(0, begin); }
+
+  bool goes_on(int u, int v, float z) const {
+    const int reach = static_cast<int>(0.015 * focal_px() / z) + 1;
+    for (const int dv : {-reach, 0, reach}) {
+      for (const int du : {-reach, 0, reach}) {
+        if (!is_inside(u + du, v + dv)) return false;
+        if (!(std::abs(robot_.depth_m(u + du, v + dv) - z) <= 0.03F)) return false;
+      }
+    }
+    return true;
+  }
+
+  double focal_px() const { return std::min(camera_.fx_px, camera_.fy_px); }
+
+  Eigen::Vector3f point(int u, int v, float z) const {
+    return {static_cast<float>((u - camera_.cx_px) / camera_.fx_px) * z,
+            static_cast<float>((v - camera_.cy_px) / camera_.fy_px) * z, z};
+  }
+
+  void find_surface_things() {
+    const double of_links = settings_.surface_tolerance_m.value_or(measured_tolerance_m(false));
+    const double of_environment =
+        settings_.surface_tolerance_m.value_or(measured_tolerance_m(true));
+    Image<std::uint8_t> open(camera_.width_px, camera_.height_px, 0);
+    for_each([&](int u, int v) {
+      const bool is_link_pixel = fate_(u, v) == PixelFate::robot;
+      if (!is_link_pixel && fate_(u, v) != PixelFate::environment) return;
+      open(u, v) = stands_off(u, v, static_cast<float>(is_link_pixel ? of_links : of_environment));
+    });
+    for_each([&](int u, int v) {
+      if (open(u, v) == 0) return;
+      const std::vector<Pixel> patch = patch_at(u, v, open);
+      if (area_m2(patch) < 3e-4) return;
+      for (const Pixel& p : patch) {
+        fate_(p.u, p.v) = PixelFate::obstacle;
+        is_thing_(p.u, p.v) = 1;
+      }
+    });
+  }
+
+  bool stands_off(int u, int v, float tolerance_1m) const {
+    const float length = point(u, v, 1).norm();
+    if (!((robot_.depth_m(u, v) - sensor_(u, v)) * length > 0.8F * tolerance_1m)) return false;
+    const float z = median(u, v);
+    const auto t = tolerance_1m * static_cast<float>(growth(z));
+    const auto reach = static_cast<int>(t * static_cast<float>(focal_px()) / z) + 1;
+    bool is_near = false;
+    around(u, v, reach, std::max(1, reach / 6), [&](int i, int j, float model) {
+      is_near |= (point(i, j, model) - point(u, v, z)).squaredNorm() < t * t;
+    });
+    const float edge = std::min(robot_.depth_m(u, v) - 0.03F, z + 0.01F);
+    const int beside =
+        std::max(1, static_cast<int>(std::lround(0.02F * static_cast<float>(focal_px()) / z)));
+    bool is_beside_edge = false;
+    around(u, v, beside, std::max(1, beside / 4),
+           [&](int, int, float model) { is_beside_edge |= model < edge; });
+    // On its own ray the model is no nearer than along it.
+    const float off = (robot_.depth_m(u, v) - z) * length;
+    return off > t && !is_near && !is_beside_edge;
+  }
+
+  /// The model's pixels around one, each step-th.
+  template <class Call>
+  void around(int u, int v, int reach, int step, const Call& call) const {
+    for (int dv = -(reach / step) * step; dv <= reach; dv += step) {
+      for (int du = -(reach / step) * step; du <= reach; du += step) {
+        if (is_inside(u + du, v + dv)) call(u + du, v + dv, robot_.depth_m(u + du, v + dv));
+      }
+    }
+  }
+
+  float median(int u, int v) const {
+    std::vector<float> readings;
+    for (int n = 0; n < 9; ++n) {
+      const int i = u + n % 3 - 1, j = v + n / 3 - 1;
+      if (is_inside(i, j) && !std::isnan(sensor_(i, j))) readings.push_back(sensor_(i, j));
+    }
+    std::sort(readings.begin(), readings.end());
+    return readings[readings.size() / 2];
+  }
+
+  /// Side by side; takes them out of `open`.
+  std::vector<Pixel> patch_at(int u, int v, Image<std::uint8_t>& open) const {
+    std::vector<Pixel> patch{{u, v}};
+    open(u, v) = 0;
+    for (std::size_t i = 0; i < patch.size(); ++i) {
+      for (int n = 0; n < 9; ++n) {
+        const Pixel q{patch[i].u + n % 3 - 1, patch[i].v + n / 3 - 1};
+        if (!is_inside(q.u, q.v) || open(q.u, q.v) == 0) continue;
+        open(q.u, q.v) = 0;
+        patch.push_back(q);
+      }
+    }
+    return patch;
+  }
+
+  double area_m2(const std::vector<Pixel>& pixels) const {
+    double sum = 0;
+    for (const Pixel& p : pixels) {
+      sum += sensor_(p.u, p.v) * double{sensor_(p.u, p.v)} / (camera_.fx_px * camera_.fy_px);
+    }
+    return sum;
+  }
+
+  void judge_flying_patches() {
     const Image<PixelFate> before = fate_;
     Image<std::uint8_t> walked(camera_.width_px, camera_.height_px, 0);
     const Image<std::uint8_t> reached = reached_from_robot(before);
     for_each([&](int u, int v) {
       if (before(u, v) != PixelFate::obstacle || walked(u, v) != 0) return;
       const std::vector<Pixel> piece = piece_at(u, v, before, walked);
-      const bool stays = std::all_of(piece.begin(), piece.end(),
-                                     [&](const Pixel& p) { return is_near(p.u, p.v); });
-      if (!stays || !hangs(piece, reached)) return;
-      for (const Pixel& p : piece) fate_(p.u, p.v) = PixelFate::flying_patch;
+      const bool stays = std::all_of(piece.begin(), piece.end(), [&](const Pixel& p) {
+        return is_near(p.u, p.v) && is_thing_(p.u, p.v) == 0;
+      });
+      const bool is_crumb = area_m2(piece) < 1e-4;
+      if (!stays || !hangs(piece, reached) || (!is_crumb && has_sharp_rim(piece, before))) return;
+      for (const Pixel& p : piece) {
+        fate_(p.u, p.v) = is_crumb ? PixelFate::speckle : PixelFate::flying_patch;
+      }
     });
+  }
+
+  static bool shows_robot(PixelFate fate) {
+    return fate == PixelFate::robot || fate == PixelFate::padding || fate == PixelFate::dilation;
+  }
+
+  bool has_sharp_rim(const std::vector<Pixel>& piece, const Image<PixelFate>& fate) const {
+    Image<std::uint8_t> of_piece(camera_.width_px, camera_.height_px, 0);
+    for (const Pixel& p : piece) of_piece(p.u, p.v) = 1;
+    int rim = 0, sharp = 0;
+    for_each([&](int u, int v) {
+      if (of_piece(u, v) != 0 || shows_robot(fate(u, v))) return;
+      float nearest_m = HUGE_VALF;
+      for (int n = 0; n < 9; ++n) {
+        const int i = u + n % 3 - 1, j = v + n / 3 - 1;
+        if (is_inside(i, j) && of_piece(i, j) != 0) nearest_m = std::min(nearest_m, sensor_(i, j));
+      }
+      if (nearest_m == HUGE_VALF) return;
+      ++rim;
+      sharp += is_sharp(u, v, nearest_m, of_piece, fate);
+    });
+    return sharp >= 10 && static_cast<float>(sharp) >= 0.25F * static_cast<float>(rim);
+  }
+
+  /// What follows the piece lies a step behind it.
+  bool is_sharp(int u, int v, float piece_m, const Image<std::uint8_t>& of_piece,
+                const Image<PixelFate>& fate) const {
+    const float hole_px = std::max(1.5F, 0.004F * static_cast<float>(focal_px()) / piece_m);
+    int nearest2 = static_cast<int>(hole_px * hole_px) + 1;
+    float beyond_m = kNoDepth;
+    around(u, v, static_cast<int>(hole_px), 1, [&](int i, int j, float) {
+      const int off2 = (i - u) * (i - u) + (j - v) * (j - v);
+      if (off2 > static_cast<int>(hole_px * hole_px) || off2 > nearest2) return;
+      if (!(sensor_(i, j) > 0) || of_piece(i, j) != 0 || shows_robot(fate(i, j))) return;
+      beyond_m = off2 == nearest2 ? std::min(beyond_m, sensor_(i, j)) : sensor_(i, j);
+      nearest2 = off2;
+    });
+    return beyond_m > piece_m + 0.03F * std::max(1.0F, piece_m * piece_m);
   }
 
   bool is_joined(int u, int v, int du, int dv) const {
     if (!is_inside(u + du, v + dv)) return false;
     const float a = sensor_(u, v);
     const float b = sensor_(u + du, v + dv);
-    const float jump = static_cast<float>(settings_.flying_patch_jump_m);
-    return std::abs(a - b) <= jump * std::max(1.0F, std::min(a * a, b * b));
+    return std::abs(a - b) <= 0.03F * std::max(1.0F, std::min(a * a, b * b));
   }
 
   /// The robot's own readings, and what they lead to within padding and dilation: flooded until
@@ -240,6 +399,8 @@ class PlainFilter {
   const RobotImage& robot_;
   const SelfFilterSettings& settings_;
   Image<PixelFate> fate_;
+  /// What stands off a surface.
+  Image<std::uint8_t> is_thing_;
   std::vector<Pixel> outline_;
 };
 

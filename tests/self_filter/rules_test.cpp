@@ -256,48 +256,6 @@ TEST(SelfFilter, DilationIsADiscInPixels) {
   EXPECT_EQ(out.fate(16, 16), PixelFate::obstacle);
 }
 
-TEST(SelfFilter, AMixedPixelBetweenTwoFlatSurfacesIsDropped) {
-  FlatScene scene;
-  scene.see({0, 0, 30, 60}, 1.0F);
-  scene.see({30, 0, 31, 60}, 1.7F);
-  scene.see({5, 40, 10, 60}, 2.0F);
-  SelfFilterSettings settings = no_rules();
-  settings.edge_jump_m = 0.03;
-  const ObstacleImage out = filter(scene, settings);
-  EXPECT_EQ(out.count_of(PixelFate::edge), 60);
-  EXPECT_EQ(out.fate(30, 30), PixelFate::edge);
-  EXPECT_EQ(out.fate(29, 30), PixelFate::obstacle);
-  EXPECT_EQ(filter(scene, no_rules()).count_of(PixelFate::edge), 0);
-}
-
-TEST(SelfFilter, AMixedPixelBetweenAboveAndBelowIsDropped) {
-  FlatScene scene;
-  scene.see({0, 0, 60, 30}, 1.0F);
-  scene.see({0, 30, 60, 31}, 1.7F);
-  SelfFilterSettings settings = no_rules();
-  settings.edge_jump_m = 0.03;
-  EXPECT_EQ(filter(scene, settings).count_of(PixelFate::edge), 60);
-}
-
-TEST(SelfFilter, TheStepsOfAFarWallAreNoMixedPixels) {
-  const auto edges_at = [](float wall_m) {
-    FlatScene scene;
-    scene.see({0, 0, kSide_px, kSide_px}, wall_m);
-    scene.see({30, 0, 31, kSide_px}, wall_m + 0.05F);
-    scene.see({31, 0, kSide_px, kSide_px}, wall_m + 0.1F);
-    return filter(scene, {}).count_of(PixelFate::edge);
-  };
-  EXPECT_EQ(edges_at(1.0F), kSide_px);
-  EXPECT_EQ(edges_at(2.0F), 0);
-}
-
-TEST(SelfFilter, ARodOfOnePixelIsNoMixedPixel) {
-  FlatScene scene;
-  scene.see({30, 0, 31, 60}, 1.0F);
-  scene.see({0, 20, 60, 21}, 1.0F);
-  EXPECT_EQ(filter(scene, {}).count_of(PixelFate::obstacle), kSide_px * kSide_px);
-}
-
 TEST(SelfFilter, ASlopeIsNoMixedPixel) {
   FlatScene scene;
   for (int u = 0; u < kSide_px; ++u)

@@ -35,9 +35,8 @@ TEST(SelfFilterSettings, EachKeyOutsideItsDomainIsNamed) {
        }},
       {"environment_padding_m: -0.1", [](Settings& s) { s.environment_padding_m = -0.1; }},
       {"dilation_px: -1", [](Settings& s) { s.dilation_px = -1; }},
-      {"edge_jump_m: -1", [](Settings& s) { s.edge_jump_m = -1; }},
+      {"surface_tolerance_m: -1", [](Settings& s) { s.surface_tolerance_m = -1; }},
       {"flying_patch_radius_m: -1", [](Settings& s) { s.flying_patch_radius_m = -1; }},
-      {"flying_patch_jump_m: -1", [](Settings& s) { s.flying_patch_jump_m = -1; }},
       {"robot_region_scale: 0.99", [](Settings& s) { s.robot_region_scale = 0.99; }},
   };
   for (const auto& [expected, spoil] : cases) {

@@ -45,10 +45,10 @@ MeshWorldView draw_view(sim::Random& random, const MeshWorldSettings& settings) 
 
 PixelFate draw_fate(sim::Random& random) {
   constexpr PixelFate kFates[] = {
-      PixelFate::edge,           PixelFate::flying_patch, PixelFate::speckle,    PixelFate::padding,
-      PixelFate::dilation,       PixelFate::averaged,     PixelFate::background, PixelFate::hole,
-      PixelFate::outside_region, PixelFate::environment};
-  return kFates[random.whole(0, 9)];
+      PixelFate::flying_patch, PixelFate::speckle,        PixelFate::padding,
+      PixelFate::dilation,     PixelFate::averaged,       PixelFate::background,
+      PixelFate::hole,         PixelFate::outside_region, PixelFate::environment};
+  return kFates[random.whole(0, 8)];
 }
 
 void cast(sim::Random& random, const MeshWorldSettings& settings, const sim::EmbreeRenderer& robot,

@@ -34,7 +34,7 @@ inline DroppedScene dropped_scene(std::uint32_t seed) {
                            : PixelFate::soft;
         scene.obstacles.depth_m(u, v) = kNoDepth;
       } else if (block == 8) {
-        fate = PixelFate::edge;
+        fate = PixelFate::padding;
         scene.obstacles.depth_m(u, v) = kNoDepth;
       }
       ++scene.obstacles.count[static_cast<std::size_t>(fate)];

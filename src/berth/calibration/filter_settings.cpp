@@ -60,6 +60,7 @@ class Proposer {
 
   FilterProposal run() {
     propose_lengths();
+    propose_surface_tolerance();
     filter_all();
     count_leftovers();
     propose_speckle();
@@ -91,6 +92,21 @@ class Proposer {
                        "{:.0f} mm wider than the model",
                        std::max(0.0, 1000 * overshoot_m))});
     }
+  }
+
+  /// That of the image whose readings scatter most.
+  void propose_surface_tolerance() {
+    double greatest_m = 0;
+    for (const ProposedCamera& view : views_) {
+      greatest_m = std::max(greatest_m,
+                            measured_surface_tolerance_m(camera_, view.depth_m, view.robot, false));
+    }
+    if (views_.empty()) return;
+    self_filter_.surface_tolerance_m = std::ceil(greatest_m * 1000 - 1e-6) / 1000;
+    out_.self_filter.push_back(
+        {"surface_tolerance_m", *self_filter_.surface_tolerance_m,
+         fmt::format("98 % of the robot's readings lie within {:.0f} mm of its surface at 1 m",
+                     1000 * greatest_m)});
   }
 
   void filter_all() {

@@ -1,9 +1,11 @@
 #include "berth/pipeline/link_searches.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "berth/pipeline/frame_space.hpp"
 #include "berth/pipeline/mounted_camera.hpp"
+#include "berth/self_filter/surface_things.hpp"
 
 namespace berth {
 namespace {
@@ -34,7 +36,38 @@ double us_since(LinkSearches::Clock::time_point begin) {
 
 }  // namespace
 
-LinkSearches::LinkSearches(std::shared_ptr<const Robot> robot) : robot_(std::move(robot)) {}
+LinkSearches::LinkSearches(std::shared_ptr<const Robot> robot) : robot_(std::move(robot)) {
+  const RobotModel& model = robot_->model();
+  for (const std::size_t index : model.evaluated_links) {
+    const Eigen::AlignedBox3f box_L_m = model.links[index].mesh_L.bounding_box_m();
+    middles_L_m_.push_back(box_L_m.isEmpty() ? Eigen::Vector3d(Eigen::Vector3d::Zero())
+                                             : box_L_m.center().cast<double>());
+  }
+}
+
+float LinkSearches::assumed_thinner_m(const FrameSet& frames, const RobotPose& pose,
+                                      std::size_t i) const {
+  // A thing is found from a little more than the tolerance on, as its edges are round.
+  constexpr double kFoundFrom = 1.05;
+  const Eigen::Vector3d middle_B_m =
+      pose.X_BL[robot_->model().evaluated_links[i]] * middles_L_m_[i];
+  double least_m = std::numeric_limits<double>::infinity();
+  for (const int k : frames.used()) {
+    const Frame& frame = *frames.frames()[k];
+    const Eigen::Vector3d middle_C_m = frames.X_BC(k).inverse() * middle_B_m;
+    if (!project_into_image(frame.view->camera(), middle_C_m)) continue;
+    const SelfFilterSettings& filter = frame.view->settings().self_filter;
+    const Tolerance along_ray = tolerance_of(filter);
+    const double z_m = middle_C_m.z();
+    const double found_m =
+        kFoundFrom * frame.obstacles.surface_tolerance.links_m * surface_growth(z_m);
+    const double before_m = z_m - along_ray.least_reading_m(static_cast<float>(z_m));
+    // Without the rule for surfaces NaN, and the tolerance along the ray alone.
+    least_m = std::min(least_m, found_m < before_m ? found_m : before_m);
+  }
+  return std::isinf(least_m) ? std::numeric_limits<float>::quiet_NaN()
+                             : static_cast<float>(least_m);
+}
 
 void LinkSearches::search(const FrameSet& frames, const RobotPose& pose, const MeshRequest& request,
                           std::vector<WholeLinkDistance>& out) {
@@ -56,7 +89,7 @@ void LinkSearches::ask(const FrameSet& frames, const RobotPose& pose, Clock::tim
   }
   search(frames, pose, request, found_);
   const Clock::time_point searched = Clock::now();
-  tell_distances(frames, out);
+  tell_distances(frames, pose, out);
   if (robot_->settings().distance.mean_direction) tell_mean_directions(frames, out);
   tell_visibility(frames, pose, out);
   constexpr double kForgotten = 0.95;
@@ -84,12 +117,14 @@ void LinkSearches::go_on_from(const LinkSearches& prepared) {
   rejected_ = prepared.rejected_;
 }
 
-void LinkSearches::tell_distances(const FrameSet& frames, Result& out) const {
+void LinkSearches::tell_distances(const FrameSet& frames, const RobotPose& pose,
+                                  Result& out) const {
   for (std::size_t i = 0; i < found_.size(); ++i) {
     LinkResult& link = out.links[i];
     static_cast<SpacePair&>(link) = in_frames(found_[i].nearest, frames);
     link.occupied = in_frames(found_[i].occupied, frames);
     link.status = status_of(link, robot_->settings().distance.range_m);
+    link.assumed_thinner_m = assumed_thinner_m(frames, pose, i);
     link.robot_point_C_m = link.obstacle_point_C_m = unset_point();
     link.mean_direction_B = link.mean_direction_C = unset_point();
     link.mean_count = 0;

@@ -40,13 +40,17 @@ class LinkSearches {
  private:
   void search(const FrameSet& frames, const RobotPose& pose, const MeshRequest& request,
               std::vector<WholeLinkDistance>& out);
-  void tell_distances(const FrameSet& frames, Result& out) const;
+  void tell_distances(const FrameSet& frames, const RobotPose& pose, Result& out) const;
+  /// LinkResult::assumed_thinner_m of out.links[i].
+  float assumed_thinner_m(const FrameSet& frames, const RobotPose& pose, std::size_t i) const;
   void tell_mean_directions(const FrameSet& frames, Result& out);
   void tell_visibility(const FrameSet& frames, const RobotPose& pose, Result& out);
   void tell_rejected(const FrameSet& frames, const RobotPose& pose, Result& out);
   void search_rejected(const FrameSet& frames, const RobotPose& pose);
 
   std::shared_ptr<const Robot> robot_;
+  /// Of each evaluated link, the middle of the box around it in its frame L.
+  std::vector<Eigen::Vector3d> middles_L_m_;
   MeshWorkspace workspace_;
   std::vector<WholeLinkDistance> found_;
   MeshWorkspace rejected_workspace_;

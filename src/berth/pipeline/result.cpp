@@ -37,6 +37,7 @@ void withhold(Result& result) {
     link.occupied = {};
     link.lower_bound_m = link.occupied.lower_bound_m = kNaN;
     link.status = LinkStatus::stale;
+    link.assumed_thinner_m = kNaN;
     link.robot_point_C_m = link.obstacle_point_C_m = link.mean_direction_B = link.mean_direction_C =
         unset_point();
     link.mean_count = 0;

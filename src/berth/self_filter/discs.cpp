@@ -4,6 +4,8 @@
 #include <bit>
 #include <limits>
 
+#include "berth/self_filter/joined.hpp"
+
 // Compiles the rest of this file once for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "berth/self_filter/discs.cpp"
@@ -17,8 +19,7 @@ namespace HWY_NAMESPACE {
 
 template <class D>
 HWY_INLINE hn::Mask<D> is_open(D d, const PixelFate* fate) {
-  const auto value = load_fate(d, fate);
-  return hn::Or(has_fate(d, value, PixelFate::obstacle), has_fate(d, value, PixelFate::edge));
+  return has_fate(d, load_fate(d, fate), PixelFate::obstacle);
 }
 
 bool has_open(const PixelRect& rect, const Image<PixelFate>& fate) {
@@ -47,7 +48,7 @@ template <class D, class Load>
 HWY_INLINE hn::Mask<D> is_on_surface_of(D d, hn::Vec<D> reading_m, const Load& load) {
   const auto one = hn::Set(d, 1.0F);
   const auto jump_m =
-      hn::Mul(hn::Set(d, kSurfaceJump_m), hn::Max(one, hn::Mul(reading_m, reading_m)));
+      hn::Mul(hn::Set(d, kJoinedStep_m), hn::Max(one, hn::Mul(reading_m, reading_m)));
   auto joined = hn::Zero(d);
   for (int dv = -1; dv <= 1; ++dv) {
     for (int du = -1; du <= 1; ++du) {

@@ -12,10 +12,8 @@
 namespace berth {
 
 /// A reading of z metres is on a surface if at least so many of its eight neighbours differ from it
-/// by at most kSurfaceJump_m max(1, z^2). A mixed pixel is not: its neighbours lie before or
-/// behind.
+/// by at most joined_step_m(z). A mixed pixel is not: its neighbours lie before or behind.
 inline constexpr int kLeastOnSurface = 5;
-inline constexpr float kSurfaceJump_m = 0.03F;
 
 /// The pixels around an outline pixel that its growth reaches, a circle or an ellipse: those with
 /// du^2 + squash dv^2 <= radius2_px2. A reading there belongs to the robot from least_m to most_m,
@@ -58,10 +56,10 @@ struct NearDiscTile {
   }
 };
 
-/// Whether there are obstacles or edges within `pixels`.
+/// Whether there are obstacles within `pixels`.
 bool may_be_covered(const PixelRect& pixels, const Image<PixelFate>& fate);
 
-/// Which obstacles and edges of the tile with these pixels belong to a disc. Fastest if the nearest
+/// Which obstacles of the tile with these pixels belong to a disc. Fastest if the nearest
 /// tiles come first.
 TileBits covered_by_discs(const PixelRect& pixels, const std::vector<NearDiscTile>& tiles,
                           DepthView sensor_depth_m, const Image<PixelFate>& fate);

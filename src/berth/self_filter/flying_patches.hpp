@@ -4,6 +4,7 @@
 
 #include "berth/self_filter/neighbourhood.hpp"
 #include "berth/self_filter/tolerance.hpp"
+#include "berth/types/camera.hpp"
 #include "berth/types/obstacle_image.hpp"
 #include "berth/types/robot_image.hpp"
 
@@ -19,21 +20,27 @@ struct FlyingPatchWorkspace {
   std::vector<Pixel> walked;
   /// Those of the piece that is being walked whose neighbours nobody has looked at.
   std::vector<Pixel> open;
+  /// The free rim of the piece that is being judged.
+  std::vector<Pixel> rim;
 };
 
-/// Gives leftovers of the robot's own image among the obstacles the fate `flying_patch`, and takes
-/// their depths. Leftovers are pieces of obstacles, joined by depth (8 neighbours, joined.hpp),
-/// that lie wholly in the neighbourhood and hang on the robot's own readings (append_seam). A
-/// camera that smooths draws its flying pixels out from the arm, without a step. What stands behind
-/// the arm and shows but a rim is small and near, too, but a step away: it is kept. So is a piece
-/// that leaves the neighbourhood anywhere, as an arm that reaches in does.
-///
-/// What cannot be told from flying pixels is a small thing that touches the robot's outline at its
-/// depth, within jump_m; it is dropped.
+/// Judges pieces of obstacles that may be drawn by the camera: joined by depth (8 neighbours,
+/// joined.hpp), wholly in the neighbourhood, and hanging on the robot's own readings (append_seam).
+/// A camera that smooths draws such flying pixels out from the arm, without a step, and so does a
+/// thing that touches the arm's outline at its depth. Their rims differ: flying pixels end in a
+/// wide hole, a thing ends in a step to what stands behind it. A piece is
+///  - a **thing**, kept, if a quarter of its free rim and at least 10 pixels of it are sharp: the
+///    nearest reading that is not the piece's lies more than 3 cm max(1, z^2) deeper, across a hole
+///    of at most 1.5 pixels or 4 mm. The free rim is all its neighbours (8) that show neither the
+///    robot nor its padding or dilation;
+///  - else **undecided**: `flying_patch`. It gives no surface, and is unknown from its readings on.
+/// A smaller one is a crumb: `speckle`. A piece that leaves the neighbourhood anywhere, as an arm
+/// that reaches in does, is kept, and so is one that is joined to one of the `things`, obstacles
+/// that are known to be real.
 ///
 /// Only what hangs is walked, and only until it leaves.
-void drop_flying_patches(DepthView sensor_depth_m, const RobotImage& robot,
-                         const Tolerance& tolerance, float jump_m, FlyingPatchWorkspace& workspace,
-                         ObstacleImage& out);
+void judge_flying_patches(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,
+                          const Tolerance& tolerance, const std::vector<Pixel>& things,
+                          FlyingPatchWorkspace& workspace, ObstacleImage& out);
 
 }  // namespace berth

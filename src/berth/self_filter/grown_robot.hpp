@@ -29,11 +29,11 @@ class GrownRobot {
   /// After all rows are made.
   void end_discs();
 
-  /// Gives obstacles and edges in one row of tiles that belong to the grown robot the fate `grown`,
+  /// Gives obstacles in one row of tiles that belong to the grown robot the fate `grown`,
   /// and takes their depths. Each row is grown once, by any thread.
   void grow(int tile_row, DepthView sensor_depth_m, ObstacleImage& out);
 
-  /// Which obstacles and edges of a tile belong to the grown robot. Each row of tiles is asked by
+  /// Which obstacles of a tile belong to the grown robot. Each row of tiles is asked by
   /// one thread at a time.
   TileBits covered(int column, int tile_row, DepthView sensor_depth_m,
                    const Image<PixelFate>& fate);

@@ -19,7 +19,7 @@ bool is_grown(PixelFate fate) { return fate == PixelFate::padding || fate == Pix
 }  // namespace
 
 void append_seam(DepthView sensor_depth_m, const RobotImage& robot, const Tolerance& tolerance,
-                 float jump_m, const Image<PixelFate>& fate, Image<std::uint8_t>& is_found,
+                 const Image<PixelFate>& fate, Image<std::uint8_t>& is_found,
                  std::vector<Pixel>& seam) {
   const auto shows_robot = [&](Pixel q) { return fate(q.u, q.v) == PixelFate::robot; };
   const auto is_on_model = [&](Pixel q) {
@@ -37,7 +37,7 @@ void append_seam(DepthView sensor_depth_m, const RobotImage& robot, const Tolera
 
   append_beside_robot(fate, with_border(robot.extent, fate), seam);
   const auto hangs = [&](Pixel p) {
-    return any_joined(sensor_depth_m, p, jump_m, shows_robot, is_on_model);
+    return any_joined(sensor_depth_m, p, shows_robot, is_on_model);
   };
   seam.erase(std::remove_if(seam.begin(), seam.end(),
                             [&](Pixel p) {
@@ -48,7 +48,7 @@ void append_seam(DepthView sensor_depth_m, const RobotImage& robot, const Tolera
              seam.end());
   for (std::size_t i = 0; i < seam.size(); ++i) {
     const Pixel p = seam[i];
-    if (is_grown(fate(p.u, p.v))) any_joined(sensor_depth_m, p, jump_m, may_be_next, append);
+    if (is_grown(fate(p.u, p.v))) any_joined(sensor_depth_m, p, may_be_next, append);
   }
   for (const Pixel& p : seam) is_found(p.u, p.v) = 0;
 }

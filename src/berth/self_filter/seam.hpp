@@ -16,7 +16,7 @@ namespace berth {
 /// robot, or before it, is a step away from its readings. `is_found` is 0 everywhere, before and
 /// after.
 void append_seam(DepthView sensor_depth_m, const RobotImage& robot, const Tolerance& tolerance,
-                 float jump_m, const Image<PixelFate>& fate, Image<std::uint8_t>& is_found,
+                 const Image<PixelFate>& fate, Image<std::uint8_t>& is_found,
                  std::vector<Pixel>& seam);
 
 }  // namespace berth

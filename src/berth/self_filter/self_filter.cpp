@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cassert>
 
-#include "berth/self_filter/edges.hpp"
 #include "berth/self_filter/region.hpp"
 #include "berth/self_filter/rows.hpp"
 #include "berth/self_filter/tiles.hpp"
@@ -20,8 +19,20 @@ void set_size(const Camera& camera, Image<T>& image) {
   image.resize(camera.width_px, camera.height_px, T{});
 }
 
-/// One image's way through the rules. Between two rounds over the rows of tiles all threads meet:
-/// growth and neighbourhood need the robot of other rows.
+/// Whose outline the workspace has.
+void judge_pieces_of_outline(const Camera& camera, DepthView sensor_depth_m,
+                             const RobotImage& robot, const SelfFilterSettings& settings,
+                             SelfFilterWorkspace& workspace, ObstacleImage& out) {
+  find_surface_things(camera, sensor_depth_m, robot, settings, workspace.surface_things, out);
+  if (!(settings.flying_patch_radius_m > 0)) return;
+  workspace.flying_patches.neighbourhood.begin(camera, robot, settings, workspace.outline);
+  set_size(camera, workspace.flying_patches.state);
+  judge_flying_patches(camera, sensor_depth_m, robot, tolerance_of(settings),
+                       workspace.surface_things.things, workspace.flying_patches, out);
+}
+
+/// One image's way through the rules for pixels. Between two rounds over the rows of tiles all
+/// threads meet: growth and neighbourhood need the robot of other rows.
 class Filter {
  public:
   Filter(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,
@@ -39,9 +50,6 @@ class Filter {
     if (dilates()) {
       workspace.dilation.begin(camera, robot, settings, workspace.outline, PixelFate::dilation);
     }
-    if (!has_flying_patches()) return;
-    workspace.flying_patches.neighbourhood.begin(camera, robot, settings, workspace.outline);
-    set_size(camera, workspace.flying_patches.state);
   }
 
   void run() {
@@ -51,16 +59,10 @@ class Filter {
     if (dilates()) workspace_.dilation.end_discs();
     tbb::parallel_for(0, grid_.rows(), [this](int tile_row) { look_around(tile_row); });
     add_counts();
-    if (has_flying_patches()) {
-      drop_flying_patches(sensor_depth_m_, robot_, tolerance_,
-                          static_cast<float>(settings_.flying_patch_jump_m),
-                          workspace_.flying_patches, out_);
-    }
   }
 
  private:
   bool dilates() const { return settings_.dilation_px > 0; }
-  bool has_flying_patches() const { return settings_.flying_patch_radius_m > 0; }
   int v_begin(int tile_row) const { return tile_row * kTileHeight_px; }
   int v_end(int tile_row) const { return std::min(grid_.height_px, v_begin(tile_row + 1)); }
 
@@ -69,9 +71,6 @@ class Filter {
       const FilterRow row{sensor_depth_m_.row(v), robot_.depth_m.row(v), robot_.link_id.row(v),
                           out_.fate.row(v), out_.depth_m.row(v)};
       classify(v, row);
-      if (settings_.edge_jump_m > 0) {
-        mark_mixed_pixels(sensor_depth_m_, v, static_cast<float>(settings_.edge_jump_m), row);
-      }
     }
     workspace_.outline.find(tile_row);
     workspace_.padding.make_discs(tile_row);
@@ -123,6 +122,7 @@ void filter(const Camera& camera, DepthView sensor_depth_m, const RobotImage& ro
   set_size(camera, out.depth_m);
   set_size(camera, out.fate);
   Filter(camera, sensor_depth_m, robot, settings, workspace, out).run();
+  judge_pieces_of_outline(camera, sensor_depth_m, robot, settings, workspace, out);
 }
 
 }  // namespace
@@ -140,6 +140,14 @@ void self_filter(const Camera& camera, DepthView sensor_depth_m, const RobotImag
   require_region(settings, true);
   filter(camera, sensor_depth_m, robot, settings, workspace, out);
   ignore_outside(region, out);
+}
+
+void judge_pieces(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,
+                  const SelfFilterSettings& settings, SelfFilterWorkspace& workspace,
+                  ObstacleImage& out) {
+  workspace.outline.begin(camera, robot, tolerance_of(settings));
+  for (int row = 0; row < tiles_of(camera).rows(); ++row) workspace.outline.find(row);
+  judge_pieces_of_outline(camera, sensor_depth_m, robot, settings, workspace, out);
 }
 
 }  // namespace berth

@@ -6,6 +6,7 @@
 #include "berth/self_filter/flying_patches.hpp"
 #include "berth/self_filter/grown_robot.hpp"
 #include "berth/self_filter/settings.hpp"
+#include "berth/self_filter/surface_things.hpp"
 #include "berth/types/camera.hpp"
 #include "berth/types/obstacle_image.hpp"
 #include "berth/types/robot_image.hpp"
@@ -17,6 +18,7 @@ struct SelfFilterWorkspace {
   Outline outline;
   GrownRobot padding;
   GrownRobot dilation;
+  SurfaceThingsWorkspace surface_things;
   FlyingPatchWorkspace flying_patches;
   /// Of each row of tiles.
   std::vector<std::array<std::int64_t, kPixelFateCount>> counts;
@@ -37,5 +39,11 @@ void self_filter(const Camera& camera, DepthView sensor_depth_m, const RobotImag
 void self_filter(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,
                  const RobotImage& region, const SelfFilterSettings& settings,
                  SelfFilterWorkspace& workspace, ObstacleImage& out);
+
+/// The rules that look at pieces of readings, the last ones but the region: things on surfaces,
+/// then flying patches. `out` holds what the rules before have left, on whatever processor.
+void judge_pieces(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,
+                  const SelfFilterSettings& settings, SelfFilterWorkspace& workspace,
+                  ObstacleImage& out);
 
 }  // namespace berth

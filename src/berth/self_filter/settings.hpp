@@ -34,15 +34,14 @@ struct SelfFilterSettings {
   /// only what is on no surface (discs.hpp), as mixed pixels are: a thing that is seen there is
   /// one.
   double padding_depth_m = 0.3;
-  /// A mixed pixel lies between two flat neighbours, more than this from each; 0 turns the rule
-  /// off.
-  double edge_jump_m = 0.03;
-  /// A camera that smooths draws flying pixels from the robot's outline. Pieces of readings, joined
-  /// by steps in depth of up to flying_patch_jump_m max(1, z^2), are taken for such flying pixels
-  /// if steps lead from the robot's own readings to them and they lie wholly where padding of this
-  /// length would reach; 0 turns the rule off.
+  /// t: what stands off the robot's or environment's surface in space by more than this, times
+  /// surface_growth(z), is a thing that lies on it (surface_things.hpp); none: what the image's own
+  /// readings of these surfaces say; 0 turns the rule off.
+  std::optional<double> surface_tolerance_m = std::nullopt;
+  /// A camera that smooths draws flying pixels from the robot's outline. Pieces of readings that
+  /// hang on the robot's own readings and lie wholly where padding of this length would reach are
+  /// judged by their rim (flying_patches.hpp); 0 turns the rule off.
   double flying_patch_radius_m = 0.07;
-  double flying_patch_jump_m = 0.03;
   /// The robot-shaped region of surveillance (Hirt 3.1.1): obstacles that are not seen through the
   /// robot enlarged this many times (robot_region) are **ignored**, however near they are in space;
   /// the thesis's picture uses 6. It is uneven: wide around thick links, narrow around thin ones,
@@ -81,17 +80,14 @@ void visit_settings(Settings& s, Visitor&& visit) {
   visit({"dilation_px", kNotNegative,
          "a reading beside the robot within so many pixels is taken for the robot too"},
         s.dilation_px);
-  visit({"edge_jump_m", kNotNegative,
-         "a single pixel between two flat surfaces is dropped where it is farther than this from "
-         "both (times z² beyond 1 m); 0 is off"},
-        s.edge_jump_m);
+  visit({"surface_tolerance_m", kNotNegative,
+         "what stands off a surface by more than this (at 1 m) in space lies on it, and is an "
+         "obstacle; none: 0.01 to 0.025, as the camera's own readings scatter; 0 is off"},
+        s.surface_tolerance_m);
   visit({"flying_patch_radius_m", kNotNegative,
-         "a small piece that touches the robot's own readings and stays within this distance of "
-         "the robot is dropped; 0 is off"},
+         "a piece that touches the robot's own readings and stays within this distance of the "
+         "robot is unknown unless its rim shows that it is a thing; 0 is off"},
         s.flying_patch_radius_m);
-  visit({"flying_patch_jump_m", kNotNegative,
-         "two neighbouring pixels are of one piece where their depths differ by no more than this"},
-        s.flying_patch_jump_m);
   visit({"robot_region_scale",
          {.least = 1, .has_off = true},
          "what is not seen through the robot enlarged so many times is ignored, however near "

@@ -1,9 +1,8 @@
 #include "berth/sensor/speckle.hpp"
 
 #include <algorithm>
-#include <cmath>
 
-#include "berth/sensor/noise.hpp"
+#include "berth/self_filter/joined.hpp"
 
 namespace berth {
 namespace {
@@ -16,7 +15,6 @@ class Walk {
  public:
   Walk(const SensorSettings& settings, SpeckleWorkspace& workspace, ObstacleImage& out)
       : least_size_(static_cast<std::size_t>(settings.speckle_px)),
-        jump_at_1m_m_(static_cast<float>(settings.speckle_jump_m)),
         state_(workspace.state),
         blob_(workspace.blob),
         out_(out) {}
@@ -65,13 +63,10 @@ class Walk {
   }
 
   bool is_joined(Pixel a, Pixel b) const {
-    const float z_a = out_.depth_m(a.u, a.v);
-    const float z_b = out_.depth_m(b.u, b.v);
-    return std::abs(z_a - z_b) <= grown_with_depth(jump_at_1m_m_, std::min(z_a, z_b));
+    return berth::is_joined(out_.depth_m(a.u, a.v), out_.depth_m(b.u, b.v));
   }
 
   std::size_t least_size_;
-  float jump_at_1m_m_;
   Image<std::uint8_t>& state_;
   std::vector<Pixel>& blob_;
   ObstacleImage& out_;

@@ -16,7 +16,7 @@ struct SpeckleWorkspace {
 };
 
 /// Drops as `speckle` the `obstacle` pixels of blobs of fewer than speckle_px pixels (8 neighbours,
-/// steps up to speckle_jump_m max(1, z^2) at the nearer pixel's depth z).
+/// joined as one surface is (joined.hpp)).
 void drop_speckle(const SensorSettings& settings, SpeckleWorkspace& workspace, ObstacleImage& out);
 
 }  // namespace berth

@@ -50,7 +50,7 @@ struct LinkVisibility {
   /// obstacle already (the gray area, Hirt 2.14).
   float space_unknown = std::numeric_limits<float>::quiet_NaN();
   /// The least distance, as in LinkDistance, to readings that were dropped only because they are
-  /// few and near the robot (PixelFate::flying_patch) or few (speckle), and the pixel of the
+  /// few (PixelFate::speckle) or may be something soft of the robot's (soft), and the pixel of the
   /// nearest. Set if that is within the range and nearer than the link's distance; then take it
   /// instead wherever a small thing may come near the robot. Else NaN and (-1, -1).
   float rejected_distance_m = std::numeric_limits<float>::quiet_NaN();

@@ -111,7 +111,6 @@ TEST_F(GlSelfFilterTest, FollowsAWindingPieceToItsEnd) {
     RandomScene scene{{96, 96, 100, 100, 48, 48}, {}, DepthImage(96, 96, kNoDepth), {}};
     scene.robot = {DepthImage(96, 96, kNoDepth), Image<LinkId>(96, 96, kNoLink)};
     scene.settings.padding_m = 0;
-    scene.settings.edge_jump_m = 0;
     scene.settings.flying_patch_radius_m = 0.6;
     for (int u = 20; u < 76; ++u) {
       scene.robot.depth_m(u, 10) = 1;

@@ -13,7 +13,7 @@ SmallWorld::SmallWorld(RobotModel robot_model, const std::vector<Pose>& X_CL,
       pose(pose_seen_at(Pose::Identity(), X_CL)),
       asked_pose(pose) {
   // As simple as it can be, so that a test knows each pixel's fate.
-  settings.padding_m = settings.edge_jump_m = settings.flying_patch_radius_m = 0;
+  settings.padding_m = settings.flying_patch_radius_m = 0;
   RobotRenderer(build_link_meshes(model), camera).render(pose, Pose::Identity(), robot);
   sensor_depth_m = robot.depth_m;
   for (float& depth_m : sensor_depth_m.pixels()) depth_m = std::isnan(depth_m) ? kWall_m : depth_m;

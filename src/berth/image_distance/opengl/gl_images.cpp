@@ -10,7 +10,10 @@ namespace berth {
 namespace {
 
 /// The type of a pixel in this program's memory.
-GLenum type_of(GlPixel pixel) { return pixel == GlPixel::depth_m ? GL_FLOAT : GL_UNSIGNED_SHORT; }
+GLenum type_of(GlPixel pixel) {
+  if (pixel == GlPixel::depth_m) return GL_FLOAT;
+  return pixel == GlPixel::bits ? GL_UNSIGNED_BYTE : GL_UNSIGNED_SHORT;
+}
 
 /// The type of what a pixel is read back as.
 template <class T>
@@ -69,6 +72,12 @@ void GlUpload::send(const RobotImage& robot, const GlRobotImage& texture) {
       staging_.mapped<LinkId>().data());
 }
 
+void GlUpload::send(const Image<PixelFate>& fate, const GlTexture& texture) {
+  send_rows(
+      fate.view(), texture, [](PixelFate f) { return static_cast<std::uint8_t>(f); },
+      staging_.mapped<std::uint8_t>().data());
+}
+
 void read_back(const GlTexture& depth_m, DepthImage& out) {
   get_pixels(depth_m, out);
   for (float& z_m : out.pixels()) {
@@ -84,7 +93,11 @@ void read_back(const GlRobotImage& robot, RobotImage& out) {
 
 void read_back(const GlObstacleImage& obstacles, ObstacleImage& out) {
   read_back(obstacles.depth_m, out.depth_m);
-  get_pixels(obstacles.fate, out.fate);
+  read_back(obstacles.fate, out);
+}
+
+void read_back(const GlTexture& fates, ObstacleImage& out) {
+  get_pixels(fates, out.fate);
   out.count.fill(0);
   for (const PixelFate fate : out.fate.pixels()) ++out.count[static_cast<std::size_t>(fate)];
 }

@@ -37,6 +37,7 @@ class GlUpload {
   /// The image has the texture's size and this one's.
   void send(DepthView depth_m, const GlTexture& texture);
   void send(const RobotImage& robot, const GlRobotImage& texture);
+  void send(const Image<PixelFate>& fate, const GlTexture& texture);
 
  private:
   template <class T, class U, class Convert>
@@ -68,5 +69,7 @@ void read_back(const GlTexture& depth_m, DepthImage& out);
 void read_back(const GlRobotImage& robot, RobotImage& out);
 /// Counts the fates, too.
 void read_back(const GlObstacleImage& obstacles, ObstacleImage& out);
+/// The fates alone.
+void read_back(const GlTexture& fates, ObstacleImage& out);
 
 }  // namespace berth

@@ -9,10 +9,9 @@ namespace {
 
 constexpr int kFilterTilePx = 16;
 
-/// Bytes of the structs of filter_tile.glsl and filter_pieces.glsl.
-constexpr std::size_t kTileBytes = 12;
+/// Bytes of the structs of filter_tile.glsl.
+constexpr std::size_t kTileBytes = 8;
 constexpr std::size_t kDiscBytes = 32;
-constexpr std::size_t kPieceBytes = 8;
 
 Eigen::Vector2d focal_px(const Camera& camera) { return {camera.fx_px, camera.fy_px}; }
 
@@ -32,10 +31,6 @@ bool may_pad(const SelfFilterSettings& settings) {
 GlSelfFilter::GlSelfFilter()
     : pixels_program_("filter_pixels.comp.glsl"),
       grow_program_("filter_grow.comp.glsl"),
-      begin_program_("filter_begin.comp.glsl"),
-      join_program_("filter_join.comp.glsl"),
-      weigh_program_("filter_weigh.comp.glsl"),
-      hang_program_("filter_hang.comp.glsl"),
       finish_program_("filter_finish.comp.glsl"),
       counts_(device_buffer(kPixelFateCount * sizeof(std::uint32_t))),
       counts_back_(kPixelFateCount * sizeof(std::uint32_t), GlMemory::read_back) {
@@ -63,7 +58,7 @@ void GlSelfFilter::filter(const Camera& camera, const Images& images,
   look_at_pixels(camera, images, settings);
   if (may_pad(settings)) grow(PixelFate::padding, images, settings);
   if (settings.dilation_px > 0) grow(PixelFate::dilation, images, settings);
-  if (settings.flying_patch_radius_m > 0) find_flying_patches(images, settings);
+  judge_pieces(camera, images, settings);
   finish(images);
 }
 
@@ -79,16 +74,12 @@ void GlSelfFilter::take_memory() {
   const auto tiles = static_cast<std::size_t>(tiles_.prod());
   filter_tiles_ = device_buffer(tiles * kTileBytes);
   discs_ = device_buffer(tiles * kFilterTilePx * kFilterTilePx * kDiscBytes);
-  frame_ = device_buffer(2 * sizeof(std::uint32_t));
-  pieces_ = device_buffer(static_cast<std::size_t>(size_.prod()) * kPieceBytes);
+  frame_ = device_buffer(sizeof(std::uint32_t));
+  upload_.emplace(size_.x(), size_.y());
   for (GlProgram* program : {&pixels_program_, &grow_program_}) {
     program->bind("FilterTiles", filter_tiles_);
     program->bind("FilterFrame", frame_);
     program->bind("Discs", discs_);
-  }
-  for (GlProgram* program :
-       {&begin_program_, &join_program_, &weigh_program_, &hang_program_, &finish_program_}) {
-    program->bind("Pieces", pieces_);
   }
 }
 
@@ -125,10 +116,8 @@ void GlSelfFilter::look_at_pixels(const Camera& camera, const Images& images,
   pixels_program_.write("fate", images.out.fate);
   for (GlProgram* program : {&pixels_program_, &grow_program_}) {
     program->set("focal_px", focal_px(camera));
-    program->set("flying_patch_radius_m", settings.flying_patch_radius_m);
   }
   pixels_program_.set("tolerance", gl_tolerance(tolerance_of(settings)));
-  pixels_program_.set("edge_jump_m", static_cast<float>(settings.edge_jump_m));
   pixels_program_.set("deeper", deeper(camera));
   dispatch(pixels_program_);
 }
@@ -141,20 +130,14 @@ void GlSelfFilter::grow(PixelFate grown, const Images& images, const SelfFilterS
   dispatch(grow_program_);
 }
 
-void GlSelfFilter::find_flying_patches(const Images& images, const SelfFilterSettings& settings) {
-  grow(PixelFate::flying_patch, images, settings);
-  begin_program_.write("fate", images.out.fate);
-  dispatch(begin_program_);
-  for (GlProgram* program : {&join_program_, &weigh_program_, &hang_program_}) {
-    program->read("sensor_depth_m", images.sensor_depth_m);
-    program->write("fate", images.out.fate);
-    program->set("flying_patch_jump_m", static_cast<float>(settings.flying_patch_jump_m));
-  }
-  dispatch(join_program_);
-  weigh_program_.read("robot_depth_m", images.robot.depth_m);
-  weigh_program_.set("tolerance", gl_tolerance(tolerance_of(settings)));
-  dispatch(weigh_program_);
-  dispatch(hang_program_);
+void GlSelfFilter::judge_pieces(const Camera& camera, const Images& images,
+                                const SelfFilterSettings& settings) {
+  read_back(images.sensor_depth_m, sensor_depth_m_);
+  read_back(images.robot, robot_);
+  read_back(images.out.fate, obstacles_);
+  obstacles_.depth_m = sensor_depth_m_;
+  berth::judge_pieces(camera, sensor_depth_m_, robot_, settings, workspace_, obstacles_);
+  upload_->send(obstacles_.fate, images.out.fate);
 }
 
 void GlSelfFilter::finish(const Images& images) {

@@ -2,19 +2,21 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "berth/image_distance/opengl/gl_buffer.hpp"
 #include "berth/image_distance/opengl/gl_images.hpp"
 #include "berth/image_distance/opengl/gl_program.hpp"
-#include "berth/self_filter/settings.hpp"
+#include "berth/self_filter/self_filter.hpp"
 #include "berth/types/camera.hpp"
 #include "berth/types/obstacle_image.hpp"
 
 namespace berth {
 
-/// self_filter() on the GPU: all of its rules, by the same operations, so that from the same robot
-/// image it gives the same fates.
+/// self_filter() on the GPU: the rules for pixels, padding and dilation by the same operations,
+/// those for pieces by the processor (judge_pieces()), so that from the same robot image it gives
+/// the same fates.
 class GlSelfFilter {
  public:
   /// Compiles the shaders.
@@ -50,7 +52,7 @@ class GlSelfFilter {
   void look_at_pixels(const Camera& camera, const Images& images,
                       const SelfFilterSettings& settings);
   void grow(PixelFate grown, const Images& images, const SelfFilterSettings& settings);
-  void find_flying_patches(const Images& images, const SelfFilterSettings& settings);
+  void judge_pieces(const Camera& camera, const Images& images, const SelfFilterSettings& settings);
   void finish(const Images& images);
   void dispatch(GlProgram& program) { program.dispatch(tiles_.x(), tiles_.y()); }
 
@@ -58,20 +60,21 @@ class GlSelfFilter {
   Eigen::Vector2i tiles_ = Eigen::Vector2i::Zero();
   GlProgram pixels_program_;
   GlProgram grow_program_;
-  GlProgram begin_program_;
-  GlProgram join_program_;
-  GlProgram weigh_program_;
-  GlProgram hang_program_;
   GlProgram finish_program_;
   GlBuffer filter_tiles_;
   GlBuffer discs_;
   GlBuffer frame_;
-  GlBuffer pieces_;
   std::vector<double> link_padding_m_;
   GlBuffer link_paddings_;
   GlBuffer counts_;
   GlBuffer counts_back_;
   GlFence counted_;
+  /// What the processor judges.
+  DepthImage sensor_depth_m_;
+  RobotImage robot_;
+  ObstacleImage obstacles_;
+  SelfFilterWorkspace workspace_;
+  std::optional<GlUpload> upload_;
 };
 
 }  // namespace berth

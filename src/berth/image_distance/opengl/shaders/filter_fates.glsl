@@ -5,15 +5,12 @@ const uint kRobot = 2u;
 const uint kEnvironment = 3u;
 const uint kPadding = 4u;
 const uint kDilation = 5u;
-const uint kEdge = 6u;
-const uint kFlyingPatch = 7u;
-const uint kOutsideRegion = 8u;
-const uint kFates = 9u;
+const uint kFlyingPatch = 6u;
+const uint kOutsideRegion = 7u;
+const uint kSpeckle = 9u;
+const uint kFates = 10u;
 
 const uint kNoLink = 0u;
 const uint kEnvironmentLink = 0xFFFFu;
-
-// What the robot's growth dropped.
-bool is_grown(uint fate) { return fate == kPadding || fate == kDilation; }
 
 bool is_evaluated(uint link) { return link != kNoLink && link != kEnvironmentLink; }

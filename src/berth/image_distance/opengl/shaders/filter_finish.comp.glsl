@@ -1,6 +1,5 @@
-// FlyingPatches and the robot-shaped region, then F and the count of each fate.
+// The robot-shaped region, then F and the count of each fate.
 #include "filter_fates.glsl"
-#include "filter_pieces.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 
@@ -13,16 +12,9 @@ layout(std430) buffer FateCounts { uint fate_count[]; };
 
 shared uint tile_count[kFates];
 
-// A piece is a flying patch if it hangs on the robot's own readings and is not joined to an obstacle
-// elsewhere.
-bool is_flying_patch(ivec2 pixel, ivec2 size) {
-  return pieces[root_of(number_of_pixel(pixel, size))].joined == kToOwn;
-}
-
-uint last_fate(ivec2 pixel, ivec2 size) {
+uint last_fate(ivec2 pixel) {
   uint own = imageLoad(fate, pixel).x;
-  if (own != kObstacle && own != kFlyingPatch) return own;
-  if (own == kFlyingPatch && is_flying_patch(pixel, size)) return kFlyingPatch;
+  if (own != kObstacle) return own;
   if (has_region != 0 && texelFetch(region_id, pixel, 0).x == kNoLink) return kOutsideRegion;
   return kObstacle;
 }
@@ -33,7 +25,7 @@ void main() {
   if (gl_LocalInvocationIndex < kFates) tile_count[gl_LocalInvocationIndex] = 0u;
   barrier();
   if (all(lessThan(pixel, size))) {
-    uint own = last_fate(pixel, size);
+    uint own = last_fate(pixel);
     float reading_m = texelFetch(sensor_depth_m, pixel, 0).x;
     imageStore(fate, pixel, uvec4(own));
     imageStore(obstacle_depth_m, pixel, vec4(own == kObstacle ? reading_m : 0.0));

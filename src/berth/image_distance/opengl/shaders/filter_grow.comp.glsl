@@ -1,5 +1,4 @@
-// Padding, dilation, or where flying patches may lie: obstacles, and edges unless for flying patches, that belong to
-// a disc around an outline pixel.
+// Padding or dilation: obstacles that belong to a disc around an outline pixel.
 #include "filter_fates.glsl"
 #include "filter_tile.glsl"
 #include "filter_disc.glsl"
@@ -9,14 +8,12 @@ layout(local_size_x = 16, local_size_y = 16) in;
 
 uniform sampler2D sensor_depth_m;
 layout(r32ui) uniform uimage2D fate;
-uniform uint grown;      // kPadding, kDilation or kFlyingPatch
+uniform uint grown;      // kPadding or kDilation
 uniform int dilation_px;
-uniform double flying_patch_radius_m;
 layout(std430) readonly buffer FilterTiles { FilterTile tiles[]; };
 layout(std430) readonly buffer Discs { Disc discs[]; };
 layout(std430) readonly buffer FilterFrame {
   uint reach_px;
-  uint flying_patch_reach_px;
 };
 
 shared uint open_pixels;
@@ -24,19 +21,15 @@ shared Disc near_discs[kTilePixels];
 
 // The disc that grows: dilation's is a circle of so many pixels.
 Disc grown_disc(Disc disc) {
-  if (grown == kPadding) return disc;
-  if (grown == kDilation) return with_radius(disc, dvec2(dilation_px));
-  return with_radius(disc, disc_radius_px(flying_patch_radius_m, disc.depth_m, imageSize(fate)));
+  return grown == kPadding ? disc : with_radius(disc, dvec2(dilation_px));
 }
 
 float reach_of_tile(FilterTile tile) {
-  if (grown == kPadding) return tile.reach_px;
-  return grown == kDilation ? float(dilation_px + 1) : tile.flying_patch_reach_px;
+  return grown == kPadding ? tile.reach_px : float(dilation_px + 1);
 }
 
 int greatest_reach() {
-  if (grown == kPadding) return int(reach_px);
-  return grown == kDilation ? dilation_px + 1 : int(flying_patch_reach_px);
+  return grown == kPadding ? int(reach_px) : dilation_px + 1;
 }
 
 // As in self_filter/discs.hpp.
@@ -85,8 +78,7 @@ void main() {
   barrier();
   bool is_open = false;
   if (all(lessThan(pixel, size))) {
-    uint own = imageLoad(fate, pixel).x;
-    is_open = own == kObstacle || (own == kEdge && grown != kFlyingPatch);
+    is_open = imageLoad(fate, pixel).x == kObstacle;
   }
   if (is_open) atomicAdd(open_pixels, 1u);
   barrier();

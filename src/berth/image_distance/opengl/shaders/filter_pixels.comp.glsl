@@ -11,11 +11,9 @@ uniform sampler2D sensor_depth_m;
 uniform sampler2D robot_depth_m;
 uniform usampler2D link_id;
 layout(r32ui) uniform writeonly uimage2D fate;
-uniform float edge_jump_m;
 uniform float deeper;  // an outline's neighbour is deeper by more than this factor
 uniform double padding_m;
 uniform double environment_padding_m;
-uniform double flying_patch_radius_m;
 uniform float padding_depth_m;
 uniform int link_paddings;
 layout(std430) readonly buffer LinkPadding { double link_padding_m[]; };  // links 1 to link_paddings
@@ -23,26 +21,10 @@ layout(std430) writeonly buffer FilterTiles { FilterTile tiles[]; };
 layout(std430) writeonly buffer Discs { Disc discs[]; };  // kTilePixels places for each tile
 layout(std430) buffer FilterFrame {
   uint reach_px;
-  uint flying_patch_reach_px;
 };
 
 shared uint tile_discs;
 shared uint tile_reach;
-shared uint tile_flying_patch_reach;
-
-bool is_flat(float a, float b, float jump_m) { return a > 0.0 && b > 0.0 && abs(a - b) <= jump_m; }
-
-// Between two flat neighbours, and far from both.
-bool is_mixed(ivec2 pixel, ivec2 next, float z_m) {
-  ivec2 size = textureSize(sensor_depth_m, 0);
-  if (any(lessThan(pixel - 2 * next, ivec2(0))) || any(greaterThanEqual(pixel + 2 * next, size))) return false;
-  float before = texelFetch(sensor_depth_m, pixel - next, 0).x;
-  float after = texelFetch(sensor_depth_m, pixel + next, 0).x;
-  precise float jump_m = edge_jump_m * max(1.0, z_m * z_m);
-  return z_m - min(before, after) > jump_m && max(before, after) - z_m > jump_m &&
-         is_flat(before, texelFetch(sensor_depth_m, pixel - 2 * next, 0).x, jump_m) &&
-         is_flat(after, texelFetch(sensor_depth_m, pixel + 2 * next, 0).x, jump_m);
-}
 
 uint fate_of(ivec2 pixel, uint link, float robot_m) {
   float reading_m = texelFetch(sensor_depth_m, pixel, 0).x;
@@ -50,9 +32,7 @@ uint fate_of(ivec2 pixel, uint link, float robot_m) {
   if (link != kNoLink && reading_m >= least_reading_m(robot_m)) {
     return link == kEnvironmentLink ? kEnvironment : kRobot;
   }
-  bool mixed = edge_jump_m > 0.0 && (is_mixed(pixel, ivec2(1, 0), reading_m) ||
-                                     is_mixed(pixel, ivec2(0, 1), reading_m));
-  return mixed ? kEdge : kObstacle;
+  return kObstacle;
 }
 
 // Whether link or environment does not go on at a neighbour, which is the pixel itself at the image's
@@ -81,12 +61,9 @@ double padding_of(uint link) {
 void add_disc(ivec2 pixel, uint link, float robot_m, uint tile) {
   ivec2 size = textureSize(link_id, 0);
   precise float most_m = robot_m + padding_depth_m;
-  Disc disc = Disc(-1.0LF, 1.0LF, least_reading_m(robot_m), most_m, pack(pixel),
-                   link == kEnvironmentLink ? -1.0 : robot_m);
+  Disc disc = Disc(-1.0LF, 1.0LF, least_reading_m(robot_m), most_m, pack(pixel));
   dvec2 radius_px = disc_radius_px(padding_of(link), robot_m, size);
   if (radius_px.x > 0.0LF) atomicMax(tile_reach, reach_of(radius_px));
-  dvec2 flying_patch_radius_px = disc_radius_px(flying_patch_radius_m, disc.depth_m, size);
-  if (flying_patch_radius_px.x > 0.0LF) atomicMax(tile_flying_patch_reach, reach_of(flying_patch_radius_px));
   discs[tile * kTilePixels + atomicAdd(tile_discs, 1u)] = with_radius(disc, radius_px);
 }
 
@@ -96,7 +73,6 @@ void main() {
   if (gl_LocalInvocationIndex == 0) {
     tile_discs = 0u;
     tile_reach = 0u;
-    tile_flying_patch_reach = 0u;
   }
   barrier();
   if (all(lessThan(pixel, textureSize(link_id, 0)))) {
@@ -107,7 +83,6 @@ void main() {
   }
   barrier();
   if (gl_LocalInvocationIndex != 0) return;
-  tiles[tile] = FilterTile(tile_discs, float(tile_reach), float(tile_flying_patch_reach));
+  tiles[tile] = FilterTile(tile_discs, float(tile_reach));
   atomicMax(reach_px, tile_reach);
-  atomicMax(flying_patch_reach_px, tile_flying_patch_reach);
 }

@@ -4,9 +4,7 @@ const uint kTilePixels = 256u;
 
 struct FilterTile {
   uint discs;
-  // Of its discs as padding, and as the place of flying_patches.
   float reach_px;
-  float flying_patch_reach_px;
 };
 
 // What an outline pixel's growth reaches, as in self_filter/discs.hpp.
@@ -16,7 +14,6 @@ struct Disc {
   float least_m;
   float most_m;
   uint place;  // packed pixel (pixels.glsl)
-  float depth_m;  // negative for environment, which has no flying patches
 };
 
 int tile_columns(ivec2 size) { return (size.x + kTilePx - 1) / kTilePx; }
