@@ -179,7 +179,6 @@ TEST_F(GlPipeline, ASensorRuleIsRefusedByName) {
   EXPECT_EQ(refusal({.speckle_px = 20}), "sensor.speckle_px" + rest);
   EXPECT_EQ(refusal({.average_frames = 3}), "sensor.average_frames" + rest);
   EXPECT_EQ(refusal({.background_frames = 3}), "sensor.background_frames" + rest);
-  EXPECT_EQ(refusal({.holes = HolePolicy::obstacle}), "sensor.holes" + rest);
   EXPECT_EQ(refusal({}), "");
 }
 

@@ -51,11 +51,12 @@ struct Place {
     background.learn(camera(), depth_m, robot, kept_image(depth_m).fate, settings);
   }
   float at(int u, int v) const { return background.depth_m(u, v, settings); }
+  bool is_known(int u, int v) const { return std::isfinite(at(u, v)); }
 };
 
 /// A place whose wall is known everywhere.
-struct KnownPlace : Place {
-  KnownPlace() {
+struct LearnedPlace : Place {
+  LearnedPlace() {
     learn(wall(), no_robot());
     learn(wall(), no_robot());
   }
@@ -72,9 +73,9 @@ TEST(Background, IsKnownOnceEnoughImagesAgreeAndIsTheLeastOfThem) {
 }
 
 TEST(Background, BeginsAnewWhereAReadingDisagrees) {
-  KnownPlace place;
+  LearnedPlace place;
   place.learn(DepthImage(kSide_px, kSide_px, 2.5F), no_robot());
-  EXPECT_TRUE(std::isnan(place.at(5, 5)));
+  EXPECT_TRUE(std::isinf(place.at(5, 5))) << "a reading, but of which depth?";
   place.learn(DepthImage(kSide_px, kSide_px, 2.5F), no_robot());
   EXPECT_EQ(place.at(5, 5), 2.5F);
 }
@@ -85,16 +86,28 @@ TEST(Background, IsNotLearnedNearTheRobotAtAnyDepth) {
   fill(depth_m, {35, 20, 37, 22}, 0.5F);  // a hand in front of the arm's neighbourhood
   for (int i = 0; i < 2; ++i) place.learn(depth_m, robot_at(20, 20));
   EXPECT_TRUE(std::isnan(place.at(25, 25)));
-  EXPECT_TRUE(std::isnan(place.at(36, 21)));
-  EXPECT_TRUE(std::isnan(place.at(29 + 15, 25)));  // 0.15 m at 1 m is 15 px
+  EXPECT_FALSE(place.is_known(36, 21));
+  EXPECT_FALSE(place.is_known(29 + 15, 25));  // 0.15 m at 1 m is 15 px
   EXPECT_EQ(place.at(29 + 16, 25), kWall_m);
+}
+
+TEST(Background, TellsNearTheRobotWhetherThereIsAReading) {
+  Place place;
+  for (int i = 0; i < 2; ++i) place.learn(wall(), robot_at(20, 20));
+  EXPECT_TRUE(std::isnan(place.at(29 + 6, 25))) << "the robot's shadow";
+  EXPECT_TRUE(std::isinf(place.at(29 + 7, 25)));
+  Place again;
+  again.background.assign(place.background.learned_m(camera(), place.settings), again.settings);
+  EXPECT_TRUE(std::isnan(again.at(29 + 6, 25)));
+  EXPECT_TRUE(std::isinf(again.at(29 + 7, 25)));
+  EXPECT_EQ(again.at(29 + 16, 25), kWall_m);
 }
 
 TEST(Background, ClearanceIsASetting) {
   Place place;
   place.settings.background_clearance_m = 0.03;
   for (int i = 0; i < 2; ++i) place.learn(wall(), robot_at(20, 20));
-  EXPECT_TRUE(std::isnan(place.at(29 + 3, 25)));
+  EXPECT_FALSE(place.is_known(29 + 3, 25));
   EXPECT_EQ(place.at(29 + 4, 25), kWall_m);
 }
 
@@ -108,14 +121,22 @@ TEST(Background, IsLearnedFromTheRobotsOtherPlaces) {
 TEST(Background, IsNotLearnedFromWhatTheSelfFilterDropped) {
   Place place;
   Image<PixelFate> fates(kSide_px, kSide_px, PixelFate::obstacle);
-  fates(5, 5) = PixelFate::environment;
+  fates(5, 5) = PixelFate::padding;
   fates(6, 5) = PixelFate::flying_patch;
   fates(7, 5) = PixelFate::averaged;
   for (int i = 0; i < 2; ++i)
     place.background.learn(camera(), wall(), no_robot(), fates, place.settings);
-  EXPECT_TRUE(std::isnan(place.at(5, 5)));
-  EXPECT_TRUE(std::isnan(place.at(6, 5)));
+  EXPECT_FALSE(place.is_known(5, 5));
+  EXPECT_FALSE(place.is_known(6, 5));
   EXPECT_EQ(place.at(7, 5), kWall_m);
+}
+
+TEST(Background, EnvironmentIsLearned) {
+  Place place;
+  const Image<PixelFate> fates(kSide_px, kSide_px, PixelFate::environment);
+  for (int i = 0; i < 2; ++i)
+    place.background.learn(camera(), wall(), no_robot(), fates, place.settings);
+  EXPECT_EQ(place.at(5, 5), kWall_m);
 }
 
 TEST(Background, WhatStandsOnEnvironmentIsLearned) {
@@ -128,11 +149,11 @@ TEST(Background, WhatStandsOnEnvironmentIsLearned) {
 
 /// F of one image: the robot's pixels dropped, and what the background made of it.
 ObstacleImage completed(const Place& place, const DepthImage& depth_m, const RobotImage& robot,
-                        const SelfFilterSettings& settings = {}) {
+                        const SelfFilterSettings& settings = {}, const KnownPlace& known = {}) {
   SelfFilterWorkspace workspace;
   ObstacleImage image;
   self_filter(camera(), depth_m, robot, settings, workspace, image);
-  place.background.complete(depth_m, place.settings, image);
+  place.background.complete(depth_m, known, place.settings, image);
   return image;
 }
 
@@ -151,7 +172,7 @@ TEST(Background, IsPutBehindTheRobotAndInItsPaddingAndWhereThereIsNoReading) {
   depth_m(50, 50) = kNoDepth;
   SelfFilterSettings settings;
   settings.padding_depth_m = kWall_m;
-  const ObstacleImage image = completed(KnownPlace(), depth_m, robot, settings);
+  const ObstacleImage image = completed(LearnedPlace(), depth_m, robot, settings);
   for (const Pixel p : {Pixel{25, 25}, Pixel{31, 25}, Pixel{50, 50}}) {
     EXPECT_EQ(image.fate(p.u, p.v), PixelFate::background) << p.u;
     EXPECT_EQ(image.depth_m(p.u, p.v), kWall_m);
@@ -167,7 +188,8 @@ TEST(Background, RestoresAThingBesideTheArmThatTheFlyingPatchRuleDrops) {
   place.learn(peg, no_robot());
   const RobotImage robot = robot_at(20, 20);
   DepthImage depth_m = wall_and_robot(robot);
-  // Joined to the arm, through its padding too.
+  // Joined to the arm, through its padding too, and in a wide hole: nobody can tell what it is.
+  fill(depth_m, {30, 20, 42, 31}, kNoDepth);
   fill(depth_m, {30, 24, 36, 27}, 1.015F);
   EXPECT_EQ(completed(Place(), depth_m, robot).fate(34, 25), PixelFate::flying_patch);
   const ObstacleImage image = completed(place, depth_m, robot);
@@ -180,7 +202,7 @@ TEST(Background, NeverReplacesWhatIsKept) {
   const RobotImage robot = robot_at(20, 20);
   DepthImage depth_m = wall_and_robot(robot);
   fill(depth_m, {33, 10, 55, 40}, 1.03F);
-  const ObstacleImage image = completed(KnownPlace(), depth_m, robot);
+  const ObstacleImage image = completed(LearnedPlace(), depth_m, robot);
   EXPECT_EQ(image.fate(40, 25), PixelFate::obstacle);
   EXPECT_EQ(image.depth_m(40, 25), 1.03F);
 }
@@ -200,12 +222,26 @@ TEST(Background, IsNotPutWhereAReadingComesFromBehindIt) {
 
 TEST(Background, IsNotPutOntoEnvironment) {
   const RobotImage robot = robot_at(20, 20, kEnvironmentLink);
-  const ObstacleImage image = completed(KnownPlace(), wall_and_robot(robot), robot);
+  const ObstacleImage image = completed(LearnedPlace(), wall_and_robot(robot), robot);
   EXPECT_EQ(image.fate(25, 25), PixelFate::environment);
 }
 
+TEST(Background, IsNotPutWhereTheRobotHidesEnvironment) {
+  const RobotImage robot = robot_at(20, 20);
+  const auto fate_before = [&](float environment_m) {
+    const DepthImage environment(kSide_px, kSide_px, environment_m);
+    return completed(LearnedPlace(), wall_and_robot(robot), robot, {},
+                     {.environment_m = environment, .tolerance = {0.05F, 0, 0}})
+        .fate(25, 25);
+  };
+  EXPECT_EQ(fate_before(kWall_m + 0.04F), PixelFate::robot);
+  EXPECT_EQ(fate_before(kWall_m - 0.5F), PixelFate::robot) << "seen past an edge";
+  EXPECT_EQ(fate_before(kWall_m + 0.06F), PixelFate::background) << "stands on it";
+  EXPECT_EQ(fate_before(kNoDepth), PixelFate::background);
+}
+
 TEST(Background, OfAnotherSizeIsForgotten) {
-  KnownPlace place;
+  LearnedPlace place;
   const Camera other{30, 30, 100, 100, 15, 15};
   const DepthImage depth_m(30, 30, 2.0F);
   const RobotImage robot{DepthImage(30, 30, kNoDepth), Image<LinkId>(30, 30, kNoLink)};

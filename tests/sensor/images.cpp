@@ -6,7 +6,7 @@
 namespace berth {
 
 ObstacleImage kept_image(const DepthImage& depth_m) {
-  ObstacleImage image{depth_m, Image<PixelFate>(depth_m.width(), depth_m.height()), {}};
+  ObstacleImage image{depth_m, Image<PixelFate>(depth_m.width(), depth_m.height()), {}, {}};
   for (std::size_t i = 0; i < depth_m.pixels().size(); ++i) {
     if (std::isnan(depth_m.pixels()[i])) image.fate.pixels()[i] = PixelFate::no_reading;
   }

@@ -43,14 +43,16 @@ SensorSettings random_rules(sim::Random& random) {
   settings.average_frames = random.chance(0.5) ? random.whole(2, 5) : 0;
   settings.background_frames = random.whole(0, 2);
   settings.background_clearance_m = random(0, 0.2);
-  settings.holes = kHolePolicies[static_cast<std::size_t>(random.whole(0, 2))];
   return settings;
 }
 
 class NewObstacle {
  public:
   explicit NewObstacle(std::uint32_t seed)
-      : random_(seed), scene_(random_scene(seed)), settings_(random_rules(random_)) {
+      : random_(seed),
+        scene_(random_scene(seed)),
+        settings_(random_rules(random_)),
+        always_reads_(random_.chance(0.5)) {
     // Learned from images with all of the robot and its flying pixels in them, which no filter took
     // out.
     const RobotImage no_robot{
@@ -72,7 +74,7 @@ class NewObstacle {
       const PixelFate fate = after_.fate.pixels()[i];
       const float z = after_.depth_m.pixels()[i];
       ++count[static_cast<std::size_t>(fate)];
-      ASSERT_EQ(is_kept(fate), !std::isnan(z)) << i;
+      ASSERT_TRUE(fate == PixelFate::hole || is_kept(fate) == !std::isnan(z)) << i;
       if (!is_kept(before_.fate.pixels()[i])) continue;
       ASSERT_TRUE(is_kept(fate)) << i;
       ASSERT_LE(z, before_.depth_m.pixels()[i]) << i;
@@ -97,7 +99,9 @@ class NewObstacle {
   void observe(const DepthImage& depth_m) {
     self_filter(scene_.camera, depth_m, scene_.robot, scene_.settings, workspace_, before_);
     after_ = before_;
-    apply_sensor_rules(depth_m, scene_.robot, background_, settings_, sensor_, after_);
+    apply_sensor_rules(scene_.camera, depth_m, scene_.robot,
+                       {.background = &background_, .always_reads = always_reads_}, settings_,
+                       sensor_, after_);
   }
 
   std::vector<LinkDistance> distances(const ObstacleImage& image) const {
@@ -128,6 +132,7 @@ class NewObstacle {
   sim::Random random_;
   RandomScene scene_;
   SensorSettings settings_;
+  bool always_reads_;
   Background background_;
   SelfFilterWorkspace workspace_;
   SensorWorkspace sensor_;
@@ -158,7 +163,7 @@ TEST(SensorRules, ChangeNothingWhereAllAreOff) {
   self_filter(scene.camera, scene.sensor_depth_m, scene.robot, scene.settings, workspace, filtered);
   ObstacleImage image = filtered;
   SensorWorkspace sensor;
-  apply_sensor_rules(scene.sensor_depth_m, scene.robot, {}, {}, sensor, image);
+  apply_sensor_rules(scene.camera, scene.sensor_depth_m, scene.robot, {}, {}, sensor, image);
   EXPECT_TRUE(same_bits(image.depth_m, filtered.depth_m));
   EXPECT_EQ(image.fate.pixels(), filtered.fate.pixels());
   EXPECT_EQ(image.count, filtered.count);
@@ -169,7 +174,6 @@ TEST(SensorRules, DoNotDependOnTheNumberOfThreads) {
   settings.speckle_px = 6;
   settings.average_frames = 3;
   settings.background_frames = 1;
-  settings.holes = HolePolicy::obstacle;
   const auto run = [&](int threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     const RandomScene scene = random_scene(11);
@@ -181,7 +185,9 @@ TEST(SensorRules, DoNotDependOnTheNumberOfThreads) {
       self_filter(scene.camera, scene.sensor_depth_m, scene.robot, scene.settings, workspace,
                   image);
       background.learn(scene.camera, scene.sensor_depth_m, scene.robot, image.fate, settings);
-      apply_sensor_rules(scene.sensor_depth_m, scene.robot, background, settings, sensor, image);
+      apply_sensor_rules(scene.camera, scene.sensor_depth_m, scene.robot,
+                         {.background = &background, .always_reads = true}, settings, sensor,
+                         image);
     }
     return image;
   };

@@ -23,7 +23,6 @@ TEST(SensorSettings, TellTheFirstRuleThatIsOn) {
   EXPECT_EQ((SensorSettings{.speckle_px = 2, .average_frames = 2}.first_rule()), "speckle_px");
   EXPECT_EQ((SensorSettings{.average_frames = 2}.first_rule()), "average_frames");
   EXPECT_EQ((SensorSettings{.background_frames = 1}.first_rule()), "background_frames");
-  EXPECT_EQ((SensorSettings{.holes = HolePolicy::obstacle}.first_rule()), "holes");
 }
 
 TEST(SensorSettings, DefaultsAreValid) { EXPECT_NO_THROW(validate(SensorSettings{})); }
@@ -33,8 +32,8 @@ TEST(SensorSettings, EachKeyOutsideItsDomainIsNamed) {
   const std::pair<const char*, std::function<void(Settings&)>> cases[] = {
       {"sensor.noise_m: -0.1; expected", [](Settings& s) { s.noise_m = -0.1; }},
       {"sensor.speckle_px: -1; expected", [](Settings& s) { s.speckle_px = -1; }},
-      {"sensor.speckle_jump_m: inf; expected",
-       [](Settings& s) { s.speckle_jump_m = std::numeric_limits<double>::infinity(); }},
+      {"sensor.noise_m: inf; expected",
+       [](Settings& s) { s.noise_m = std::numeric_limits<double>::infinity(); }},
       {"sensor.average_frames: -1; expected", [](Settings& s) { s.average_frames = -1; }},
       {"sensor.average_frames: 101; expected a whole number from 0 to 100",
        [](Settings& s) { s.average_frames = 101; }},

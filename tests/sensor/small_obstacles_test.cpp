@@ -166,7 +166,8 @@ class SmallObstacles : public ::testing::TestWithParam<Shape> {
     for (std::uint32_t frame = 1; frame <= kFrames; ++frame) {
       const DepthImage sensor_m = spoiled(depth_m, seed + 10 * frame);
       filter(sensor_m);
-      apply_sensor_rules(sensor_m, scene.robot, background, settings, sensor, image);
+      apply_sensor_rules(scene.camera, sensor_m, scene.robot, {.background = &background}, settings,
+                         sensor, image);
     }
     for (std::size_t i = 0; i < depth_m.pixels().size(); ++i) {
       const PixelFate fate = image.fate.pixels()[i];

@@ -11,11 +11,10 @@
 namespace berth {
 namespace {
 
-ObstacleImage without_speckle(const DepthImage& depth_m, int speckle_px, double jump_m = 0.05) {
+ObstacleImage without_speckle(const DepthImage& depth_m, int speckle_px) {
   ObstacleImage image = kept_image(depth_m);
   SensorSettings settings;
   settings.speckle_px = speckle_px;
-  settings.speckle_jump_m = jump_m;
   SpeckleWorkspace workspace;
   drop_speckle(settings, workspace, image);
   return image;
@@ -42,10 +41,9 @@ TEST(Speckle, ARodOfTenMillimetresAtOneAndAHalfMetresStays) {
 }
 
 TEST(Speckle, StepsUpToTheJumpJoin) {
-  EXPECT_EQ(without_speckle(wall_with_patch(2, 2, 2.9F), 5, 0.01).fate(10, 10),
-            PixelFate::speckle);  // the jump is 0.08 m at 2.9 m
-  EXPECT_EQ(without_speckle(wall_with_patch(2, 2, 2.9F), 5, 0.02).fate(10, 10),
-            PixelFate::obstacle);
+  // The step is 0.03 m up to 1 m, and 0.25 m at 2.9 m.
+  EXPECT_EQ(without_speckle(wall_with_patch(2, 2, 2.72F), 5).fate(10, 10), PixelFate::speckle);
+  EXPECT_EQ(without_speckle(wall_with_patch(2, 2, 2.80F), 5).fate(10, 10), PixelFate::obstacle);
 }
 
 TEST(Speckle, WhatIsSmallAtTheImagesBorderIsDroppedLikeAnyOther) {
@@ -89,15 +87,15 @@ TEST(Speckle, AgreesWithItsDefinitionOnPatchyImages) {
     DepthImage depth_m = patchy_image(random);
     depth_m.resize(std::min(depth_m.width(), 14), std::min(depth_m.height(), 12), kNoDepth);
     for (float& z : depth_m.pixels()) {
-      if (random.chance(0.4)) z = 0.9F + 0.06F * static_cast<float>(random.whole(0, 5));
+      if (random.chance(0.4)) z = 0.9F + 0.025F * static_cast<float>(random.whole(0, 12));
     }
     const int speckle_px = random.whole(2, 12);
-    const ObstacleImage image = without_speckle(depth_m, speckle_px, 0.07);
+    const ObstacleImage image = without_speckle(depth_m, speckle_px);
     for (int v = 0; v < depth_m.height(); ++v) {
       for (int u = 0; u < depth_m.width(); ++u) {
         if (std::isnan(depth_m(u, v))) continue;
         const bool small =
-            plain_blob_size(depth_m, {u, v}, 0.07F) < static_cast<std::size_t>(speckle_px);
+            plain_blob_size(depth_m, {u, v}, 0.03F) < static_cast<std::size_t>(speckle_px);
         ASSERT_EQ(image.fate(u, v), small ? PixelFate::speckle : PixelFate::obstacle)
             << u << ", " << v;
         dropped += small;

@@ -15,7 +15,6 @@ TEST(SteadyState, TheSensorRulesAllocateNothingOnceTheyHaveSeenTheImages) {
   settings.speckle_px = 8;
   settings.average_frames = 3;
   settings.background_frames = 2;
-  settings.holes = HolePolicy::obstacle;
   for (std::uint32_t seed = 0; seed < 20; ++seed) {
     const RandomScene scene = random_scene(seed);
     SelfFilterWorkspace workspace;
@@ -26,7 +25,9 @@ TEST(SteadyState, TheSensorRulesAllocateNothingOnceTheyHaveSeenTheImages) {
       self_filter(scene.camera, scene.sensor_depth_m, scene.robot, scene.settings, workspace,
                   image);
       background.learn(scene.camera, scene.sensor_depth_m, scene.robot, image.fate, settings);
-      apply_sensor_rules(scene.sensor_depth_m, scene.robot, background, settings, sensor, image);
+      apply_sensor_rules(scene.camera, scene.sensor_depth_m, scene.robot,
+                         {.background = &background, .always_reads = true}, settings, sensor,
+                         image);
     };
     for (int frame = 0; frame < 3; ++frame) observe();
     const std::size_t before = allocation_count();

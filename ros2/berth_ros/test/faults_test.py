@@ -116,7 +116,7 @@ class Faults(LivingRobot):
         self.assertFalse(refused.successful)
         self.assertIn("range_m", refused.reason)
         self.assertFalse(set_parameter("evaluation.method", "exact").successful, "no parameter of the node")
-        self.assertFalse(set_parameter("sensor.holes", "fast").successful)
+        self.assertFalse(set_parameter("space.no_reading", "fast").successful)
         self.assertFalse(set_parameter("cameras", ["left"]).successful)
         self.assertTrue(set_parameter("front.self_filter.padding_m", 0.03).successful, "a camera's own, not given at the start")
         self.assertIn("padding_m", set_parameter("front.self_filter.padding_m", -1.0).reason)

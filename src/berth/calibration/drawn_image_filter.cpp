@@ -10,7 +10,7 @@ const ObstacleImage& DrawnImageFilter::run(const FilteredCamera& camera, DepthVi
   SensorSettings sensor = *camera.sensor;
   sensor.average_frames = 0;
   sensor.background_frames = 0;
-  apply_sensor_rules(depth_m, *camera.robot, {}, sensor, sensor_workspace_, out_);
+  apply_sensor_rules(*camera.camera, depth_m, *camera.robot, {}, sensor, sensor_workspace_, out_);
   drop_phantoms(*camera.camera, depth_m, sensor.phantom_radius_m, phantoms_, out_);
   return out_;
 }

@@ -35,6 +35,8 @@ void clear_images(const Camera& camera, Frame& frame) {
   frame.obstacles.fate.resize(width, height, PixelFate::no_reading);
   frame.obstacles.count = {};
   frame.obstacles.count[static_cast<std::size_t>(PixelFate::no_reading)] = width * height;
+  frame.tells_unread = false;
+  frame.unread_share = std::numeric_limits<double>::quiet_NaN();
   clear_rejected(width, height, frame.space->rejected);
   clear_space(*frame.space);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 
 #include "berth/pipeline/exposure.hpp"
@@ -29,6 +30,13 @@ struct Frame : Exposure {
   /// Whether a smaller share than kLeastReadOfImage of the sensor's pixels has a reading: a camera
   /// that is covered, or failed.
   bool is_blind = false;
+  /// Whether the camera knows where it can read, or has been told what it means where it does not:
+  /// else nobody tells what gives no reading, such as black clothes.
+  bool tells_unread = false;
+  /// The share of the image's pixels that have no reading where the empty cell has one; where the
+  /// camera does not know it, of all that have none and do not show the robot. NaN without an
+  /// image.
+  double unread_share = std::numeric_limits<double>::quiet_NaN();
 
   /// Whether Query may be asked about it: it was observed for that, or its time is not ok.
   bool is_for_any_query() const;

@@ -30,6 +30,17 @@ MeasureDisplacement displacement_of(const MountedCamera& view, MeasureDisplaceme
   };
 }
 
+/// Pixels without a reading that do not show the robot.
+std::int64_t count_unread(const RobotImage& robot, const ObstacleImage& obstacles) {
+  std::int64_t count = 0;
+  for (std::size_t i = 0; i < obstacles.fate.pixels().size(); ++i) {
+    const LinkId id = robot.link_id.pixels()[i];
+    const bool is_robot = id != kNoLink && id != kEnvironmentLink;
+    count += int(obstacles.fate.pixels()[i] == PixelFate::no_reading && !is_robot);
+  }
+  return count;
+}
+
 }  // namespace
 
 /// Scratch memory, and what is remembered from image to image.
@@ -44,6 +55,8 @@ struct Observer::Parts {
   }
 
   void filter(DepthView depth_m, Frame& frame);
+  KnownPlace known_place(DepthView environment_m) const;
+  void tell_unread(Frame& frame) const;
   const SensorSettings& background_settings() const;
 
   std::shared_ptr<const MountedCamera> view;
@@ -80,13 +93,36 @@ void Observer::observe(DepthView depth_m, const JointState& at_exposure, Frame& 
   parts_->drawing.draw(frame.pose, frame.X_BC, frame.robot);
   frame.watch = parts_->watch.look(depth_m, frame.robot, at_exposure, frame.X_PC);
   parts_->filter(depth_m, frame);
-  apply_sensor_rules(depth_m, frame.robot, parts_->background, parts_->view->settings().sensor,
-                     parts_->sensor, frame.obstacles);
-  DepthView environment_back_m;
-  if (parts_->use == FrameUse::any_query) {
-    environment_back_m = parts_->environment_back.at(frame.pose, frame.X_BC);
+  const CameraSettings& settings = parts_->view->settings();
+  EnvironmentSurfaces environment;
+  if (parts_->use == FrameUse::any_query || settings.sensor.has_background()) {
+    environment = parts_->environment_back.at(frame.pose, frame.X_BC);
   }
-  prepare_frame(depth_m, environment_back_m, parts_->use, frame);
+  apply_sensor_rules(camera, depth_m, frame.robot, parts_->known_place(environment.front_m),
+                     settings.sensor, parts_->sensor, frame.obstacles);
+  parts_->tell_unread(frame);
+  prepare_frame(depth_m, environment, parts_->use, frame);
+}
+
+KnownPlace Observer::Parts::known_place(DepthView environment_m) const {
+  const CameraSettings& settings = view->settings();
+  return {.background = &background,
+          .environment_m = environment_m,
+          .tolerance = tolerance_of(settings.self_filter),
+          .always_reads = settings.space.no_reading == NoReading::hides};
+}
+
+void Observer::Parts::tell_unread(Frame& frame) const {
+  const Camera& camera = view->camera();
+  const NoReading no_reading = view->settings().space.no_reading;
+  const bool finds_holes =
+      no_reading == NoReading::hides || (view->settings().sensor.has_background() &&
+                                         background.is_of(camera.width_px, camera.height_px));
+  const std::int64_t unread = finds_holes ? frame.obstacles.count_of(PixelFate::hole)
+                                          : count_unread(frame.robot, frame.obstacles);
+  frame.tells_unread = finds_holes || no_reading == NoReading::free;
+  frame.unread_share =
+      static_cast<double>(unread) / static_cast<double>(frame.obstacles.fate.pixels().size());
 }
 
 void Observer::Parts::filter(DepthView depth_m, Frame& frame) {

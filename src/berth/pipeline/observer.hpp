@@ -40,7 +40,8 @@ class Observer {
   /// for recordings, where nothing is to depend on how long it took.
   void finish_watch(Frame& frame);
 
-  /// Learns what the image shows beside the robot as background of later frames (Background).
+  /// Learns what the image shows beside the robot as background of later frames (Background), and
+  /// so where the camera can read: what gives no reading there later hides what is behind it.
   /// `frame` is what observe made of `depth_m`; one whose joints are not known (its time is not ok)
   /// or whose camera has moved or is implausible is passed over. Use images of the place as it is
   /// meant to be: somebody who stands still in them becomes background too, and later counts as an
@@ -48,7 +49,8 @@ class Observer {
   /// SensorSettings::background_frames is 0, and for a wrong size.
   void learn_background(DepthView depth_m, const Frame& frame);
 
-  /// What was learned; NaN where it is not known yet. Throws as learn_background does where the
+  /// What was learned: infinite where there is a reading, but its depth is not known, and NaN where
+  /// nothing is known yet. Throws as learn_background does where the
   /// setting is 0.
   DepthImage background_m() const;
   /// Takes this as learned, in place of what was: the background of earlier images. Throws as

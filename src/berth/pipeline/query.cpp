@@ -153,7 +153,11 @@ void Query::tell_cameras() {
     const Frame* frame = asked_->frames()[k];
     tell_camera(frame, cameras_[k], camera);
     if (is_used(cameras_[k].status)) camera.X_BC = asked_->X_BC(k);
-    if (camera.has_frame) camera.self_filter = frame->obstacles.count;
+    if (camera.has_frame) {
+      camera.self_filter = frame->obstacles.count;
+      camera.unread_share = frame->unread_share;
+      camera.tells_unread = frame->tells_unread;
+    }
     if (!camera.has_frame && k < camera_names_.size()) camera.camera = camera_names_[k];
   }
 }

@@ -44,6 +44,10 @@ struct LinkResult : SpacePair {
   /// Whether a joint moves it. The others stand where they stand, as near as they always do.
   bool is_moved = true;
   LinkStatus status = LinkStatus::stale;
+  /// What lies on the link and is thinner than this may be taken for it by every camera: an
+  /// assumption of the distances, and not told by them. Of the camera that looks at the link best;
+  /// NaN where none does.
+  float assumed_thinner_m = std::numeric_limits<float>::quiet_NaN();
   /// The pair to what is occupied alone; its distance is never below that of the link.
   SpacePair occupied;
   /// The points of the link's own pair in the optical frame C of its camera.
@@ -74,6 +78,9 @@ struct CameraResult : CameraState {
   /// Where the optical frame C was at that image's exposure, in the robot's root frame B: where
   /// that root stands in the request, if the image is used.
   Pose X_BC = unset_pose();
+  /// Frame::unread_share of that image, and whether the camera tells what gives no reading.
+  double unread_share = std::numeric_limits<double>::quiet_NaN();
+  bool tells_unread = false;
   /// Pixels of that image by PixelFate.
   std::array<std::int64_t, kPixelFateCount> self_filter = {};
   /// The camera with its settings; null where it has given no image.
@@ -221,6 +228,9 @@ void visit_fields(const LinkResult& l, const Result& result, Visitor&& visit) {
          "free by no camera"},
         ObstacleOf{l});
   visit({"occupied", "the closest pair to surfaces that a camera measured, alone"}, l.occupied);
+  visit({"assumed_thinner_m",
+         "what lies on the link and is thinner than this is taken for it: an assumption"},
+        l.assumed_thinner_m);
   visit({"mean_direction_base", "the mean of the unit vectors to what is near"},
         l.mean_direction_B);
   visit({"mean_count", "how many readings the mean direction is taken over"}, l.mean_count);
@@ -268,6 +278,10 @@ void visit_fields(const CameraResult& c, Visitor&& visit) {
         c.watch.displacement_m);
   visit({"at_robot", "the share of the robot's readings that lie at its surface"},
         c.watch.at_robot);
+  visit({"unread_share",
+         "the share of the newest image without a reading where the empty cell has one; where that "
+         "is not known, of all that has none beside the robot"},
+        c.unread_share);
   visit({"self_filter", "pixels of the newest image by what became of them"}, c.self_filter);
 }
 

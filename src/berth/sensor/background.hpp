@@ -1,8 +1,9 @@
 #pragma once
 
-#include <cstdint>
+#include <limits>
 
-#include "berth/self_filter/self_filter.hpp"
+#include "berth/sensor/beside_robot.hpp"
+#include "berth/sensor/known_place.hpp"
 #include "berth/sensor/settings.hpp"
 #include "berth/types/camera.hpp"
 #include "berth/types/obstacle_image.hpp"
@@ -10,45 +11,58 @@
 
 namespace berth {
 
-/// What a camera that does not move sees where the robot is not: per pixel the obstacle's depth,
-/// learned from images in which the robot was elsewhere.
+/// What a camera that does not move sees of the empty cell: per pixel the depth of what stands
+/// there, environment or anything else, learned from images in which the robot was elsewhere, and
+/// whether it has a reading at all.
 ///
 /// It only ever adds: a reading that is kept stays as it is, whatever the background says. What the
 /// sensor makes up beside the arm and a new thing that somebody holds there give the same image, so
 /// both are kept.
 class Background {
  public:
-  /// Takes in one image. A reading counts where the self filter kept it (`fates`) and the evaluated
-  /// links, grown by background_clearance_m on all sides and at all depths, do not cover it. A
-  /// pixel's readings agree as long as none differs from the least of them by more than the noise;
-  /// one that does begins anew.
+  /// Takes in one image. A reading counts where the self filter (`fates`) kept it or took it for
+  /// environment, and the evaluated links, grown by background_clearance_m on all sides and at all
+  /// depths, do not cover it. A pixel's readings agree as long as none differs from the least of
+  /// them by more than the noise; one that does begins anew. Nearer to the robot, but not within
+  /// kRobotShadow_m, a reading tells no more than that there is one.
   void learn(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,
              const Image<PixelFate>& fates, const SensorSettings& settings);
 
-  /// Takes this as learned, in place of what was; NaN is not known.
+  /// Takes this as learned, in place of what was, as depth_m() has it.
   void assign(DepthView depth_m, const SensorSettings& settings);
 
   /// depth_m() of all pixels of the camera.
   DepthImage learned_m(const Camera& camera, const SensorSettings& settings) const;
 
-  /// The least of the readings once background_frames of them agree; NaN before that.
+  /// Whether anything is learned for images of this size.
+  bool is_of(int width, int height) const {
+    return count_.width() == width && count_.height() == height;
+  }
+
+  /// The least of the readings once background_frames of them agree. Infinite where they do not,
+  /// but so many images have one there; else NaN.
   float depth_m(int u, int v, const SensorSettings& settings) const {
-    return count_(u, v) >= settings.background_frames ? least_m_(u, v) : kNoDepth;
+    if (count_(u, v) >= settings.background_frames) return least_m_(u, v);
+    return read_count_(u, v) >= settings.background_frames ? kReadAtUnknownDepth_m : kNoDepth;
   }
 
   /// Puts the background where F has no depth: behind the robot, in its padding, at dropped pixels
   /// and where there is no reading. Such a pixel's fate is `background`. It is not put where a
-  /// reading lies farther away than it, since what was there is gone then, and not onto
-  /// environment.
-  void complete(DepthView sensor_depth_m, const SensorSettings& settings, ObstacleImage& out) const;
+  /// reading lies farther away than it, since what was there is gone then, and neither onto
+  /// environment nor where it is environment itself, within the tolerance of `place`.
+  void complete(DepthView sensor_depth_m, const KnownPlace& place, const SensorSettings& settings,
+                ObstacleImage& out) const;
 
  private:
+  static constexpr float kReadAtUnknownDepth_m = std::numeric_limits<float>::infinity();
+
+  void learn_pixel(int u, int v, float z_m, const SensorSettings& settings);
+
   Image<int> count_;
+  Image<int> read_count_;
   DepthImage least_m_;
   /// Scratch of learn.
-  RobotImage links_;
-  SelfFilterWorkspace workspace_;
-  ObstacleImage far_from_robot_;
+  BesideRobotWorkspace workspace_;
 };
 
 }  // namespace berth

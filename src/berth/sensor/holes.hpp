@@ -1,17 +1,27 @@
 #pragma once
 
+#include "berth/sensor/beside_robot.hpp"
+#include "berth/sensor/known_place.hpp"
 #include "berth/sensor/settings.hpp"
+#include "berth/types/camera.hpp"
 #include "berth/types/obstacle_image.hpp"
 #include "berth/types/robot_image.hpp"
 
 namespace berth {
 
-/// The depth that HolePolicy::obstacle gives a pixel: nearer than any depth camera measures, so
-/// that everything behind it counts as hidden, and still more than 0 in a PNG of millimetres.
-inline constexpr float kHoleDepth_m = 0.01F;
+/// The memory of find_holes().
+struct HolesWorkspace {
+  /// A depth at each pixel that may be a hole.
+  DepthImage lost_m;
+  BesideRobotWorkspace beside_robot;
+};
 
-/// Gives the holes a depth by the policy, and the fate `hole`: `no_reading` pixels that the model,
-/// robot or environment, does not cover. Only adds obstacles.
-void fill_holes(HolePolicy policy, const RobotImage& robot, ObstacleImage& out);
+/// Gives the fate `hole` to pixels without a reading that the camera could read if nothing were
+/// there: the empty cell has one (KnownPlace::background), or KnownPlace::always_reads says so and
+/// the model, robot or environment, does not cover it. Not where the evaluated links are, nor
+/// within kRobotShadow_m beside them. F stays as it is.
+void find_holes(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,
+                const KnownPlace& place, const SensorSettings& settings, HolesWorkspace& workspace,
+                ObstacleImage& out);
 
 }  // namespace berth

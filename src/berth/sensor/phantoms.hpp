@@ -26,10 +26,10 @@ inline constexpr double kDepthStep_per_m = 0.004;
 /// Drops as `speckle` the readings that are alone in space: in the square of pixels that are at
 /// most f d / z, and kMostSupportReach_px, to the side of it, fewer than support_of_phantom_rule()
 /// pixels are within d of it in depth, and kDepthStep_per_m z^2, itself among them: kept ones, and
-/// readings that were dropped but do not show robot or environment. So what padding took of a thing beside the arm still
-/// stands by what is left of it. A camera makes such readings up between near and far, and in the
-/// air; of a thing of the size d, a rod or a cable it gives more. Counts are of the image as it
-/// came: it does not matter who is dropped first. 0 turns the rule off.
+/// readings that were dropped but do not show robot or environment. So what padding took of a thing
+/// beside the arm still stands by what is left of it. A camera makes such readings up between near
+/// and far, and in the air; of a thing of the size d, a rod or a cable it gives more. Counts are of
+/// the image as it came: it does not matter who is dropped first. 0 turns the rule off.
 void drop_phantoms(const Camera& camera, DepthView sensor_depth_m, double phantom_radius_m,
                    PhantomWorkspace& workspace, ObstacleImage& out);
 

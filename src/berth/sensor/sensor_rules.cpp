@@ -19,14 +19,17 @@ void count_again(ObstacleImage& out) {
 
 }  // namespace
 
-void apply_sensor_rules(DepthView sensor_depth_m, const RobotImage& robot,
-                        const Background& background, const SensorSettings& settings,
+void apply_sensor_rules(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,
+                        const KnownPlace& place, const SensorSettings& settings,
                         SensorWorkspace& workspace, ObstacleImage& out) {
-  if (settings.first_rule().empty()) return;
+  if (settings.first_rule().empty() && !place.always_reads) return;
+  const bool has_background = settings.has_background() && place.background;
   if (settings.drops_speckle()) drop_speckle(settings, workspace.speckle, out);
   if (settings.averages()) average_readings(settings, workspace.history, out);
-  if (settings.has_background()) background.complete(sensor_depth_m, settings, out);
-  fill_holes(settings.holes, robot, out);
+  if (has_background) place.background->complete(sensor_depth_m, place, settings, out);
+  if (has_background || place.always_reads) {
+    find_holes(camera, sensor_depth_m, robot, place, settings, workspace.holes, out);
+  }
   count_again(out);
 }
 

@@ -12,14 +12,15 @@ namespace berth {
 struct SensorWorkspace {
   SpeckleWorkspace speckle;
   ReadingHistory history;
+  HolesWorkspace holes;
 };
 
 /// Applies the rules for what sensors do wrong to the self filter's result `out`, in this order:
 /// speckle is dropped, readings are averaged towards the camera, the background is put where F has
-/// no depth, holes are filled. Depth, fates and counts of `out` tell what became of each pixel. All
-/// images have the same size. The result does not depend on the number of threads.
-void apply_sensor_rules(DepthView sensor_depth_m, const RobotImage& robot,
-                        const Background& background, const SensorSettings& settings,
+/// no depth, holes are found. Depth, fates and counts of `out` tell what became of each pixel. All
+/// images have the camera's size. The result does not depend on the number of threads.
+void apply_sensor_rules(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,
+                        const KnownPlace& place, const SensorSettings& settings,
                         SensorWorkspace& workspace, ObstacleImage& out);
 
 }  // namespace berth

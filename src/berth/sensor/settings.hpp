@@ -1,22 +1,10 @@
 #pragma once
 
-#include <array>
 #include <string_view>
 
 #include "berth/types/setting.hpp"
 
 namespace berth {
-
-/// What a pixel without a reading means, where the model does not say that it shows the robot or
-/// environment. Each enumerator is its own name.
-enum class HolePolicy {
-  free,      ///< nothing is there
-  obstacle,  ///< something may be right before the camera: its shadow is an obstacle
-};
-inline constexpr std::array kHolePolicies = {HolePolicy::free, HolePolicy::obstacle};
-
-std::string_view name_of(HolePolicy policy);
-constexpr const auto& all_of(HolePolicy) { return kHolePolicies; }
 
 /// What is known of the sensor's faults. Every rule but `phantom_radius_m` is off by default. Only
 /// that and `speckle_px` ever drop anything; the other rules add obstacles or move them towards the
@@ -24,12 +12,11 @@ constexpr const auto& all_of(HolePolicy) { return kHolePolicies; }
 struct SensorSettings {
   /// Two readings of one surface at z m differ by no more than noise_m max(1, z^2).
   double noise_m = 0.02;
-  /// Blobs of fewer pixels are dropped; 0 and 1 turn the rule off. A blob is joined by steps of up
-  /// to speckle_jump_m max(1, z^2) between neighbours (8), z being the nearer one. What is lost
+  /// Blobs of fewer pixels are dropped; 0 and 1 turn the rule off. A blob is joined by steps
+  /// between neighbours (8) as those of one surface (joined.hpp). What is lost
   /// with it is what shows the camera less than speckle_px z^2 / (fx fy) m^2: 20 at 1.5 m with 600
   /// px is 1.3 cm^2, 60 is 3.8 cm^2; a fingertip of 15 x 70 mm has 10 cm^2.
   int speckle_px = 0;
-  double speckle_jump_m = 0.03;
   /// d: a reading that is alone in space, with fewer than a quarter of the readings within d that a
   /// ball of this diameter would show, at most 5, is dropped as speckle before `mesh` looks
   /// (drop_phantoms); 0 turns the rule off. Methods on images do not know it.
@@ -37,16 +24,16 @@ struct SensorSettings {
   /// A reading moves to the mean of this many of its pixel's last ones (itself among them) where
   /// that is nearer; 0 and 1 turn the rule off.
   int average_frames = 0;
-  /// A pixel's background is known once so many images agree on it; 0 turns the rule off.
+  /// A pixel of the empty cell is known once so many images agree on it; 0 turns the rule off. What
+  /// the robot hides of it stays an obstacle, and where it was read and nothing is read now,
+  /// something is that gives no reading (find_holes()).
   int background_frames = 0;
   /// No background is learned where the robot is within this length in the image, at its depth.
   double background_clearance_m = 0.15;
-  HolePolicy holes = HolePolicy::free;
 
   bool drops_speckle() const { return speckle_px > 1; }
   bool averages() const { return average_frames > 1; }
   bool has_background() const { return background_frames > 0; }
-  bool fills_holes() const { return holes != HolePolicy::free; }
   /// The key of the first of apply_sensor_rules()'s rules that is on; empty where all are off.
   std::string_view first_rule() const;
 };
@@ -63,10 +50,6 @@ void visit_settings(Settings& s, Visitor&& visit) {
         s.noise_m);
   visit({"speckle_px", kNotNegative, "blobs of fewer pixels are dropped; 0 and 1 are off"},
         s.speckle_px);
-  visit({"speckle_jump_m", kNotNegative,
-         "two neighbouring pixels are of one blob where their depths differ by no more than this "
-         "times max(1, z²)"},
-        s.speckle_jump_m);
   visit(
       {"phantom_radius_m", kNotNegative,
        "mesh: a reading is dropped that has fewer others within this distance than a thing of this "
@@ -78,12 +61,12 @@ void visit_settings(Settings& s, Visitor&& visit) {
          "0 and 1 are off"},
         s.average_frames);
   visit({"background_frames", kNotNegative,
-         "what so many images agree on stands where the robot hides it now; 0 is off"},
+         "what so many images of the empty cell agree on stands where the robot hides it now, and "
+         "something is where it cannot be read any more; 0 is off"},
         s.background_frames);
   visit({"background_clearance_m", kNotNegative,
          "no background is learned this near to the robot in the image"},
         s.background_clearance_m);
-  visit({"holes", {}, "what a pixel without a reading means, where the robot is not"}, s.holes);
 }
 
 /// Throws std::invalid_argument that names key, value and what was expected.

@@ -14,11 +14,13 @@ namespace berth {
 enum class NoReading : std::uint8_t {
   unknown,  ///< nothing: it frees nothing that another camera's obstacle hides
   free,     ///< nothing stands there, for a camera that sees no background within its range
+  hides,    ///< something may stand anywhere on it, for a camera that always has a reading
 };
 
-inline constexpr std::array kNoReadings = {NoReading::unknown, NoReading::free};
+inline constexpr std::array kNoReadings = {NoReading::unknown, NoReading::free, NoReading::hides};
 constexpr std::string_view name_of(NoReading meaning) {
-  return meaning == NoReading::free ? "free" : "unknown";
+  constexpr std::array<std::string_view, 3> kNames = {"unknown", "free", "hides"};
+  return kNames[static_cast<std::size_t>(meaning)];
 }
 constexpr const auto& all_of(NoReading) { return kNoReadings; }
 
@@ -59,7 +61,7 @@ void visit_settings(Settings& s, Visitor&& visit) {
   visit({"no_reading",
          {},
          "what a pixel without a reading says of its line of sight: free is for a camera that sees "
-         "no background within its range"},
+         "no background within its range, hides for one that reads all of the empty cell"},
         s.no_reading);
   visit({"detection_capability_m", kNotNegative,
          "pixels without a reading, and thin things, hide nothing where no ball of this diameter "
