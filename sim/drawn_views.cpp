@@ -101,7 +101,7 @@ DrawnViews draw_views(const RobotModel& model, const std::vector<MeshTree>& link
 
 PointView point_view(const DrawnView& view) {
   return {view.camera,         view.X_BC, view.depth_m, view.obstacles.depth_m,
-          view.obstacles.fate, {},        view.age_s};
+          view.obstacles.fate, {},        {},           view.age_s};
 }
 
 PointSpace point_space(const std::vector<DrawnView>& views, const SpaceSettings& settings) {

@@ -174,8 +174,9 @@ DepthImage plainly_freed_beside_robot(const Camera& camera, DepthView sensor_dep
   const double ball_px_m = std::min(camera.fx_px, camera.fy_px) * detection_capability_m / 2;
   for (int v = 0; v < own_m.height(); ++v) {
     for (int u = 0; u < own_m.width(); ++u) {
-      const bool is_hole = std::isnan(sensor_depth_m(u, v)) && std::isnan(obstacle_depth_m(u, v)) &&
-                           fate(u, v) != PixelFate::robot;
+      const bool has_nothing = std::isnan(obstacle_depth_m(u, v)) || fate(u, v) == PixelFate::hole;
+      const bool is_hole =
+          std::isnan(sensor_depth_m(u, v)) && has_nothing && fate(u, v) != PixelFate::robot;
       if (!is_hole || own_m(u, v) > 0 || !(detection_capability_m > 0)) continue;
       freed_m(u, v) = freed_by_robot_m(fate, own_m, ball_px_m, u, v);
     }

@@ -6,6 +6,7 @@
 
 #include "sim/plain_aging.hpp"
 #include "sim/plain_closing.hpp"
+#include "sim/plain_hiding.hpp"
 
 namespace berth::sim {
 namespace {
@@ -36,7 +37,6 @@ float own_of_reading(const PointView& view, const SpaceSettings& settings, int u
     case PixelFate::padding:
     case PixelFate::dilation:
       return sensed_m + behind_m;
-    case PixelFate::edge:
     case PixelFate::flying_patch:
     case PixelFate::soft:
     case PixelFate::speckle:
@@ -52,6 +52,7 @@ float own_of_reading(const PointView& view, const SpaceSettings& settings, int u
 }
 
 bool is_empty(const PointView& view, int u, int v) {
+  if (view.fate(u, v) == PixelFate::hole) return true;
   return std::isnan(view.sensor_depth_m(u, v)) && std::isnan(view.obstacle_depth_m(u, v));
 }
 
@@ -94,7 +95,12 @@ Pixel plain_pixel_of(const Camera& camera, const Eigen::Vector3d& p_C) {
 
 PointSpace::PointSpace(std::vector<PointView> views, const SpaceSettings& settings)
     : views_(std::move(views)), settings_(settings) {
-  for (const PointView& view : views_) free_depth_m_.push_back(free_depth_m(view, settings));
+  for (const PointView& view : views_) {
+    free_depth_m_.push_back(free_depth_m(view, settings));
+    hidden_from_m_.push_back(plainly_hidden_from(view.camera, view.sensor_depth_m,
+                                                 view.obstacle_depth_m, view.fate,
+                                                 own_free_depth_m(view, settings), settings));
+  }
 }
 
 bool PointSpace::is_reading(std::size_t k, const Eigen::Vector3d& p_B) const {
@@ -109,8 +115,8 @@ bool PointSpace::is_behind(std::size_t k, const Eigen::Vector3d& p_B) const {
   const Eigen::Vector3d p_C = views_[k].X_BC.inverse() * p_B;
   const Pixel pixel = plain_pixel_of(views_[k].camera, p_C);
   if (pixel == Pixel{}) return false;
-  return p_C.z() > plainly_counted(views_[k].obstacle_depth_m(pixel.u, pixel.v)) +
-                       settings_.surface_thickness_m;
+  return p_C.z() > hidden_from_m_[k](pixel.u, pixel.v) &&
+         p_C.z() < plainly_hidden_to(views_[k].environment_front_m, pixel);
 }
 
 bool PointSpace::is_free(std::size_t k, const Eigen::Vector3d& p_B) const {

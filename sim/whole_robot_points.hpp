@@ -21,7 +21,8 @@ struct PointView {
   /// F, and what became of each pixel of S.
   DepthImage obstacle_depth_m;
   Image<PixelFate> fate;
-  /// Where environment ends along each pixel's ray; of no size where that is not known.
+  /// Where environment begins and ends along each pixel's ray; of no size where that is not known.
+  DepthImage environment_front_m = {};
   DepthImage environment_back_m = {};
   /// By how much it is older than the newest one.
   double age_s = 0;
@@ -56,6 +57,7 @@ class PointSpace {
   std::vector<PointView> views_;
   SpaceSettings settings_;
   std::vector<Image<double>> free_depth_m_;
+  std::vector<DepthImage> hidden_from_m_;
 };
 
 /// The pixel that p_C projects into; (-1, -1) outside of the image and behind the camera.

@@ -76,7 +76,9 @@ struct SensedView {
   DepthImage sensed_m;
   RobotImage robot;
   ObstacleImage obstacles;
-  DepthImage environment_back_m;
+  /// Whose images the surfaces are.
+  std::unique_ptr<EnvironmentBack> environment;
+  EnvironmentSurfaces surfaces;
   double age_s = 0;
 };
 
@@ -106,7 +108,7 @@ class Measured {
     std::vector<PosedSpace> posed;
     for (std::size_t k = 0; k < views_.size(); ++k) {
       const SensedView& view = views_[k];
-      build_camera_space(view.camera, view.sensed_m, view.obstacles, view.environment_back_m,
+      build_camera_space(view.camera, view.sensed_m, view.obstacles, view.surfaces,
                          condition_.space, spaces[k]);
       posed.push_back({&spaces[k], view.X_BC, condition_.knows_age ? view.age_s : 0});
       under.mesh.push_back(ask(posed));
@@ -148,8 +150,8 @@ class Measured {
     sensed.X_BC = images.believed_X_BC(condition_.pose);
     sensed.sensed_m = images.sensed(condition_.image);
     sensed.robot = images.believed(condition_.pose);
-    EnvironmentBack environment(robot_.model, sensed.camera);
-    sensed.environment_back_m = environment.at(drawn_.scene.pose, sensed.X_BC);
+    sensed.environment = std::make_unique<EnvironmentBack>(robot_.model, sensed.camera);
+    sensed.surfaces = sensed.environment->at(drawn_.scene.pose, sensed.X_BC);
     if (condition_.filter == MeasuredFilter::ideal) {
       filter_ideally(view.obstacles, sensed);
     } else {

@@ -33,7 +33,7 @@ TEST(MeshOdd, EmptyImages) {
     MeshWorld world = draw_mesh_world(settings, 1);
     for (MeshWorldView& view : world.views) {
       view.camera.width_px = view.camera.height_px = 0;
-      view.sensor_depth_m = view.environment_back_m = DepthImage();
+      view.sensor_depth_m = view.environment_front_m = view.environment_back_m = DepthImage();
       view.obstacles = ObstacleImage();
     }
     for (const auto& link : PreparedWorld(world).ask({})) expect_nothing_near(link, 1);

@@ -21,7 +21,7 @@ TEST(MeshSteadyState, NothingIsAllocatedOnceTheSceneWasSeen) {
   const auto frame_and_requests = [&] {
     for (int k = 0; k < 3; ++k) {
       const MeshWorldView& view = world.views[k];
-      build_camera_space(view.camera, view.sensor_depth_m, view.obstacles, view.environment_back_m,
+      build_camera_space(view.camera, view.sensor_depth_m, view.obstacles, view.environment(),
                          world.settings, spaces[k]);
       posed[k] = {&spaces[k], view.X_BC, view.age_s};
     }

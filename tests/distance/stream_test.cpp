@@ -51,8 +51,8 @@ struct StreamWorld {
     for (const MeshWorld& world : worlds) {
       robots.push_back(build_robot_patches(world.model));
       for (const MeshWorldView& view : world.views) {
-        build_camera_space(view.camera, view.sensor_depth_m, view.obstacles,
-                           view.environment_back_m, world.settings, spaces[X_BC.size()]);
+        build_camera_space(view.camera, view.sensor_depth_m, view.obstacles, view.environment(),
+                           world.settings, spaces[X_BC.size()]);
         X_BC.push_back(view.X_BC);
       }
     }

@@ -24,7 +24,7 @@ TEST(FreeDepth, IsThatOfTheDefinition) {
       SCOPED_TRACE("seed " + std::to_string(seed) + " age " + std::to_string(age_s));
       view.age_s = age_s;
       CameraSpace space;
-      build_camera_space(view.camera, view.sensor_depth_m, view.obstacles, view.environment_back_m,
+      build_camera_space(view.camera, view.sensor_depth_m, view.obstacles, view.environment(),
                          world.settings, space);
       // A second view, since a single one is not asked what it frees.
       const PosedSpace posed[] = {{&space, view.X_BC, age_s}, {&space, view.X_BC, 0}};

@@ -104,6 +104,7 @@ void plain_own_free_depth(DepthView sensor_depth_m, const ObstacleImage& obstacl
                           DepthView environment_back_m, const SpaceSettings& settings,
                           DepthImage& out) {
   const auto is_empty = [&](int u, int v) {
+    if (obstacles.fate(u, v) == PixelFate::hole) return true;
     return std::isnan(sensor_depth_m(u, v)) && std::isnan(obstacles.depth_m(u, v));
   };
   const auto freed_at = [&](int u, int v) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "sim/plain_closing.hpp"
+#include "sim/plain_hiding.hpp"
 #include "sim/random.hpp"
 #include "tests/space/plain_view_space.hpp"
 #include "tests/support/only_target.hpp"
@@ -32,6 +33,7 @@ void draw(sim::Random& random, int width, int height, double holes, DepthImage& 
       }
       obstacles.fate(u, v) = static_cast<PixelFate>(
           any_fate || random.chance(0.1) ? random.whole(0, kPixelFateCount - 1) : 0);
+      ++obstacles.count[static_cast<std::size_t>(obstacles.fate(u, v))];
       if (any_fate ? random.chance(0.5) : obstacles.fate(u, v) == PixelFate::obstacle) {
         obstacles.depth_m(u, v) = sensor_depth_m(u, v) - (any_fate ? 0.01f : 0.0f);
       }
@@ -94,7 +96,8 @@ void expect_that_of_the_plain_way() {
         camera.height_px = height;
         camera.fx_px = random(40, 300);
         camera.fy_px = random(40, 300);
-        build_camera_space(camera, sensor_depth_m, obstacles, environment_back_m, settings, fast);
+        build_camera_space(camera, sensor_depth_m, obstacles, {.back_m = environment_back_m},
+                           settings, fast);
         plain_own_free_depth(sensor_depth_m, obstacles, environment_back_m, settings, own_m);
         const double told_m = sim::plainly_told_m(settings, camera);
         own_m = sim::plainly_freed_beside_robot(camera, sensor_depth_m, obstacles.depth_m,
@@ -111,8 +114,10 @@ void expect_that_of_the_plain_way() {
         plain_depth_cells(obstacles.depth_m, cells);
         expect_same(fast.cells, cells);
         DepthWindows windows;
-        plain_depth_windows(obstacles.depth_m, windows);
-        expect_same(fast.obstacle_windows, windows);
+        plain_depth_windows(sim::plainly_hidden_from(camera, sensor_depth_m, obstacles.depth_m,
+                                                     obstacles.fate, own_m, settings),
+                            windows);
+        expect_same(fast.hidden_depth, windows);
         plain_depth_windows(free_m, windows);
         expect_same(fast.free_depth, windows);
       }

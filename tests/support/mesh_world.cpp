@@ -55,6 +55,15 @@ void cast(sim::Random& random, const MeshWorldSettings& settings, const sim::Emb
           const sim::EmbreeRenderer& obstacles, MeshWorldView& view) {
   view.sensor_depth_m = DepthImage(settings.width_px, settings.height_px, kNoDepth);
   view.obstacles.depth_m = view.environment_back_m = view.sensor_depth_m;
+  view.environment_front_m = view.sensor_depth_m;
+  // In half of the images, blocks of pixels would show environment somewhere.
+  const bool has_environment = random.chance(0.5);
+  for (int v = 0; v < settings.height_px && has_environment; ++v) {
+    const double front_m = random(0.6, 3);
+    for (int u = random.whole(0, settings.width_px); u < settings.width_px; ++u) {
+      view.environment_front_m(u, v) = static_cast<float>(front_m);
+    }
+  }
   view.obstacles.fate =
       Image<PixelFate>(settings.width_px, settings.height_px, PixelFate::no_reading);
   for (int v = 0; v < settings.height_px; ++v) {
@@ -64,6 +73,7 @@ void cast(sim::Random& random, const MeshWorldSettings& settings, const sim::Emb
       const bool is_robot =
           near_robot.id != kNoLink &&
           !(near_obstacle.id != kNoLink && near_obstacle.depth_m < near_robot.depth_m);
+      ++view.obstacles.count[static_cast<std::size_t>(PixelFate::no_reading)];
       if (random.chance(settings.dropout)) continue;
       const sim::RayHit& hit = is_robot ? near_robot : near_obstacle;
       if (hit.id == kNoLink) continue;
@@ -72,6 +82,8 @@ void cast(sim::Random& random, const MeshWorldSettings& settings, const sim::Emb
       sensed_m = static_cast<float>(hit.depth_m);
       fate = is_robot ? PixelFate::robot : PixelFate::obstacle;
       if (random.chance(0.02)) fate = draw_fate(random);
+      --view.obstacles.count[static_cast<std::size_t>(PixelFate::no_reading)];
+      ++view.obstacles.count[static_cast<std::size_t>(fate)];
       if (is_kept(fate)) view.obstacles.depth_m(u, v) = sensed_m;
       if (fate == PixelFate::hole) sensed_m = kNoDepth;
       // Before the reading, behind it, farther than the robot may reach, or not known.
@@ -111,7 +123,7 @@ PreparedWorld::PreparedWorld(const MeshWorld& world)
   std::vector<PosedSpace> posed;
   for (std::size_t k = 0; k < world.views.size(); ++k) {
     const MeshWorldView& view = world.views[k];
-    build_camera_space(view.camera, view.sensor_depth_m, view.obstacles, view.environment_back_m,
+    build_camera_space(view.camera, view.sensor_depth_m, view.obstacles, view.environment(),
                        world.settings, spaces_[k]);
     posed.push_back({&spaces_[k], view.X_BC, view.age_s});
   }

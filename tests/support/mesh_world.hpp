@@ -26,7 +26,10 @@ struct MeshWorldView {
   Pose X_BC = Pose::Identity();
   DepthImage sensor_depth_m;
   ObstacleImage obstacles;
+  DepthImage environment_front_m;
   DepthImage environment_back_m;
+
+  EnvironmentSurfaces environment() const { return {environment_front_m, environment_back_m}; }
   double age_s = 0;
 };
 

@@ -8,6 +8,7 @@
 #include "berth/distance/convex_pair.hpp"
 #include "sim/plain_aging.hpp"
 #include "sim/plain_closing.hpp"
+#include "sim/plain_hiding.hpp"
 
 namespace berth::testing {
 namespace {
@@ -38,7 +39,8 @@ float own_of_reading(const MeshWorldView& view, const SpaceSettings& settings, i
 
 float own_free_depth(const MeshWorldView& view, const SpaceSettings& settings, int u, int v) {
   const DepthImage& S = view.sensor_depth_m;
-  if (!std::isnan(S(u, v)) || !std::isnan(view.obstacles.depth_m(u, v))) {
+  const bool is_hole = view.obstacles.fate(u, v) == PixelFate::hole;
+  if (!is_hole && (!std::isnan(S(u, v)) || !std::isnan(view.obstacles.depth_m(u, v)))) {
     return own_of_reading(view, settings, u, v);
   }
   return settings.no_reading == NoReading::free ? HUGE_VALF : 0;
@@ -82,6 +84,9 @@ Image<double> plain_free_depth(const MeshWorldView& view, const SpaceSettings& s
 PlainSpace::PlainSpace(const MeshWorld& world) : world_(world) {
   for (const MeshWorldView& view : world.views) {
     free_m_.push_back(plain_free_depth(view, world.settings));
+    hidden_from_m_.push_back(sim::plainly_hidden_from(
+        view.camera, view.sensor_depth_m, view.obstacles.depth_m, view.obstacles.fate,
+        closed_free_depth(view, world.settings), world.settings));
   }
 }
 
@@ -112,8 +117,8 @@ bool PlainSpace::is_behind(std::size_t k, const Eigen::Vector3d& p_B) const {
   const MeshWorldView& view = world_.views[k];
   const Eigen::Vector3d p_C = view.X_BC.inverse() * p_B;
   const auto pixel = plain_pixel(view.camera, p_C);
-  return pixel && p_C.z() > sim::plainly_counted(view.obstacles.depth_m(pixel->u, pixel->v)) +
-                                world_.settings.surface_thickness_m;
+  return pixel && p_C.z() > hidden_from_m_[k](pixel->u, pixel->v) &&
+         p_C.z() < sim::plainly_hidden_to(view.environment_front_m, *pixel);
 }
 
 bool PlainSpace::is_free(std::size_t k, const Eigen::Vector3d& p_B) const {

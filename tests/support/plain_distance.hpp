@@ -27,6 +27,7 @@ class PlainSpace {
 
   const MeshWorld& world_;
   std::vector<Image<double>> free_m_;
+  std::vector<DepthImage> hidden_from_m_;
 };
 
 /// The least distance from a link's triangles to all surface layers, or to all that lies behind a

@@ -14,10 +14,10 @@ bool is_blind(const ObstacleImage& obstacles) {
   return static_cast<double>(pixels - without) < kLeastReadOfImage * static_cast<double>(pixels);
 }
 
-void prepare_space(DepthView sensor_depth_m, DepthView environment_back_m, Frame& frame) {
+void prepare_space(DepthView sensor_depth_m, const EnvironmentSurfaces& environment, Frame& frame) {
   const Camera& camera = frame.view->camera();
   const SpaceSettings& settings = frame.view->settings().space;
-  build_camera_space(camera, sensor_depth_m, frame.obstacles, environment_back_m, settings,
+  build_camera_space(camera, sensor_depth_m, frame.obstacles, environment, settings,
                      frame.space->seen);
   if (frame.view->robot()->settings().distance.mean_direction) {
     build_reading_tiles(camera, frame.obstacles.depth_m, frame.space->reading_tiles);
@@ -31,7 +31,7 @@ void prepare_space(DepthView sensor_depth_m, DepthView environment_back_m, Frame
 
 }  // namespace
 
-void prepare_frame(DepthView sensor_depth_m, DepthView environment_back_m, FrameUse use,
+void prepare_frame(DepthView sensor_depth_m, const EnvironmentSurfaces& environment, FrameUse use,
                    Frame& frame) {
   const EvaluationSettings& settings = frame.view->robot()->settings();
   if (use == FrameUse::any_query) {
@@ -46,7 +46,7 @@ void prepare_frame(DepthView sensor_depth_m, DepthView environment_back_m, Frame
   }
   frame.is_blind = is_blind(frame.obstacles);
   if (use == FrameUse::any_query) {
-    prepare_space(sensor_depth_m, environment_back_m, frame);
+    prepare_space(sensor_depth_m, environment, frame);
   } else {
     clear_space(*frame.space);
   }

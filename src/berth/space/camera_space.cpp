@@ -3,21 +3,37 @@
 #include <cassert>
 
 namespace berth {
+namespace {
+
+/// For a camera that stands, once.
+void build_environment_front(const EnvironmentSurfaces& environment, CameraSpace& out) {
+  out.has_environment = environment.front_m.width > 0;
+  const bool is_same =
+      environment.serial_number != 0 && environment.serial_number == out.environment_number;
+  if (!out.has_environment || is_same) return;
+  build_environment_ceiling(environment.front_m, out.front_to_end, out.environment_front);
+  out.environment_number = environment.serial_number;
+}
+
+}  // namespace
+
 void build_camera_space(const Camera& camera, DepthView sensor_depth_m,
-                        const ObstacleImage& obstacles, DepthView environment_back_m,
+                        const ObstacleImage& obstacles, const EnvironmentSurfaces& environment,
                         const SpaceSettings& settings, CameraSpace& out) {
   assert(sensor_depth_m.width == camera.width_px && sensor_depth_m.height == camera.height_px);
   build_reading_space(camera, obstacles.depth_m, settings, out);
   if (out.is_empty()) return;
-  find_own_free_depth(sensor_depth_m, obstacles, environment_back_m, settings, out.sensor_depth,
-                      out.obstacle_windows, out.own_free_depth);
+  find_own_free_depth(sensor_depth_m, obstacles, environment.back_m, settings, out.sensor_depth,
+                      out.hidden_depth, out.own_free_depth);
   const double told_m = detection_capability_m(settings, camera);
   free_holes_beside_robot(camera, sensor_depth_m, obstacles, told_m, out.robot_holes,
                           out.own_free_depth);
   close_free_depth(camera, told_m, out.closing, out.own_free_depth);
   find_free_depth(out.own_free_depth, out.free_depth);
-  build_depth_windows(out.obstacle_windows);
+  hide_behind_holes(obstacles, out.own_free_depth, told_m, settings, out.hidden_depth);
+  build_depth_windows(out.hidden_depth);
   build_depth_windows(out.free_depth);
+  build_environment_front(environment, out);
   out.has_free_depth = true;
 }
 

@@ -110,14 +110,14 @@ void build_depth_windows(DepthWindows& windows) {
   }
 }
 
-float least_of_m(const DepthWindows& windows, const PixelRect& rect) {
+DepthUnits least_of(const DepthWindows& windows, const PixelRect& rect) {
   DepthUnits least = kEndlessUnits;
   const int longest_px = std::max(rect.u_end - rect.u_begin, rect.v_end - rect.v_begin);
   if (longest_px <= DepthWindows::kMostPixels) {
     for (int v = rect.v_begin; v < rect.v_end; ++v) {
       for (int u = rect.u_begin; u < rect.u_end; ++u) least = std::min(least, windows(u, v));
     }
-    return in_metres(least);
+    return least;
   }
   const DepthWindows::Level& level = windows.level_for(longest_px);
   for (const int row : windows_of(level, rect.v_begin, rect.v_end)) {
@@ -125,7 +125,7 @@ float least_of_m(const DepthWindows& windows, const PixelRect& rect) {
       least = std::min(least, level.row(row)[column]);
     }
   }
-  return in_metres(least);
+  return least;
 }
 
 }  // namespace berth

@@ -56,6 +56,9 @@ DepthWindows::Level& begin_depth_windows(int width, int height, DepthWindows& wi
 void build_depth_windows(DepthWindows& windows);
 
 /// The least of a rectangle in the image, and of little else.
-float least_of_m(const DepthWindows& windows, const PixelRect& rect);
+DepthUnits least_of(const DepthWindows& windows, const PixelRect& rect);
+inline float least_of_m(const DepthWindows& windows, const PixelRect& rect) {
+  return in_metres(least_of(windows, rect));
+}
 
 }  // namespace berth

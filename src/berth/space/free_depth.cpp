@@ -15,11 +15,17 @@ struct FreeDepthRow {
   const float* environment_back_m = nullptr;
 };
 
-/// The same in units, and what each pixel frees.
+/// The same in units, and what each pixel hides and frees.
 struct UnitRow {
   DepthUnits* sensed = nullptr;
-  DepthUnits* obstacle = nullptr;
+  DepthUnits* hidden = nullptr;
   DepthUnits* own = nullptr;
+};
+/// Of SpaceSettings.
+struct SpaceLengths {
+  float margin_m = 0;
+  float behind_m = 0;
+  float thickness_m = 0;
 };
 }  // namespace berth
 #endif
@@ -70,10 +76,18 @@ struct FreeDepthPixels {
     return greater_or_first(sensed_m - Lanes(margin_m), least(most_m, environment_back_m));
   }
   HWY_INLINE LaneMask is_dropped() const {
-    static_assert(static_cast<int>(PixelFate::dilation) + 1 == static_cast<int>(PixelFate::edge));
-    return is_within(PixelFate::edge, PixelFate::speckle);
+    static_assert(static_cast<int>(PixelFate::dilation) + 1 ==
+                  static_cast<int>(PixelFate::flying_patch));
+    return is_within(PixelFate::flying_patch, PixelFate::speckle);
   }
-  HWY_INLINE LaneMask is_hole() const { return hn::And(is_nan(sensed_m), is_nan(obstacle_m)); }
+  HWY_INLINE LaneMask is_hole() const {
+    return hn::Or(hn::And(is_nan(sensed_m), is_nan(obstacle_m)),
+                  is_within(PixelFate::hole, PixelFate::hole));
+  }
+  HWY_INLINE Lanes hides_from_m(float thickness_m) const {
+    return hn::IfThenElse(is_within(PixelFate::flying_patch, PixelFate::flying_patch), sensed_m.v,
+                          (obstacle_m + Lanes(thickness_m)).v);
+  }
 };
 
 /// units_of(), but `of_nan` for NaN.
@@ -86,27 +100,28 @@ HWY_INLINE void store_units(Lanes depth_m, DepthUnits of_nan, DepthUnits* out) {
 }
 
 /// own_of_pixel() of many; `of_hole` where there is neither a reading nor an obstacle.
-void fill_own(const FreeDepthRow& row, int width, float margin_m, float behind_m,
-              DepthUnits of_hole, const UnitRow& out) {
+void fill_own(const FreeDepthRow& row, int width, const SpaceLengths& lengths, DepthUnits of_hole,
+              const UnitRow& out) {
   for_row(
       0, width,
       [&](int u) {
         const FreeDepthPixels pixels(row, u);
         store_units(pixels.sensed_m, kEndlessUnits, out.sensed + u);
-        store_units(pixels.obstacle_m, kEndlessUnits, out.obstacle + u);
-        const Lanes robot_m = pixels.sensed_m + Lanes(behind_m);
-        const Lanes before_m = pixels.obstacle_m - Lanes(margin_m);
+        store_units(pixels.hides_from_m(lengths.thickness_m), kEndlessUnits, out.hidden + u);
+        const Lanes robot_m = pixels.sensed_m + Lanes(lengths.behind_m);
+        const Lanes before_m = pixels.obstacle_m - Lanes(lengths.margin_m);
         const Lanes background_m =
             hn::IfThenZeroElse(is_nan(pixels.sensed_m), lesser_or_first(before_m, robot_m).v);
         auto own = hn::IfThenElse(pixels.is_within(PixelFate::background, PixelFate::background),
                                   background_m.v, before_m.v);
         own = hn::IfThenElse(pixels.is_robot(), robot_m.v, own);
         own = hn::IfThenElse(pixels.is_within(PixelFate::environment, PixelFate::environment),
-                             pixels.of_environment_m(margin_m, robot_m).v, own);
-        own = hn::IfThenElse(pixels.is_dropped(), (pixels.sensed_m - Lanes(margin_m)).v, own);
+                             pixels.of_environment_m(lengths.margin_m, robot_m).v, own);
+        own =
+            hn::IfThenElse(pixels.is_dropped(), (pixels.sensed_m - Lanes(lengths.margin_m)).v, own);
         // A hole is NaN, and what else is NaN frees nothing.
         own = hn::IfThenZeroElse(is_nan(own), own);
-        own = hn::IfThenElse(pixels.is_hole(), pixels.sensed_m.v, own);
+        own = hn::IfThenElse(pixels.is_hole(), hn::NaN(FloatTag()), own);
         store_units(own, of_hole, out.own + u);
       },
       [](int) {});
@@ -145,12 +160,9 @@ HWY_EXPORT(fill_least);
 
 namespace {
 
-bool is_empty(float sensed_m, float obstacle_m) {
-  return std::isnan(sensed_m) && std::isnan(obstacle_m);
-}
-
 float own_of_reading(float sensed_m, float obstacle_m, float environment_back_m, PixelFate fate,
-                     float margin_m, float behind_m) {
+                     const SpaceLengths& lengths) {
+  const auto [margin_m, behind_m, thickness_m] = lengths;
   switch (fate) {
     case PixelFate::background:
       return std::isnan(sensed_m) ? 0 : std::min(obstacle_m - margin_m, sensed_m + behind_m);
@@ -162,7 +174,6 @@ float own_of_reading(float sensed_m, float obstacle_m, float environment_back_m,
     case PixelFate::padding:
     case PixelFate::dilation:
       return sensed_m + behind_m;
-    case PixelFate::edge:
     case PixelFate::flying_patch:
     case PixelFate::outside_region:
     case PixelFate::soft:
@@ -178,12 +189,13 @@ float own_of_reading(float sensed_m, float obstacle_m, float environment_back_m,
 }
 
 /// Pixel u of a row.
-DepthUnits own_of_pixel(const FreeDepthRow& row, int u, float margin_m, float behind_m,
+DepthUnits own_of_pixel(const FreeDepthRow& row, int u, const SpaceLengths& lengths,
                         DepthUnits of_hole) {
-  if (is_empty(row.sensed_m[u], row.obstacle_m[u])) return of_hole;
+  const auto fate = static_cast<PixelFate>(row.fate[u]);
+  const bool is_empty = std::isnan(row.sensed_m[u]) && std::isnan(row.obstacle_m[u]);
+  if (is_empty || fate == PixelFate::hole) return of_hole;
   const float back_m = row.environment_back_m ? row.environment_back_m[u] : kNoDepth;
-  const float own_m = own_of_reading(row.sensed_m[u], row.obstacle_m[u], back_m,
-                                     static_cast<PixelFate>(row.fate[u]), margin_m, behind_m);
+  const float own_m = own_of_reading(row.sensed_m[u], row.obstacle_m[u], back_m, fate, lengths);
   return std::isnan(own_m) ? DepthUnits{0} : units_of(own_m);
 }
 
@@ -191,30 +203,33 @@ DepthUnits own_of_pixel(const FreeDepthRow& row, int u, float margin_m, float be
 
 void find_own_free_depth(DepthView sensor_depth_m, const ObstacleImage& obstacles,
                          DepthView environment_back_m, const SpaceSettings& settings,
-                         UnitImage& sensor_depth, DepthWindows& obstacle_windows, UnitImage& own) {
+                         UnitImage& sensor_depth, DepthWindows& hidden, UnitImage& own) {
   // Below this width a row may not fit a whole vector of any instruction set.
   constexpr int kLeastWidth = 16;
   const int width = sensor_depth_m.width;
   const int height = sensor_depth_m.height;
-  const auto margin_m = static_cast<float>(settings.free_space_margin_m);
-  const auto behind_m = static_cast<float>(settings.behind_robot_m);
+  const SpaceLengths lengths{static_cast<float>(settings.free_space_margin_m),
+                             static_cast<float>(settings.behind_robot_m),
+                             static_cast<float>(settings.surface_thickness_m)};
   const DepthUnits of_hole = settings.no_reading == NoReading::free ? kEndlessUnits : 0;
   set_size(width, height, sensor_depth);
   set_size(width, height, own);
-  DepthWindows::Level& obstacle = begin_depth_windows(width, height, obstacle_windows);
+  DepthWindows::Level& hides = begin_depth_windows(width, height, hidden);
   for (int v = 0; v < height; ++v) {
     const FreeDepthRow row{sensor_depth_m.row(v), obstacles.depth_m.row(v),
                            reinterpret_cast<const std::uint8_t*>(obstacles.fate.row(v)),
                            environment_back_m.width > 0 ? environment_back_m.row(v) : nullptr};
-    const UnitRow out{sensor_depth.row(v), obstacle.row(v), own.row(v)};
+    const UnitRow out{sensor_depth.row(v), hides.row(v), own.row(v)};
     if (width >= kLeastWidth) {
-      HWY_DYNAMIC_DISPATCH(fill_own)(row, width, margin_m, behind_m, of_hole, out);
+      HWY_DYNAMIC_DISPATCH(fill_own)(row, width, lengths, of_hole, out);
       continue;
     }
     for (int u = 0; u < width; ++u) {
       out.sensed[u] = units_of(row.sensed_m[u]);
-      out.obstacle[u] = units_of(row.obstacle_m[u]);
-      out.own[u] = own_of_pixel(row, u, margin_m, behind_m, of_hole);
+      const bool is_flying = static_cast<PixelFate>(row.fate[u]) == PixelFate::flying_patch;
+      out.hidden[u] =
+          units_of(is_flying ? row.sensed_m[u] : row.obstacle_m[u] + lengths.thickness_m);
+      out.own[u] = own_of_pixel(row, u, lengths, of_hole);
     }
   }
 }

@@ -120,7 +120,8 @@ class RobotHoles {
   /// A hole that was freed before shows no robot: nobody goes on from it.
   bool is_hole(int u, int v) const {
     return own_(u, v) == 0 && obstacles_.fate(u, v) != PixelFate::robot &&
-           std::isnan(sensor_depth_m_(u, v)) && std::isnan(obstacles_.depth_m(u, v));
+           std::isnan(sensor_depth_m_(u, v)) &&
+           (std::isnan(obstacles_.depth_m(u, v)) || obstacles_.fate(u, v) == PixelFate::hole);
   }
 
   void free_hole(int u, int v) {

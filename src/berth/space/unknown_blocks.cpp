@@ -51,7 +51,7 @@ HWY_INLINE Lanes metres_of(Ints units) {
 }
 
 /// The least of each cube's pixels.
-HWY_INLINE Lanes least_of_m(const DepthWindows& windows, const Projection& cubes) {
+HWY_INLINE Ints least_of(const DepthWindows& windows, const Projection& cubes) {
   const IntTag ints;
   Ints all = hn::Set(ints, kEndlessUnits);
   if (cubes.span < DepthWindows::kMostPixels) {
@@ -64,7 +64,7 @@ HWY_INLINE Lanes least_of_m(const DepthWindows& windows, const Projection& cubes
         all = hn::Min(all, gather(image.least.data(), hn::Add(row, column)));
       }
     }
-    return metres_of(all);
+    return all;
   }
   const DepthWindows::Level& level = windows.level_for(cubes.span + 1);
   const int shift = __builtin_ctz(static_cast<unsigned>(level.step_px));
@@ -83,7 +83,11 @@ HWY_INLINE Lanes least_of_m(const DepthWindows& windows, const Projection& cubes
       all = hn::Min(all, gather(level.least.data(), hn::Add(begin, column)));
     }
   }
-  return metres_of(all);
+  return all;
+}
+
+HWY_INLINE Lanes least_of_m(const DepthWindows& windows, const Projection& cubes) {
+  return metres_of(least_of(windows, cubes));
 }
 
 struct Interval {
@@ -156,20 +160,25 @@ HWY_INLINE Projection project(const FreeingCamera& view, const CubePoints& p_B, 
           bits_of(hn::Not(hn::Or(is_behind_camera, is_before)))};
 }
 
-/// The cubes some of whose points may lie behind a surface layer of the view.
+/// The greatest front of environment of each cube's pixels.
+HWY_INLINE Lanes front_of_m(const CameraSpace& space, const Projection& cubes) {
+  const Ints left = least_of(space.environment_front.left, cubes);
+  return metres_of(hn::Sub(hn::Set(IntTag(), kEndlessUnits), left));
+}
+
+/// The cubes some of whose points the view may hide.
 HWY_INLINE std::uint64_t hides_some(const CameraSpace& space, const Projection& cubes) {
-  const Lanes surface(static_cast<float>(space.settings.surface_thickness_m));
   std::uint64_t hides = 0;
   if (cubes.meets != 0) {
-    const Lanes depth_m = least_of_m(space.obstacle_windows, cubes);
-    hides = cubes.meets & bits_of(Lanes(cubes.zb) > depth_m + surface);
+    hides = cubes.meets & bits_of(Lanes(cubes.zb) > least_of_m(space.hidden_depth, cubes));
+    if (hides != 0 && space.has_environment) {
+      hides &= bits_of(Lanes(cubes.za) < front_of_m(space, cubes));
+    }
   }
   if (cubes.through == 0) return hides;
   // Any pixel may see what reaches through the camera's plane.
-  const DepthWindows::Level& all =
-      space.obstacle_windows.levels[space.obstacle_windows.level_count - 1];
-  const Lanes least_m(in_metres(all.least[0]));
-  return hides | (cubes.through & bits_of(Lanes(cubes.zb) > least_m + surface));
+  const DepthWindows::Level& all = space.hidden_depth.levels[space.hidden_depth.level_count - 1];
+  return hides | (cubes.through & bits_of(Lanes(cubes.zb) > Lanes(in_metres(all.least[0]))));
 }
 
 /// The cubes all of whose points the view sees free.
@@ -202,9 +211,11 @@ HWY_INLINE WholeCube look_at_whole(const FreeingCamera& view, const Cube& cube) 
   const float zb_m = hn::GetLane(seen.zb);
   whole.hides_none = (seen.through & 1) == 0;
   if ((seen.meets & 1) != 0) {
-    const float end_m = berth::least_of_m(space.obstacle_windows, first_rect(seen)) +
-                        static_cast<float>(space.settings.surface_thickness_m);
-    whole.hides_none = whole.hides_none && !(zb_m > end_m);
+    const PixelRect rect = first_rect(seen);
+    const bool is_in_front = !space.has_environment ||
+                             hn::GetLane(seen.za) < greatest_of_m(space.environment_front, rect);
+    const bool may_hide = zb_m > berth::least_of_m(space.hidden_depth, rect) && is_in_front;
+    whole.hides_none = whole.hides_none && !may_hide;
   }
   whole.frees_none = view.free_depth == nullptr || (seen.meets & 1) == 0;
   whole.frees_all = !whole.frees_none && (seen.inside & 1) != 0 &&

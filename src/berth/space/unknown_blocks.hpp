@@ -9,8 +9,8 @@ namespace berth::mesh {
 
 /// The children of a cube that may hold a hidden point, one bit each. A child's box in a camera's
 /// frame projects into a rectangle of pixels and depths [za, zb]. Nothing in it is hidden by k if
-/// zb <= least F there + t; all of it is seen free by j if the rectangle lies in j's image and
-/// zb < least E.
+/// zb <= least H there, or za >= greatest environment front there; all of it is seen free by j if
+/// the rectangle lies in j's image and zb < least E.
 std::uint64_t find_block(std::span<const FreeingCamera> views, const Cube& cube);
 
 }  // namespace berth::mesh

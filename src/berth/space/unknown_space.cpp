@@ -89,10 +89,9 @@ std::optional<HidingPixel> UnknownSpace::hiding_pixel(const Eigen::Vector3d& p_B
     const auto pixel = pixel_of(space.camera, p_C);
     // One that was made for readings alone hides nothing.
     if (!pixel || !space.has_free_depth) continue;
-    const double surface_end_m =
-        static_cast<double>(in_metres(space.obstacle_windows(pixel->u, pixel->v))) +
-        space.settings.surface_thickness_m;
-    if (!(p_C.z() > surface_end_m)) continue;
+    if (!(p_C.z() > in_metres(space.hidden_depth(pixel->u, pixel->v)))) continue;
+    const PixelRect rect{pixel->u, pixel->v, pixel->u + 1, pixel->v + 1};
+    if (space.has_environment && p_C.z() >= greatest_of_m(space.environment_front, rect)) continue;
     bool is_free = false;
     for (std::size_t j = 0; j < views_.size() && !is_free; ++j) {
       is_free = j != k && is_seen_free(views_[j], p_B);

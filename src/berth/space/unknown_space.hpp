@@ -63,8 +63,8 @@ class UnknownSpace {
   /// Another one after each assign(), and no other object's.
   std::uint64_t serial_number() const { return serial_number_; }
 
-  /// Who hides this point, if it is hidden: behind the surface layer of its pixel in some view, and
-  /// seen free by no other one (definition 5).
+  /// Who hides this point, if it is hidden: farther than H of its pixel in some view, and before
+  /// environment's front there, and seen free by no other one (definition 5).
   std::optional<HidingPixel> hiding_pixel(const Eigen::Vector3d& p_B) const;
 
   /// Which of the 64 cubes that `cube`, of a level above 0, consists of may hold a hidden point:

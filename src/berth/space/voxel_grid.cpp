@@ -23,6 +23,7 @@ constexpr double kLeastDepth_m = 1e-4;
 
 /// Where a voxel projects to.
 struct Footprint {
+  double near_m = 0;
   double far_m = 0;
   /// Reaches beyond the image's border where the voxel does.
   PixelRect rect;
@@ -42,7 +43,7 @@ class VoxelView {
     const Eigen::Vector3d p_C = view_.X_CB * centre_B;
     Footprint out;
     out.far_m = p_C.z() + reach_m_.z() + kDepthError_m;
-    const double near_m = p_C.z() - reach_m_.z() - kDepthError_m;
+    const double near_m = out.near_m = p_C.z() - reach_m_.z() - kDepthError_m;
     if (out.far_m <= 0) return std::nullopt;
     out.rect = {0, 0, camera_.width_px, camera_.height_px};
     if (near_m < kLeastDepth_m) return out;
@@ -63,9 +64,10 @@ class VoxelView {
     const CameraSpace& space = *view_.space;
     // It was made for readings alone.
     if (!space.has_free_depth) return false;
-    const double surface_end_m =
-        least_of_m(space.obstacle_windows, in_image(at.rect)) + space.settings.surface_thickness_m;
-    return at.far_m > surface_end_m;
+    const PixelRect rect = in_image(at.rect);
+    if (!(at.far_m > least_of_m(space.hidden_depth, rect))) return false;
+    return !at.is_before_camera || !space.has_environment ||
+           at.near_m < greatest_of_m(space.environment_front, rect);
   }
 
  private:

@@ -21,13 +21,13 @@ void read_back(const GlFrame& frame, Frame& out, FrameUse use) {
   read_back(frame.images->obstacles, out.obstacles);
   DepthImage sensor_depth_m;
   read_back(frame.images->sensor_depth_m, sensor_depth_m);
-  std::optional<EnvironmentBack> environment;
-  DepthView environment_back_m;
+  std::optional<EnvironmentBack> drawing;
+  EnvironmentSurfaces environment;
   if (use == FrameUse::any_query) {
-    environment.emplace(out.view->robot()->model(), out.view->camera());
-    environment_back_m = environment->at(out.pose, out.X_BC);
+    drawing.emplace(out.view->robot()->model(), out.view->camera());
+    environment = drawing->at(out.pose, out.X_BC);
   }
-  prepare_frame(sensor_depth_m, environment_back_m, use, out);
+  prepare_frame(sensor_depth_m, environment, use, out);
 }
 
 }  // namespace berth
