@@ -27,21 +27,24 @@ void Background::learn(const Camera& camera, DepthView sensor_depth_m, const Rob
   if (!is_of(camera.width_px, camera.height_px)) {
     count_.resize(camera.width_px, camera.height_px, 0);
     read_count_.resize(camera.width_px, camera.height_px, 0);
+    lost_count_.resize(camera.width_px, camera.height_px, 0);
+    // Any depth, since the robot covers all.
+    anywhere_m_.resize(camera.width_px, camera.height_px, 1);
     least_m_.resize(camera.width_px, camera.height_px, kNoDepth);
   }
-  const auto for_pixels_beside = [&](double clearance_m, const auto& action) {
+  const auto for_pixels_beside = [&](DepthView depth_m, double clearance_m, const auto& action) {
     const Image<PixelFate>& beside =
-        find_beside_robot(camera, sensor_depth_m, robot, clearance_m, workspace_);
+        find_beside_robot(camera, depth_m, robot, clearance_m, workspace_);
     tbb::parallel_for(0, camera.height_px, [&](int v) {
       for (int u = 0; u < camera.width_px; ++u) {
         if (beside(u, v) == PixelFate::obstacle) action(u, v);
       }
     });
   };
-  for_pixels_beside(kRobotShadow_m, [&](int u, int v) {
-    read_count_(u, v) = std::min(read_count_(u, v) + 1, settings.background_frames);
+  for_pixels_beside(anywhere_m_, kRobotShadow_m, [&](int u, int v) {
+    ++(std::isnan(sensor_depth_m(u, v)) ? lost_count_ : read_count_)(u, v);
   });
-  for_pixels_beside(settings.background_clearance_m, [&](int u, int v) {
+  for_pixels_beside(sensor_depth_m, settings.background_clearance_m, [&](int u, int v) {
     if (shows_cell(fates(u, v))) learn_pixel(u, v, sensor_depth_m(u, v), settings);
   });
 }
@@ -57,6 +60,8 @@ void Background::learn_pixel(int u, int v, float z_m, const SensorSettings& sett
 void Background::assign(DepthView depth_m, const SensorSettings& settings) {
   count_.resize(depth_m.width, depth_m.height, 0);
   read_count_.resize(depth_m.width, depth_m.height, 0);
+  lost_count_.resize(depth_m.width, depth_m.height, 0);
+  anywhere_m_.resize(depth_m.width, depth_m.height, 1);
   least_m_.resize(depth_m.width, depth_m.height, kNoDepth);
   for (int v = 0; v < depth_m.height; ++v) {
     for (int u = 0; u < depth_m.width; ++u) {
