@@ -200,6 +200,26 @@ std::vector<Finding> check_poses(const OpenScene& scene) {
   return all;
 }
 
+std::vector<Finding> check_unread(const OpenScene& scene) {
+  std::vector<Finding> all;
+  for (const OpenCamera& camera : scene.cameras) {
+    Finding found{.about = about_camera("no reading", camera),
+                  .text = "what gives none, such as black clothes, is told"};
+    if (camera.view->settings().space.no_reading == NoReading::free) {
+      found.text = "is taken for free by space.no_reading: black clothes are not told";
+    } else if (!tells_unread(camera)) {
+      found.verdict = Verdict::advice;
+      found.text = "what gives none, such as black clothes, is not told";
+      found.next = fmt::format(
+          "berth calibrate {} --out calibrated.yaml: it keeps what camera {} reads of the empty "
+          "cell; or write space.no_reading: hides",
+          scene.file.string(), camera.source.name);
+    }
+    all.push_back(found);
+  }
+  return all;
+}
+
 std::vector<Finding> check_watch(const OpenScene& scene) {
   std::vector<Finding> all;
   for (const OpenCamera& camera : scene.cameras) {

@@ -36,6 +36,8 @@ std::vector<Finding> check_stamps(const OpenScene& scene);
 /// Whether the robot is where it should be in some images of each camera, and what simple mistake
 /// explains where it is.
 std::vector<Finding> check_poses(const OpenScene& scene);
+/// Whether each camera tells what gives no reading.
+std::vector<Finding> check_unread(const OpenScene& scene);
 /// Whether anybody notices a bumped camera.
 std::vector<Finding> check_watch(const OpenScene& scene);
 /// Results of some images: cameras that drop out, links that nobody sees, a monitor's stops.

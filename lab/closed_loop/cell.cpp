@@ -57,6 +57,8 @@ SeparationSettings cell_separation(double request_hz, double detection_m) {
   settings.reaction_time_s = 1 / request_hz + kLateController * kController_s;
   settings.detection_m = detection_m;
   settings.camera_uncertainty_m = kCellReadingError_m;
+  // Everything that is drawn has readings.
+  settings.no_reading = UnknownPolicy::ignore;
   return settings;
 }
 

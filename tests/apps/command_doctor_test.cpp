@@ -65,6 +65,7 @@ TEST(Doctor, AGoodSceneGetsAllChecksAndExitStatusZero) {
               {"ok      files: robot berth_arm with 8 links, 12 images of 1 camera, joints",
                "ok      stamps, camera camera: 12 images, 0.013 to 3.313 s",
                "ok      place, camera camera: 100 % of the robot's readings", "ok      results: 12",
+               "advice  no reading, camera camera: what gives none, such as black clothes, is not",
                "detection, camera camera: ", "a fingertip of", "advice  watch, camera camera: off",
                "separation: not asked for", "time, camera camera: ", " ms for a request",
                "What to do next:\n1. ", "berth calibrate scene.yaml --out calibrated.yaml"});
@@ -104,7 +105,7 @@ TEST(Doctor, APoseThatIsMeasuredInMillimetresIsExplained) {
 
 TEST(Doctor, AFilterThatDetectsLessThanTheSceneSaysIsWrong) {
   DoctorsScene scene;
-  scene.more = "separation: {detection_m: 0.001}\n";
+  scene.more = "separation: {detection_m: 0.001, no_reading: ignore}\n";
   expect_wrong(scene.doctor(),
                "detection, camera camera: ", "1. Write separation.detection_m: 0.0");
 }
@@ -112,7 +113,7 @@ TEST(Doctor, AFilterThatDetectsLessThanTheSceneSaysIsWrong) {
 TEST(Doctor, ADetectionThatNothingDrawnShowsIsWrongHoweverGreat) {
   DoctorsScene scene;
   scene.more_camera = "    sensor: {speckle_px: 100000}\n";
-  scene.more = "separation: {detection_m: 0.1}\n";
+  scene.more = "separation: {detection_m: 0.1, no_reading: ignore}\n";
   expect_wrong(scene.doctor(), "detection, camera camera: ",
                "Take separation.detection_m out, or move camera camera nearer");
 }
@@ -129,7 +130,7 @@ TEST(Doctor, AMachineThatDoesNotKeepUpIsWrong) {
 
 TEST(Doctor, ADetectionThatNobodyHasShownGivesAdvice) {
   DoctorsScene scene;
-  scene.more = "separation: {}\n";
+  scene.more = "separation: {no_reading: ignore}\n";
   const Outcome outcome = scene.doctor();
   EXPECT_EQ(outcome.exit_status, 0) << outcome.out;
   expect_text(outcome,

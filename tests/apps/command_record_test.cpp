@@ -21,7 +21,8 @@ class CommandRecord : public ::testing::Test {
   CommandRecord() {
     fs::copy(BERTH_SOURCE_DIR "/data/bundled", folder_ / "bundled", fs::copy_options::recursive);
     add("scene.yaml",
-        "separation: {detection_m: 0.04, not_seen: ignore, human_speed_m_s: 0.1, reaction_time_s: "
+        "separation: {detection_m: 0.04, not_seen: ignore, no_reading: ignore, human_speed_m_s: "
+        "0.1, reaction_time_s: "
         "0.02, deceleration_m_s2: 6, acceleration_m_s2: 1, camera_uncertainty_m: 0.01, "
         "intrusion_m: "
         "0.02}\n");
@@ -113,7 +114,7 @@ TEST_F(CommandRecord, WhatCtrlCLeavesIsReplayedAsRecorded) {
 
 TEST_F(CommandRecord, SaysWhereNothingStoppedTheRobot) {
   fs::copy(BERTH_SOURCE_DIR "/data/bundled/scene.yaml", folder_ / "bundled/careful.yaml");
-  add("careful.yaml", "separation: {}\n");
+  add("careful.yaml", "separation: {no_reading: ignore}\n");
   const Outcome recorded = run({"record", "bundled/careful.yaml", "--out", "none.mcap"});
   EXPECT_EQ(recorded.exit_status, 0) << recorded.err;
   expect_parts(recorded.err, {"Nothing is written", "--on always"});

@@ -19,7 +19,7 @@ BOLD = {"not_seen": "ignore", "unknown": "ignore", "human_speed_m_s": 0.0, "intr
 def monitored(tmp_path_factory):
     """The bundled scene with a monitor, a few images of each camera."""
     folder = SOURCE / "data/bundled"
-    text = (folder / "one_camera.yaml").read_text().replace("method: exact", "method: mesh") + "separation: {not_seen: ignore}\n"
+    text = (folder / "one_camera.yaml").read_text().replace("method: exact", "method: mesh") + "separation: {not_seen: ignore, no_reading: ignore}\n"
     for key, name in (("urdf", "arm/arm.urdf"), ("info", "camera_info.yaml"), ("depth", "depth/*.png"), ("joints", "joints.csv"),
                       ("berth_arm", "arm")):
         text = text.replace(f"{key}: {name}", f"{key}: {folder / name}")

@@ -9,7 +9,7 @@ import berth
 def recorded(one_mesh_camera, tmp_path):
     """A few requests with a monitor that stops at the end, since nobody tells it the velocity."""
     scene = one_mesh_camera
-    settings = berth.SeparationSettings(not_seen="ignore", camera="ignore", unknown="ignore", human_speed_m_s=0.0, intrusion_m=0.0,
+    settings = berth.SeparationSettings(no_reading="ignore", not_seen="ignore", camera="ignore", unknown="ignore", human_speed_m_s=0.0, intrusion_m=0.0,
                                         camera_uncertainty_m=0.0, robot_uncertainty_m=0.0, acceleration_m_s2=0.0)
     recorder = berth.Recorder(tmp_path / "stop.mcap", scene.robot, scene.views, settings, seconds=5, after_stop_s=0.0)
     observer, query = berth.Observer(scene.views[0]), berth.Query(scene.robot)

@@ -22,6 +22,7 @@ class OneCameraLoop : public RecordedScene {
     settings.human_speed_m_s = settings.acceleration_m_s2 = settings.robot_uncertainty_m = 0;
     settings.intrusion_m = settings.camera_uncertainty_m = 0;
     settings.not_seen = settings.camera = settings.unknown = UnknownPolicy::ignore;
+    settings.no_reading = UnknownPolicy::ignore;
     return settings;
   }
 

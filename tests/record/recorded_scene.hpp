@@ -21,6 +21,7 @@ inline SeparationSettings some_separation() {
   SeparationSettings settings;
   settings.detection_m = 0.04;
   settings.not_seen = UnknownPolicy::ignore;
+  settings.no_reading = UnknownPolicy::ignore;
   return settings;
 }
 

@@ -42,7 +42,8 @@ TEST(SeparationInScenes, HasEveryKeyAndTheTable) {
       "{human_speed_m_s: 2, reaction_time_s: 0.2, deceleration_m_s2: 3, acceleration_m_s2: 4, "
       "intrusion_m: 0.1, detection_m: 0.03, camera_uncertainty_m: 0.05, robot_uncertainty_m: 0.02, "
       "contact_speed_m_s: 0.25, least_scale: 0.1, least_seen: 0.3, "
-      "not_seen: assume_range, camera: ignore, rejected: stop, unknown: ignore, "
+      "not_seen: assume_range, camera: ignore, no_reading: assume_range, rejected: stop, unknown: "
+      "ignore, "
       "assumed_range_m: 0.5, stopping: [{speed_m_s: 0.5, time_s: 0.2, distance_m: 0.05}, "
       "{speed_m_s: 1, time_s: 0.3, distance_m: 0.2}]}");
   EXPECT_EQ(settings.human_speed_m_s, 2);
@@ -52,6 +53,7 @@ TEST(SeparationInScenes, HasEveryKeyAndTheTable) {
   EXPECT_EQ(settings.contact_speed_m_s, 0.25);
   EXPECT_EQ(settings.not_seen, UnknownPolicy::assume_range);
   EXPECT_EQ(settings.camera, UnknownPolicy::ignore);
+  EXPECT_EQ(settings.no_reading, UnknownPolicy::assume_range);
   EXPECT_EQ(settings.rejected, UnknownPolicy::stop);
   EXPECT_EQ(settings.unknown, UnknownPolicy::ignore);
   ASSERT_EQ(settings.stopping.size(), 2U);
@@ -83,6 +85,7 @@ SceneFile monitored_scene(Method method) {
   }
   scene.separation.emplace();
   scene.separation->camera = UnknownPolicy::ignore;
+  scene.separation->no_reading = UnknownPolicy::ignore;
   scene.separation->human_speed_m_s = 0.1;
   scene.separation->intrusion_m = 0;
   scene.separation->acceleration_m_s2 = 0;
@@ -104,6 +107,26 @@ TEST(SeparationInScenes, WarnsWhereACameraTellsLessThanWasShown) {
   expect_parts(scene.warnings[1], {"\"right\", 0.04", "C is 0.208 m"});
   file.separation->intrusion_m = 0.1;
   EXPECT_TRUE(reopen_scene(scene, file).warnings.empty());
+}
+
+TEST(SeparationInScenes, HasToChooseWhereACameraDoesNotTellWhatGivesNoReading) {
+  SceneFile file = monitored_scene(Method::mesh);
+  file.separation->no_reading.reset();
+  for (SceneCamera& camera : file.cameras) camera.settings.space.no_reading = NoReading::hides;
+  const auto refusal = [&] {
+    const OpenScene scene = open_scene(file);
+    return error_message([&] { SceneRun run(scene); });
+  };
+  EXPECT_EQ(refusal(), "");
+  file.cameras[1].settings.space.no_reading = NoReading::unknown;
+  expect_parts(refusal(), {"scene.yaml: separation.no_reading: missing", "camera left",
+                           "black clothes", "background", "space.no_reading: hides",
+                           "separation.no_reading: ignore, assume_range or stop"});
+  file.cameras[1].settings.sensor.background_frames = 1;
+  EXPECT_EQ(refusal(), "");
+  file.cameras[1].settings.sensor.background_frames = 0;
+  file.separation->no_reading = UnknownPolicy::stop;
+  EXPECT_EQ(refusal(), "");
 }
 
 TEST(SeparationInScenes, IsInEachLineOfJson) {

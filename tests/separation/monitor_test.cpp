@@ -32,6 +32,7 @@ SeparationSettings plain_settings() {
   settings.intrusion_m = 0.2;
   settings.least_seen = 0;
   settings.not_seen = settings.unknown = settings.rejected = UnknownPolicy::ignore;
+  settings.no_reading = UnknownPolicy::ignore;
   return settings;
 }
 
@@ -132,10 +133,44 @@ TEST_F(Monitor, SlowPeopleAndASmallReachLeaveTheRobotItsSpeed) {
 }
 
 TEST_F(Monitor, TheDefaultsStopBesideSomethingNear) {
-  const Separation separation = update(SeparationSettings());
+  const Separation separation = update({.no_reading = UnknownPolicy::ignore});
   EXPECT_EQ(name_of(separation.state), "stop");
   EXPECT_EQ(separation.speed_scale, 0);
   EXPECT_NE(separation.link, kNoLink);
+}
+
+TEST_F(Monitor, WhereNobodyHasChosenWhatGivesNoReadingStopsTheRobot) {
+  SeparationSettings settings = plain_settings();
+  ASSERT_GT(update(settings).speed_scale, 0);
+  settings.no_reading.reset();
+  settings.contact_speed_m_s = 0.05;
+  result_.cameras[0].tells_unread = true;
+  const Separation stopped = update(settings);
+  EXPECT_EQ(name_of(stopped.state), "stop");
+  EXPECT_EQ(name_of(stopped.reason), "no_reading");
+  EXPECT_EQ(stopped.camera, 1);
+  settings.no_reading = UnknownPolicy::assume_range;
+  settings.assumed_range_m = 0.01;
+  EXPECT_EQ(name_of(update(settings).reason), "no_reading");
+  for (CameraResult& camera : result_.cameras) camera.tells_unread = true;
+  settings.no_reading.reset();
+  EXPECT_NE(name_of(update(settings).reason), "no_reading");
+  EXPECT_EQ(update(settings).camera, -1);
+}
+
+TEST_F(Monitor, AsksForNoChoiceWhereNoReadingMeansSomething) {
+  for (const NoReading no_reading : kNoReadings) {
+    CameraSettings settings = scene_.cameras[0].view->settings();
+    settings.space.no_reading = no_reading;
+    const auto view = std::make_shared<const MountedCamera>(
+        scene_.robot, scene_.cameras[0].view->mount(), settings);
+    auto frame = std::make_shared<Frame>();
+    Observer(view).observe(scene_.cameras[0].read_depth(0), scene_.cameras[0].at_exposure[0],
+                           *frame);
+    EXPECT_EQ(frame->tells_unread, no_reading != NoReading::unknown);
+    EXPECT_GE(frame->unread_share, 0);
+    EXPECT_LT(frame->unread_share, 0.5);
+  }
 }
 
 /// Settings that leave a scale between 0 and 1.
@@ -274,6 +309,7 @@ TEST_F(Monitor, TheScaleFallsAtOnceAndRisesAsTheMotorsLetTheRobotGainSpeed) {
 
 TEST_F(Monitor, AContactSpeedLeavesTheRobotThatMuch) {
   SeparationSettings settings;
+  settings.no_reading = UnknownPolicy::ignore;
   settings.contact_speed_m_s = 0.05;
   settings.not_seen = UnknownPolicy::ignore;
   ASSERT_EQ(result_.status, ResultStatus::ok);
@@ -290,6 +326,7 @@ TEST_F(Monitor, AContactSpeedLeavesTheRobotThatMuch) {
 
 TEST_F(Monitor, WhereSomethingIsNotInOrderNoContactIsTolerable) {
   SeparationSettings settings;
+  settings.no_reading = UnknownPolicy::ignore;
   settings.contact_speed_m_s = 0.05;
   settings.not_seen = settings.camera = UnknownPolicy::ignore;
   for (LinkResult& link : result_.links) link.status = LinkStatus::ok;
@@ -310,6 +347,7 @@ TEST_F(Monitor, WhereSomethingIsNotInOrderNoContactIsTolerable) {
 
 TEST_F(Monitor, WithSomethingSharpNoContactIsTolerable) {
   SeparationSettings settings;
+  settings.no_reading = UnknownPolicy::ignore;
   settings.contact_speed_m_s = 0.05;
   settings.not_seen = UnknownPolicy::ignore;
   for (LinkResult& link : result_.links) link.status = LinkStatus::ok;

@@ -254,8 +254,8 @@ TEST_F(ViewedSceneTest, RefusesWhatNoPageAsks) {
         R"({"do": "set"})",
         R"({"do": "set", "group": "robot", "key": "urdf", "value": "x"})",
         R"({"do": "set", "group": "self_filter", "key": "padding_m", "value": [1]})",
-        R"({"do": "set", "group": "sensor", "key": "holes", "value": "free\nrobot: x"})",
-        R"({"do": "set", "group": "sensor", "key": "holes", "value": "free", "camera": 9})",
+        R"({"do": "set", "group": "space", "key": "no_reading", "value": "free\nrobot: x"})",
+        R"({"do": "set", "group": "space", "key": "no_reading", "value": "free", "camera": 9})",
         R"({"do": "set", "group": 7, "key": {}, "value": 1})",
         R"({"do": "set", "group": "evaluation", "key": "method", "value": "exact"})",
         R"({"do": "set", "group": "evaluation", "key": "tile_px", "value": 8})",
@@ -431,7 +431,7 @@ TEST(MonitoredScene, TellsHowFastTheRobotMayGoAtEachStep) {
   folder.write("scene.yaml", read_file_bytes(folder / "scene.yaml") +
                                  "separation: {human_speed_m_s: 0.1, reaction_time_s: 0.02, "
                                  "deceleration_m_s2: 20, intrusion_m: 0, camera_uncertainty_m: 0, "
-                                 "not_seen: ignore, hidden: ignore}\n");
+                                 "not_seen: ignore, hidden: ignore, no_reading: ignore}\n");
   Messages messages;
   ViewedScene viewed(folder / "scene.yaml", folder.path(),
                      [&](const std::string& kind, PageMessage message) {

@@ -82,6 +82,7 @@ void copy(const berth::CameraResult& camera, const StampClock& clock,
   out.seen_through = camera.watch.seen_through;
   out.displacement_m = camera.watch.displacement_m;
   out.at_robot = camera.watch.at_robot;
+  out.unread_share = camera.unread_share;
 }
 
 }  // namespace

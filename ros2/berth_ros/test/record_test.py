@@ -25,7 +25,7 @@ FILE = os.path.join(FOLDER.name, "seen.mcap")
 def generate_test_description():
     return LaunchDescription([
         Node(package="berth_ros", executable="distance_node", output="screen", parameters=[{
-            "use_sim_time": True, "cameras": ["front", "side"], "question_rate_hz": 50.0, "separation.monitor": True,
+            "use_sim_time": True, "cameras": ["front", "side"], "question_rate_hz": 50.0, "separation.monitor": True, "separation.no_reading": "ignore",
             "separation.not_seen": "ignore", "separation.unknown": "ignore", "separation.human_speed_m_s": 0.1,
             "separation.intrusion_m": 0.0, "evaluation.min_seen_share": 0.0, "record.file": FILE, "record.seconds": 5.0}]),
         launch_testing.actions.ReadyToTest(),

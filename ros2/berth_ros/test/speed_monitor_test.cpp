@@ -22,6 +22,7 @@ berth::SeparationSettings lenient() {
   settings.camera_uncertainty_m = settings.robot_uncertainty_m = 0;
   settings.deceleration_m_s2 = 0.4;
   settings.not_seen = settings.unknown = berth::UnknownPolicy::ignore;
+  settings.no_reading = berth::UnknownPolicy::ignore;
   return settings;
 }
 

@@ -22,7 +22,7 @@ from living_robot import FRAME, URDF, TwoCameras, transform  # noqa: E402
 def generate_test_description():
     return LaunchDescription([
         Node(package="berth_ros", executable="distance_node", output="screen", parameters=[{
-            "use_sim_time": True, "cameras": ["front", "side"], "question_rate_hz": 50.0, "separation.monitor": True,
+            "use_sim_time": True, "cameras": ["front", "side"], "question_rate_hz": 50.0, "separation.monitor": True, "separation.no_reading": "ignore",
             "separation.not_seen": "ignore", "separation.unknown": "ignore",
             "separation.human_speed_m_s": 0.1, "separation.intrusion_m": 0.0, "evaluation.min_seen_share": 0.0}]),
         launch_testing.actions.ReadyToTest(),

@@ -68,7 +68,7 @@ const Result& ImageQuery::ask(const Frame& frame, const RequestedJoints& joints,
   const CameraState camera =
       camera_state(&frame, now_s.value_or(frame.stamp_s), parts_->robot->settings().time);
   Result& result = parts_->result;
-  result.cameras.front().self_filter = frame.obstacles.count;
+  tell_fates(frame, result.cameras.front());
   if (!begin_image_result(*parts_->robot, frame, camera, stamp_s, joints_status, now_s, result)) {
     return result;
   }

@@ -66,6 +66,12 @@ void tell_camera(const Exposure* exposure, const CameraState& state, CameraResul
   out.X_BC = exposure->X_BC;
 }
 
+void tell_fates(const Frame& frame, CameraResult& out) {
+  out.self_filter = frame.obstacles.count;
+  out.unread_share = frame.unread_share;
+  out.tells_unread = frame.tells_unread;
+}
+
 Query::Query(std::shared_ptr<const Robot> robot, std::vector<std::string> camera_names)
     : robot_(std::move(robot)),
       camera_names_(std::move(camera_names)),
@@ -153,11 +159,7 @@ void Query::tell_cameras() {
     const Frame* frame = asked_->frames()[k];
     tell_camera(frame, cameras_[k], camera);
     if (is_used(cameras_[k].status)) camera.X_BC = asked_->X_BC(k);
-    if (camera.has_frame) {
-      camera.self_filter = frame->obstacles.count;
-      camera.unread_share = frame->unread_share;
-      camera.tells_unread = frame->tells_unread;
-    }
+    if (camera.has_frame) tell_fates(*frame, camera);
     if (!camera.has_frame && k < camera_names_.size()) camera.camera = camera_names_[k];
   }
 }

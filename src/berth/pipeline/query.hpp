@@ -78,5 +78,7 @@ void begin_result(const Robot& robot, Result& result);
 
 /// What a camera's newest frame tells of it.
 void tell_camera(const Exposure* exposure, const CameraState& state, CameraResult& out);
+/// What became of the pixels of its newest image.
+void tell_fates(const Frame& frame, CameraResult& out);
 
 }  // namespace berth

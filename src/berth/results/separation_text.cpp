@@ -41,6 +41,11 @@ std::string why(const Result& result) {
       return seen_text_of(result, separation.link);
     case SeparationReason::camera:
       return camera_text(result.cameras[separation.camera]);
+    case SeparationReason::no_reading:
+      return fmt::format(
+          "camera {} does not tell what gives no reading, such as black clothes "
+          "(separation.no_reading)",
+          result.cameras[separation.camera].camera);
     case SeparationReason::stale:
       return status_text(result);
     case SeparationReason::velocity:

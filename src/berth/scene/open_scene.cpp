@@ -222,6 +222,11 @@ OpenScene open_with(const SceneFile& source,
 
 }  // namespace
 
+bool tells_unread(const OpenCamera& camera) {
+  return camera.view->settings().sensor.has_background() ||
+         camera.view->settings().space.no_reading != NoReading::unknown;
+}
+
 DepthImage OpenCamera::read_depth(std::size_t frame) const {
   if (kept_depth_m[frame]) return *kept_depth_m[frame];
   return read_depth_png(source.depth[frame], view->camera(), source.depth_scale_m, source.near_m,

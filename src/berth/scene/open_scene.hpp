@@ -33,6 +33,9 @@ struct OpenCamera {
   DepthImage read_depth(std::size_t frame) const;
 };
 
+/// Whether what gives no reading is told, or somebody has said what that means.
+bool tells_unread(const OpenCamera& camera);
+
 /// A scene whose files were all read and checked.
 struct OpenScene {
   std::filesystem::path file;

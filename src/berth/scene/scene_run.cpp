@@ -32,11 +32,25 @@ std::vector<CameraPlausibility> plausible_cameras(const OpenScene& scene) {
   throw std::runtime_error(text);
 }
 
+/// A monitor must not take black clothes for nothing because nobody thought of them. Who calibrates
+/// the scene, or asks the doctor, need not have chosen yet.
+void require_choice(const OpenScene& scene) {
+  if (!scene.separation || scene.separation->no_reading) return;
+  const auto untold = std::ranges::find_if_not(scene.cameras, tells_unread);
+  if (untold == scene.cameras.end()) return;
+  throw std::runtime_error(fmt::format(
+      "{}: separation.no_reading: missing, and camera {} does not tell what gives no reading, such "
+      "as black clothes; expected a background of that camera (berth calibrate writes it), or "
+      "space.no_reading: hides, or separation.no_reading: ignore, assume_range or stop",
+      scene.file.string(), untold->source.name));
+}
+
 }  // namespace
 
 SceneRun::SceneRun(const OpenScene& scene, const BackendChoice& where,
                    const std::function<void()>& before_image)
     : SceneRun(scene, where, plausible_cameras(scene)) {
+  require_choice(scene);
   for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
     if (!plausibility_[i].is_implausible) begin_background(i, before_image);
   }

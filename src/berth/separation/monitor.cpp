@@ -35,6 +35,14 @@ int lost_camera(std::span<const CameraResult> cameras) {
   return -1;
 }
 
+/// The first camera that does not tell what gives no reading; -1: none.
+int untold_camera(std::span<const CameraResult> cameras) {
+  for (std::size_t k = 0; k < cameras.size(); ++k) {
+    if (is_used(cameras[k].status) && !cameras[k].tells_unread) return static_cast<int>(k);
+  }
+  return -1;
+}
+
 /// Of the oldest thing that the result is made from; 0 where nobody told the time.
 double age_s(const Result& result) {
   double oldest_s = 0;
@@ -102,6 +110,9 @@ struct SeparationMonitor::Parts {
   double robot_m_s = 0;
   /// What the cameras may miss by their settings.
   double least_detection_m = 0;
+  /// The camera that does not tell what gives no reading, and what to do about that.
+  int untold = -1;
+  UnknownPolicy of_unread = UnknownPolicy::ignore;
   /// SeparationSettings::contact_speed_m_s; 0 where no contact is to be thought of now.
   double contact_m_s = 0;
   ScaleRise rise;
@@ -175,6 +186,7 @@ const Separation& SeparationMonitor::Parts::update(const Result& result,
   } else {
     rise.most(now_s, 0);
   }
+  if (out.reason == SeparationReason::no_reading) out.camera = untold;
   decide(most);
   return out;
 }
@@ -198,8 +210,12 @@ SeparationReason SeparationMonitor::Parts::begin(const Result& result,
 
 void SeparationMonitor::Parts::update_links(const Result& result) {
   out.camera = settings.camera == UnknownPolicy::ignore ? -1 : lost_camera(result.cameras);
+  untold = untold_camera(result.cameras);
+  of_unread =
+      untold < 0 ? UnknownPolicy::ignore : settings.no_reading.value_or(UnknownPolicy::stop);
   least_detection_m = berth::least_detection_m(result.cameras);
-  contact_m_s = holds_sharp || !is_healthy(result) ? 0 : settings.contact_speed_m_s;
+  const bool may_touch = !holds_sharp && is_healthy(result) && of_unread != UnknownPolicy::stop;
+  contact_m_s = may_touch ? settings.contact_speed_m_s : 0;
   const LinkSeparation* least = nullptr;
   measure_speeds(result);
   for (std::size_t i = 0; i < out.links.size(); ++i) {
@@ -230,6 +246,7 @@ void SeparationMonitor::Parts::measure_speeds(const Result& result) {
 void SeparationMonitor::Parts::update_link(const Result& result, std::size_t i) {
   LinkSeparation& link = out.links[i];
   NearLink near = near_link(settings, result.links[i], robot->settings().distance.range_m);
+  near = with_unknown(near, of_unread, settings.assumed_range_m, SeparationReason::no_reading);
   if (out.camera >= 0) {
     near = with_unknown(near, settings.camera, settings.assumed_range_m, SeparationReason::camera);
   }

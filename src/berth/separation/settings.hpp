@@ -71,6 +71,10 @@ struct SeparationSettings {
   /// The policies, by what is not known.
   UnknownPolicy not_seen = UnknownPolicy::stop;
   UnknownPolicy camera = UnknownPolicy::stop;
+  /// What gives no reading, such as black clothes, where a camera neither knows its empty cell
+  /// (SensorSettings::background_frames) nor is told what no reading means
+  /// (SpaceSettings::no_reading). None: nobody has chosen, and the robot stops.
+  std::optional<UnknownPolicy> no_reading = std::nullopt;
   /// What the filter drops for being small is what intrusion_m is for. Counted, single false
   /// readings at outlines, as all cameras have them, stop the robot for good.
   UnknownPolicy rejected = UnknownPolicy::ignore;
@@ -112,6 +116,12 @@ void visit_settings(Settings& s, Visitor&& visit) {
         s.least_seen);
   visit({"not_seen", {}, "what to do where a link is not seen enough"}, s.not_seen);
   visit({"camera", {}, "what to do where a camera is not used, or covered"}, s.camera);
+  visit(
+      {"no_reading",
+       {},
+       "what to do about black clothes and all that gives no reading, where a camera knows neither "
+       "its empty cell nor what no reading means; none: a scene with such a camera is refused"},
+      s.no_reading);
   visit({"rejected", {}, "what to do where a dropped reading is nearer than the distance"},
         s.rejected);
   visit({"unknown", {}, "what to do where unknown space is nearest"}, s.unknown);

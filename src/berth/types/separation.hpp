@@ -36,14 +36,16 @@ enum class SeparationReason : std::uint8_t {
   cut_short,    ///< a deadline cut the search: how near something is was not found out
   not_seen,     ///< the cameras see too little of the link
   camera,       ///< a camera is not used, or covered
+  no_reading,   ///< something that gives no reading, such as black clothes, may be near: a camera
+                ///< does not know where it could read
   stale,        ///< the result is too old, or its stamps are wrong
   velocity,     ///< the robot's velocity is not known
   speeding_up,  ///< nothing does any more, but no robot gains speed faster
 };
 /// By enumerator.
-inline constexpr std::array<std::string_view, 11> kSeparationReasonNames = {
-    "none",     "occupied", "unknown", "rejected", "range",      "cut_short",
-    "not_seen", "camera",   "stale",   "velocity", "speeding_up"};
+inline constexpr std::array<std::string_view, 12> kSeparationReasonNames = {
+    "none",     "occupied", "unknown",    "rejected", "range",    "cut_short",
+    "not_seen", "camera",   "no_reading", "stale",    "velocity", "speeding_up"};
 
 constexpr std::string_view name_of(SeparationReason reason) {
   return kSeparationReasonNames[static_cast<std::size_t>(reason)];
@@ -101,7 +103,8 @@ struct Separation {
   /// Why it is not larger, and the link that says so; kNoLink where it is no link.
   SeparationReason reason = SeparationReason::stale;
   LinkId link = kNoLink;
-  /// The camera that is not used, by its place in the request; -1 where that is not the reason.
+  /// The camera that is not used, or else the one that does not tell what gives no reading, by its
+  /// place in the request; -1 where neither counts.
   int camera = -1;
   /// T_r; NaN where it is not known.
   double reaction_time_s = std::numeric_limits<double>::quiet_NaN();
