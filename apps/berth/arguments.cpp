@@ -140,8 +140,8 @@ void add_calibrate_options(CLI::App& command, CalibrateArguments& arguments) {
                    "Look for the joints' zeros, too; wants ten poses or more");
   command.add_flag("--correct-depth", arguments.correct_depth,
                    "Take the camera's depth error out of its readings from now on");
-  command.add_flag("--background", arguments.background,
-                   "Keep what the cameras see where the robot is not, as a PNG beside NEW.yaml");
+  command.add_flag("--background")
+      ->description("Is always done: what the cameras see of the empty cell, as a PNG each");
   command
       .add_option("--attached", arguments.attached,
                   "Whether what the robot carries and its URDF does not have becomes a part of it; "

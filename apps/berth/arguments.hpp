@@ -69,7 +69,6 @@ struct CalibrateArguments {
   std::filesystem::path report_folder;
   bool joint_zeros = false;
   bool correct_depth = false;
-  bool background = false;
   AttachedChoice attached = AttachedChoice::ask;
   OutputFormat format = OutputFormat::table;
   int threads = 0;

@@ -43,8 +43,6 @@ void calibrate_command(const CalibrateArguments& arguments) {
   require_place_for(arguments.out, arguments.scene);
   const OpenScene scene = open_with_progress(read_scene_to_calibrate(arguments.scene),
                                              "read images", open_scene_with_images);
-  const std::vector<std::string> without_background =
-      arguments.background ? require_backgrounds(scene, arguments.out) : older_backgrounds(scene);
   const SceneCalibrationData material = make_calibration_data(scene);
   CalibrateSceneSettings settings;
   settings.fit.joint_zeros = arguments.joint_zeros;
@@ -59,10 +57,8 @@ void calibrate_command(const CalibrateArguments& arguments) {
     settings.takes_part = attached_question(arguments.attached, progress);
     calibration = calibrate_scene(scene, material, settings);
   }
-  std::vector<std::string>& warnings = calibration.warnings;
-  warnings.insert(warnings.end(), without_background.begin(), without_background.end());
-  std::vector<CalibratedBackground> backgrounds;
-  if (arguments.background) {
+  CalibratedBackgrounds backgrounds;
+  {
     ProgressBar progress("learn background", 0);
     backgrounds = calibrate_backgrounds(
         scene, arguments.out,
@@ -72,13 +68,15 @@ void calibrate_command(const CalibrateArguments& arguments) {
         },
         calibration.change);
   }
+  std::vector<std::string>& warnings = calibration.warnings;
+  warnings.insert(warnings.end(), backgrounds.without.begin(), backgrounds.without.end());
   const CalibrationReport report = report_of(material, calibration, arguments.correct_depth);
   const std::string text = arguments.format == OutputFormat::json ? calibration_json(report) + "\n"
                                                                   : calibration_table(report);
   if (!arguments.report_folder.empty())
     write_calibration_page(arguments.report_folder, arguments.scene.string(), report);
   attach_parts(arguments.scene, calibration.attached, arguments.out, calibration.change);
-  write_backgrounds(backgrounds);
+  write_backgrounds(backgrounds.learned);
   write_attached_parts(calibration.attached, arguments.out);
   write_rewritten_scene(arguments.scene, calibration.change, arguments.out);
   std::fputs(text.c_str(), stdout);

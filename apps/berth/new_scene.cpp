@@ -30,7 +30,7 @@ const std::array<CameraKind, 5>& camera_kinds() {
        {"near_m: 0.28", "far_m: 4.0", "sensor: {speckle_px: 20}"}},
       {"zed",
        "ZED, passive stereo: no readings where there is no texture",
-       {"near_m: 0.3", "far_m: 5.0", "sensor: {speckle_px: 20, holes: free}"}},
+       {"near_m: 0.3", "far_m: 5.0", "sensor: {speckle_px: 20}"}},
       {"kinect",
        "Azure Kinect, time of flight",
        {"near_m: 0.25", "far_m: 5.5", "sensor: {speckle_px: 10, average_frames: 3}"}},

@@ -46,6 +46,16 @@ TEST(FormerSettings, ThoseThatEndedAreToldAndHaveNoEffect) {
                 "scene.yaml:5: directed_speed is no setting any more, and has no effect"}));
 }
 
+TEST(FormerSettings, HolesThatWereObstaclesAreRefusedWithWhatToDoInstead) {
+  EXPECT_EQ(
+      scene_with("sensor: {holes: free}\n").warnings,
+      std::vector<std::string>{"scene.yaml:5: holes is no setting any more, and has no effect"});
+  const std::string message = error_message([] { scene_with("sensor: {holes: obstacle}\n"); });
+  EXPECT_NE(message.find("scene.yaml:5: sensor.holes: obstacle; expected space.no_reading: hides"),
+            std::string::npos)
+      << message;
+}
+
 TEST(FormerSettings, NewNamesGiveNoWarning) {
   EXPECT_TRUE(scene_with("space: {surface_thickness_m: 0.05}\n").warnings.empty());
 }

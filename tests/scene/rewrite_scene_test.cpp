@@ -150,12 +150,12 @@ TEST_F(RewrittenScene, WritesOtherValuesAtTheirPlaces) {
   SceneChange change;
   change.values = {{{"evaluation", "method"}, "exact"},
                    {{"self_filter", "padding_m"}, "0.03"},
-                   {{"cameras", "1", "sensor", "holes"}, "obstacle"}};
+                   {{"cameras", "1", "space", "no_reading"}, "hides"}};
   const SceneFile scene = reread(text, change);
   EXPECT_EQ(scene.evaluation.method, Method::exact);
   EXPECT_EQ(scene.cameras[0].settings.self_filter.padding_m, 0.03);
-  EXPECT_EQ(scene.cameras[0].settings.sensor.holes, HolePolicy::free);
-  EXPECT_EQ(scene.cameras[1].settings.sensor.holes, HolePolicy::obstacle);
+  EXPECT_EQ(scene.cameras[0].settings.space.no_reading, NoReading::unknown);
+  EXPECT_EQ(scene.cameras[1].settings.space.no_reading, NoReading::hides);
 }
 
 TEST_F(RewrittenScene, WritesWhatIsCarriedInFrontOfTheRest) {

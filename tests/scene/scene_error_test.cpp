@@ -169,11 +169,15 @@ TEST(SceneErrors, RefusesABadValueAndSaysWhere) {
        "joints: j\ntime: {max_skew: 1}",
        {"scene.yaml:9: time.max_skew: unknown key; expected max_skew_s"}},
       {&S::end,
-       "joints: j\nsensor: {hole: free}",
-       {"scene.yaml:9: sensor.hole: unknown key; expected holes (the nearest)"}},
+       "joints: j\nsensor: {noise: 1}",
+       {"scene.yaml:9: sensor.noise: unknown key; expected noise_m (the nearest)"}},
       {&S::end,
-       "joints: j\nsensor: {holes: full}",
-       {"scene.yaml:9: sensor.holes: full; expected one of free, obstacle"}},
+       "joints: j\nsensor: {holes: obstacle}",
+       {"scene.yaml:9: sensor.holes: obstacle; expected space.no_reading: hides in its place, or a "
+        "background of the camera (berth calibrate writes it)"}},
+      {&S::end,
+       "joints: j\nspace: {no_reading: full}",
+       {"scene.yaml:9: space.no_reading: full; expected one of unknown, free, hides"}},
       {&S::end, "joints: j\nsensor: 3", {"scene.yaml:9: sensor: 3; expected a map"}},
       {&S::end, "joints: j\n? [a, b]\n: c", {"scene.yaml:9: a list of 2; expected a text"}},
       {&S::end, "joints: j\n---\njoints: k", {"scene.yaml: several YAML documents; expected one"}},
@@ -212,7 +216,7 @@ TEST(SceneErrors, TellsTheBeginningOfALongTextAlone) {
 TEST(SceneErrors, RefusesEveryNegativeNumberOfTheSelfFilter) {
   for (const std::string key :
        {"tolerance_m", "tolerance_per_m", "tolerance_per_m2", "padding_m", "padding_depth_m",
-        "edge_jump_m", "flying_patch_radius_m", "flying_patch_jump_m", "robot_region_scale"}) {
+        "surface_tolerance_m", "flying_patch_radius_m", "robot_region_scale"}) {
     for (const std::string value : {"-0.01", ".nan", "wide"}) {
       const SceneText scene =
           with(&SceneText::end, "joints: j\nself_filter: {" + key + ": " + value + "}");
@@ -229,7 +233,7 @@ TEST(SceneErrors, RefusesEveryLengthAndCountOfTheSensorThatIsNone) {
     expect_parts(error_message([&] { read_text(scene); }),
                  {"scene.yaml:9: sensor." + key + ": " + value + "; expected"});
   };
-  for (const std::string key : {"noise_m", "speckle_jump_m", "background_clearance_m"}) {
+  for (const std::string key : {"noise_m", "background_clearance_m"}) {
     for (const std::string value : {"-0.01", ".nan", "wide"}) expect_refused(key, value);
   }
   for (const std::string key : {"speckle_px", "average_frames", "background_frames"}) {

@@ -48,18 +48,15 @@ self_filter:
   environment_padding_m: 0.035
   padding_depth_m: 0.4
   dilation_px: 6
-  edge_jump_m: 0.07
+  surface_tolerance_m: 0.07
   flying_patch_radius_m: 0.08
-  flying_patch_jump_m: 0.09
   robot_region_scale: 6.5
 sensor:
   noise_m: 0.011
   speckle_px: 12
-  speckle_jump_m: 0.013
   average_frames: 14
   background_frames: 15
   background_clearance_m: 0.16
-  holes: obstacle
 evaluation: {method: lattice, range_m: 0.5, mean_direction: off, visibility: false}
 time: {max_skew_s: 0.01, max_extrapolation_s: 0.02}
 )");
@@ -98,18 +95,15 @@ time: {max_skew_s: 0.01, max_extrapolation_s: 0.02}
   EXPECT_EQ(filter.environment_padding_m, 0.035);
   EXPECT_EQ(filter.dilation_px, 6);
   EXPECT_EQ(filter.padding_depth_m, 0.4);
-  EXPECT_EQ(filter.edge_jump_m, 0.07);
+  EXPECT_EQ(filter.surface_tolerance_m, 0.07);
   EXPECT_EQ(filter.flying_patch_radius_m, 0.08);
-  EXPECT_EQ(filter.flying_patch_jump_m, 0.09);
   EXPECT_EQ(filter.robot_region_scale, 6.5);
   const SensorSettings& sensor = scene.cameras[0].settings.sensor;
   EXPECT_EQ(sensor.noise_m, 0.011);
   EXPECT_EQ(sensor.speckle_px, 12);
-  EXPECT_EQ(sensor.speckle_jump_m, 0.013);
   EXPECT_EQ(sensor.average_frames, 14);
   EXPECT_EQ(sensor.background_frames, 15);
   EXPECT_EQ(sensor.background_clearance_m, 0.16);
-  EXPECT_EQ(sensor.holes, HolePolicy::obstacle);
   EXPECT_EQ(scene.evaluation.method, Method::lattice);
   EXPECT_EQ(scene.evaluation.distance.range_m, 0.5);
   EXPECT_EQ(scene.evaluation.distance.mean_direction, false);
@@ -134,7 +128,6 @@ TEST(Scene, LeavesDefaultsToThoseWhoOwnThem) {
   EXPECT_TRUE(scene.cameras[0].settings.link_padding_m.empty());
   EXPECT_EQ(scene.cameras[0].settings.sensor.noise_m, usual.sensor.noise_m);
   EXPECT_EQ(scene.cameras[0].settings.sensor.speckle_px, usual.sensor.speckle_px);
-  EXPECT_EQ(scene.cameras[0].settings.sensor.holes, usual.sensor.holes);
   EXPECT_EQ(scene.evaluation.method, Method::mesh);
   EXPECT_EQ(scene.evaluation.images, evaluation.images);
   EXPECT_EQ(scene.evaluation.distance.range_m, evaluation.distance.range_m);

@@ -47,8 +47,8 @@ TEST_F(ChangedSceneTest, SetsOneCameraAndAll) {
 }
 
 TEST_F(ChangedSceneTest, SetsNamesAndRequests) {
-  scene_.set("sensor", "holes", 2, "obstacle");
-  EXPECT_EQ(scene_.now().cameras[2].settings.sensor.holes, HolePolicy::obstacle);
+  scene_.set("space", "no_reading", 2, "hides");
+  EXPECT_EQ(scene_.now().cameras[2].settings.space.no_reading, NoReading::hides);
   scene_.set("evaluation", "range_m", 1, "0.5");
   EXPECT_EQ(scene_.now().evaluation.distance.range_m, 0.5);
   scene_.set("evaluation", "visibility", std::nullopt, "false");

@@ -29,30 +29,33 @@ bool is_same_place(const fs::path& a, const fs::path& b) {
   return fs::weakly_canonical(fs::absolute(a)) == fs::weakly_canonical(fs::absolute(b));
 }
 
-void require_free_place(const OpenScene& scene, const fs::path& file) {
-  const auto fail = [&](const std::string& what) {
-    throw std::runtime_error(
-        fmt::format("{}: {}; expected --out in another folder", file.string(), what));
-  };
-  for (const OpenCamera& camera : scene.cameras) {
-    const std::string name = camera.source.name;
-    if (camera.source.background && is_same_place(*camera.source.background, file)) {
-      fail(fmt::format("is camera {}'s background in {}, which is never overwritten", name,
-                       scene.file.string()));
+/// Why this camera gets no background in that file; empty where it may.
+std::string why_none(const OpenScene& scene, const OpenCamera& camera, const fs::path& file) {
+  if (is_carried(scene, camera)) {
+    return fmt::format("moves with link \"{}\"", camera.source.parent_link);
+  }
+  for (const OpenCamera& other : scene.cameras) {
+    if (other.source.background && is_same_place(*other.source.background, file)) {
+      return fmt::format(
+          "{} is camera {}'s in {}, which is never overwritten; choose another folder",
+          file.string(), other.source.name, scene.file.string());
     }
-    for (const fs::path& image : camera.source.depth) {
+    for (const fs::path& image : other.source.depth) {
       if (!is_same_place(image.parent_path(), fs::absolute(file).parent_path())) continue;
-      fail(
-          fmt::format("would lie among the images of camera {}, and could be taken for one", name));
+      return fmt::format("{} would lie among the images of camera {}; choose another folder",
+                         file.string(), other.source.name);
     }
   }
+  return {};
 }
 
 /// Nearer to the camera by less than a unit, and never farther: what the robot hides there is no
-/// farther from it than it was measured.
+/// farther from it than it was measured. A file has no place for readings of unknown depth.
 DepthImage rounded_down(DepthImage depth_m) {
   for (float& z_m : depth_m.pixels()) {
-    z_m = static_cast<float>(std::floor(z_m / kBackgroundScale_m + kRounding) * kBackgroundScale_m);
+    z_m = std::isfinite(z_m) ? static_cast<float>(std::floor(z_m / kBackgroundScale_m + kRounding) *
+                                                  kBackgroundScale_m)
+                             : kNoDepth;
   }
   return depth_m;
 }
@@ -68,7 +71,7 @@ SceneCameraChange& change_of(SceneChange& change, const std::string& camera) {
 
 /// The new scene, whose fixed cameras learn from their own images.
 OpenScene open_learning(const OpenScene& scene, const fs::path& new_file,
-                        const std::function<void()>& pause, SceneChange& change) {
+                        const std::function<void()>& pause, SceneChange change) {
   for (const OpenCamera& camera : scene.cameras) {
     if (is_carried(scene, camera) || camera.view->settings().sensor.has_background()) continue;
     change_of(change, camera.source.name).maps["sensor"]["background_frames"] = kAgreeing;
@@ -100,57 +103,37 @@ fs::path background_file(const fs::path& new_file, const std::string& camera) {
          fmt::format("{}.background.{}.png", new_file.stem().string(), camera);
 }
 
-std::vector<std::string> require_backgrounds(const OpenScene& scene, const fs::path& new_file) {
-  std::vector<std::string> carried;
-  for (const OpenCamera& camera : scene.cameras) {
-    if (is_carried(scene, camera)) {
-      carried.push_back(
-          fmt::format("camera {}: moves with link \"{}\", so that it has no background",
-                      camera.source.name, camera.source.parent_link));
-    } else {
-      require_free_place(scene, background_file(new_file, camera.source.name));
-    }
-  }
-  if (carried.size() < scene.cameras.size()) return carried;
-  throw std::runtime_error(fmt::format(
-      "{}: {}; expected no --background, or a camera that is fixed to the root link \"{}\"",
-      scene.file.string(), carried[0], scene.robot->model().links.front().name));
-}
-
-std::vector<CalibratedBackground> calibrate_backgrounds(const OpenScene& scene,
-                                                        const fs::path& new_file,
-                                                        const std::function<void()>& pause,
-                                                        SceneChange& change) {
+CalibratedBackgrounds calibrate_backgrounds(const OpenScene& scene, const fs::path& new_file,
+                                            const std::function<void()>& pause,
+                                            SceneChange& change) {
   const OpenScene learning = open_learning(scene, new_file, pause, change);
-  std::vector<CalibratedBackground> backgrounds;
-  for (const OpenCamera& camera : learning.cameras) {
-    if (is_carried(learning, camera)) continue;
+  CalibratedBackgrounds all;
+  for (std::size_t i = 0; i < learning.cameras.size(); ++i) {
+    const OpenCamera& camera = learning.cameras[i];
     const std::string& name = camera.source.name;
-    CalibratedBackground& calibrated = backgrounds.emplace_back(
-        CalibratedBackground{name, background_file(new_file, name), learn(camera, pause)});
-    if (calibrated.known_share() == 0) {
-      throw std::runtime_error(fmt::format(
-          "{}: camera {}: no background was learned from its {} images; expected a place that {} "
-          "of them (sensor.background_frames) show alike, with the robot {:g} m away from it",
-          scene.file.string(), name, camera.source.depth.size(),
-          camera.view->settings().sensor.background_frames,
-          camera.view->settings().sensor.background_clearance_m));
+    CalibratedBackground calibrated{name, background_file(new_file, name), {}};
+    std::string why = why_none(scene, camera, calibrated.file);
+    if (why.empty()) {
+      calibrated.depth_m = learn(camera, pause);
+      if (calibrated.known_share() == 0) {
+        why = fmt::format(
+            "{} of its {} images have to show a place alike, with the robot {:g} m away",
+            camera.view->settings().sensor.background_frames, camera.source.depth.size(),
+            camera.view->settings().sensor.background_clearance_m);
+      }
     }
-    change_of(change, name).background = calibrated.file;
+    if (!why.empty()) {
+      all.without.push_back(fmt::format("camera {}: no background was learned: {}", name, why));
+      continue;
+    }
+    SceneCameraChange& of_camera = change_of(change, name);
+    of_camera.background = calibrated.file;
+    if (!scene.cameras[i].view->settings().sensor.has_background()) {
+      of_camera.maps["sensor"]["background_frames"] = kAgreeing;
+    }
+    all.learned.push_back(std::move(calibrated));
   }
-  return backgrounds;
-}
-
-std::vector<std::string> older_backgrounds(const OpenScene& scene) {
-  std::vector<std::string> warnings;
-  for (const OpenCamera& camera : scene.cameras) {
-    if (!camera.source.background) continue;
-    warnings.push_back(fmt::format(
-        "camera {}: its background was learned before; where the camera was moved since, or its "
-        "depth is corrected now, use --background too",
-        camera.source.name));
-  }
-  return warnings;
+  return all;
 }
 
 void write_backgrounds(const std::vector<CalibratedBackground>& backgrounds) {

@@ -25,23 +25,22 @@ struct CalibratedBackground {
 std::filesystem::path background_file(const std::filesystem::path& new_file,
                                       const std::string& camera);
 
-/// A sentence for each camera that has no background, since it moves with the robot. Throws
-/// std::runtime_error that names file, camera and what was expected where no camera is fixed, where
-/// a background's file is one that the scene itself names, or would lie among depth images.
-std::vector<std::string> require_backgrounds(const OpenScene& scene,
-                                             const std::filesystem::path& new_file);
+/// Those of a scene's cameras.
+struct CalibratedBackgrounds {
+  std::vector<CalibratedBackground> learned;
+  /// A sentence for each camera that has none: it moves with the robot, too few images agree, or
+  /// the file would be one that the scene itself names, or lie among depth images.
+  std::vector<std::string> without;
+};
 
 /// Learns from all images of each fixed camera of the scene with `change`, as SceneRun does, and
 /// adds to `change` what the new scene says of it: the file, and `sensor.background_frames` (3)
 /// where the scene has none. `pause` is called before each image. Throws as rewritten_scene and
-/// open_scene do, and where so few images agree that nothing is known. Writes nothing.
-std::vector<CalibratedBackground> calibrate_backgrounds(const OpenScene& scene,
-                                                        const std::filesystem::path& new_file,
-                                                        const std::function<void()>& pause,
-                                                        SceneChange& change);
-
-/// A sentence for each camera whose background was learned before.
-std::vector<std::string> older_backgrounds(const OpenScene& scene);
+/// open_scene do. Writes nothing.
+CalibratedBackgrounds calibrate_backgrounds(const OpenScene& scene,
+                                            const std::filesystem::path& new_file,
+                                            const std::function<void()>& pause,
+                                            SceneChange& change);
 
 /// Each file is complete afterwards, or as it was before. Throws std::runtime_error where one
 /// cannot be written.

@@ -13,26 +13,39 @@ struct Renamed {
   std::string_view name;
 };
 
-constexpr std::array<Renamed, 7> kRenamed = {{
+constexpr std::array<Renamed, 6> kRenamed = {{
     {"slab_m", "surface_thickness_m"},
     {"carve_margin_m", "free_space_margin_m"},
     {"carve_max_age_s", "free_space_max_age_s"},
     {"island_radius_m", "flying_patch_radius_m"},
-    {"island_jump_m", "flying_patch_jump_m"},
     {"hidden", "unknown"},
     {"doubtful", "rejected"},
 }};
 
-/// Of `separation`: the speed rises as soon as there is room, and the way that the robot takes is
-/// looked at.
-constexpr std::array<std::string_view, 3> kEnded = {"directed_speed", "hold_s", "release_m"};
+struct Ended {
+  std::string_view group;
+  std::string_view key;
+};
 
-constexpr std::array<std::string_view, 3> kGroups = {"space", "self_filter", "separation"};
+constexpr std::array<Ended, 8> kEnded = {{
+    {"separation", "directed_speed"},
+    {"separation", "hold_s"},
+    {"separation", "release_m"},
+    {"self_filter", "edge_jump_m"},
+    {"self_filter", "flying_patch_jump_m"},
+    {"self_filter", "island_jump_m"},
+    {"sensor", "speckle_jump_m"},
+    {"sensor", "holes"},
+}};
 
-void tell_group(const YamlValue& group, std::vector<std::string>& told) {
+constexpr std::array<std::string_view, 4> kGroups = {"space", "self_filter", "sensor",
+                                                     "separation"};
+
+void tell_group(std::string_view name, const YamlValue& group, std::vector<std::string>& told) {
   if (!group.is_map()) return;
+  const std::vector<std::string_view> ended = ended_settings(name);
   for (const auto& [key, value] : group.entries()) {
-    if (std::ranges::find(kEnded, key) != kEnded.end()) {
+    if (std::ranges::find(ended, key) != ended.end()) {
       told.push_back(fmt::format("{}:{}: {} is no setting any more, and has no effect",
                                  value.place().file.string(), value.place().line, key));
     }
@@ -51,7 +64,7 @@ void tell_all(const YamlValue& value, std::vector<std::string>& told) {
   if (!value.is_map()) return;
   for (const auto& [key, entry] : value.entries()) {
     const bool is_group = std::ranges::find(kGroups, key) != kGroups.end();
-    is_group ? tell_group(entry, told) : tell_all(entry, told);
+    is_group ? tell_group(key, entry, told) : tell_all(entry, told);
   }
 }
 
@@ -62,7 +75,21 @@ std::string_view former_name(std::string_view name) {
   return found == kRenamed.end() ? std::string_view() : found->former;
 }
 
-std::span<const std::string_view> ended_settings() { return kEnded; }
+std::vector<std::string_view> ended_settings(std::string_view group) {
+  std::vector<std::string_view> keys;
+  for (const Ended& ended : kEnded) {
+    if (ended.group == group) keys.push_back(ended.key);
+  }
+  return keys;
+}
+
+void require_no_hole_policy(const YamlMap& sensor) {
+  const auto holes = sensor.find("holes");
+  if (!holes || holes->text() == "free") return;
+  holes->fail(
+      "space.no_reading: hides in its place, or a background of the camera (berth calibrate writes "
+      "it): what gives no reading is unknown space now, and no obstacle right before the camera");
+}
 
 std::vector<std::string> former_names_in(const YamlValue& document) {
   std::vector<std::string> told;

@@ -1,7 +1,6 @@
 // Settings that have changed their names: the former ones are read for one version more.
 #pragma once
 
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,8 +13,12 @@ namespace berth {
 /// where it had none. Names are unique over groups but for those of `separation`.
 std::string_view former_name(std::string_view name);
 
-/// Of `separation`: a scene may have them for one version more, and they do nothing.
-std::span<const std::string_view> ended_settings();
+/// Of this group: a scene may have them for one version more, and they do nothing.
+std::vector<std::string_view> ended_settings(std::string_view group);
+
+/// Throws where `sensor` has the former `holes: obstacle`: without it a distance would be too
+/// large.
+void require_no_hole_policy(const YamlMap& sensor);
 
 /// One sentence for each former name that a scene's document uses, and for each of
 /// ended_settings(), with file and line.

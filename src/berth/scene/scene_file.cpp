@@ -109,11 +109,16 @@ std::map<std::string, double> read_joint_values(const YamlMap& map, std::string_
   return values;
 }
 
+std::vector<std::string_view> with_ended(std::string_view group,
+                                         std::vector<std::string_view> others = {}) {
+  const std::vector<std::string_view> ended = ended_settings(group);
+  others.insert(others.end(), ended.begin(), ended.end());
+  return others;
+}
+
 SeparationSettings read_separation(const YamlValue& value) {
   SeparationSettings settings;
-  std::vector<std::string_view> others = {"stopping"};
-  others.insert(others.end(), ended_settings().begin(), ended_settings().end());
-  const YamlMap keys = read_settings(value, settings, others);
+  const YamlMap keys = read_settings(value, settings, with_ended("separation", {"stopping"}));
   if (const auto stopping = keys.find("stopping")) {
     for (const YamlValue& item : stopping->list()) {
       const YamlMap row(item, {"speed_m_s", "time_s", "distance_m"});
@@ -137,14 +142,17 @@ void warn_of_what_is_not_shown(SceneFile& scene, int line) {
 
 void read_view_settings(const YamlMap& map, CameraSettings& settings) {
   if (const auto filter = map.find("self_filter")) {
-    const YamlMap keys = read_settings(*filter, settings.self_filter, {"link_padding_m"});
+    const YamlMap keys =
+        read_settings(*filter, settings.self_filter, with_ended("self_filter", {"link_padding_m"}));
     if (const auto paddings = keys.find("link_padding_m")) {
       for (const auto& [link, padding] : paddings->entries()) {
         settings.link_padding_m[link] = padding.non_negative();
       }
     }
   }
-  if (const auto sensor = map.find("sensor")) read_settings(*sensor, settings.sensor);
+  if (const auto sensor = map.find("sensor")) {
+    require_no_hole_policy(read_settings(*sensor, settings.sensor, with_ended("sensor")));
+  }
   if (const auto space = map.find("space")) read_settings(*space, settings.space);
   if (const auto watch = map.find("watch")) read_settings(*watch, settings.watch);
 }

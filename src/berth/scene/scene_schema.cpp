@@ -71,9 +71,9 @@ Json others_of(std::string_view group) {
                    {"distance_m", told("and this way", not_below_0())}};
     others["stopping"] = told("the robot maker's table of stops, by increasing speed",
                               list_of(map_of(row, {"speed_m_s", "time_s", "distance_m"})));
-    for (const std::string_view ended : ended_settings()) {
-      others[ended] = deprecated("is no setting any more, and has no effect", Json::object());
-    }
+  }
+  for (const std::string_view ended : ended_settings(group)) {
+    others[ended] = deprecated("is no setting any more, and has no effect", Json::object());
   }
   return others;
 }
