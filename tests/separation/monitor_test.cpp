@@ -133,7 +133,9 @@ TEST_F(Monitor, SlowPeopleAndASmallReachLeaveTheRobotItsSpeed) {
 }
 
 TEST_F(Monitor, TheDefaultsStopBesideSomethingNear) {
-  const Separation separation = update({.no_reading = UnknownPolicy::ignore});
+  SeparationSettings settings;
+  settings.no_reading = UnknownPolicy::ignore;
+  const Separation separation = update(settings);
   EXPECT_EQ(name_of(separation.state), "stop");
   EXPECT_EQ(separation.speed_scale, 0);
   EXPECT_NE(separation.link, kNoLink);
