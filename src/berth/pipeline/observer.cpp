@@ -32,11 +32,14 @@ MeasureDisplacement displacement_of(const MountedCamera& view, MeasureDisplaceme
 
 /// Pixels without a reading that do not show the robot.
 std::int64_t count_unread(const RobotImage& robot, const ObstacleImage& obstacles) {
-  std::int64_t count = 0;
-  for (std::size_t i = 0; i < obstacles.fate.pixels().size(); ++i) {
-    const LinkId id = robot.link_id.pixels()[i];
-    const bool is_robot = id != kNoLink && id != kEnvironmentLink;
-    count += int(obstacles.fate.pixels()[i] == PixelFate::no_reading && !is_robot);
+  const PixelRect extent = clip(robot.extent, obstacles.fate.width(), obstacles.fate.height());
+  std::int64_t count = obstacles.count_of(PixelFate::no_reading);
+  for (int v = extent.v_begin; v < extent.v_end; ++v) {
+    for (int u = extent.u_begin; u < extent.u_end; ++u) {
+      const LinkId id = robot.link_id(u, v);
+      const bool is_robot = id != kNoLink && id != kEnvironmentLink;
+      count -= int(is_robot && obstacles.fate(u, v) == PixelFate::no_reading);
+    }
   }
   return count;
 }
