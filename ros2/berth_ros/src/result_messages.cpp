@@ -67,6 +67,7 @@ void copy(const berth::LinkResult& link, const berth::Result& result, LinkDistan
   copy_pair(link, result, out);
   out.obstacle_is = constant_of(link.obstacle_is);
   copy_pair(link.occupied, result, out.occupied);
+  out.assumed_thinner_m = link.assumed_thinner_m;
   out.mean_direction_base = vector_of(link.mean_direction_B);
   out.mean_count = link.mean_count;
   copy(link.visibility, out.visibility);
