@@ -70,10 +70,13 @@ CubeContent::Seen CubeContent::look(std::size_t k, const CentredCube& cube) cons
       const double front_m = view.obstacle_depth_m(u, v);  // NaN is in front of nothing
       const double free_m = space_.free_depth(k)(u, v);
       seen.may_read |= front_m <= place.far_m && front_m + surface_thickness_m >= place.near_m;
-      seen.may_hide |= front_m + surface_thickness_m < place.far_m;
+      const double hides_m = space_.hidden_from_m(k)(u, v);
+      const double ends_m = space_.hidden_to_m(k, {u, v});
+      seen.may_hide |= hides_m < place.far_m && place.near_m < ends_m;
       seen.may_free |= free_m > std::max(place.near_m, 0.0);
       seen.all_read &= front_m <= place.near_m && place.far_m <= front_m + surface_thickness_m;
-      seen.all_covered &= front_m <= place.near_m;
+      seen.all_covered &=
+          (front_m <= place.near_m || hides_m < place.near_m) && place.far_m < ends_m;
       seen.all_free &= place.far_m < free_m;
     }
   }

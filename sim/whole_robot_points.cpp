@@ -103,6 +103,10 @@ PointSpace::PointSpace(std::vector<PointView> views, const SpaceSettings& settin
   }
 }
 
+double PointSpace::hidden_to_m(std::size_t k, Pixel pixel) const {
+  return plainly_hidden_to(views_[k].environment_front_m, pixel);
+}
+
 bool PointSpace::is_reading(std::size_t k, const Eigen::Vector3d& p_B) const {
   const Eigen::Vector3d p_C = views_[k].X_BC.inverse() * p_B;
   const Pixel pixel = plain_pixel_of(views_[k].camera, p_C);
@@ -115,8 +119,7 @@ bool PointSpace::is_behind(std::size_t k, const Eigen::Vector3d& p_B) const {
   const Eigen::Vector3d p_C = views_[k].X_BC.inverse() * p_B;
   const Pixel pixel = plain_pixel_of(views_[k].camera, p_C);
   if (pixel == Pixel{}) return false;
-  return p_C.z() > hidden_from_m_[k](pixel.u, pixel.v) &&
-         p_C.z() < plainly_hidden_to(views_[k].environment_front_m, pixel);
+  return p_C.z() > hidden_from_m_[k](pixel.u, pixel.v) && p_C.z() < hidden_to_m(k, pixel);
 }
 
 bool PointSpace::is_free(std::size_t k, const Eigen::Vector3d& p_B) const {

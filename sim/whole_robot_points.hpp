@@ -42,6 +42,10 @@ class PointSpace {
   /// E of view k.
   const Image<double>& free_depth(std::size_t k) const { return free_depth_m_[k]; }
 
+  /// H of view k, and the depth up to which a pixel of it hides.
+  const DepthImage& hidden_from_m(std::size_t k) const { return hidden_from_m_[k]; }
+  double hidden_to_m(std::size_t k, Pixel pixel) const;
+
   /// In the surface layer of some pixel of view k.
   bool is_reading(std::size_t k, const Eigen::Vector3d& p_B) const;
   bool is_behind(std::size_t k, const Eigen::Vector3d& p_B) const;

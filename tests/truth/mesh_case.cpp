@@ -40,10 +40,10 @@ PixelFate draw_fate(Random& random, bool has_reading) {
     return kFates[random.whole(0, 2)];
   }
   constexpr std::array kFates = {
-      PixelFate::obstacle, PixelFate::robot,        PixelFate::padding,        PixelFate::dilation,
-      PixelFate::edge,     PixelFate::flying_patch, PixelFate::outside_region, PixelFate::speckle,
-      PixelFate::averaged, PixelFate::background};
-  return kFates[random.whole(0, 9)];
+      PixelFate::obstacle, PixelFate::robot,        PixelFate::padding,
+      PixelFate::dilation, PixelFate::flying_patch, PixelFate::outside_region,
+      PixelFate::speckle,  PixelFate::averaged,     PixelFate::background};
+  return kFates[random.whole(0, 8)];
 }
 
 /// Blobs of pixels get another fate.

@@ -123,9 +123,9 @@ class Judge {
       EXPECT_TRUE(is_in_depths(pair, obstacle_B, 0, space_.settings().surface_thickness_m))
           << "not in its surface layer";
     } else {
-      EXPECT_TRUE(is_in_depths(pair, obstacle_B, space_.settings().surface_thickness_m,
-                               std::numeric_limits<double>::infinity()))
-          << "not behind its surface layer";
+      const double hides_m =
+          space_.hidden_from_m(pair.camera)(pair.obstacle_pixel.u, pair.obstacle_pixel.v);
+      EXPECT_GE(project(pair.camera, obstacle_B).z_m, hides_m - kRounding_m) << "not hidden";
       for (std::size_t j = 0; j < space_.views().size(); ++j) {
         if (static_cast<int>(j) == pair.camera) continue;
         EXPECT_FALSE(is_surely_free(j, obstacle_B)) << "seen free by view " << j;

@@ -105,14 +105,14 @@ TEST(Trust, ARimBesideARealRobotKeepsItsDistance) {
 }
 
 /// Nothing is hidden in silence: what a rule drops beside the arm, where there is no padding, is
-/// told as rejected, or was dropped for a mixed pixel.
+/// told as rejected.
 TEST(Trust, InRealDepthImagesTheRejectedDistanceLosesNothing) {
   const std::filesystem::path data = data_folder();
   if (!std::filesystem::is_directory(data / "depth")) GTEST_SKIP() << "no images in " << data;
   const std::vector<RealImage> images = load_real_images(data / "depth");
   const std::vector<TrialRobot> robots = load_trial_robots(data / "robots");
   RealImageRules rules;
-  rules.self_filter.padding_m = rules.self_filter.edge_jump_m = 0;
+  rules.self_filter.padding_m = 0;
   rules.sensor.speckle_px = 60;
   rules.counts_rejected = true;
   RealImageRules in_silence = rules;

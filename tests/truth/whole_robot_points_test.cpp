@@ -56,7 +56,7 @@ TEST(WholeRobotPoints, EachFateFreesWhatItShould) {
     EXPECT_NEAR(free_at(view, 6, 6, settings), 1.3, kRounding_m);
     EXPECT_NEAR(free_at(view, 4, 6, settings), 0.98, kRounding_m) << "the least of 3 x 3";
   }
-  for (const PixelFate fate : {PixelFate::edge, PixelFate::flying_patch, PixelFate::soft,
+  for (const PixelFate fate : {PixelFate::flying_patch, PixelFate::soft,
                                PixelFate::speckle, PixelFate::outside_region}) {
     PointView view = wall_at(1);
     view.sensor_depth_m(6, 6) = 0.5F;

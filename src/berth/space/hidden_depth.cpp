@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "berth/space/free_depth.hpp"
 
@@ -9,11 +10,13 @@ namespace berth {
 
 void hide_behind_holes(const ObstacleImage& obstacles, const UnitImage& own, double detected_m,
                        const SpaceSettings& settings, DepthWindows& hidden) {
-  if (obstacles.count_of(PixelFate::hole) == 0) return;
   const int behind = units_of(static_cast<float>(detected_m / 2 + settings.free_space_margin_m +
                                                  settings.surface_thickness_m));
   for (int v = 0; v < own.height(); ++v) {
     const PixelFate* const fate = obstacles.fate.row(v);
+    constexpr auto kHole = static_cast<int>(PixelFate::hole);
+    // Most rows have none.
+    if (std::memchr(fate, kHole, static_cast<std::size_t>(own.width())) == nullptr) continue;
     const DepthUnits* const frees = own.row(v);
     DepthUnits* const from = hidden.levels[0].row(v);
     for (int u = 0; u < own.width(); ++u) {
