@@ -286,6 +286,7 @@ TEST(PathCertificate, TheFormulaIsNeverLessCarefulWhereTheRobotRunsStraightAtThe
   settings.camera_uncertainty_m = 0;
   settings.acceleration_m_s2 = 0;
   settings.unknown = settings.not_seen = UnknownPolicy::ignore;
+  settings.no_reading = UnknownPolicy::ignore;
   int between = 0;
   for (const float wall_m : {0.4F, 0.7F, 1.0F, 1.3F, 1.6F, 2.0F}) {
     const Frame frame = wall_frame(robot, wall_m);
