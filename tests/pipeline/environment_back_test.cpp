@@ -69,9 +69,13 @@ TEST(EnvironmentBack, IsTheNextSurfaceBehindTheOneThatIsSeen) {
   for (const bool stands_on_floor : {false, true}) {
     const RobotModel model = table_model(stands_on_floor);
     EnvironmentBack environment(model, kCamera);
-    const DepthImage& back_m = environment.at(pose_of(model), looking_down());
+    const auto [front_m, back_m, number] = environment.at(pose_of(model), looking_down());
     // The robot is not there.
+    EXPECT_NEAR(front_m(31, 23), 1.5, 1e-4);
     EXPECT_NEAR(back_m(31, 23), 1.53, 1e-4);
+    // The same surfaces have the same number.
+    EXPECT_EQ(environment.at(pose_of(model), looking_down()).serial_number, number);
+    EXPECT_NE(environment.at(pose_of(model), looking_down(0.1)).serial_number, number);
     EXPECT_NEAR(back_m(15, 12), 1.53, 1e-4);
     // Behind the top over a leg is the leg.
     EXPECT_NEAR(back_m(47, 8), 1.53, 1e-4);
@@ -90,19 +94,21 @@ TEST(EnvironmentBack, OfASheetIsTheSheet) {
   sheet.vertices_m = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
   sheet.triangles = {{0, 1, 2}};
   EnvironmentBack environment(model, kCamera);
-  EXPECT_NEAR(environment.at(pose_of(model), looking_down())(31, 23), 1.5, 1e-4);
+  EXPECT_NEAR(environment.at(pose_of(model), looking_down()).back_m(31, 23), 1.5, 1e-4);
 }
 
 TEST(EnvironmentBack, GoesWithACameraThatMoves) {
   const RobotModel model = table_model(false);
   EnvironmentBack environment(model, kCamera);
   for (const auto& [x_m, height_m] : {std::pair{0.0, 1.5}, {0.0, 1.5}, {0.3, 1.2}, {0.0, 1.5}}) {
-    const DepthImage& moved_m = environment.at(pose_of(model), looking_down(x_m, height_m));
+    const DepthView moved_m = environment.at(pose_of(model), looking_down(x_m, height_m)).back_m;
     EnvironmentBack alone(model, kCamera);
-    const DepthImage& alone_m = alone.at(pose_of(model), looking_down(x_m, height_m));
-    for (std::size_t i = 0; i < moved_m.pixels().size(); ++i) {
-      const float a = moved_m.pixels()[i], b = alone_m.pixels()[i];
-      ASSERT_TRUE(a == b || (std::isnan(a) && std::isnan(b))) << "pixel " << i;
+    const DepthView alone_m = alone.at(pose_of(model), looking_down(x_m, height_m)).back_m;
+    for (int v = 0; v < kCamera.height_px; ++v) {
+      for (int u = 0; u < kCamera.width_px; ++u) {
+        const float a = moved_m(u, v), b = alone_m(u, v);
+        ASSERT_TRUE(a == b || (std::isnan(a) && std::isnan(b))) << u << " " << v;
+      }
     }
   }
 }
@@ -112,7 +118,7 @@ TEST(EnvironmentBack, IsNowhereWithoutEnvironment) {
   model.links[0].role = LinkRole::ignored;
   model.links[0].id = kNoLink;
   EnvironmentBack environment(model, kCamera);
-  EXPECT_EQ(environment.at(pose_of(model), looking_down()).width(), 0);
+  EXPECT_EQ(environment.at(pose_of(model), looking_down()).back_m.width, 0);
 }
 
 /// A camera sees the bare table from above; what it frees below a point of the table's top.
