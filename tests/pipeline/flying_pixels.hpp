@@ -6,14 +6,15 @@
 
 namespace berth {
 
-/// Readings at the robot's depth to the right of it, as a camera that smooths makes them. For
-/// images of the bundled scene.
+/// Readings at the robot's depth to the right of it, as a camera that smooths makes them: they end
+/// in a hole. For images of the bundled scene.
 inline void draw_flying_pixels(const RobotImage& robot, DepthImage& depth_m) {
   for (int v = 100; v < 300; ++v) {
     for (int u = robot.link_id.width() - 40; u > 0; --u) {
       const LinkId id = robot.link_id(u, v);
       if (id == kNoLink || id == kEnvironmentLink) continue;
       std::fill_n(depth_m.row(v) + u + 1, 12, robot.depth_m(u, v));
+      std::fill_n(depth_m.row(v) + u + 13, 6, kNoDepth);
       break;
     }
   }

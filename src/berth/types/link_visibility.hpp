@@ -49,9 +49,8 @@ struct LinkVisibility {
   /// no_reading + outside_image. What an obstacle hides is not part of it, since it counts as
   /// obstacle already (the gray area, Hirt 2.14).
   float space_unknown = std::numeric_limits<float>::quiet_NaN();
-  /// The least distance, as in LinkDistance, to readings that were dropped only because they are
-  /// few (PixelFate::speckle) or may be something soft of the robot's (soft), and the pixel of the
-  /// nearest. Set if that is within the range and nearer than the link's distance; then take it
+  /// The least distance, as in LinkDistance, to readings that were dropped but may be a thing
+  /// (PixelFate::flying_patch, speckle, soft), and the pixel of the nearest. Set if that is within the range and nearer than the link's distance; then take it
   /// instead wherever a small thing may come near the robot. Else NaN and (-1, -1).
   float rejected_distance_m = std::numeric_limits<float>::quiet_NaN();
   Pixel rejected_pixel;

@@ -7,7 +7,7 @@ namespace berth {
 namespace {
 
 bool is_rejected(PixelFate fate) {
-  return fate == PixelFate::soft || fate == PixelFate::speckle;
+  return fate == PixelFate::flying_patch || fate == PixelFate::soft || fate == PixelFate::speckle;
 }
 
 }  // namespace
@@ -25,7 +25,7 @@ void find_rejected(DepthView sensor_depth_m, const ObstacleImage& obstacles, Rej
   const int width = sensor_depth_m.width, height = sensor_depth_m.height;
   assert(obstacles.fate.width() == width && obstacles.fate.height() == height);
   clear_rejected(width, height, out);
-  if (obstacles.count_of(PixelFate::soft) +
+  if (obstacles.count_of(PixelFate::flying_patch) + obstacles.count_of(PixelFate::soft) +
           obstacles.count_of(PixelFate::speckle) ==
       0) {
     return;

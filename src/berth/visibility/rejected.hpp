@@ -7,8 +7,8 @@
 
 namespace berth {
 
-/// The readings that were dropped only because they are few (`speckle`), or lie where something soft
-/// may hang. Mostly the camera made them up, but a small real thing gives the same image.
+/// The readings that were dropped, but may be a thing: `flying_patch` near the robot, `speckle`
+/// anywhere, or something soft. Mostly the camera made them up, but a small real thing gives the same image.
 struct RejectedImage {
   /// The sensor's depth at such pixels; NaN elsewhere.
   DepthImage depth_m;
