@@ -89,18 +89,28 @@ class SurfaceThings {
   void find_candidates() {
     workspace_.candidates.clear();
     const PixelRect rect = clip(robot_.extent, out_.fate.width(), out_.fate.height());
-    const float least_m = kLeastGrowth * std::min(out_.surface_tolerance.links_m,
-                                                  out_.surface_tolerance.environment_m);
+    const SurfaceTolerance& t = out_.surface_tolerance;
+    const float corner =
+        std::min({cosine(0, 0), cosine(camera_.width_px - 1, 0), cosine(0, camera_.height_px - 1),
+                  cosine(camera_.width_px - 1, camera_.height_px - 1)});
+    const float least_m = kLeastGrowth * std::min(t.links_m, t.environment_m) * corner;
     for (int v = rect.v_begin; v < rect.v_end; ++v) {
       const float* const reading_m = sensor_depth_m_.row(v);
       const float* const model_m = robot_.depth_m.row(v);
+      if (!any_nearer(reading_m, model_m, least_m, rect.u_begin, rect.u_end)) continue;
       for (int u = rect.u_begin; u < rect.u_end; ++u) {
-        // False for NaN, and for most pixels.
-        if (model_m[u] - reading_m[u] > least_m * cosine(u, v) && stands_off({u, v})) {
-          workspace_.candidates.push_back({u, v});
-        }
+        const bool may = model_m[u] - reading_m[u] > least_m;
+        if (may && stands_off({u, v})) workspace_.candidates.push_back({u, v});
       }
     }
+  }
+
+  /// The compiler makes vectors of it; most rows have none.
+  static bool any_nearer(const float* reading_m, const float* model_m, float least_m, int begin,
+                         int end) {
+    int any = 0;
+    for (int u = begin; u < end; ++u) any |= int(model_m[u] - reading_m[u] > least_m);
+    return any != 0;
   }
 
   /// Of the angle between a pixel's ray and the optical axis.
