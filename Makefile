@@ -1,5 +1,5 @@
 # Thin fronts of CMake. Each target does all set-up that it needs, on a bare Debian 12 too.
-.PHONY: demo view opengl python test test-ros2 build bench lab study closed-loop bench-gpu sanitize sanitize-thinned fuzz trust berth_trust trust-distances trust-real-images trust-long-runs trust-sequences trust-streams trust-whole-robot setup docs site release deb wheel test-debian13 test-arm64 ros-release lint format clean
+.PHONY: demo view opengl python test test-ros2 build bench lab study closed-loop bench-gpu sanitize sanitize-thinned fuzz trust berth_trust trust-distances trust-real-images trust-long-runs trust-sequences trust-streams trust-whole-robot trust-contact setup docs site release deb wheel test-debian13 test-arm64 ros-release lint format clean
 
 # A fresh build folder is configured for berth alone, which needs the fewest packages. One that has more keeps it.
 product = test -e build/release/build.ninja || cmake --preset product
@@ -94,7 +94,7 @@ fuzz:
 # What `make test` shows thinned, in full; all tables land in build/trust/. TRUST_OPTIONS: of berth_trust, such as --scenes 20.
 trust_table = mkdir -p build/trust && build/release/lab/berth_trust $(if $(BERTH_DATA),--robots $(BERTH_DATA)/robots) $(2) $(TRUST_OPTIONS) \
   >build/trust/$(1).md && cat build/trust/$(1).md
-trust: trust-distances trust-real-images trust-long-runs trust-streams trust-whole-robot trust-sequences
+trust: trust-distances trust-real-images trust-long-runs trust-streams trust-whole-robot trust-contact trust-sequences
 berth_trust: lab
 	cmake --build --preset release --target berth_trust
 trust-distances: berth_trust
@@ -118,6 +118,8 @@ trust-whole-robot: setup
 	cmake --build --preset release --target berth_trust mesh_distances_test
 	BERTH_MESH_TWIN=full build/release/tests/truth/mesh_distances_test
 	$(call trust_table,whole_robot,--whole-robot)
+trust-contact: berth_trust
+	$(call trust_table,contact,--contact)
 trust-sequences: lab
 	cmake --build --preset release --target measure_sequences
 	mkdir -p build/trust && build/release/lab/measure_sequences >build/trust/sequences.md && cat build/trust/sequences.md

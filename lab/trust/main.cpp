@@ -12,6 +12,7 @@
 
 #include "apps/support/command_options.hpp"
 #include "apps/support/program.hpp"
+#include "lab/trust/contact_trial.hpp"
 #include "lab/trust/look.hpp"
 #include "lab/trust/real_image.hpp"
 #include "lab/trust/tables.hpp"
@@ -126,6 +127,7 @@ int main(int argc, char** argv) {
   std::filesystem::path real_images;
   std::optional<int> look;
   bool whole_robot = false;
+  bool contact = false;
   berth::lab::WholeRobotOptions whole_robot_options;
   std::filesystem::path picture = "scene.png";
   program.add_option("--scenes", scenes, "How many; their seeds count from 0")
@@ -140,6 +142,9 @@ int main(int argc, char** argv) {
       ->check(CLI::ExistingDirectory);
   program.add_flag("--whole-robot", whole_robot,
                    "Instead, the method `mesh` with one to four cameras, on whole links");
+  program.add_flag("--contact", contact,
+                   "Instead, things that touch the robot, give no reading or stand beside all "
+                   "images; the kinds share --scenes");
   program
       .add_option("--first", whole_robot_options.first,
                   "With --whole-robot: the seed of the first scene")
@@ -170,6 +175,8 @@ int main(int argc, char** argv) {
                                 static_cast<std::uint32_t>(*look), picture);
     } else if (whole_robot) {
       berth::lab::measure_whole_robot(robots, scenes, whole_robot_options);
+    } else if (contact) {
+      fmt::print("{}", berth::lab::contact_table(robots, whole_robot_options.first, scenes));
     } else if (!real_images.empty()) {
       const auto images = berth::lab::load_real_images(real_images);
       fmt::print("{}", berth::lab::real_image_table(images, robots, scenes));
