@@ -64,7 +64,7 @@ Clearance find_clearance(const LinkPatches& link, const Pose& X_BL, const Unknow
   LinkSearch& search = workspace.state_->search;
   // With one view nothing is seen free by another one: hidden is all that lies behind a reading,
   // and the readings are a part of that.
-  const bool is_shadow = request.unknown && space.views().size() < 2;
+  const bool is_shadow = request.unknown && space.is_shadow();
   start_clearance(link, X_BL, request.needed_m, search);
   mesh::start_in_views(space, search);
   const Clearance readings = decide(request.most_steps, search, [&](int steps) {

@@ -33,7 +33,7 @@ struct Asked {
   const UnknownSpace& space;
   const MeshRequest& request;
   /// With one view nothing is seen free by another one: hidden is all that lies behind a reading.
-  bool is_shadow() const { return space.views().size() < 2; }
+  bool is_shadow() const { return space.is_shadow(); }
   bool is_stopped() const { return request.stop && request.stop->stop_requested(); }
 };
 

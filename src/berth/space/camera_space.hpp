@@ -60,6 +60,9 @@ struct CameraSpace {
   RobotHolesWorkspace robot_holes;
   ClosingWorkspace closing;
 
+  /// Whether anything else is hidden than what lies behind a reading, or something behind one is not.
+  bool hides_otherwise = false;
+
   bool is_empty() const { return obstacle_depth_m.width == 0 || obstacle_depth_m.height == 0; }
 };
 

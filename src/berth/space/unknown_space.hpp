@@ -60,6 +60,12 @@ class UnknownSpace {
 
   std::span<const FreeingCamera> views() const { return views_; }
 
+  /// Whether all that lies behind a reading is hidden, and nothing else is: one camera sees it, and
+  /// no other one frees anything. Then it can be searched for by pixels.
+  bool is_shadow() const {
+    return views_.empty() || (views_.size() == 1 && !views_[0].space->hides_otherwise);
+  }
+
   /// Another one after each assign(), and no other object's.
   std::uint64_t serial_number() const { return serial_number_; }
 
