@@ -66,6 +66,7 @@ TEST(MeshCertified, OneCameraAtEveryTolerance) {
     MeshWorldSettings settings;
     settings.views = 1;
     settings.dropout = seed % 3 * 0.02;
+    settings.hides_otherwise = false;
     const MeshWorld world = draw_mesh_world(settings, seed);
     const PreparedWorld prepared(world);
     const PlainSpace space(world);
@@ -170,7 +171,8 @@ TEST(MeshCertified, UnknownSpaceOfSeveralCameras) {
       if (found[i].nearest.is_known()) {
         expect_pair(space, i, found[i].nearest, 1);
         hidden += found[i].nearest.obstacle_is == ObstacleKind::unknown;
-        EXPECT_LE(found[i].nearest.distance_m - found[i].nearest.lower_bound_m, 1.001e-3);
+        // The least cubes leave up to 0.4 mm undecided, as in the tests against the twin.
+        EXPECT_LE(found[i].nearest.distance_m - found[i].nearest.lower_bound_m, 1.401e-3);
       } else {
         EXPECT_EQ(found[i].nearest.lower_bound_m, 1);
         expect_unknown(found[i].nearest);

@@ -43,12 +43,14 @@ MeshWorldView draw_view(sim::Random& random, const MeshWorldSettings& settings) 
   return view;
 }
 
-PixelFate draw_fate(sim::Random& random) {
+PixelFate draw_fate(sim::Random& random, bool hides_otherwise) {
   constexpr PixelFate kFates[] = {
       PixelFate::flying_patch, PixelFate::speckle,        PixelFate::padding,
       PixelFate::dilation,     PixelFate::averaged,       PixelFate::background,
       PixelFate::hole,         PixelFate::outside_region, PixelFate::environment};
-  return kFates[random.whole(0, 8)];
+  const PixelFate fate = kFates[random.whole(0, 8)];
+  const bool is_plain = fate != PixelFate::flying_patch && fate != PixelFate::hole;
+  return is_plain || hides_otherwise ? fate : PixelFate::speckle;
 }
 
 void cast(sim::Random& random, const MeshWorldSettings& settings, const sim::EmbreeRenderer& robot,
@@ -57,7 +59,7 @@ void cast(sim::Random& random, const MeshWorldSettings& settings, const sim::Emb
   view.obstacles.depth_m = view.environment_back_m = view.sensor_depth_m;
   view.environment_front_m = view.sensor_depth_m;
   // In half of the images, blocks of pixels would show environment somewhere.
-  const bool has_environment = random.chance(0.5);
+  const bool has_environment = random.chance(0.5) && settings.hides_otherwise;
   for (int v = 0; v < settings.height_px && has_environment; ++v) {
     const double front_m = random(0.6, 3);
     for (int u = random.whole(0, settings.width_px); u < settings.width_px; ++u) {
@@ -81,7 +83,7 @@ void cast(sim::Random& random, const MeshWorldSettings& settings, const sim::Emb
       PixelFate& fate = view.obstacles.fate(u, v);
       sensed_m = static_cast<float>(hit.depth_m);
       fate = is_robot ? PixelFate::robot : PixelFate::obstacle;
-      if (random.chance(0.02)) fate = draw_fate(random);
+      if (random.chance(0.02)) fate = draw_fate(random, settings.hides_otherwise);
       --view.obstacles.count[static_cast<std::size_t>(PixelFate::no_reading)];
       ++view.obstacles.count[static_cast<std::size_t>(fate)];
       if (is_kept(fate)) view.obstacles.depth_m(u, v) = sensed_m;

@@ -17,6 +17,8 @@ struct MeshWorldSettings {
   int obstacles = 4;
   /// Pixels that lose their reading.
   double dropout = 0.01;
+  /// Whether environment, flying patches and holes are among what hides.
+  bool hides_otherwise = true;
   SpaceSettings space = {};
 };
 
