@@ -104,7 +104,7 @@ ContactLink judge(const LinkResult& link, double truth_m, bool is_covered) {
 
 /// A row of the table: what became of its links.
 struct ContactCount {
-  int links = 0, untold = 0, uncovered = 0, uncovered_far = 0, assumed = 0, far = 0,
+  int links = 0, untold = 0, uncovered = 0, uncovered_far = 0, assumed = 0, far_one = 0, far = 0,
       occupied_far = 0, near = 0, occupied_near = 0;
   double greatest_m = 0;
 
@@ -123,7 +123,7 @@ struct ContactCount {
         assumed += over_m > kTooFar_m;
         continue;
       }
-      far += over_m > kTooFar_m;
+      (trial.cameras == 1 ? far_one : far) += over_m > kTooFar_m;
       occupied_far += link.occupied_too_far_m() > kTooFar_m;
       greatest_m = std::max(greatest_m, over_m);
     }
@@ -132,12 +132,12 @@ struct ContactCount {
 
 std::string row(const ContactCase& of, const ContactCount& c) {
   const bool is_black = of.scene.kind == sim::ContactKind::black;
-  return fmt::format("| {}{} | {} | {} | {} | {} | {} | {:.1f} | {} of {} | {} | {} | {} |\n",
+  return fmt::format("| {}{} | {} | {} | {} | {} | {} | {} | {:.1f} | {} of {} | {} | {} | {} |\n",
                      sim::kContactKindNames[static_cast<std::size_t>(of.scene.kind)],
                      is_black ? of.knows_cell ? ", known cell" : ", unknown cell" : "",
                      kContactImageNames[static_cast<std::size_t>(of.images)], c.links, c.untold,
-                     c.occupied_far, c.far, 100 * c.greatest_m, c.uncovered_far, c.uncovered,
-                     c.assumed, c.occupied_near, c.near);
+                     c.occupied_far, c.far_one, c.far, 100 * c.greatest_m, c.uncovered_far,
+                     c.uncovered, c.assumed, c.occupied_near, c.near);
 }
 
 ContactCount count(const std::vector<TrialRobot>& robots, const ContactCase& of, int first,
@@ -158,10 +158,11 @@ ContactCount count(const std::vector<TrialRobot>& robots, const ContactCase& of,
       const ContactLink& link = trial.links[i];
       const bool is_judged = link.is_told && link.is_covered && !trial.is_assumed_away;
       if (!is_judged || link.too_far_m() <= kTooFar_m) continue;
-      worst += fmt::format("{}, {}: {}, seed {}, link {}: truly {:.3f} m, told {:.3f}\n",
-                           sim::kContactKindNames[static_cast<std::size_t>(of.scene.kind)],
-                           kContactImageNames[static_cast<std::size_t>(of.images)], trial.robot,
-                           trial.seed, i + 1, link.truth_m, link.distance_m);
+      worst +=
+          fmt::format("{}, {}: {}, seed {}, {} cameras, link {}: truly {:.3f} m, told {:.3f}\n",
+                      sim::kContactKindNames[static_cast<std::size_t>(of.scene.kind)],
+                      kContactImageNames[static_cast<std::size_t>(of.images)], trial.robot,
+                      trial.seed, trial.cameras, i + 1, link.truth_m, link.distance_m);
     }
   }
   return count;
@@ -182,7 +183,7 @@ ContactTrial run_contact_trial(const TrialRobot& robot, const ContactCase& of, s
   }
   Query query(asked);
   const Result& result = query.ask({newest});
-  ContactTrial trial{seed, robot.name, false, {}};
+  ContactTrial trial{seed, robot.name, of.scene.cameras, false, {}};
   for (std::size_t i = 0; i < result.links.size(); ++i) {
     trial.links.push_back(judge(result.links[i], scene.truth_m[i], scene.is_covered[i]));
   }
@@ -194,11 +195,10 @@ ContactTrial run_contact_trial(const TrialRobot& robot, const ContactCase& of, s
 std::string contact_table(const std::vector<TrialRobot>& robots, int first, int scenes) {
   using sim::ContactKind;
   std::string text =
-      "| | images | links | not told | `occupied` > 4 cm too far | `distance_m` > 4 cm too far | "
-      "greatest [cm] | nearest place unseen, too far | thinner than assumed, too far | `occupied` "
-      "> 5 cm too near | `distance_m` > "
-      "5 cm too near |\n| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: "
-      "|\n";
+      "| | images | links | not told | `occupied` > 4 cm too far | `distance_m` > 4 cm too far, 1 "
+      "camera | … 2 and 3 cameras | greatest [cm] | nearest place unseen, too far | thinner than "
+      "assumed, too far | `occupied` > 5 cm too near | `distance_m` > 5 cm too near |\n"
+      "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n";
   std::string worst;
   constexpr int kRows = 18;
   scenes = std::max(1, scenes / kRows);

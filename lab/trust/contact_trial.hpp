@@ -41,6 +41,7 @@ struct ContactLink {
 struct ContactTrial {
   std::uint32_t seed = 0;
   std::string robot;
+  int cameras = 0;
   /// Whether the things are thinner than what the result of the nearest link assumes.
   bool is_assumed_away = false;
   std::vector<ContactLink> links;

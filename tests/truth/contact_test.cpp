@@ -1,7 +1,6 @@
 // What touches the robot, or gives no reading, is told; berth_trust --contact runs more.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <string_view>
 
@@ -33,17 +32,18 @@ std::vector<TrialRobot> some_robots() {
   return robots;
 }
 
-/// Up to three cameras in turn. How many links were judged.
-int expect_told(const ContactCase& of, int scenes, double most_m, int least_cameras = 1) {
+/// Two and three cameras in turn: one alone takes what is close behind the robot's outline for
+/// free. How many links were judged.
+int expect_told(const ContactCase& of, int scenes, double most_m) {
   static const std::vector<TrialRobot> robots = some_robots();
   int judged = 0;
   for (int seed = 0; seed < scenes; ++seed) {
     ContactCase one = of;
     one.scene.width_px = 424;
     one.scene.height_px = 320;
-    one.scene.cameras = std::max(least_cameras, 1 + seed % 3);
+    one.scene.cameras = 2 + seed % 2;
     const ContactTrial trial =
-        run_contact_trial(robots[seed / 3 % robots.size()], one, static_cast<std::uint32_t>(seed));
+        run_contact_trial(robots[seed / 2 % robots.size()], one, static_cast<std::uint32_t>(seed));
     if (trial.is_assumed_away) continue;
     for (std::size_t i = 0; i < trial.links.size(); ++i) {
       if (!trial.links[i].is_told || !trial.links[i].is_covered) continue;
@@ -72,11 +72,10 @@ TEST(Contact, AHandOnTheTableBelowALinkIsToldWithinFourCentimetres) {
             scenes);
 }
 
-// One camera cannot tell what is black beside the robot's outline from holes that the robot makes.
 TEST(Contact, WhatGivesNoReadingIsToldToTwoCamerasThatKnowTheCell) {
   const int scenes = scenes_of(6);
   EXPECT_GT(expect_told({{.kind = sim::ContactKind::black}, ContactImages::clean, true}, scenes,
-                        kMostTooFarFromBlack_m, 2),
+                        kMostTooFarFromBlack_m),
             scenes);
 }
 
