@@ -52,9 +52,10 @@ TEST(CalibrateScene, TheNewSceneHasPoseSettingsAndWatch) {
   EXPECT_EQ(camera.clock_offset_s, 0);
   EXPECT_TRUE(scene.joint_offsets.empty());
   const FilterProposal& filter = calibrated.calibration.filters.at(0);
-  ASSERT_EQ(filter.self_filter.size(), 2U);
+  ASSERT_EQ(filter.self_filter.size(), 3U);
   EXPECT_EQ(camera.settings.self_filter.tolerance_m, filter.self_filter[0].value);
   EXPECT_EQ(camera.settings.self_filter.padding_m, filter.self_filter[1].value);
+  EXPECT_EQ(camera.settings.self_filter.surface_tolerance_m, filter.self_filter[2].value);
   const WatchSettings& watch = camera.settings.watch;
   EXPECT_TRUE(watch.is_on());
   EXPECT_GE(watch.max_seen_through, 0.03);
