@@ -149,8 +149,8 @@ class PlainFilter {
   /// 98 of 100 readings of a surface stay below it on either side of their median, to 0.1 mm.
   double measured_tolerance_m(bool of_environment) const {
     std::vector<int> tenths_mm;
-    for (int v = first(robot_.extent.v_begin); v < camera_.height_px; v += 2) {
-      for (int u = first(robot_.extent.u_begin); u < camera_.width_px; u += 2) {
+    for (int v = 0; v < camera_.height_px; v += 2) {
+      for (int u = 0; u < camera_.width_px; u += 2) {
         const float z = robot_.depth_m(u, v);
         if (std::isnan(z) || (robot_.link_id(u, v) == kEnvironmentLink) != of_environment) continue;
         const double off = sensor_(u, v) - z;
@@ -168,8 +168,6 @@ class PlainFilter {
     const double most = below(0.98), median = below(0.5);
     return std::clamp(median < 0 ? most - 2 * median : most, 0.010, 0.025);
   }
-
-  static int first(int begin) { return std::max(0, begin); }
 
   bool goes_on(int u, int v, float z) const {
     const int reach = static_cast<int>(0.015 * focal_px() / z) + 1;

@@ -239,8 +239,10 @@ double measured_surface_tolerance_m(const Camera& camera, DepthView sensor_depth
   const double focal_px = std::min(camera.fx_px, camera.fy_px);
   Deviations deviations;
   const PixelRect rect = clip(robot.extent, camera.width_px, camera.height_px);
-  for (int v = rect.v_begin; v < rect.v_end; v += kStep_px) {
-    for (int u = rect.u_begin; u < rect.u_end; u += kStep_px) {
+  // The same pixels, however tight the extent is.
+  const auto first = [](int begin) { return (begin + kStep_px - 1) / kStep_px * kStep_px; };
+  for (int v = first(rect.v_begin); v < rect.v_end; v += kStep_px) {
+    for (int u = first(rect.u_begin); u < rect.u_end; u += kStep_px) {
       const float model_m = robot.depth_m(u, v);
       const double off_m = sensor_depth_m(u, v) - model_m;
       const bool is_of_environment = robot.link_id(u, v) == kEnvironmentLink;
