@@ -1,6 +1,7 @@
 #include "sim/encounter.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "berth/separation/link_speed.hpp"
@@ -44,15 +45,25 @@ double greatest_step_m(const std::vector<Pose>& a, const std::vector<Pose>& b) {
 
 }  // namespace
 
-Encounter::Encounter(std::uint32_t seed) {
+Encounter::Encounter(std::uint32_t seed, Reach reach) {
   Random random(seed);
   direction_rad_ = random(-std::numbers::pi, std::numbers::pi);
   nearest_m_ = random(1.05, 1.3);
+  if (reach == Reach::to_table) {
+    // Where the arm takes things, and where it puts them; the table ends 0.6 m from the base.
+    direction_rad_ = std::copysign(0.9, direction_rad_);
+    nearer_m_ = 0.25;
+  }
   speed_m_s_ = random(1.0, 1.6);
   first_phase_ = random(0, 1);
   std::vector<double> steps_m;
   do {
-    wrist_m_ = {random(0.45, 0.8), random(-0.35, 0.35), random(0.1, 0.6)};
+    if (reach == Reach::to_arm) {
+      wrist_m_ = {random(0.45, 0.8), random(-0.35, 0.35), random(0.1, 0.6)};
+    } else {
+      // The fingers go on from the wrist, down to the table's top.
+      wrist_m_ = {nearest_m_ - random(0.34, 0.42), random(-0.25, -0.1), random(0.12, 0.16)};
+    }
     steps_m = greatest_steps_m();
   } while (snaps(steps_m));
   unit_s_ = *std::ranges::max_element(steps_m) * kSteps / kUnits / speed_m_s_;
@@ -80,7 +91,8 @@ std::vector<Pose> Encounter::pose_in_units(double t) const {
   motion.lean_rad = 0.28 * motion.reach;
   motion.reached_wrist_T_m = wrist_m_;
   std::vector<Pose> X_BP = person_kinematics(motion);
-  const Eigen::AngleAxisd turn(direction_rad_, Eigen::Vector3d::UnitZ());
+  const Pose turn = Eigen::AngleAxisd(direction_rad_, Eigen::Vector3d::UnitZ()) *
+                    Eigen::Translation3d(-nearer_m_, 0, 0);
   for (Pose& X : X_BP) X = turn * X;
   return X_BP;
 }

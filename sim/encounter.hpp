@@ -8,10 +8,16 @@
 
 namespace berth::sim {
 
-/// How a drawn person comes and goes. Depends on its seed alone.
+/// Where the hand goes.
+enum class Reach {
+  to_arm,    ///< anywhere before the arm
+  to_table,  ///< onto the table's top, where the arm takes and puts things
+};
+
+/// How a drawn person comes and goes. Depends on its arguments alone.
 class Encounter {
  public:
-  explicit Encounter(std::uint32_t seed);
+  explicit Encounter(std::uint32_t seed, Reach reach = Reach::to_arm);
 
   /// The poses of make_person_meshes(); nobody is in sight at 0 and at duration_s().
   std::vector<Pose> pose_at(double time_s) const;
@@ -31,6 +37,8 @@ class Encounter {
 
   double direction_rad_;
   double nearest_m_;
+  /// All of the way is moved by this towards the base.
+  double nearer_m_ = 0;
   Eigen::Vector3d wrist_m_;
   double speed_m_s_;
   double first_phase_;

@@ -33,7 +33,9 @@ std::vector<Pose> nowhere(std::size_t meshes) {
 }
 
 Visit::Visit(VisitKind kind, std::uint32_t seed)
-    : kind_(kind), person_(seed), second_(seed + 1000003) {
+    : kind_(kind),
+      person_(seed, kind == VisitKind::hands ? Reach::to_table : Reach::to_arm),
+      second_(seed + 1000003) {
   Random random(seed + 77);
   const bool is_beside = kind == VisitKind::beside;
   range_m_ = is_beside ? random(1.5, 2.0) : random(1.1, 1.6);
@@ -69,6 +71,7 @@ std::vector<Pose> Visit::pose_at(double time_s) const {
       return all;
     }
     case VisitKind::reaching:
+    case VisitKind::hands:
       break;
   }
   return person_at(person_, time_s);

@@ -17,9 +17,10 @@ enum class VisitKind {
   two,        ///< two reach in from drawn sides
   crouching,  ///< somebody walks up, crouches behind the table, and rises again
   box,        ///< a box slides in, and stays
+  hands,      ///< somebody reaches in and puts a hand on the table where the gripper goes
 };
-inline constexpr std::array<std::string_view, 6> kVisitKindNames = {
-    "reaching", "beside", "passing", "two", "crouching", "box"};
+inline constexpr std::array<std::string_view, 7> kVisitKindNames = {
+    "reaching", "beside", "passing", "two", "crouching", "box", "hands"};
 
 /// Depends on its seed and kind alone. Nobody is faster than 1.6 m/s.
 class Visit {
