@@ -164,7 +164,7 @@ PixelFate fate_of(const DepthImage& room, const DepthImage& sensor, const RobotI
 
 ObstacleImage make_obstacles(const DepthImage& room, const DepthImage& sensor,
                              const RobotImage& robot) {
-  ObstacleImage obstacles{sensor, Image<PixelFate>(room.width(), room.height()), {}};
+  ObstacleImage obstacles{sensor, Image<PixelFate>(room.width(), room.height()), {}, {}};
   for (int v = 0; v < room.height(); ++v) {
     for (int u = 0; u < room.width(); ++u) {
       const PixelFate fate = fate_of(room, sensor, robot, u, v);

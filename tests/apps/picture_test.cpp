@@ -131,7 +131,7 @@ TEST(Picture, EveryPixelOfALinkHasThatLinksHue) {
 TEST(Picture, EachFateHasItsTintAndWhatIsKeptStaysGrey) {
   constexpr int kSide = 40;
   const DepthImage depth_m(kSide * kPixelFateCount, 60, 1.0F);
-  ObstacleImage obstacles{depth_m, Image<PixelFate>(depth_m.width(), depth_m.height()), {}};
+  ObstacleImage obstacles{depth_m, Image<PixelFate>(depth_m.width(), depth_m.height()), {}, {}};
   for (int v = 0; v < depth_m.height(); ++v) {
     for (int u = 0; u < depth_m.width(); ++u)
       obstacles.fate(u, v) = static_cast<PixelFate>(u / kSide);
@@ -153,8 +153,8 @@ TEST(Picture, EachFateHasItsTintAndWhatIsKeptStaysGrey) {
 TEST(Picture, AnObstacleBeforeTheRobotCoversIt) {
   const DepthImage depth_m(80, 60, 1.0F);
   const RobotImage robot{DepthImage(80, 60, 2.0F), Image<LinkId>(80, 60, 1)};
-  const ObstacleImage kept{depth_m, Image<PixelFate>(80, 60, PixelFate::obstacle), {}};
-  const ObstacleImage removed{depth_m, Image<PixelFate>(80, 60, PixelFate::robot), {}};
+  const ObstacleImage kept{depth_m, Image<PixelFate>(80, 60, PixelFate::obstacle), {}, {}};
+  const ObstacleImage removed{depth_m, Image<PixelFate>(80, 60, PixelFate::robot), {}, {}};
   const Rgb before = Drawn({depth_m, &robot, &kept, nullptr, 1.0, ""}).at(40, 30);
   const Rgb robot_color = Drawn({depth_m, &robot, &removed, nullptr, 1.0, ""}).at(40, 30);
   EXPECT_EQ(robot_color, link_color(1));
