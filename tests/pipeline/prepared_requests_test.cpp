@@ -54,7 +54,7 @@ TEST_F(PreparedScene, VisibilityAndWhatWasRejectedAreThoseOfItsFrames) {
     const auto frame = std::make_shared<Frame>();
     DepthImage depth_m = scene_.cameras[0].read_depth(i);
     Observer(view).observe(depth_m, joints(i), *frame);
-    draw_flying_pixels(frame->robot, depth_m);
+    draw_flying_pixels(frame->robot, depth_m, 6);
     Observer(view).observe(depth_m, joints(i), *frame);
     frames[0] = frame;
     auto space = std::make_shared<PreparedSpace>(view->robot(), 1);

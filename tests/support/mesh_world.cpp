@@ -57,9 +57,9 @@ void cast(sim::Random& random, const MeshWorldSettings& settings, const sim::Emb
           const sim::EmbreeRenderer& obstacles, MeshWorldView& view) {
   view.sensor_depth_m = DepthImage(settings.width_px, settings.height_px, kNoDepth);
   view.obstacles.depth_m = view.environment_back_m = view.sensor_depth_m;
-  view.environment_front_m = view.sensor_depth_m;
   // In half of the images, blocks of pixels would show environment somewhere.
   const bool has_environment = random.chance(0.5) && settings.hides_otherwise;
+  if (has_environment) view.environment_front_m = view.sensor_depth_m;
   for (int v = 0; v < settings.height_px && has_environment; ++v) {
     const double front_m = random(0.6, 3);
     for (int u = random.whole(0, settings.width_px); u < settings.width_px; ++u) {

@@ -194,12 +194,14 @@ void LinkSearches::search_rejected(const FrameSet& frames, const RobotPose& pose
 
 void LinkSearches::tell_rejected(const FrameSet& frames, const RobotPose& pose, Result& out) {
   search_rejected(frames, pose);
+  const double tolerance_m = request_of(robot_->settings().distance).tolerance_m;
   for (std::size_t i = 0; i < rejected_.size(); ++i) {
     const SpacePair& dropped = rejected_[i].occupied;
     LinkResult& kept = out.links[i];
-    if (!dropped.is_known() || (kept.has_distance() && kept.distance_m <= dropped.distance_m)) {
-      continue;
-    }
+    // A flying patch is unknown space, too: both searches find it, give or take the tolerance.
+    const bool is_no_nearer =
+        kept.has_distance() && kept.distance_m - tolerance_m <= dropped.distance_m;
+    if (!dropped.is_known() || is_no_nearer) continue;
     kept.visibility.rejected_distance_m = dropped.distance_m;
     kept.visibility.rejected_pixel = dropped.obstacle_pixel;
   }
