@@ -29,9 +29,10 @@ TEST(Run, JsonHasTheKeysOfTheSchemaAndNoOthers) {
     EXPECT_EQ(keys_of(frame), (std::set<std::string>{"schema", "frame", "stamp_s", "joints_stamp_s",
                                                      "status", "time", "method", "range_m",
                                                      "nearest", "pairs", "cameras", "links"}));
-    EXPECT_EQ(keys_of(frame["cameras"][0]),
-              (std::set<std::string>{"camera", "frame", "stamp_s", "age_s", "status",
-                                     "seen_through", "displacement_m", "at_robot", "self_filter"}));
+    EXPECT_EQ(
+        keys_of(frame["cameras"][0]),
+        (std::set<std::string>{"camera", "frame", "stamp_s", "age_s", "status", "seen_through",
+                               "displacement_m", "at_robot", "unread_share", "self_filter"}));
     EXPECT_EQ(frame["status"], "ok");
     EXPECT_EQ(keys_of(frame["time"]),
               (std::set<std::string>{"status", "frame_age_s", "joints_age_s", "skew_s"}));
@@ -58,6 +59,7 @@ TEST(Run, JsonHasTheKeysOfTheSchemaAndNoOthers) {
                                                       "obstacle_pixel",
                                                       "obstacle_is",
                                                       "occupied",
+                                                      "assumed_thinner_m",
                                                       "mean_direction_base",
                                                       "mean_direction_camera",
                                                       "mean_count",

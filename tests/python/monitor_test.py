@@ -11,7 +11,7 @@ from conftest import SOURCE
 
 
 # So that the robot stops for what it would run into, and for nothing else.
-BOLD = {"not_seen": "ignore", "unknown": "ignore", "human_speed_m_s": 0.0, "intrusion_m": 0.0, "camera_uncertainty_m": 0.0,
+BOLD = {"not_seen": "ignore", "no_reading": "ignore", "unknown": "ignore", "human_speed_m_s": 0.0, "intrusion_m": 0.0, "camera_uncertainty_m": 0.0,
         "robot_uncertainty_m": 0.0}
 
 
