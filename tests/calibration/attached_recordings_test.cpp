@@ -20,7 +20,8 @@ SceneFile recording(const std::string& name) {
   return std::filesystem::exists(file) ? read_scene(file) : SceneFile{};
 }
 
-/// By link, one for each result.
+/// To what is occupied, by link, one for each result. What the camera draws beside the arm, and no
+/// second one sees free, is unknown space.
 using Distances = std::map<std::string, std::vector<double>>;
 
 Distances distances_of(const SceneFile& file) {
@@ -30,7 +31,7 @@ Distances distances_of(const SceneFile& file) {
   SceneRun run(scene);
   while (run.next()) {
     for (const LinkResult& link : run.ask().links) {
-      distances[names[link.id - 1]].push_back(link.distance_m);
+      distances[names[link.id - 1]].push_back(link.occupied.distance_m);
     }
   }
   return distances;

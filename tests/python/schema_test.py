@@ -248,7 +248,7 @@ def test_calibrations_are_valid_and_what_differs_is_none(tmp_path):
                  "--joint-zeros")[0]
     assert why_not("calibration", told) == []
     assert set(check.schema["properties"]) == set(told)
-    free = {"tolerance_m", "padding_m", "speckle_px", *told["joint_offsets"]}
+    free = {"tolerance_m", "surface_tolerance_m", "padding_m", "speckle_px", *told["joint_offsets"]}
     for place, wrong in changed(told):
         if place[0] == "joint_offsets" and place[-1] == "no_field":
             continue  # a joint of any name
