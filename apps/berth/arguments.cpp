@@ -33,11 +33,6 @@ void add_format(CLI::App& command, const char* what, OutputFormat& format) {
 void add_output(CLI::App& command, CommonArguments& arguments) {
   add_format(command, "A table for people, or one JSON object per frame and line (default: table)",
              arguments.format);
-  command
-      .add_option("--schema", arguments.schema,
-                  "Of the JSON: 3, or 2 for one version more (default: 3)")
-      ->check(CLI::Range(kOldestSchema, kNewestSchema))
-      ->type_name("N");
   command.add_option("--out", arguments.out, "Write there instead of to standard output")
       ->type_name("FILE");
   add_threads(command, arguments.threads);

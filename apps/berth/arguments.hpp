@@ -17,14 +17,11 @@ namespace berth::app {
 enum class OutputFormat { table, json };
 
 /// Of berth/result/N.
-inline constexpr int kNewestSchema = 3;
-inline constexpr int kOldestSchema = 2;
 
 struct CommonArguments {
   EvaluationArguments evaluation;
   BackendChoice where;
   OutputFormat format = OutputFormat::table;
-  int schema = kNewestSchema;
   /// Nothing: standard output.
   std::filesystem::path out;
   /// 0: as many as there are processors.

@@ -69,8 +69,7 @@ void require_folder_of(const fs::path& file) {
 
 }  // namespace
 
-Output::Output(const CommonArguments& arguments)
-    : format_(arguments.format), schema_(arguments.schema) {
+Output::Output(const CommonArguments& arguments) : format_(arguments.format) {
   // An empty path is standard output.
   if (arguments.out.empty()) return;
   require_folder_of(arguments.out);
@@ -78,10 +77,8 @@ Output::Output(const CommonArguments& arguments)
 }
 
 void Output::write(const Result& result) {
-  const bool is_old = schema_ == kOldestSchema;
-  const std::string text = format_ == OutputFormat::table
-                               ? table_of(result)
-                               : (is_old ? result_json_2(result) : result_json(result)) + "\n";
+  const std::string text =
+      format_ == OutputFormat::table ? table_of(result) : result_json(result) + "\n";
   if (out_) {
     out_->write(text);
   } else if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() ||

@@ -25,7 +25,6 @@ class Output {
 
  private:
   OutputFormat format_;
-  int schema_;
   std::optional<FileInParts> out_;
   std::size_t count_ = 0;
 };

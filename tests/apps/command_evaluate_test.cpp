@@ -175,17 +175,6 @@ TEST_F(Evaluate, MeanDirectionCanBeTurnedOff) {
   for (const Json& link : off["links"]) EXPECT_EQ(link["mean_count"], 0);
 }
 
-TEST_F(Evaluate, TheSchemaBeforeTellsTheMeanDirectionInTheCamerasFrame) {
-  const Json on = evaluate(0, {"--range", "2", "--schema", "2"});
-  EXPECT_EQ(on["schema"], "berth/result/2");
-  int directions = 0;
-  for (const Json& link : on["links"]) {
-    directions += link["mean_direction"].is_array();
-    EXPECT_FALSE(link.contains("robot_point_base_m"));
-  }
-  EXPECT_GT(directions, 0);
-}
-
 TEST_F(Evaluate, RobotDepthWithoutLinkIdBelongsToNoLink) {
   const Json before = evaluate(0);
   const std::string file = "filtered/robot_depth_000000.png";

@@ -72,26 +72,6 @@ TEST(Run, JsonHasTheKeysOfTheSchemaAndNoOthers) {
   }
 }
 
-TEST(Run, TheSchemaBeforeIsWrittenWhereItIsAskedFor) {
-  const CommandScene scene;
-  const Json frame = scene.json({"run", "scene.yaml", "--schema", "2"}).at(0);
-  EXPECT_EQ(frame["schema"], "berth/result/2");
-  EXPECT_EQ(keys_of(frame),
-            (std::set<std::string>{"schema", "frame", "stamp_s", "camera", "method", "range_m",
-                                   "cameras", "links", "pairs", "self_filter", "time"}));
-  EXPECT_EQ(keys_of(frame["links"][0]),
-            (std::set<std::string>{"id", "link", "status", "distance_m", "robot_pixel",
-                                   "obstacle_pixel", "robot_point_m", "obstacle_point_m",
-                                   "robot_point_base_m", "obstacle_point_base_m", "mean_direction",
-                                   "mean_count", "robot_pixels", "visibility"}));
-  const Json link = link_of(frame, "upper");
-  const Json newest = link_of(scene.run().at(0), "upper");
-  EXPECT_EQ(link["distance_m"], newest["distance_m"]);
-  EXPECT_EQ(link["robot_point_m"], newest["robot_point_camera_m"]);
-  const Outcome unknown = scene.berth({"run", "scene.yaml", "--schema", "1"});
-  EXPECT_EQ(unknown.exit_status, 2);
-}
-
 TEST(Run, LinksAreThoseWithGeometryExceptEnvironmentNumberedFromOne) {
   const Json frame = CommandScene().run().at(0);
   std::vector<std::string> names;

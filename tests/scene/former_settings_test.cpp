@@ -18,24 +18,6 @@ SceneFile scene_with(const std::string& settings) {
                          settings);
 }
 
-TEST(FormerSettings, AreReadAndToldWithTheirNewName) {
-  const SceneFile scene = scene_with(
-      "space: {slab_m: 0.05}\nself_filter: {island_radius_m: 0.01}\nseparation: {hidden: stop, "
-      "intrusion_m: 0.2}\n");
-  const CameraSettings& camera = scene.cameras.front().settings;
-  EXPECT_EQ(camera.space.surface_thickness_m, 0.05);
-  EXPECT_EQ(camera.self_filter.flying_patch_radius_m, 0.01);
-  EXPECT_EQ(scene.separation->unknown, UnknownPolicy::stop);
-  EXPECT_EQ(scene.warnings,
-            (std::vector<std::string>{"scene.yaml:5: slab_m is called surface_thickness_m now; the "
-                                      "former name is read for one version more",
-                                      "scene.yaml:6: island_radius_m is called "
-                                      "flying_patch_radius_m now; the former name is read for one "
-                                      "version more",
-                                      "scene.yaml:7: hidden is called unknown now; the former name "
-                                      "is read for one version more"}));
-}
-
 TEST(FormerSettings, ThoseThatEndedAreToldAndHaveNoEffect) {
   const SceneFile scene = scene_with(
       "separation: {hold_s: 0.3, release_m: 0.05, directed_speed: true, intrusion_m: 0.2}\n");
@@ -54,15 +36,6 @@ TEST(FormerSettings, HolesThatWereObstaclesAreRefusedWithWhatToDoInstead) {
   EXPECT_NE(message.find("scene.yaml:5: sensor.holes: obstacle; expected space.no_reading: hides"),
             std::string::npos)
       << message;
-}
-
-TEST(FormerSettings, NewNamesGiveNoWarning) {
-  EXPECT_TRUE(scene_with("space: {surface_thickness_m: 0.05}\n").warnings.empty());
-}
-
-TEST(FormerSettings, BothNamesAreRefused) {
-  EXPECT_EQ(error_message([] { scene_with("space: {slab_m: 0.05, surface_thickness_m: 0.05}\n"); }),
-            "scene.yaml:5: space.slab_m: slab_m; expected surface_thickness_m alone, its name now");
 }
 
 }  // namespace

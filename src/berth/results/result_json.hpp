@@ -12,7 +12,4 @@ namespace berth {
 /// of a double near it).
 std::string result_json(const Result& result);
 
-/// The same in schema berth/result/2, which is written for one version more.
-std::string result_json_2(const Result& result);
-
 }  // namespace berth

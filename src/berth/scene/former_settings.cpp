@@ -8,20 +8,6 @@
 namespace berth {
 namespace {
 
-struct Renamed {
-  std::string_view former;
-  std::string_view name;
-};
-
-constexpr std::array<Renamed, 6> kRenamed = {{
-    {"slab_m", "surface_thickness_m"},
-    {"carve_margin_m", "free_space_margin_m"},
-    {"carve_max_age_s", "free_space_max_age_s"},
-    {"island_radius_m", "flying_patch_radius_m"},
-    {"hidden", "unknown"},
-    {"doubtful", "rejected"},
-}};
-
 struct Ended {
   std::string_view group;
   std::string_view key;
@@ -49,11 +35,6 @@ void tell_group(std::string_view name, const YamlValue& group, std::vector<std::
       told.push_back(fmt::format("{}:{}: {} is no setting any more, and has no effect",
                                  value.place().file.string(), value.place().line, key));
     }
-    const auto found = std::ranges::find(kRenamed, key, &Renamed::former);
-    if (found == kRenamed.end()) continue;
-    told.push_back(
-        fmt::format("{}:{}: {} is called {} now; the former name is read for one version more",
-                    value.place().file.string(), value.place().line, found->former, found->name));
   }
 }
 
@@ -69,11 +50,6 @@ void tell_all(const YamlValue& value, std::vector<std::string>& told) {
 }
 
 }  // namespace
-
-std::string_view former_name(std::string_view name) {
-  const auto found = std::ranges::find(kRenamed, name, &Renamed::name);
-  return found == kRenamed.end() ? std::string_view() : found->former;
-}
 
 std::vector<std::string_view> ended_settings(std::string_view group) {
   std::vector<std::string_view> keys;
@@ -91,7 +67,7 @@ void require_no_hole_policy(const YamlMap& sensor) {
       "it): what gives no reading is unknown space now, and no obstacle right before the camera");
 }
 
-std::vector<std::string> former_names_in(const YamlValue& document) {
+std::vector<std::string> ended_settings_in(const YamlValue& document) {
   std::vector<std::string> told;
   tell_all(document, told);
   return told;

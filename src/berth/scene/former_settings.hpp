@@ -1,4 +1,4 @@
-// Settings that have changed their names: the former ones are read for one version more.
+// Settings that there were.
 #pragma once
 
 #include <string>
@@ -9,10 +9,6 @@
 
 namespace berth {
 
-/// The name that this setting of this group ("space", "separation" and so on) had before; empty
-/// where it had none. Names are unique over groups but for those of `separation`.
-std::string_view former_name(std::string_view name);
-
 /// Of this group: a scene may have them for one version more, and they do nothing.
 std::vector<std::string_view> ended_settings(std::string_view group);
 
@@ -20,8 +16,7 @@ std::vector<std::string_view> ended_settings(std::string_view group);
 /// large.
 void require_no_hole_policy(const YamlMap& sensor);
 
-/// One sentence for each former name that a scene's document uses, and for each of
-/// ended_settings(), with file and line.
-std::vector<std::string> former_names_in(const YamlValue& document);
+/// One sentence for each of ended_settings() that a scene's document has, with file and line.
+std::vector<std::string> ended_settings_in(const YamlValue& document);
 
 }  // namespace berth

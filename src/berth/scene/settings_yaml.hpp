@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "berth/files/yaml_value.hpp"
-#include "berth/scene/former_settings.hpp"
 #include "berth/types/setting.hpp"
 
 namespace berth {
@@ -54,23 +53,11 @@ std::vector<std::string_view> setting_names(const Settings& settings) {
   return names;
 }
 
-/// The setting's value in the map, by its name or its former one.
-inline std::optional<YamlValue> find_setting(const YamlMap& map, std::string_view name) {
-  const std::string_view former = former_name(name);
-  std::optional<YamlValue> given = map.find(name);
-  if (former.empty()) return given;
-  const std::optional<YamlValue> by_former = map.find(former);
-  if (given && by_former) {
-    by_former->fail(std::string(former), std::string(name) + " alone, its name now");
-  }
-  return given ? given : by_former;
-}
-
 /// Sets what the map gives; other keys of it belong to somebody else. Throws as YamlValue does.
 template <class Settings>
 void read_settings(const YamlMap& map, Settings& settings) {
   visit_settings(settings, [&](const Setting& setting, auto& value) {
-    if (const auto given = find_setting(map, setting.name)) {
+    if (const auto given = map.find(setting.name)) {
       read_setting(*given, setting.domain, value);
     }
   });
@@ -83,9 +70,6 @@ YamlMap read_settings(const YamlValue& value, Settings& settings,
   std::vector<std::string_view> known = others;
   const std::vector<std::string_view> names = setting_names(settings);
   known.insert(known.end(), names.begin(), names.end());
-  for (const std::string_view name : names) {
-    if (const std::string_view former = former_name(name); !former.empty()) known.push_back(former);
-  }
   const YamlMap map(value, known);
   read_settings(map, settings);
   return map;
