@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 
+#include "berth/calibration/robot_reach.hpp"
 #include "berth/results/result_text.hpp"
 #include "berth/scene/plausibility.hpp"
 #include "berth/scene/scene_run.hpp"
+#include "berth/visibility/sample_points.hpp"
 
 namespace berth::app {
 namespace {
@@ -25,6 +29,17 @@ constexpr double kMostStops = 0.5;
 
 double percent_of(std::size_t part, std::size_t whole) {
   return whole == 0 ? 0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
+/// X_CB of each, where it takes its first image.
+std::vector<Pose> first_camera_poses(const OpenScene& scene) {
+  std::vector<Pose> X_CB;
+  RobotPose pose;
+  for (const OpenCamera& camera : scene.cameras) {
+    forward_kinematics(scene.robot->model(), camera.at_exposure.front().position, pose);
+    X_CB.push_back(camera.view->camera_pose(pose).inverse());
+  }
+  return X_CB;
 }
 
 std::string about_camera(const char* what, const OpenCamera& camera) {
@@ -123,7 +138,9 @@ struct Seen {
   std::size_t results = 0;
   std::size_t stops = 0;
   std::map<std::string, std::size_t> trouble;
+  /// Of links that move, in how many results.
   std::map<std::string, std::size_t> not_seen;
+  std::map<std::string, std::size_t> not_observed;
   std::string a_stop;
 
   void add(const Result& result) {
@@ -134,8 +151,9 @@ struct Seen {
       if (is_lost) ++trouble[fmt::format("camera {} is {}", camera.camera, name_of(camera.status))];
     }
     for (const LinkResult& link : result.links) {
-      const bool is_seen = link.status != LinkStatus::not_seen;
-      if (link.is_moved && !is_seen) ++not_seen[link.link];
+      if (!link.is_moved) continue;
+      if (link.status == LinkStatus::not_seen) ++not_seen[link.link];
+      if (link.status == LinkStatus::not_observed) ++not_observed[link.link];
     }
     if (!result.separation || result.separation->state != SeparationState::stop) return;
     ++stops;
@@ -156,6 +174,14 @@ std::vector<Finding> findings_of(const OpenScene& scene, const Seen& seen) {
         {Verdict::advice, "results",
          fmt::format("link {} is seen by no camera in {} of {}", link, count, seen.results),
          "Move a camera, or add one, so that it sees link " + link + "."});
+  }
+  for (const auto& [link, count] : seen.not_observed) {
+    if (percent_of(count, seen.results) < 100 * (1 - kOftenSeen)) continue;
+    all.push_back({Verdict::advice, "results",
+                   fmt::format("most of the space around link {} is in no image in {} of {}", link,
+                               count, seen.results),
+                   "Turn a camera to what is around link " + link +
+                       ", add one, or say space.unobserved: unknown or ignore."});
   }
   if (percent_of(seen.stops, seen.results) > 100 * kMostStops) {
     all.push_back({Verdict::advice, "separation",
@@ -243,6 +269,43 @@ std::vector<Finding> check_results(const OpenScene& scene, const Pause& pause) {
     if (run.begins_result()) seen.add(run.ask());
   }
   return findings_of(scene, seen);
+}
+
+Finding check_views(const OpenScene& scene) {
+  constexpr int kPoints = 4000;
+  constexpr double kMostOutside = 0.25;
+  const RobotModel& model = scene.robot->model();
+  const RobotReach reach = robot_reach(model);
+  /// By the eighth of the ball that they lie in.
+  std::array<int, 8> outside{};
+  std::array<Eigen::Vector3d, 8> sum_B_m;
+  sum_B_m.fill(Eigen::Vector3d::Zero());
+  const std::vector<Pose> X_CB = first_camera_poses(scene);
+  for (const Eigen::Vector3d& unit : sample_unit_ball(kPoints)) {
+    const Eigen::Vector3d p_B_m = reach.center_B_m + reach.radius_m * unit;
+    bool is_known = std::ranges::any_of(model.guarded, [&](auto& box) { return box.holds(p_B_m); });
+    for (std::size_t k = 0; k < X_CB.size() && !is_known; ++k) {
+      is_known = project_into_image(scene.cameras[k].view->camera(), X_CB[k] * p_B_m).has_value();
+    }
+    if (is_known) continue;
+    const int eighth = (unit.x() > 0) + 2 * (unit.y() > 0) + 4 * (unit.z() > 0);
+    ++outside[eighth];
+    sum_B_m[eighth] += p_B_m;
+  }
+  const auto worst = std::ranges::max_element(outside) - outside.begin();
+  const int count = std::accumulate(outside.begin(), outside.end(), 0);
+  Finding found{.about = "in no image",
+                .text = fmt::format("{:.0f} % of the ball in which the robot moves",
+                                    percent_of(count, kPoints))};
+  if (count <= kMostOutside * kPoints) return found;
+  const Eigen::Vector3d place_B_m = sum_B_m[worst] / outside[worst];
+  found.verdict = Verdict::advice;
+  found.text += fmt::format(", most around ({:.1f}, {:.1f}, {:.1f}) m", place_B_m.x(),
+                            place_B_m.y(), place_B_m.z());
+  found.next =
+      "Turn a camera there, or add one; or say space.unobserved: unknown, and name what nobody can "
+      "be in (guarded_links).";
+  return found;
 }
 
 Finding check_separation(const OpenScene& scene) {

@@ -38,6 +38,8 @@ std::vector<Finding> check_stamps(const OpenScene& scene);
 std::vector<Finding> check_poses(const OpenScene& scene);
 /// Whether each camera tells what gives no reading.
 std::vector<Finding> check_unread(const OpenScene& scene);
+/// How much of the space that the robot moves in is in no camera's first image.
+Finding check_views(const OpenScene& scene);
 /// Whether anybody notices a bumped camera.
 std::vector<Finding> check_watch(const OpenScene& scene);
 /// Results of some images: cameras that drop out, links that nobody sees, a monitor's stops.

@@ -64,8 +64,9 @@ TEST(Doctor, AGoodSceneGetsAllChecksAndExitStatusZero) {
   expect_text(outcome,
               {"ok      files: robot berth_arm with 8 links, 12 images of 1 camera, joints",
                "ok      stamps, camera camera: 12 images, 0.013 to 3.313 s",
-               "ok      place, camera camera: 100 % of the robot's readings", "ok      results: 12",
+               "ok      place, camera camera: 100 % of the robot's readings",
                "advice  no reading, camera camera: what gives none, such as black clothes, is not",
+               "in no image: ", " % of the ball in which the robot moves", "ok      results: 12",
                "detection, camera camera: ", "a fingertip of", "advice  watch, camera camera: off",
                "separation: not asked for", "time, camera camera: ", " ms for a request",
                "What to do next:\n1. ", "berth calibrate scene.yaml --out calibrated.yaml"});
