@@ -64,6 +64,9 @@ CubeContent::Seen CubeContent::look(std::size_t k, const CentredCube& cube) cons
   const double surface_thickness_m = space_.settings().surface_thickness_m;
   const Place place = find_place(view.camera, X_CB_[k], cube);
   Seen seen;
+  seen.is_inside = place.is_inside && space_.is_young(k);
+  seen.is_outside = place.pixels.u_begin >= place.pixels.u_end ||
+                    place.pixels.v_begin >= place.pixels.v_end || !space_.is_young(k);
   seen.all_read = seen.all_covered = seen.all_free = place.is_inside;
   for (int v = place.pixels.v_begin; v < place.pixels.v_end; ++v) {
     for (int u = place.pixels.u_begin; u < place.pixels.u_end; ++u) {
@@ -99,6 +102,11 @@ Content CubeContent::operator()(const CentredCube& cube, Wanted wanted) const {
     }
     if (seen[k].all_covered && !may_be_seen_free) return Content::all;
     may |= seen[k].may_hide && !is_seen_free;
+  }
+  if (wanted != Wanted::reading && space_.settings().unobserved == Unobserved::unknown &&
+      !seen.empty() && std::ranges::none_of(seen, &Seen::is_inside)) {
+    if (std::ranges::all_of(seen, &Seen::is_outside)) return Content::all;
+    may = true;
   }
   return may ? Content::some : Content::none;
 }

@@ -39,6 +39,9 @@ class CubeContent {
     bool all_read = false;
     bool all_covered = false;
     bool all_free = false;
+    /// In the image of a young view, or outside of it.
+    bool is_inside = false;
+    bool is_outside = false;
   };
   Seen look(std::size_t k, const CentredCube& cube) const;
 

@@ -135,6 +135,15 @@ bool PointSpace::is_reading(const Eigen::Vector3d& p_B) const {
   return false;
 }
 
+bool PointSpace::is_unobserved(const Eigen::Vector3d& p_B) const {
+  if (settings_.unobserved != Unobserved::unknown || views_.empty()) return false;
+  for (std::size_t k = 0; k < views_.size(); ++k) {
+    const Pixel pixel = plain_pixel_of(views_[k].camera, views_[k].X_BC.inverse() * p_B);
+    if (is_young(k) && pixel != Pixel{}) return false;
+  }
+  return true;
+}
+
 bool PointSpace::is_hidden(const Eigen::Vector3d& p_B) const {
   for (std::size_t k = 0; k < views_.size(); ++k) {
     if (!is_behind(k, p_B)) continue;
@@ -144,7 +153,7 @@ bool PointSpace::is_hidden(const Eigen::Vector3d& p_B) const {
     }
     if (!is_seen_free) return true;
   }
-  return false;
+  return is_unobserved(p_B);
 }
 
 }  // namespace berth::sim

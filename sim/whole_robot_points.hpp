@@ -53,7 +53,12 @@ class PointSpace {
 
   /// In a surface layer (definition 4).
   bool is_reading(const Eigen::Vector3d& p_B) const;
-  /// Behind a surface layer of some view, and seen free by no other (definition 5).
+  /// Whether view k is young enough to tell anything of what lies in its image.
+  bool is_young(std::size_t k) const { return views_[k].age_s <= settings_.free_space_max_age_s; }
+  /// In the image of no young view, where that counts as unknown.
+  bool is_unobserved(const Eigen::Vector3d& p_B) const;
+
+  /// Behind a surface layer of some view, and seen free by no other, or unobserved (definition 5).
   bool is_hidden(const Eigen::Vector3d& p_B) const;
   bool is_obstacle(const Eigen::Vector3d& p_B) const { return is_reading(p_B) || is_hidden(p_B); }
 

@@ -58,7 +58,7 @@ TablePlan plan_table(const PictureInput& input, double height_em) {
 bool has_hidden(const PictureInput& input) {
   if (!input.links) return false;
   return std::ranges::any_of(*input.links, [](const LinkResult& link) {
-    return link.status == LinkStatus::ok && link.obstacle_is == ObstacleKind::unknown;
+    return link.status == LinkStatus::ok && link.obstacle_is != ObstacleKind::occupied;
   });
 }
 

@@ -41,7 +41,7 @@ std::vector<Pair> nearest_first(const PictureLayout& layout, const PictureInput&
   for (const LinkResult& link : links) {
     pairs.push_back({layout.centre(link.image.robot_pixel), layout.centre(link.obstacle_pixel),
                      link_color(link.id), distance_text(link, input.range_m), pairs.empty(),
-                     is_contact(link), link.obstacle_is == ObstacleKind::unknown});
+                     is_contact(link), link.obstacle_is != ObstacleKind::occupied});
   }
   return pairs;
 }

@@ -62,6 +62,8 @@ std::string short_distance_text(const LinkResult& link, double range_m) {
       return "stale";
     case LinkStatus::not_seen:
       return "not seen";
+    case LinkStatus::not_observed:
+      return "not observed";
   }
   return "";
 }

@@ -77,6 +77,7 @@ std::unique_ptr<Frame> observe(const std::shared_ptr<const Robot>& robot,
                                const ContactCase& of, std::uint32_t seed) {
   const sim::ContactView& view = scene.views[camera];
   CameraSettings settings;
+  settings.space.unobserved = of.unobserved;
   if (of.knows_cell) settings.sensor.background_frames = kBackgroundFrames;
   const CameraMount mount{view.camera, scene.model.links.front().name, view.X_BC,
                           fmt::format("camera_{}", camera)};
@@ -98,8 +99,13 @@ ContactLink judge(const LinkResult& link, double truth_m, bool is_covered) {
   const auto length_m = [](const SpacePair& pair) {
     return pair.is_known() ? pair.distance_m : std::numeric_limits<double>::infinity();
   };
-  return {link.status == LinkStatus::ok || link.status == LinkStatus::none_in_range, is_covered,
-          std::min(truth_m, kTrialRange_m), length_m(link), length_m(link.occupied)};
+  const float outside = link.visibility.space.outside_image;
+  return {link.status == LinkStatus::ok || link.status == LinkStatus::none_in_range,
+          is_covered,
+          std::isnan(outside) ? 0 : outside,
+          std::min(truth_m, kTrialRange_m),
+          length_m(link),
+          length_m(link.occupied)};
 }
 
 /// A row of the table: what became of its links.
@@ -168,7 +174,52 @@ ContactCount count(const std::vector<TrialRobot>& robots, const ContactCase& of,
   return count;
 }
 
+std::vector<ContactTrial> run_trials(const std::vector<TrialRobot>& robots, const ContactCase& of,
+                                     int first, int scenes) {
+  std::vector<ContactTrial> trials(scenes);
+  tbb::parallel_for(0, scenes, [&](int i) {
+    tbb::this_task_arena::isolate([&] {
+      trials[i] = run_contact_trial(robots[(first + i) % robots.size()], of,
+                                    static_cast<std::uint32_t>(first + i));
+    });
+  });
+  return trials;
+}
+
 }  // namespace
+
+std::string unobserved_table(const std::vector<TrialRobot>& robots, int first, int scenes) {
+  std::string text =
+      "| `unobserved` | cameras | links told | not told | > 4 cm too far | … of these more than "
+      "half of the ball in no image | > 5 cm too near | below 5 cm, truly above 10 cm |\n"
+      "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n";
+  using Meaning = std::optional<Unobserved>;
+  for (const Meaning meaning :
+       {Meaning(Unobserved::ignore), Meaning(), Meaning(Unobserved::unknown)}) {
+    for (int cameras = 1; cameras <= 4; ++cameras) {
+      const ContactCase of{{.kind = sim::ContactKind::beside_images, .cameras = cameras},
+                           ContactImages::clean,
+                           false,
+                           meaning};
+      int told = 0, untold = 0, far = 0, far_outside = 0, near = 0, below = 0;
+      for (const ContactTrial& trial : run_trials(robots, of, first, scenes)) {
+        for (const ContactLink& link : trial.links) {
+          ++(link.is_told ? told : untold);
+          if (!link.is_told) continue;
+          const bool is_far = link.too_far_m() > kTooFar_m;
+          far += is_far;
+          far_outside += is_far && link.unobserved_share > 0.5;
+          near += link.too_far_m() < -kFalselyNear_m;
+          below += link.distance_m < 0.05 && link.truth_m > 0.1;
+        }
+      }
+      text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n",
+                          meaning ? name_of(*meaning) : "not set", cameras, told, untold, far,
+                          far_outside, near, below);
+    }
+  }
+  return fmt::format("{} scenes in each row, {} robots\n\n{}", scenes, robots.size(), text);
+}
 
 ContactTrial run_contact_trial(const TrialRobot& robot, const ContactCase& of, std::uint32_t seed) {
   const sim::ContactScene scene = sim::draw_contact(robot.model, robot.link_trees, of.scene, seed);

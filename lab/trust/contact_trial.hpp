@@ -3,9 +3,11 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "berth/space/settings.hpp"
 #include "lab/trust/trial.hpp"
 #include "sim/contact_scene.hpp"
 
@@ -21,6 +23,7 @@ struct ContactCase {
   ContactImages images = ContactImages::clean;
   /// Whether the cameras have learned the room without the things.
   bool knows_cell = false;
+  std::optional<Unobserved> unobserved = std::nullopt;
 };
 
 /// One link. Infinite lengths: the answer is that nothing is in range.
@@ -29,6 +32,8 @@ struct ContactLink {
   bool is_told = false;
   /// Whether a camera looks at the nearest place of what is near (ContactScene).
   bool is_covered = false;
+  /// The share of the ball that its answer speaks of that lies in no image.
+  double unobserved_share = 0;
   /// Up to kTrialRange_m.
   double truth_m = 0;
   double distance_m = 0;
@@ -49,6 +54,10 @@ struct ContactTrial {
 
 /// Depends on its arguments alone. All settings of the pipeline are the defaults.
 ContactTrial run_contact_trial(const TrialRobot& robot, const ContactCase& of, std::uint32_t seed);
+
+/// People beside all images by SpaceSettings::unobserved with one to four cameras, as Markdown;
+/// each row has so many scenes.
+std::string unobserved_table(const std::vector<TrialRobot>& robots, int first, int scenes);
 
 /// Things of each kind with one to three cameras, as Markdown; `scenes` are shared by its rows.
 std::string contact_table(const std::vector<TrialRobot>& robots, int first, int scenes);

@@ -128,6 +128,7 @@ int main(int argc, char** argv) {
   std::optional<int> look;
   bool whole_robot = false;
   bool contact = false;
+  bool unobserved = false;
   berth::lab::WholeRobotOptions whole_robot_options;
   std::filesystem::path picture = "scene.png";
   program.add_option("--scenes", scenes, "How many; their seeds count from 0")
@@ -145,6 +146,9 @@ int main(int argc, char** argv) {
   program.add_flag("--contact", contact,
                    "Instead, things that touch the robot, give no reading or stand beside all "
                    "images; the kinds share --scenes");
+  program.add_flag("--unobserved", unobserved,
+                   "Instead, people beside all images of one to four cameras, by what "
+                   "space.unobserved says");
   program
       .add_option("--first", whole_robot_options.first,
                   "With --whole-robot: the seed of the first scene")
@@ -177,6 +181,8 @@ int main(int argc, char** argv) {
       berth::lab::measure_whole_robot(robots, scenes, whole_robot_options);
     } else if (contact) {
       fmt::print("{}", berth::lab::contact_table(robots, whole_robot_options.first, scenes));
+    } else if (unobserved) {
+      fmt::print("{}", berth::lab::unobserved_table(robots, whole_robot_options.first, scenes));
     } else if (!real_images.empty()) {
       const auto images = berth::lab::load_real_images(real_images);
       fmt::print("{}", berth::lab::real_image_table(images, robots, scenes));

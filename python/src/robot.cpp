@@ -36,9 +36,11 @@ std::shared_ptr<RobotModel> load(const std::filesystem::path& urdf,
                                  const std::string& geometry,
                                  const std::vector<std::string>& environment_links,
                                  const std::vector<std::string>& ignore_links,
+                                 const std::vector<std::string>& guarded_links,
                                  const std::optional<std::string>& urdf_text) {
   const RobotSettings settings{
-      urdf, package_paths, geometry_of(geometry), environment_links, ignore_links, urdf_text};
+      urdf,          package_paths, geometry_of(geometry), environment_links, ignore_links,
+      guarded_links, urdf_text};
   const py::gil_scoped_release release;
   return std::make_shared<RobotModel>(load_robot(settings));
 }
@@ -112,10 +114,12 @@ void bind_robot(py::module_& m) {
   m.def("load_robot", &load, py::arg("urdf"),
         py::arg("package_paths") = std::map<std::string, std::filesystem::path>{},
         py::arg("geometry") = "visual", py::arg("environment_links") = std::vector<std::string>{},
-        py::arg("ignore_links") = std::vector<std::string>{}, py::arg("urdf_text") = std::nullopt,
+        py::arg("ignore_links") = std::vector<std::string>{},
+        py::arg("guarded_links") = std::vector<std::string>{}, py::arg("urdf_text") = std::nullopt,
         "Loads a URDF and its meshes. Links in environment_links are environment: filtered out of "
         "the\n"
-        "images, not evaluated. geometry: visual or collision. Raises FileNotFoundError or\n"
+        "images, not evaluated. Nobody can be in the boxes of guarded_links. geometry: visual or "
+        "collision. Raises FileNotFoundError or\n"
         "ValueError that names file, place, value and what was expected.");
   py::class_<Robot, std::shared_ptr<Robot>>(
       m, "Robot", "A robot, and how requests about it are answered. Constant; share it.")

@@ -189,6 +189,33 @@ TEST_F(WholeRobot, ALinkThatNoCameraSeesKeepsItsDistanceBesideTheStatus) {
   }
 }
 
+/// The camera stands 2 m away, and nothing is near: most of a ball of 3 m is in no image.
+TEST_F(WholeRobot, ALinkNearMuchThatIsInNoImageIsNotCalledFree) {
+  const auto ask = [&](std::optional<Unobserved> unobserved) {
+    EvaluationSettings evaluation;
+    evaluation.distance.range_m = 3;
+    CameraSettings settings;
+    settings.space.unobserved = unobserved;
+    const auto view = testing::view_with(*camera_.view, evaluation, settings);
+    Frame frame;
+    Observer observer(view);
+    observer.observe(camera_.read_depth(17), camera_.at_exposure[17], frame);
+    DepthImage depth_m = frame.robot.depth_m;
+    for (float& one_m : depth_m.pixels()) one_m = std::isnan(one_m) ? 9 : one_m;
+    observer.observe(depth_m, camera_.at_exposure[17], frame);
+    return Query(view->robot()).ask({frame}).links.back();
+  };
+  EXPECT_EQ(ask(std::nullopt).status, LinkStatus::not_observed);
+  EXPECT_EQ(ask(Unobserved::ignore).status, LinkStatus::none_in_range);
+  const LinkResult link = ask(Unobserved::unknown);
+  EXPECT_EQ(link.status, LinkStatus::ok);
+  EXPECT_EQ(link.obstacle_is, ObstacleKind::unobserved);
+  EXPECT_EQ(link.obstacle_pixel, (Pixel{-1, -1}));
+  EXPECT_LT(link.distance_m, 1.5F);
+  EXPECT_LE(link.distance_m - link.lower_bound_m, 0.00101F);
+  EXPECT_FALSE(project_into_image(camera_.view->camera(), link.obstacle_point_C_m.cast<double>()));
+}
+
 TEST_F(WholeRobot, LookAheadIsItsPosesAndSaysWhichComesNearerFirst) {
   Frame frame;
   observe(3, frame);

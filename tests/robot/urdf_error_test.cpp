@@ -285,6 +285,17 @@ TEST(UrdfError, UnknownLinkInTheSettings) {
                  {.environment_links = {"table"}});
   expect_refused(pair_xml("fixed"), {"ignore_links", "\"table\"", "base, child"},
                  {.ignore_links = {"table"}});
+  expect_refused(pair_xml("fixed"), {"guarded_links", "\"table\"", "base, child"},
+                 {.guarded_links = {"table"}});
+}
+
+TEST(UrdfError, GuardedLinksThatMoveOrHaveNoShapes) {
+  expect_refused(pair_xml("continuous"), {"guarded_links: link \"child\" moves", "no joint moves"},
+                 {.guarded_links = {"child"}});
+  expect_refused(robot_xml(link_xml("base") + box_link_xml("child") +
+                           joint_xml("joint", "fixed", "base", "child")),
+                 {"guarded_links: link \"base\" has no shapes", "expected a link with shapes"},
+                 {.guarded_links = {"base"}});
 }
 
 TEST(UrdfError, NothingToEvaluate) {

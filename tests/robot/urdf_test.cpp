@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "berth/robot/kinematics.hpp"
 #include "berth/robot/primitives.hpp"
 #include "tests/robot/mesh_writing.hpp"
 #include "tests/robot/robot_text.hpp"
@@ -232,6 +233,30 @@ TEST(Urdf, EnvironmentAndIgnoredLinksAreNotCounted) {
   EXPECT_EQ(model.links[*model.find_link("tip")].id, 1);
   EXPECT_EQ(model.links[*model.find_link("right")].id, 2);
   EXPECT_EQ(model.joints.size(), 3U) << "an ignored link still carries its children";
+}
+
+TEST(Urdf, AGuardedLinkIsABoxAndNoPartOfTheRobot) {
+  const RobotModel model = load(tree_xml("revolute", "fixed"), {.guarded_links = {"right"}});
+  EXPECT_EQ(model.links[*model.find_link("right")].role, LinkRole::ignored);
+  EXPECT_EQ(model.link_count(), 3);
+  ASSERT_EQ(model.guarded.size(), 1U);
+  RobotPose pose;
+  forward_kinematics(model, std::vector<double>(model.joints.size(), 0.3), pose);
+  const RobotModel evaluated = load(tree_xml("revolute", "fixed"));
+  const std::size_t right = *evaluated.find_link("right");
+  for (const auto& corner_L_m : evaluated.links[right].mesh_L.vertices_m) {
+    const Eigen::Vector3d p_B_m = pose.X_BL[right] * corner_L_m.cast<double>();
+    const Eigen::Vector3d middle_m = model.guarded[0].X_BG.translation();
+    EXPECT_TRUE(model.guarded[0].holds(middle_m + 0.999 * (p_B_m - middle_m)));
+    EXPECT_FALSE(model.guarded[0].holds(middle_m + 1.001 * (p_B_m - middle_m)));
+  }
+}
+
+TEST(Urdf, AGuardedLinkMayBeEnvironmentToo) {
+  const RobotModel model =
+      load(tree_xml(), {.environment_links = {"base"}, .guarded_links = {"base"}});
+  EXPECT_EQ(model.links[0].role, LinkRole::environment);
+  EXPECT_EQ(model.guarded.size(), 1U);
 }
 
 TEST(Urdf, MeshOfAnIgnoredLinkMayBeMissing) {

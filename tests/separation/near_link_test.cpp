@@ -80,6 +80,28 @@ TEST(NearLink, UnknownSpaceGoesByItsPolicy) {
   expect_near(near_of(link, settings), kRange_m, SeparationReason::range);
 }
 
+TEST(NearLink, WhatIsInNoImageGoesByThePolicyOfUnknownSpace) {
+  LinkResult link = near_thing_at(0.3F);
+  link.obstacle_is = ObstacleKind::unobserved;
+  link.occupied = near_thing_at(0.8F).occupied;
+  SeparationSettings settings;
+  expect_near(near_of(link, settings), 0.299, SeparationReason::unobserved);
+  settings.unknown = ignore;
+  expect_near(near_of(link, settings), 0.799, SeparationReason::occupied);
+}
+
+TEST(NearLink, ALinkThatIsNotObservedHasSomethingAtTheAssumedRange) {
+  LinkResult link = near_thing_at(0.8F);
+  link.status = LinkStatus::not_observed;
+  SeparationSettings settings;
+  settings.assumed_range_m = 0.4;
+  expect_near(near_of(link, settings), 0.4, SeparationReason::unobserved);
+  settings.unknown = stop;
+  expect_near(near_of(link, settings), 0, SeparationReason::unobserved);
+  settings.unknown = ignore;
+  expect_near(near_of(link, settings), 0.799, SeparationReason::occupied);
+}
+
 TEST(NearLink, ALinkThatIsNotSeenEnoughGoesByItsPolicy) {
   LinkResult not_seen = near_thing_at(0.8F);
   not_seen.status = LinkStatus::not_seen;

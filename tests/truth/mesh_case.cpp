@@ -89,6 +89,7 @@ SpaceSettings draw_settings(Random& random) {
   settings.behind_robot_m = random.chance(0.2) ? 0 : random(0, 0.6);
   if (random.chance(0.3)) settings.no_reading = NoReading::free;
   settings.obstacle_speed_m_s = random(0, 3);
+  if (random.chance(0.2)) settings.unobserved = Unobserved::unknown;
   return settings;
 }
 

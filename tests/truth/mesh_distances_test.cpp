@@ -101,8 +101,8 @@ class Judge {
     ++pairs;
     if (pair.is_known()) {
       const double undecided_m =
-          pair.obstacle_is == ObstacleKind::unknown && request.tolerance_m < 0.001 ? kUndecided_m
-                                                                                   : 0;
+          pair.obstacle_is != ObstacleKind::occupied && request.tolerance_m < 0.001 ? kUndecided_m
+                                                                                    : 0;
       const double tolerance_m = std::max(request.tolerance_m, 20e-6) + kRounding_m + undecided_m;
       wide += pair.distance_m - pair.lower_bound_m > tolerance_m;
     } else {
@@ -118,6 +118,13 @@ class Judge {
     const std::size_t link = model_.evaluated_links[i];
     EXPECT_LE(meshes_L_[i](pose_.X_BL[link].inverse() * robot_B).distance_m, kRounding_m);
     ASSERT_LT(pair.camera, static_cast<int>(space_.views().size()));
+    if (pair.obstacle_is == ObstacleKind::unobserved) {
+      EXPECT_EQ(pair.obstacle_pixel, Pixel{});
+      EXPECT_TRUE(holds_beside(obstacle_B, [&](const Eigen::Vector3d& p_B) {
+        return space_.is_unobserved(p_B);
+      })) << "in an image";
+      return;
+    }
     EXPECT_TRUE(is_in_pixel(pair, obstacle_B)) << "not in its pixel";
     if (pair.obstacle_is == ObstacleKind::occupied) {
       EXPECT_TRUE(is_in_depths(pair, obstacle_B, 0, space_.settings().surface_thickness_m))
@@ -161,13 +168,19 @@ class Judge {
     return behind_m >= from_m - kRounding_m && behind_m <= to_m + kRounding_m;
   }
 
-  /// Whether all that is next to p_B is seen free.
-  bool is_surely_free(std::size_t j, const Eigen::Vector3d& p_B) const {
+  /// Of a point next to p_B.
+  template <class Predicate>
+  static bool holds_beside(const Eigen::Vector3d& p_B, Predicate predicate) {
     for (int corner = 0; corner < 8; ++corner) {
       const Eigen::Vector3d sign(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-      if (!space_.is_free(j, p_B + kRounding_m * sign)) return false;
+      if (predicate(p_B + kRounding_m * sign)) return true;
     }
-    return true;
+    return false;
+  }
+
+  /// Whether all that is next to p_B is seen free.
+  bool is_surely_free(std::size_t j, const Eigen::Vector3d& p_B) const {
+    return !holds_beside(p_B, [&](const Eigen::Vector3d& p) { return !space_.is_free(j, p); });
   }
 
   const RobotModel& model_;

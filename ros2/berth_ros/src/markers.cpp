@@ -15,7 +15,7 @@ std_msgs::msg::ColorRGBA color_of(const LinkDistance& link, double range_m) {
   std_msgs::msg::ColorRGBA color;
   color.r = static_cast<float>(std::min(1.0, 3 * near));
   color.g = static_cast<float>(std::min(1.0, 1.5 * (1 - near)));
-  color.a = link.obstacle_is == LinkDistance::UNKNOWN ? 0.5F : 1.0F;
+  color.a = link.obstacle_is != LinkDistance::OCCUPIED ? 0.5F : 1.0F;
   return color;
 }
 
@@ -41,7 +41,7 @@ void add_link(const LinkDistance& link, const std_msgs::msg::Header& header, dou
               std::vector<Marker>& out) {
   const auto color = color_of(link, range_m);
   Marker line = marker(header, "lines", link.id, Marker::LINE_LIST);
-  line.scale.x = link.obstacle_is == LinkDistance::UNKNOWN ? 0.002 : 0.005;
+  line.scale.x = link.obstacle_is != LinkDistance::OCCUPIED ? 0.002 : 0.005;
   line.color = color;
   line.points = {link.robot_point_base_m, link.obstacle_point_base_m};
   Marker ends = marker(header, "ends", link.id, Marker::SPHERE_LIST);

@@ -171,6 +171,9 @@ void NodeSettings::declare_robot(SettingNode& node) {
   robot_.ignore_links =
       node.declare_parameter("ignore_links", robot_.ignore_links,
                              described("links that are neither taken out nor evaluated"));
+  robot_.guarded_links = node.declare_parameter(
+      "guarded_links", robot_.guarded_links,
+      described("links whose boxes nobody can be in, neither taken out nor evaluated"));
   const std::string srdf =
       node.declare_parameter("srdf_path", "",
                              described("MoveIt's SRDF: links that it takes out of all collisions "

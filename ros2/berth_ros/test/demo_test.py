@@ -32,7 +32,7 @@ LEAST = 5
 MAX_FRAME_AGE_S, MAX_JOINTS_AGE_S = 0.5, 0.1
 # Nearer than this two things touch: a distance is the root of a square that single precision rounds.
 TOUCHING_M = 1e-4
-STATUS = {"ok": 0, "none_in_range": 1, "not_visible": 2, "cut_short": 3, "stale": 4, "not_seen": 5}
+STATUS = {"ok": 0, "none_in_range": 1, "not_visible": 2, "cut_short": 3, "stale": 4, "not_seen": 5, "not_observed": 6}
 RESULT_STATUS = {"ok": 0, "degraded": 1, "stale": 2}
 
 

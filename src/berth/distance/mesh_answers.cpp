@@ -46,7 +46,7 @@ void set_hidden_pair(const UnknownSpace& space, const LinkSearch& search, SpaceP
   const ConvexPair found =
       triangle_pair(search, search.X_BL, search.best_triangle, {&point_B_m, 1});
   set_points(found.a_m, point_B_m, pair);
-  pair.obstacle_is = ObstacleKind::unknown;
+  pair.obstacle_is = hiding->pixel.u < 0 ? ObstacleKind::unobserved : ObstacleKind::unknown;
   pair.camera = hiding->view;
   pair.obstacle_pixel = hiding->pixel;
 }

@@ -120,7 +120,7 @@ void start_nearest(const Asked& asked, LinkState& link) {
     guess(asked.space, link.last, true, link.nearest);
     mesh::start_in_views(asked.space, link.nearest);
   } else {
-    if (link.last.obstacle_is == ObstacleKind::unknown) {
+    if (link.last.obstacle_is != ObstacleKind::occupied) {
       mesh::try_hidden_point(asked.space, link.last.obstacle_point_B_m, link.nearest);
     }
     mesh::start_in_cubes(link.nearest);

@@ -36,6 +36,7 @@ double radius_m(const LinkDistance& link, double range_m) {
     case LinkStatus::not_visible:
     case LinkStatus::stale:
     case LinkStatus::not_seen:
+    case LinkStatus::not_observed:
       break;
   }
   return std::numeric_limits<double>::quiet_NaN();

@@ -87,7 +87,9 @@ void FrameSet::assign(std::span<const Frame* const> frames, const TimeSettings& 
     if (frame.space->has_rejected_space)
       posed_rejected_.push_back({&frame.space->rejected_space, X_BC_[k], 0});
   }
-  space_.assign(posed_, aged ? &aged->space_ : nullptr);
+  space_.assign(
+      posed_, aged ? &aged->space_ : nullptr,
+      newest_ ? std::span(newest_->view->robot()->model().guarded) : std::span<const GuardedBox>());
   rejected_.assign(posed_rejected_);
 }
 

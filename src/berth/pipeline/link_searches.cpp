@@ -11,6 +11,8 @@ namespace berth {
 namespace {
 
 constexpr double kDefaultTolerance_m = 0.001;
+/// A link near so much that is in no image is not observed.
+constexpr double kMostUnobserved = 0.5;
 
 MeshRequest request_of(const DistanceSettings& settings) {
   return {.range_m = settings.range_m,
@@ -169,6 +171,9 @@ void LinkSearches::tell_visibility(const FrameSet& frames, const RobotPose& pose
   const SamplePoints& points = robot_->sample_points();
   const RobotModel& model = robot_->model();
   const bool tells = robot_->settings().visibility;
+  const bool is_unobserved_told = std::ranges::none_of(frames.used(), [&](int k) {
+    return frames.frames()[k]->view->settings().space.unobserved.has_value();
+  });
   if (tells) find_whole_robot_visibility(model, points, pose, views_, found_, visibility_);
   for (std::size_t i = 0; i < out.links.size(); ++i) {
     if (tells) out.links[i].visibility = visibility_[i];
@@ -176,7 +181,14 @@ void LinkSearches::tell_visibility(const FrameSet& frames, const RobotPose& pose
         tells ? visibility_[i].surface.seen >= settings.min_seen_share
               : is_seen(views_, points.surface_lanes[i], pose.X_BL[model.evaluated_links[i]],
                         settings.min_seen_share);
-    if (!has_seen) out.links[i].status = LinkStatus::not_seen;
+    if (!has_seen) {
+      out.links[i].status = LinkStatus::not_seen;
+    } else if (is_unobserved_told && out.links[i].status != LinkStatus::cut_short &&
+               unobserved_share(views_, model.guarded, out.links[i], points.surface_lanes[i],
+                                pose.X_BL[model.evaluated_links[i]],
+                                points.unit_ball_lanes) > kMostUnobserved) {
+      out.links[i].status = LinkStatus::not_observed;
+    }
   }
   if (tells) tell_rejected(frames, pose, out);
 }

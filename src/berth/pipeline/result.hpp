@@ -223,10 +223,11 @@ void visit_fields(const LinkResult& l, const Result& result, Visitor&& visit) {
   visit({"is_moved", "whether a joint moves the link"}, l.is_moved);
   visit({"status", "what is known of the link"}, l.status);
   visit_fields(static_cast<const SpacePair&>(l), visit);
-  visit({"obstacle_is",
-         "whether the obstacle's point is occupied, or unknown: hidden, and seen "
-         "free by no camera"},
-        ObstacleOf{l});
+  visit(
+      {"obstacle_is",
+       "whether the obstacle's point is occupied, unknown: hidden, and seen free by no camera, or "
+       "unobserved: in no image"},
+      ObstacleOf{l});
   visit({"occupied", "the closest pair to surfaces that a camera measured, alone"}, l.occupied);
   visit({"assumed_thinner_m",
          "what lies on the link and is thinner than this is taken for it: an assumption"},

@@ -31,6 +31,8 @@ std::string why(const Result& result) {
       return near("what a camera sees");
     case SeparationReason::unknown:
       return near("space that no camera sees");
+    case SeparationReason::unobserved:
+      return near("space that is in no image");
     case SeparationReason::rejected:
       return near("a reading that was dropped as rejected");
     case SeparationReason::range:

@@ -200,9 +200,29 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+/// Such a link moves with no joint, so that its pose is a product of fixed ones.
+GuardedBox guarded_box(const RobotSettings& settings, const RobotModel& model, std::size_t index) {
+  const Link& link = model.links[index];
+  const Eigen::AlignedBox3d box_L_m = link.mesh_L.bounding_box_m().cast<double>();
+  if (model.is_moved(index) || box_L_m.isEmpty()) {
+    fail(settings, fmt::format("guarded_links: link \"{}\" {}; expected a link with shapes that no "
+                               "joint moves",
+                               link.name, box_L_m.isEmpty() ? "has no shapes" : "moves"));
+  }
+  Pose X_BL = Pose::Identity();
+  for (std::optional<std::size_t> i = index; model.links[*i].parent; i = model.links[*i].parent) {
+    X_BL = model.links[*i].joint.X_PJ * X_BL;
+  }
+  return {X_BL * Eigen::Translation3d(box_L_m.center()), box_L_m.sizes() / 2};
+}
+
 void assign_roles(const RobotSettings& settings, RobotModel& model) {
   for (std::size_t i = 0; i < model.links.size(); ++i) {
     Link& link = model.links[i];
+    if (contains(settings.guarded_links, link.name)) {
+      model.guarded.push_back(guarded_box(settings, model, i));
+      if (!contains(settings.environment_links, link.name)) link.mesh_L = {};
+    }
     if (link.mesh_L.empty()) continue;
     if (contains(settings.environment_links, link.name)) {
       link.role = LinkRole::environment;
@@ -247,6 +267,7 @@ RobotModel load_robot(const RobotSettings& settings) {
   number_joints(*source, model);
   require_links(settings, model, settings.environment_links, "environment_links");
   require_links(settings, model, settings.ignore_links, "ignore_links");
+  require_links(settings, model, settings.guarded_links, "guarded_links");
   MeshLoader meshes(settings);
   for (Link& link : model.links) {
     if (!contains(settings.ignore_links, link.name))

@@ -13,6 +13,7 @@
 #include "berth/robot/soft_body.hpp"
 #include "berth/robot/triangle_mesh.hpp"
 #include "berth/types/camera.hpp"
+#include "berth/types/guarded_box.hpp"
 #include "berth/types/robot_image.hpp"
 
 namespace berth {
@@ -80,6 +81,8 @@ struct RobotModel {
   std::vector<std::size_t> evaluated_links;
   /// What hangs on it and bends (Attachment::is_soft).
   std::vector<SoftBody> soft_bodies = {};
+  /// The boxes around the guarded links' shapes, along the links' axes.
+  std::vector<GuardedBox> guarded = {};
 
   int link_count() const { return static_cast<int>(evaluated_links.size()); }
   std::vector<std::string> evaluated_link_names() const;
@@ -98,6 +101,9 @@ struct RobotSettings {
   GeometryKind geometry = GeometryKind::visual;
   std::vector<std::string> environment_links = {};
   std::vector<std::string> ignore_links = {};
+  /// Links that do not move and have shapes, whose boxes nobody can be in: no part of the robot
+  /// either, and never in an image.
+  std::vector<std::string> guarded_links = {};
   /// The URDF itself, where it comes from no file; `urdf` then is a name for messages, and the
   /// place that relative mesh paths begin at.
   std::optional<std::string> urdf_text = {};
@@ -107,7 +113,8 @@ struct RobotSettings {
 /// environment nor ignored; their ids follow the tree, parents first. Throws std::runtime_error
 /// that names the file, the link or joint, the value and what was expected: URDF missing, invalid,
 /// with a loop, without a root or with two, a joint type other than fixed, revolute, continuous and
-/// prismatic, a mesh that is missing, unreadable or empty, an unknown link in the settings.
+/// prismatic, a mesh that is missing, unreadable or empty, an unknown link in the settings, a
+/// guarded one that moves or has no shapes.
 RobotModel load_robot(const RobotSettings& settings);
 
 }  // namespace berth

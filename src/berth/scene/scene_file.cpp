@@ -16,8 +16,8 @@ namespace berth {
 namespace {
 
 RobotSettings read_robot(const YamlValue& value) {
-  const YamlMap map(value,
-                    {"urdf", "package_paths", "geometry", "environment_links", "ignore_links"});
+  const YamlMap map(value, {"urdf", "package_paths", "geometry", "environment_links",
+                            "ignore_links", "guarded_links"});
   RobotSettings robot;
   robot.urdf = map.at("urdf").path();
   if (const auto packages = map.find("package_paths")) {
@@ -30,6 +30,7 @@ RobotSettings read_robot(const YamlValue& value) {
   }
   map.read("environment_links", &YamlValue::texts, robot.environment_links);
   map.read("ignore_links", &YamlValue::texts, robot.ignore_links);
+  map.read("guarded_links", &YamlValue::texts, robot.guarded_links);
   return robot;
 }
 
@@ -168,7 +169,7 @@ SceneFile parse_scene(const std::filesystem::path& file, const std::string& text
                  "self_filter", "sensor", "space", "watch", "evaluation", "time", "separation"});
   SceneFile scene;
   scene.file = file;
-  scene.warnings = former_names_in(document);
+  scene.warnings = ended_settings_in(document);
   scene.robot = read_robot(map.at("robot"));
   CameraSettings settings = settings_of_real_camera();
   read_view_settings(map, settings);

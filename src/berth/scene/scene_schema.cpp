@@ -45,19 +45,6 @@ Json deprecated(std::string_view sentence, const Json& schema) {
   return all;
 }
 
-/// Adds the former name of each setting that had one.
-void add_former(Json& group) {
-  const Json now = group["properties"];
-  for (const auto& [name, schema] : now.items()) {
-    const std::string former(former_name(name));
-    if (former.empty()) continue;
-    Json type = schema;
-    for (const char* word : {"description", "default"}) type.erase(word);
-    group["properties"][former] = deprecated("is called " + name + " now", type);
-    group["allOf"].push_back({{"not", {{"required", {former, name}}}}});
-  }
-}
-
 /// What the reader takes in this map besides its settings.
 Json others_of(std::string_view group) {
   Json others = Json::object();
@@ -84,7 +71,6 @@ Json group_schemas() {
     Json properties = setting_properties(settings);
     properties.update(others_of(name));
     groups[name] = map_of(properties, {});
-    add_former(groups[name]);
   });
   return groups;
 }
@@ -114,7 +100,9 @@ Json robot_schema() {
        {"environment_links",
         told("links that are environment: removed from the images, but no distance is asked for",
              list_of(name()))},
-       {"ignore_links", told("links that are left out altogether", list_of(name()))}},
+       {"ignore_links", told("links that are left out altogether", list_of(name()))},
+       {"guarded_links",
+        told("links whose boxes nobody can be in, left out as well", list_of(name()))}},
       {"urdf"});
 }
 

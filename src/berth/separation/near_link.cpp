@@ -15,8 +15,14 @@ SeparationReason reason_of(const LinkResult& link) {
       break;
   }
   if (!link.has_distance()) return SeparationReason::range;
-  return link.obstacle_is == ObstacleKind::unknown ? SeparationReason::unknown
-                                                   : SeparationReason::occupied;
+  switch (link.obstacle_is) {
+    case ObstacleKind::unknown:
+      return SeparationReason::unknown;
+    case ObstacleKind::unobserved:
+      return SeparationReason::unobserved;
+    default:
+      return SeparationReason::occupied;
+  }
 }
 
 /// To what is seen alone.
@@ -29,9 +35,11 @@ NearLink near_reading(const LinkResult& link) {
 NearLink near_known(const SeparationSettings& settings, const LinkResult& link, double range_m) {
   if (std::isnan(link.lower_bound_m)) return {range_m, SeparationReason::range};
   const NearLink known{link.lower_bound_m, reason_of(link)};
-  if (known.reason != SeparationReason::unknown) return known;
+  const bool is_unknown =
+      known.reason == SeparationReason::unknown || known.reason == SeparationReason::unobserved;
+  if (!is_unknown) return known;
   if (settings.unknown == UnknownPolicy::ignore) return near_reading(link);
-  return with_unknown(known, settings.unknown, known.distance_m, SeparationReason::unknown);
+  return with_unknown(known, settings.unknown, known.distance_m, known.reason);
 }
 
 bool is_seen_enough(const SeparationSettings& settings, const LinkResult& link) {
@@ -54,6 +62,10 @@ NearLink near_link(const SeparationSettings& settings, const LinkResult& link, d
   if (link.visibility.rejected_distance_m < near.distance_m) {
     near = with_unknown(near, settings.rejected, link.visibility.rejected_distance_m,
                         SeparationReason::rejected);
+  }
+  if (link.status == LinkStatus::not_observed) {
+    near = with_unknown(near, settings.unknown, settings.assumed_range_m,
+                        SeparationReason::unobserved);
   }
   if (!is_seen_enough(settings, link)) {
     near =

@@ -24,6 +24,18 @@ constexpr std::string_view name_of(NoReading meaning) {
 }
 constexpr const auto& all_of(NoReading) { return kNoReadings; }
 
+/// What is said of space that is in no camera's image.
+enum class Unobserved : std::uint8_t {
+  ignore,   ///< nothing stands there, for a cell that nobody can enter unseen
+  unknown,  ///< something may stand there, as behind what a camera sees
+};
+
+inline constexpr std::array kUnobserveds = {Unobserved::ignore, Unobserved::unknown};
+constexpr std::string_view name_of(Unobserved meaning) {
+  return meaning == Unobserved::ignore ? "ignore" : "unknown";
+}
+constexpr const auto& all_of(Unobserved) { return kUnobserveds; }
+
 /// What a camera's readings say of space.
 struct SpaceSettings {
   /// t: how thick a surface is that a camera measured. What lies deeper is hidden.
@@ -35,6 +47,9 @@ struct SpaceSettings {
   /// and at most so far.
   double behind_robot_m = 0.3;
   NoReading no_reading = NoReading::unknown;
+  /// Of all cameras together; one that says `unknown` says it for all. None: it is no obstacle, but
+  /// a link near much of it is LinkStatus::not_observed.
+  std::optional<Unobserved> unobserved = std::nullopt;
   /// d: a ball of this diameter is the least thing that has to be told. What hides none of them
   /// from a camera does not hide: a pixel without a reading, a cable; 0 turns that off. None: what
   /// suits the camera (detection_capability_m()).
@@ -63,6 +78,11 @@ void visit_settings(Settings& s, Visitor&& visit) {
          "what a pixel without a reading says of its line of sight: free is for a camera that sees "
          "no background within its range, hides for one that reads all of the empty cell"},
         s.no_reading);
+  visit({"unobserved",
+         {},
+         "what space that no camera's image shows counts as: unknown is an obstacle; none: no "
+         "obstacle, but a link near much of it is not_observed"},
+        s.unobserved);
   visit({"detection_capability_m", kNotNegative,
          "pixels without a reading, and thin things, hide nothing where no ball of this diameter "
          "fits behind them; 0 is off; none: 0.04, or what a coarse camera tells 3 m away"},

@@ -283,6 +283,29 @@ std::uint64_t find(std::span<const FreeingCamera> views, const Cube& cube) {
   return possible;
 }
 
+std::uint64_t find_in_no_image(std::span<const FreeingCamera> views,
+                               std::span<const GuardedBox> guarded, const Cube& cube) {
+  const auto edge_m = static_cast<float>(cube.edge_m() / 4);
+  const float reach_m = cube.corner_m().cast<float>().norm() + 4 * edge_m;
+  std::uint64_t outside = ~std::uint64_t{0};
+  for (const FreeingCamera& view : views) {
+    if (!view.free_depth) continue;
+    for (int i = 0; i < 64; i += kLanes) {
+      const Projection cubes = project(view, child_centres(cube, i), reach_m, 0.5f * edge_m);
+      outside &= ~(cubes.inside << i);
+    }
+  }
+  const double half_m = cube.edge_m() / 8;
+  for (std::uint64_t left = guarded.empty() ? 0 : outside; left != 0; left &= left - 1) {
+    const int i = __builtin_ctzll(left);
+    const Eigen::Vector3d middle_B_m = cube.child(i).corner_m().array() + half_m;
+    for (const GuardedBox& box : guarded) {
+      if (box.holds(middle_B_m, half_m)) outside &= ~(std::uint64_t{1} << i);
+    }
+  }
+  return outside;
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace berth::mesh
 HWY_AFTER_NAMESPACE();
@@ -291,9 +314,15 @@ HWY_AFTER_NAMESPACE();
 namespace berth::mesh {
 
 HWY_EXPORT(find);
+HWY_EXPORT(find_in_no_image);
 
 std::uint64_t find_block(std::span<const FreeingCamera> views, const Cube& cube) {
   return HWY_DYNAMIC_DISPATCH(find)(views, cube);
+}
+
+std::uint64_t find_unobserved(std::span<const FreeingCamera> views,
+                              std::span<const GuardedBox> guarded, const Cube& cube) {
+  return HWY_DYNAMIC_DISPATCH(find_in_no_image)(views, guarded, cube);
 }
 
 }  // namespace berth::mesh

@@ -13,4 +13,9 @@ namespace berth::mesh {
 /// the rectangle lies in j's image and zb < least E.
 std::uint64_t find_block(std::span<const FreeingCamera> views, const Cube& cube);
 
+/// The children of a cube that may hold a point that is in no view's image and in no guarded box.
+/// None does that lies in one image as a whole.
+std::uint64_t find_unobserved(std::span<const FreeingCamera> views,
+                              std::span<const GuardedBox> guarded, const Cube& cube);
+
 }  // namespace berth::mesh

@@ -33,6 +33,12 @@ bool is_seen_free(const FreeingCamera& view, const Eigen::Vector3d& p_B) {
   return pixel && p_C.z() < in_metres((*view.free_depth)(pixel->u, pixel->v));
 }
 
+bool is_observed(std::span<const FreeingCamera> views, const Eigen::Vector3d& p_B) {
+  return std::ranges::any_of(views, [&](const FreeingCamera& view) {
+    return view.free_depth && pixel_of(view.space->camera, view.X_CB * p_B);
+  });
+}
+
 UnknownSpace::UnknownSpace() : slots_(kSlots), used_(kMostBlocks) {}
 
 void UnknownSpace::age(const PosedSpace& posed, DepthWindows& aged) {
@@ -42,7 +48,8 @@ void UnknownSpace::age(const PosedSpace& posed, DepthWindows& aged) {
   build_depth_windows(aged);
 }
 
-void UnknownSpace::assign(std::span<const PosedSpace> views, const UnknownSpace* aged) {
+void UnknownSpace::assign(std::span<const PosedSpace> views, const UnknownSpace* aged,
+                          std::span<const GuardedBox> guarded) {
   require(views.size() <= kMostViews, "more than 64 views, expected at most 64");
   for (const PosedSpace& view : views) {
     require(view.age_s >= 0, "age_s of a view, expected a number of at least 0");
@@ -54,6 +61,10 @@ void UnknownSpace::assign(std::span<const PosedSpace> views, const UnknownSpace*
 
   serial_number_ = mesh::next_serial_number();
   views_.clear();
+  hides_unobserved_ = std::ranges::any_of(views, [](const PosedSpace& view) {
+    return view.space->settings.unobserved == Unobserved::unknown;
+  });
+  guarded_.assign(guarded.begin(), guarded.end());
   aged_.resize(std::max(aged_.size(), views.size()));
   for (std::size_t k = 0; k < views.size(); ++k) {
     const CameraSpace& space = *views[k].space;
@@ -98,7 +109,10 @@ std::optional<HidingPixel> UnknownSpace::hiding_pixel(const Eigen::Vector3d& p_B
     }
     if (!is_free) return HidingPixel{static_cast<int>(k), *pixel};
   }
-  return std::nullopt;
+  if (!hides_unobserved_ || views_.empty() || is_observed(views_, p_B)) return std::nullopt;
+  const auto holds = [&](const GuardedBox& box) { return box.holds(p_B); };
+  if (std::ranges::any_of(guarded_, holds)) return std::nullopt;
+  return HidingPixel{0, {-1, -1}};
 }
 
 std::uint64_t UnknownSpace::block(const mesh::Cube& cube) const {
@@ -113,7 +127,8 @@ std::uint64_t UnknownSpace::block(const mesh::Cube& cube) const {
     slot = &slots_[place];
     break;
   }
-  const std::uint64_t block = mesh::find_block(views_, cube);
+  std::uint64_t block = mesh::find_block(views_, cube);
+  if (hides_unobserved_) block |= mesh::find_unobserved(views_, guarded_, cube);
   std::uint64_t expected = 0;
   if (slot == nullptr || used_count_.load(std::memory_order_relaxed) >= kMostBlocks ||
       !slot->key.compare_exchange_strong(expected, kBusy)) {

@@ -11,6 +11,7 @@
 #include "berth/space/camera_space.hpp"
 #include "berth/space/cubes.hpp"
 #include "berth/space/free_depth.hpp"
+#include "berth/types/guarded_box.hpp"
 
 namespace berth {
 
@@ -36,7 +37,11 @@ struct FreeingCamera {
 /// Whether 0 < z < E (whole-robot definition 3).
 bool is_seen_free(const FreeingCamera& view, const Eigen::Vector3d& p_B);
 
-/// The view that hides a point, and the pixel behind whose reading it lies.
+/// Whether it lies in the image of a view that may free something.
+bool is_observed(std::span<const FreeingCamera> views, const Eigen::Vector3d& p_B);
+
+/// The view that hides a point, and the pixel behind whose reading it lies; (-1, -1) where it lies
+/// in no image.
 struct HidingPixel {
   int view = -1;
   Pixel pixel;
@@ -53,24 +58,28 @@ class UnknownSpace {
 
   /// Begins anew with these views, which have to outlive it; reuses its memory. Nobody may ask
   /// meanwhile. A view whose age is above its free_space_max_age_s frees nothing; a lesser one
-  /// shrinks what it frees (age_free_depth). Throws std::invalid_argument for more than
-  /// kMostViews, an age below 0 or a pose that is not finite. A view that `aged` has at the same
-  /// age is not aged again: `aged` has to outlive it then, unchanged.
-  void assign(std::span<const PosedSpace> views, const UnknownSpace* aged = nullptr);
+  /// shrinks what it frees (age_free_depth). `guarded` are never unobserved. Throws
+  /// std::invalid_argument for more than kMostViews, an age below 0 or a pose that is not finite. A
+  /// view that `aged` has at the same age is not aged again: `aged` has to outlive it then,
+  /// unchanged.
+  void assign(std::span<const PosedSpace> views, const UnknownSpace* aged = nullptr,
+              std::span<const GuardedBox> guarded = {});
 
   std::span<const FreeingCamera> views() const { return views_; }
 
   /// Whether all that lies behind a reading is hidden, and nothing else is: one camera sees it, and
   /// no other one frees anything. Then it can be searched for by pixels.
   bool is_shadow() const {
-    return views_.empty() || (views_.size() == 1 && !views_[0].space->hides_otherwise);
+    return views_.empty() ||
+           (views_.size() == 1 && !views_[0].space->hides_otherwise && !hides_unobserved_);
   }
 
   /// Another one after each assign(), and no other object's.
   std::uint64_t serial_number() const { return serial_number_; }
 
   /// Who hides this point, if it is hidden: farther than H of its pixel in some view, and before
-  /// environment's front there, and seen free by no other one (definition 5).
+  /// environment's front there, and seen free by no other one (definition 5); or in no image and no
+  /// guarded box, if SpaceSettings::unobserved says that this is unknown.
   std::optional<HidingPixel> hiding_pixel(const Eigen::Vector3d& p_B) const;
 
   /// Which of the 64 cubes that `cube`, of a level above 0, consists of may hold a hidden point:
@@ -90,6 +99,8 @@ class UnknownSpace {
 
   std::uint64_t serial_number_ = 0;
   std::vector<FreeingCamera> views_;
+  bool hides_unobserved_ = false;
+  std::vector<GuardedBox> guarded_;
   /// E of the views that have aged.
   std::vector<DepthWindows> aged_;
   AgingWorkspace aging_;

@@ -14,10 +14,12 @@ enum class LinkStatus : std::uint8_t {
   stale,          ///< stamps or ages allow no answer (Result::time): nothing is known
   not_seen,       ///< method mesh: hardly anything of the link is seen by any camera. What is known
                   ///< to be near stands beside it, but nothing is promised
+  not_observed,   ///< method mesh: too much of the space within its distance, or the range, lies in
+                  ///< no image. What is known to be near stands beside it, but nothing is promised
 };
 /// By enumerator.
-inline constexpr std::array<std::string_view, 6> kLinkStatusNames = {
-    "ok", "none_in_range", "not_visible", "cut_short", "stale", "not_seen"};
+inline constexpr std::array<std::string_view, 7> kLinkStatusNames = {
+    "ok", "none_in_range", "not_visible", "cut_short", "stale", "not_seen", "not_observed"};
 
 constexpr std::string_view name_of(LinkStatus status) {
   return kLinkStatusNames[static_cast<std::size_t>(status)];

@@ -31,6 +31,7 @@ enum class SeparationReason : std::uint8_t {
   none,         ///< nothing does
   occupied,     ///< something that a camera sees is near
   unknown,      ///< something may be in space that no camera sees
+  unobserved,   ///< something may be in space that is in no camera's image
   rejected,     ///< a reading that the filter dropped may be a thing
   range,        ///< nothing is near, but nothing is known beyond the range either
   cut_short,    ///< a deadline cut the search: how near something is was not found out
@@ -43,9 +44,9 @@ enum class SeparationReason : std::uint8_t {
   speeding_up,  ///< nothing does any more, but no robot gains speed faster
 };
 /// By enumerator.
-inline constexpr std::array<std::string_view, 12> kSeparationReasonNames = {
-    "none",     "occupied", "unknown",    "rejected", "range",    "cut_short",
-    "not_seen", "camera",   "no_reading", "stale",    "velocity", "speeding_up"};
+inline constexpr std::array<std::string_view, 13> kSeparationReasonNames = {
+    "none",     "occupied", "unknown",    "unobserved", "rejected", "range",      "cut_short",
+    "not_seen", "camera",   "no_reading", "stale",      "velocity", "speeding_up"};
 
 constexpr std::string_view name_of(SeparationReason reason) {
   return kSeparationReasonNames[static_cast<std::size_t>(reason)];

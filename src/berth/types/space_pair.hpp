@@ -19,11 +19,13 @@ inline Eigen::Vector3f unset_point() {
 
 /// What the obstacle's point of a pair is.
 enum class ObstacleKind : std::uint8_t {
-  occupied,  ///< on a surface that a camera measured
-  unknown,   ///< behind such a surface, or where nothing was read, and seen free by no camera
+  occupied,    ///< on a surface that a camera measured
+  unknown,     ///< behind such a surface, or where nothing was read, and seen free by no camera
+  unobserved,  ///< in no camera's image (SpaceSettings::unobserved)
 };
 /// By enumerator.
-inline constexpr std::array<std::string_view, 2> kObstacleKindNames = {"occupied", "unknown"};
+inline constexpr std::array<std::string_view, 3> kObstacleKindNames = {"occupied", "unknown",
+                                                                       "unobserved"};
 
 constexpr std::string_view name_of(ObstacleKind kind) {
   return kObstacleKindNames[static_cast<std::size_t>(kind)];
@@ -41,7 +43,8 @@ struct SpacePair {
   Eigen::Vector3f obstacle_point_B_m = unset_point();
   ObstacleKind obstacle_is = ObstacleKind::occupied;
   /// The camera, by its place among those of the request, and the pixel of it that the obstacle's
-  /// point lies in: the one that measured it, or the one that it is hidden behind.
+  /// point lies in: the one that measured it, or the one that it is hidden behind. What is
+  /// unobserved has no pixel, (-1, -1), and stands with the first camera.
   int camera = -1;
   Pixel obstacle_pixel;
 

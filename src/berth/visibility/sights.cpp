@@ -188,6 +188,35 @@ SightCount count_space(std::span<const SeeingCamera> views, const PlacedPoints& 
   return count_sights<false>(views, points);
 }
 
+/// Of those that lie in no image, the ones in a box count as seen.
+int count_in_no_image(std::span<const SeeingCamera> views, std::span<const GuardedBox> guarded,
+                      const PlacedPoints& points) {
+  int count = 0;
+  for (int first = 0; first < points.count; first += kLanes) {
+    const LanePoints p_B = place(points, first);
+    std::uint64_t outside = bits_of(first_lanes(points.count - first));
+    for (const SeeingCamera& view : views) {
+      if (outside == 0) break;
+      const Eigen::Matrix3f R_CB = view.X_CB.linear().cast<float>();
+      const LanePoints t_CB = broadcast_point(view.X_CB.translation().cast<float>());
+      outside &= ~bits_of(show(view.frame.camera, moved(R_CB, p_B, t_CB)).is_inside);
+    }
+    if (outside != 0 && !guarded.empty()) {
+      alignas(64) float at_m[3][kLanes];
+      store(p_B.x, at_m[0]), store(p_B.y, at_m[1]), store(p_B.z, at_m[2]);
+      for (std::uint64_t left = outside; left != 0; left &= left - 1) {
+        const int i = std::countr_zero(left);
+        const Eigen::Vector3d p_B_m(at_m[0][i], at_m[1][i], at_m[2][i]);
+        for (const GuardedBox& box : guarded) {
+          if (box.holds(p_B_m)) outside &= ~(std::uint64_t{1} << i);
+        }
+      }
+    }
+    count += std::popcount(outside);
+  }
+  return count;
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace berth
 HWY_AFTER_NAMESPACE();
@@ -197,6 +226,7 @@ namespace berth {
 
 HWY_EXPORT(count_surface);
 HWY_EXPORT(count_space);
+HWY_EXPORT(count_in_no_image);
 
 SightCount count_surface_sights(std::span<const SeeingCamera> views, const PlacedPoints& points) {
   return HWY_DYNAMIC_DISPATCH(count_surface)(views, points);
@@ -204,6 +234,11 @@ SightCount count_surface_sights(std::span<const SeeingCamera> views, const Place
 
 SightCount count_space_sights(std::span<const SeeingCamera> views, const PlacedPoints& points) {
   return HWY_DYNAMIC_DISPATCH(count_space)(views, points);
+}
+
+int count_unobserved(std::span<const SeeingCamera> views, std::span<const GuardedBox> guarded,
+                     const PlacedPoints& points) {
+  return HWY_DYNAMIC_DISPATCH(count_in_no_image)(views, guarded, points);
 }
 
 }  // namespace berth

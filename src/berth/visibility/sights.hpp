@@ -5,6 +5,7 @@
 #include <array>
 #include <span>
 
+#include "berth/types/guarded_box.hpp"
 #include "berth/visibility/sample_points.hpp"
 #include "berth/visibility/seeing_camera.hpp"
 #include "berth/visibility/sight_count.hpp"
@@ -28,6 +29,10 @@ struct PlacedPoints {
 /// the self filter's tolerance, or behind it. A point counts by the view that knows most of it, in
 /// the order of Sight.
 SightCount count_surface_sights(std::span<const SeeingCamera> views, const PlacedPoints& points);
+
+/// How many lie in no view's image, nor in a box.
+int count_unobserved(std::span<const SeeingCamera> views, std::span<const GuardedBox> guarded,
+                     const PlacedPoints& points);
 
 /// Of points in space, each as sight_of_space() says.
 SightCount count_space_sights(std::span<const SeeingCamera> views, const PlacedPoints& points);

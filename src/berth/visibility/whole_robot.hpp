@@ -16,6 +16,12 @@ namespace berth {
 bool is_seen(std::span<const SeeingCamera> views, const PointLanes& surface_L, const Pose& X_BL,
              double least_share);
 
+/// Of the ball that a link's answer speaks of, as LinkVisibility::space, the share that lies in no
+/// view's image and in no guarded box.
+double unobserved_share(std::span<const SeeingCamera> views, std::span<const GuardedBox> guarded,
+                        const SpacePair& nearest, const PointLanes& surface_L, const Pose& X_BL,
+                        const PointLanes& unit_ball);
+
 /// Writes the shares of surface and space of out[i], the link with the id i + 1: a point counts by
 /// the view that knows most of it, in the order of Sight. `distances` are those
 /// of the whole robot at `pose`. The ball of a link without a distance lies around the points of

@@ -58,6 +58,7 @@ void expect_certified(const LinkDistance& link, const LinkDistance& true_link, f
       break;
     case LinkStatus::stale:
     case LinkStatus::not_seen:
+    case LinkStatus::not_observed:
       ADD_FAILURE() << "the evaluators know of no time and no other camera";
       break;
   }

@@ -96,8 +96,8 @@ export class DistancesPanel {
     const lines: [string, string][] = [
       ["distance", distanceText(link)],
       ["certainly at least", lengthText(link.lower_bound_m)],
-      ["obstacle is", link.obstacle_is === "unknown" ? "unknown: hidden, and seen free by no camera" : (link.obstacle_is ?? "–")],
-      ["camera and pixel", link.camera ? `${link.camera} (${link.obstacle_pixel?.join(", ")})` : "–"],
+      ["obstacle is", link.obstacle_is === "unknown" ? "unknown: hidden, and seen free by no camera" : link.obstacle_is === "unobserved" ? "unobserved: in no image" : (link.obstacle_is ?? "–")],
+      ["camera and pixel", link.camera ? `${link.camera} (${link.obstacle_pixel?.join(", ") ?? "no pixel"})` : "–"],
       ["point of the link", point(link.robot_point_base_m)],
       ["point of the obstacle", point(link.obstacle_point_base_m)],
       ["to occupied", lengthText(link.occupied.distance_m)],

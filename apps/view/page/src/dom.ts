@@ -35,18 +35,18 @@ interface Near {
 
 /** A link's distance; where only unknown space touches it, also how far what is seen is. */
 export function distanceText(link: Near): string {
-  if (link.distance_m !== 0 || link.obstacle_is !== "unknown") return lengthText(link.distance_m);
+  if (link.distance_m !== 0 || link.obstacle_is === "occupied") return lengthText(link.distance_m);
   const seen = link.occupied.distance_m;
-  return `unknown 0 m, ${seen === null ? "nothing seen" : `seen ${lengthText(seen)}`}`;
+  return `${link.obstacle_is} 0 m, ${seen === null ? "nothing seen" : `seen ${lengthText(seen)}`}`;
 }
 
 /** The same as a sentence. */
 export function nearText(link: Near): string {
   if (link.distance_m === null) return `${link.link}: no distance, ${link.status.replaceAll("_", " ")}.`;
-  if (link.distance_m === 0 && link.obstacle_is === "unknown") return `${link.link}: ${distanceText(link)}.`;
-  if (link.obstacle_is !== "unknown") return `${link.link}: ${lengthText(link.distance_m)} to what is seen.`;
+  if (link.distance_m === 0 && link.obstacle_is !== "occupied") return `${link.link}: ${distanceText(link)}.`;
+  if (link.obstacle_is === "occupied") return `${link.link}: ${lengthText(link.distance_m)} to what is seen.`;
   const seen = link.occupied.distance_m;
-  return `${link.link}: ${lengthText(link.distance_m)} to unknown space; ${seen === null ? "nothing is seen within the range" : `what is seen is ${lengthText(seen)} away`}.`;
+  return `${link.link}: ${lengthText(link.distance_m)} to ${link.obstacle_is} space; ${seen === null ? "nothing is seen within the range" : `what is seen is ${lengthText(seen)} away`}.`;
 }
 
 /** Buttons of which one is chosen at a time; arrows go from one to the next. */

@@ -61,7 +61,7 @@ export interface LinkResult extends Pair {
   link: string;
   is_moved: boolean;
   status: string;
-  obstacle_is: "occupied" | "unknown" | null;
+  obstacle_is: "occupied" | "unknown" | "unobserved" | null;
   /** To what a camera measured, alone. */
   occupied: Pair;
   visibility?: {
