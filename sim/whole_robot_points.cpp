@@ -35,7 +35,6 @@ float own_of_reading(const PointView& view, const SpaceSettings& settings, int u
     }
     case PixelFate::robot:
     case PixelFate::padding:
-    case PixelFate::dilation:
       return sensed_m + behind_m;
     case PixelFate::flying_patch:
     case PixelFate::soft:

@@ -53,8 +53,6 @@ Rgb fate_color(PixelFate fate) {
       return {0x3E, 0x6F, 0xB0};
     case PixelFate::padding:
       return {0x8E, 0x5F, 0xB8};
-    case PixelFate::dilation:
-      return {0x2F, 0x9C, 0xA6};
     case PixelFate::environment:
       return {0x8A, 0x6A, 0x3C};
     case PixelFate::flying_patch:

@@ -78,8 +78,6 @@ std::string fate_text(PixelFate fate) {
       return "robot";
     case PixelFate::padding:
       return "padding of the robot";
-    case PixelFate::dilation:
-      return "dilated silhouette";
     case PixelFate::environment:
       return "environment";
     case PixelFate::flying_patch:

@@ -33,7 +33,6 @@ std::string FilterGrid::heading() const {
   name(padding_m, "padding_m", heading);
   name(environment_padding_m, "environment_padding_m", heading);
   name(padding_depth_m, "padding_depth_m", heading);
-  name(dilation_px, "dilation_px", heading);
   name(surface_tolerance_m, "surface_tolerance_m", heading);
   name(flying_patch_radius_m, "flying_patch_radius_m", heading);
   name(speckle_px, "speckle_px", heading);
@@ -51,8 +50,6 @@ std::vector<FilterChoice> FilterGrid::choices() const {
       [](FilterChoice & c) -> auto& { return c.filter.environment_padding_m; }, all);
   cross(
       padding_depth_m, [](FilterChoice & c) -> auto& { return c.filter.padding_depth_m; }, all);
-  cross(
-      dilation_px, [](FilterChoice & c) -> auto& { return c.filter.dilation_px; }, all);
   cross(
       surface_tolerance_m, [](FilterChoice & c) -> auto& { return c.filter.surface_tolerance_m; },
       all);

@@ -23,7 +23,6 @@ struct FilterGrid {
   std::vector<double> padding_m;
   std::vector<double> environment_padding_m;
   std::vector<double> padding_depth_m;
-  std::vector<int> dilation_px;
   std::vector<double> surface_tolerance_m;
   std::vector<double> flying_patch_radius_m;
   std::vector<int> speckle_px;

@@ -48,7 +48,6 @@ int main(int argc, char** argv) {
   app.add_option("--padding_m", grid.padding_m)->delimiter(',');
   app.add_option("--environment_padding_m", grid.environment_padding_m)->delimiter(',');
   app.add_option("--padding_depth_m", grid.padding_depth_m)->delimiter(',');
-  app.add_option("--dilation_px", grid.dilation_px)->delimiter(',');
   app.add_option("--surface_tolerance_m", grid.surface_tolerance_m)->delimiter(',');
   app.add_option("--flying_patch_radius_m", grid.flying_patch_radius_m)->delimiter(',');
   app.add_option("--speckle_px", grid.speckle_px)->delimiter(',');

@@ -24,7 +24,6 @@ FATE_COLORS = {
     "robot": "#3E6FB0",
     "environment": "#8A6A3C",
     "padding": "#8E5FB8",
-    "dilation": "#2F9CA6",
     "flying_patch": "#6CA83C",
     "outside_region": "#B8A43A",
     "soft": "#D87A4A",

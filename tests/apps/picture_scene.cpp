@@ -156,7 +156,7 @@ PixelFate fate_of(const DepthImage& room, const DepthImage& sensor, const RobotI
   if (id != kNoLink)
     return room(u, v) < robot.depth_m(u, v) ? PixelFate::obstacle : PixelFate::robot;
   if (near_robot(robot, u, v, pad_px)) return PixelFate::padding;
-  if (near_robot(robot, u, v, 2 * pad_px)) return PixelFate::dilation;
+  if (near_robot(robot, u, v, 2 * pad_px)) return PixelFate::padding;
   const Place p = place(room, u, v);
   if (std::hypot(p.x - 0.07, p.y - 0.70) < 0.022) return PixelFate::flying_patch;
   return PixelFate::obstacle;

@@ -15,7 +15,7 @@ TEST(EditDistance, CountsInsertedDroppedAndReplacedLetters) {
 }
 
 TEST(EditDistance, NearestIsTheFirstOfTheLeast) {
-  EXPECT_EQ(nearest("padding", {"tolerance_m", "padding_m", "dilation_px"}), "padding_m");
+  EXPECT_EQ(nearest("padding", {"tolerance_m", "padding_m", "speckle_px"}), "padding_m");
   EXPECT_EQ(nearest("x", {"a", "b"}), "a");
 }
 

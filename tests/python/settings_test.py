@@ -36,9 +36,9 @@ def test_all_settings_of_the_scene_file_are_here(group):
 
 
 def test_they_can_be_given_set_and_shown():
-    settings = berth.SelfFilterSettings(tolerance_m=0.03, dilation_px=2)
+    settings = berth.SelfFilterSettings(tolerance_m=0.03, padding_depth_m=2)
     settings.padding_m = 0.01
-    assert (settings.tolerance_m, settings.dilation_px, settings.padding_m) == (0.03, 2, 0.01)
+    assert (settings.tolerance_m, settings.padding_depth_m, settings.padding_m) == (0.03, 2, 0.01)
     assert "tolerance_m=0.03" in repr(settings)
     assert berth.SpaceSettings(no_reading="free").no_reading == "free"
     assert berth.EvaluationSettings(deadline_us=None).deadline_us is None
@@ -48,7 +48,7 @@ def test_they_can_be_given_set_and_shown():
     (dict(tolerance_m=-1), ValueError, "self_filter.tolerance_m: -1; expected a finite number of at least 0"),
     (dict(tolerance_m=np.nan), ValueError, "self_filter.tolerance_m: nan"),
     (dict(tolerance_m="wide"), TypeError, "self_filter.tolerance_m: 'wide'; expected float"),
-    (dict(dilation_px=1.5), TypeError, "self_filter.dilation_px: 1.5; expected int"),
+    (dict(padding_m=None), TypeError, "self_filter.padding_m: None; expected float"),
     (dict(toleranc_m=1), TypeError, '"toleranc_m" is no setting; expected one of tolerance_m, '),
 ])
 def test_wrong_ones_are_named(given, error, said):

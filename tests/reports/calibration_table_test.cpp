@@ -42,8 +42,8 @@ TEST(CalibrationTable, SaysWhatWasFoundAndHowSureThatIs) {
       "      Because of the padding.\n"
       "    sensor.speckle_px: 20 px\n"
       "      Because of speckle.\n"
-      "    The camera sees the robot 4.0 mm behind its model, in the median: what stands in front "
-      "of the robot by less than 34.0 mm is taken for the robot.\n"
+      "    The camera sees the robot 4.0 mm behind its model, in the median: what lies on it and "
+      "is thinner than 25.0 mm at 1 m is taken for it.\n"
       "    With these settings 31 pixels beside the robot remain in all these images, 12 of them "
       "in one piece: they would be taken for an obstacle.\n"
       "    A rod of 1 cm at the robot's side is seen from 4 cm of free space on.\n"
@@ -165,13 +165,15 @@ TEST(CalibrationWords, OpenQuestionsAreSentences) {
   EXPECT_EQ(open_questions(small.found()).size(), 1);
 }
 
-TEST(CalibrationWords, AReadingBeforeTheModelMakesLessRoomForObstacles) {
+TEST(CalibrationWords, WhatIsThinnerThanTheSurfaceToleranceIsTakenForTheRobot) {
   testing::SmallCalibrationData small;
   small.proposal.bias_m = -0.01;
   small.proposal.rod_gap_m = std::nan("");
   const std::vector<std::string> sentences = consequences(small.proposal);
   EXPECT_TRUE(says(sentences[0], "10.0 mm in front of its model")) << sentences[0];
-  EXPECT_TRUE(says(sentences[0], "by less than 20.0 mm")) << sentences[0];
+  EXPECT_TRUE(says(sentences[0], "thinner than 25.0 mm at 1 m")) << sentences[0];
+  small.proposal.self_filter.push_back({"surface_tolerance_m", 0.012, ""});
+  EXPECT_TRUE(says(consequences(small.proposal)[0], "thinner than 12.0 mm at 1 m"));
   EXPECT_TRUE(says(sentences[1], "nothing of the robot is left"));
   EXPECT_TRUE(says(sentences[2], "15 cm away"));
 }

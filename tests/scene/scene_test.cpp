@@ -47,7 +47,6 @@ self_filter:
   link_padding_m: {link_3: 0.05, link_4: 0}
   environment_padding_m: 0.035
   padding_depth_m: 0.4
-  dilation_px: 6
   surface_tolerance_m: 0.07
   flying_patch_radius_m: 0.08
   robot_region_scale: 6.5
@@ -93,7 +92,6 @@ time: {max_skew_s: 0.01, max_extrapolation_s: 0.02}
   EXPECT_EQ(scene.cameras[0].settings.link_padding_m,
             (std::map<std::string, double>{{"link_3", 0.05}, {"link_4", 0}}));
   EXPECT_EQ(filter.environment_padding_m, 0.035);
-  EXPECT_EQ(filter.dilation_px, 6);
   EXPECT_EQ(filter.padding_depth_m, 0.4);
   EXPECT_EQ(filter.surface_tolerance_m, 0.07);
   EXPECT_EQ(filter.flying_patch_radius_m, 0.08);
@@ -124,7 +122,6 @@ TEST(Scene, LeavesDefaultsToThoseWhoOwnThem) {
   const CameraSettings usual;
   const SceneEvaluation evaluation;
   EXPECT_EQ(scene.cameras[0].settings.self_filter.tolerance_m, usual.self_filter.tolerance_m);
-  EXPECT_EQ(scene.cameras[0].settings.self_filter.dilation_px, usual.self_filter.dilation_px);
   EXPECT_TRUE(scene.cameras[0].settings.link_padding_m.empty());
   EXPECT_EQ(scene.cameras[0].settings.sensor.noise_m, usual.sensor.noise_m);
   EXPECT_EQ(scene.cameras[0].settings.sensor.speckle_px, usual.sensor.speckle_px);

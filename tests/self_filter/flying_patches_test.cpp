@@ -137,13 +137,6 @@ TEST(FlyingPatches, APieceThatFloatsBesideTheRobotIsKept) {
   EXPECT_EQ(filter(scene, flying_patch_rule()).fate(34, 30), PixelFate::obstacle);
 }
 
-TEST(FlyingPatches, AFlyingPatchHangsAlsoWhereDilationTookItsBeginning) {
-  SelfFilterSettings settings = flying_patch_rule();
-  settings.padding_m = 0;
-  settings.dilation_px = 2;
-  EXPECT_EQ(filter(scene_with_flying_pixels(1.0F), settings).fate(34, 30), PixelFate::flying_patch);
-}
-
 TEST(FlyingPatches, ReadingsBehindTheModelAreNotTheRobotsOwn) {
   const PixelRect rim{30, 25, 34, 35};
   const auto fate_at = [&](float depth_m) {

@@ -54,7 +54,6 @@ class PlainFilter {
     if (robot_.link_id(u, v) != kNoLink && belongs(u, v, robot_.depth_m(u, v)))
       return is_link(u, v) ? PixelFate::robot : PixelFate::environment;
     if (is_padding(u, v)) return PixelFate::padding;
-    if (is_dilation(u, v)) return PixelFate::dilation;
     return PixelFate::obstacle;
   }
 
@@ -130,14 +129,6 @@ class PlainFilter {
                    std::min(longest_px, radius_m * camera_.fy_px / z));
   }
 
-  bool is_dilation(int u, int v) const {
-    if (settings_.dilation_px == 0) return false;
-    return std::any_of(outline_.begin(), outline_.end(), [&](const Pixel& p) {
-      return belongs_beside(u, v, robot_.depth_m(p.u, p.v)) &&
-             in_disc(u - p.u, v - p.v, settings_.dilation_px, settings_.dilation_px);
-    });
-  }
-
   bool is_near(int u, int v) const {
     return std::any_of(outline_.begin(), outline_.end(), [&](const Pixel& p) {
       return is_link(p.u, p.v) && is_beside(u, v, p, settings_.flying_patch_radius_m);
@@ -149,8 +140,8 @@ class PlainFilter {
   /// 98 of 100 readings of a surface stay below it on either side of their median, to 0.1 mm.
   double measured_tolerance_m(bool of_environment) const {
     std::vector<int> tenths_mm;
-    for (int v = 0; v < camera_.height_px; v += 2) {
-      for (int u = 0; u < camera_.width_px; u += 2) {
+    for (int v = 0; v < camera_.height_px; v += 3) {
+      for (int u = 0; u < camera_.width_px; u += 3) {
         const float z = robot_.depth_m(u, v);
         if (std::isnan(z) || (robot_.link_id(u, v) == kEnvironmentLink) != of_environment) continue;
         const double off = sensor_(u, v) - z;
@@ -210,7 +201,8 @@ class PlainFilter {
 
   bool stands_off(int u, int v, float tolerance_1m) const {
     const float length = point(u, v, 1).norm();
-    if (!((robot_.depth_m(u, v) - sensor_(u, v)) * length > 0.8F * tolerance_1m)) return false;
+    const auto own_t = 0.8F * tolerance_1m * static_cast<float>(growth(sensor_(u, v)));
+    if (!((robot_.depth_m(u, v) - sensor_(u, v)) * length > own_t)) return false;
     const float z = median(u, v);
     const auto t = tolerance_1m * static_cast<float>(growth(z));
     const auto reach = static_cast<int>(t * static_cast<float>(focal_px()) / z) + 1;
@@ -291,7 +283,7 @@ class PlainFilter {
   }
 
   static bool shows_robot(PixelFate fate) {
-    return fate == PixelFate::robot || fate == PixelFate::padding || fate == PixelFate::dilation;
+    return fate == PixelFate::robot || fate == PixelFate::padding;
   }
 
   bool has_sharp_rim(const std::vector<Pixel>& piece, const Image<PixelFate>& fate) const {
@@ -335,7 +327,7 @@ class PlainFilter {
     return std::abs(a - b) <= 0.03F * std::max(1.0F, std::min(a * a, b * b));
   }
 
-  /// The robot's own readings, and what they lead to within padding and dilation: flooded until
+  /// The robot's own readings, and what they lead to within padding: flooded until
   /// nothing changes.
   Image<std::uint8_t> reached_from_robot(const Image<PixelFate>& fate) const {
     Image<std::uint8_t> reached(camera_.width_px, camera_.height_px, 0);
@@ -351,7 +343,7 @@ class PlainFilter {
     while (changed) {
       changed = false;
       for_each([&](int u, int v) {
-        if (fate(u, v) != PixelFate::padding && fate(u, v) != PixelFate::dilation) return;
+        if (fate(u, v) != PixelFate::padding) return;
         if (reached(u, v) != 0 || !touches(u, v, reached)) return;
         reached(u, v) = 1;
         changed = true;

@@ -26,7 +26,6 @@ SelfFilterSettings random_settings(Random& random) {
   if (random.chance(0.3)) {
     settings.link_padding_m = {random(0, 0.2), std::numeric_limits<double>::quiet_NaN(), 0.0};
   }
-  settings.dilation_px = random.chance(0.4) ? random.whole(1, 7) : 0;
   if (random.chance(0.7)) settings.surface_tolerance_m = random_setting(random, 0.01, 0.04);
   settings.flying_patch_radius_m = random_setting(random, 0.02, 0.4);
   return settings;

@@ -91,10 +91,6 @@ TEST(SelfFilter, EnvironmentIsFilteredAndGrownLikeALink) {
   const ObstacleImage padded = filter(scene, settings);
   EXPECT_EQ(padded.fate(15, 30), PixelFate::padding);
   EXPECT_EQ(padded.fate(14, 30), PixelFate::obstacle);
-  settings.padding_m = 0;
-  settings.dilation_px = 5;
-  EXPECT_EQ(filter(scene, settings).fate(15, 30), PixelFate::dilation);
-  EXPECT_EQ(filter(scene, settings).fate(14, 30), PixelFate::obstacle);
 }
 
 TEST(SelfFilter, EnvironmentHasAPaddingOfItsOwn) {
@@ -193,15 +189,12 @@ TEST(SelfFilter, PaddingTakesNoSurfaceThatIsSeenFartherBehindTheRobot) {
   EXPECT_EQ(filter(scene_beside_link(1.31F), settings).fate(42, 25), PixelFate::padding);
 }
 
-TEST(SelfFilter, PaddingAndDilationTakeAMixedPixelHoweverFarBehind) {
+TEST(SelfFilter, PaddingTakesAMixedPixelHoweverFarBehind) {
   SelfFilterSettings settings = no_rules();
   settings.padding_depth_m = 0.3;
   EXPECT_EQ(filter(scene_beside_link(1.31F), settings).fate(41, 35), PixelFate::obstacle);
   settings.padding_m = 0.05;
   EXPECT_EQ(filter(scene_beside_link(1.31F), settings).fate(41, 35), PixelFate::padding);
-  settings.padding_m = 0;
-  settings.dilation_px = 3;
-  EXPECT_EQ(filter(scene_beside_link(1.31F), settings).fate(41, 35), PixelFate::dilation);
   EXPECT_EQ(filter(scene_beside_link(1.31F), settings).fate(41, 38), PixelFate::obstacle);
 }
 
@@ -244,18 +237,6 @@ TEST(SelfFilter, ANearLinkGrowsOverADeeperOne) {
   EXPECT_EQ(filter(scene, settings).fate(43, 30), PixelFate::robot);
 }
 
-TEST(SelfFilter, DilationIsADiscInPixels) {
-  FlatScene scene;
-  scene.add_link(1, kLinkRect, 2.0F);
-  SelfFilterSettings settings = no_rules();
-  settings.dilation_px = 5;
-  const ObstacleImage out = filter(scene, settings);
-  EXPECT_EQ(out.fate(15, 30), PixelFate::dilation);
-  EXPECT_EQ(out.fate(14, 30), PixelFate::obstacle);
-  EXPECT_EQ(out.fate(17, 16), PixelFate::dilation);
-  EXPECT_EQ(out.fate(16, 16), PixelFate::obstacle);
-}
-
 TEST(SelfFilter, ASlopeIsNoMixedPixel) {
   FlatScene scene;
   for (int u = 0; u < kSide_px; ++u)
@@ -272,7 +253,6 @@ TEST(SelfFilter, SettingsThatReachFartherNeverKeepMore) {
     SelfFilterSettings settings;
     settings.tolerance_m *= scale;
     settings.padding_m *= scale;
-    settings.dilation_px = static_cast<int>(2 * scale);
     const std::int64_t kept = filter(scene, settings).count_of(PixelFate::obstacle);
     EXPECT_LE(kept, last);
     last = kept;

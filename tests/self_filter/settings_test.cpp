@@ -34,7 +34,6 @@ TEST(SelfFilterSettings, EachKeyOutsideItsDomainIsNamed) {
          s.link_padding_m = {0.1, -0.5};
        }},
       {"environment_padding_m: -0.1", [](Settings& s) { s.environment_padding_m = -0.1; }},
-      {"dilation_px: -1", [](Settings& s) { s.dilation_px = -1; }},
       {"surface_tolerance_m: -1", [](Settings& s) { s.surface_tolerance_m = -1; }},
       {"flying_patch_radius_m: -1", [](Settings& s) { s.flying_patch_radius_m = -1; }},
       {"robot_region_scale: 0.99", [](Settings& s) { s.robot_region_scale = 0.99; }},

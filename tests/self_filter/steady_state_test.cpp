@@ -13,7 +13,6 @@ TEST(SteadyState, TheSelfFilterAllocatesNothingOnceItHasSeenTheImages) {
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   for (std::uint32_t seed = 0; seed < 20; ++seed) {
     RandomScene scene = random_scene(seed);
-    scene.settings.dilation_px = 3;
     SelfFilterWorkspace workspace;
     ObstacleImage out;
     SelfFilterSettings in_region = scene.settings;

@@ -77,17 +77,17 @@ TEST(SurfaceThings, BesideANearerPartOfTheRobotReadingsArePassedOver) {
   EXPECT_EQ(filter(scene, surface_rule()).fate(30, 30), PixelFate::obstacle);
 }
 
-double measured_m(const FlatScene& scene) {
-  return measured_surface_tolerance_m(flat_camera(), scene.sensor_depth_m, scene.robot, false);
+float measured_m(const FlatScene& scene) {
+  return measured_surface_tolerance(flat_camera(), scene.sensor_depth_m, scene.robot).links_m;
 }
 
 TEST(SurfaceThings, WithoutASettingTheToleranceFollowsTheCamera) {
   FlatScene scene = scene_with_hand(1, 0);
-  EXPECT_EQ(measured_m(scene), kLeastSurfaceTolerance_m);
+  EXPECT_EQ(measured_m(scene), float(kLeastSurfaceTolerance_m));
   for (int v = 10; v < 50; v += 4) scene.see({10, v, 50, v + 2}, 1.018F);
   EXPECT_NEAR(measured_m(scene), 0.018, 2e-4);
   for (int v = 10; v < 50; v += 4) scene.see({10, v, 50, v + 2}, 1.04F);
-  EXPECT_EQ(measured_m(scene), kMostSurfaceTolerance_m);
+  EXPECT_EQ(measured_m(scene), float(kMostSurfaceTolerance_m));
 }
 
 TEST(SurfaceThings, ACameraThatReadsTooNearHasAWiderTolerance) {
@@ -100,14 +100,14 @@ TEST(SurfaceThings, ACameraThatReadsTooNearHasAWiderTolerance) {
 
 TEST(SurfaceThings, WhatLiesOnTheLinkDoesNotWidenItsTolerance) {
   FlatScene scene = scene_with_hand(1, 0.04F);
-  EXPECT_EQ(measured_m(scene), kLeastSurfaceTolerance_m);
+  EXPECT_EQ(measured_m(scene), float(kLeastSurfaceTolerance_m));
 }
 
 TEST(SurfaceThings, OfTooFewPixelsNothingIsMeasured) {
   FlatScene scene;
   scene.add_link(1, {20, 20, 35, 35}, 1.0F);
   scene.see({20, 20, 35, 35}, 1.0F);
-  EXPECT_EQ(measured_m(scene), kMostSurfaceTolerance_m);
+  EXPECT_EQ(measured_m(scene), float(kMostSurfaceTolerance_m));
 }
 
 }  // namespace

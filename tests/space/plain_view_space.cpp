@@ -40,7 +40,7 @@ float freed_by_reading(float sensed_m, float kept_m, float environment_back_m, P
     return environment_back_m < to_robot_m ? environment_back_m : to_robot_m;
   }
   const bool is_robot =
-      fate == PixelFate::robot || fate == PixelFate::padding || fate == PixelFate::dilation;
+      fate == PixelFate::robot || fate == PixelFate::padding;
   return is_robot ? to_robot_m : before_m;
 }
 

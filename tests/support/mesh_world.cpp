@@ -1,6 +1,7 @@
 #include "tests/support/mesh_world.hpp"
 
 #include <cmath>
+#include <iterator>
 
 #include "berth/robot/primitives.hpp"
 #include "sim/drawn_obstacles.hpp"
@@ -44,11 +45,11 @@ MeshWorldView draw_view(sim::Random& random, const MeshWorldSettings& settings) 
 }
 
 PixelFate draw_fate(sim::Random& random, bool hides_otherwise) {
-  constexpr PixelFate kFates[] = {
-      PixelFate::flying_patch, PixelFate::speckle,        PixelFate::padding,
-      PixelFate::dilation,     PixelFate::averaged,       PixelFate::background,
-      PixelFate::hole,         PixelFate::outside_region, PixelFate::environment};
-  const PixelFate fate = kFates[random.whole(0, 8)];
+  constexpr PixelFate kFates[] = {PixelFate::flying_patch,   PixelFate::speckle,
+                                  PixelFate::padding,        PixelFate::averaged,
+                                  PixelFate::background,     PixelFate::hole,
+                                  PixelFate::outside_region, PixelFate::environment};
+  const PixelFate fate = kFates[random.whole(0, static_cast<int>(std::size(kFates)) - 1)];
   const bool is_plain = fate != PixelFate::flying_patch && fate != PixelFate::hole;
   return is_plain || hides_otherwise ? fate : PixelFate::speckle;
 }

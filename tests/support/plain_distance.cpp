@@ -33,7 +33,7 @@ float own_of_reading(const MeshWorldView& view, const SpaceSettings& settings, i
     return std::isnan(back_m) ? sensed_m - margin_m : std::fmax(sensed_m - margin_m, solid_m);
   }
   const bool is_robot =
-      fate == PixelFate::robot || fate == PixelFate::padding || fate == PixelFate::dilation;
+      fate == PixelFate::robot || fate == PixelFate::padding;
   return is_robot ? sensed_m + behind_m : sensed_m - margin_m;
 }
 

@@ -40,10 +40,9 @@ PixelFate draw_fate(Random& random, bool has_reading) {
     return kFates[random.whole(0, 2)];
   }
   constexpr std::array kFates = {
-      PixelFate::obstacle, PixelFate::robot,        PixelFate::padding,
-      PixelFate::dilation, PixelFate::flying_patch, PixelFate::outside_region,
-      PixelFate::speckle,  PixelFate::averaged,     PixelFate::background};
-  return kFates[random.whole(0, 8)];
+      PixelFate::obstacle,       PixelFate::robot,   PixelFate::padding,  PixelFate::flying_patch,
+      PixelFate::outside_region, PixelFate::speckle, PixelFate::averaged, PixelFate::background};
+  return kFates[random.whole(0, static_cast<int>(kFates.size()) - 1)];
 }
 
 /// Blobs of pixels get another fate.

@@ -48,7 +48,7 @@ TEST(WholeRobotPoints, NoCameraFreesWhatItHidesItself) {
 TEST(WholeRobotPoints, EachFateFreesWhatItShould) {
   const SpaceSettings settings{
       .free_space_margin_m = 0.02, .behind_robot_m = 0.3, .detection_capability_m = 0};
-  for (const PixelFate fate : {PixelFate::robot, PixelFate::padding, PixelFate::dilation}) {
+  for (const PixelFate fate : {PixelFate::robot, PixelFate::padding}) {
     PointView view = wall_at(1);
     for (int v = 4; v < 9; ++v) {
       for (int u = 4; u < 9; ++u) drop(view, u, v, fate);

@@ -98,8 +98,8 @@ class Proposer {
   void propose_surface_tolerance() {
     double greatest_m = 0;
     for (const ProposedCamera& view : views_) {
-      greatest_m = std::max(greatest_m,
-                            measured_surface_tolerance_m(camera_, view.depth_m, view.robot, false));
+      const SurfaceTolerance found = measured_surface_tolerance(camera_, view.depth_m, view.robot);
+      greatest_m = std::max<double>(greatest_m, found.links_m);
     }
     if (views_.empty()) return;
     self_filter_.surface_tolerance_m = std::ceil(greatest_m * 1000 - 1e-6) / 1000;

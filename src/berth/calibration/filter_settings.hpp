@@ -36,8 +36,7 @@ struct FilterProposal {
   /// The camera's present settings with those.
   SelfFilterSettings self_filter_settings;
   SensorSettings sensor_settings;
-  /// Readings of the robot lie behind the model by this, in the median. What stands before the
-  /// robot by less than tolerance_m and this is taken for the robot.
+  /// Readings of the robot lie behind the model by this, in the median.
   double bias_m = 0;
   /// Readings that the settings leave, within 10 cm of the robot, where no other frame shows the
   /// same: pixels of all frames, and of the largest blob.

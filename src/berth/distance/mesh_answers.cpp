@@ -1,6 +1,7 @@
 #include "berth/distance/mesh_answers.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace berth::mesh {
 namespace {
@@ -16,7 +17,8 @@ void set_points(const Eigen::Vector3d& robot_B_m, const Eigen::Vector3d& obstacl
 /// The best pair was a triangle and all that a pixel measured, or also what that hides.
 void set_pixel_pair(const UnknownSpace& space, const LinkSearch& search, SpacePair& pair) {
   const ImageCell cell = ImageCell::of_key(search.best_pixel);
-  const FreeingCamera& view = space.views()[cell.view];
+  const FreeingCamera& view =
+      search.best_is_hidden ? space.shadow_view() : space.views()[cell.view];
   const Camera& camera = view.space->camera;
   const double near_m = view.space->obstacle_depth_m(cell.u, cell.v);
   const double surface_end_m = near_m + view.space->settings.surface_thickness_m;
@@ -32,7 +34,9 @@ void set_pixel_pair(const UnknownSpace& space, const LinkSearch& search, SpacePa
   }
   const ConvexPair found = triangle_pair(search, X_CL, search.best_triangle, corners_m);
   set_points(view.X_BC * found.a_m, view.X_BC * found.b_m, pair);
-  const bool is_hidden = search.best_is_hidden && found.b_m.z() > surface_end_m;
+  const bool is_read =
+      !std::isnan(space.views()[cell.view].space->obstacle_depth_m(cell.u, cell.v));
+  const bool is_hidden = search.best_is_hidden && (found.b_m.z() > surface_end_m || !is_read);
   pair.obstacle_is = is_hidden ? ObstacleKind::unknown : ObstacleKind::occupied;
   pair.camera = cell.view;
   pair.obstacle_pixel = {cell.u, cell.v};

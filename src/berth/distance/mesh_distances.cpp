@@ -90,7 +90,7 @@ void guess(const UnknownSpace& space, const SpacePair& last, bool to_shadow, Lin
       last.camera >= static_cast<int>(space.views().size())) {
     return;
   }
-  const CameraSpace& view = *space.views()[last.camera].space;
+  const CameraSpace& view = *(to_shadow ? space.shadow_view() : space.views()[last.camera]).space;
   const Pixel pixel = last.obstacle_pixel;
   if (pixel.u < 0 || pixel.v < 0 || pixel.u >= view.camera.width_px ||
       pixel.v >= view.camera.height_px) {

@@ -111,7 +111,8 @@ void expand(ViewSearch& search, Item& item, Fresh& fresh) {
 void search_in_views(const UnknownSpace& space, bool to_shadow, int steps, LinkSearch& link) {
   ViewSearch search{link, to_shadow, {}};
   for (std::size_t k = 0; k < space.views().size(); ++k) {
-    if (!space.views()[k].space->is_empty()) search.views[k] = make_view(space.views()[k], link);
+    const FreeingCamera& view = to_shadow ? space.shadow_view() : space.views()[k];
+    if (!view.space->is_empty()) search.views[k] = make_view(view, link);
   }
   search_best_first(link, steps,
                     [&](Item& item, Fresh& fresh) HWY_ATTR { expand(search, item, fresh); });

@@ -183,12 +183,15 @@ void LinkSearches::tell_visibility(const FrameSet& frames, const RobotPose& pose
                         settings.min_seen_share);
     if (!has_seen) {
       out.links[i].status = LinkStatus::not_seen;
-    } else if (is_unobserved_told && out.links[i].status != LinkStatus::cut_short &&
-               unobserved_share(views_, model.guarded, out.links[i], points.surface_lanes[i],
-                                pose.X_BL[model.evaluated_links[i]],
-                                points.unit_ball_lanes) > kMostUnobserved) {
-      out.links[i].status = LinkStatus::not_observed;
+      continue;
     }
+    if (!is_unobserved_told || out.links[i].status == LinkStatus::cut_short) continue;
+    // Shares that are told already need no second look where they are small.
+    if (tells && !(visibility_[i].space.outside_image > kMostUnobserved)) continue;
+    const double share =
+        unobserved_share(views_, model.guarded, out.links[i], points.surface_lanes[i],
+                         pose.X_BL[model.evaluated_links[i]], points.unit_ball_lanes);
+    if (share > kMostUnobserved) out.links[i].status = LinkStatus::not_observed;
   }
   if (tells) tell_rejected(frames, pose, out);
 }

@@ -35,11 +35,14 @@ std::int64_t count_unread(const RobotImage& robot, const ObstacleImage& obstacle
   const PixelRect extent = clip(robot.extent, obstacles.fate.width(), obstacles.fate.height());
   std::int64_t count = obstacles.count_of(PixelFate::no_reading);
   for (int v = extent.v_begin; v < extent.v_end; ++v) {
+    const LinkId* const id = robot.link_id.row(v);
+    const PixelFate* const fate = obstacles.fate.row(v);
+    int of_robot = 0;  // so that the compiler makes vectors of it
     for (int u = extent.u_begin; u < extent.u_end; ++u) {
-      const LinkId id = robot.link_id(u, v);
-      const bool is_robot = id != kNoLink && id != kEnvironmentLink;
-      count -= int(is_robot && obstacles.fate(u, v) == PixelFate::no_reading);
+      of_robot += int(id[u] != kNoLink) & int(id[u] != kEnvironmentLink) &
+                  int(fate[u] == PixelFate::no_reading);
     }
+    count -= of_robot;
   }
   return count;
 }

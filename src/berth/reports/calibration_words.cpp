@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "berth/self_filter/surface_things.hpp"
+
 namespace berth {
 namespace {
 
@@ -32,14 +34,12 @@ const ProposedSetting* find_setting(const std::vector<ProposedSetting>& settings
 
 std::string before_robot_text(const FilterProposal& proposal) {
   const std::string where = proposal.bias_m < 0 ? "in front of" : "behind";
-  const ProposedSetting* tolerance = find_setting(proposal.self_filter, "tolerance_m");
-  const std::string length =
-      tolerance ? mm_text(std::max(0.0, tolerance->value + proposal.bias_m))
-                : "the tolerance " + std::string(proposal.bias_m < 0 ? "less" : "plus") + " that";
+  const ProposedSetting* surface = find_setting(proposal.self_filter, "surface_tolerance_m");
   return fmt::format(
-      "The camera sees the robot {} {} its model, in the median: what stands in front of the "
-      "robot by less than {} is taken for the robot.",
-      mm_text(std::abs(proposal.bias_m)), where, length);
+      "The camera sees the robot {} {} its model, in the median: what lies on it and is thinner "
+      "than {} at 1 m is taken for it.",
+      mm_text(std::abs(proposal.bias_m)), where,
+      mm_text(surface ? surface->value : kMostSurfaceTolerance_m));
 }
 
 }  // namespace

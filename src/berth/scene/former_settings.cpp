@@ -13,10 +13,11 @@ struct Ended {
   std::string_view key;
 };
 
-constexpr std::array<Ended, 8> kEnded = {{
+constexpr std::array<Ended, 9> kEnded = {{
     {"separation", "directed_speed"},
     {"separation", "hold_s"},
     {"separation", "release_m"},
+    {"self_filter", "dilation_px"},
     {"self_filter", "edge_jump_m"},
     {"self_filter", "flying_patch_jump_m"},
     {"self_filter", "island_jump_m"},

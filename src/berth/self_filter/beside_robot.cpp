@@ -43,9 +43,8 @@ HWY_INLINE std::uint64_t bits_beside_robot(D d, const FateRows& rows, int u, int
   const auto is_beside = hn::Or(hn::Or(in_column(left), in_column(right)), in_column(0));
   if (hn::AllFalse(d, is_beside)) return 0;
   const auto value = hn::LoadU(d, rows.row[1] + u);
-  const auto is_grown =
-      hn::Or(is_fate(d, value, PixelFate::padding), is_fate(d, value, PixelFate::dilation));
-  const auto may_be_found = hn::Or(is_grown, is_fate(d, value, PixelFate::obstacle));
+  const auto may_be_found =
+      hn::Or(is_fate(d, value, PixelFate::padding), is_fate(d, value, PixelFate::obstacle));
   return bits_of(d, hn::And(is_beside, may_be_found));
 }
 

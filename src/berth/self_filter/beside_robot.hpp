@@ -8,7 +8,7 @@
 namespace berth {
 
 /// Appends the pixels within `pixels` that have a neighbour (8) of fate `robot`, and the fate
-/// `obstacle`, `padding` or `dilation`. Some may come twice.
+/// `obstacle` or `padding`. Some may come twice.
 void append_beside_robot(const Image<PixelFate>& fate, const PixelRect& pixels,
                          std::vector<Pixel>& found);
 

@@ -150,7 +150,7 @@ class Walk {
   bool is_in_piece(Pixel p) const { return state_(p.u, p.v) == kInPiece; }
   bool shows_robot(Pixel p) const {
     const PixelFate fate = out_.fate(p.u, p.v);
-    return fate == PixelFate::robot || fate == PixelFate::padding || fate == PixelFate::dilation;
+    return fate == PixelFate::robot || fate == PixelFate::padding;
   }
 
   void drop(Pixel p, PixelFate fate) {

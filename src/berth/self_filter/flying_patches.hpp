@@ -32,7 +32,7 @@ struct FlyingPatchWorkspace {
 ///  - a **thing**, kept, if a quarter of its free rim and at least 10 pixels of it are sharp: the
 ///    nearest reading that is not the piece's lies more than 3 cm max(1, z^2) deeper, across a hole
 ///    of at most 1.5 pixels or 4 mm. The free rim is all its neighbours (8) that show neither the
-///    robot nor its padding or dilation;
+///    robot nor its padding;
 ///  - else **undecided**: `flying_patch`. It gives no surface, and is unknown from its readings on.
 /// A smaller one is a crumb: `speckle`. A piece that leaves the neighbourhood anywhere, as an arm
 /// that reaches in does, is kept, and so is one that is joined to one of the `things`, obstacles

@@ -63,10 +63,6 @@ void GrownRobot::begin(const Camera& camera, const RobotImage& robot,
 }
 
 GrownRobot::Radius GrownRobot::radius_of(LinkId id, float depth_m) const {
-  if (grown_ == PixelFate::dilation) {
-    const double radius_px = settings_->dilation_px;
-    return {radius_px, radius_px};
-  }
   const bool is_flying_patch = grown_ == PixelFate::flying_patch;
   if (is_flying_patch && id == kEnvironmentLink) return {0, 0};
   const double padding_m =

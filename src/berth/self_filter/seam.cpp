@@ -14,8 +14,6 @@ PixelRect with_border(const PixelRect& rect, const Image<PixelFate>& fate) {
               fate.width(), fate.height());
 }
 
-bool is_grown(PixelFate fate) { return fate == PixelFate::padding || fate == PixelFate::dilation; }
-
 }  // namespace
 
 void append_seam(DepthView sensor_depth_m, const RobotImage& robot, const Tolerance& tolerance,
@@ -27,7 +25,7 @@ void append_seam(DepthView sensor_depth_m, const RobotImage& robot, const Tolera
   };
   const auto may_be_next = [&](Pixel q) {
     const PixelFate f = fate(q.u, q.v);
-    return is_found(q.u, q.v) == 0 && (is_grown(f) || f == PixelFate::obstacle);
+    return is_found(q.u, q.v) == 0 && (f == PixelFate::padding || f == PixelFate::obstacle);
   };
   const auto append = [&](Pixel q) {
     is_found(q.u, q.v) = 1;
@@ -48,7 +46,7 @@ void append_seam(DepthView sensor_depth_m, const RobotImage& robot, const Tolera
              seam.end());
   for (std::size_t i = 0; i < seam.size(); ++i) {
     const Pixel p = seam[i];
-    if (is_grown(fate(p.u, p.v))) any_joined(sensor_depth_m, p, may_be_next, append);
+    if (fate(p.u, p.v) == PixelFate::padding) any_joined(sensor_depth_m, p, may_be_next, append);
   }
   for (const Pixel& p : seam) is_found(p.u, p.v) = 0;
 }

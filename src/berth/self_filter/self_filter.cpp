@@ -47,22 +47,17 @@ class Filter {
         out_(out) {
     workspace.outline.begin(camera, robot, tolerance_);
     workspace.padding.begin(camera, robot, settings, workspace.outline, PixelFate::padding);
-    if (dilates()) {
-      workspace.dilation.begin(camera, robot, settings, workspace.outline, PixelFate::dilation);
-    }
   }
 
   void run() {
     workspace_.counts.resize(grid_.rows());
     tbb::parallel_for(0, grid_.rows(), [this](int tile_row) { look_at_pixels(tile_row); });
     workspace_.padding.end_discs();
-    if (dilates()) workspace_.dilation.end_discs();
     tbb::parallel_for(0, grid_.rows(), [this](int tile_row) { look_around(tile_row); });
     add_counts();
   }
 
  private:
-  bool dilates() const { return settings_.dilation_px > 0; }
   int v_begin(int tile_row) const { return tile_row * kTileHeight_px; }
   int v_end(int tile_row) const { return std::min(grid_.height_px, v_begin(tile_row + 1)); }
 
@@ -74,7 +69,6 @@ class Filter {
     }
     workspace_.outline.find(tile_row);
     workspace_.padding.make_discs(tile_row);
-    if (dilates()) workspace_.dilation.make_discs(tile_row);
   }
 
   void classify(int v, const FilterRow& row) {
@@ -89,7 +83,6 @@ class Filter {
 
   void look_around(int tile_row) {
     workspace_.padding.grow(tile_row, sensor_depth_m_, out_);
-    if (dilates()) workspace_.dilation.grow(tile_row, sensor_depth_m_, out_);
     auto& count = workspace_.counts[tile_row];
     count.fill(0);
     for (int v = v_begin(tile_row); v < v_end(tile_row); ++v)

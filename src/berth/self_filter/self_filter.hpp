@@ -17,7 +17,6 @@ namespace berth {
 struct SelfFilterWorkspace {
   Outline outline;
   GrownRobot padding;
-  GrownRobot dilation;
   SurfaceThingsWorkspace surface_things;
   FlyingPatchWorkspace flying_patches;
   /// Of each row of tiles.

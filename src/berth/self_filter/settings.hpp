@@ -27,12 +27,9 @@ struct SelfFilterSettings {
   /// Padding of all environment (environment links); none: padding_m. Environment pads around its
   /// outline only, and has no flying patches: a thing that stands on a table stays.
   std::optional<double> environment_padding_m;
-  /// The silhouette also grows by this number of pixels.
-  int dilation_px = 0;
-  /// Padding and dilation take what lies behind the robot's outline by no more than this: a camera
-  /// that smooths draws flying pixels from the arm to what is behind it. Farther behind they take
-  /// only what is on no surface (discs.hpp), as mixed pixels are: a thing that is seen there is
-  /// one.
+  /// Padding takes what lies behind the robot's outline by no more than this: a camera that smooths
+  /// draws flying pixels from the arm to what is behind it. Farther behind it takes only what is on
+  /// no surface (discs.hpp), as mixed pixels are: a thing that is seen there is one.
   double padding_depth_m = 0.3;
   /// t: what stands off the robot's or environment's surface in space by more than this, times
   /// surface_growth(z), is a thing that lies on it (surface_things.hpp); none: what the image's own
@@ -75,11 +72,8 @@ void visit_settings(Settings& s, Visitor&& visit) {
          "the same beside environment (environment_links); none: as padding_m"},
         s.environment_padding_m);
   visit({"padding_depth_m", kNotNegative,
-         "padding and dilation take nothing farther behind the robot than this, but mixed pixels"},
+         "padding takes nothing farther behind the robot than this, but mixed pixels"},
         s.padding_depth_m);
-  visit({"dilation_px", kNotNegative,
-         "a reading beside the robot within so many pixels is taken for the robot too"},
-        s.dilation_px);
   visit({"surface_tolerance_m", kNotNegative,
          "what stands off a surface by more than this (at 1 m) in space lies on it, and is an "
          "obstacle; none: 0.01 to 0.025, as the camera's own readings scatter; 0 is off"},

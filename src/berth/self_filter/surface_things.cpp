@@ -12,9 +12,12 @@ constexpr float kEdgeStep_m = 0.03F;
 constexpr float kBesideEdge_m = 0.02F;
 constexpr float kBeforeEdge_m = 0.01F;
 
-constexpr auto kLeastGrowth = static_cast<float>(kLeastSurfaceGrowth);
+/// The reading itself stands off by this share of the tolerance, as the median around it by all.
+constexpr float kReadingShare = 0.8F;
 
-float growth(float z_m) { return static_cast<float>(surface_growth(z_m)); }
+float growth(float z_m) {
+  return std::max(static_cast<float>(kLeastSurfaceGrowth), 0.65F + 0.35F * z_m * z_m);
+}
 
 PixelRect square_around(Pixel p, int reach_px, int width, int height) {
   return clip({p.u - reach_px, p.v - reach_px, p.u + reach_px + 1, p.v + reach_px + 1}, width,
@@ -29,7 +32,17 @@ class Deviations {
     ++bins_[static_cast<std::size_t>(std::clamp(bin, 0.0, double(kBins - 1)))];
     ++count_;
   }
-  int count() const { return count_; }
+  /// The SurfaceTolerance that they show.
+  float tolerance_m() const {
+    constexpr int kLeastPixels = 100;
+    constexpr double kShare = 0.98;
+    if (count_ < kLeastPixels) return static_cast<float>(kMostSurfaceTolerance_m);
+    const double most_m = quantile_m(kShare), median_m = quantile_m(0.5);
+    return static_cast<float>(std::clamp(std::max(most_m, most_m - 2 * median_m),
+                                         kLeastSurfaceTolerance_m, kMostSurfaceTolerance_m));
+  }
+
+ private:
   /// What this share of them stays below, to a bin.
   double quantile_m(double share) const {
     int seen = 0;
@@ -38,7 +51,6 @@ class Deviations {
     return (static_cast<double>(bin) + 1) * kBin_m - kMost_m;
   }
 
- private:
   static constexpr double kMost_m = 0.05, kBin_m = 1e-4;
   static constexpr std::size_t kBins = 1000;
   std::array<int, kBins> bins_{};
@@ -64,6 +76,8 @@ class SurfaceThings {
                 SurfaceThingsWorkspace& workspace, ObstacleImage& out)
       : camera_(camera),
         focal_px_(static_cast<float>(std::min(camera.fx_px, camera.fy_px))),
+        per_column_(static_cast<float>(1 / camera.fx_px)),
+        per_row_(static_cast<float>(1 / camera.fy_px)),
         sensor_depth_m_(sensor_depth_m),
         robot_(robot),
         workspace_(workspace),
@@ -79,6 +93,7 @@ class SurfaceThings {
   }
 
  private:
+  static constexpr int kPart_px = 16;
   enum State : std::uint8_t { kUnknown, kStandsOff, kTaken };
 
   float tolerance_at_1m_m(Pixel p) const {
@@ -93,23 +108,28 @@ class SurfaceThings {
     const float corner =
         std::min({cosine(0, 0), cosine(camera_.width_px - 1, 0), cosine(0, camera_.height_px - 1),
                   cosine(camera_.width_px - 1, camera_.height_px - 1)});
-    const float least_m = kLeastGrowth * std::min(t.links_m, t.environment_m) * corner;
+    const float at_1m_m = kReadingShare * std::min(t.links_m, t.environment_m) * corner;
     for (int v = rect.v_begin; v < rect.v_end; ++v) {
       const float* const reading_m = sensor_depth_m_.row(v);
       const float* const model_m = robot_.depth_m.row(v);
-      if (!any_nearer(reading_m, model_m, least_m, rect.u_begin, rect.u_end)) continue;
-      for (int u = rect.u_begin; u < rect.u_end; ++u) {
-        const bool may = model_m[u] - reading_m[u] > least_m;
-        if (may && stands_off({u, v})) workspace_.candidates.push_back({u, v});
+      for (int begin = rect.u_begin; begin < rect.u_end; begin += kPart_px) {
+        const int end = std::min(begin + kPart_px, rect.u_end);
+        if (!any_nearer(reading_m, model_m, at_1m_m, begin, end)) continue;
+        for (int u = begin; u < end; ++u) {
+          const bool may = model_m[u] - reading_m[u] > at_1m_m * growth(reading_m[u]);
+          if (may && stands_off({u, v})) workspace_.candidates.push_back({u, v});
+        }
       }
     }
   }
 
-  /// The compiler makes vectors of it; most rows have none.
-  static bool any_nearer(const float* reading_m, const float* model_m, float least_m, int begin,
+  /// The compiler makes vectors of it; most parts of rows have none.
+  static bool any_nearer(const float* reading_m, const float* model_m, float at_1m_m, int begin,
                          int end) {
     int any = 0;
-    for (int u = begin; u < end; ++u) any |= int(model_m[u] - reading_m[u] > least_m);
+    for (int u = begin; u < end; ++u) {
+      any |= int(model_m[u] - reading_m[u] > at_1m_m * growth(reading_m[u]));
+    }
     return any != 0;
   }
 
@@ -120,12 +140,12 @@ class SurfaceThings {
   }
 
   bool stands_off(Pixel p) const {
+    const float model_m = robot_.depth_m(p.u, p.v), reading_m = sensor_depth_m_(p.u, p.v);
     const PixelFate fate = out_.fate(p.u, p.v);
     if (fate != PixelFate::robot && fate != PixelFate::environment) return false;
-    const float at_1m_m = tolerance_at_1m_m(p), model_m = robot_.depth_m(p.u, p.v);
-    if (!(model_m - sensor_depth_m_(p.u, p.v) > kLeastGrowth * at_1m_m * cosine(p.u, p.v))) {
-      return false;
-    }
+    const float at_1m_m = tolerance_at_1m_m(p);
+    const float off_m = kReadingShare * at_1m_m * growth(reading_m);
+    if (!(model_m - reading_m > off_m * cosine(p.u, p.v))) return false;
     const float z_m = median_m(p);
     const float t_m = at_1m_m * growth(z_m);
     return model_m - z_m > t_m * cosine(p.u, p.v) && !is_beside_edge(p, z_m) &&
@@ -167,8 +187,8 @@ class SurfaceThings {
     });
   }
 
-  float x_of(int u) const { return static_cast<float>((u - camera_.cx_px) / camera_.fx_px); }
-  float y_of(int v) const { return static_cast<float>((v - camera_.cy_px) / camera_.fy_px); }
+  float x_of(int u) const { return static_cast<float>(u - camera_.cx_px) * per_column_; }
+  float y_of(int v) const { return static_cast<float>(v - camera_.cy_px) * per_row_; }
 
   /// Whether it holds for one of the model's pixels around p, each step_px-th in both directions
   /// from p on; from p outwards.
@@ -224,6 +244,7 @@ class SurfaceThings {
 
   const Camera& camera_;
   float focal_px_;
+  float per_column_, per_row_;
   DepthView sensor_depth_m_;
   const RobotImage& robot_;
   SurfaceThingsWorkspace& workspace_;
@@ -232,12 +253,12 @@ class SurfaceThings {
 
 }  // namespace
 
-double measured_surface_tolerance_m(const Camera& camera, DepthView sensor_depth_m,
-                                    const RobotImage& robot, bool is_environment) {
-  constexpr int kStep_px = 2, kLeastPixels = 100;
-  constexpr double kInside_m = 0.015, kFarthest_m = 0.05, kShare = 0.98;
+SurfaceTolerance measured_surface_tolerance(const Camera& camera, DepthView sensor_depth_m,
+                                            const RobotImage& robot) {
+  constexpr int kStep_px = 3;
+  constexpr double kInside_m = 0.015, kFarthest_m = 0.05;
   const double focal_px = std::min(camera.fx_px, camera.fy_px);
-  Deviations deviations;
+  Deviations links, environment;
   const PixelRect rect = clip(robot.extent, camera.width_px, camera.height_px);
   // The same pixels, however tight the extent is.
   const auto first = [](int begin) { return (begin + kStep_px - 1) / kStep_px * kStep_px; };
@@ -245,21 +266,15 @@ double measured_surface_tolerance_m(const Camera& camera, DepthView sensor_depth
     for (int u = first(rect.u_begin); u < rect.u_end; u += kStep_px) {
       const float model_m = robot.depth_m(u, v);
       const double off_m = sensor_depth_m(u, v) - model_m;
-      const bool is_of_environment = robot.link_id(u, v) == kEnvironmentLink;
       const double grown = surface_growth(model_m);
       // What is farther off is another thing, and no error.
-      if (is_of_environment != is_environment || !(std::abs(off_m) <= kFarthest_m * grown))
-        continue;
+      if (!(std::abs(off_m) <= kFarthest_m * grown)) continue;
       const int reach_px = static_cast<int>(kInside_m * focal_px / model_m) + 1;
       if (!is_inside_surface(robot, {u, v}, reach_px, kInside_m)) continue;
-      deviations.add(off_m / grown);
+      (robot.link_id(u, v) == kEnvironmentLink ? environment : links).add(off_m / grown);
     }
   }
-  if (deviations.count() < kLeastPixels) return kMostSurfaceTolerance_m;
-  const double most_m = deviations.quantile_m(kShare);
-  const double median_m = deviations.quantile_m(0.5);
-  return std::clamp(std::max(most_m, most_m - 2 * median_m), kLeastSurfaceTolerance_m,
-                    kMostSurfaceTolerance_m);
+  return {links.tolerance_m(), environment.tolerance_m()};
 }
 
 void find_surface_things(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,
@@ -268,11 +283,12 @@ void find_surface_things(const Camera& camera, DepthView sensor_depth_m, const R
   workspace.things.clear();
   out.surface_tolerance = {};
   if (settings.surface_tolerance_m == 0.0) return;
-  const auto tolerance_m = [&](bool is_environment) {
-    return static_cast<float>(settings.surface_tolerance_m.value_or(
-        measured_surface_tolerance_m(camera, sensor_depth_m, robot, is_environment)));
-  };
-  out.surface_tolerance = {tolerance_m(false), tolerance_m(true)};
+  if (const auto given_m = settings.surface_tolerance_m) {
+    out.surface_tolerance.links_m = out.surface_tolerance.environment_m =
+        static_cast<float>(*given_m);
+  } else {
+    out.surface_tolerance = measured_surface_tolerance(camera, sensor_depth_m, robot);
+  }
   if (workspace.state.width() != camera.width_px || workspace.state.height() != camera.height_px) {
     workspace.state.resize(camera.width_px, camera.height_px, 0);
   }

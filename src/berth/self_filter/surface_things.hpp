@@ -30,23 +30,21 @@ inline double surface_growth(double z_m) {
 /// that lies on it, so that t is what 98 % of the readings stay below: (reading - model) / growth,
 /// at pixels more than 1.5 cm beside the model's edges. Where the median is less than 0, the camera
 /// reads everything too near, and t is what 98 % stay below on the other side of it.
-/// kMostSurfaceTolerance_m where there are fewer than 100 such pixels. `is_environment` says whose
-/// surfaces.
-double measured_surface_tolerance_m(const Camera& camera, DepthView sensor_depth_m,
-                                    const RobotImage& robot, bool is_environment);
+/// kMostSurfaceTolerance_m where fewer than 100 such pixels are looked at, of each third one.
+SurfaceTolerance measured_surface_tolerance(const Camera& camera, DepthView sensor_depth_m,
+                                            const RobotImage& robot);
 inline constexpr double kLeastSurfaceTolerance_m = 0.010;
 inline constexpr double kMostSurfaceTolerance_m = 0.025;
 
 /// Gives the fate `obstacle`, and their depths, to readings on the robot and on environment that
 /// stand off the model in space: a hand on the arm, or on the table. Of a reading (the median of
-/// 3 x 3, and it is nearer than the model along its ray by the least tolerance itself) of the fate
-/// `robot` or `environment`, s is its distance to all of the model that the camera would see. It
-/// stands off where s is more than t growth(z); so many of them side by side (8 neighbours) as make
-/// 3 cm^2 are a thing. Readings within 2 cm beside a part of the model that is nearer by more than
-/// 3 cm, and not in front of that part, are passed over: depth edges between links give such
-/// patches. Adds obstacles, takes none. t is SelfFilterSettings::surface_tolerance_m; where that is
-/// not given, it is measured, for links and for environment, and written to
-/// out.surface_tolerance_m.
+/// 3 x 3; it stands off along its ray by 0.8 of that itself) of the fate `robot` or `environment`,
+/// s is its distance to all of the model that the camera would see. It stands off where s is more
+/// than t growth(z); so many of them side by side (8 neighbours) as make 3 cm^2 are a thing.
+/// Readings within 2 cm beside a part of the model that is nearer by more than 3 cm, and not in
+/// front of that part, are passed over: depth edges between links give such patches. Adds
+/// obstacles, takes none. t is SelfFilterSettings::surface_tolerance_m; where that is not given, it
+/// is measured, for links and for environment, and written to out.surface_tolerance_m.
 void find_surface_things(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,
                          const SelfFilterSettings& settings, SurfaceThingsWorkspace& workspace,
                          ObstacleImage& out);

@@ -34,8 +34,8 @@ void build_camera_space(const Camera& camera, DepthView sensor_depth_m,
   build_depth_windows(out.hidden_depth);
   build_depth_windows(out.free_depth);
   build_environment_front(environment, out);
-  out.hides_otherwise = out.has_environment || obstacles.count_of(PixelFate::flying_patch) > 0 ||
-                        obstacles.count_of(PixelFate::hole) > 0;
+  out.hides_without_reading = obstacles.count_of(PixelFate::flying_patch) > 0 ||
+                              obstacles.count_of(PixelFate::hole) > 0;
   out.has_free_depth = true;
 }
 
@@ -46,7 +46,7 @@ void build_reading_space(const Camera& camera, DepthView obstacle_depth_m,
   out.camera = camera;
   out.settings = settings;
   out.obstacle_depth_m = obstacle_depth_m;
-  out.has_free_depth = out.hides_otherwise = false;
+  out.has_free_depth = out.has_environment = out.hides_without_reading = false;
   if (!out.is_empty()) build_depth_cells(obstacle_depth_m, out.cells);
 }
 

@@ -60,8 +60,8 @@ struct CameraSpace {
   RobotHolesWorkspace robot_holes;
   ClosingWorkspace closing;
 
-  /// Whether anything else is hidden than what lies behind a reading, or something behind one is not.
-  bool hides_otherwise = false;
+  /// Whether pixels hide that F has no depth at.
+  bool hides_without_reading = false;
 
   bool is_empty() const { return obstacle_depth_m.width == 0 || obstacle_depth_m.height == 0; }
 };

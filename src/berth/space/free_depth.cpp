@@ -71,12 +71,12 @@ struct FreeDepthPixels {
     const auto after = hn::Set(d, static_cast<int>(last) + 1);
     return hn::RebindMask(FloatTag(), hn::And(hn::Gt(fate, before), hn::Gt(after, fate)));
   }
-  HWY_INLINE LaneMask is_robot() const { return is_within(PixelFate::robot, PixelFate::dilation); }
+  HWY_INLINE LaneMask is_robot() const { return is_within(PixelFate::robot, PixelFate::padding); }
   HWY_INLINE Lanes of_environment_m(float margin_m, Lanes most_m) const {
     return greater_or_first(sensed_m - Lanes(margin_m), least(most_m, environment_back_m));
   }
   HWY_INLINE LaneMask is_dropped() const {
-    static_assert(static_cast<int>(PixelFate::dilation) + 1 ==
+    static_assert(static_cast<int>(PixelFate::padding) + 1 ==
                   static_cast<int>(PixelFate::flying_patch));
     return is_within(PixelFate::flying_patch, PixelFate::speckle);
   }
@@ -172,7 +172,6 @@ float own_of_reading(float sensed_m, float obstacle_m, float environment_back_m,
     }
     case PixelFate::robot:
     case PixelFate::padding:
-    case PixelFate::dilation:
       return sensed_m + behind_m;
     case PixelFate::flying_patch:
     case PixelFate::outside_region:

@@ -83,6 +83,29 @@ void UnknownSpace::assign(std::span<const PosedSpace> views, const UnknownSpace*
     }
     views_.push_back(view);
   }
+  if (views_.size() == 1 && is_shadow()) build_shadow();
+}
+
+void UnknownSpace::build_shadow() {
+  shadow_view_ = views_[0];
+  const CameraSpace& space = *views_[0].space;
+  if (!space.hides_without_reading) return;
+  const Camera& camera = shadow_.camera = space.camera;
+  shadow_.settings = space.settings;
+  if (shadow_depth_m_.width() != camera.width_px || shadow_depth_m_.height() != camera.height_px) {
+    shadow_depth_m_.resize(camera.width_px, camera.height_px, kNoDepth);
+  }
+  for (int v = 0; v < camera.height_px; ++v) {
+    for (int u = 0; u < camera.width_px; ++u) {
+      const float reading_m = space.obstacle_depth_m(u, v);
+      const DepthUnits from = space.hidden_depth(u, v);
+      const float hides_m = from == kEndlessUnits ? kNoDepth : in_metres(from);
+      shadow_depth_m_(u, v) = std::isnan(reading_m) ? hides_m : reading_m;
+    }
+  }
+  shadow_.obstacle_depth_m = shadow_depth_m_;
+  build_depth_cells(shadow_depth_m_, shadow_.cells);
+  shadow_view_.space = &shadow_;
 }
 
 const FreeingCamera* UnknownSpace::find_aged(const CameraSpace& space, double age_s) const {

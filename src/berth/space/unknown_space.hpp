@@ -67,12 +67,14 @@ class UnknownSpace {
 
   std::span<const FreeingCamera> views() const { return views_; }
 
-  /// Whether all that lies behind a reading is hidden, and nothing else is: one camera sees it, and
-  /// no other one frees anything. Then it can be searched for by pixels.
+  /// Whether all that lies behind what hides is hidden, without an end: one camera sees it, and no
+  /// other one frees anything. Then it can be searched for by pixels.
   bool is_shadow() const {
     return views_.empty() ||
-           (views_.size() == 1 && !views_[0].space->hides_otherwise && !hides_unobserved_);
+           (views_.size() == 1 && !views_[0].space->has_environment && !hides_unobserved_);
   }
+  /// The view, if it is_shadow(), as if each pixel that hides had a reading where it begins to.
+  const FreeingCamera& shadow_view() const { return shadow_view_; }
 
   /// Another one after each assign(), and no other object's.
   std::uint64_t serial_number() const { return serial_number_; }
@@ -94,11 +96,15 @@ class UnknownSpace {
     std::atomic<std::uint64_t> key{0};
     std::atomic<std::uint64_t> possible{0};
   };
+  void build_shadow();
   void age(const PosedSpace& posed, DepthWindows& aged);
   const FreeingCamera* find_aged(const CameraSpace& space, double age_s) const;
 
   std::uint64_t serial_number_ = 0;
   std::vector<FreeingCamera> views_;
+  FreeingCamera shadow_view_;
+  CameraSpace shadow_;
+  DepthImage shadow_depth_m_;
   bool hides_unobserved_ = false;
   std::vector<GuardedBox> guarded_;
   /// E of the views that have aged.

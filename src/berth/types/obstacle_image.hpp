@@ -16,7 +16,6 @@ enum class PixelFate : std::uint8_t {
   robot,           ///< on the robot, or behind it
   environment,     ///< on an environment link of the URDF, or behind it
   padding,         ///< within the link's metric padding beside the robot, and not in front of it
-  dilation,        ///< within the silhouette grown by a number of pixels, and not in front of it
   flying_patch,    ///< in a piece of readings that grows out of the robot's outline and stays near
                    ///< the robot: smeared there by the camera, or a thing. Unknown space from the
                    ///< reading on
@@ -31,15 +30,14 @@ enum class PixelFate : std::uint8_t {
   hole,            ///< kept: it has no reading, although the camera could read the empty cell
                    ///< there. F has what stood there then, if it is known and no environment
 };
-inline constexpr int kPixelFateCount = 13;
+inline constexpr int kPixelFateCount = 12;
 /// The self filter gives those up to `outside_region`, and `speckle`.
-inline constexpr int kSelfFilterFateCount = 8;
+inline constexpr int kSelfFilterFateCount = 7;
 
 /// By enumerator.
 inline constexpr std::array<std::string_view, kPixelFateCount> kPixelFateNames = {
-    "obstacle",     "no_reading",     "robot", "environment", "padding",  "dilation",
-    "flying_patch", "outside_region", "soft",  "speckle",     "averaged", "background",
-    "hole"};
+    "obstacle",       "no_reading", "robot",   "environment", "padding",    "flying_patch",
+    "outside_region", "soft",       "speckle", "averaged",    "background", "hole"};
 
 constexpr std::string_view name_of(PixelFate fate) {
   return kPixelFateNames[static_cast<std::size_t>(fate)];

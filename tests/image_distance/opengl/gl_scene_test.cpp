@@ -146,7 +146,6 @@ TEST_P(GlSceneTest, OnePassFiltersAsTheRulesForSinglePixelsDo) {
   SelfFilterSettings settings = camera().view->settings().self_filter;
   settings.padding_m = 0;
   settings.link_padding_m.clear();
-  settings.dilation_px = 0;
   settings.flying_patch_radius_m = 0;
   const auto view = view_filtered(settings);
   GlFrame gl(view->camera());

@@ -56,8 +56,7 @@ void GlSelfFilter::filter(const Camera& camera, const Images& images,
   prepare(camera);
   set_paddings(settings);
   look_at_pixels(camera, images, settings);
-  if (may_pad(settings)) grow(PixelFate::padding, images, settings);
-  if (settings.dilation_px > 0) grow(PixelFate::dilation, images, settings);
+  if (may_pad(settings)) pad(images);
   judge_pieces(camera, images, settings);
   finish(images);
 }
@@ -122,11 +121,9 @@ void GlSelfFilter::look_at_pixels(const Camera& camera, const Images& images,
   dispatch(pixels_program_);
 }
 
-void GlSelfFilter::grow(PixelFate grown, const Images& images, const SelfFilterSettings& settings) {
+void GlSelfFilter::pad(const Images& images) {
   grow_program_.read("sensor_depth_m", images.sensor_depth_m);
   grow_program_.write("fate", images.out.fate);
-  grow_program_.set("grown", static_cast<unsigned>(grown));
-  grow_program_.set("dilation_px", settings.dilation_px);
   dispatch(grow_program_);
 }
 

@@ -14,7 +14,7 @@
 
 namespace berth {
 
-/// self_filter() on the GPU: the rules for pixels, padding and dilation by the same operations,
+/// self_filter() on the GPU: the rules for pixels and padding by the same operations,
 /// those for pieces by the processor (judge_pieces()), so that from the same robot image it gives
 /// the same fates.
 class GlSelfFilter {
@@ -51,7 +51,7 @@ class GlSelfFilter {
   void set_paddings(const SelfFilterSettings& settings);
   void look_at_pixels(const Camera& camera, const Images& images,
                       const SelfFilterSettings& settings);
-  void grow(PixelFate grown, const Images& images, const SelfFilterSettings& settings);
+  void pad(const Images& images);
   void judge_pieces(const Camera& camera, const Images& images, const SelfFilterSettings& settings);
   void finish(const Images& images);
   void dispatch(GlProgram& program) { program.dispatch(tiles_.x(), tiles_.y()); }

@@ -4,11 +4,10 @@ const uint kNoReading = 1u;
 const uint kRobot = 2u;
 const uint kEnvironment = 3u;
 const uint kPadding = 4u;
-const uint kDilation = 5u;
-const uint kFlyingPatch = 6u;
-const uint kOutsideRegion = 7u;
-const uint kSpeckle = 9u;
-const uint kFates = 10u;
+const uint kFlyingPatch = 5u;
+const uint kOutsideRegion = 6u;
+const uint kSpeckle = 8u;
+const uint kFates = 9u;
 
 const uint kNoLink = 0u;
 const uint kEnvironmentLink = 0xFFFFu;

@@ -1,4 +1,4 @@
-// Padding or dilation: obstacles that belong to a disc around an outline pixel.
+// Padding: obstacles that belong to a disc around an outline pixel.
 #include "filter_fates.glsl"
 #include "filter_tile.glsl"
 #include "filter_disc.glsl"
@@ -8,8 +8,6 @@ layout(local_size_x = 16, local_size_y = 16) in;
 
 uniform sampler2D sensor_depth_m;
 layout(r32ui) uniform uimage2D fate;
-uniform uint grown;      // kPadding or kDilation
-uniform int dilation_px;
 layout(std430) readonly buffer FilterTiles { FilterTile tiles[]; };
 layout(std430) readonly buffer Discs { Disc discs[]; };
 layout(std430) readonly buffer FilterFrame {
@@ -18,19 +16,6 @@ layout(std430) readonly buffer FilterFrame {
 
 shared uint open_pixels;
 shared Disc near_discs[kTilePixels];
-
-// The disc that grows: dilation's is a circle of so many pixels.
-Disc grown_disc(Disc disc) {
-  return grown == kPadding ? disc : with_radius(disc, dvec2(dilation_px));
-}
-
-float reach_of_tile(FilterTile tile) {
-  return grown == kPadding ? tile.reach_px : float(dilation_px + 1);
-}
-
-int greatest_reach() {
-  return grown == kPadding ? int(reach_px) : dilation_px + 1;
-}
 
 // As in self_filter/discs.hpp.
 const int kLeastOnSurface = 5;
@@ -86,7 +71,7 @@ void main() {
 
   float reading_m = is_open ? texelFetch(sensor_depth_m, pixel, 0).x : 0.0;
   bool on_surface = is_open && is_on_surface(pixel, reading_m);
-  int near = (greatest_reach() + kTilePx - 1) / kTilePx;
+  int near = (int(reach_px) + kTilePx - 1) / kTilePx;
   ivec2 last_tile = ivec2(tile_columns(size), tile_rows(size)) - 1;
   ivec2 first = clamp(ivec2(gl_WorkGroupID.xy) - near, ivec2(0), last_tile);
   ivec2 last = clamp(ivec2(gl_WorkGroupID.xy) + near, ivec2(0), last_tile);
@@ -94,16 +79,16 @@ void main() {
     for (int column = first.x; column <= last.x; ++column) {
       int number = row * (last_tile.x + 1) + column;
       FilterTile tile = tiles[number];
-      if (!may_reach(ivec2(column, row), tile, reach_of_tile(tile))) continue;
+      if (!may_reach(ivec2(column, row), tile, tile.reach_px)) continue;
       if (gl_LocalInvocationIndex < tile.discs) {
         near_discs[gl_LocalInvocationIndex] =
-            grown_disc(discs[uint(number) * kTilePixels + gl_LocalInvocationIndex]);
+            discs[uint(number) * kTilePixels + gl_LocalInvocationIndex];
       }
       barrier();
       for (uint i = 0u; is_open && i < tile.discs; ++i) {
         if (!covers(near_discs[i], pixel, reading_m, on_surface)) continue;
         is_open = false;
-        imageStore(fate, pixel, uvec4(grown));
+        imageStore(fate, pixel, uvec4(kPadding));
         atomicAdd(open_pixels, 0xFFFFFFFFu);
       }
       barrier();
