@@ -234,7 +234,7 @@ TEST_F(ViewedSceneTest, UnknownSpaceIsFoundOnRequest) {
   EXPECT_LE(cells, kMostCells);
   const std::string sight = message.bytes.substr(message.bytes.size() - (cells + 3) / 4 * 4, cells);
   for (const char kind : {'\0', '\1', '\2'}) {
-    EXPECT_GT(std::ranges::count(sight, kind), static_cast<std::ptrdiff_t>(cells / 200))
+    EXPECT_GT(std::ranges::count(sight, kind), static_cast<std::ptrdiff_t>(cells / 400))
         << int{kind};
   }
   EXPECT_EQ(ask({{"do", "space"}, {"on", false}}, "space")["cells"], Json({0, 0, 0}));
@@ -431,7 +431,7 @@ TEST(MonitoredScene, TellsHowFastTheRobotMayGoAtEachStep) {
   folder.write("scene.yaml", read_file_bytes(folder / "scene.yaml") +
                                  "separation: {human_speed_m_s: 0.1, reaction_time_s: 0.02, "
                                  "deceleration_m_s2: 20, intrusion_m: 0, camera_uncertainty_m: 0, "
-                                 "not_seen: ignore, hidden: ignore, no_reading: ignore}\n");
+                                 "not_seen: ignore, unknown: ignore, no_reading: ignore}\n");
   Messages messages;
   ViewedScene viewed(folder / "scene.yaml", folder.path(),
                      [&](const std::string& kind, PageMessage message) {
