@@ -5,6 +5,7 @@
 #include "berth/pipeline/frame_space.hpp"
 
 #include "berth/pipeline/mounted_camera.hpp"
+#include "berth/space/undecided.hpp"
 
 namespace berth {
 
@@ -91,6 +92,25 @@ void FrameSet::assign(std::span<const Frame* const> frames, const TimeSettings& 
       posed_, aged ? &aged->space_ : nullptr,
       newest_ ? std::span(newest_->view->robot()->model().guarded) : std::span<const GuardedBox>());
   rejected_.assign(posed_rejected_);
+  find_undecided_readings();
+}
+
+void FrameSet::find_undecided_readings() {
+  const std::size_t count = used_.size();
+  undecided_m_.resize(std::max(undecided_m_.size(), count));
+  undecided_spaces_.resize(undecided_m_.size());
+  posed_.clear();
+  undecided_places_.clear();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Frame& frame = *frames_[used_[i]];
+    if (frame.obstacles.count_of(PixelFate::flying_patch) == 0 || count < 2) continue;
+    if (!find_undecided(space_.views(), i, frame.obstacles.fate, undecided_m_[i])) continue;
+    build_reading_space(frame.view->camera(), undecided_m_[i], frame.view->settings().space,
+                        undecided_spaces_[i]);
+    posed_.push_back({&undecided_spaces_[i], X_BC_[used_[i]], 0});
+    undecided_places_.push_back(static_cast<int>(i));
+  }
+  undecided_.assign(posed_);
 }
 
 bool FrameSet::is_posed_at(const Pose& X_WB) const {

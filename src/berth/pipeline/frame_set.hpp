@@ -42,10 +42,17 @@ class FrameSet {
   /// Its view i is frames()[used()[i]].
   const UnknownSpace& space() const { return space_; }
   const std::vector<int>& used() const { return used_; }
+  /// Flying patches that another camera frees by a rule alone (find_undecided()): readings that are
+  /// unknown space for all. Without views where there are none.
+  const UnknownSpace& undecided() const { return undecided_; }
+  /// The place of its view i among used().
+  int place_of_undecided(int i) const { return undecided_places_[i]; }
   /// What was dropped as rejected, as a space of its own; without views where nothing was.
   const UnknownSpace& rejected() const { return rejected_; }
 
  private:
+  void find_undecided_readings();
+
   std::vector<const Frame*> frames_;
   std::vector<CameraState> cameras_;
   std::vector<int> used_;
@@ -55,6 +62,11 @@ class FrameSet {
   const Frame* newest_ = nullptr;
   UnknownSpace space_;
   UnknownSpace rejected_;
+  UnknownSpace undecided_;
+  /// Of each camera that is used.
+  std::vector<DepthImage> undecided_m_;
+  std::vector<CameraSpace> undecided_spaces_;
+  std::vector<int> undecided_places_;
 };
 
 /// How an answer stands at `now_s` for the joints of the newest frame that is used. Where none is,

@@ -74,6 +74,27 @@ float LinkSearches::assumed_thinner_m(const FrameSet& frames, const RobotPose& p
 void LinkSearches::search(const FrameSet& frames, const RobotPose& pose, const MeshRequest& request,
                           std::vector<WholeLinkDistance>& out) {
   mesh_distances(*robot_->patches(), pose, frames.space(), request, workspace_, out);
+  if (!frames.undecided().views().empty()) add_undecided(frames, pose, request, out);
+}
+
+void LinkSearches::add_undecided(const FrameSet& frames, const RobotPose& pose, MeshRequest request,
+                                 std::vector<WholeLinkDistance>& out) {
+  request.unknown = false;
+  // They are few: a part of the time is enough.
+  if (request.deadline_us) request.deadline_us = *request.deadline_us / 8;
+  mesh_distances(*robot_->patches(), pose, frames.undecided(), request, undecided_workspace_,
+                 undecided_);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    SpacePair& nearest = out[i].nearest;
+    SpacePair undecided = undecided_[i].occupied;
+    const float lower_bound_m = std::min(nearest.lower_bound_m, undecided.lower_bound_m);
+    if (undecided.is_known() && !(nearest.distance_m <= undecided.distance_m)) {
+      undecided.obstacle_is = ObstacleKind::unknown;
+      undecided.camera = frames.place_of_undecided(undecided.camera);
+      nearest = undecided;
+    }
+    nearest.lower_bound_m = lower_bound_m;
+  }
 }
 
 void LinkSearches::ask(const FrameSet& frames, const RobotPose& pose,
@@ -101,6 +122,8 @@ void LinkSearches::ask(const FrameSet& frames, const RobotPose& pose, Clock::tim
 void LinkSearches::forget() {
   workspace_.forget();
   found_.clear();
+  undecided_workspace_.forget();
+  undecided_.clear();
   rejected_workspace_.forget();
   rejected_.clear();
 }
@@ -115,6 +138,8 @@ void LinkSearches::prepare(const FrameSet& frames, const RobotPose& pose) {
 void LinkSearches::go_on_from(const LinkSearches& prepared) {
   workspace_ = prepared.workspace_;
   found_ = prepared.found_;
+  undecided_workspace_ = prepared.undecided_workspace_;
+  undecided_ = prepared.undecided_;
   rejected_workspace_ = prepared.rejected_workspace_;
   rejected_ = prepared.rejected_;
 }

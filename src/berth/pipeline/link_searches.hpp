@@ -40,6 +40,8 @@ class LinkSearches {
  private:
   void search(const FrameSet& frames, const RobotPose& pose, const MeshRequest& request,
               std::vector<WholeLinkDistance>& out);
+  void add_undecided(const FrameSet& frames, const RobotPose& pose, MeshRequest request,
+                     std::vector<WholeLinkDistance>& out);
   void tell_distances(const FrameSet& frames, const RobotPose& pose, Result& out) const;
   /// LinkResult::assumed_thinner_m of out.links[i].
   float assumed_thinner_m(const FrameSet& frames, const RobotPose& pose, std::size_t i) const;
@@ -53,6 +55,8 @@ class LinkSearches {
   std::vector<Eigen::Vector3d> middles_L_m_;
   MeshWorkspace workspace_;
   std::vector<WholeLinkDistance> found_;
+  MeshWorkspace undecided_workspace_;
+  std::vector<WholeLinkDistance> undecided_;
   MeshWorkspace rejected_workspace_;
   std::vector<WholeLinkDistance> rejected_;
   std::vector<SeeingCamera> views_;

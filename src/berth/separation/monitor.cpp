@@ -283,6 +283,7 @@ void SeparationMonitor::Parts::look_along_path(const Result& result, const Plann
       {.pose = result.pose,
        .motion = motion,
        .space = frames.space(),
+       .undecided = &frames.undecided(),
        .reaction_time_s = out.reaction_time_s,
        .travel_time_s = settings.reaction_time_s + std::clamp(joints_s, 0.0, oldest_s),
        .planned_m_s = planned_m_s,

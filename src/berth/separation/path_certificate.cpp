@@ -191,13 +191,17 @@ bool PathCertificate::has_room(const PathRequest& request, std::size_t i, int no
   Known& at = known(i, node);
   if (at.clear_m >= needed_m) return true;
   if (at.nearest_m < needed_m || steps_ >= kMostSteps) return false;
-  const Clearance found =
-      find_clearance(robot_->patches()->links[i], path_.X_BL(i, node), request.space,
-                     {.needed_m = needed_m,
-                      .unknown = settings_.unknown != UnknownPolicy::ignore,
-                      .most_steps = kMostSteps - steps_},
-                     workspace_);
-  steps_ += found.steps;
+  const bool unknown = settings_.unknown != UnknownPolicy::ignore;
+  const auto look = [&](const UnknownSpace& space, bool with_unknown) {
+    const Clearance found = find_clearance(
+        robot_->patches()->links[i], path_.X_BL(i, node), space,
+        {.needed_m = needed_m, .unknown = with_unknown, .most_steps = kMostSteps - steps_},
+        workspace_);
+    steps_ += found.steps;
+    return found;
+  };
+  Clearance found = look(request.space, unknown);
+  if (found.is_clear && unknown && request.undecided) found = look(*request.undecided, false);
   if (found.is_clear) {
     at.clear_m = needed_m;
   } else {

@@ -30,6 +30,8 @@ struct PathRequest {
   const RobotPose& pose;
   const PlannedMotion& motion;
   const UnknownSpace& space;
+  /// FrameSet::undecided(), which is unknown space as well; null: there is none.
+  const UnknownSpace* undecided = nullptr;
   /// From the exposure to the moment at which the robot begins to brake.
   double reaction_time_s = 0;
   /// From the joints' stamp to that moment.
