@@ -16,8 +16,6 @@ namespace berth::app {
 
 enum class OutputFormat { table, json };
 
-/// Of berth/result/N.
-
 struct CommonArguments {
   EvaluationArguments evaluation;
   BackendChoice where;

@@ -56,6 +56,11 @@ def test_wrong_ones_are_named(given, error, said):
         berth.SelfFilterSettings(**given)
 
 
+def test_a_whole_number_is_asked_for():
+    with pytest.raises(TypeError, match=re.escape("sensor.speckle_px: 1.5; expected int")):
+        berth.SensorSettings(speckle_px=1.5)
+
+
 @pytest.mark.parametrize("group", GROUPS)
 def test_copies_have_their_own_values(group):
     settings = GROUPS[group]()

@@ -39,8 +39,7 @@ float freed_by_reading(float sensed_m, float kept_m, float environment_back_m, P
   if (fate == PixelFate::environment && environment_back_m > before_m) {
     return environment_back_m < to_robot_m ? environment_back_m : to_robot_m;
   }
-  const bool is_robot =
-      fate == PixelFate::robot || fate == PixelFate::padding;
+  const bool is_robot = fate == PixelFate::robot || fate == PixelFate::padding;
   return is_robot ? to_robot_m : before_m;
 }
 

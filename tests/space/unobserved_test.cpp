@@ -28,7 +28,6 @@ class UnobservedSpace : public ::testing::Test {
     posed_ = {{&spaces_[0], Pose::Identity(), 0}, {&spaces_[1], Pose::Identity(), 0}};
     posed_[1].X_BC.linear() = Eigen::AngleAxisd(1.5708, Eigen::Vector3d::UnitY()).matrix();
     posed_[1].X_BC.translation() = Eigen::Vector3d(-2, 0, 2);
-    depth_m_ = depth_m;
   }
 
   /// By hand: x / z and y / z within the image's borders.
@@ -39,7 +38,6 @@ class UnobservedSpace : public ::testing::Test {
 
   Camera camera_{80, 60, 60, 60, 39.5, 29.5};
   SpaceSettings settings_;
-  DepthImage depth_m_;
   std::list<ObstacleImage> obstacles_;
   std::array<CameraSpace, 2> spaces_;
   std::vector<PosedSpace> posed_;

@@ -32,8 +32,7 @@ float own_of_reading(const MeshWorldView& view, const SpaceSettings& settings, i
     const float solid_m = std::fmin(back_m, sensed_m + behind_m);
     return std::isnan(back_m) ? sensed_m - margin_m : std::fmax(sensed_m - margin_m, solid_m);
   }
-  const bool is_robot =
-      fate == PixelFate::robot || fate == PixelFate::padding;
+  const bool is_robot = fate == PixelFate::robot || fate == PixelFate::padding;
   return is_robot ? sensed_m + behind_m : sensed_m - margin_m;
 }
 

@@ -56,8 +56,8 @@ TEST(WholeRobotPoints, EachFateFreesWhatItShould) {
     EXPECT_NEAR(free_at(view, 6, 6, settings), 1.3, kRounding_m);
     EXPECT_NEAR(free_at(view, 4, 6, settings), 0.98, kRounding_m) << "the least of 3 x 3";
   }
-  for (const PixelFate fate : {PixelFate::flying_patch, PixelFate::soft,
-                               PixelFate::speckle, PixelFate::outside_region}) {
+  for (const PixelFate fate :
+       {PixelFate::flying_patch, PixelFate::soft, PixelFate::speckle, PixelFate::outside_region}) {
     PointView view = wall_at(1);
     view.sensor_depth_m(6, 6) = 0.5F;
     drop(view, 6, 6, fate);

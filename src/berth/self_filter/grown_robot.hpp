@@ -17,8 +17,8 @@ namespace berth {
 class GrownRobot {
  public:
   /// `grown` is PixelFate::padding (a disc has the link's padding for a radius, as large in the
-  /// image as that is at the pixel's depth) or PixelFate::flying_patch (flying_patch_radius_m in its
-  /// place). All have to outlive the growth.
+  /// image as that is at the pixel's depth) or PixelFate::flying_patch (flying_patch_radius_m in
+  /// its place). All have to outlive the growth.
   void begin(const Camera& camera, const RobotImage& robot, const SelfFilterSettings& settings,
              const Outline& outline, PixelFate grown);
 

@@ -34,8 +34,8 @@ void build_camera_space(const Camera& camera, DepthView sensor_depth_m,
   build_depth_windows(out.hidden_depth);
   build_depth_windows(out.free_depth);
   build_environment_front(environment, out);
-  out.hides_without_reading = obstacles.count_of(PixelFate::flying_patch) > 0 ||
-                              obstacles.count_of(PixelFate::hole) > 0;
+  out.hides_without_reading =
+      obstacles.count_of(PixelFate::flying_patch) > 0 || obstacles.count_of(PixelFate::hole) > 0;
   out.has_free_depth = true;
 }
 
