@@ -299,9 +299,7 @@ std::uint64_t find_in_no_image(std::span<const FreeingCamera> views,
   for (std::uint64_t left = guarded.empty() ? 0 : outside; left != 0; left &= left - 1) {
     const int i = __builtin_ctzll(left);
     const Eigen::Vector3d middle_B_m = cube.child(i).corner_m().array() + half_m;
-    for (const GuardedBox& box : guarded) {
-      if (box.holds(middle_B_m, half_m)) outside &= ~(std::uint64_t{1} << i);
-    }
+    if (is_guarded(guarded, middle_B_m, half_m)) outside &= ~(std::uint64_t{1} << i);
   }
   return outside;
 }

@@ -24,6 +24,13 @@ void require(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(what);
 }
 
+/// Whether it lies in the image of a view that may free something.
+bool is_observed(std::span<const FreeingCamera> views, const Eigen::Vector3d& p_B) {
+  return std::ranges::any_of(views, [&](const FreeingCamera& view) {
+    return view.free_depth && pixel_of(view.space->camera, view.X_CB * p_B);
+  });
+}
+
 }  // namespace
 
 bool is_seen_free(const FreeingCamera& view, const Eigen::Vector3d& p_B) {
@@ -31,12 +38,6 @@ bool is_seen_free(const FreeingCamera& view, const Eigen::Vector3d& p_B) {
   const Eigen::Vector3d p_C = view.X_CB * p_B;
   const auto pixel = pixel_of(view.space->camera, p_C);
   return pixel && p_C.z() < in_metres((*view.free_depth)(pixel->u, pixel->v));
-}
-
-bool is_observed(std::span<const FreeingCamera> views, const Eigen::Vector3d& p_B) {
-  return std::ranges::any_of(views, [&](const FreeingCamera& view) {
-    return view.free_depth && pixel_of(view.space->camera, view.X_CB * p_B);
-  });
 }
 
 UnknownSpace::UnknownSpace() : slots_(kSlots), used_(kMostBlocks) {}
@@ -133,8 +134,7 @@ std::optional<HidingPixel> UnknownSpace::hiding_pixel(const Eigen::Vector3d& p_B
     if (!is_free) return HidingPixel{static_cast<int>(k), *pixel};
   }
   if (!hides_unobserved_ || views_.empty() || is_observed(views_, p_B)) return std::nullopt;
-  const auto holds = [&](const GuardedBox& box) { return box.holds(p_B); };
-  if (std::ranges::any_of(guarded_, holds)) return std::nullopt;
+  if (is_guarded(guarded_, p_B)) return std::nullopt;
   return HidingPixel{0, {-1, -1}};
 }
 

@@ -37,9 +37,6 @@ struct FreeingCamera {
 /// Whether 0 < z < E (whole-robot definition 3).
 bool is_seen_free(const FreeingCamera& view, const Eigen::Vector3d& p_B);
 
-/// Whether it lies in the image of a view that may free something.
-bool is_observed(std::span<const FreeingCamera> views, const Eigen::Vector3d& p_B);
-
 /// The view that hides a point, and the pixel behind whose reading it lies; (-1, -1) where it lies
 /// in no image.
 struct HidingPixel {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <span>
 
 #include "berth/types/camera.hpp"
 
@@ -19,5 +21,12 @@ struct GuardedBox {
     return (off_m + reach_m * R_GB.cwiseAbs().rowwise().sum().array() <= half_m.array()).all();
   }
 };
+
+/// Whether one of them holds all within `reach_m` of a point.
+inline bool is_guarded(std::span<const GuardedBox> boxes, const Eigen::Vector3d& p_B_m,
+                       double reach_m = 0) {
+  return std::ranges::any_of(boxes,
+                             [&](const GuardedBox& box) { return box.holds(p_B_m, reach_m); });
+}
 
 }  // namespace berth

@@ -207,9 +207,7 @@ int count_in_no_image(std::span<const SeeingCamera> views, std::span<const Guard
       for (std::uint64_t left = outside; left != 0; left &= left - 1) {
         const int i = std::countr_zero(left);
         const Eigen::Vector3d p_B_m(at_m[0][i], at_m[1][i], at_m[2][i]);
-        for (const GuardedBox& box : guarded) {
-          if (box.holds(p_B_m)) outside &= ~(std::uint64_t{1} << i);
-        }
+        if (is_guarded(guarded, p_B_m)) outside &= ~(std::uint64_t{1} << i);
       }
     }
     count += std::popcount(outside);
