@@ -107,17 +107,21 @@ def _write_camera(out: pathlib.Path, record: CameraRecord) -> Dict[str, Any]:
 
 def import_bag(bag: str, out: str, cameras: Sequence[str] = ("camera",), topics: Optional[Dict[str, str]] = None,
                joints: str = "/joint_states", urdf: Optional[str] = None, environment_links: Sequence[str] = (),
-               every: int = 1) -> str:
+               every: int = 1, rectified: Sequence[str] = (), fixed_joints: Optional[Dict[str, float]] = None) -> str:
     """Writes a bag's depth images, camera_info, joint states and TF as a scene folder.
 
-    Of each camera NAME the topics /NAME/depth_image (16UC1 or 32FC1) and /NAME/camera_info are read;
-    `topics` names other image topics. Needs the package rosbags, or mcap and mcap-ros2-support for
-    an .mcap file. Raises ImportError that names them, ValueError or OSError that says what is missing.
+    Of each camera NAME the topics /NAME/depth_image (16UC1 or 32FC1, or a CompressedImage of them) and
+    /NAME/camera_info are read; `topics` names other image topics. `rectified` are cameras whose images
+    are rectified though no part of their topic's name is rect; `fixed_joints` the positions of joints
+    that never move and that nobody tells. Needs the package rosbags, or mcap and mcap-ros2-support for
+    an .mcap file. Returns what was written and what is strange in it. Raises ImportError that names the
+    packages, ValueError or OSError that says what is missing or wrong.
     """
     if every < 1:
         raise ValueError(f"every: {every}; expected 1 or more")
     options = BagOptions(bag=bag, out=out, camera=list(cameras), topics=dict(topics or {}), joints=joints, urdf=urdf,
-                         environment_link=list(environment_links), every=every)
+                         environment_link=list(environment_links), every=every, rectified=list(rectified),
+                         fixed_joint=dict(fixed_joints or {}))
     types, messages = _open_mcap(bag) if str(bag).endswith(".mcap") else _open_rosbag(bag)
     return str(bag_to_scene(options, types, messages, write_depth))  # type: ignore[no-untyped-call]
 

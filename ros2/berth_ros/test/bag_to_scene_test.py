@@ -131,8 +131,18 @@ def test_a_folder_that_is_there_is_not_written_over(tmp_path):
     assert tool.returncode == 1 and "is there already" in tool.stderr
 
 
+def test_what_the_bag_does_not_say(tmp_path):
+    out = tmp_path / "scene"
+    tool = run_tool(write_bag(tmp_path / "bag"), "--out", out, "--camera", "front", "--rectified", "front", "--fixed-joint", "b=0.25")
+    assert tool.returncode == 0, tool.stderr
+    assert "left out b" in tool.stdout
+    scene = yaml.safe_load((out / "scene.yaml").read_text())
+    assert scene["cameras"][0]["rectified"] is True and scene["fixed_joints"] == {"b": 0.25}
+
+
 def test_wrong_use_is_2(tmp_path):
     assert run_tool("bag").returncode == 2
+    assert run_tool("bag", "--out", tmp_path / "x", "--fixed-joint", "b").returncode == 2
     assert run_tool("bag", "--out", tmp_path / "x", "--every", "0").returncode == 2
 
 
