@@ -19,9 +19,6 @@ namespace {
 
 /// A check of a long recording looks at so many results.
 constexpr std::size_t kCheckedResults = 100;
-/// Below this share of the readings at the robot's surface calibration has something to gain: good
-/// scenes have more (docs/calibration.md).
-constexpr double kWellPlaced = 0.9;
 /// A link that is seen in fewer of the results than this is worth another camera.
 constexpr double kOftenSeen = 0.5;
 /// A monitor that stops the robot in more of the results than this lets nobody work.
@@ -51,16 +48,6 @@ std::size_t without_joints(const OpenCamera& camera) {
       camera.exposure_time, [](const FrameTime& time) { return time.status != TimeStatus::ok; }));
 }
 
-/// The greatest step from one stamp to the next, and the image after it.
-std::pair<double, std::size_t> greatest_gap(const std::vector<double>& stamps_s) {
-  std::pair<double, std::size_t> greatest{0, 0};
-  for (std::size_t k = 1; k < stamps_s.size(); ++k) {
-    const double gap_s = stamps_s[k] - stamps_s[k - 1];
-    if (gap_s > greatest.first) greatest = {gap_s, k};
-  }
-  return greatest;
-}
-
 Finding stamps_of(const OpenScene& scene, const OpenCamera& camera) {
   Finding found{.about = about_camera("stamps", camera)};
   const std::vector<double>& stamps_s = camera.source.stamps_s;
@@ -85,17 +72,6 @@ Finding stamps_of(const OpenScene& scene, const OpenCamera& camera) {
         "(clock_offset_s).",
         camera.source.name, scene.joints->source());
     return found;
-  }
-  const auto [gap_s, image] = greatest_gap(stamps_s);
-  const double most_s = scene.robot->settings().time.max_frame_gap_s;
-  if (gap_s > most_s) {
-    found.verdict = Verdict::wrong;
-    found.text += fmt::format("; image {} comes {:.3f} s after the one before, and is not used",
-                              image, gap_s);
-    found.next = fmt::format(
-        "Look at the stamps of camera {} around image {}, or raise time.max_frame_gap_s above "
-        "{:.3f}.",
-        camera.source.name, image, most_s);
   }
   return found;
 }
@@ -125,10 +101,15 @@ Finding pose_of(const OpenScene& scene, const CameraPlausibility& camera) {
   }
   found.text = fmt::format("{:.0f} % of the robot's readings in {} images lie at its surface",
                            100 * camera.readings.at_robot(), camera.frames);
-  if (camera.readings.at_robot() < kWellPlaced) {
-    found.verdict = Verdict::advice;
-    found.next = fmt::format("berth calibrate {} --out calibrated.yaml --report report",
-                             scene.file.string());
+  const std::string doubt = doubt_of(camera);
+  if (doubt.empty()) return found;
+  found.verdict = Verdict::advice;
+  found.text = doubt;
+  found.next =
+      fmt::format("berth calibrate {} --out calibrated.yaml --report report", scene.file.string());
+  if (!camera.seen_through.empty()) {
+    found.next += fmt::format(". If {} is no body, such as a zone, name it in robot.ignore_links",
+                              camera.seen_through.front());
   }
   return found;
 }
@@ -161,12 +142,28 @@ struct Seen {
   }
 };
 
+/// What to do where a result has trouble with a camera.
+std::string next_for(const OpenScene& scene, const std::string& trouble) {
+  for (const OpenCamera& camera : scene.cameras) {
+    const std::vector<double>& stamps_s = camera.source.stamps_s;
+    const std::string too_old =
+        fmt::format("camera {} is {}", camera.source.name, name_of(CameraStatus::too_old));
+    if (trouble != too_old || stamps_s.size() < 2) continue;
+    return fmt::format(
+        "Raise time.max_frame_age_s above {:.2f} s, which lie between two images of camera {}, or "
+        "let it give more.",
+        (stamps_s.back() - stamps_s.front()) / static_cast<double>(stamps_s.size() - 1),
+        camera.source.name);
+  }
+  return "Look at that camera's images: berth run " + scene.file.string() + " --picture pictures";
+}
+
 std::vector<Finding> findings_of(const OpenScene& scene, const Seen& seen) {
   std::vector<Finding> all;
   for (const auto& [what, count] : seen.trouble) {
-    all.push_back(
-        {Verdict::wrong, "results", fmt::format("{} in {} of {}", what, count, seen.results),
-         "Look at that camera's images: berth run " + scene.file.string() + " --picture pictures"});
+    all.push_back({Verdict::wrong, "results",
+                   fmt::format("{} in {} of {}", what, count, seen.results),
+                   next_for(scene, what)});
   }
   for (const auto& [link, count] : seen.not_seen) {
     if (percent_of(count, seen.results) < 100 * (1 - kOftenSeen)) continue;
@@ -283,7 +280,7 @@ Finding check_views(const OpenScene& scene) {
   const std::vector<Pose> X_CB = first_camera_poses(scene);
   for (const Eigen::Vector3d& unit : sample_unit_ball(kPoints)) {
     const Eigen::Vector3d p_B_m = reach.center_B_m + reach.radius_m * unit;
-    bool is_known = std::ranges::any_of(model.guarded, [&](auto& box) { return box.holds(p_B_m); });
+    bool is_known = is_guarded(model.guarded, p_B_m);
     for (std::size_t k = 0; k < X_CB.size() && !is_known; ++k) {
       is_known = project_into_image(scene.cameras[k].view->camera(), X_CB[k] * p_B_m).has_value();
     }

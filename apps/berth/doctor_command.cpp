@@ -74,7 +74,7 @@ void doctor_command(const DoctorArguments& arguments) {
     scene = open_scene(read_scene(arguments.scene), pause);
     Findings found{check_images(*scene, pause)};
     for (const std::string& warning : scene->warnings) {
-      found.push_back({Verdict::advice, "scene", warning, "Mend the scene file where it says so."});
+      found.push_back({Verdict::advice, "scene", warning, "Mend what the advice on the scene says."});
     }
     return found;
   });

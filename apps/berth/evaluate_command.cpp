@@ -53,7 +53,7 @@ void require_fitting_ids(ThreeImages& images, const EvaluateArguments& arguments
 
 ThreeImages read_images(const EvaluateArguments& arguments) {
   ThreeImages images;
-  images.camera = read_camera_info(arguments.camera);
+  images.camera = read_camera_info(arguments.camera).camera;
   images.robot.depth_m =
       read_depth_png(arguments.robot_depth, images.camera, arguments.depth_scale_m);
   images.robot.link_id = read_link_ids_png(arguments.link_ids, images.camera);

@@ -111,11 +111,10 @@ FrameDisplacement displacement_of(const OpenCamera& camera, const Pose& X_CC) {
 /// Whether T or D raises an alarm within the second.
 bool is_watch_alarm(const OpenCamera& camera, const Second& second, const WatchSettings& rule) {
   const FrameDisplacement displacement = displacement_of(camera, second.X_CC);
-  PoseWatch watch(rule,
-                  [&](DepthView depth_m, const JointState& joints, const Pose&,
-                      const std::stop_token& stop) {
-                    return displacement.measure(depth_m, joints, stop);
-                  });
+  PoseWatch watch(rule, [&](DepthView depth_m, const JointState& joints, const Pose&,
+                            const std::stop_token& stop) {
+    return displacement.measure(depth_m, joints, stop);
+  });
   JointState joints = second.joints;
   for (std::size_t i = 0; i < second.images.size(); ++i) {
     joints.stamp_s = static_cast<double>(i) / kFramesPerSecond;

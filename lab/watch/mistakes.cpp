@@ -127,6 +127,25 @@ void add_cameras(Mistakes& all) {
                      mount.camera.fy_px *= factor;
                    })});
   }
+  for (const double factor : {0.8, 0.88, 1.12, 1.25}) {
+    const bool is_slight = factor == 0.88 || factor == 1.12;
+    all.push_back({fmt::format("`fx` alone times {}", factor), "fx were",
+                   other_mount([factor](CameraMount& mount) { mount.camera.fx_px *= factor; }),
+                   is_slight});
+    all.push_back({fmt::format("`fy` alone times {}", factor), "fy were",
+                   other_mount([factor](CameraMount& mount) { mount.camera.fy_px *= factor; }),
+                   is_slight});
+  }
+  all.push_back({"depth along the ray", "along the ray", [](OpenScene& scene, std::size_t c) {
+                   const Camera& camera = scene.cameras[c].view->camera();
+                   each_image([&](DepthImage& image) {
+                     for (int v = 0; v < image.height(); ++v) {
+                       for (int u = 0; u < image.width(); ++u) {
+                         image(u, v) *= static_cast<float>(point_at(camera, u, v, 1).norm());
+                       }
+                     }
+                   })(scene, c);
+                 }});
 }
 
 void add_poses(Mistakes& all) {
@@ -142,6 +161,10 @@ void add_poses(Mistakes& all) {
                  })});
   all.push_back({"`y` with the wrong sign", "pose's y",
                  other_mount([](CameraMount& mount) { mount.X_PC.translation().y() *= -1; })});
+  all.push_back({"base turned by 180 degrees", "180 degrees", other_mount([](CameraMount& mount) {
+                   mount.X_PC =
+                       Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitZ()) * mount.X_PC;
+                 })});
   all.push_back({"pose the other way round", "in the camera's frame",
                  other_mount([](CameraMount& mount) { mount.X_PC = mount.X_PC.inverse(); })});
   all.push_back({"quaternion conjugated", "rotation were the other way round",
@@ -165,7 +188,7 @@ void add_images(const OpenScene& scene, Mistakes& all) {
       {"dead camera: one depth", "are the same", each_reading([](float) { return 1.5F; })});
   all.push_back({"dead camera: one image", "do not change", freeze});
   all.push_back(
-      {"dead camera: no reading", "hardly a pixel", each_reading([](float) { return kNoDepth; })});
+      {"dead camera: no reading", "has a reading", each_reading([](float) { return kNoDepth; })});
 }
 
 void add_joints(const OpenScene& scene, Mistakes& all) {
@@ -180,7 +203,16 @@ void add_joints(const OpenScene& scene, Mistakes& all) {
                  each_position([](auto& position) { std::swap(position[1], position[2]); })});
   all.push_back({"joints in reverse order", "order were the other way round",
                  each_position([](auto& position) { std::ranges::reverse(position); })});
-  all.push_back({"joints of the image before", "one image later", shifted_joints(-1)});
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (joints[j].type == JointType::prismatic) continue;
+    all.push_back({fmt::format("joint {} in degrees", j + 1), joints[j].name,
+                   each_position([j](auto& position) { position[j] /= kDegree_rad; }),
+                   j + 1 == joints.size()});
+    all.push_back({fmt::format("joint {} with the other sign", j + 1), joints[j].name,
+                   each_position([j](auto& position) { position[j] *= -1; }),
+                   j + 3 >= joints.size()});
+  }
+  all.push_back({"joints of the image before", "one image later", shifted_joints(-1), true});
 }
 
 }  // namespace

@@ -13,9 +13,7 @@ namespace {
 
 constexpr double kScale_m = 0.001;
 
-bool is_reading_or_nan(float z_m) {
-  return (z_m > 0 && z_m <= std::numeric_limits<float>::max()) || std::isnan(z_m);
-}
+bool is_reading_or_nan(float z_m) { return (z_m > 0 && z_m < kMostReading_m) || std::isnan(z_m); }
 
 bool are_readings_or_nan(DepthView depth_m) {
   for (int v = 0; v < depth_m.height; ++v) {

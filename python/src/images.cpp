@@ -2,11 +2,13 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "arrays.hpp"
+#include "berth/files/camera_info.hpp"
 #include "berth/files/png.hpp"
 #include "berth/image_distance/evaluate.hpp"
 #include "berth/pipeline/robot.hpp"
 #include "berth/render/robot_renderer.hpp"
 #include "berth/self_filter/self_filter.hpp"
+#include "berth/sensor/rectification.hpp"
 #include "bindings.hpp"
 
 #include <fmt/format.h>
@@ -146,9 +148,39 @@ void write_png(const std::filesystem::path& file, const py::object& depth, doubl
   write_depth_png(file, input.view, depth_scale);
 }
 
+Rectification make_rectification(const std::filesystem::path& file, bool is_rectified,
+                                 bool is_along_ray) {
+  const CameraInfo info = read_camera_info(file, is_rectified);
+  return {info.camera, info.lens, is_along_ray ? DepthIs::along_ray : DepthIs::along_axis};
+}
+
+py::array rectify(const Rectification& self, const py::object& depth,
+                  std::optional<double> depth_scale) {
+  const DepthInput input = depth_of(depth, depth_scale);
+  require_size(self.given(), input.view.width, input.view.height, "depth");
+  return owned(self.apply(input.view));
+}
+
+void bind_rectification(py::module_& m) {
+  py::class_<Rectification>(
+      m, "Rectification",
+      "Makes depth images as a camera gives them into those of a pinhole camera: without the\n"
+      "lens's distortion, and along the axis. Of two readings that fall into one pixel the nearer\n"
+      "one is kept.")
+      .def(py::init(&make_rectification), py::arg("file"), py::kw_only(),
+           py::arg("rectified") = false, py::arg("along_ray") = false,
+           "Of a ROS camera_info file (YAML). With rectified its distortion does not count; with\n"
+           "along_ray a reading is the distance from the camera, not the depth along its axis.")
+      .def_property_readonly("camera", &Rectification::camera,
+                             "Camera: of the images that are made, for MountedCamera")
+      .def("apply", &rectify, py::arg("depth"), py::arg("depth_scale") = std::nullopt,
+           "The image that is made of this one, in metres, float32; NaN is no reading.");
+}
+
 }  // namespace
 
 void bind_images(py::module_& m) {
+  bind_rectification(m);
   m.def("render", &render, py::arg("model"), py::arg("joints"), py::arg("camera"), py::arg("X_BC"),
         "The robot as the camera would see it alone: its depth (float32, NaN where it is not) and\n"
         "the numbers of the links (uint16).");

@@ -94,8 +94,10 @@ void bind_camera(py::module_& m) {
             "Camera(width_px={}, height_px={}, fx_px={}, fy_px={}, cx_px={}, cy_px={})", c.width_px,
             c.height_px, c.fx_px, c.fy_px, c.cx_px, c.cy_px);
       });
-  m.def("read_camera_info", &read_camera_info, py::arg("file"),
-        "The intrinsics of a ROS camera_info file (YAML) of rectified images.");
+  m.def(
+      "read_camera_info",
+      [](const std::filesystem::path& file) { return read_camera_info(file).camera; },
+      py::arg("file"), "The intrinsics of a ROS camera_info file (YAML) of rectified images.");
 }
 
 void bind_frame(py::module_& m) {

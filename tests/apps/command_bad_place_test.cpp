@@ -27,7 +27,7 @@ TEST(BadPlace, FolderForImagesIsAFile) {
 TEST(BadPlace, FolderOfTheLastCameraIsAFile) {
   CommandScene scene;
   scene.lines.more_cameras =
-      "  - {name: again, info: camera_info.yaml, depth: [depth/000000.png], pose: " +
+      "  - {name: again, info: camera_info.yaml, depth: [depth/000000.png], stamps: [0], pose: " +
       scene.lines.pose + "}\n";
   fs::create_directories(scene / "f/front");
   scene.write("f/again", "");

@@ -114,7 +114,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"OfTheLastCamera",
                  [](S& s) {
                    s.lines.more_cameras =
-                       "  - {name: again, info: camera_info.yaml, depth: [none.png], pose: " +
+                       "  - {name: again, info: camera_info.yaml, depth: [none.png], stamps: [0], "
+                       "pose: " +
                        s.lines.pose + "}\n";
                  },
                  {"none.png", "expected"}}),
@@ -141,7 +142,7 @@ INSTANTIATE_TEST_SUITE_P(
                                {"joints.csv:4: 2 fields; expected 3"}},
                       BadInput{"TooFewRows",
                                write("joints.csv", "time,shoulder,elbow\n0,0,0\n1,0,0\n"),
-                               {"joints.csv", "2 rows", "frame 2"}},
+                               {"joints.csv: 2 rows", "the 3 images of camera front", "or stamps"}},
                       BadInput{"OfAnotherTimeThanAllStamps",
                                [](S& s) { s.lines.more_camera = "stamps: [100, 101, 102.5]"; },
                                {"joints.csv", "camera front", "from 100 to 102.5 s",

@@ -257,7 +257,7 @@ TEST(Filter, ImagesShowTheRobotItsLinksAndTheObstacles) {
 TEST(Filter, DepthIsInUnitsOfTheCamera) {
   CommandScene scene;
   scene.lines.depth = "[depth/000000.png]";
-  scene.lines.more_camera = "depth_scale: 0.0005";
+  scene.lines.more_camera = "depth_scale: 0.0005\n    stamps: [0]";
   scene.write_image("depth/000000.png", kPositions[0], front_pose(), 0.0005);
   ASSERT_EQ(scene.berth({"filter", "scene.yaml", "--out", "f"}).exit_status, 0);
   const DepthImage obstacle_m =
@@ -268,9 +268,10 @@ TEST(Filter, DepthIsInUnitsOfTheCamera) {
 TEST(Filter, SeveralCamerasHaveAFolderEach) {
   CommandScene scene;
   scene.lines.depth = "[depth/000000.png]";
+  scene.lines.more_camera = "stamps: [0]";
   scene.lines.more_cameras =
       "  - {name: again, info: camera_info.yaml, depth: [depth/000000.png, depth/000001.png], "
-      "pose: " +
+      "stamps: [0, 1], pose: " +
       scene.lines.pose + "}\n";
   ASSERT_EQ(scene.berth({"filter", "scene.yaml", "--out", "f"}).exit_status, 0);
   EXPECT_EQ(read_file_bytes(scene / "f/front/link_ids_000000.png"),

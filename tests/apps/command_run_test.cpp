@@ -165,13 +165,14 @@ TEST(Run, PicturesAreDrawnIntoANewFolder) {
 void add_second_camera(CommandScene& scene) {
   scene.lines.more_cameras =
       "  - {name: again, info: camera_info.yaml, depth: [depth/000000.png, depth/000001.png], "
-      "pose: " +
+      "stamps: [0, 1], pose: " +
       scene.lines.pose + "}\n";
 }
 
 TEST(Run, SeveralCamerasGiveAllTheirFramesAndAFolderOfPicturesEach) {
   CommandScene scene;
   scene.lines.depth = "[depth/000000.png]";
+  scene.lines.more_camera = "stamps: [0]";
   add_second_camera(scene);
   const std::vector<Json> frames = scene.json({"run", "scene.yaml", "--picture", "pictures"});
   ASSERT_EQ(frames.size(), 3U);

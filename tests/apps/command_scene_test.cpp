@@ -28,8 +28,9 @@ TEST(SceneKey, StampsAreAnsweredBetweenRows) {
   scene.write("joints.csv", "time,shoulder,elbow\n0.5,0.375,0.15\n");
   scene.write_image("depth/000000.png", {0.375, 0.15}, front_pose());
   const Json at_row = scene.run().at(0);
-  scene.write("joints.csv", "time,shoulder,elbow\n-1,0,9\n0,0.25,0\n1,0.5,0.3\n");
+  scene.write("joints.csv", "time,shoulder,elbow\n-1,0,0.9\n0,0.25,0\n1,0.5,0.3\n");
   scene.lines.more_camera = "stamps: [0.5]";
+  scene.lines.more = "time: {max_skew_s: 0.5}\nwatch: {min_at_robot: 0}";
   const Json between = scene.run().at(0);
   EXPECT_EQ(between["stamp_s"], 0.5);
   EXPECT_EQ(between["time"]["skew_s"], 0.5);
@@ -69,6 +70,7 @@ int padding_with(CommandScene& scene, const std::string& links) {
       "link_padding_m: {" +
       links + "}}";
   scene.lines.depth = "[depth/000000.png]";
+  scene.lines.more_camera = "stamps: [0]";
   return scene.run().at(0)["cameras"][0]["self_filter"]["padding"];
 }
 

@@ -36,12 +36,15 @@ TEST(RunTime, AFrameThatTheJointsDoNotReachHasAStatusAndNoDistance) {
 TEST(RunTime, TheScenesLimitsDecide) {
   CommandScene scene;
   scene.lines.more_camera = "stamps: [0.3, 1, 2.25]";
+  // The images do not belong to these joints.
+  const std::string unwatched = "\nwatch: {min_at_robot: 0}";
+  scene.lines.more = unwatched;
   const auto status = [&](int frame) { return scene.run().at(frame)["time"]["status"]; };
-  EXPECT_EQ(status(0), "ok");
-  scene.lines.more = "time: {max_skew_s: 0.29, max_extrapolation_s: 0.3}";
+  EXPECT_EQ(status(0), "skewed") << "0.1 s is the default";
+  scene.lines.more = "time: {max_skew_s: 0.29, max_extrapolation_s: 0.3}" + unwatched;
   EXPECT_EQ(status(0), "skewed");
   EXPECT_EQ(status(2), "ok");
-  scene.lines.more = "time: {max_skew_s: 0.31, max_extrapolation_s: 0.2}";
+  scene.lines.more = "time: {max_skew_s: 0.31, max_extrapolation_s: 0.2}" + unwatched;
   EXPECT_EQ(status(0), "ok");
   EXPECT_EQ(status(2), "extrapolated_too_far");
 }

@@ -28,12 +28,13 @@ void expect_the_intrinsics(const Camera& camera) {
 
 TEST(CameraInfo, GivesTheIntrinsicsOfARosFile) {
   const TemporaryFolder folder;
-  const Camera camera = read_camera_info(folder.write(
+  const CameraInfo info = read_camera_info(folder.write(
       "info.yaml", info_text(kMatrix) +
                        "camera_name: front\n"
                        "rectification_matrix: {rows: 3, cols: 3, data: [1]}\n"
                        "projection_matrix: {data: []}\nbinning_x: 0\nroi: {x_offset: 0}\n"));
-  expect_the_intrinsics(camera);
+  expect_the_intrinsics(info.camera);
+  EXPECT_FALSE(info.lens);
 }
 
 /// As `ros2 topic echo --once` prints it.
@@ -76,33 +77,115 @@ TEST(CameraInfo, GivesTheIntrinsicsOfARosMessage) {
   const TemporaryFolder folder;
   for (const std::string& text :
        {kMessage, replaced(replaced(kMessage, "\nk:", "\nK:"), "\nd:", "\nD:")}) {
-    expect_the_intrinsics(read_camera_info(folder.write("info.yaml", text)));
+    expect_the_intrinsics(read_camera_info(folder.write("info.yaml", text)).camera);
   }
 }
 
-TEST(CameraInfo, RefusesAMessageOfAPartOrOfAnImageThatIsNotRectified) {
+CameraInfo info_of(const std::string& text, std::optional<bool> is_rectified = {}) {
+  const TemporaryFolder folder;
+  return read_camera_info(folder.write("info.yaml", text), is_rectified);
+}
+
+const std::string kP = "p: [500, 0, 470, 0, 0, 510, 260, 0, 0, 0, 1, 0]\n";
+const std::string kNoK = replaced(
+    replaced(
+        replaced(replaced(replaced(kMessage, "534.5", "0.0"), "478.25", "0.0"), "530.0", "0.0"),
+        "-3.0", "0.0"),
+    "- 1.0", "- 0.0");
+
+void expect_p(const Camera& camera) {
+  EXPECT_EQ(camera.fx_px, 500);
+  EXPECT_EQ(camera.fy_px, 510);
+  EXPECT_EQ(camera.cx_px, 470);
+  EXPECT_EQ(camera.cy_px, 260);
+}
+
+TEST(CameraInfo, OfRectifiedImagesPCounts) {
+  const std::string with_p = replaced(kMessage, "---\n", kP);
+  expect_p(info_of(with_p).camera);
+  expect_p(info_of(replaced(with_p, "\np:", "\nP:")).camera);
+  expect_p(info_of(replaced(kNoK, "---\n", kP)).camera);
+  expect_p(
+      info_of(info_text(kMatrix) + "projection_matrix: {" + replaced(kP, "p: ", "data: ") + "}\n")
+          .camera);
+  expect_the_intrinsics(
+      info_of(replaced(kMessage, "---\n", "p: [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\n")).camera);
+  expect_parts(error_message([] { info_of(kNoK); }), {"info.yaml", "k[8]: 0.0; expected 1"});
+}
+
+TEST(CameraInfo, WhoeverHasDistortionSaysWhetherTheImagesAreRectified) {
+  const std::string bent = replaced(replaced(kMessage, "- 0.0", "- 0.1"), "---\n", kP);
+  expect_parts(error_message([&] { info_of(bent); }),
+               {"info.yaml:10: d", "0.1; expected all zeros; or say rectified: true"});
+  expect_p(info_of(bent, true).camera);
+  EXPECT_FALSE(info_of(bent, true).lens);
+  const CameraInfo raw = info_of(bent, false);
+  expect_the_intrinsics(raw.camera);
+  ASSERT_TRUE(raw.lens);
+  EXPECT_FALSE(raw.lens->is_fisheye);
+  EXPECT_EQ(raw.lens->coefficients[0], 0.1);
+  const std::string fisheye = replaced(bent, "plumb_bob", "equidistant");
+  EXPECT_TRUE(info_of(fisheye, false).lens->is_fisheye);
+  for (const char* model : {"equidistant", "fisheye", "kannala_brandt4"}) {
+    expect_parts(error_message([&] { info_of(replaced(kMessage, "plumb_bob", model)); }),
+                 {"distortion_model: " + std::string(model), "rectified: false"});
+  }
+}
+
+TEST(CameraInfo, ReadsEachLensThatItCanRectify) {
+  const std::string eight = "[0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8]";
+  const auto lens = [](const std::string& coefficients, const char* model) {
+    return info_of(info_text(kMatrix, coefficients, model), false).lens.value();
+  };
+  EXPECT_EQ(lens(eight, "rational_polynomial").coefficients[7], 0.8);
+  EXPECT_EQ(lens("[0.1, 0.2, 0, 0]", "Plumb Bob").coefficients[1], 0.2);
+  EXPECT_EQ(lens("[0.1, 0.2, 0, 0, 0, 0, 0, 0]", "plumb_bob").coefficients[5], 0);
+  expect_parts(error_message([&] { lens(eight, "plumb_bob"); }),
+               {"data[5]: 0.6; expected 0: of plumb_bob berth knows the first 5 coefficients"});
+  expect_parts(error_message([&] { lens(eight, "inverse_brown_conrady"); }),
+               {"inverse_brown_conrady; expected plumb_bob, rational_polynomial or equidistant"});
+}
+
+TEST(CameraInfo, CutsThePartOfTheSensorThatTheImageIs) {
+  const std::string region = "x_offset: 160\n  width: 320\n  height: 240";
+  const Camera part = info_of(replaced(kMessage, "x_offset: 0", region)).camera;
+  EXPECT_EQ(part.width_px, 320);
+  EXPECT_EQ(part.height_px, 240);
+  EXPECT_EQ(part.cx_px, 318.25);
+  EXPECT_EQ(part.fx_px, 534.5);
+  const Camera binned =
+      info_of(replaced(kMessage, "binning_x: 0\nbinning_y: 0", "binning_x: 2\nbinning_y: 2"))
+          .camera;
+  EXPECT_EQ(binned.width_px, 480);
+  EXPECT_EQ(binned.height_px, 270);
+  EXPECT_EQ(binned.fx_px, 267.25);
+  EXPECT_EQ(binned.cy_px, -1.5);
+  expect_parts(error_message([&] {
+                 info_of(replaced(kMessage, "x_offset: 0", "x_offset: 700\n  width: 320"));
+               }),
+               {"roi: a map; expected a region of the image"});
+}
+
+TEST(CameraInfo, RefusesAMessageThatLacksWhatCounts) {
   const std::vector<BadText> table = {
-      {replaced(kMessage, "- 0.0", "- 0.1"), {"info.yaml:10: d", "0.1; expected all zeros"}},
       {replaced(kMessage, "\nk:", "\nx:"), {"the key k is missing"}},
       {replaced(kMessage, "height: 540\n", ""), {"the key height is missing"}},
-      {replaced(kMessage, "plumb_bob", "fisheye"), {"distortion_model: fisheye; expected plumb"}},
-      {replaced(kMessage, "binning_y: 0", "binning_y: 2"), {"binning_y: 2; expected 0 or 1"}},
-      {replaced(kMessage, "x_offset: 0", "x_offset: 8"), {"roi.x_offset: 8; expected 0"}},
   };
-  const TemporaryFolder folder;
   for (const auto& [text, parts] : table) {
-    expect_parts(error_message([&] { read_camera_info(folder.write("info.yaml", text)); }), parts);
+    expect_parts(error_message([&, &text = text] { info_of(text); }), parts);
   }
 }
 
 TEST(CameraInfo, AcceptsEveryWayToSayNoDistortion) {
-  const TemporaryFolder folder;
   for (const char* none : {"[]", "[0]", "[0.0, -0.0, 0e5]", "[0, 0, 0, 0, 0, 0, 0, 0]"}) {
-    for (const char* model : {"plumb_bob", "rational_polynomial"}) {
-      EXPECT_EQ(read_camera_info(folder.write("info.yaml", info_text(kMatrix, none, model))).fx_px,
-                534.5);
+    for (const char* model : {"plumb_bob", "rational_polynomial", "Plumb Bob", "brown_conrady",
+                              "none", "''", "pinhole"}) {
+      EXPECT_EQ(info_of(info_text(kMatrix, none, model)).camera.fx_px, 534.5) << model;
     }
   }
+  EXPECT_EQ(info_of("image_width: 960\nimage_height: 540\ncamera_matrix: {data: " + kMatrix + "}\n")
+                .camera.fx_px,
+            534.5);
 }
 
 TEST(CameraInfo, RefusesWhatIsNoRectifiedPinholeAndSaysWhere) {
@@ -153,20 +236,10 @@ TEST(CameraInfo, RefusesWhatIsNoRectifiedPinholeAndSaysWhere) {
       {info_text("[500, 0, 4, 0, 500, 6, 0, 0, 2]"), {"camera_matrix.data[8]: 2; expected 1"}},
       {info_text(kMatrix, "[0, 0.01]"),
        {"info.yaml:9: distortion_coefficients.data[1]: 0.01; expected all zeros",
-        "rectify the images first"}},
+        "rectified: false"}},
       {info_text(kMatrix, "[.nan]"),
        {"distortion_coefficients.data[0]: .nan; expected a finite number"}},
       {info_text(kMatrix, "none"), {"distortion_coefficients.data: none; expected a list"}},
-      {info_text(kMatrix, "[0, 0, 0, 0]", "equidistant"),
-       {"info.yaml:7: distortion_model: equidistant; expected plumb_bob or rational_polynomial",
-        "rectify"}},
-      {info_text(kMatrix, "[]", "pinholy"), {"distortion_model: pinholy; expected"}},
-      {info_text(kMatrix, "[]", "''"), {"distortion_model: an empty text; expected"}},
-      {"image_width: 960\nimage_height: 540\ncamera_matrix: {data: " + kMatrix + "}\n",
-       {"the key distortion_model is missing"}},
-      {"image_width: 960\nimage_height: 540\ncamera_matrix: {data: " + kMatrix +
-           "}\ndistortion_model: plumb_bob\n",
-       {"the key distortion_coefficients is missing"}},
       {"image_width: 2\nimage_height: 3\nimage_width: 4\n" + rest,
        {"info.yaml:3: image_width: the key stands here a second time"}},
   };

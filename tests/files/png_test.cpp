@@ -8,7 +8,9 @@
 #include <memory>
 #include <random>
 
+#include "berth/files/depth_units.hpp"
 #include "berth/files/file_bytes.hpp"
+#include "berth/files/png_codec.hpp"
 #include "tests/support/error_message.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -61,7 +63,12 @@ TEST(DepthPng, EveryUnitComesBackAsItself) {
     write_depth_png(folder / "depth.png", depth_m, scale_m);
     const DepthImage again_m = read_depth_png(folder / "depth.png", camera, scale_m);
     EXPECT_TRUE(std::isnan(again_m.pixels()[0]));
-    for (int i = 1; i < 65536; ++i) ASSERT_EQ(again_m.pixels()[i], depth_m.pixels()[i]) << i;
+    for (int i = 1; i < 65535; ++i) {
+      const float z_m = depth_m.pixels()[i];
+      const float expected_m = z_m < kMostReading_m ? z_m : kNoDepth;
+      ASSERT_EQ(std::isnan(again_m.pixels()[i]), std::isnan(expected_m)) << i;
+      ASSERT_FALSE(again_m.pixels()[i] != expected_m && !std::isnan(expected_m)) << i;
+    }
   }
 }
 
@@ -88,8 +95,32 @@ TEST(DepthPng, AnObstacleIsNeverWrittenAsNoReadingAndNeverFartherThanTheFormatRe
   write_depth_png(folder / "depth.png", depth_m, 0.001);
   const DepthImage again_m = read_depth_png(folder / "depth.png", camera_of(5, 1), 0.001);
   EXPECT_EQ(again_m(0, 0), 0.001F);
-  for (const int u : {1, 2, 3}) EXPECT_EQ(again_m(u, 0), 65.535F);
+  for (const int u : {1, 2, 3}) EXPECT_EQ(again_m(u, 0), 65.534F);
   EXPECT_TRUE(std::isnan(again_m(4, 0)));
+}
+
+TEST(DepthPng, TheGreatestNumberIsNoReadingWhateverItsUnit) {
+  const TemporaryFolder folder;
+  write_gray_png(folder / "depth.png", Image<std::uint16_t>(2, 1, 65535), 16);
+  for (const double scale_m : {0.001, 0.0001, 0.1}) {
+    const DepthImage read_m = read_depth_png(folder / "depth.png", camera_of(2, 1), scale_m);
+    EXPECT_TRUE(std::isnan(read_m(0, 0))) << scale_m;
+  }
+}
+
+TEST(DepthPng, WhatIsNoPngIsNamed) {
+  const TemporaryFolder folder;
+  const std::vector<std::pair<std::string, std::string>> table = {
+      {"\x93NUMPY\x01", "is a NumPy array; expected a 16-bit PNG file, such as berth.io"},
+      {"\xFF\xD8\xFF", "is a JPEG image"},
+      {std::string("II*\0", 4), "is a TIFF image"},
+      {"something", "is no PNG file"},
+      {"version https://git-lfs.github.com/spec/v1\noid", "is a pointer of Git LFS"}};
+  for (const auto& [bytes, what] : table) {
+    const auto file = folder.write("depth.png", bytes);
+    expect_parts(error_message([&, &file = file] { read_depth_png(file, camera_of(2, 1), 0.001); }),
+                 {"depth.png: ", what});
+  }
 }
 
 TEST(DepthPng, DepthsOutsideNearAndFarAreNoReading) {

@@ -33,6 +33,35 @@ def test_methods_on_images_agree(one_camera, step):
     assert any(np.isfinite(link["distance_m"]) for link in found["exact"])
 
 
+INFO = """image_width: 160
+image_height: 120
+camera_matrix: {data: [120, 0, 80, 0, 120, 60, 0, 0, 1]}
+distortion_model: plumb_bob
+distortion_coefficients: {data: [-0.3, 0.1, 0, 0, 0]}
+"""
+
+
+def test_a_lens_is_rectified_and_rays_become_depths(tmp_path):
+    info = tmp_path / "info.yaml"
+    info.write_text(INFO)
+    made = berth.Rectification(info)
+    depth_m = np.full((120, 160), 3, np.float32)
+    depth_m[60, 150] = 1
+    rectified_m = made.apply(depth_m)
+    assert rectified_m.shape == (made.camera.height_px, made.camera.width_px) > (120, 170)
+    # 70 pixels to the right: 0.583 = x (1 - 0.3 x^2 + 0.1 x^4).
+    u, v = round(made.camera.cx_px + 0.6556 * made.camera.fx_px), round(made.camera.cy_px)
+    assert rectified_m[v, u] == 1
+    np.testing.assert_array_equal(made.apply((1000 * depth_m).astype(np.uint16)), rectified_m)
+    along_ray = berth.Rectification(info, rectified=True, along_ray=True)
+    assert along_ray.camera.width_px == 160
+    np.testing.assert_allclose(along_ray.apply(depth_m)[60, 140], 3 / np.hypot(1, 0.5), rtol=1e-6)
+    with pytest.raises(ValueError, match="depth: 9 x 120 pixels; expected the camera.s 160 x 120"):
+        made.apply(depth_m[:, :9])
+    with pytest.raises(ValueError, match="rectified: true"):
+        berth.read_camera_info(info)
+
+
 def test_images_that_do_not_go_together_are_named(one_camera, step):
     camera, frame = one_camera.views[0].camera, step.frame
     with pytest.raises(ValueError, match="link_id: 640 x 240 pixels"):

@@ -181,6 +181,8 @@ def test_images_of_one_stamp_have_one_result(tmp_path):
     text = (SOURCE / "data/bundled/scene.yaml").read_text()
     text = re.sub(r"    stamps: .*\n", "", text)
     text = re.sub(r"(depth\w*)/\*\.png", r"[\1/000000.png, \1/000001.png]", text)
+    rows = (SOURCE / "data/bundled/joints.csv").read_text().splitlines()[:3]
+    (tmp_path / "scene/joints.csv").write_text("\n".join(rows))
     (tmp_path / "scene/scene.yaml").write_text(text + "watch: {min_at_robot: 0}\n")
     steps = list(berth.open_scene(tmp_path / "scene/scene.yaml"))
     assert [step.begins_result for step in steps] == [True, False, False] * 2

@@ -95,20 +95,68 @@ TEST(JointTrajectory, VelocityIsTheSlopeBetweenTheSamplesAround) {
   EXPECT_TRUE(std::isnan(velocity[0])) << "one sample has no slope";
 }
 
-TEST(JointTrajectory, AMissingSampleIsNamed) {
-  const std::string message = error_message([] { trajectory({{1, {0, 0, 0, 0}}}).sample(1); });
-  EXPECT_NE(message.find("joints.csv: 1 rows"), std::string::npos) << message;
-  EXPECT_NE(message.find("frame 1"), std::string::npos) << message;
+TEST(JointTrajectory, FarFromASampleARobotThatMovesMayBeAnywhere) {
+  const JointTrajectory joints =
+      trajectory({{0, {0, 0, 0, 0}}, {2, {0.5, 0, 0, 0}}, {4, {0.51, 0, 0, 0}}});
+  JointState state;
+  EXPECT_EQ(joints.at(0.09, kInRecordings, state).status, TimeStatus::ok);
+  EXPECT_EQ(joints.at(1, kInRecordings, state).status, TimeStatus::skewed);
+  EXPECT_TRUE(std::isnan(state.position[0]));
+  // It stood still.
+  EXPECT_EQ(joints.at(3, kInRecordings, state).status, TimeStatus::ok);
+  EXPECT_NEAR(state.position[1], 0.505, 1e-12);
+  EXPECT_EQ(joints.at(4.2, kInRecordings, state).status, TimeStatus::extrapolated_too_far);
 }
 
-TEST(JointTrajectory, UnknownAndMissingJointsAreNamed) {
-  const auto open = [](const std::vector<std::string>& names) {
-    return error_message([&] {
-      JointTrajectory(three_joints(), "joints.csv", names, {{0, {0, 0, 0, 0}}});
-    });
-  };
-  EXPECT_NE(open({"turn", "wheel", "lift", "elbow"}).find("\"elbow\""), std::string::npos);
-  EXPECT_NE(open({"turn", "wheel", "finger"}).find("\"lift\""), std::string::npos);
+TEST(JointTrajectory, AMissingJointIsNamed) {
+  expect_parts(error_message([] {
+                 JointTrajectory(three_joints(), "joints.csv", {"turn", "wheel", "finger"},
+                                 {{0, {0, 0, 0}}});
+               }),
+               {"joints.csv: joint \"lift\"", "there are turn, wheel, finger"});
+}
+
+/// Of three_joints() with these limits of "turn" and "lift".
+std::vector<std::string> doubts_of(const std::vector<JointTrajectory::Sample>& samples,
+                                   const std::vector<std::string>& names = kColumnNames) {
+  RobotModel model = three_joints();
+  model.joints[0].lower = -2;
+  model.joints[0].upper = 2;
+  model.joints[0].max_speed = 1;
+  model.joints[2].lower = 0;
+  model.joints[2].upper = 0.04;
+  return JointTrajectory(model, "joints.csv", names, samples).doubts(model);
+}
+
+TEST(JointTrajectory, NothingIsDoubtedOfARobotThatMovesAsItCan) {
+  EXPECT_TRUE(
+      doubts_of({{0, {0, 0, 0, 0}}, {1, {3, 1, 0, 0.04}}, {1.01, {3.05, 1.02, 0, 0}}}).empty());
+  // Stamps that jitter, and a continuous joint that goes on over half a turn.
+  EXPECT_TRUE(doubts_of({{0, {3.1, 0, 0, 0}}, {0.001, {-3.1, 0.05, 0, 0}}}).empty());
+}
+
+TEST(JointTrajectory, ColumnsThatAreNotUsedAreTold) {
+  const std::vector<std::string> doubts =
+      doubts_of({{0, {0, 0, 0, 0, 7}}}, {"wheel", "turn", "finger", "lift", "elbow"});
+  ASSERT_EQ(doubts.size(), 1U);
+  expect_parts(doubts[0], {"joints.csv: not used: elbow; robot three"});
+}
+
+TEST(JointTrajectory, AJointThatJumpsIsTold) {
+  const std::vector<std::string> doubts = doubts_of(
+      {{0, {0, 1.2, 0, 0}}, {0.01, {0, 0, 0, 0}}, {0.02, {0, 1.2, 0, 0}}, {0.03, {0, 0, 0, 0}}});
+  ASSERT_EQ(doubts.size(), 1U);
+  expect_parts(doubts[0], {"joint turn jumps from 1.2 to 0 rad within 0.01 s, at 0.01 s",
+                           "expected 3 rad/s", "two publishers"});
+  // Where the URDF has no limit.
+  EXPECT_EQ(doubts_of({{0, {0, 0, 0, 0}}, {0.01, {1.2, 0, 0, 0}}}).size(), 1U);
+}
+
+TEST(JointTrajectory, APositionBeyondTheLimitsIsTold) {
+  const std::vector<std::string> doubts = doubts_of({{0, {0, 0, 0, 35}}, {9, {0, -2.2, 0, 35}}});
+  ASSERT_EQ(doubts.size(), 2U);
+  expect_parts(doubts[0], {"joint turn is at -2.2 rad, at 9 s; its URDF says -2 to 2"});
+  expect_parts(doubts[1], {"joint lift is at 35 m, at 0 s; its URDF says 0 to 0.04"});
 }
 
 }  // namespace

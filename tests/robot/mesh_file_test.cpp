@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include <algorithm>
+#include <cctype>
 #include <limits>
 
 #include "berth/robot/mesh_file/stl_bytes.hpp"
@@ -104,12 +105,27 @@ TEST(StlFile, TextCutInItsSecondSolidIsAnError) {
   expect_unreadable("part.stl", whole + whole.substr(0, whole.size() / 2), "the STL holds");
 }
 
-TEST(StlFile, TrailingBytesAreAnError) {
-  expect_unreadable("part.stl", binary_stl(two_triangles()) + "more", "the STL holds");
+TEST(StlFile, BytesBehindTheTrianglesAreNoErrorUnlessTheyMayBeMoreOfThem) {
+  const TemporaryFolder folder;
+  for (const std::string& more : {std::string("\n"), std::string("more"), std::string(200, '\0')}) {
+    const auto file = folder.write("part.stl", binary_stl(two_triangles()) + more);
+    EXPECT_EQ(read_mesh_file(file).triangles.size(), 2U);
+  }
+  expect_unreadable("part.stl", binary_stl(two_triangles()) + std::string(49, 'x') + "y",
+                    "the STL holds");
+}
+
+TEST(StlFile, TextMayBeInCapitalsAndEndInTwoWords) {
+  const TemporaryFolder folder;
+  std::string text = text_stl(two_triangles());
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::toupper(c); });
+  EXPECT_EQ(read_mesh_file(folder.write("a.stl", text)).triangles.size(), 2U);
+  text.replace(text.rfind("ENDSOLID"), 8, "END SOLID");
+  EXPECT_EQ(read_mesh_file(folder.write("b.stl", text)).triangles.size(), 2U);
 }
 
 TEST(StlFile, NoTriangleIsAnError) {
-  expect_unreadable("part.stl", binary_stl({}), "the STL has 0 triangles; expected one at least");
+  expect_unreadable("part.stl", binary_stl({}), "the STL holds 84 bytes; expected text");
   expect_unreadable("part.stl", text_stl({}), "no facet; expected one at least");
 }
 

@@ -71,7 +71,7 @@ TEST(ObjFile, WithoutAFaceIsAnError) {
   for (const char* text :
        {"v 0 0 0\nv 1 0 0\nv 0 1 0\n", "v 0 0 0\nv 1 0 0\nl 1 2\n", "v 0 0 0\nv 1 0 0\np 1 2\n"}) {
     const auto file = folder.write("part.obj", text);
-    expect_error([&] { read_mesh_file(file); }, {file.string(), "mesh"});
+    expect_error([&] { read_mesh_file(file); }, {file.string(), "expected"});
   }
 }
 
@@ -196,6 +196,36 @@ TEST(DaeFile, GeometryUsedTwiceAppearsTwice) {
   expect_box(mesh, {0, 0, -5}, {1, 2, 3});
 }
 
+TEST(DaeFile, AGeometryThatIsGoneIsNamed) {
+  const TemporaryFolder folder;
+  const auto file = folder.write(
+      "part.dae", dae({.nodes = R"(<node id="a"><instance_geometry url="#shape"/></node>
+    <node id="b"><instance_geometry url="#gone"/></node>)"}));
+  expect_error([&] { read_mesh_file(file); }, {file.string(), "gone"});
+}
+
+TEST(DaeFile, ANormalMayBeNoNumberAndIdsMayRepeatWhereNobodyRefersToThem) {
+  std::string text = dae({.nodes = R"(<node id="n"><instance_geometry url="#shape"/></node>
+    <node id="twice"/><node id="twice"/>)"});
+  text.insert(text.find("<vertices"),
+              "<source id=\"normals\"><float_array id=\"n_array\" count=\"3\">NaN 0 1</float_array>"
+              "<technique_common><accessor count=\"1\" source=\"#n_array\" stride=\"3\"/>"
+              "</technique_common></source>");
+  expect_box(read("part.dae", text), {0, 0, 0}, {1, 2, 3});
+}
+
+TEST(GltfFile, YIsUp) {
+  // (0, 0, 0), (1, 0, 0), (0, 2, 3).
+  const std::string text = R"({"asset": {"version": "2.0"}, "scene": 0,
+    "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                   "min": [0, 0, 0], "max": [1, 2, 3]}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAEAAAEBA"}]})";
+  expect_box(read("part.gltf", text), {0, -3, 0}, {1, 0, 2});
+}
+
 TEST(DaeFile, WhatIsNotGeometryIsNotRead) {
   std::string text = dae({});
   text.insert(text.find("<library_geometries>"),
@@ -238,7 +268,7 @@ TEST(DaeFile, CutOrWithoutGeometryIsAnError) {
        {whole.substr(0, whole.size() / 2), whole.substr(0, 60), dae({.nodes = R"(<node id="n"/>)"}),
         std::string("<html><body>404</body></html>")}) {
     const auto file = folder.write("part.dae", text);
-    expect_error([&] { read_mesh_file(file); }, {file.string(), "mesh"});
+    expect_error([&] { read_mesh_file(file); }, {file.string(), "expected"});
   }
 }
 

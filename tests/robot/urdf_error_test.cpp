@@ -132,7 +132,9 @@ TEST(UrdfError, MimicOfAFixedJointThatMimicsAnother) {
 
 TEST(UrdfError, JointWithoutASinglePosition) {
   for (const char* type : {"floating", "planar"})
-    expect_refused(pair_xml(type), {"\"elbow\"", "floating or planar", "expected"});
+    expect_refused(pair_xml(type),
+                   {"\"elbow\"", std::string(type) + " joints have no single position",
+                    "links \"base\" and \"child\"", "expected fixed, revolute"});
 }
 
 TEST(UrdfError, UnknownJointType) {
@@ -154,13 +156,14 @@ TEST(UrdfError, NumbersThatAreNone) {
 }
 
 TEST(UrdfError, PrimitivesWithoutExtent) {
-  expect_refused(shape_robot_xml(R"(<box size="1 0 1"/>)"), {"\"base\"", "side is 0", "expected"});
-  expect_refused(shape_robot_xml(R"(<box size="1 1 -2"/>)"), {"\"base\"", "side is -2"});
+  expect_refused(shape_robot_xml(R"(<box size="1 0 1"/>)"),
+                 {"\"base\"", "size=\"1 0 1\"; expected numbers above 0"});
+  expect_refused(shape_robot_xml(R"(<box size="1 1 -2"/>)"), {"\"base\"", "size=\"1 1 -2\""});
   expect_refused(shape_robot_xml(R"(<cylinder radius="-1" length="1"/>)"),
-                 {"\"base\"", "radius is -1"});
+                 {"\"base\"", "radius=\"-1\"; expected a number above 0"});
   expect_refused(shape_robot_xml(R"(<cylinder radius="1" length="0"/>)"),
-                 {"\"base\"", "length is 0"});
-  expect_refused(shape_robot_xml(R"(<sphere radius="0"/>)"), {"\"base\"", "radius is 0"});
+                 {"\"base\"", "length=\"0\""});
+  expect_refused(shape_robot_xml(R"(<sphere radius="0"/>)"), {"\"base\"", "radius=\"0\""});
 }
 
 TEST(UrdfError, PrimitivesWithNumbersThatAreNone) {
@@ -172,8 +175,9 @@ TEST(UrdfError, PrimitivesWithNumbersThatAreNone) {
 }
 
 TEST(UrdfError, ShapeOfUnknownKind) {
-  expect_refused(shape_robot_xml(R"(<capsule radius="1" length="1"/>)"), {"not a valid URDF"});
-  expect_refused(robot_xml(link_xml("base", "<visual/>")), {"not a valid URDF"});
+  expect_refused(shape_robot_xml(R"(<cone radius="1" length="1"/>)"),
+                 {"<cone> is a shape of unknown kind; expected mesh, box, cylinder"});
+  expect_refused(robot_xml(link_xml("base", "<visual/>")), {"<geometry> holds 0 shapes"});
 }
 
 TEST(UrdfError, SeveralShapesInOneGeometryOfWhichOnlyOneWouldBeTaken) {
@@ -189,8 +193,11 @@ TEST(UrdfError, SeveralShapesInOneGeometryOfWhichOnlyOneWouldBeTaken) {
 TEST(UrdfError, NumbersAreRefusedWithLineElementAndValue) {
   expect_refused(pair_xml("fixed", R"(<origin xyz="0,5 0 0"/>)"),
                  {":5: joint \"elbow\": <origin> has xyz=\"0,5 0 0\"; expected 3 finite numbers"});
-  expect_refused(pair_xml("revolute", R"(<mimic joint="elbow" offset="a"/>)"),
-                 {"<mimic> has offset=\"a\"; expected 1 finite number"});
+  expect_refused(
+      robot_xml(box_link_xml("base") + box_link_xml("a") + box_link_xml("b") +
+                joint_xml("ja", "revolute", "base", "a") +
+                joint_xml("jb", "revolute", "base", "b", R"(<mimic joint="ja" offset="a"/>)")),
+      {"<mimic> has offset=\"a\"; expected 1 finite number"});
   expect_refused(shape_robot_xml(R"(<sphere radius="0,1"/>)"),
                  {":3: link \"base\": <sphere> has radius=\"0,1\"; expected 1 finite number"});
   expect_refused(shape_robot_xml(R"(<mesh filename="a.stl" scale="0.001"/>)"),
@@ -220,7 +227,7 @@ TEST(UrdfError, MeshOfTrianglesWithoutArea) {
 }
 
 TEST(UrdfError, MeshOfAnUnknownScheme) {
-  for (const char* name : {"model://a/part.stl", "http://a/part.stl"}) {
+  for (const char* name : {"ftp://a/part.stl", "http://a/part.stl"}) {
     expect_refused(shape_robot_xml(std::string("<mesh filename=\"") + name + "\"/>"),
                    {name, "expected package://NAME/PATH, file://PATH or a path"});
   }
@@ -240,7 +247,8 @@ TEST(UrdfError, MeshScaleOfZero) {
   for (const char* scale : {"0 1 1", "1 1 0"}) {
     const std::string xml =
         shape_robot_xml(std::string(R"(<mesh filename="part.stl" scale=")") + scale + R"("/>)");
-    expect_error([&] { load_text(folder, xml); }, {"robot.urdf", "\"base\"", "scale is", scale});
+    expect_error([&] { load_text(folder, xml); },
+                 {"robot.urdf", "\"base\"", "<mesh> has scale=\"", scale, "other than 0"});
   }
 }
 

@@ -151,24 +151,140 @@ TEST(Urdf, PrimitivesHaveTheirSizeUpToTheStatedExcess) {
              static_cast<float>(2 * kMaxPrimitiveExcess));
 }
 
-TEST(Urdf, CollisionModeTakesVisualShapesWhereALinkHasNoOthers) {
+TEST(Urdf, ALinkWithShapesOfOneKindAloneIsTakenWithThese) {
   const std::string xml =
       robot_xml(link_xml("base", shape_xml(R"(<box size="1 1 1"/>)") +
                                      shape_xml(R"(<box size="2 2 2"/>)", "", "collision") +
                                      shape_xml(R"(<box size="4 1 1"/>)", "", "collision")) +
                 box_link_xml("seen") +
-                link_xml("hidden", shape_xml(R"(<box size="1 1 1"/>)", "", "collision")) +
+                link_xml("hidden", shape_xml(R"(<box size="1 1 1"/>)", R"(<origin xyz="4 0 0"/>)",
+                                             "collision")) +
                 joint_xml("to_seen", "fixed", "base", "seen") +
                 joint_xml("to_hidden", "fixed", "base", "hidden"));
   const RobotModel visual = load(xml);
   expect_box(box_of(visual, "base"), {-0.5F, -0.5F, -0.5F}, {0.5F, 0.5F, 0.5F});
-  EXPECT_TRUE(visual.links[*visual.find_link("hidden")].mesh_L.empty());
-  EXPECT_EQ(visual.links[*visual.find_link("hidden")].id, kNoLink);
+  expect_box(box_of(visual, "hidden"), {3.5F, -0.5F, -0.5F}, {4.5F, 0.5F, 0.5F});
+  ASSERT_EQ(visual.warnings.size(), 1U);
+  expect_parts(visual.warnings[0], {"robot.urdf", "collision shape", "hidden", "ignore_links"});
 
   const RobotModel collision = load(xml, {.geometry = GeometryKind::collision});
   expect_box(box_of(collision, "base"), {-2, -1, -1}, {2, 1, 1});
   expect_box(box_of(collision, "seen"), {-0.5F, -0.5F, -0.5F}, {0.5F, 0.5F, 0.5F});
-  expect_box(box_of(collision, "hidden"), {-0.5F, -0.5F, -0.5F}, {0.5F, 0.5F, 0.5F});
+  expect_box(box_of(collision, "hidden"), {3.5F, -0.5F, -0.5F}, {4.5F, 0.5F, 0.5F});
+}
+
+/// A link "base", and one that is fixed to it.
+RobotModel load_pair(const std::string& link, const RobotSettings& settings = {}) {
+  return load(robot_xml(box_link_xml("base") + link + joint_xml("j", "fixed", "base", "second")),
+              settings);
+}
+
+TEST(Urdf, ACollisionShapeAroundAVisibleLinkIsLeftOut) {
+  // As Franka's link1_sc: a coarser shape of the same body.
+  const std::string hull =
+      link_xml("second", shape_xml(R"(<box size="1.3 1.3 1.3"/>)", "", "collision"));
+  const RobotModel model = load_pair(hull);
+  EXPECT_EQ(model.evaluated_link_names(), std::vector<std::string>{"base"});
+  ASSERT_EQ(model.warnings.size(), 1U);
+  expect_parts(model.warnings[0], {"around other links", "second"});
+  EXPECT_EQ(load_pair(hull, {.environment_links = {"second"}}).links[1].id, kEnvironmentLink);
+}
+
+TEST(Urdf, AVisualShapeThatIsSeenThroughIsNoBody) {
+  const auto zone = [](const char* rgba, const std::string& collision = "") {
+    return link_xml("second", std::string("<visual><geometry><box size=\"9 9 9\"/></geometry>"
+                                          "<material name=\"m\"><color rgba=\"") +
+                                  rgba + "\"/></material></visual>" + collision);
+  };
+  const auto is_body = [](const RobotModel& model) { return !model.links[1].mesh_L.empty(); };
+  const RobotModel model = load_pair(zone("0 1 0 0.3"));
+  EXPECT_FALSE(is_body(model));
+  ASSERT_EQ(model.warnings.size(), 1U);
+  expect_parts(model.warnings[0], {"see-through", "second", "alpha"});
+  EXPECT_TRUE(is_body(load_pair(zone("0 1 0 1"))));
+  EXPECT_TRUE(is_body(load_pair(zone("0 1 0 0.9"))));
+  EXPECT_TRUE(is_body(load_pair(zone("0 1 0"))));
+  EXPECT_TRUE(
+      is_body(load_pair(zone("0 1 0 0.3", shape_xml(R"(<box size="9 9 9"/>)", "", "collision")))));
+  EXPECT_TRUE(is_body(load_pair(zone("0 1 0 0.3"), {.environment_links = {"second"}})));
+  // A robot that is drawn see-through as a whole.
+  EXPECT_EQ(load(robot_xml(zone("0 1 0 0.3"))).link_count(), 1);
+}
+
+TEST(Urdf, WhatNobodyNeedsMayBeBroken) {
+  const RobotModel model =
+      load("<robot name=\"test\" version=\"1.2\"><material name=\"m\"/><material name=\"m\"/>" +
+           link_xml("base", shape_xml(R"(<box size="1 1 1"/>)") +
+                                "<inertial><origin xyz=\"0 0 0\"/></inertial>" +
+                                shape_xml("<capsule/>", "", "collision")) +
+           box_link_xml("child") +
+           joint_xml("turn", "revolute", "base", "child",
+                     "<dynamics damping=\"x\"/><safety_controller/><calibration/>") +
+           "<transmission/><gazebo/></robot>");
+  EXPECT_EQ(model.link_count(), 2);
+  EXPECT_EQ(model.joints.size(), 1U);
+  EXPECT_EQ(model.joints[0].max_speed, 1);
+}
+
+TEST(Urdf, ReadsCapsulesAndQuaternions) {
+  const RobotModel model = load(
+      robot_xml(link_xml("base", shape_xml(R"(<capsule radius="0.1" length="1"/>)",
+                                           R"(<origin quat_xyzw="0 0.70710678 0 0.70710678"/>)"))));
+  expect_box(box_of(model, "base"), {-0.6F, -0.1F, -0.1F}, {0.6F, 0.1F, 0.1F}, 1e-3F);
+}
+
+TEST(Urdf, AMimicInAFixedJointIsNone) {
+  const RobotModel model =
+      load(robot_xml(box_link_xml("base") + box_link_xml("a") + box_link_xml("b") +
+                     joint_xml("ja", "fixed", "base", "a") +
+                     joint_xml("jb", "fixed", "base", "b", R"(<mimic joint="ja"/>)")));
+  EXPECT_TRUE(model.joints.empty());
+  EXPECT_TRUE(model.mimic_joints.empty());
+}
+
+TEST(Urdf, AFloatingJointBetweenWorldAndRobotIsFixed) {
+  for (const char* type : {"floating", "planar"}) {
+    const RobotModel model =
+        load(robot_xml(link_xml("world") + box_link_xml("base") +
+                       joint_xml("free", type, "world", "base", R"(<origin xyz="0 0 2"/>)")));
+    EXPECT_TRUE(model.joints.empty());
+    EXPECT_EQ(model.links[1].joint.X_PJ.translation().z(), 2);
+    ASSERT_EQ(model.warnings.size(), 1U);
+    expect_parts(model.warnings[0], {"\"free\"", "fixed"});
+  }
+}
+
+TEST(Urdf, EnvironmentThatJointsMoveIsTold) {
+  const RobotModel model = load(tree_xml(), {.environment_links = {"tip"}});
+  ASSERT_EQ(model.warnings.size(), 1U);
+  expect_parts(model.warnings[0], {"environment_links", "tip"});
+}
+
+/// The width of the mesh that base shows.
+float width_of(const TemporaryFolder& folder, const std::string& name,
+               RobotSettings settings = {}) {
+  const RobotModel model =
+      load_text(folder, robot_xml(link_xml("base", shape_xml("<mesh filename=\"" + name + "\"/>"))),
+                settings);
+  return box_of(model, "base").sizes().x();
+}
+
+TEST(Urdf, FindsAPackageByItsManifestAndFilesThatAreElsewhere) {
+  const TemporaryFolder folder;
+  const std::string mesh = binary_stl(two_triangles());
+  folder.write("arm_description-main/package.xml",
+               "<package><name>arm_description</name></package>");
+  folder.write("arm_description-main/meshes/my part.stl", mesh);
+  const float width = width_of(folder, "arm_description-main/meshes/my part.stl");
+  EXPECT_EQ(width_of(folder, "package://arm_description/meshes/my part.stl"), width);
+  EXPECT_EQ(width_of(folder, "package://arm_description/meshes/my%20part.stl"), width);
+  EXPECT_EQ(width_of(folder, "model://arm_description/meshes/my part.stl"), width);
+  const RobotSettings settings{
+      .package_paths = {{"arm_description", folder / "arm_description-main"}}};
+  const std::string elsewhere = "file:///home/other/ws/src/arm_description/meshes/my%20part.stl";
+  EXPECT_EQ(width_of(folder, elsewhere, settings), width);
+  expect_parts(error_message([&] { width_of(folder, elsewhere); }),
+               {"/home/other/ws/src/arm_description", "No such file", "package_paths"});
 }
 
 TEST(Urdf, MeshIsScaledThenPlaced) {

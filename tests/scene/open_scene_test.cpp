@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "berth/files/png.hpp"
 #include "berth/robot/primitives.hpp"
 #include "berth/scene/learn_background.hpp"
 #include "tests/support/error_message.hpp"
@@ -98,6 +99,90 @@ TEST(SceneCameras, ReadTheirImagesInTheirUnitsAndWithinTheirLimits) {
 }
 
 SceneFile bundled_file() { return read_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml"); }
+
+/// The bundled camera's image as other cameras would give it.
+struct OtherCamera {
+  OtherCamera(const std::string& info, std::string more) : keys(std::move(more)) {
+    folder.write("info.yaml", info);
+  }
+  OpenScene open(const DepthImage& depth_m) const {
+    write_depth_png(folder / "other.png", depth_m, 0.001);
+    const std::string bundled = BERTH_SOURCE_DIR "/data/bundled/";
+    folder.write("joints.csv", kSevenColumns);
+    return open_scene(folder.write(
+        "scene.yaml", "robot: {urdf: " + bundled + "arm/arm.urdf, package_paths: {berth_arm: " +
+                          bundled + "arm}}\ncameras:\n  - name: camera\n    info: info.yaml\n    " +
+                          "pose: {parent: table, xyz: [0, 0, 0], rpy: [0, 0, 0]}\n    " +
+                          "depth: [other.png]\n    " + keys + "\njoints: joints.csv\n"));
+  }
+  TemporaryFolder folder;
+  std::string keys;
+};
+
+const Camera kOther{160, 120, 120, 120, 80, 60};
+const std::string kOtherInfo =
+    "image_width: 160\nimage_height: 120\ncamera_matrix: {data: [120, 0, 80, 0, 120, 60, 0, 0, "
+    "1]}\ndistortion_model: plumb_bob\ndistortion_coefficients: {data: ";
+
+TEST(SceneCameras, ReadDistancesAlongTheRay) {
+  const OtherCamera camera(kOtherInfo + "[]}\n", "depth_is: ray");
+  DepthImage given_m(160, 120);
+  for (int v = 0; v < 120; ++v) {
+    for (int u = 0; u < 160; ++u) given_m(u, v) = point_at(kOther, u, v, 2).norm();
+  }
+  const DepthImage read_m = camera.open(given_m).cameras[0].read_depth(0);
+  for (const float z_m : read_m.pixels()) EXPECT_NEAR(z_m, 2, 0.001);
+}
+
+TEST(SceneCameras, RectifyWhatALensBends) {
+  const OtherCamera camera(kOtherInfo + "[-0.3, 0.1, 0, 0, 0]}\n", "rectified: false");
+  DepthImage given_m(160, 120, 3);
+  given_m(150, 60) = 1;
+  const OpenScene scene = camera.open(given_m);
+  const OpenCamera& open = scene.cameras[0];
+  EXPECT_EQ(open.given().width_px, 160);
+  EXPECT_GT(open.view->camera().width_px, 170);
+  const DepthImage read_m = open.read_depth(0);
+  ASSERT_EQ(read_m.width(), open.view->camera().width_px);
+  // 70 pixels to the right of the middle: 0.583 = x (1 - 0.3 x^2 + 0.1 x^4).
+  const auto at = pixel_of(open.view->camera(), Eigen::Vector3d(0.6556, 0, 1));
+  ASSERT_TRUE(at);
+  EXPECT_NEAR(read_m(at->u, at->v), 1, 0.001);
+}
+
+TEST(SceneCameras, WhoeverHasDistortionHasToSayWhetherItIsLeft) {
+  expect_parts(
+      error_message([] { OtherCamera(kOtherInfo + "[0.1]}\n", "").open(DepthImage(160, 120, 1)); }),
+      {"info.yaml:5", "rectified: true"});
+  const OtherCamera rectified(kOtherInfo + "[0.1]}\n", "rectified: true");
+  EXPECT_EQ(rectified.open(DepthImage(160, 120, 1)).cameras[0].view->camera().width_px, 160);
+}
+
+TEST(SceneCameras, WithoutStampsEachImageHasItsRow) {
+  const std::string still = std::string(kSevenColumns) + "1,0.1,0.2,0.3,0.4,0.5,0.6,0.7\n";
+  EXPECT_EQ(open_with(still, "").joints->size(), 2U);
+  const std::string rows = still + "2,0.1,0.9,0.3,0.4,0.5,0.6,0.7\n";
+  expect_parts(error_message([&] { open_with(rows, ""); }),
+               {"joints.csv: 3 rows", "the 1 images of camera camera", "or stamps"});
+}
+
+TEST(SceneCameras, RowsInMillisecondsAreNamed) {
+  SceneFile file = read_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml");
+  const TemporaryFolder folder;
+  std::string rows =
+      "time,arm_joint_1,arm_joint_2,arm_joint_3,arm_joint_4,arm_joint_5,arm_joint_6,"
+      "arm_joint_7\n";
+  for (int i = 0; i < 20; ++i) rows += std::to_string(10 * i) + ",0,0,0,0,0,0,0\n";
+  file.joints = folder.write("joints.csv", rows);
+  expect_parts(error_message([&] { open_scene(file); }),
+               {"joints.csv: rows of joint angles are 10 s apart", "images of camera camera",
+                "expected both in seconds"});
+}
+
+TEST(SceneCameras, TimesAreInSeconds) {
+  expect_parts(error_message([] { open_with("time,arm_joint_1\n1700000000000,0\n", ""); }),
+               {"joints.csv:2: time: 1700000000000; expected seconds"});
+}
 
 TEST(SceneCameras, KeepNoImageUnlessAskedTo) {
   const OpenScene scene = open_scene(bundled_file());

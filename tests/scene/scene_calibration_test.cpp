@@ -17,7 +17,8 @@ const std::string kBundled = BERTH_SOURCE_DIR "/data/bundled/";
 /// The bundled arm, with these joint_2 in one row for each image, and those rows' times.
 class CalibrationScene : public ::testing::Test {
  protected:
-  OpenScene open(const std::vector<double>& joint_2, const std::string& more_camera = "") {
+  OpenScene open(const std::vector<double>& joint_2, const std::string& more_camera = "",
+                 const std::string& more = "") {
     std::string csv =
         "time,arm_joint_1,arm_joint_2,arm_joint_3,arm_joint_4,arm_joint_5,arm_joint_6,"
         "arm_joint_7\n";
@@ -33,8 +34,8 @@ class CalibrationScene : public ::testing::Test {
                     "cameras:\n  - name: front\n    info: {0}camera_info.yaml\n"
                     "    pose: {{parent: table, xyz: [0.12, -2.25, 0.8], quaternion_xyzw: "
                     "[-0.788699, 0.0732, -0.05641, 0.607794]}}\n    depth: [{1}]\n{2}"
-                    "joints: joints.csv\nevaluation: {{method: exact}}\n",
-                    kBundled, depth, more_camera)));
+                    "joints: joints.csv\nevaluation: {{method: exact}}\n{3}",
+                    kBundled, depth, more_camera, more)));
   }
 
   std::string scene_file() const { return (folder_ / "scene.yaml").string(); }
@@ -136,7 +137,8 @@ TEST_F(CalibrationScene, FramesOfOnePoseAreTakenOnce) {
 }
 
 TEST_F(CalibrationScene, TheJointsAreThoseAtTheClockThatTheSceneBelieves) {
-  const OpenScene scene = open({0, 1, 2}, "    stamps: [0.5, 1, 1.5]\n    clock_offset_s: 0.25\n");
+  const OpenScene scene = open({0, 1, 2}, "    stamps: [0.5, 1, 1.5]\n    clock_offset_s: 0.25\n",
+                               "time: {max_skew_s: 0.5}\n");
   const SceneCalibrationData material = make_calibration_data(scene);
   const CalibrationCamera& camera = *material.cameras[0];
   EXPECT_EQ(camera.clock_offset_s, 0.25);

@@ -130,7 +130,7 @@ TEST(Scene, LeavesDefaultsToThoseWhoOwnThem) {
   EXPECT_EQ(scene.evaluation.distance.range_m, evaluation.distance.range_m);
   EXPECT_EQ(scene.evaluation.distance.mean_direction, evaluation.distance.mean_direction);
   EXPECT_EQ(scene.evaluation.visibility, evaluation.visibility);
-  EXPECT_EQ(scene.evaluation.time.joints.max_skew_s, kOnlyBetweenSamples.max_skew_s);
+  EXPECT_EQ(scene.evaluation.time.joints.max_skew_s, kInRecordings.max_skew_s);
 }
 
 TEST(Scene, AQuaternionAndTheOneOfTheOtherSignAreOneRotation) {
@@ -191,7 +191,7 @@ TEST(Scene, TheRealRecordingsCanBeReadWhole) {
     for (const auto& [package, folder] : scene.robot.package_paths)
       EXPECT_TRUE(fs::exists(folder)) << folder;
     const SceneCamera& scene_camera = scene.cameras.at(0);
-    const Camera camera = read_camera_info(scene_camera.info);
+    const Camera camera = read_camera_info(scene_camera.info).camera;
     EXPECT_EQ(read_joints_csv(scene.joints).rows.size(), scene_camera.depth.size());
     for (const fs::path& image : scene_camera.depth) {
       const DepthImage depth_m = read_depth_png(image, camera, scene_camera.depth_scale_m);

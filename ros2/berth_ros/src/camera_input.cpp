@@ -35,7 +35,8 @@ berth::Camera camera_of(const sensor_msgs::msg::CameraInfo& info, bool is_rectif
     throw std::invalid_argument("camera_info has a region of interest; expected whole images");
   }
   berth::Camera camera{static_cast<int>(info.width), static_cast<int>(info.height), 0, 0, 0, 0};
-  if (is_rectified) {
+  // Without distortion the images are rectified: P is theirs, K that of the images before.
+  if (info.p[0] > 0) {
     camera.fx_px = info.p[0], camera.fy_px = info.p[5], camera.cx_px = info.p[2],
     camera.cy_px = info.p[6];
   } else {

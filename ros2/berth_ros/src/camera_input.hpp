@@ -20,7 +20,7 @@
 
 namespace berth_ros {
 
-/// The pinhole camera of a camera_info. Throws std::invalid_argument where it is none: without
+/// The pinhole camera of a camera_info: its P, or K where it has no P. Throws std::invalid_argument where it is none: without
 /// intrinsics, with distortion unless `is_rectified`, with binning or a region of interest.
 berth::Camera camera_of(const sensor_msgs::msg::CameraInfo& info, bool is_rectified);
 

@@ -74,11 +74,15 @@ sensor_msgs::msg::CameraInfo info() {
   return info;
 }
 
-TEST(CameraInfo, KCountsAndOfRectifiedImagesP) {
-  EXPECT_EQ(camera_of(info(), false).fx_px, 500);
-  EXPECT_EQ(camera_of(info(), false).cy_px, 240);
-  EXPECT_EQ(camera_of(info(), true).fx_px, 400);
-  EXPECT_EQ(camera_of(info(), true).cy_px, 220);
+TEST(CameraInfo, PCountsAndWithoutItK) {
+  for (const bool is_rectified : {false, true}) {
+    EXPECT_EQ(camera_of(info(), is_rectified).fx_px, 400);
+    EXPECT_EQ(camera_of(info(), is_rectified).cy_px, 220);
+    auto without_p = info();
+    without_p.p.fill(0);
+    EXPECT_EQ(camera_of(without_p, is_rectified).fx_px, 500);
+    EXPECT_EQ(camera_of(without_p, is_rectified).cy_px, 240);
+  }
 }
 
 TEST(CameraInfo, WhatIsNoPinholeCameraIsRefusedByName) {
@@ -94,7 +98,7 @@ TEST(CameraInfo, WhatIsNoPinholeCameraIsRefusedByName) {
   EXPECT_NE(why([](auto& i) { i.binning_x = 2; }).find("binning"), std::string::npos);
   EXPECT_NE(why([](auto& i) { i.roi.x_offset = 2; }).find("region of interest"), std::string::npos);
   EXPECT_NE(why([](auto& i) { i.roi.width = 100; }).find("region of interest"), std::string::npos);
-  EXPECT_NE(why([](auto& i) { i.k[0] = 0; }).find("intrinsics"), std::string::npos);
+  EXPECT_NE(why([](auto& i) { i.k[0] = i.p[0] = 0; }).find("intrinsics"), std::string::npos);
   EXPECT_NE(why([](auto& i) { i.width = 0; }).find("intrinsics"), std::string::npos);
 }
 

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
 
 #include "berth/files/read_file.hpp"
@@ -19,18 +22,61 @@ int read_size(const YamlValue& value) {
   return size_px;
 }
 
-void check_rectified(const YamlValue& model, const YamlValue& coefficients) {
-  // With all coefficients 0, a fisheye's "equidistant" still bends the image.
-  if (const std::string name = model.text(); name != "plumb_bob" && name != "rational_polynomial") {
-    model.fail(
-        "plumb_bob or rational_polynomial; berth works on rectified images, so rectify the images "
-        "of another model first");
+/// Lower case, without blanks, underscores and hyphens.
+std::string plain_name(const YamlValue& model) {
+  std::string name;
+  for (const char c : model.raw_text()) {
+    if (std::isalnum(static_cast<unsigned char>(c))) name += static_cast<char>(std::tolower(c));
   }
-  for (const YamlValue& coefficient : coefficients.list()) {
-    if (coefficient.number() != 0) {
-      coefficient.fail("all zeros; berth works on rectified images, so rectify the images first");
+  return name;
+}
+
+bool bends_without_coefficients(const std::string& model) {
+  return std::ranges::any_of(std::array{"fisheye", "equidistant", "kannala", "omni", "mei"},
+                             [&](const char* one) { return model.starts_with(one); });
+}
+
+Lens read_lens(const YamlValue& model, const YamlValue& coefficients) {
+  const std::string name = plain_name(model);
+  Lens lens{.is_fisheye = name == "equidistant" || name == "fisheye"};
+  std::size_t known = lens.is_fisheye ? 4 : name == "rationalpolynomial" ? 8 : 5;
+  if (!lens.is_fisheye && name != "plumbbob" && name != "brownconrady" && known != 8) {
+    model.fail(
+        "plumb_bob, rational_polynomial or equidistant: berth rectifies no images of another lens");
+  }
+  const std::vector<YamlValue> items = coefficients.list();
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const double value = items[i].number();
+    if (i < known) {
+      lens.coefficients[i] = value;
+    } else if (value != 0) {
+      items[i].fail(
+          fmt::format("0: of {} berth knows the first {} coefficients", model.raw_text(), known));
     }
   }
+  return lens;
+}
+
+/// None where the images are rectified, and where nothing is said of a lens.
+std::optional<Lens> find_lens(const YamlMap& info, const std::optional<YamlValue>& coefficients,
+                              std::optional<bool> is_rectified) {
+  const std::optional<YamlValue> model = info.find("distortion_model");
+  if (is_rectified == true) return {};
+  if (is_rectified == false) {
+    return read_lens(info.at("distortion_model"),
+                     coefficients ? *coefficients : info.at("distortion_coefficients"));
+  }
+  constexpr const char* kChoice =
+      "; or say rectified: true where the images are rectified, and rectified: false where they "
+      "are as the lens made them: berth rectifies them then";
+  if (model && bends_without_coefficients(plain_name(*model))) {
+    model->fail(fmt::format("the model of an image that is rectified{}", kChoice));
+  }
+  if (!coefficients) return {};
+  for (const YamlValue& coefficient : coefficients->list()) {
+    if (coefficient.number() != 0) coefficient.fail(fmt::format("all zeros{}", kChoice));
+  }
+  return {};
 }
 
 /// In pixels: some tools write it as a part of the image's width, and some in millimetres.
@@ -51,18 +97,35 @@ double read_center(const YamlValue& value, int size_px) {
   return c_px;
 }
 
-/// [fx 0 cx; 0 fy cy; 0 0 1], row by row.
-void read_camera_matrix(const YamlValue& data, Camera& camera) {
-  data.numbers(9);
+/// [fx 0 cx; 0 fy cy; 0 0 1], row by row, of `columns` numbers each.
+void read_matrix(const YamlValue& data, std::size_t columns, Camera& camera) {
+  data.numbers(3 * columns);
   const std::vector<YamlValue> items = data.list();
-  for (const std::size_t i : {1, 3, 6, 7}) {
+  for (const std::size_t i : {std::size_t{1}, columns, 2 * columns, 2 * columns + 1}) {
     if (items[i].number() != 0) items[i].fail("0 (no skew)");
   }
-  if (items[8].number() != 1) items[8].fail("1");
+  if (items[2 * columns + 2].number() != 1) items[2 * columns + 2].fail("1");
   camera.fx_px = read_focal_length(items[0], camera.width_px);
-  camera.fy_px = read_focal_length(items[4], camera.height_px);
+  camera.fy_px = read_focal_length(items[columns + 1], camera.height_px);
   camera.cx_px = read_center(items[2], camera.width_px);
-  camera.cy_px = read_center(items[5], camera.height_px);
+  camera.cy_px = read_center(items[columns + 2], camera.height_px);
+}
+
+/// Drivers that do not know it leave it out, or at 0.
+bool is_given(const std::optional<YamlValue>& matrix) {
+  if (!matrix || !matrix->is_list() || matrix->list().empty()) return false;
+  return std::ranges::any_of(matrix->numbers(), [](double value) { return value != 0; });
+}
+
+/// Of rectified images P counts: where an image was rectified, K is that of the image before.
+CameraInfo read_intrinsics(Camera size, const YamlValue& k, const std::optional<YamlValue>& p,
+                           const std::optional<Lens>& lens) {
+  if (!lens && is_given(p)) {
+    read_matrix(*p, 4, size);
+  } else {
+    read_matrix(k, 3, size);
+  }
+  return {size, lens};
 }
 
 /// `ros2 topic echo` ends each message by "---", after which YAML expects another document.
@@ -76,51 +139,68 @@ std::string without_last_separator(std::string text) {
 bool is_message(const YamlMap& info) { return info.find("width") && !info.find("image_width"); }
 
 /// ROS 2's name, or ROS 1's.
-YamlValue at_either(const YamlMap& info, std::string_view name, std::string_view old_name) {
+std::optional<YamlValue> find_either(const YamlMap& info, std::string_view name,
+                                     std::string_view old_name) {
   const std::optional<YamlValue> old = info.find(old_name);
-  return old ? *old : info.at(name);
+  return old ? old : info.find(name);
 }
 
-/// The matrix is that of the whole image.
-void check_whole_image(const YamlMap& info) {
-  for (const char* key : {"binning_x", "binning_y"}) {
-    const auto binning = info.find(key);
-    if (binning && binning->count() > 1) binning->fail("0 or 1: the image as the camera took it");
+/// The `data` of a matrix.
+std::optional<YamlValue> find_data(const YamlMap& info, std::string_view matrix) {
+  const std::optional<YamlValue> map = info.find(matrix);
+  return map ? YamlMap(*map).find("data") : map;
+}
+
+/// The matrix is that of the whole sensor; the image may be a part of it, its pixels gathered.
+void cut_to_image(const YamlMap& info, Camera& camera) {
+  int x_px = 0, y_px = 0, width_px = 0, height_px = 0, binning_x = 1, binning_y = 1;
+  info.read("binning_x", &YamlValue::count, binning_x);
+  info.read("binning_y", &YamlValue::count, binning_y);
+  if (const auto region = info.find("roi")) {
+    const YamlMap map(*region);
+    map.read("x_offset", &YamlValue::count, x_px);
+    map.read("y_offset", &YamlValue::count, y_px);
+    map.read("width", &YamlValue::count, width_px);
+    map.read("height", &YamlValue::count, height_px);
+    if (x_px + width_px > camera.width_px || y_px + height_px > camera.height_px) {
+      region->fail("a region of the image");
+    }
   }
-  const auto region = info.find("roi");
-  if (!region) return;
-  for (const char* key : {"x_offset", "y_offset"}) {
-    const auto offset = YamlMap(*region).find(key);
-    if (offset && offset->count() > 0) offset->fail("0: the whole image");
-  }
+  const double x = std::max(1, binning_x), y = std::max(1, binning_y);
+  const auto size_px = [](int part, int whole, double by) {
+    return std::max(1, static_cast<int>((part > 0 ? part : whole) / by));
+  };
+  camera.width_px = size_px(width_px, camera.width_px, x);
+  camera.height_px = size_px(height_px, camera.height_px, y);
+  camera.fx_px /= x;
+  camera.fy_px /= y;
+  camera.cx_px = (camera.cx_px - x_px) / x;
+  camera.cy_px = (camera.cy_px - y_px) / y;
 }
 
-Camera read_message(const YamlMap& info) {
-  Camera camera;
-  camera.width_px = read_size(info.at("width"));
-  camera.height_px = read_size(info.at("height"));
-  read_camera_matrix(at_either(info, "k", "K"), camera);
-  const YamlValue model = info.at("distortion_model");
-  check_rectified(model, at_either(info, "d", "D"));
-  check_whole_image(info);
-  return camera;
+CameraInfo read_message(const YamlMap& info, std::optional<bool> is_rectified) {
+  const Camera size{read_size(info.at("width")), read_size(info.at("height")), 0, 0, 0, 0};
+  const auto k = find_either(info, "k", "K");
+  CameraInfo found = read_intrinsics(size, k ? *k : info.at("k"), find_either(info, "p", "P"),
+                                     find_lens(info, find_either(info, "d", "D"), is_rectified));
+  cut_to_image(info, found.camera);
+  return found;
 }
 
-Camera read_calibration_file(const YamlMap& info) {
-  Camera camera;
-  camera.width_px = read_size(info.at("image_width"));
-  camera.height_px = read_size(info.at("image_height"));
-  read_camera_matrix(YamlMap(info.at("camera_matrix")).at("data"), camera);
-  const YamlValue model = info.at("distortion_model");
-  check_rectified(model, YamlMap(info.at("distortion_coefficients")).at("data"));
-  return camera;
+CameraInfo read_calibration_file(const YamlMap& info, std::optional<bool> is_rectified) {
+  const Camera size{
+      read_size(info.at("image_width")), read_size(info.at("image_height")), 0, 0, 0, 0};
+  const YamlValue k = YamlMap(info.at("camera_matrix")).at("data");
+  return read_intrinsics(size, k, find_data(info, "projection_matrix"),
+                         find_lens(info, find_data(info, "distortion_coefficients"), is_rectified));
 }
 
 }  // namespace
 
-Camera read_camera_info(const std::filesystem::path& file) {
+CameraInfo read_camera_info(const std::filesystem::path& file, std::optional<bool> is_rectified) {
   const YamlMap info(parse_yaml(file, without_last_separator(read_file_bytes(file))));
-  return is_message(info) ? read_message(info) : read_calibration_file(info);
+  return is_message(info) ? read_message(info, is_rectified)
+                          : read_calibration_file(info, is_rectified);
 }
 
 }  // namespace berth

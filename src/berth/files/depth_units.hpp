@@ -21,25 +21,28 @@ struct DepthUnits {
   double far_m = std::numeric_limits<double>::infinity();
 };
 
-/// NaN unless it is a finite reading above 0 and between near and far.
+/// No depth camera reads as far: drivers and simulators say so where they have no reading.
+inline constexpr float kMostReading_m = 65.535F;
+
+/// NaN unless it is a reading above 0, below kMostReading_m and between near and far.
 inline float reading_or_none(double depth_m, const DepthUnits& units) {
   const auto depth = static_cast<float>(depth_m);
-  const bool valid = std::isfinite(depth) && depth > 0 &&
+  const bool valid = depth > 0 && depth < kMostReading_m &&
                      depth >= static_cast<float>(units.near_m) &&
                      depth <= static_cast<float>(units.far_m);
   return valid ? depth : kNoDepth;
 }
 
-/// The number 0 is no reading.
+/// The number 0 is no reading, and so is the greatest, which many cameras write in its place.
 inline float depth_of(std::uint16_t number, const DepthUnits& units) {
-  return number == 0 ? kNoDepth : reading_or_none(number * units.scale_m + units.offset_m, units);
+  return number == 0 || number == 65535 ? kNoDepth : reading_or_none(number * units.scale_m + units.offset_m, units);
 }
 
 /// Rounded; NaN becomes 0. A depth is never 0, which would remove it: the least is 1. One beyond
-/// 65535 is written as that: nearer to the camera than it is, never farther.
+/// 65534 is written as that: nearer to the camera than it is, never farther.
 inline std::uint16_t number_of(float depth_m, double scale_m) {
   if (std::isnan(depth_m)) return 0;
-  return static_cast<std::uint16_t>(std::clamp(std::round(depth_m / scale_m), 1.0, 65535.0));
+  return static_cast<std::uint16_t>(std::clamp(std::round(depth_m / scale_m), 1.0, 65534.0));
 }
 
 }  // namespace berth

@@ -7,8 +7,8 @@
 namespace berth {
 
 /// The files that match a shell pattern (glob(3)), relative to `folder` unless it is absolute;
-/// numbers in the names are sorted by value, so 9.png stands before 10.png. None match: an empty
-/// list.
+/// numbers in the names are sorted by value, so 9.png stands before 10.png, and times whose last
+/// zeros were cut as times: 1.16.png before 1.7.png. None match: an empty list.
 std::vector<std::filesystem::path> glob_files(const std::filesystem::path& folder,
                                               const std::string& pattern);
 

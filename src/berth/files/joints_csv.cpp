@@ -93,6 +93,9 @@ JointTable read_joints_csv(const std::filesystem::path& file) {
   for (std::size_t i = 1; i < lines.size(); ++i) {
     const FilePlace place{file, static_cast<int>(i) + 1, ""};
     JointTable::Row row = read_row(place, table.names, lines[i]);
+    if (row.time_s > kLastTime_s) {
+      throw_bad_file({file, place.line, "time"}, fmt::format("{}", row.time_s), kTimeExpected);
+    }
     if (!table.rows.empty() && row.time_s <= table.rows.back().time_s) {
       throw_bad_file({file, place.line, "time"}, fmt::format("{}", row.time_s),
                      fmt::format("more than {}, the row before", table.rows.back().time_s));

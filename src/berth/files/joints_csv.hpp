@@ -6,6 +6,11 @@
 
 namespace berth {
 
+/// Seconds since 1970 have ten digits before the point; what has more is milliseconds or less.
+inline constexpr double kLastTime_s = 1e11;
+/// For messages.
+inline constexpr const char* kTimeExpected = "seconds; this looks like milliseconds or nanoseconds";
+
 /// Joint positions over time, in the file's own order of joints; rad, or m for prismatic joints.
 struct JointTable {
   /// Where the joints were at a time.

@@ -16,8 +16,8 @@ bool is_depth_scale(double depth_scale_m);
 constexpr const char* kDepthScaleExpected = "metres per unit from 1e-6 to 0.1, such as 0.001";
 
 /// Depth in metres of a 16-bit grayscale PNG whose unit is `depth_scale_m`: its number times the
-/// unit, plus `offset_m`. The number 0, depths that are not above 0 then, and those outside
-/// [near_m, far_m] become NaN. Throws std::runtime_error where the file is missing,
+/// unit, plus `offset_m`. The numbers 0 and 65535, depths that are not above 0 then, those from
+/// kMostReading_m on and those outside [near_m, far_m] become NaN. Throws std::runtime_error where the file is missing,
 /// empty, incomplete, damaged, of another pixel format, of another size than the camera's, or the
 /// scale is no is_depth_scale.
 DepthImage read_depth_png(const std::filesystem::path& file, const Camera& expected_size,
@@ -35,7 +35,7 @@ Image<LinkId> read_link_ids_png(const std::filesystem::path& file, const Camera&
 
 /// Writes 16-bit grayscale in units of `depth_scale_m`, rounded to the nearest unit; NaN becomes 0.
 /// A depth is never written as 0 (no reading), which would remove an obstacle: the least is one
-/// unit. Depths beyond 65535 units are written as 65535: nearer to the camera than they are, never
+/// unit. Depths beyond 65534 units are written as 65534: nearer to the camera than they are, never
 /// farther. Throws std::runtime_error where the file cannot be written, which leaves no part of it
 /// behind, or the scale is no is_depth_scale.
 void write_depth_png(const std::filesystem::path& file, DepthView depth_m, double depth_scale_m);

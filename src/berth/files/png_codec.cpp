@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 #include <spng.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <memory>
 #include <new>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "berth/files/error.hpp"
 #include "berth/files/file_bytes.hpp"
@@ -74,9 +77,24 @@ void check_header(const spng_ihdr& header, const std::filesystem::path& file,
   }
 }
 
+/// Other images have other signatures: their name says more than that this one is wrong.
+void require_png(const std::filesystem::path& file, std::string_view bytes) {
+  using namespace std::string_view_literals;
+  if (bytes.starts_with("\x89PNG")) return;
+  constexpr std::array kOthers{
+      std::pair{"\x93NUMPY"sv, "is a NumPy array"}, std::pair{"\xFF\xD8"sv, "is a JPEG image"},
+      std::pair{"II*\0"sv, "is a TIFF image"},      std::pair{"MM\0*"sv, "is a TIFF image"},
+      std::pair{"v/1\1"sv, "is an OpenEXR image"},  std::pair{"P5"sv, "is a PGM image"}};
+  const auto other =
+      std::ranges::find_if(kOthers, [&](const auto& one) { return bytes.starts_with(one.first); });
+  throw_bad_file({file}, other == kOthers.end() ? "is no PNG file" : other->second,
+                 "a 16-bit PNG file, such as berth.io.write_depth makes of a NumPy array");
+}
+
 /// The bytes have to outlive what is read next.
 spng_ihdr read_header(const Context& context, const std::string& bytes,
                       const std::filesystem::path& file) {
+  if (!bytes.empty()) require_png(file, bytes);
   check_read(spng_set_crc_action(context.get(), SPNG_CRC_ERROR, SPNG_CRC_ERROR), file);
   check_read(spng_set_png_buffer(context.get(), bytes.data(), bytes.size()), file);
   // Text in an image unfolds when it is read; nobody reads it.

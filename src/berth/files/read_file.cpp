@@ -51,11 +51,18 @@ std::string read_next(const fs::path& file, std::ifstream& in, std::uintmax_t co
   return bytes;
 }
 
+void require_content(const fs::path& file, std::string_view bytes) {
+  if (bytes.starts_with("version https://git-lfs"))
+    fail(file, "is a pointer of Git LFS", "the file itself, which git lfs pull brings");
+}
+
 }  // namespace
 
 std::string read_file_bytes(const fs::path& file) {
   auto [in, size] = open_file(file, kMostFileBytes);
-  return read_next(file, in, size);
+  std::string bytes = read_next(file, in, size);
+  require_content(file, bytes);
+  return bytes;
 }
 
 FileEnds read_file_ends(const fs::path& file, std::size_t count, std::uintmax_t most_bytes) {
@@ -63,6 +70,7 @@ FileEnds read_file_ends(const fs::path& file, std::size_t count, std::uintmax_t 
   const std::uintmax_t part = std::min<std::uintmax_t>(count, size);
   FileEnds ends;
   ends.first = read_next(file, in, part);
+  require_content(file, ends.first);
   in.seekg(static_cast<std::streamoff>(size - part));
   ends.last = read_next(file, in, part);
   return ends;

@@ -17,7 +17,8 @@ class MissingFile : public std::runtime_error {
 inline constexpr std::uintmax_t kMostFileBytes = std::uintmax_t{1} << 30;
 
 /// All bytes of a regular file of at most 1 GiB: a pipe may keep its reader for ever, a device has
-/// no end. Throws MissingFile, or another std::runtime_error, that names the file, what is there,
+/// no end. A pointer of Git LFS, which stands in place of a file, is refused. Throws
+/// MissingFile, or another std::runtime_error, that names the file, what is there,
 /// and what was expected.
 std::string read_file_bytes(const std::filesystem::path& file);
 

@@ -88,6 +88,8 @@ std::string YamlValue::text() const {
   return node_.Scalar();
 }
 
+std::string YamlValue::raw_text() const { return node_.IsScalar() ? node_.Scalar() : text(); }
+
 std::string YamlValue::one_of(const std::vector<std::string_view>& choices) const {
   if (node_.IsScalar() &&
       std::find(choices.begin(), choices.end(), node_.Scalar()) != choices.end()) {
@@ -115,6 +117,9 @@ int YamlValue::count() const {
 double YamlValue::number() const {
   const std::optional<double> value =
       node_.IsScalar() ? parse_finite(node_.Scalar()) : std::nullopt;
+  if (!value && node_.IsScalar() && node_.Scalar().find(',') != std::string::npos) {
+    fail("a finite number, with a point in place of the comma");
+  }
   if (!value) fail("a finite number");
   return *value;
 }
@@ -178,6 +183,7 @@ YamlMap::YamlMap(const YamlValue& value, const std::vector<std::string_view>& kn
     : YamlMap(value) {
   for (const auto& [key, entry] : entries_) {
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    if (parse_integer(key)) entry.fail("unknown key", "a name; write 1.5 for 1,5");
     entry.fail("unknown key", fmt::format("{} (the nearest), or another of {}", nearest(key, known),
                                           fmt::join(known, ", ")));
   }

@@ -20,7 +20,8 @@ class YamlValue {
  public:
   YamlValue(const YAML::Node& node, FilePlace place) : node_(node), place_(std::move(place)) {}
 
-  std::string text() const;  ///< not empty
+  std::string text() const;      ///< not empty
+  std::string raw_text() const;  ///< may be empty
   std::string one_of(const std::vector<std::string_view>& choices) const;
   /// A path that is relative to the YAML file's folder.
   std::filesystem::path path() const;

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace berth {
@@ -19,27 +20,40 @@ std::vector<std::string> names_of(const std::vector<MovableJoint>& joints) {
 std::vector<std::size_t> columns_of(const RobotModel& model, const std::string& source,
                                     const std::vector<std::string>& names) {
   const std::vector<std::string> known = names_of(model.joints);
-  const auto contains = [](const auto& list, const std::string& name) {
-    return std::find(list.begin(), list.end(), name) != list.end();
-  };
-  for (const std::string& name : names) {
-    if (contains(known, name) || contains(model.mimic_joints, name)) continue;
-    throw std::runtime_error(
-        fmt::format("{}: \"{}\" is no joint of robot \"{}\" that moves; expected {}", source, name,
-                    model.name, fmt::join(known, ", ")));
-  }
   std::vector<std::size_t> columns;
   for (const std::string& name : known) {
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) {
       throw std::runtime_error(
           fmt::format("{}: joint \"{}\" of robot \"{}\" is missing; expected a column, or a fixed "
-                      "position, for each of {}",
-                      source, name, model.name, fmt::join(known, ", ")));
+                      "position, for each of {}; there are {}",
+                      source, name, model.name, fmt::join(known, ", "), fmt::join(names, ", ")));
     }
     columns.push_back(found - names.begin());
   }
   return columns;
+}
+
+std::string_view unit_of(const MovableJoint& joint) {
+  return joint.type == JointType::prismatic ? "m" : "rad";
+}
+
+bool is_same_place(const JointState& a, const JointState& b) {
+  constexpr double kStill = 0.02;  // rad or m
+  return std::ranges::equal(a.position, b.position,
+                            [](double x, double y) { return std::abs(x - y) <= kStill; });
+}
+
+/// A hand's breadth of the arm: less is noise, or stamps that jitter.
+double least_jump(const MovableJoint& joint) {
+  return joint.type == JointType::prismatic ? 0.05 : 0.1;
+}
+
+/// Where the URDF says nothing, faster than any arm.
+double fastest(const MovableJoint& joint) {
+  constexpr double kTimesItsLimit = 3;
+  if (joint.max_speed > 0) return kTimesItsLimit * joint.max_speed;
+  return joint.type == JointType::prismatic ? 10 : 30;
 }
 
 }  // namespace
@@ -51,6 +65,12 @@ JointTrajectory::JointTrajectory(const RobotModel& model, std::string source,
   const std::vector<std::size_t> columns = columns_of(model, source_, names);
   for (const MovableJoint& joint : model.joints)
     is_continuous_.push_back(joint.type == JointType::continuous);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const bool is_used =
+        std::ranges::find(columns, i) != columns.end() ||
+        std::ranges::find(model.mimic_joints, names[i]) != model.mimic_joints.end();
+    if (!is_used) unused_.push_back(names[i]);
+  }
   for (const Sample& sample : samples) {
     JointState state{sample.time_s, {}};
     for (const std::size_t column : columns) state.position.push_back(sample.positions.at(column));
@@ -60,7 +80,60 @@ JointTrajectory::JointTrajectory(const RobotModel& model, std::string source,
 
 FrameTime JointTrajectory::at(double time_s, const JointTimeLimits& limits,
                               JointState& joints) const {
-  return joints_at_time(states_, is_continuous_, time_s, limits, joints);
+  const FrameTime time = joints_at_time(states_, is_continuous_, time_s, limits, joints);
+  if (time.status != TimeStatus::skewed || moves_at(time_s)) return time;
+  return joints_at_time(states_, is_continuous_, time_s, kOnlyBetweenSamples, joints);
+}
+
+bool JointTrajectory::moves_at(double time_s) const {
+  const auto after = std::ranges::lower_bound(states_, time_s, {}, &JointState::stamp_s);
+  if (after == states_.begin() || after == states_.end()) return true;
+  return !is_same_place(*(after - 1), *after);
+}
+
+bool JointTrajectory::stands_still() const {
+  return std::ranges::all_of(
+      states_, [&](const JointState& state) { return is_same_place(states_.front(), state); });
+}
+
+std::string JointTrajectory::jump_of(const MovableJoint& joint, std::size_t i) const {
+  for (std::size_t k = 1; k < states_.size(); ++k) {
+    const JointState &a = states_[k - 1], &b = states_[k];
+    const double time_s = b.stamp_s - a.stamp_s;
+    const double way =
+        joint_between(a.position[i], b.position[i], 1, is_continuous_[i]) - a.position[i];
+    if (std::abs(way) < least_jump(joint) || std::abs(way) / time_s <= fastest(joint)) continue;
+    return fmt::format(
+        "{}: joint {} jumps from {:.4g} to {:.4g} {} within {:.4g} s, at {:.4g} s; expected {:.4g} "
+        "{}/s at most. Do two publishers tell it?",
+        source_, joint.name, a.position[i], b.position[i], unit_of(joint), time_s, b.stamp_s,
+        fastest(joint), unit_of(joint));
+  }
+  return {};
+}
+
+std::vector<std::string> JointTrajectory::doubts(const RobotModel& model) const {
+  std::vector<std::string> all;
+  if (!unused_.empty()) {
+    all.push_back(fmt::format("{}: not used: {}; robot {} has no such joint that moves", source_,
+                              fmt::join(unused_, ", "), model.name));
+  }
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const MovableJoint& joint = model.joints[i];
+    if (const std::string jump = jump_of(joint, i); !jump.empty()) all.push_back(jump);
+    const auto is_outside = [&](const JointState& state) {
+      if (joint.lower >= joint.upper) return false;
+      return state.position[i] < joint.lower - least_jump(joint) ||
+             state.position[i] > joint.upper + least_jump(joint);
+    };
+    const auto outside = std::ranges::find_if(states_, is_outside);
+    if (outside == states_.end()) continue;
+    all.push_back(
+        fmt::format("{}: joint {} is at {:.4g} {}, at {:.4g} s; its URDF says {:.4g} to {:.4g}",
+                    source_, joint.name, outside->position[i], unit_of(joint), outside->stamp_s,
+                    joint.lower, joint.upper));
+  }
+  return all;
 }
 
 void JointTrajectory::velocity(double time_s, std::vector<double>& velocity) const {
@@ -74,15 +147,6 @@ void JointTrajectory::velocity(double time_s, std::vector<double>& velocity) con
         joint_between(a.position[i], b.position[i], 1, is_continuous_[i]) - a.position[i];
     velocity[i] = way / (b.stamp_s - a.stamp_s);
   }
-}
-
-const JointState& JointTrajectory::sample(std::size_t index) const {
-  if (index < states_.size()) return states_[index];
-  throw std::runtime_error(
-      fmt::format("{}: {} rows of joint angles, but frame {} needs row {} (a frame without a stamp "
-                  "takes the row of its "
-                  "number)",
-                  source_, states_.size(), index, index));
 }
 
 }  // namespace berth

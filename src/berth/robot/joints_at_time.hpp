@@ -31,8 +31,11 @@ void visit_settings(Settings& s, Visitor&& visit) {
         s.max_extrapolation_s);
 }
 
-/// No limit but that nothing is extrapolated: for recordings whose joints are rare.
+/// No limit but that nothing is extrapolated.
 inline constexpr JointTimeLimits kOnlyBetweenSamples{std::numeric_limits<double>::infinity(), 0};
+
+/// For recordings: farther from a sample a robot that moves may be anywhere.
+inline constexpr JointTimeLimits kInRecordings{0.1, 0};
 
 /// One joint on the line between two positions: `share` is 0 at `before`, 1 at `after`. A
 /// continuous joint takes the shorter way round.

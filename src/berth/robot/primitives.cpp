@@ -62,21 +62,27 @@ TriangleMesh make_cylinder(double radius_m, double length_m) {
   return mesh;
 }
 
-TriangleMesh make_sphere(double radius_m) {
+TriangleMesh make_sphere(double radius_m) { return make_capsule(radius_m, 0); }
+
+TriangleMesh make_capsule(double radius_m, double length_m) {
   TriangleMesh mesh;
-  // The sphere's rings at half steps and both poles lie on a slightly larger sphere, so that no
-  // chord between neighbours, in a ring or between rings, cuts into the true one.
+  // The caps' rings at half steps and both poles lie on a slightly larger sphere, so that no chord
+  // between neighbours, in a ring or between rings, cuts into the true one.
   const double half_step = std::numbers::pi / kSegments;
   const double outer_m = radius_m / std::cos(half_step);
   const double step = std::numbers::pi / kRings;
   const double ring_m = outer_m / std::cos(half_step);
-  for (int ring = 1; ring < kRings; ++ring) {
+  const auto append_cap_ring = [&](int ring, double centre_m) {
     const double polar = std::numbers::pi - ring * step;
-    append_ring(mesh, ring_m * std::sin(polar), outer_m * std::cos(polar));
-  }
-  mesh.vertices_m.emplace_back(0, 0, -outer_m);
-  mesh.vertices_m.emplace_back(0, 0, outer_m);
-  connect_rings(mesh, kRings - 1);
+    append_ring(mesh, ring_m * std::sin(polar), centre_m + outer_m * std::cos(polar));
+  };
+  for (int ring = 1; ring <= kRings / 2; ++ring) append_cap_ring(ring, -length_m / 2);
+  const int upper = length_m > 0 ? kRings / 2 : kRings / 2 + 1;
+  for (int ring = upper; ring < kRings; ++ring) append_cap_ring(ring, length_m / 2);
+  const std::size_t rings = mesh.vertices_m.size() / kSegments;
+  mesh.vertices_m.emplace_back(0, 0, -length_m / 2 - outer_m);
+  mesh.vertices_m.emplace_back(0, 0, length_m / 2 + outer_m);
+  connect_rings(mesh, static_cast<std::uint32_t>(rings));
   return mesh;
 }
 

@@ -13,5 +13,7 @@ inline constexpr double kMaxPrimitiveExcess = 0.0045;
 TriangleMesh make_box(const Eigen::Vector3d& size_m);
 TriangleMesh make_cylinder(double radius_m, double length_m);  ///< along z
 TriangleMesh make_sphere(double radius_m);                     ///< as the others
+/// Along z; its length is that between the centres of its caps.
+TriangleMesh make_capsule(double radius_m, double length_m);
 
 }  // namespace berth

@@ -19,7 +19,8 @@
 namespace berth {
 /// Which shapes of a URDF are the robot.
 enum class GeometryKind {
-  visual,     ///< the visual shapes, which the camera sees; a link without them has none
+  visual,     ///< the visual shapes, which the camera sees; a link without them has its collision
+              ///< ones
   collision,  ///< the collision shapes; a link without them has its visual ones, since the camera
               ///< sees those
 };
@@ -66,6 +67,8 @@ struct MovableJoint {
   /// The URDF's limits, rad or m; nothing enforces them. A continuous joint has none.
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
+  /// rad/s or m/s; 0 where the URDF has none.
+  double max_speed = 0;
 };
 
 /// The robot as its URDF tells; constant once loaded.
@@ -83,6 +86,9 @@ struct RobotModel {
   std::vector<SoftBody> soft_bodies = {};
   /// The boxes around the guarded links' shapes, along the links' axes.
   std::vector<GuardedBox> guarded = {};
+  /// What was decided where a URDF or the settings leave it open; each says the file, the links or
+  /// joint, what they are taken for, and how to have it otherwise.
+  std::vector<std::string> warnings = {};
 
   int link_count() const { return static_cast<int>(evaluated_links.size()); }
   std::vector<std::string> evaluated_link_names() const;
@@ -95,8 +101,10 @@ struct RobotModel {
 /// Which robot, and what its links are to be.
 struct RobotSettings {
   std::filesystem::path urdf = {};
-  /// What package://NAME/ means. A NAME that is not here is looked for as a folder beside the URDF,
-  /// then beside each folder above it.
+  /// What package://NAME/ and model://NAME/ mean, and where a file: URL or an absolute path is
+  /// looked for that passes a folder NAME and leads to no file. A NAME that is not here is looked
+  /// for as a folder beside the URDF, then beside each folder above it; then as one whose
+  /// package.xml says NAME.
   std::map<std::string, std::filesystem::path> package_paths = {};
   GeometryKind geometry = GeometryKind::visual;
   std::vector<std::string> environment_links = {};
@@ -112,9 +120,9 @@ struct RobotSettings {
 /// Loads a URDF and its meshes. Evaluated are the links that have geometry and are neither
 /// environment nor ignored; their ids follow the tree, parents first. Throws std::runtime_error
 /// that names the file, the link or joint, the value and what was expected: URDF missing, invalid,
-/// with a loop, without a root or with two, a joint type other than fixed, revolute, continuous and
-/// prismatic, a mesh that is missing, unreadable or empty, an unknown link in the settings, a
-/// guarded one that moves or has no shapes.
+/// with a loop, without a root or with two, a floating or planar joint between links with shapes, a
+/// mesh that is missing, unreadable or empty, an unknown link in the settings, a guarded one that
+/// moves or has no shapes.
 RobotModel load_robot(const RobotSettings& settings);
 
 }  // namespace berth

@@ -1,20 +1,35 @@
-// Inside robot/ only: the URDF's text, parsed and checked to be one tree.
+// Inside robot/ only.
 #pragma once
 
-#include <urdf_model/model.h>
-#include <urdf_world/types.h>
-
 #include <filesystem>
+#include <pugixml.hpp>
 #include <string>
+
+#include "berth/types/camera.hpp"
 
 namespace berth {
 
-/// Throws std::runtime_error that names the file and the trouble. The result has exactly one root,
-/// every link hangs on it by exactly one joint, and mimic chains end at a joint that moves.
-urdf::ModelInterfaceSharedPtr parse_urdf(const std::filesystem::path& path,
-                                         const std::string& text);
+/// A URDF as it was written. Reading it throws std::runtime_error with file, line, link or joint,
+/// element, value and what was expected.
+struct Urdf {
+  /// Refuses what is no XML, or no <robot>.
+  Urdf(const std::filesystem::path& file, const std::string& xml);
 
-/// The text of a file. Throws std::runtime_error where it cannot be read.
-std::string read_urdf(const std::filesystem::path& path);
+  std::filesystem::path path;
+  std::string text;
+  pugi::xml_document document;
+
+  pugi::xml_node robot() const { return document.document_element(); }
+  /// The numbers that an element has as an attribute; `otherwise` where it has no such.
+  double number(const pugi::xml_node& element, const char* attribute, double otherwise = 0) const;
+  Eigen::Vector3d vector(const pugi::xml_node& element, const char* attribute,
+                         const Eigen::Vector3d& otherwise) const;
+  /// What <origin> in a joint or shape tells: xyz, and rpy or the quat_xyzw of URDF 1.1.
+  Pose origin_of(const pugi::xml_node& part) const;
+  [[noreturn]] void fail(const pugi::xml_node& place, const std::string& what) const;
+
+ private:
+  Eigen::VectorXd numbers(const pugi::xml_node& element, const char* attribute, int count) const;
+};
 
 }  // namespace berth

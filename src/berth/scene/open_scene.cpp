@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 
 #include "berth/files/camera_info.hpp"
@@ -84,9 +85,42 @@ TriangleMesh mesh_of(const SceneAttachment& attachment) {
   return read_mesh_file(attachment.mesh);
 }
 
+/// Which row belongs to which image is else a guess.
+void require_one_row_each(const JointTrajectory& joints, const SceneCamera& camera) {
+  if (joints.size() == camera.depth.size()) return;
+  if (joints.size() > camera.depth.size() && joints.stands_still()) return;
+  throw std::runtime_error(fmt::format(
+      "{}: {} rows of joint angles for the {} images of camera {}, which has no stamps; "
+      "expected a row for each image, or stamps",
+      joints.source(), joints.size(), camera.depth.size(), camera.name));
+}
+
+double median_step(std::vector<double> times_s) {
+  std::adjacent_difference(times_s.begin(), times_s.end(), times_s.begin());
+  const auto middle = times_s.begin() + std::ssize(times_s) / 2;
+  std::nth_element(times_s.begin() + 1, middle, times_s.end());
+  return *middle;
+}
+
+/// Rows in milliseconds beside stamps in seconds lie seconds apart.
+void require_one_unit(const JointTrajectory& joints, const SceneCamera& camera) {
+  constexpr double kLeastStep_s = 1, kLeastRatio = 30;
+  constexpr std::size_t kLeastRows = 10;
+  if (camera.stamps_s.size() < 2 || joints.size() < kLeastRows) return;
+  std::vector<double> times_s;
+  for (std::size_t i = 0; i < joints.size(); ++i) times_s.push_back(joints.sample(i).stamp_s);
+  const double row_s = median_step(times_s), image_s = median_step(camera.stamps_s);
+  if (row_s < kLeastStep_s || row_s < kLeastRatio * image_s) return;
+  throw std::runtime_error(
+      fmt::format("{}: rows of joint angles are {:.4g} s apart, images of camera {} {:.4g} s; "
+                  "expected both in seconds",
+                  joints.source(), row_s, camera.name, image_s));
+}
+
 /// The joints at each exposure. Throws where none of the stamps can be meant for these joints.
 void find_joints(const JointTrajectory& joints, OpenCamera& camera) {
   const SceneCamera& source = camera.source;
+  source.stamps_s.empty() ? require_one_row_each(joints, source) : require_one_unit(joints, source);
   camera.at_exposure.resize(source.depth.size());
   camera.exposure_time.resize(source.depth.size());
   bool any_ok = false;
@@ -103,11 +137,12 @@ void find_joints(const JointTrajectory& joints, OpenCamera& camera) {
     any_ok |= camera.exposure_time[frame].status == TimeStatus::ok;
   }
   if (any_ok) return;
-  throw std::runtime_error(
-      fmt::format("{}: no joint angles for any stamp of camera {}, from {} to {} s; expected "
-                  "times from {} to {} s",
-                  joints.source(), source.name, source.stamps_s.front(), source.stamps_s.back(),
-                  joints.first_s(), joints.last_s()));
+  throw std::runtime_error(fmt::format(
+      "{}: no joint angles for any stamp of camera {}, from {} to {} s; expected "
+      "times from {} to {} s, and a row within {} s of a stamp where the robot moves "
+      "(time.max_skew_s); are both in seconds?",
+      joints.source(), source.name, source.stamps_s.front(), source.stamps_s.back(),
+      joints.first_s(), joints.last_s(), camera.view->robot()->settings().time.joints.max_skew_s));
 }
 
 /// Throws MissingFile where there is nothing at the path that the scene's `key` names.
@@ -156,10 +191,12 @@ std::optional<SeparationSettings> checked_separation(const SceneFile& scene) {
 }
 
 /// All of the scene's next camera but its images.
-OpenCamera& add_camera(const SceneFile& source, const Camera& pinhole, OpenScene& scene) {
+OpenCamera& add_camera(const SceneFile& source, const Camera& pinhole,
+                       std::shared_ptr<const Rectification> rectification, OpenScene& scene) {
   const SceneCamera& from = source.cameras[scene.cameras.size()];
   OpenCamera& camera = scene.cameras.emplace_back();
   camera.source = from;
+  camera.rectification = std::move(rectification);
   const CameraMount mount{pinhole, from.parent_link, from.X_PC, from.name};
   camera.view = with_file_named(source, [&] {
     return std::make_shared<const MountedCamera>(scene.robot, mount, from.settings);
@@ -175,6 +212,16 @@ OpenCamera& add_camera(const SceneFile& source, const Camera& pinhole, OpenScene
     camera.background_m = read_depth_png(*from.background, pinhole, kBackgroundScale_m);
   }
   return camera;
+}
+
+/// The scene's next camera.
+OpenCamera& add_camera(const SceneFile& source, OpenScene& scene) {
+  const SceneCamera& from = source.cameras[scene.cameras.size()];
+  const CameraInfo info = read_camera_info(from.info, from.is_rectified);
+  if (!info.lens && from.depth_is == DepthIs::along_axis)
+    return add_camera(source, info.camera, nullptr, scene);
+  const auto made = std::make_shared<const Rectification>(info.camera, info.lens, from.depth_is);
+  return add_camera(source, made->camera(), made, scene);
 }
 
 void take_method(const SceneFile& source, OpenScene& scene) {
@@ -203,6 +250,9 @@ OpenScene open_with(const SceneFile& source,
   scene.joint_offsets = source.joint_offsets;
   RobotModel model = load_robot(source.robot);
   scene.joints = std::make_shared<const JointTrajectory>(read_trajectory(model, source));
+  for (const std::vector<std::string>& more : {model.warnings, scene.joints->doubts(model)}) {
+    scene.warnings.insert(scene.warnings.end(), more.begin(), more.end());
+  }
   scene.robot = with_file_named(source, [&] {
     return std::make_shared<const Robot>(std::move(model), source.evaluation,
                                          attachments_of(source));
@@ -210,7 +260,7 @@ OpenScene open_with(const SceneFile& source,
   take_method(source, scene);
   scene.separation = checked_separation(source);
   for (const SceneCamera& from : source.cameras) {
-    OpenCamera& camera = add_camera(source, read_camera_info(from.info), scene);
+    OpenCamera& camera = add_camera(source, scene);
     camera.kept_depth_m.resize(from.depth.size());
     for (std::size_t frame = 0; frame < from.depth.size(); ++frame) {
       check(camera, frame);
@@ -229,8 +279,20 @@ bool tells_unread(const OpenCamera& camera) {
 
 DepthImage OpenCamera::read_depth(std::size_t frame) const {
   if (kept_depth_m[frame]) return *kept_depth_m[frame];
-  return read_depth_png(source.depth[frame], view->camera(), source.depth_scale_m, source.near_m,
-                        source.far_m, source.depth_offset_m);
+  DepthImage given_m = read_depth_png(source.depth[frame], given(), source.depth_scale_m,
+                                      source.near_m, source.far_m, source.depth_offset_m);
+  return rectification ? rectification->apply(given_m) : given_m;
+}
+
+DepthImage OpenCamera::read_all_depth(std::size_t frame) const {
+  OpenCamera all;
+  all.source = source;
+  all.source.near_m = 0;
+  all.source.far_m = std::numeric_limits<double>::infinity();
+  all.view = view;
+  all.rectification = rectification;
+  all.kept_depth_m.resize(frame + 1);
+  return all.read_depth(frame);
 }
 
 std::vector<Attachment> attachments_of(const SceneFile& scene) {
@@ -246,7 +308,7 @@ std::vector<Attachment> attachments_of(const SceneFile& scene) {
 OpenScene open_scene(const SceneFile& source, const std::function<void()>& before_image) {
   return open_with(source, [&](OpenCamera& camera, std::size_t frame) {
     before_image();
-    check_depth_png(camera.source.depth[frame], camera.view->camera(), camera.source.depth_scale_m);
+    check_depth_png(camera.source.depth[frame], camera.given(), camera.source.depth_scale_m);
   });
 }
 
@@ -282,7 +344,8 @@ OpenScene reopen_scene(const OpenScene& before, const SceneFile& changed,
   scene.separation = checked_separation(changed);
   scene.frame_count = before.frame_count;
   for (const OpenCamera& from : before.cameras) {
-    add_camera(changed, from.view->camera(), scene).kept_depth_m = from.kept_depth_m;
+    add_camera(changed, from.view->camera(), from.rectification, scene).kept_depth_m =
+        from.kept_depth_m;
   }
   return scene;
 }

@@ -28,9 +28,15 @@ struct OpenCamera {
   std::vector<std::shared_ptr<const DepthImage>> kept_depth_m;
   /// That of the scene file; none where it is learned, or the rule is off.
   std::optional<DepthImage> background_m;
+  /// None where the images are those of the pinhole camera.
+  std::shared_ptr<const Rectification> rectification;
 
-  /// Throws std::runtime_error where the image cannot be decoded.
+  /// The camera as the files have it, which `view` has rectified.
+  const Camera& given() const { return rectification ? rectification->given() : view->camera(); }
+  /// In metres, rectified. Throws std::runtime_error where the image cannot be decoded.
   DepthImage read_depth(std::size_t frame) const;
+  /// With readings that near_m and far_m leave out. Not of images that are kept.
+  DepthImage read_all_depth(std::size_t frame) const;
 };
 
 /// Whether what gives no reading is told, or somebody has said what that means.

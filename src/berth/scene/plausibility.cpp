@@ -1,9 +1,12 @@
 #include "berth/scene/plausibility.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 #include "berth/pipeline/frame.hpp"
 #include "berth/scene/simple_mistakes.hpp"
@@ -16,6 +19,15 @@ constexpr double kAlike = 0.05;
 /// One that has most of the robot outside of the image counts as if it saw this share of what fits
 /// in the best of them.
 constexpr double kLeastSeen = 0.25;
+/// A part with fewer of its readings at its surface is not where it should be.
+constexpr double kLeastOfPart = 0.5;
+constexpr double kLeastOfMendedPart = 0.8;
+/// Of the robot's readings, where not kLeastGain more of them lie at its surface.
+constexpr double kLeastGainInPoints = 0.1;
+constexpr double kLeastWithSmallGain = 0.9;
+constexpr double kLeastSeenThrough = 0.05;
+constexpr double kLeastCloseThen = 0.9;
+constexpr double kMostCloseNow = 0.75;
 
 int with_reading(const RobotReadings& readings) {
   return readings.judged() + readings.before + readings.hidden;
@@ -31,11 +43,17 @@ double share_at_robot(const RobotReadings& readings, double least_seen) {
 struct ReadingRange {
   std::size_t pixels = 0;
   std::size_t readings = 0;
+  /// Between the camera's near_m and far_m.
+  std::size_t within_limits = 0;
+  /// The farthest of these, and how many say just that.
+  float farthest_m = 0;
+  std::size_t farthest = 0;
   float least_m = std::numeric_limits<float>::infinity();
   float most_m = 0;
 };
 
 ReadingRange reading_range(RobotInImages& images) {
+  const SceneCamera& camera = images.camera().source;
   ReadingRange range;
   for (const std::size_t frame : images.frames()) {
     for (const float z_m : images.depth_m(images.given().images_of, frame).pixels()) {
@@ -44,6 +62,11 @@ ReadingRange reading_range(RobotInImages& images) {
       ++range.readings;
       range.least_m = std::min(range.least_m, z_m);
       range.most_m = std::max(range.most_m, z_m);
+      if (z_m < camera.near_m || z_m > camera.far_m) continue;
+      ++range.within_limits;
+      if (z_m > range.farthest_m) range.farthest = 0;
+      range.farthest_m = std::max(range.farthest_m, z_m);
+      range.farthest += z_m == range.farthest_m;
     }
   }
   return range;
@@ -73,11 +96,34 @@ bool does_robot_move(const CameraBelief& given) {
   });
 }
 
-/// What is wrong with images of a robot that should be in them; empty where nothing is.
+double share_of(std::size_t part, std::size_t all) {
+  return static_cast<double>(part) / static_cast<double>(all);
+}
+
+/// Where a greatest number that many chips and formats have stands at many pixels, it is said in
+/// place of no reading, and frees what it is said of.
+std::string no_reading_text(const ReadingRange& range, const SceneCamera& camera) {
+  constexpr std::array kGreatest{2047, 4095, 8191, 16383, 32767, 65504};
+  constexpr double kLeastOfImage = 0.01;
+  const auto number = static_cast<int>(
+      std::lround((range.farthest_m - camera.depth_offset_m) / camera.depth_scale_m));
+  if (std::ranges::find(kGreatest, number) == kGreatest.end()) return {};
+  const double share = share_of(range.farthest, range.pixels);
+  if (share < kLeastOfImage) return {};
+  return fmt::format(
+      "the number {} stands at {:.0f} % of its pixels, as if in place of no reading: a far_m below "
+      "{:.4g} leaves it out",
+      number, 100 * share, range.farthest_m);
+}
+
+/// What is wrong with its images; empty where nothing is.
 std::string dead_text(RobotInImages& images, const RobotReadings& robot) {
-  if (with_reading(robot) + robot.none < kLeastJudgedPixels) return {};
   const ReadingRange range = reading_range(images);
-  if (static_cast<double>(range.readings) < kLeastReadOfImage * static_cast<double>(range.pixels)) {
+  const SceneCamera& camera = images.camera().source;
+  if (range.readings == 0) return "no pixel of its images has a reading";
+  if (const std::string text = no_reading_text(range, camera); !text.empty()) return text;
+  if (with_reading(robot) + robot.none < kLeastJudgedPixels) return {};
+  if (share_of(range.readings, range.pixels) < kLeastReadOfImage) {
     return "hardly a pixel of its images has a reading";
   }
   if (range.least_m == range.most_m) {
@@ -92,41 +138,139 @@ std::string dead_text(RobotInImages& images, const RobotReadings& robot) {
   return {};
 }
 
+/// Whether its limits leave out what its images read; empty where they do not.
+std::string limits_text(RobotInImages& images) {
+  const ReadingRange range = reading_range(images);
+  if (share_of(range.within_limits, range.readings) >= kLeastReadOfImage) return {};
+  return fmt::format("near_m and far_m leave out its readings, from {:.4g} to {:.4g} m",
+                     range.least_m, range.most_m);
+}
+
+/// What the images say of the robot, and of each part of it that no joint bends: a heavy base
+/// outvotes a wrist.
 struct Tried {
-  const SimpleMistake* mistake;
-  RobotReadings readings;
+  const SimpleMistake* mistake = nullptr;
+  RobotReadings all;
+  /// Of each of RobotModel::evaluated_links.
+  std::vector<RobotReadings> of_link;
+  /// By the number of the part's first link.
+  std::map<std::size_t, RobotReadings> of_part;
   double share = 0;
 };
 
+int counted(const RobotReadings& readings) { return readings.judged() + readings.before; }
+
+/// Pixels at the surface less those that are not: a robot that is drawn too small has all of its
+/// own at the surface, but fewer of them.
+int points(const RobotReadings& readings) {
+  return readings.at_surface - readings.behind - readings.before;
+}
+
+/// The first link of the part that no joint bends.
+std::size_t part_of(const RobotModel& model, std::size_t link) {
+  while (model.links[link].parent && model.links[link].joint.type == JointType::fixed)
+    link = *model.links[link].parent;
+  return link;
+}
+
+Tried tried(const OpenScene& scene, RobotInImages& images, const CameraBelief& belief) {
+  const RobotModel& model = scene.robot->model();
+  Tried found;
+  found.of_link = images.readings_of_links(belief);
+  for (std::size_t i = 0; i < found.of_link.size(); ++i) {
+    found.all += found.of_link[i];
+    found.of_part[part_of(model, model.evaluated_links[i])] += found.of_link[i];
+  }
+  return found;
+}
+
+/// Whether a part that is not where it should be is there then, and the others are no worse.
+bool mends_part(const Tried& now, const Tried& then) {
+  return std::ranges::any_of(now.of_part, [&](const auto& part) {
+    const RobotReadings& before = part.second;
+    const RobotReadings& after = then.of_part.at(part.first);
+    const int least_gain = counted(before) / 2;
+    return counted(before) >= kLeastJudgedPixels &&
+           share_at_robot(before, kLeastJudgedPixels) < kLeastOfPart &&
+           share_at_robot(after, kLeastSeen * counted(before)) >= kLeastOfMendedPart &&
+           points(after) - points(before) >= least_gain &&
+           points(then.all) - points(now.all) >= least_gain;
+  });
+}
+
+/// Whether nearly all readings are close to the surface then, and are not now: a sensor that is so
+/// good leaves no doubt.
+bool is_close_then(const Tried& now, const Tried& then) {
+  return then.all.close >= kLeastCloseThen * std::max(counted(now.all), counted(then.all)) &&
+         now.all.close <= kMostCloseNow * counted(now.all) &&
+         counted(now.all) >= kLeastJudgedPixels;
+}
+
+bool explains(const Tried& now, const Tried& then) {
+  if (then.share < then.mistake->least_share) return false;
+  if (then.share >= now.share + kLeastGain) return true;
+  // Somebody before the robot leaves the intrinsics a choice: what is seen through it does not.
+  const bool gains = points(then.all) - points(now.all) >= kLeastGainInPoints * counted(now.all) &&
+                     now.all.behind - then.all.behind >= kLeastSeenThrough * counted(now.all);
+  return (gains && then.share >= kLeastWithSmallGain) || is_close_then(now, then) ||
+         mends_part(now, then);
+}
+
 /// Those that explain where the robot is, the best first.
-std::vector<Tried> tried_mistakes(const std::vector<SimpleMistake>& mistakes,
-                                  RobotInImages& images) {
+std::vector<Tried> explanations(const OpenScene& scene, RobotInImages& images, const Tried& now,
+                                const std::vector<SimpleMistake>& mistakes) {
   std::vector<Tried> all;
   int most = 0;
   for (const SimpleMistake& mistake : mistakes) {
-    all.push_back({&mistake, images.readings(mistake.corrected)});
-    most = std::max(most, all.back().readings.at_surface);
+    all.push_back(tried(scene, images, mistake.corrected));
+    all.back().mistake = &mistake;
+    most = std::max(most, all.back().all.at_surface);
   }
   const double least_seen = std::max<double>(kLeastSeen * most, kLeastJudgedPixels);
-  for (Tried& one : all) one.share = share_at_robot(one.readings, least_seen);
-  std::erase_if(all, [](const Tried& one) { return one.share < one.mistake->least_share; });
-  std::ranges::stable_sort(all, std::greater{}, &Tried::share);
+  for (Tried& one : all) one.share = share_at_robot(one.all, least_seen);
+  std::erase_if(all, [&](const Tried& one) { return !explains(now, one); });
+  std::ranges::stable_sort(all, std::greater{}, [](const Tried& one) { return points(one.all); });
   return all;
 }
 
-void explain(const OpenScene& scene, RobotInImages& images, CameraPlausibility& camera) {
-  const double share_now = share_at_robot(camera.readings, kLeastJudgedPixels);
-  if (share_now > 1 - kLeastGain) return;
-  const std::vector<SimpleMistake> mistakes = simple_mistakes(scene, images);
-  const std::vector<Tried> tried = tried_mistakes(mistakes, images);
-  if (tried.empty() || tried[0].share < share_now + kLeastGain) return;
-  camera.share_then = tried[0].share;
-  for (std::size_t i = 0; i < std::min<std::size_t>(tried.size(), 2); ++i) {
-    if (tried[i].share < camera.share_then - kAlike) break;
-    const SimpleMistake& mistake = *tried[i].mistake;
+/// Whether all that is seen of the robot is about where it should be.
+bool is_in_place(const Tried& now) {
+  return now.share > 1 - kLeastGain && std::ranges::all_of(now.of_part, [](const auto& part) {
+           return counted(part.second) < kLeastJudgedPixels ||
+                  share_at_robot(part.second, kLeastJudgedPixels) >= kLeastOfPart;
+         });
+}
+
+void explain(const OpenScene& scene, RobotInImages& images, const Tried& now,
+             CameraPlausibility& camera) {
+  const bool in_place = is_in_place(now);
+  std::vector<SimpleMistake> mistakes;
+  if (!in_place) {
+    mistakes = simple_mistakes(scene, images);
+  } else if (now.all.behind >= kLeastSeenThrough * counted(now.all)) {
+    mistakes = optical_mistakes(scene, images);
+  } else {
+    mistakes = {depth_along_ray(images)};
+  }
+  const std::vector<Tried> all = explanations(scene, images, now, mistakes);
+  if (all.empty()) return;
+  camera.share_then = all[0].share;
+  for (std::size_t i = 0; i < std::min<std::size_t>(all.size(), 2); ++i) {
+    if (points(all[i].all) < points(all[0].all) - kAlike * counted(all[0].all)) break;
+    const SimpleMistake& mistake = *all[i].mistake;
     camera.as_if += (i == 0 ? "" : " or ") + mistake.as_if;
     if (mistake.is_of_joints) camera.in_joints.push_back(mistake.as_if);
   }
+}
+
+std::vector<std::string> links_seen_through(const RobotModel& model, const Tried& now) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < now.of_link.size(); ++i) {
+    const RobotReadings& link = now.of_link[i];
+    if (link.judged() >= kLeastJudgedPixels && link.at_robot() < kLeastOfPart)
+      names.push_back(model.links[model.evaluated_links[i]].name);
+  }
+  return names;
 }
 
 /// Whether the robot is much better where the scene has it, in this camera's images, than without
@@ -164,9 +308,13 @@ CameraPlausibility find_implausible(const OpenScene& scene, std::size_t number) 
   RobotInImages images(scene, number);
   camera.frames = images.frames().size();
   if (camera.frames == 0) return camera;
-  camera.readings = images.readings(images.given());
+  Tried now = tried(scene, images, images.given());
+  now.share = share_at_robot(now.all, kLeastJudgedPixels);
+  camera.readings = now.all;
   camera.dead = dead_text(images, camera.readings);
-  if (camera.dead.empty()) explain(scene, images, camera);
+  camera.seen_through = links_seen_through(scene.robot->model(), now);
+  if (camera.dead.empty()) explain(scene, images, now, camera);
+  if (camera.dead.empty() && camera.as_if.empty()) camera.dead = limits_text(images);
   camera.is_implausible = !camera.dead.empty() || !camera.as_if.empty() ||
                           (camera.readings.tells() && camera.readings.at_robot() < least);
   camera.is_hidden = !camera.is_implausible && camera.readings.is_hidden();
@@ -203,8 +351,23 @@ std::string text_without_name(const CameraPlausibility& camera) {
   return text + fmt::format(". {:.0f} % would, as if {}", 100 * camera.share_then, camera.as_if);
 }
 
+std::string doubt_of(const CameraPlausibility& camera) {
+  if (camera.is_implausible || !camera.readings.tells()) return {};
+  std::string text;
+  if (camera.readings.at_robot() < kWellPlaced) {
+    text = fmt::format(
+        "{:.0f} % of the robot's readings in {} images lie at its surface; expected {:.0f} % at "
+        "least",
+        100 * camera.readings.at_robot(), camera.frames, 100 * kWellPlaced);
+  }
+  if (camera.seen_through.empty()) return text;
+  return fmt::format("{}{}most of what is read at {} lies behind it, as if it were not there", text,
+                     text.empty() ? "" : "; ", fmt::join(camera.seen_through, ", "));
+}
+
 std::string text_of(const CameraPlausibility& camera) {
-  const std::string text = text_without_name(camera);
+  std::string text = text_without_name(camera);
+  if (text.empty()) text = doubt_of(camera);
   return text.empty() ? text : fmt::format("camera {}: {}", camera.camera, text);
 }
 

@@ -20,6 +20,8 @@ struct CameraPlausibility {
   /// What was counted in the images that were looked at, and how many these are.
   RobotReadings readings;
   std::size_t frames = 0;
+  /// The links that most of the readings at their pixels lie behind, as if they were not there.
+  std::vector<std::string> seen_through;
   /// What is wrong, where the images alone tell: such as "all its readings are the same". Empty
   /// where they do not.
   std::string dead;
@@ -48,10 +50,18 @@ std::vector<CameraPlausibility> find_implausible(const OpenScene& scene);
 /// The same of one camera.
 CameraPlausibility find_implausible(const OpenScene& scene, std::size_t camera);
 
+/// Where a smaller share of the robot's readings lies at its surface, something is wrong in the
+/// scene, though nobody knows what.
+inline constexpr double kWellPlaced = 0.85;
+
+/// What is doubtful in images that are used: a share below kWellPlaced, links that are not there.
+/// Empty where nothing is.
+std::string doubt_of(const CameraPlausibility& camera);
+
 /// One sentence or two for people: which camera, what share, what was expected, what would explain
-/// it. Empty where there is nothing to say.
+/// it, or the doubt. Empty where there is nothing to say.
 std::string text_of(const CameraPlausibility& camera);
-/// The same without "camera NAME: ", for where that stands already.
+/// The same without "camera NAME: ", for where that stands already, and without doubts.
 std::string text_without_name(const CameraPlausibility& camera);
 
 }  // namespace berth

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "berth/files/png.hpp"
+#include "berth/files/depth_units.hpp"
+
 #include "berth/render/robot_renderer.hpp"
 #include "berth/robot/kinematics.hpp"
 
@@ -28,12 +29,23 @@ void mirror(DepthImage& image) {
   }
 }
 
-void add(const RobotReadings& one, RobotReadings& sum) {
-  sum.at_surface += one.at_surface;
-  sum.behind += one.behind;
-  sum.before += one.before;
-  sum.hidden += one.hidden;
-  sum.none += one.none;
+void swap_bytes(const SceneCamera& camera, DepthImage& image) {
+  for (float& z_m : image.pixels()) {
+    if (std::isnan(z_m)) continue;
+    const auto number = static_cast<std::uint16_t>(
+        std::lround((z_m - camera.depth_offset_m) / camera.depth_scale_m));
+    const auto swapped = static_cast<std::uint16_t>(number >> 8 | number << 8);
+    z_m = depth_of(swapped, {camera.depth_scale_m, camera.depth_offset_m});
+  }
+}
+
+/// From a distance to one along the axis.
+void turn_to_axis(const Camera& camera, DepthImage& image) {
+  for (int v = 0; v < image.height(); ++v) {
+    for (int u = 0; u < image.width(); ++u) {
+      image(u, v) /= static_cast<float>(point_at(camera, u, v, 1).norm());
+    }
+  }
 }
 
 }  // namespace
@@ -58,38 +70,47 @@ const DepthImage& RobotInImages::depth_m(std::size_t camera, std::size_t frame) 
   if (is_new && is_there) {
     const SceneCamera& source = from.source;
     const bool has_limits = source.near_m > 0 || std::isfinite(source.far_m);
-    place->second = !has_limits ? from.read_depth(frame)
-                                : read_depth_png(source.depth[frame], own, source.depth_scale_m, 0,
-                                                 std::numeric_limits<double>::infinity(),
-                                                 source.depth_offset_m);
+    place->second = has_limits ? from.read_all_depth(frame) : from.read_depth(frame);
   }
   return place->second;
 }
 
 RobotReadings RobotInImages::readings(const CameraBelief& belief) {
-  const MountedCamera view(scene_.robot, belief.mount);
-  RobotRenderer renderer(scene_.robot->meshes(), belief.mount.camera);
   RobotReadings sum;
-  for (std::size_t i = 0; i < frames_.size(); ++i) add(readings(belief, view, renderer, i), sum);
+  for (const RobotReadings& one : readings_of_links(belief)) sum += one;
   return sum;
 }
 
 RobotReadings RobotInImages::readings(const CameraBelief& belief, std::size_t i) {
   const MountedCamera view(scene_.robot, belief.mount);
   RobotRenderer renderer(scene_.robot->meshes(), belief.mount.camera);
-  return readings(belief, view, renderer, i);
+  if (!believe(belief, view, renderer, i)) return {};
+  return read_robot(changed_m_, robot_, camera().view->settings().watch.bias_m);
 }
 
-RobotReadings RobotInImages::readings(const CameraBelief& belief, const MountedCamera& view,
-                                      RobotRenderer& renderer, std::size_t i) {
+std::vector<RobotReadings> RobotInImages::readings_of_links(const CameraBelief& belief) {
+  const MountedCamera view(scene_.robot, belief.mount);
+  RobotRenderer renderer(scene_.robot->meshes(), belief.mount.camera);
+  std::vector<RobotReadings> of_link(scene_.robot->model().evaluated_links.size());
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    if (!believe(belief, view, renderer, i)) continue;
+    read_links(changed_m_, robot_, camera().view->settings().watch.bias_m, of_link);
+  }
+  return of_link;
+}
+
+bool RobotInImages::believe(const CameraBelief& belief, const MountedCamera& view,
+                            RobotRenderer& renderer, std::size_t i) {
   const DepthImage& read_m = depth_m(belief.images_of, frames_[i]);
-  if (read_m.pixels().empty()) return {};
+  if (read_m.pixels().empty()) return false;
   changed_m_ = read_m;
+  if (belief.is_swapped) swap_bytes(camera().source, changed_m_);
   for (float& z_m : changed_m_.pixels()) z_m *= static_cast<float>(belief.depth_factor);
+  if (belief.is_along_ray) turn_to_axis(belief.mount.camera, changed_m_);
   if (belief.is_mirrored) mirror(changed_m_);
   forward_kinematics(scene_.robot->model(), belief.positions[i], pose_);
   renderer.render(pose_, view.camera_pose(pose_), robot_);
-  return read_robot(changed_m_, robot_, camera().view->settings().watch.bias_m);
+  return true;
 }
 
 }  // namespace berth

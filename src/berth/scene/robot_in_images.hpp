@@ -17,6 +17,10 @@ struct CameraBelief {
   CameraMount mount;
   /// Each reading times this.
   double depth_factor = 1;
+  /// The two bytes of each number stand the other way round.
+  bool is_swapped = false;
+  /// Readings are distances from the camera, not along its axis.
+  bool is_along_ray = false;
   /// The images' columns from right to left.
   bool is_mirrored = false;
   /// Of each of RobotInImages::frames(), in the order of RobotModel::joints, rad or m.
@@ -45,14 +49,19 @@ class RobotInImages {
   /// Of frames()[i] alone.
   RobotReadings readings(const CameraBelief& belief, std::size_t i);
 
+  /// All frames together, for each of RobotModel::evaluated_links.
+  std::vector<RobotReadings> readings_of_links(const CameraBelief& belief);
+
   /// Image number `frame` of a camera, with readings that near_m and far_m leave out: a wrong
   /// scale takes all of them out of these limits. Empty where it has none or its size is not this
   /// camera's. Throws std::runtime_error where it cannot be read again.
   const DepthImage& depth_m(std::size_t camera, std::size_t frame);
 
  private:
-  RobotReadings readings(const CameraBelief& belief, const MountedCamera& view,
-                         RobotRenderer& renderer, std::size_t i);
+  /// Draws the robot in frames()[i] and makes of the image what is believed of it; false where
+  /// there is none.
+  bool believe(const CameraBelief& belief, const MountedCamera& view, RobotRenderer& renderer,
+               std::size_t i);
 
   const OpenScene& scene_;
   std::size_t camera_;

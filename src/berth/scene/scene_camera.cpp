@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "berth/files/glob.hpp"
+#include "berth/files/joints_csv.hpp"
 #include "berth/files/png.hpp"
 #include "berth/scene/rpy.hpp"
 
@@ -61,6 +62,9 @@ std::vector<double> read_stamps(const YamlValue& value, std::size_t image_count)
     value.fail(fmt::format("{} stamps", stamps_s.size()),
                fmt::format("one for each of the {} images", image_count));
   }
+  for (std::size_t i = 0; i < stamps_s.size(); ++i) {
+    if (stamps_s[i] > kLastTime_s) value.list()[i].fail(kTimeExpected);
+  }
   for (std::size_t i = 1; i < stamps_s.size(); ++i) {
     if (stamps_s[i] <= stamps_s[i - 1]) {
       value.list()[i].fail(fmt::format("more than {}, the stamp before", stamps_s[i - 1]));
@@ -87,9 +91,9 @@ Pose read_pose(const YamlMap& pose) {
 }
 
 SceneCamera read_scene_camera(const YamlValue& value, const CameraSettings& settings) {
-  const YamlMap map(
-      value, {"name", "info", "pose", "depth", "depth_scale", "depth_offset_m", "stamps", "near_m",
-              "far_m", "clock_offset_s", "background", "self_filter", "sensor", "space", "watch"});
+  const YamlMap map(value, {"name", "info", "pose", "depth", "depth_scale", "depth_offset_m",
+                            "depth_is", "rectified", "stamps", "near_m", "far_m", "clock_offset_s",
+                            "background", "self_filter", "sensor", "space", "watch"});
   const YamlMap pose(map.at("pose"), {"parent", "xyz", "quaternion_xyzw", "rpy"});
   SceneCamera camera;
   camera.name = read_name(map.at("name"));
@@ -110,6 +114,11 @@ SceneCamera read_scene_camera(const YamlValue& value, const CameraSettings& sett
     camera.depth_offset_m = offset->number();
     if (std::abs(camera.depth_offset_m) > kLargestDepthOffset_m) offset->fail("metres, -1 to 1");
   }
+  if (const auto is = map.find("depth_is")) {
+    const bool is_ray = is->one_of({"axis", "ray"}) == "ray";
+    camera.depth_is = is_ray ? DepthIs::along_ray : DepthIs::along_axis;
+  }
+  if (const auto is = map.find("rectified")) camera.is_rectified = is->boolean();
   map.read("near_m", &YamlValue::non_negative, camera.near_m);
   if (const auto far = map.find("far_m")) {
     camera.far_m = far->positive();

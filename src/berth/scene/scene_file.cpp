@@ -178,7 +178,7 @@ SceneFile parse_scene(const std::filesystem::path& file, const std::string& text
   scene.joints = map.at("joints").path();
   scene.joint_offsets = read_joint_values(map, "joint_offsets");
   scene.fixed_joints = read_joint_values(map, "fixed_joints");
-  scene.evaluation.time.joints = kOnlyBetweenSamples;
+  scene.evaluation.time.joints = kInRecordings;
   if (const auto evaluation = map.find("evaluation")) {
     read_settings(*evaluation, scene.evaluation);
   }

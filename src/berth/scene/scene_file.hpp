@@ -11,6 +11,7 @@
 #include "berth/pipeline/mounted_camera.hpp"
 #include "berth/robot/robot_model.hpp"
 #include "berth/scene/scene_evaluation.hpp"
+#include "berth/sensor/rectification.hpp"
 #include "berth/separation/settings.hpp"
 #include "berth/types/camera.hpp"
 
@@ -29,6 +30,9 @@ struct SceneCamera {
   double depth_scale_m = 0.001;
   /// Added to each reading, once it is in metres.
   double depth_offset_m = 0;
+  DepthIs depth_is = DepthIs::along_axis;
+  /// Whether the images are; unset, a camera_info with distortion is refused.
+  std::optional<bool> is_rectified;
   /// One for each image, increasing. Empty: image k belongs to row k of the joints.
   std::vector<double> stamps_s;
   /// The joints' clock at an exposure is its stamp plus this.
@@ -75,7 +79,7 @@ struct SceneFile {
   /// The positions of joints that never move and have no column in `joints`, rad or m, by name.
   std::map<std::string, double> fixed_joints;
   /// Defaults where the file says nothing; the limits between joint samples and images are then
-  /// kOnlyBetweenSamples.
+  /// kInRecordings.
   SceneEvaluation evaluation;
   /// None: nothing is monitored.
   std::optional<SeparationSettings> separation;

@@ -122,6 +122,11 @@ Json camera_schema() {
       {"depth_offset_m",
        told("what is added to each reading, after depth_scale",
             {{"type", "number"}, {"minimum", -1}, {"maximum", 1}, {"default", 0}})},
+      {"depth_is", told("whether a reading is the depth along the camera's axis, or along the ray",
+                        {{"enum", {"axis", "ray"}}, {"default", "axis"}})},
+      {"rectified", told("false: the lens bends the images, and berth rectifies them; true: they "
+                         "are rectified, and the camera_info's distortion is what they had",
+                         {{"type", "boolean"}})},
       {"stamps", told("when each image was exposed, one for each, increasing, in seconds",
                       list_of(number()))},
       {"clock_offset_s", told("what is added to the camera's stamps to get the clock of joints",

@@ -18,7 +18,7 @@ void visit_scene_groups(Visitor&& visit) {
   visit(std::string_view("evaluation"), SceneEvaluation());
   // What read_scene() begins with.
   TimeSettings time;
-  time.joints = kOnlyBetweenSamples;
+  time.joints = kInRecordings;
   visit(std::string_view("time"), time);
   visit(std::string_view("separation"), SeparationSettings());
 }

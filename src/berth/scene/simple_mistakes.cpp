@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "berth/robot/kinematics.hpp"
 #include "berth/scene/rpy.hpp"
 
 namespace berth {
@@ -12,9 +13,8 @@ namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180;
 /// Focal lengths from half to twice are tried in steps with which one that lies between two of them
-/// is 3 % off. Nearer to the one that is given, a pose that is 5 cm and 5 degrees off is explained
-/// as well.
-constexpr double kLeastFocalFactor = 1.26;
+/// is 3 % off.
+constexpr double kLeastFocalFactor = 1.12;
 constexpr double kGreatestFocalFactor = 2.01;
 constexpr double kFocalStep = 1.06;
 /// With 80 %, one of 30 poses that are 2 cm and 2 degrees off was taken for a focal length.
@@ -26,15 +26,22 @@ class Mistakes {
   Mistakes(const OpenScene& scene, const RobotInImages& images)
       : scene_(scene), images_(images), camera_(images.camera()), given_(images.given()) {}
 
+  std::vector<SimpleMistake> optical() {
+    add_optical();
+    return std::move(found_);
+  }
   std::vector<SimpleMistake> all() {
     add_depths();
-    add_focal_lengths();
+    add_swapped_bytes();
+    add_optical();
     add_positions();
     add_rotations();
+    add_turned_bases();
     add_images();
     const std::size_t of_camera = found_.size();
     add_joint_units();
     add_joint_orders();
+    add_single_joints();
     for (std::size_t i = of_camera; i < found_.size(); ++i) found_[i].is_of_joints = true;
     return std::move(found_);
   }
@@ -51,25 +58,42 @@ class Mistakes {
   }
 
   void add_depths() {
-    for (const double factor : {10.0, 0.1, 100.0, 0.01, 1000.0, 0.001}) {
-      add(fmt::format("depth_scale were {:.6g}", factor * camera_.source.depth_scale_m),
-          [&](CameraBelief& belief) { belief.depth_factor = factor; });
+    for (const double factor : {4.0, 5.0, 8.0, 10.0, 100.0, 1000.0}) {
+      add_depth(factor);
+      add_depth(1 / factor);
     }
+  }
+  void add_swapped_bytes() {
+    add("the two bytes of each number stood the other way round",
+        [](CameraBelief& belief) { belief.is_swapped = true; });
+  }
+  void add_depth(double factor) {
+    add(fmt::format("depth_scale were {:.6g}", factor * camera_.source.depth_scale_m),
+        [&](CameraBelief& belief) { belief.depth_factor = factor; });
   }
 
-  void add_focal_lengths() {
-    for (double f = kLeastFocalFactor; f <= kGreatestFocalFactor; f *= kFocalStep) {
-      add_focal_length(f);
-      add_focal_length(1 / f);
-    }
-  }
-  void add_focal_length(double factor) {
+  void add_optical() {
+    found_.push_back(depth_along_ray(images_));
     const Camera& camera = given_.mount.camera;
-    add(fmt::format("the focal length were {:.6g} px", factor * camera.fx_px),
-        [&](CameraBelief& belief) {
-          belief.mount.camera.fx_px *= factor;
-          belief.mount.camera.fy_px *= factor;
-        });
+    for (double f = kLeastFocalFactor; f <= kGreatestFocalFactor; f *= kFocalStep) {
+      for (const double factor : {f, 1 / f}) {
+        const std::string fx = fmt::format("fx were {:.6g} px", factor * camera.fx_px);
+        const std::string fy = fmt::format("fy were {:.6g} px", factor * camera.fy_px);
+        add_focal_length(fmt::format("the focal length were {:.6g} px", factor * camera.fx_px),
+                         factor, factor);
+        add_focal_length(fx, factor, 1);
+        add_focal_length(fy, 1, factor);
+      }
+    }
+    add("cx and cy were swapped", [](CameraBelief& belief) {
+      std::swap(belief.mount.camera.cx_px, belief.mount.camera.cy_px);
+    });
+  }
+  void add_focal_length(const std::string& as_if, double x, double y) {
+    add(as_if, [&](CameraBelief& belief) {
+      belief.mount.camera.fx_px *= x;
+      belief.mount.camera.fy_px *= y;
+    });
     found_.back().least_share = kLeastWithFocalLength;
   }
 
@@ -120,6 +144,21 @@ class Mistakes {
       Pose mirrored = with_rotation(Eigen::Quaterniond(turn));
       mirrored.translation() = mirror * X_PC.translation();
       add_pose(fmt::format("the pose were mirrored in {}", "xy"[axis]), mirrored);
+    }
+  }
+
+  /// About the root's z axis; of a camera that no joint moves.
+  void add_turned_bases() {
+    const RobotModel& model = scene_.robot->model();
+    const std::size_t parent = model.find_link(given_.mount.parent_link).value();
+    if (model.is_moved(parent) || given_.positions.empty()) return;
+    RobotPose pose;
+    forward_kinematics(model, given_.positions.front(), pose);
+    const Pose& X_BP = pose.X_BL[parent];
+    for (const int degrees : {180, 90, -90}) {
+      const Pose turn(Eigen::AngleAxisd(degrees * kDegree_rad, Eigen::Vector3d::UnitZ()));
+      add_pose(fmt::format("the pose were in a base that is turned by {} degrees about z", degrees),
+               X_BP.inverse() * turn * X_BP * given_.mount.X_PC);
     }
   }
 
@@ -181,6 +220,26 @@ class Mistakes {
     });
   }
 
+  void add_single_joints() {
+    const auto& joints = scene_.robot->model().joints;
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      const auto add_one = [&](const char* what, double factor, double more) {
+        add(fmt::format("joint {} {}", joints[j].name, what), [&](CameraBelief& belief) {
+          for (auto& position : belief.positions) position[j] = factor * position[j] + more;
+        });
+      };
+      add_one("had the other sign", -1, 0);
+      if (joints[j].type == JointType::prismatic) {
+        add_one("were in millimetres", 0.001, 0);
+        continue;
+      }
+      add_one("were in degrees", kDegree_rad, 0);
+      add_one("had its zero 180 degrees away", 1, std::numbers::pi);
+      add_one("had its zero 90 degrees away", 1, std::numbers::pi / 2);
+      add_one("had its zero -90 degrees away", 1, -std::numbers::pi / 2);
+    }
+  }
+
   const OpenScene& scene_;
   const RobotInImages& images_;
   const OpenCamera& camera_;
@@ -192,6 +251,18 @@ class Mistakes {
 
 std::vector<SimpleMistake> simple_mistakes(const OpenScene& scene, const RobotInImages& images) {
   return Mistakes(scene, images).all();
+}
+
+SimpleMistake depth_along_ray(const RobotInImages& images) {
+  SimpleMistake mistake{
+      "the images held distances along the ray, not along the camera's axis (depth_is: ray)",
+      images.given()};
+  mistake.corrected.is_along_ray = true;
+  return mistake;
+}
+
+std::vector<SimpleMistake> optical_mistakes(const OpenScene& scene, const RobotInImages& images) {
+  return Mistakes(scene, images).optical();
 }
 
 }  // namespace berth

@@ -19,9 +19,17 @@ struct SimpleMistake {
   bool is_of_joints = false;
 };
 
-/// All that are tried for a camera of this scene: depth in other units, another focal length, a
-/// pose in other units, axes, order or direction, images that are mirrored, another camera's, or
-/// one frame early or late, joints in other units or another order.
+/// All that are tried for a camera of this scene: depth in other units or along the ray, other
+/// intrinsics, a pose in other units, axes, order or direction, images that are mirrored, another
+/// camera's, or one frame early or late, joints in other units or another order, or one joint's
+/// unit, sign or zero.
 std::vector<SimpleMistake> simple_mistakes(const OpenScene& scene, const RobotInImages& images);
+
+/// The one of them that may leave all of the robot within kSeenThrough_m of its surface.
+SimpleMistake depth_along_ray(const RobotInImages& images);
+
+/// Those of them that leave most of the robot where it is: other intrinsics, and depth along the
+/// ray.
+std::vector<SimpleMistake> optical_mistakes(const OpenScene& scene, const RobotInImages& images);
 
 }  // namespace berth

@@ -21,17 +21,19 @@ int row_step(const PixelRect& rect) {
 /// Without branches, so that the compiler makes vector code of it.
 void read_row(const float* reading_m, const float* model_m, const LinkId* id, int begin, int end,
               float bias_m, RobotReadings& found) {
-  int at_surface = 0, behind = 0, before = 0, hidden = 0, robot = 0;
+  int at_surface = 0, close = 0, behind = 0, before = 0, hidden = 0, robot = 0;
   for (int u = begin; u < end; ++u) {
     const int is_robot = (id[u] != kNoLink) & (id[u] != kEnvironmentLink);
     const float behind_m = reading_m[u] - model_m[u] - bias_m;
     robot += is_robot;
     behind += is_robot & static_cast<int>(behind_m > kSeenThrough_m);
     at_surface += is_robot & static_cast<int>(std::abs(behind_m) <= kSeenThrough_m);
+    close += is_robot & static_cast<int>(std::abs(behind_m) <= kClose_m);
     before += is_robot & static_cast<int>(behind_m < -kSeenThrough_m);
     hidden += is_robot & static_cast<int>(behind_m < -kHidden_m);
   }
   found.at_surface += at_surface;
+  found.close += close;
   found.behind += behind;
   found.before += before - hidden;
   found.hidden += hidden;
@@ -54,6 +56,31 @@ bool RobotReadings::is_hidden() const {
 
 double RobotReadings::hidden_share() const {
   return share(hidden, hidden + before + at_surface + behind);
+}
+
+RobotReadings& RobotReadings::operator+=(const RobotReadings& more) {
+  at_surface += more.at_surface;
+  close += more.close;
+  behind += more.behind;
+  before += more.before;
+  hidden += more.hidden;
+  none += more.none;
+  return *this;
+}
+
+void read_links(DepthView depth_m, const RobotImage& robot, double bias_m,
+                std::span<RobotReadings> of_link) {
+  const PixelRect rect = clip(robot.extent, depth_m.width, depth_m.height);
+  if (rect.empty()) return;
+  const int step = row_step(rect);
+  for (int v = rect.v_begin + step / 2; v < rect.v_end; v += step) {
+    for (int u = rect.u_begin; u < rect.u_end; ++u) {
+      const LinkId id = robot.link_id(u, v);
+      if (id == kNoLink || id == kEnvironmentLink) continue;
+      read_row(depth_m.row(v), robot.depth_m.row(v), robot.link_id.row(v), u, u + 1,
+               static_cast<float>(bias_m), of_link[id - 1U]);
+    }
+  }
 }
 
 RobotReadings read_robot(DepthView depth_m, const RobotImage& robot, double bias_m) {

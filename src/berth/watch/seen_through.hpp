@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "berth/types/image.hpp"
 #include "berth/types/robot_image.hpp"
 
@@ -7,6 +9,8 @@ namespace berth {
 
 /// A reading this far behind the model's surface shows something behind the robot.
 inline constexpr float kSeenThrough_m = 0.05F;
+/// One within this of the surface leaves no room for a mistake, where the sensor is that good.
+inline constexpr float kClose_m = 0.015F;
 /// One this far before it shows something else, which hides the robot. In between, the robot itself
 /// may be nearer than it should be.
 inline constexpr float kHidden_m = 0.2F;
@@ -17,6 +21,8 @@ inline constexpr float kHidden_m = 0.2F;
 struct RobotReadings {
   /// Within kSeenThrough_m of the robot's surface.
   int at_surface = 0;
+  /// Of these, within kClose_m of it.
+  int close = 0;
   /// Farther behind it: the robot is not there, or not all of it.
   int behind = 0;
   /// Before it by up to kHidden_m.
@@ -39,6 +45,8 @@ struct RobotReadings {
   bool is_hidden() const;
   /// The share of the pixels with a reading that are hidden; NaN where there is none.
   double hidden_share() const;
+
+  RobotReadings& operator+=(const RobotReadings& more);
 };
 
 /// A frame says nothing of T where fewer of the pixels looked at are judged, or where a larger
@@ -51,5 +59,9 @@ inline constexpr double kMostHiddenForSeenThrough = 0.8;
 RobotReadings read_robot(DepthView depth_m, const RobotImage& robot, double bias_m = 0);
 
 inline constexpr int kMostReadPixels = 20000;
+
+/// The same link by link, added to `of_link`, whose item i is that of link ID i + 1.
+void read_links(DepthView depth_m, const RobotImage& robot, double bias_m,
+                std::span<RobotReadings> of_link);
 
 }  // namespace berth

@@ -27,9 +27,11 @@ class Guard {
   }
 
   std::string checked() {
+    find_position_arrays();
     check_numbers(document_);
     for (const pugi::xml_node& accessor : accessors_) check_accessor(accessor);
-    for (const pugi::xml_node& scene : scenes_) unfolded(scene);
+    for (const auto& scene : document_.select_nodes("//scene/instance_visual_scene"))
+      unfolded(named_by(scene.node(), "visual_scene"));
     remove_all_but_geometry();
     std::ostringstream text;
     document_.save(text, "", pugi::format_raw);
@@ -40,6 +42,17 @@ class Guard {
   [[noreturn]] void fail(const pugi::xml_node& node, const std::string& what) const {
     throw std::runtime_error(fmt::format("{}:{}: <{}>: {}", path_.string(),
                                          line_of(text_, node.offset_debug()), node.name(), what));
+  }
+
+  void find_position_arrays() {
+    std::set<std::string> sources;
+    for (const auto& input : document_.select_nodes("//input[@semantic='POSITION']"))
+      sources.insert(input.node().attribute("source").value());
+    for (const auto& found : document_.select_nodes("//source//accessor")) {
+      const pugi::xml_node source = found.node().parent().parent();
+      if (sources.count(fmt::format("#{}", source.attribute("id").value())) > 0)
+        position_arrays_.insert(found.node().attribute("source").value());
+    }
   }
 
   /// Nothing can be there more often than the file has bytes.
@@ -56,29 +69,21 @@ class Guard {
                          key, digits, text_.size()));
       }
     }
-    // Assimp ends the process at a skew, and at some skins.
-    if (std::string_view(node.name()) == "skew") {
-      fail(node, "not supported; expected matrix, translate, rotate, scale or lookat");
-    }
-    if (std::string_view(node.name()) == "instance_controller") {
-      fail(node, "a skin, which bends with its bones; expected a rigid mesh, <instance_geometry>");
-    }
     require_whole_numbers(node);
     require_floats(node);
     const std::string_view name = node.name();
+    if (node.attribute("count").as_uint() == 0 && *node.child_value("p") != '\0' && name != "ph")
+      fail(node, "has no count of what <p> holds; expected one");
     if (name == "accessor") accessors_.push_back(node);
     if (name.ends_with("_array")) {
       const std::size_t count = node.attribute("count").as_uint();
       const auto [array, is_new] = array_count_.emplace(node.attribute("id").value(), count);
       if (!is_new) array->second = std::min(array->second, count);
     }
-    if (name == "visual_scene") scenes_.push_back(node);
-    if (name == "bind_material") bindings_.push_back(node);
-    if (const auto id = node.attribute("id"); id && name == "node") {
-      if (!by_id_.emplace(id.value(), node).second)
-        fail(node,
-             fmt::format("a second one has the id \"{}\"; expected ids that differ", id.value()));
-    }
+    if (name == "skew" || name == "instance_controller" || name == "bind_material")
+      unwanted_.push_back(node);
+    if (const auto id = node.attribute("id"))
+      by_id_[fmt::format("{}#{}", name, id.value())].push_back(node);
     for (const pugi::xml_node& child : node.children()) check_numbers(child);
   }
 
@@ -110,8 +115,9 @@ class Guard {
     fail(node, fmt::format("holds \"{}\"; expected numbers", text.substr(bad, 12)));
   }
 
-  /// At a list that is too short, or a word that is no number, Assimp leaks memory.
-  void require_floats(const pugi::xml_node& node) const {
+  /// At a list that is too short, or a word that is no number, Assimp leaks memory. Such a word of
+  /// what berth has no use for, as normals, becomes 0.
+  void require_floats(pugi::xml_node node) const {
     const std::map<std::string_view, std::size_t> counts{
         {"float_array", node.attribute("count").as_uint()},
         {"matrix", 16},
@@ -121,19 +127,28 @@ class Guard {
         {"lookat", 9}};
     const auto expected = counts.find(node.name());
     if (expected == counts.end()) return;
+    const bool is_used = expected->first != "float_array" ||
+                         position_arrays_.count(fmt::format("#{}", node.attribute("id").value()));
     constexpr std::string_view kBlanks = " \t\r\n";
-    std::string_view rest = node.child_value();
+    std::string text = node.child_value();
+    std::string_view rest = text;
     std::size_t found = 0;
+    bool is_changed = false;
     for (std::size_t begin = rest.find_first_not_of(kBlanks); begin != std::string_view::npos;
          begin = rest.find_first_not_of(kBlanks)) {
       rest.remove_prefix(begin);
       const std::string_view word = rest.substr(0, rest.find_first_of(kBlanks));
-      if (!parse_finite(word)) fail(node, fmt::format("holds \"{:.40}\"; expected numbers", word));
+      if (!parse_finite(word)) {
+        if (is_used) fail(node, fmt::format("holds \"{:.40}\"; expected numbers", word));
+        is_changed = true;
+        std::fill_n(text.begin() + (word.data() - text.data()), word.size(), '0');
+      }
       rest.remove_prefix(word.size());
       ++found;
     }
     if (found < expected->second)
       fail(node, fmt::format("holds {} numbers; expected {}", found, expected->second));
+    if (is_changed) node.text().set(text.c_str());
   }
 
   /// How many nodes stand below this one once each reference is replaced by what it names.
@@ -148,7 +163,8 @@ class Guard {
     for (const pugi::xml_node& child : node.children()) {
       const std::string_view name = child.name();
       if (name == "node") count += unfolded(child);
-      if (name == "instance_node") count += unfolded_reference(child);
+      if (name == "instance_node") count += unfolded(named_by(child, "node"));
+      if (name == "instance_geometry") named_by(child, "geometry");
       if (count > kMostNodes) {
         fail(child, fmt::format("nodes unfold to more than {}; expected less", kMostNodes));
       }
@@ -157,20 +173,30 @@ class Guard {
     return unfolded_[node.hash_value()] = count;
   }
 
-  std::size_t unfolded_reference(const pugi::xml_node& reference) {
+  /// Assimp leaves out a geometry that is not there in silence.
+  pugi::xml_node named_by(const pugi::xml_node& reference, const char* kind) const {
     const std::string_view url = reference.attribute("url").value();
-    const auto target = by_id_.find(std::string(url.substr(url.starts_with('#') ? 1 : 0)));
-    if (target == by_id_.end()) fail(reference, fmt::format("\"{}\"; expected a node's id", url));
-    return unfolded(target->second);
+    const auto all = by_id_.find(fmt::format("{}#{}", kind, url.substr(url.starts_with('#'))));
+    if (all == by_id_.end()) fail(reference, fmt::format("\"{}\"; expected a {}'s id", url, kind));
+    if (all->second.size() == 1) return all->second[0];
+    fail(all->second[1],
+         fmt::format("a second one has the id of \"{}\"; expected ids that differ", url));
   }
 
-  /// Assimp need not look at what berth has no use for. Where a binding names a material that there
-  /// is not, Assimp 5.4 ends the process.
+  /// Assimp need not look at what berth has no use for. It ends the process at a skew and at some
+  /// skins, used or not, and version 5.4 where a binding names a material that there is not.
   void remove_all_but_geometry() {
     // One may stand in another one, which was found before it.
     // No std::views: clang 14, which the fuzzers are built with, cannot compile libstdc++'s.
-    for (auto binding = bindings_.rbegin(); binding != bindings_.rend(); ++binding) {
-      binding->parent().remove_child(*binding);
+    for (auto node = unwanted_.rbegin(); node != unwanted_.rend(); ++node) {
+      const std::string_view name = node->name();
+      if (name != "bind_material" && unfolded_.count(node->parent().hash_value()) > 0) {
+        fail(*node, name == "skew" ? "not supported; expected matrix, translate, rotate, scale or "
+                                     "lookat"
+                                   : "a skin, which bends with its bones; expected a rigid mesh, "
+                                     "<instance_geometry>");
+      }
+      node->parent().remove_child(*node);
     }
     pugi::xml_node root = document_.document_element();
     constexpr std::array<std::string_view, 5> kKept{"asset", "library_geometries", "library_nodes",
@@ -187,11 +213,12 @@ class Guard {
   const std::filesystem::path& path_;
   const std::string& text_;
   pugi::xml_document document_;
-  std::vector<pugi::xml_node> scenes_;
   std::vector<pugi::xml_node> accessors_;
-  std::vector<pugi::xml_node> bindings_;
+  std::vector<pugi::xml_node> unwanted_;
+  std::set<std::string> position_arrays_;
   std::map<std::string, std::size_t> array_count_;
-  std::map<std::string, pugi::xml_node> by_id_;
+  /// By such as geometry#shape.
+  std::map<std::string, std::vector<pugi::xml_node>> by_id_;
   std::map<std::size_t, std::size_t> unfolded_;
   std::set<std::size_t> open_;
 };

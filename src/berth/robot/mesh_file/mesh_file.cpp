@@ -20,13 +20,19 @@
 #include "berth/robot/mesh_file/collada_guard.hpp"
 #include "berth/robot/mesh_file/obj_polygons.hpp"
 #include "berth/robot/mesh_file/polygon_reader.hpp"
-#include "berth/robot/mesh_file/stl_guard.hpp"
+#include "berth/robot/mesh_file/stl_polygons.hpp"
 
 namespace berth {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& what) {
   throw std::runtime_error(fmt::format("{}: {}", path.string(), what));
+}
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return text;
 }
 
 Eigen::Affine3d to_eigen(const aiMatrix4x4& m) {
@@ -115,23 +121,41 @@ void delete_other_readers(const char* extension, Assimp::Importer& importer) {
   }
 }
 
-/// STL, OBJ and DAE are looked into before Assimp gets them.
-const aiScene* import(const std::filesystem::path& path, Assimp::Importer& importer) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  std::string bytes = read_file_bytes(path);
+/// In the place of a mesh, a download that failed leaves a web page.
+void require_mesh(const std::filesystem::path& path, const std::string& bytes) {
   if (bytes.empty()) fail(path, "the mesh file is empty; expected an STL, OBJ or DAE file");
-  if (extension != ".stl" && extension != ".obj" && extension != ".dae") {
-    return importer.ReadFile(path.string(), 0);
+  const std::string begin = lower_case(bytes.substr(0, 64));
+  if (begin.find("<!doctype html") != std::string::npos || begin.find("<html") != std::string::npos)
+    fail(path, "a web page, not a mesh; expected an STL, OBJ or DAE file");
+}
+
+/// Assimp takes compressed or quantised positions for plain ones.
+void require_plain_gltf(const std::filesystem::path& path, const std::string& bytes) {
+  for (const char* packed :
+       {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_quantization"}) {
+    if (bytes.find(packed) != std::string::npos)
+      fail(path, fmt::format("a glTF mesh with {}; expected one without", packed));
   }
+}
+
+bool is_gltf(const std::string& extension) { return extension == ".gltf" || extension == ".glb"; }
+
+/// STL, OBJ and DAE are looked into before Assimp gets them.
+const aiScene* import(const std::filesystem::path& path, const std::string& extension,
+                      Assimp::Importer& importer) {
+  std::string bytes = read_file_bytes(path);
+  require_mesh(path, bytes);
+  if (is_gltf(extension)) require_plain_gltf(path, bytes);
+  const bool is_stl = extension == ".stl";
+  const bool is_obj = extension == ".obj";
+  if (!is_stl && !is_obj && extension != ".dae") return importer.ReadFile(path.string(), 0);
   importer.SetIOHandler(std::make_unique<NoFiles>().release());
-  delete_other_readers(extension == ".obj" ? "" : extension.c_str(), importer);
-  if (extension == ".stl") bytes = checked_stl(path, std::move(bytes));
-  if (extension == ".dae") bytes = checked_collada(path, bytes);
-  if (extension == ".obj") {
-    importer.RegisterLoader(
-        std::make_unique<PolygonReader>(read_obj_polygons(path, bytes)).release());
+  delete_other_readers(is_stl || is_obj ? "" : extension.c_str(), importer);
+  if (is_stl || is_obj) {
+    Polygons polygons = is_stl ? read_stl_polygons(path, bytes) : read_obj_polygons(path, bytes);
+    importer.RegisterLoader(std::make_unique<PolygonReader>(std::move(polygons)).release());
+  } else {
+    bytes = checked_collada(path, bytes);
   }
   return importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, extension.c_str() + 1);
 }
@@ -141,7 +165,8 @@ const aiScene* import(const std::filesystem::path& path, Assimp::Importer& impor
 TriangleMesh read_mesh_file(const std::filesystem::path& path) {
   Assimp::Importer importer;
   configure(importer);
-  const aiScene* scene = import(path, importer);
+  const std::string extension = lower_case(path.extension().string());
+  const aiScene* scene = import(path, extension, importer);
   // Joining takes a vertex that is NaN for another one: look before.
   if (scene != nullptr) {
     require_finite(path, *scene);
@@ -153,8 +178,9 @@ TriangleMesh read_mesh_file(const std::filesystem::path& path) {
                            importer.GetErrorString()));
 
   TriangleMesh mesh;
-  if (scene->mRootNode != nullptr)
-    append_node(path, *scene, *scene->mRootNode, Eigen::Affine3d::Identity(), mesh);
+  Eigen::Affine3d X = Eigen::Affine3d::Identity();
+  if (is_gltf(extension)) X.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  if (scene->mRootNode != nullptr) append_node(path, *scene, *scene->mRootNode, X, mesh);
   if (mesh.empty()) fail(path, "the mesh has no triangle; expected one at least");
   for (std::size_t i = 0; i < mesh.vertices_m.size(); ++i) {
     if (!mesh.vertices_m[i].allFinite())
