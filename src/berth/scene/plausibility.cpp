@@ -26,8 +26,7 @@ constexpr double kLeastOfMendedPart = 0.8;
 constexpr double kLeastGainInPoints = 0.1;
 constexpr double kLeastWithSmallGain = 0.9;
 constexpr double kLeastSeenThrough = 0.05;
-constexpr double kLeastCloseThen = 0.9;
-constexpr double kMostCloseNow = 0.75;
+constexpr double kLeastClose = 0.95;
 
 int with_reading(const RobotReadings& readings) {
   return readings.judged() + readings.before + readings.hidden;
@@ -198,12 +197,13 @@ bool mends_part(const Tried& now, const Tried& then) {
   });
 }
 
-/// Whether nearly all readings are close to the surface then, and are not now: a sensor that is so
-/// good leaves no doubt.
+/// Whether nearly all readings are close to the surface then, and more of them than now: a sensor
+/// that is so good leaves no doubt. A robot that is drawn too small hides nothing that is behind
+/// it.
 bool is_close_then(const Tried& now, const Tried& then) {
-  return then.all.close >= kLeastCloseThen * std::max(counted(now.all), counted(then.all)) &&
-         now.all.close <= kMostCloseNow * counted(now.all) &&
-         counted(now.all) >= kLeastJudgedPixels;
+  return counted(now.all) >= kLeastJudgedPixels &&
+         then.all.close >= kLeastClose * counted(then.all) &&
+         then.all.close - now.all.close >= kLeastGainInPoints * counted(now.all);
 }
 
 bool explains(const Tried& now, const Tried& then) {
@@ -247,7 +247,8 @@ void explain(const OpenScene& scene, RobotInImages& images, const Tried& now,
   std::vector<SimpleMistake> mistakes;
   if (!in_place) {
     mistakes = simple_mistakes(scene, images);
-  } else if (now.all.behind >= kLeastSeenThrough * counted(now.all)) {
+  } else if (now.all.behind >= kLeastSeenThrough * counted(now.all) ||
+             now.all.close >= kLeastClose * counted(now.all)) {
     mistakes = optical_mistakes(scene, images);
   } else {
     mistakes = {depth_along_ray(images)};
