@@ -53,12 +53,12 @@ class RawImage : public ::testing::Test {
   DepthImage depth_m_;
 };
 
-const std::vector<std::uint16_t> kMillimetres{0, 1, 1000, 2500, 65535, 400};
+const std::vector<std::uint16_t> kMillimetres{0, 1, 1000, 2500, 65534, 400};
 
 TEST_F(RawImage, WholeNumbersAreUnits) {
-  expect_same(read(raw(kMillimetres)), {kNoDepth, 0.001F, 1, 2.5F, 65.535F, 0.4F});
+  expect_same(read(raw(kMillimetres)), {kNoDepth, 0.001F, 1, 2.5F, 65.534F, 0.4F});
   expect_same(read(raw(kMillimetres), {.scale_m = 0.0001}),
-              {kNoDepth, 0.0001F, 0.1F, 0.25F, 6.5535F, 0.04F});
+              {kNoDepth, 0.0001F, 0.1F, 0.25F, 6.5534F, 0.04F});
   RawDepth mono = raw(kMillimetres);
   mono.encoding = "mono16";
   EXPECT_FLOAT_EQ(read(mono)[2], 1);
@@ -72,7 +72,7 @@ TEST_F(RawImage, FloatsAreMetresWhateverTheScale) {
 
 TEST_F(RawImage, RowsMayBeLongerThanTheirPixelsAndBeginAnywhere) {
   for (const std::size_t gap : {1, 2, 7, 64}) {
-    expect_same(read(raw(kMillimetres, gap)), {kNoDepth, 0.001F, 1, 2.5F, 65.535F, 0.4F});
+    expect_same(read(raw(kMillimetres, gap)), {kNoDepth, 0.001F, 1, 2.5F, 65.534F, 0.4F});
   }
   // The last row needs no gap.
   RawDepth image = raw(kMillimetres, 10);
