@@ -119,6 +119,8 @@ struct Seen {
   std::size_t results = 0;
   std::size_t stops = 0;
   std::map<std::string, std::size_t> trouble;
+  /// The camera whose images are too old, by the sentence of `trouble`.
+  std::map<std::string, std::string> too_old;
   /// Of links that move, in how many results.
   std::map<std::string, std::size_t> not_seen;
   std::map<std::string, std::size_t> not_observed;
@@ -128,8 +130,11 @@ struct Seen {
     ++results;
     if (result.status == ResultStatus::stale) ++trouble[status_text(result)];
     for (const CameraResult& camera : result.cameras) {
-      const bool is_lost = camera.has_frame && !is_relied_on(camera.status);
-      if (is_lost) ++trouble[fmt::format("camera {} is {}", camera.camera, name_of(camera.status))];
+      if (!camera.has_frame || is_relied_on(camera.status)) continue;
+      const std::string text =
+          fmt::format("camera {} is {}", camera.camera, name_of(camera.status));
+      ++trouble[text];
+      if (camera.status == CameraStatus::too_old) too_old[text] = camera.camera;
     }
     for (const LinkResult& link : result.links) {
       if (!link.is_moved) continue;
@@ -142,18 +147,16 @@ struct Seen {
   }
 };
 
-/// What to do where a result has trouble with a camera.
-std::string next_for(const OpenScene& scene, const std::string& trouble) {
+/// What to do where a result has this trouble.
+std::string next_for(const OpenScene& scene, const Seen& seen, const std::string& trouble) {
+  const auto late = seen.too_old.find(trouble);
   for (const OpenCamera& camera : scene.cameras) {
-    const std::vector<double>& stamps_s = camera.source.stamps_s;
-    const std::string too_old =
-        fmt::format("camera {} is {}", camera.source.name, name_of(CameraStatus::too_old));
-    if (trouble != too_old || stamps_s.size() < 2) continue;
+    if (late == seen.too_old.end() || camera.source.name != late->second) continue;
+    if (std::isnan(period_ms(camera))) continue;
     return fmt::format(
         "Raise time.max_frame_age_s above {:.2f} s, which lie between two images of camera {}, or "
         "let it give more.",
-        (stamps_s.back() - stamps_s.front()) / static_cast<double>(stamps_s.size() - 1),
-        camera.source.name);
+        period_ms(camera) / 1000, camera.source.name);
   }
   return "Look at that camera's images: berth run " + scene.file.string() + " --picture pictures";
 }
@@ -163,7 +166,7 @@ std::vector<Finding> findings_of(const OpenScene& scene, const Seen& seen) {
   for (const auto& [what, count] : seen.trouble) {
     all.push_back({Verdict::wrong, "results",
                    fmt::format("{} in {} of {}", what, count, seen.results),
-                   next_for(scene, what)});
+                   next_for(scene, seen, what)});
   }
   for (const auto& [link, count] : seen.not_seen) {
     if (percent_of(count, seen.results) < 100 * (1 - kOftenSeen)) continue;

@@ -46,6 +46,8 @@ std::vector<Finding> check_watch(const OpenScene& scene);
 std::vector<Finding> check_results(const OpenScene& scene, const Pause& pause);
 /// The smallest things that the cameras show, and settings of the filter that would fit better.
 std::vector<Finding> check_detection(const OpenScene& scene);
+/// From one image to the next; NaN where the camera has no two stamps.
+double period_ms(const OpenCamera& camera);
 /// Whether this machine keeps up with the cameras.
 std::vector<Finding> check_time(const OpenScene& scene, const Pause& pause);
 /// What the scene says of separation.

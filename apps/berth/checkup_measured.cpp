@@ -106,13 +106,6 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-/// NaN where the camera has no two stamps.
-double period_ms(const OpenCamera& camera) {
-  const std::vector<double>& stamps_s = camera.source.stamps_s;
-  if (stamps_s.size() < 2) return std::numeric_limits<double>::quiet_NaN();
-  return 1000 * (stamps_s.back() - stamps_s.front()) / static_cast<double>(stamps_s.size() - 1);
-}
-
 /// The median of some images, and the last frame.
 double observe_ms(const OpenCamera& camera, const Pause& pause, Frame& frame) {
   Observer observer(camera.view);
@@ -146,6 +139,12 @@ double ask_ms(const OpenScene& scene, const std::vector<std::shared_ptr<const Fr
 }
 
 }  // namespace
+
+double period_ms(const OpenCamera& camera) {
+  const std::vector<double>& stamps_s = camera.source.stamps_s;
+  if (stamps_s.size() < 2) return std::numeric_limits<double>::quiet_NaN();
+  return 1000 * (stamps_s.back() - stamps_s.front()) / static_cast<double>(stamps_s.size() - 1);
+}
 
 std::vector<Finding> check_detection(const OpenScene& scene) {
   std::vector<Finding> all;

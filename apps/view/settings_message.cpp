@@ -5,7 +5,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "berth/scene/rpy.hpp"
+#include "berth/types/rpy.hpp"
 
 namespace berth::app {
 namespace {

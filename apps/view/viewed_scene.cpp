@@ -12,7 +12,7 @@
 #include "apps/view/settings_message.hpp"
 #include "apps/view/space_grid.hpp"
 #include "berth/pipeline/frame_set.hpp"
-#include "berth/scene/rpy.hpp"
+#include "berth/types/rpy.hpp"
 #include "berth/scene/settings_text.hpp"
 
 namespace berth::app {

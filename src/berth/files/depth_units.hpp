@@ -35,7 +35,9 @@ inline float reading_or_none(double depth_m, const DepthUnits& units) {
 
 /// The number 0 is no reading, and so is the greatest, which many cameras write in its place.
 inline float depth_of(std::uint16_t number, const DepthUnits& units) {
-  return number == 0 || number == 65535 ? kNoDepth : reading_or_none(number * units.scale_m + units.offset_m, units);
+  return number == 0 || number == 65535
+             ? kNoDepth
+             : reading_or_none(number * units.scale_m + units.offset_m, units);
 }
 
 /// Rounded; NaN becomes 0. A depth is never 0, which would remove it: the least is 1. One beyond

@@ -21,10 +21,6 @@ constexpr double kSeeThroughBelow = 0.75;
 using Nodes = std::vector<pugi::xml_node>;
 using Names = std::vector<std::string>;
 
-bool contains(const Names& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 Nodes children(const pugi::xml_node& link, const char* kind) {
   const auto found = link.children(kind);
   return {found.begin(), found.end()};

@@ -1,10 +1,18 @@
 // Inside robot/ only.
 #pragma once
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include "berth/robot/robot_model.hpp"
 #include "berth/robot/urdf.hpp"
 
 namespace berth {
+
+inline bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
 
 /// Fills the meshes of all links that are not in ignore_links with the shapes that RobotSettings
 /// ask for. Left out, unless the settings name the link as environment or guarded, is what no body

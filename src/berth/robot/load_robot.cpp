@@ -29,10 +29,6 @@ void require_links(const RobotSettings& settings, const RobotModel& model,
   }
 }
 
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 /// A floating or planar joint has no single position, and needs none where nothing with shapes is
 /// on one of its sides, as between the world and a robot's base.
 void require_no_free_part(const Urdf& urdf, RobotModel& model) {

@@ -7,6 +7,7 @@
 
 #include "berth/files/number.hpp"
 #include "berth/files/xml.hpp"
+#include "berth/types/rpy.hpp"
 
 namespace berth {
 
@@ -63,9 +64,7 @@ Eigen::Vector3d Urdf::vector(const pugi::xml_node& element, const char* attribut
 Pose Urdf::origin_of(const pugi::xml_node& part) const {
   const pugi::xml_node origin = part.child("origin");
   const Eigen::Vector3d rpy = vector(origin, "rpy", Eigen::Vector3d::Zero());
-  Eigen::Quaterniond rotation = Eigen::AngleAxisd(rpy.z(), Eigen::Vector3d::UnitZ()) *
-                                Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()) *
-                                Eigen::AngleAxisd(rpy.x(), Eigen::Vector3d::UnitX());
+  Eigen::Quaterniond rotation = rotation_of_rpy(rpy);
   if (origin.attribute("quat_xyzw")) {
     rotation = Eigen::Quaterniond(Eigen::Vector4d(numbers(origin, "quat_xyzw", 4)));
     if (!(rotation.norm() > 0) || origin.attribute("rpy"))

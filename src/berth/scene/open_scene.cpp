@@ -270,6 +270,13 @@ OpenScene open_with(const SceneFile& source,
   return scene;
 }
 
+DepthImage decode(const OpenCamera& camera, std::size_t frame, double near_m, double far_m) {
+  const SceneCamera& source = camera.source;
+  DepthImage given_m = read_depth_png(source.depth[frame], camera.given(), source.depth_scale_m,
+                                      near_m, far_m, source.depth_offset_m);
+  return camera.rectification ? camera.rectification->apply(given_m) : given_m;
+}
+
 }  // namespace
 
 bool tells_unread(const OpenCamera& camera) {
@@ -279,20 +286,11 @@ bool tells_unread(const OpenCamera& camera) {
 
 DepthImage OpenCamera::read_depth(std::size_t frame) const {
   if (kept_depth_m[frame]) return *kept_depth_m[frame];
-  DepthImage given_m = read_depth_png(source.depth[frame], given(), source.depth_scale_m,
-                                      source.near_m, source.far_m, source.depth_offset_m);
-  return rectification ? rectification->apply(given_m) : given_m;
+  return decode(*this, frame, source.near_m, source.far_m);
 }
 
 DepthImage OpenCamera::read_all_depth(std::size_t frame) const {
-  OpenCamera all;
-  all.source = source;
-  all.source.near_m = 0;
-  all.source.far_m = std::numeric_limits<double>::infinity();
-  all.view = view;
-  all.rectification = rectification;
-  all.kept_depth_m.resize(frame + 1);
-  return all.read_depth(frame);
+  return decode(*this, frame, 0, std::numeric_limits<double>::infinity());
 }
 
 std::vector<Attachment> attachments_of(const SceneFile& scene) {

@@ -35,7 +35,7 @@ struct OpenCamera {
   const Camera& given() const { return rectification ? rectification->given() : view->camera(); }
   /// In metres, rectified. Throws std::runtime_error where the image cannot be decoded.
   DepthImage read_depth(std::size_t frame) const;
-  /// With readings that near_m and far_m leave out. Not of images that are kept.
+  /// The same from its file, with readings that near_m and far_m leave out.
   DepthImage read_all_depth(std::size_t frame) const;
 };
 

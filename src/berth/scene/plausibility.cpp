@@ -116,8 +116,8 @@ std::string no_reading_text(const ReadingRange& range, const SceneCamera& camera
 }
 
 /// What is wrong with its images; empty where nothing is.
-std::string dead_text(RobotInImages& images, const RobotReadings& robot) {
-  const ReadingRange range = reading_range(images);
+std::string dead_text(RobotInImages& images, const ReadingRange& range,
+                      const RobotReadings& robot) {
   const SceneCamera& camera = images.camera().source;
   if (range.readings == 0) return "no pixel of its images has a reading";
   if (const std::string text = no_reading_text(range, camera); !text.empty()) return text;
@@ -138,8 +138,7 @@ std::string dead_text(RobotInImages& images, const RobotReadings& robot) {
 }
 
 /// Whether its limits leave out what its images read; empty where they do not.
-std::string limits_text(RobotInImages& images) {
-  const ReadingRange range = reading_range(images);
+std::string limits_text(const ReadingRange& range) {
   if (share_of(range.within_limits, range.readings) >= kLeastReadOfImage) return {};
   return fmt::format("near_m and far_m leave out its readings, from {:.4g} to {:.4g} m",
                      range.least_m, range.most_m);
@@ -312,10 +311,11 @@ CameraPlausibility find_implausible(const OpenScene& scene, std::size_t number) 
   Tried now = tried(scene, images, images.given());
   now.share = share_at_robot(now.all, kLeastJudgedPixels);
   camera.readings = now.all;
-  camera.dead = dead_text(images, camera.readings);
+  const ReadingRange range = reading_range(images);
+  camera.dead = dead_text(images, range, camera.readings);
   camera.seen_through = links_seen_through(scene.robot->model(), now);
   if (camera.dead.empty()) explain(scene, images, now, camera);
-  if (camera.dead.empty() && camera.as_if.empty()) camera.dead = limits_text(images);
+  if (camera.dead.empty() && camera.as_if.empty()) camera.dead = limits_text(range);
   camera.is_implausible = !camera.dead.empty() || !camera.as_if.empty() ||
                           (camera.readings.tells() && camera.readings.at_robot() < least);
   camera.is_hidden = !camera.is_implausible && camera.readings.is_hidden();

@@ -12,8 +12,8 @@
 #include "berth/files/file_bytes.hpp"
 #include "berth/files/number.hpp"
 #include "berth/scene/moved_path.hpp"
-#include "berth/scene/rpy.hpp"
 #include "berth/scene/scene_file.hpp"
+#include "berth/types/rpy.hpp"
 
 namespace berth {
 namespace {

@@ -8,7 +8,7 @@
 #include "berth/files/glob.hpp"
 #include "berth/files/joints_csv.hpp"
 #include "berth/files/png.hpp"
-#include "berth/scene/rpy.hpp"
+#include "berth/types/rpy.hpp"
 
 namespace berth {
 namespace {

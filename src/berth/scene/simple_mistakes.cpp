@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "berth/robot/kinematics.hpp"
-#include "berth/scene/rpy.hpp"
+#include "berth/types/rpy.hpp"
 
 namespace berth {
 namespace {

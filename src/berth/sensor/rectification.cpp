@@ -155,7 +155,7 @@ void Rectification::apply(DepthView given_m, DepthImage& made_m) const {
   const auto reading_m = [&](std::int32_t pixel) {
     return given_m.row(pixel / given_.width_px)[pixel % given_.width_px];
   };
-  made_m = DepthImage(camera_.width_px, camera_.height_px);
+  made_m.resize(camera_.width_px, camera_.height_px, kNoDepth);
   std::ranges::transform(from_, made_m.pixels().begin(),
                          [&](std::int32_t from) { return from < 0 ? kNoDepth : reading_m(from); });
   for (const auto& [from, to] : more_) {

@@ -40,6 +40,17 @@ void read_row(const float* reading_m, const float* model_m, const LinkId* id, in
   found.none += robot - at_surface - behind - before;
 }
 
+/// visit(row, first column, one behind the last).
+template <class Visit>
+void visit_rows(DepthView depth_m, const RobotImage& robot, const Visit& visit) {
+  const PixelRect rect = clip(robot.extent, depth_m.width, depth_m.height);
+  if (rect.empty()) return;
+  const int step = row_step(rect);
+  for (int v = rect.v_begin + step / 2; v < rect.v_end; v += step) {
+    visit(v, rect.u_begin, rect.u_end);
+  }
+}
+
 }  // namespace
 
 double RobotReadings::seen_through() const { return share(behind, judged()); }
@@ -70,28 +81,22 @@ RobotReadings& RobotReadings::operator+=(const RobotReadings& more) {
 
 void read_links(DepthView depth_m, const RobotImage& robot, double bias_m,
                 std::span<RobotReadings> of_link) {
-  const PixelRect rect = clip(robot.extent, depth_m.width, depth_m.height);
-  if (rect.empty()) return;
-  const int step = row_step(rect);
-  for (int v = rect.v_begin + step / 2; v < rect.v_end; v += step) {
-    for (int u = rect.u_begin; u < rect.u_end; ++u) {
-      const LinkId id = robot.link_id(u, v);
-      if (id == kNoLink || id == kEnvironmentLink) continue;
-      read_row(depth_m.row(v), robot.depth_m.row(v), robot.link_id.row(v), u, u + 1,
-               static_cast<float>(bias_m), of_link[id - 1U]);
+  visit_rows(depth_m, robot, [&](int v, int begin, int end) {
+    const LinkId* const ids = robot.link_id.row(v);
+    for (int u = begin; u < end; ++u) {
+      if (ids[u] == kNoLink || ids[u] == kEnvironmentLink) continue;
+      read_row(depth_m.row(v), robot.depth_m.row(v), ids, u, u + 1, static_cast<float>(bias_m),
+               of_link[ids[u] - 1U]);
     }
-  }
+  });
 }
 
 RobotReadings read_robot(DepthView depth_m, const RobotImage& robot, double bias_m) {
   RobotReadings found;
-  const PixelRect rect = clip(robot.extent, depth_m.width, depth_m.height);
-  if (rect.empty()) return found;
-  const int step = row_step(rect);
-  for (int v = rect.v_begin + step / 2; v < rect.v_end; v += step) {
-    read_row(depth_m.row(v), robot.depth_m.row(v), robot.link_id.row(v), rect.u_begin, rect.u_end,
+  visit_rows(depth_m, robot, [&](int v, int begin, int end) {
+    read_row(depth_m.row(v), robot.depth_m.row(v), robot.link_id.row(v), begin, end,
              static_cast<float>(bias_m), found);
-  }
+  });
   return found;
 }
 

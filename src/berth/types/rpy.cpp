@@ -1,4 +1,4 @@
-#include "berth/scene/rpy.hpp"
+#include "berth/types/rpy.hpp"
 
 #include <cmath>
 
