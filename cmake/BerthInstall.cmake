@@ -1,8 +1,8 @@
-# find_package(berth) gives berth::berth, all that computes on the processor, and berth::files;
-# find_package(berth COMPONENTS opengl) berth::opengl as well, COMPONENTS scene berth::scene, which runs scene files.
+# find_package(berth) gives berth::berth and berth::files; find_package(berth COMPONENTS scene) berth::scene as well, which runs
+# scene files.
 include(CMakePackageConfigHelpers)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/berth)
-foreach(component core opengl scene)
+foreach(component core scene)
   get_property(libraries GLOBAL PROPERTY BERTH_LIBRARIES_OF_${component})
   if(libraries)
     install(TARGETS ${libraries} EXPORT berth_${component}_targets
@@ -23,5 +23,5 @@ install(CODE "
 configure_file(${PROJECT_SOURCE_DIR}/cmake/berthConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/berthConfig.cmake @ONLY)
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/berthConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/berthConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/berthConfigVersion.cmake
-              ${PROJECT_SOURCE_DIR}/cmake/BerthDependencies.cmake ${PROJECT_SOURCE_DIR}/cmake/BerthOpenglDependencies.cmake
+              ${PROJECT_SOURCE_DIR}/cmake/BerthDependencies.cmake
         DESTINATION ${package})

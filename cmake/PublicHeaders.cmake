@@ -36,10 +36,6 @@ set(BERTH_PUBLIC_HEADERS
   berth/separation/evasion.hpp
   berth/separation/monitor.hpp
   berth/separation/settings.hpp
-  berth/image_distance/image_query.hpp
-  berth/image_distance/opengl/gl_context.hpp
-  berth/image_distance/opengl/gl_image_query.hpp
-  berth/image_distance/opengl/gl_observer.hpp
   berth/record/recorder.hpp
   berth/record/replay.hpp
   berth/results/result_json.hpp

@@ -56,13 +56,16 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
   add_scene(command, arguments.scene);
   command.add_option("--picture", arguments.picture_folder, "Draw each frame into this folder")
       ->type_name("DIR");
-  add_evaluation(command, true, arguments.evaluation);
-  add_visibility(command, arguments.evaluation);
+  command
+      .add_option("--frame", arguments.picture_image,
+                  "Draw only each camera's image of this number, from 0")
+      ->needs("--picture")
+      ->type_name("N");
+  add_evaluation(command, arguments.evaluation);
   command
       .add_option("--repeat", arguments.repeat, "Repeat each request so often, and tell the times")
       ->check(CLI::Range(1, 1000000000))
       ->type_name("N");
-  add_backend_options(command, "Where images are rendered and filtered", arguments.where);
   add_output(command, arguments);
   command.footer(
       "Example:\n  berth run scene.yaml --format json --out result.jsonl --picture pictures");
@@ -111,7 +114,6 @@ void add_filter_options(CLI::App& command, FilterArguments& arguments) {
       .add_option("--out", arguments.out_folder, "Folder for the images; made if it is not there")
       ->required()
       ->type_name("DIR");
-  add_backend_options(command, "Where images are rendered and filtered", arguments.where);
   add_threads(command, arguments.threads);
   command.footer("Example:\n  berth filter scene.yaml --out filtered");
 }
@@ -150,9 +152,12 @@ void add_calibrate_options(CLI::App& command, CalibrateArguments& arguments) {
 }
 
 void add_evaluate_options(CLI::App& command, EvaluateArguments& arguments) {
-  const auto file = [&command](const char* name, std::filesystem::path& path, const char* what,
-                               const char* type) {
-    command.add_option(name, path, what)->required()->type_name(type);
+  CLI::Option* const scene =
+      command.add_option("scene", arguments.scene, "A scene, instead of three images");
+  scene->type_name("SCENE.yaml");
+  const auto file = [&command, scene](const char* name, std::filesystem::path& path,
+                                      const char* what, const char* type) {
+    command.add_option(name, path, what)->excludes(scene)->type_name(type);
   };
   file("--camera", arguments.camera, "The camera, a ROS camera_info file", "INFO.yaml");
   file("--robot-depth", arguments.robot_depth, "The robot's depth, 16-bit PNG", "R.png");
@@ -164,15 +169,27 @@ void add_evaluate_options(CLI::App& command, EvaluateArguments& arguments) {
       .add_option("--depth-scale", arguments.depth_scale_m,
                   "Metres per unit of the depth images (default: 0.001)")
       ->check(require_positive_finite)
+      ->excludes(scene)
       ->type_name("M");
   command.add_option("--repeat", arguments.repeat, "Evaluate so often, and tell the times")
       ->check(CLI::Range(1, 1000000000))
       ->type_name("N");
-  add_evaluation(command, false, arguments.evaluation);
-  add_gl_device(command, arguments.where);
+  add_methods(command, arguments.method, arguments.evaluation);
+  add_backend_options(command, "With a scene: where images are rendered and filtered",
+                      arguments.where);
   add_output(command, arguments);
+  command.callback([&command, &arguments] {
+    if (!arguments.scene.empty()) return;
+    if (arguments.where.backend == Backend::opengl) {
+      throw CLI::ValidationError("--backend", "opengl needs a scene");
+    }
+    for (const char* name : {"--camera", "--robot-depth", "--link-ids", "--obstacle-depth"}) {
+      if (command.count(name) == 0) throw CLI::RequiredError(name);
+    }
+  });
   command.footer(
-      "Example:\n  berth evaluate --camera camera_info.yaml --robot-depth robot_depth_000000.png "
+      "Examples:\n  berth evaluate scene.yaml --method lattice\n  berth evaluate --camera "
+      "camera_info.yaml --robot-depth robot_depth_000000.png "
       "\\\n"
       "    --link-ids link_ids_000000.png --obstacle-depth obstacle_depth_000000.png --format "
       "json");

@@ -3,10 +3,12 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "apps/berth/evaluation_options.hpp"
-#include "berth/scene/backend.hpp"
+#include "thesis/backend.hpp"
+#include "thesis/method.hpp"
 
 namespace CLI {
 class App;
@@ -18,7 +20,6 @@ enum class OutputFormat { table, json };
 
 struct CommonArguments {
   EvaluationArguments evaluation;
-  BackendChoice where;
   OutputFormat format = OutputFormat::table;
   /// Nothing: standard output.
   std::filesystem::path out;
@@ -31,6 +32,8 @@ struct RunArguments : CommonArguments {
   int repeat = 0;
   std::filesystem::path scene;
   std::filesystem::path picture_folder;
+  /// Of each camera's image of this number alone.
+  std::optional<std::size_t> picture_image;
 };
 
 struct RecordArguments {
@@ -51,7 +54,6 @@ struct ReplayArguments {
 struct FilterArguments {
   std::filesystem::path scene;
   std::filesystem::path out_folder;
-  BackendChoice where;
   int threads = 0;
 };
 
@@ -70,6 +72,10 @@ struct CalibrateArguments {
 };
 
 struct EvaluateArguments : CommonArguments {
+  Method method = Method::exact;
+  BackendChoice where;
+  /// A scene, or else the four files below.
+  std::filesystem::path scene;
   std::filesystem::path camera;
   std::filesystem::path robot_depth;
   std::filesystem::path link_ids;

@@ -76,26 +76,34 @@ Finding stamps_of(const OpenScene& scene, const OpenCamera& camera) {
   return found;
 }
 
+std::string calibrate_text(const OpenScene& scene) {
+  return fmt::format(
+      "With images of the moving arm: berth calibrate {} --out calibrated.yaml; it finds where the "
+      "cameras are, keeps what they read of the empty cell, and turns the watch on",
+      scene.file.string());
+}
+
 Finding pose_of(const OpenScene& scene, const CameraPlausibility& camera) {
   Finding found{.about = fmt::format("place, camera {}", camera.camera)};
   if (camera.is_implausible) {
     found.verdict = Verdict::wrong;
     found.text = text_without_name(camera);
-    found.next = camera.dead.empty() && camera.as_if.empty()
-                     ? fmt::format(
-                           "Measure the pose of camera {} again, to within 20 cm and 15 degrees, "
-                           "then: berth calibrate {} --out calibrated.yaml",
-                           camera.camera, scene.file.string())
-                     : fmt::format("Mend what the sentence about camera {} says, then ask again.",
-                                   camera.camera);
+    found.next =
+        camera.dead.empty() && camera.as_if.empty()
+            ? fmt::format(
+                  "Measure the pose of camera {} again, to within 20 cm and 15 degrees, "
+                  "then: berth calibrate {} --out calibrated.yaml",
+                  camera.camera, scene.file.string())
+            : fmt::format("Correct what is said of camera {}, then run berth doctor again.",
+                          camera.camera);
     return found;
   }
   if (camera.is_hidden || !camera.readings.tells()) {
     found.verdict = Verdict::advice;
-    found.text =
-        camera.is_hidden
-            ? text_without_name(camera)
-            : fmt::format("too little of the robot is seen in {} images to tell", camera.frames);
+    found.text = camera.is_hidden
+                     ? text_without_name(camera)
+                     : fmt::format("too little of the robot is seen in its images to tell ({})",
+                                   camera.frames);
     found.next = fmt::format("Record images in which camera {} sees the robot.", camera.camera);
     return found;
   }
@@ -181,7 +189,7 @@ std::vector<Finding> findings_of(const OpenScene& scene, const Seen& seen) {
                    fmt::format("most of the space around link {} is in no image in {} of {}", link,
                                count, seen.results),
                    "Turn a camera to what is around link " + link +
-                       ", add one, or say space.unobserved: unknown or ignore."});
+                       ", add one, or write space.unobserved: unknown or ignore."});
   }
   if (percent_of(seen.stops, seen.results) > 100 * kMostStops) {
     all.push_back({Verdict::advice, "separation",
@@ -230,16 +238,14 @@ std::vector<Finding> check_unread(const OpenScene& scene) {
   std::vector<Finding> all;
   for (const OpenCamera& camera : scene.cameras) {
     Finding found{.about = about_camera("no reading", camera),
-                  .text = "what gives none, such as black clothes, is told"};
+                  .text = "what gives none, such as black clothes, is unknown space"};
     if (camera.view->settings().space.no_reading == NoReading::free) {
-      found.text = "is taken for free by space.no_reading: black clothes are not told";
+      found.text = "what gives none, such as black clothes, is taken for free (space.no_reading)";
     } else if (!tells_unread(camera)) {
       found.verdict = Verdict::advice;
-      found.text = "what gives none, such as black clothes, is not told";
-      found.next = fmt::format(
-          "berth calibrate {} --out calibrated.yaml: it keeps what camera {} reads of the empty "
-          "cell; or write space.no_reading: hides",
-          scene.file.string(), camera.source.name);
+      found.text = "what gives none, such as black clothes, is no obstacle";
+      found.next = fmt::format("{}; or, for what gives no reading, write space.no_reading: hides",
+                               calibrate_text(scene));
     }
     all.push_back(found);
   }
@@ -253,8 +259,7 @@ std::vector<Finding> check_watch(const OpenScene& scene) {
     if (!camera.view->settings().watch.is_on()) {
       found.verdict = Verdict::advice;
       found.text = "off: nobody notices when the camera is bumped";
-      found.next = fmt::format("berth calibrate {} --out calibrated.yaml: it turns the watch on",
-                               scene.file.string());
+      found.next = calibrate_text(scene);
     }
     all.push_back(found);
   }
@@ -262,7 +267,7 @@ std::vector<Finding> check_watch(const OpenScene& scene) {
 }
 
 std::vector<Finding> check_results(const OpenScene& scene, const Pause& pause) {
-  SceneRun run(scene, {}, pause);
+  SceneRun run(scene, pause);
   Seen seen;
   while (seen.results < kCheckedResults && run.next()) {
     pause();
@@ -303,8 +308,8 @@ Finding check_views(const OpenScene& scene) {
   found.text += fmt::format(", most around ({:.1f}, {:.1f}, {:.1f}) m", place_B_m.x(),
                             place_B_m.y(), place_B_m.z());
   found.next =
-      "Turn a camera there, or add one; or say space.unobserved: unknown, and name what nobody can "
-      "be in (guarded_links).";
+      "Turn a camera to that place, or add one; or write space.unobserved: unknown, and name the "
+      "links whose boxes nobody can be in (robot.guarded_links).";
   return found;
 }
 

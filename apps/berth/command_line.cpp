@@ -44,8 +44,8 @@ int run_command_line(int argc, const char* const* argv) {
       "filter", "Write the robot's depth, its link IDs and the obstacles as images");
   CLI::App* calibrate_command = program.add_subcommand(
       "calibrate", "Find the cameras' poses and settings from images of the moving arm");
-  CLI::App* evaluate_command =
-      program.add_subcommand("evaluate", "Distances from these three images alone");
+  CLI::App* evaluate_command = program.add_subcommand(
+      "evaluate", "Compare images as the thesis does: three of them, or those of a scene");
   CLI::App* view_command = program.add_subcommand(
       "view", "Show a scene by a page: what is seen, filtered and hidden, and change its settings");
   CLI::App* init_command =

@@ -24,7 +24,7 @@ void demo_command(const DemoArguments& arguments) {
   const OpenScene scene = open_scene_over(bundled_scene_file(), {});
   std::optional<float> least_m;
   std::string closest;
-  run_frames(scene, {}, arguments.picture_folder, 0, [&](const Result& result) {
+  run_frames(scene, {arguments.picture_folder}, 0, [&](const Result& result) {
     const LinkResult* nearest = result.nearest_link();
     if (!nearest || (least_m && *least_m <= nearest->distance_m)) return;
     least_m = nearest->distance_m;

@@ -9,13 +9,12 @@
 
 #include "apps/berth/commands.hpp"
 #include "apps/berth/output.hpp"
+#include "apps/berth/run_frames.hpp"
 #include "apps/support/interrupt.hpp"
 #include "berth/files/camera_info.hpp"
 #include "berth/files/error.hpp"
 #include "berth/files/png.hpp"
-#include "berth/image_distance/image_method.hpp"
-#include "berth/image_distance/image_result.hpp"
-#include "berth/scene/gl_backend.hpp"
+#include "thesis/image_scene.hpp"
 
 namespace berth::app {
 namespace {
@@ -73,9 +72,8 @@ struct Evaluator {
   std::unique_ptr<ImageMethod> method;
 };
 
-Result result_of(const ThreeImages& images, const LinkDistances& distances) {
-  Result result;
-  result.compares_images = true;
+ImageResult result_of(const ThreeImages& images, const LinkDistances& distances) {
+  ImageResult result;
   result.stamp_s = 0;
   result.timing_name = "evaluate_us";
   result.time.status = TimeStatus::ok;
@@ -93,14 +91,12 @@ Result result_of(const ThreeImages& images, const LinkDistances& distances) {
   return result;
 }
 
-}  // namespace
-
-void evaluate_command(const EvaluateArguments& arguments) {
+void evaluate_images(const EvaluateArguments& arguments) {
   const ThreeImages images = read_images(arguments);
-  const Method method = arguments.evaluation.method_over(Method::exact);
-  const ImageDistanceSettings settings = arguments.evaluation.settings_over({}, method);
+  const ImageDistanceSettings settings =
+      arguments.evaluation.over(ImageDistanceSettings{}, arguments.method);
   Output output(arguments);
-  Evaluator evaluator(method, arguments.where);
+  Evaluator evaluator(arguments.method, arguments.where);
   SearchableDepth obstacles;
   LinkDistances distances;
   std::vector<double> times_us;
@@ -121,14 +117,38 @@ void evaluate_command(const EvaluateArguments& arguments) {
     times_us.push_back(took.count());
   }
 
-  Result result = result_of(images, distances);
-  result.method = name_of(method);
+  ImageResult result = result_of(images, distances);
+  result.method = arguments.method;
   if (evaluator.gl) result.gl_renderer = evaluator.gl->renderer();
   result.range_m = settings.range_m;
   result.has_bounds = settings.tolerance_m.value_or(0) > 0 || settings.deadline_us;
   if (arguments.repeat > 0) result.timing = timing_of(std::move(times_us));
   output.write(result);
   output.finish();
+}
+
+void evaluate_scene(const EvaluateArguments& arguments) {
+  SceneFile file = read_scene(arguments.scene);
+  ImageDistanceSettings settings;
+  static_cast<DistanceSettings&>(settings) = file.evaluation.distance;
+  settings = arguments.evaluation.over(settings, arguments.method);
+  file.evaluation.distance = settings;
+  file.evaluation.visibility = false;
+  const OpenScene scene = open_with_progress(file, "check images", open_scene);
+  Output output(arguments);
+  keep_what_is_done(arguments, output, [&] {
+    ImageScene images(scene, arguments.method, settings, arguments.where, stop_if_interrupted);
+    each_frame(
+        scene, images.plausibility(), "evaluate", [&] { return images.next(); },
+        [&] { output.write(images.ask(arguments.repeat)); });
+  });
+  output.finish();
+}
+
+}  // namespace
+
+void evaluate_command(const EvaluateArguments& arguments) {
+  arguments.scene.empty() ? evaluate_images(arguments) : evaluate_scene(arguments);
 }
 
 }  // namespace berth::app

@@ -78,12 +78,12 @@ std::string unit_of(std::string_view name) {
   return end == "m" ? "M" : end == "px" ? "PX" : end == "us" ? "US" : "N";
 }
 
-CLI::Option* add_setting(CLI::App& command, const Setting& setting, const auto& value,
-                         EvaluationArguments& arguments) {
+void add_setting(CLI::App& command, const Setting& setting, std::string_view methods,
+                 const auto& value, EvaluationArguments& arguments) {
   using T = typename ValueOf<std::remove_cvref_t<decltype(value)>>::Type;
   std::string what(setting.sentence);
-  what = setting.methods.empty() ? fmt::format("{}{}", char(std::toupper(what[0])), what.substr(1))
-                                 : fmt::format("{}: {}", setting.methods, what);
+  what = methods.empty() ? fmt::format("{}{}", char(std::toupper(what[0])), what.substr(1))
+                         : fmt::format("{}: {}", methods, what);
   CLI::Option* option = command.add_option_function<std::string>(
       option_of(setting.name),
       [&arguments, name = std::string(setting.name)](const std::string& text) {
@@ -104,7 +104,6 @@ CLI::Option* add_setting(CLI::App& command, const Setting& setting, const auto& 
       }
     });
   }
-  return option;
 }
 
 /// Whether the words hold this one.
@@ -113,7 +112,7 @@ bool has_word(std::string_view words, std::string_view word) {
 }
 
 /// Throws where a setting was given that belongs to other methods.
-void require_method(const Setting& setting, Method used) {
+void require_method(const MethodSetting& setting, Method used) {
   if (setting.methods.empty() || has_word(setting.methods, name_of(used))) return;
   std::string expected(setting.methods);
   for (std::size_t at = 0; (at = expected.find(' ', at)) != std::string::npos; at += 4) {
@@ -123,31 +122,22 @@ void require_method(const Setting& setting, Method used) {
                                           option_of(setting.name), expected));
 }
 
-}  // namespace
-
-void add_evaluation(CLI::App& command, bool has_mesh, EvaluationArguments& arguments) {
-  std::vector<std::string> methods;
-  for (const Method method : kMethods) {
-    if (has_mesh || compares_images(method)) methods.emplace_back(name_of(method));
+/// Sets it if it was given.
+template <class T>
+void take_given(const EvaluationArguments& arguments, const Setting& setting, T& value) {
+  const auto text = arguments.given.find(setting.name);
+  if (text != arguments.given.end()) {
+    value = parse<typename ValueOf<T>::Type>(setting, text->second);
   }
-  command
-      .add_option("--method", arguments.method,
-                  fmt::format("How to find the distances (default: {}){}", methods.front(),
-                              has_mesh ? "; settings of the others: berth evaluate --help" : ""))
-      ->check(CLI::IsMember(methods));
-  const ImageDistanceSettings defaults;
-  visit_settings(static_cast<const DistanceSettings&>(defaults),
-                 [&](const Setting& setting, const auto& value) {
-                   add_setting(command, setting, value, arguments);
-                 });
-  visit_settings(static_cast<const ImageSettings&>(defaults),
-                 [&](const Setting& setting, const auto& value) {
-                   CLI::Option* option = add_setting(command, setting, value, arguments);
-                   if (has_mesh) option->group("");
-                 });
 }
 
-void add_visibility(CLI::App& command, EvaluationArguments& arguments) {
+}  // namespace
+
+void add_evaluation(CLI::App& command, EvaluationArguments& arguments) {
+  const DistanceSettings defaults;
+  visit_settings(defaults, [&](const Setting& setting, const auto& value) {
+    add_setting(command, setting, "", value, arguments);
+  });
   command
       .add_option_function<std::string>(
           "--visibility",
@@ -157,32 +147,35 @@ void add_visibility(CLI::App& command, EvaluationArguments& arguments) {
       ->check(CLI::IsMember({"on", "off"}));
 }
 
-ImageDistanceSettings EvaluationArguments::settings_over(ImageDistanceSettings settings,
-                                                         Method method_used) const {
-  const auto take = [&](const Setting& setting, auto& value) {
-    const auto text = given.find(setting.name);
-    if (text == given.end()) return;
-    require_method(setting, method_used);
-    value =
-        parse<typename ValueOf<std::remove_cvref_t<decltype(value)>>::Type>(setting, text->second);
-  };
-  visit_settings(static_cast<DistanceSettings&>(settings), take);
-  visit_settings(static_cast<ImageSettings&>(settings), take);
-  validate(settings);
+void add_methods(CLI::App& command, Method& method, EvaluationArguments& arguments) {
+  command
+      .add_option_function<std::string>(
+          "--method",
+          [&method](const std::string& name) { method = method_from_name(name).value(); },
+          fmt::format("How to compare the images (default: {})", name_of(method)))
+      ->check(CLI::IsMember(names_of<Method>()));
+  const ImageDistanceSettings defaults;
+  visit_settings(defaults, [&](const MethodSetting& setting, const auto& value) {
+    add_setting(command, setting, setting.methods, value, arguments);
+  });
+}
+
+EvaluationSettings EvaluationArguments::over(EvaluationSettings settings) const {
+  settings.visibility = visibility.value_or(settings.visibility);
+  visit_settings(settings.distance, [this](const Setting& setting, auto& value) {
+    take_given(*this, setting, value);
+  });
+  validate(settings.distance);
   return settings;
 }
 
-Method EvaluationArguments::method_over(Method otherwise) const {
-  return method ? method_from_name(*method).value() : otherwise;
-}
-
-SceneEvaluation EvaluationArguments::over(SceneEvaluation settings) const {
-  settings.visibility = visibility.value_or(settings.visibility);
-  settings.method = method_over(settings.method);
-  const ImageDistanceSettings found =
-      settings_over({settings.distance, settings.images}, settings.method);
-  settings.distance = found;
-  settings.images = found;
+ImageDistanceSettings EvaluationArguments::over(ImageDistanceSettings settings,
+                                                Method method) const {
+  visit_settings(settings, [&](const MethodSetting& setting, auto& value) {
+    if (given.contains(setting.name)) require_method(setting, method);
+    take_given(*this, setting, value);
+  });
+  validate(settings);
   return settings;
 }
 

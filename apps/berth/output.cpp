@@ -8,9 +8,11 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "apps/support/interrupt.hpp"
 #include "berth/files/error.hpp"
 #include "berth/results/result_json.hpp"
 #include "berth/results/result_text.hpp"
+#include "thesis/image_output.hpp"
 
 namespace berth::app {
 namespace {
@@ -48,15 +50,15 @@ std::string cameras_text(const Result& result) {
   return text;
 }
 
-std::string table_of(const Result& result) {
+std::string table_of(const Result& result, std::string_view method, const std::string& table) {
   const bool timely = result.time.status == TimeStatus::ok;
   const std::string trouble =
       timely ? "" : fmt::format(", no answer: {}", name_of(result.time.status));
   const std::string separation =
       result.separation ? fmt::format("speed: {}\n", separation_text(result)) : "";
   return fmt::format("frame {}, {:.3f} s, {}, method {}, range {} m{}\n{}{}\n", result.frame,
-                     result.stamp_s, cameras_text(result), result.method, result.range_m, trouble,
-                     separation, result_table(result));
+                     result.stamp_s, cameras_text(result), method, result.range_m, trouble,
+                     separation, table);
 }
 
 void require_folder_of(const fs::path& file) {
@@ -77,8 +79,17 @@ Output::Output(const CommonArguments& arguments) : format_(arguments.format) {
 }
 
 void Output::write(const Result& result) {
-  const std::string text =
-      format_ == OutputFormat::table ? table_of(result) : result_json(result) + "\n";
+  put(format_ == OutputFormat::table ? table_of(result, kMethodName, result_table(result))
+                                     : result_json(result) + "\n");
+}
+
+void Output::write(const ImageResult& result) {
+  put(format_ == OutputFormat::table
+          ? table_of(result, name_of(result.method), image_result_table(result))
+          : image_result_json(result) + "\n");
+}
+
+void Output::put(const std::string& text) {
   if (out_) {
     out_->write(text);
   } else if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() ||
@@ -91,6 +102,22 @@ void Output::write(const Result& result) {
 
 void Output::finish() {
   if (out_) out_->keep();
+}
+
+void keep_what_is_done(const CommonArguments& arguments, Output& output,
+                       const std::function<void()>& work) {
+  const auto keep = [&] {
+    if (arguments.out.empty() || output.count() == 0) return std::string();
+    output.finish();
+    return fmt::format("; {} holds {} results", arguments.out.string(), output.count());
+  };
+  try {
+    work();
+  } catch (const Interrupted& interrupted) {
+    throw Interrupted{interrupted.done + keep()};
+  } catch (const std::exception& error) {
+    throw std::runtime_error(error.what() + keep());
+  }
 }
 
 }  // namespace berth::app

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
+#include <string>
 
 #include "apps/berth/arguments.hpp"
 #include "berth/files/file_bytes.hpp"
 #include "berth/pipeline/result.hpp"
+#include "thesis/image_result.hpp"
 
 namespace berth::app {
 
@@ -19,14 +22,21 @@ class Output {
 
   /// Throws std::runtime_error where it cannot be written.
   void write(const Result& result);
+  void write(const ImageResult& result);
   /// The file holds what was written, also where that is not all there would have been.
   void finish();
   std::size_t count() const { return count_; }
 
  private:
+  void put(const std::string& text);
+
   OutputFormat format_;
   std::optional<FileInParts> out_;
   std::size_t count_ = 0;
 };
+
+/// Carries it out; where that ends early, what is thrown tells that the file holds what is done.
+void keep_what_is_done(const CommonArguments& arguments, Output& output,
+                       const std::function<void()>& work);
 
 }  // namespace berth::app

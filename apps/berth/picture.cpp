@@ -33,13 +33,13 @@ void check_pixel(Pixel p, const DepthView& sensor, LinkId id) {
 }
 
 void check_links(const PictureInput& input) {
-  const std::vector<LinkResult>& links = *input.links;
+  const std::vector<PictureLink>& links = *input.links;
   for (std::size_t i = 0; i < links.size(); ++i) {
     if (links[i].id != i + 1)
       throw std::runtime_error(
           fmt::format("link {} of the answer has the id {}", i + 1, links[i].id));
     if (links[i].status != LinkStatus::ok) continue;
-    check_pixel(links[i].image.robot_pixel, input.sensor_depth_m, links[i].id);
+    check_pixel(links[i].robot_pixel, input.sensor_depth_m, links[i].id);
     check_pixel(links[i].obstacle_pixel, input.sensor_depth_m, links[i].id);
   }
   if (!(input.range_m > 0))

@@ -13,6 +13,11 @@
 
 namespace berth::app {
 
+/// A link with its pair's pixels in one image.
+struct PictureLink : LinkResult {
+  Pixel robot_pixel;
+};
+
 /// What write_picture() draws. A pair whose pixels are not in the image is not drawn. A null
 /// pointer leaves that layer out; the images have the sensor's size.
 struct PictureInput {
@@ -20,7 +25,7 @@ struct PictureInput {
   const RobotImage* robot = nullptr;
   const ObstacleImage* obstacles = nullptr;
   /// links[i] has the id i + 1; the pixels of its pair are those of this image. Names are UTF-8.
-  const std::vector<LinkResult>* links = nullptr;
+  const std::vector<PictureLink>* links = nullptr;
   /// Distances were looked for up to here.
   double range_m = 0;
   std::string title = {};

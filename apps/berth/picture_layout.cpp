@@ -18,7 +18,7 @@ int enlargement(const DepthView& image) {
 double longest_name_em(const PictureInput& input) {
   const PictureCanvas measure(1, 1, kBlack);
   double longest = 0;
-  for (const LinkResult& link : input.links ? *input.links : std::vector<LinkResult>{})
+  for (const LinkResult& link : input.links ? *input.links : std::vector<PictureLink>{})
     longest = std::max(longest, measure.text_width_px(link.link, {100, true}) / 100);
   return std::clamp(longest + 0.3, 4.0, 11.0);
 }

@@ -42,8 +42,8 @@ int count_of(const PictureInput& input, LinkStatus status) {
 
 /// Links with a distance, nearest first, then those with none in range, then those not visible.
 /// Links that stand where they stand come after those with a distance that move.
-std::vector<LinkResult> by_nearness(const PictureInput& input) {
-  std::vector<LinkResult> links = *input.links;
+std::vector<PictureLink> by_nearness(const PictureInput& input) {
+  std::vector<PictureLink> links = *input.links;
   std::ranges::stable_sort(links, {}, [&](const LinkResult& link) {
     const bool ok = link.status == LinkStatus::ok;
     return std::tuple{link.status, ok && !link.is_moved, ok ? link.distance_m : 0};
@@ -60,7 +60,7 @@ void heading(Legend& legend, const std::string& left, const std::string& right) 
 
 /// The message of the picture in two lines, and the colour that goes with it.
 std::tuple<std::string, std::string, Rgb> headline(const PictureInput& input) {
-  const std::vector<LinkResult> links = by_nearness(input);
+  const std::vector<PictureLink> links = by_nearness(input);
   if (links.empty()) return {"no links", "nothing was evaluated", kFaintInk};
   const LinkResult& first = links.front();
   if (first.status == LinkStatus::ok) {
@@ -142,7 +142,7 @@ void draw_key(Legend& legend) {
 
 void draw_table(Legend& legend) {
   const TablePlan& plan = legend.layout.table;
-  std::vector<LinkResult> links = by_nearness(legend.input);
+  std::vector<PictureLink> links = by_nearness(legend.input);
   if (links.empty()) return;
   const LinkId nearest = links.front().status == LinkStatus::ok ? links.front().id : kNoLink;
   const std::size_t left_out = links.size() - plan.shown;

@@ -24,22 +24,22 @@ struct Pair {
   PointPx middle() const { return {(robot.x + obstacle.x) / 2, (robot.y + obstacle.y) / 2}; }
 };
 
-bool is_drawn(const LinkResult& link) {
-  return link.status == LinkStatus::ok && link.image.robot_pixel != Pixel{} &&
+bool is_drawn(const PictureLink& link) {
+  return link.status == LinkStatus::ok && link.robot_pixel != Pixel{} &&
          link.obstacle_pixel != Pixel{};
 }
 
 std::vector<Pair> nearest_first(const PictureLayout& layout, const PictureInput& input) {
-  std::vector<LinkResult> links;
-  for (const LinkResult& link : *input.links)
+  std::vector<PictureLink> links;
+  for (const PictureLink& link : *input.links)
     if (is_drawn(link)) links.push_back(link);
   std::stable_sort(links.begin(), links.end(), [&](const auto& a, const auto& b) {
     // One that stands on its table does not lead.
     return std::pair(!a.is_moved, a.distance_m) < std::pair(!b.is_moved, b.distance_m);
   });
   std::vector<Pair> pairs;
-  for (const LinkResult& link : links) {
-    pairs.push_back({layout.centre(link.image.robot_pixel), layout.centre(link.obstacle_pixel),
+  for (const PictureLink& link : links) {
+    pairs.push_back({layout.centre(link.robot_pixel), layout.centre(link.obstacle_pixel),
                      link_color(link.id), distance_text(link, input.range_m), pairs.empty(),
                      is_contact(link), link.obstacle_is != ObstacleKind::occupied});
   }

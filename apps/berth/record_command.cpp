@@ -55,7 +55,7 @@ void record_command(const RecordArguments& arguments) {
   std::vector<std::shared_ptr<const MountedCamera>> views;
   for (const OpenCamera& camera : scene.cameras) views.push_back(camera.view);
   Recorder recorder(scene.robot, views, scene.separation, settings_of(arguments, file));
-  SceneRun run(scene, {}, stop_if_interrupted);
+  SceneRun run(scene, stop_if_interrupted);
   run.record_with(recorder);
   // What is done is kept, whatever ends the run.
   try {

@@ -38,8 +38,8 @@ void draw(const fs::path& folder, const OpenScene& scene, SceneRun& run, const R
       scene.cameras.size() > 1 ? fmt::format(", camera {}", run.camera().source.name) : "";
   const std::shared_ptr<const Frame> kept = run.frame();
   const Frame& frame = *kept;
-  std::vector<LinkResult> links = result.links;
-  if (!result.compares_images) project_pairs(run.camera().view->camera(), frame.X_BC, links);
+  const std::vector<PictureLink> links =
+      projected(run.camera().view->camera(), frame.X_BC, result.links);
   write_picture(
       folder_of(scene, run.camera(), folder) / fmt::format("frame_{:06}.png", run.frame_number()),
       {run.sensor_depth_m(), &frame.robot, &frame.obstacles, &links, result.range_m,
@@ -99,17 +99,18 @@ void make_folders(const OpenScene& scene, const fs::path& folder) {
   for (const OpenCamera& camera : scene.cameras) make_folder(folder_of(scene, camera, folder));
 }
 
-void each_frame(const OpenScene& scene, SceneRun& run, const char* doing,
+void each_frame(const OpenScene& scene, const std::vector<CameraPlausibility>& cameras,
+                const char* doing, const std::function<bool()>& next,
                 const std::function<void()>& take) {
   for (const std::string& warning : scene.warnings) fmt::print(stderr, "{}\n", warning);
-  for (const CameraPlausibility& camera : run.plausibility()) say(scene, text_of(camera));
+  for (const CameraPlausibility& camera : cameras) say(scene, text_of(camera));
   ProgressBar progress(doing, scene.frame_count);
   std::size_t done = 0;
   const auto count_text = [&] {
     return fmt::format("after {} of {} images", done, scene.frame_count);
   };
   try {
-    for (; run.next(); ++done) {
+    for (; next(); ++done) {
       stop_if_interrupted();
       progress.clear();
       take();
@@ -123,12 +124,18 @@ void each_frame(const OpenScene& scene, SceneRun& run, const char* doing,
   }
 }
 
-void run_frames(const OpenScene& scene, const BackendChoice& where, const fs::path& picture_folder,
-                int repeat, const std::function<void(const Result&)>& take) {
-  SceneRun run(scene, where, stop_if_interrupted);
+void each_frame(const OpenScene& scene, SceneRun& run, const char* doing,
+                const std::function<void()>& take) {
+  each_frame(
+      scene, run.plausibility(), doing, [&run] { return run.next(); }, take);
+}
+
+void run_frames(const OpenScene& scene, const Pictures& pictures, int repeat,
+                const std::function<void(const Result&)>& take) {
+  SceneRun run(scene, stop_if_interrupted);
   run.stop_with(interruption());
-  const bool draws = !picture_folder.empty();
-  if (draws) make_folders(scene, picture_folder);
+  const bool draws = !pictures.folder.empty();
+  if (draws) make_folders(scene, pictures.folder);
   LateImplausible late(run);
   Result result;
   each_frame(scene, run, "run", [&] {
@@ -138,7 +145,8 @@ void run_frames(const OpenScene& scene, const BackendChoice& where, const fs::pa
       late.update(scene, result);
       take(result);
     }
-    if (draws) draw(picture_folder, scene, run, result);
+    const std::size_t image = run.frame_number();
+    if (draws && pictures.image.value_or(image) == image) draw(pictures.folder, scene, run, result);
   });
 }
 

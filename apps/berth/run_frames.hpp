@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
+#include <vector>
 
 #include "apps/berth/arguments.hpp"
 #include "apps/support/interrupt.hpp"
@@ -28,16 +30,27 @@ std::filesystem::path folder_of(const OpenScene& scene, const OpenCamera& camera
 /// Makes the folders of all cameras. Throws std::runtime_error where one cannot be made.
 void make_folders(const OpenScene& scene, const std::filesystem::path& folder);
 
-/// Calls `take` after each image that `run` has observed, with a progress bar on a terminal. Where
-/// that ends before the last one, what is thrown tells after how many images.
+/// Says what is doubtful in the scene and its `cameras`. Calls `take` after each image that `next`
+/// has observed, with a progress bar on a terminal. Where that ends before the last one, what is
+/// thrown tells after how many images.
+void each_frame(const OpenScene& scene, const std::vector<CameraPlausibility>& cameras,
+                const char* doing, const std::function<bool()>& next,
+                const std::function<void()>& take);
 void each_frame(const OpenScene& scene, SceneRun& run, const char* doing,
                 const std::function<void()>& take);
 
+/// Which pictures are drawn.
+struct Pictures {
+  /// Empty: none.
+  std::filesystem::path folder;
+  /// Of each camera's image of this number; without it of each image.
+  std::optional<std::size_t> image = {};
+};
+
 /// All frames of a scene through the whole pipeline, each request asked so often (SceneRun::ask):
-/// `take` gets each result. Each frame is drawn
-/// into picture_folder unless that is empty. Throws as SceneRun does, before anything is written.
-void run_frames(const OpenScene& scene, const BackendChoice& where,
-                const std::filesystem::path& picture_folder, int repeat,
+/// `take` gets each result. Throws as SceneRun does,
+/// before anything is written.
+void run_frames(const OpenScene& scene, const Pictures& pictures, int repeat,
                 const std::function<void(const Result&)>& take);
 
 }  // namespace berth::app

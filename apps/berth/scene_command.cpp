@@ -1,6 +1,9 @@
 // run and filter: all frames of a scene.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <stdexcept>
+
 #include "apps/berth/commands.hpp"
 #include "apps/berth/output.hpp"
 #include "apps/berth/run_frames.hpp"
@@ -24,34 +27,32 @@ void write_images(const fs::path& folder, const SceneRun& run, const Frame& fram
   write_depth_png(file("obstacle_depth"), frame.obstacles.depth_m, depth_scale_m);
 }
 
+/// Throws unless a camera has an image of this number.
+void require_image(const OpenScene& scene, std::size_t number) {
+  std::size_t most = 0;
+  for (const OpenCamera& camera : scene.cameras) most = std::max(most, camera.source.depth.size());
+  if (number < most) return;
+  throw std::invalid_argument(
+      fmt::format("--frame {}: there is no such image; expected 0 to {}", number, most - 1));
+}
+
 }  // namespace
 
 void run_command(const RunArguments& arguments) {
   const OpenScene scene = open_scene_over(arguments.scene, arguments.evaluation);
+  if (arguments.picture_image) require_image(scene, *arguments.picture_image);
   Output output(arguments);
-  // What is done is kept, whatever ends the run.
-  const auto keep = [&] {
-    if (arguments.out.empty() || output.count() == 0) return std::string();
-    output.finish();
-    return fmt::format("; {} holds {} results", arguments.out.string(), output.count());
-  };
-  try {
-    run_frames(scene, arguments.where, arguments.picture_folder, arguments.repeat,
+  keep_what_is_done(arguments, output, [&] {
+    run_frames(scene, {arguments.picture_folder, arguments.picture_image}, arguments.repeat,
                [&output](const Result& result) { output.write(result); });
-  } catch (const Interrupted& interrupted) {
-    throw Interrupted{interrupted.done + keep()};
-  } catch (const std::exception& error) {
-    throw std::runtime_error(error.what() + keep());
-  }
+  });
   output.finish();
 }
 
 void filter_command(const FilterArguments& arguments) {
-  // Whatever the scene's method is, it is not asked; one result an image.
-  EvaluationArguments on_the_cpu;
-  on_the_cpu.method = name_of(Method::exact);
-  const OpenScene scene = open_scene_over(arguments.scene, on_the_cpu);
-  SceneRun run(scene, arguments.where, stop_if_interrupted);
+  const OpenScene scene =
+      open_with_progress(read_scene(arguments.scene), "check images", open_scene);
+  SceneRun run(scene, stop_if_interrupted);
   make_folders(scene, arguments.out_folder);
   each_frame(scene, run, "filter", [&] {
     write_images(folder_of(scene, run.camera(), arguments.out_folder), run, *run.frame());

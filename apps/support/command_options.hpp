@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "berth/scene/backend.hpp"
+#include "thesis/backend.hpp"
 
 namespace CLI {
 class App;

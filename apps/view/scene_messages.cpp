@@ -89,10 +89,9 @@ std::span<const std::byte> bytes_of_all(const std::vector<T>& values) {
 
 PageMessage scene_message(const std::string& name, const RobotModel& model,
                           const std::vector<PageCamera>& cameras,
-                          const std::vector<ImageStep>& steps, const std::string& note) {
+                          const std::vector<ImageStep>& steps) {
   return json_message({{"type", "scene"},
                        {"file", name},
-                       {"note", note},
                        {"robot", model.name},
                        {"links", links_json(model)},
                        {"cameras", cameras_json(cameras)},
@@ -101,9 +100,8 @@ PageMessage scene_message(const std::string& name, const RobotModel& model,
                        {"misfits", misfits_json()}});
 }
 
-PageMessage scene_message(const OpenScene& scene, const std::vector<ImageStep>& steps,
-                          const std::string& note) {
-  return scene_message(scene.file.string(), scene.robot->model(), page_cameras(scene), steps, note);
+PageMessage scene_message(const OpenScene& scene, const std::vector<ImageStep>& steps) {
+  return scene_message(scene.file.string(), scene.robot->model(), page_cameras(scene), steps);
 }
 
 std::vector<PageCamera> page_cameras(const OpenScene& scene) {

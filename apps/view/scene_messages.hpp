@@ -15,12 +15,11 @@ struct PageCamera {
 };
 
 /// What stays as it is: links, cameras, steps, and the colours of pictures. `name` is that of the
-/// scene's file; a running robot has no steps. `note` is what a user should know of what is shown.
+/// scene's file; a running robot has no steps.
 PageMessage scene_message(const std::string& name, const RobotModel& model,
                           const std::vector<PageCamera>& cameras,
-                          const std::vector<ImageStep>& steps, const std::string& note = "");
-PageMessage scene_message(const OpenScene& scene, const std::vector<ImageStep>& steps,
-                          const std::string& note);
+                          const std::vector<ImageStep>& steps);
+PageMessage scene_message(const OpenScene& scene, const std::vector<ImageStep>& steps);
 std::vector<PageCamera> page_cameras(const OpenScene& scene);
 
 /// The triangles of each link in its own frame: three floats for each corner, all links one after

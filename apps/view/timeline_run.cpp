@@ -118,7 +118,7 @@ void TimelineRun::run(const OpenScene& scene) {
   Curves curves(scene.frame_count, scene.frame_count);
   publish_("timeline", curves.message());
   try {
-    SceneRun run(scene, {}, [this] { pause(); });
+    SceneRun run(scene, [this] { pause(); });
     note([&, learned = with_backgrounds(scene, run)] { learned_ = learned; });
     for (const CameraPlausibility& camera : run.plausibility()) curves.warn(text_of(camera));
     auto told = Clock::now();

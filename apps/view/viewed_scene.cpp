@@ -12,8 +12,8 @@
 #include "apps/view/settings_message.hpp"
 #include "apps/view/space_grid.hpp"
 #include "berth/pipeline/frame_set.hpp"
-#include "berth/types/rpy.hpp"
 #include "berth/scene/settings_text.hpp"
+#include "berth/types/rpy.hpp"
 
 namespace berth::app {
 namespace {
@@ -62,28 +62,6 @@ std::size_t first_step_of_all(const std::vector<ImageStep>& steps, std::size_t c
   return 0;
 }
 
-SceneFile as_mesh(SceneFile scene) {
-  scene.evaluation.method = Method::mesh;
-  return scene;
-}
-
-std::string note_of(const SceneFile& scene) {
-  const Method method = scene.evaluation.method;
-  if (method == Method::mesh) return "";
-  return fmt::format("method mesh is shown; the file says {}", name_of(method));
-}
-
-/// What only methods that compare images have is no setting of the page.
-void require_shown(const std::string& group, const std::string& key) {
-  if (group != "evaluation") return;
-  std::vector<std::string_view> names;
-  const EvaluationSettings settings;
-  visit_settings(settings, [&](const Setting& one, const auto&) { names.push_back(one.name); });
-  if (std::ranges::find(names, key) != names.end()) return;
-  throw std::runtime_error(fmt::format(
-      "evaluation.{}: is no setting of the page; expected one of {}", key, fmt::join(names, ", ")));
-}
-
 Eigen::Vector3d vector_of(const Json& json) {
   const auto values = json.get<std::array<double, 3>>();
   return {values[0], values[1], values[2]};
@@ -97,7 +75,7 @@ ViewedScene::ViewedScene(const fs::path& file, fs::path folder, Publish publish,
       publish_(std::move(publish)),
       changed_(file),
       scene_(std::make_shared<const OpenScene>(
-          open_scene_with_images(as_mesh(changed_.original()), before_image))),
+          open_scene_with_images(changed_.original(), before_image))),
       shown_scene_(scene_),
       shown_(std::make_unique<SceneRun>(*scene_, SceneRun::SingleSteps{})),
       image_numbers_(scene_->cameras.size()),
@@ -200,8 +178,8 @@ void ViewedScene::change(const std::function<void(ChangedScene&)>& change) {
   ChangedScene changed = changed_;
   try {
     change(changed);
-    auto scene = std::make_shared<const OpenScene>(
-        reopen_scene(*scene_, as_mesh(changed.now()), changed.carried()));
+    auto scene =
+        std::make_shared<const OpenScene>(reopen_scene(*scene_, changed.now(), changed.carried()));
     auto shown = std::make_unique<SceneRun>(*scene, SceneRun::SingleSteps{});
     changed_ = std::move(changed);
     shown_ = std::move(shown);
@@ -223,7 +201,7 @@ void ViewedScene::change(const std::function<void(ChangedScene&)>& change) {
 }
 
 void ViewedScene::publish_robot() {
-  publish_("scene", scene_message(*scene_, shown_->steps(), note_of(changed_.original())));
+  publish_("scene", scene_message(*scene_, shown_->steps()));
   publish_("mesh", mesh_message(scene_->robot->model()));
 }
 
@@ -234,7 +212,6 @@ void ViewedScene::set(const Request& request) {
     throw std::runtime_error(
         fmt::format("group \"{}\": expected one of {}", group, fmt::join(kSettingGroups, ", ")));
   }
-  require_shown(group, key);
   std::optional<std::size_t> camera;
   if (request.contains("camera") && !request["camera"].is_null()) camera = camera_in(request);
   const std::optional<std::string> text = text_of_value(request.at("value"));

@@ -1,11 +1,11 @@
 #include "lab/bench/gl_bench.hpp"
 
-#include "berth/image_distance/opengl/gl_context.hpp"
 #include "lab/bench/compare.hpp"
 #include "lab/bench/drawn_scenes.hpp"
 #include "lab/bench/gl_stages.hpp"
 #include "lab/bench/recorded_scenes.hpp"
 #include "lab/bench/report.hpp"
+#include "thesis/opengl/gl_context.hpp"
 
 namespace berth::lab {
 namespace {

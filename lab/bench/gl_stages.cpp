@@ -7,16 +7,16 @@
 
 #include "apps/support/interrupt.hpp"
 #include "apps/support/progress_bar.hpp"
-#include "berth/image_distance/image_result.hpp"
-#include "berth/image_distance/opengl/gl_evaluate.hpp"
-#include "berth/image_distance/opengl/gl_frame_images.hpp"
-#include "berth/image_distance/opengl/gl_observer.hpp"
-#include "berth/image_distance/opengl/gl_robot_renderer.hpp"
-#include "berth/image_distance/opengl/gl_self_filter.hpp"
 #include "berth/robot/robot_region.hpp"
 #include "lab/bench/coarse_robot.hpp"
 #include "lab/bench/stage.hpp"
 #include "lab/bench/triangle_count.hpp"
+#include "thesis/image_result.hpp"
+#include "thesis/opengl/gl_evaluate.hpp"
+#include "thesis/opengl/gl_frame_images.hpp"
+#include "thesis/opengl/gl_observer.hpp"
+#include "thesis/opengl/gl_robot_renderer.hpp"
+#include "thesis/opengl/gl_self_filter.hpp"
 
 namespace berth::lab {
 namespace {
@@ -148,7 +148,7 @@ class GlStages {
 
 Table measure(const std::string& title, const Recording& recording,
               const std::shared_ptr<const MountedCamera>& view, int frames, int rounds) {
-  GlStages stages(view, recording.scene.image_settings);
+  GlStages stages(view, {});
   app::ProgressBar progress(title, frames);
   for (int i = 0; i < frames; ++i) {
     const std::size_t frame = recording.sampled_frame(i, frames);

@@ -4,6 +4,7 @@
 #include "apps/support/interrupt.hpp"
 #include "apps/support/progress_bar.hpp"
 #include "berth/pipeline/observer.hpp"
+#include "berth/pipeline/query.hpp"
 #include "berth/render/robot_renderer.hpp"
 #include "berth/scene/open_scene.hpp"
 #include "lab/bench/coarse_robot.hpp"
@@ -13,7 +14,6 @@
 #include "lab/bench/stage.hpp"
 #include "lab/bench/statistics.hpp"
 #include "lab/bench/triangle_count.hpp"
-#include "lab/measure/method_query.hpp"
 
 namespace berth::lab {
 namespace {
@@ -30,7 +30,7 @@ Table::Row measure(const Recording& recording, const RobotModel& model, int roun
   const JointState& joints = camera.at_exposure.front();
   const DepthImage depth_m = camera.read_depth(0);
   Observer observer(view);
-  MethodQuery query(view->robot(), recording.scene.method, recording.scene.image_settings);
+  Query query(view->robot());
   RobotRenderer renderer(view->robot()->meshes(), view->camera());
   EmbreeRays rays(model, view->camera());
   RobotPose pose;

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <optional>
 
-#include "berth/image_distance/evaluate.hpp"
 #include "lab/bench/peer.hpp"
 #include "lab/measure/instruction_set.hpp"
+#include "thesis/evaluate.hpp"
 
 namespace berth::lab {
 namespace {

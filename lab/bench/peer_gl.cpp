@@ -1,8 +1,8 @@
 // berth's methods on OpenGL.
 #include <optional>
 
-#include "berth/image_distance/opengl/gl_evaluate.hpp"
 #include "lab/bench/peer.hpp"
+#include "thesis/opengl/gl_evaluate.hpp"
 
 namespace berth::lab {
 namespace {
@@ -50,7 +50,7 @@ class GlPeer : public Peer {
 
 std::vector<std::unique_ptr<Peer>> make_gl_peers() {
   std::vector<std::unique_ptr<Peer>> peers;
-  for (const Method method : kImageMethods) {
+  for (const Method method : kMethods) {
     if (runs_on_opengl(method)) peers.push_back(std::make_unique<GlPeer>(method));
   }
   return peers;

@@ -39,7 +39,7 @@ def ask_us(line):
 
 
 def main(command, scene_file):
-    run = subprocess.run([command, "run", scene_file, "--method", "mesh", "--format", "json", "--repeat", str(REPEAT)], check=True,
+    run = subprocess.run([command, "run", scene_file, "--format", "json", "--repeat", str(REPEAT)], check=True,
                          capture_output=True, text=True)
     in_cpp = [ask_us(json.loads(line)) for line in run.stdout.splitlines()]
     scene = berth.open_scene(scene_file)

@@ -5,19 +5,17 @@
 
 #include "apps/support/interrupt.hpp"
 #include "apps/support/progress_bar.hpp"
-#include "berth/image_distance/image_method.hpp"
-#include "berth/image_distance/image_result.hpp"
-#include "berth/image_distance/image_visibility.hpp"
-#include "berth/image_distance/mean_direction/mean_direction.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "berth/render/robot_renderer.hpp"
 #include "berth/self_filter/self_filter.hpp"
 #include "berth/sensor/sensor_rules.hpp"
-#include "berth/visibility/sample_points.hpp"
 #include "lab/bench/embree_rays.hpp"
 #include "lab/bench/stage.hpp"
 #include "lab/bench/triangle_count.hpp"
-#include "lab/measure/method_query.hpp"
+#include "thesis/image_method.hpp"
+#include "thesis/image_query.hpp"
+#include "thesis/image_result.hpp"
+#include "thesis/mean_direction/mean_direction.hpp"
 
 namespace berth::lab {
 namespace {
@@ -33,9 +31,9 @@ class Stages {
         view_(camera_.view),
         renderer_(view_->robot()->meshes(), view_->camera()),
         rays_(view_->robot()->model(), view_->camera()),
-        observer_(view_, {}, frame_use(recording.scene.method)),
-        query_(view_->robot(), recording.scene.method, recording.scene.image_settings),
-        settings_(settings_of(*view_->robot(), recording.scene.image_settings)) {
+        observer_(view_),
+        query_(view_->robot(), Method::exact),
+        settings_(settings_of(*view_->robot(), {})) {
     settings_.mean_direction = false;
   }
 
@@ -44,12 +42,12 @@ class Stages {
     run_apart(depth_m, joints);
     whole_.take([&] {
       observer_.observe(depth_m, joints, frame_);
-      query_.ask({.frames = frame_});
+      query_.ask(frame_);
     });
     const std::vector<JointState>& joints_of = camera_.at_exposure;
     for (std::size_t k = 1; k <= kRequests; ++k) {
       const JointState& next = joints_of[(frame_number + k) % joints_of.size()];
-      request_.take([&] { query_.ask({.frames = frame_, .joints = next}); });
+      request_.take([&] { query_.ask(frame_, next); });
     }
   }
 
@@ -63,8 +61,7 @@ class Stages {
   }
 
   std::vector<Stage*> all() {
-    return {&render_, &self_filter_, &both_,  &tree_,    &exact_,
-            &mean_,   &visibility_,  &whole_, &request_, &embree_};
+    return {&render_, &self_filter_, &both_, &tree_, &exact_, &mean_, &whole_, &request_, &embree_};
   }
 
  private:
@@ -84,14 +81,6 @@ class Stages {
                                searchable_, settings_};
     exact_.take([&] { evaluate(Method::exact, request, workspace_, distances_); });
     mean_.take([&] { fill_mean_directions(request, workspace_.directions, distances_); });
-    const RobotModel& model = view_->robot()->model();
-    const Pose X_BC = view_->camera_pose(pose_);
-    const SeenFrame seen{view_->camera(), frame_.robot, frame_.obstacles,
-                         tolerance_of(view_->settings().self_filter)};
-    visibility_.take([&] {
-      find_visibility(model, points_, seen, {pose_, X_BC, frame_.robot}, distances_,
-                      settings_.range_m, sight_, visible_);
-    });
   }
 
   const OpenCamera& camera_;
@@ -104,20 +93,16 @@ class Stages {
   EvaluateWorkspace workspace_;
   LinkDistances distances_;
   Observer observer_;
-  MethodQuery query_;
+  ImageQuery query_;
   Frame frame_;
   SearchableDepth searchable_;
   ImageDistanceSettings settings_;
-  SamplePoints points_ = sample_points(view_->robot()->model());
-  VisibilityWorkspace sight_;
-  std::vector<LinkVisibility> visible_;
   Stage render_{"render"};
   Stage self_filter_{"self filter"};
   Stage both_{"render and self filter"};
   Stage tree_{"obstacle tree"};
   Stage exact_{"exact, cold"};
   Stage mean_{"mean direction, on top"};
-  Stage visibility_{"visibility, on top"};
   Stage whole_{"depth image to result"};
   Stage request_{"request at new joint angles"};
   Stage embree_{"Embree rays, same pixels"};

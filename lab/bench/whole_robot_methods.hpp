@@ -9,9 +9,9 @@
 #include "apps/support/interrupt.hpp"
 #include "apps/support/progress_bar.hpp"
 #include "berth/distance/mesh_distances.hpp"
-#include "berth/image_distance/exact/exact.hpp"
 #include "lab/bench/whole_robot_scene.hpp"
 #include "lab/measure/stopwatch.hpp"
+#include "thesis/exact/exact.hpp"
 
 namespace berth::lab {
 

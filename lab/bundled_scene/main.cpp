@@ -61,8 +61,7 @@ void make_bundled_scene(const std::filesystem::path& folder) {
   write_robot(folder / "arm", scene);
   write_text(folder / "joints.csv", joints_csv(scene.rows));
   write_text(folder / "scene.yaml", scene_yaml(cameras, "range_m: 1.0"));
-  write_text(folder / "one_camera.yaml",
-             scene_yaml(std::span(cameras).first(1), "method: exact, range_m: 1.0"));
+  write_text(folder / "one_camera.yaml", scene_yaml(std::span(cameras).first(1), "range_m: 1.0"));
   for (const sim::BundledCamera& camera : cameras) {
     write_text(folder / camera.info_file, camera_info_yaml(camera));
     write_depth(folder, scene, camera);

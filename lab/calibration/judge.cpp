@@ -9,8 +9,8 @@
 #include "berth/scene/open_scene.hpp"
 #include "berth/scene/scene_calibration.hpp"
 #include "lab/filter/expected_ranges.hpp"
-#include "lab/measure/method_query.hpp"
 #include "lab/measure/stopwatch.hpp"
+#include "thesis/image_query.hpp"
 
 namespace berth::lab {
 namespace {
@@ -116,13 +116,13 @@ Judgement judge(const SceneFile& file, const std::filesystem::path& folder) {
   }
   const std::vector<std::string> names = scene.robot->model().evaluated_link_names();
   Observer observer(camera.view);
-  MethodQuery query(scene.robot, scene.method, scene.image_settings);
+  ImageQuery query(scene.robot, Method::exact);
   Frame frame;
   Judgement judgement;
   for (std::size_t i = 0; i < camera.source.depth.size(); ++i) {
     const DepthImage depth_m = camera.read_depth(i);
     observer.observe(depth_m, camera.at_exposure[i], frame);
-    for (const LinkResult& link : query.ask({.frames = frame}).links) {
+    for (const LinkResult& link : query.ask(frame).links) {
       if (ranges.empty()) continue;
       const ExpectedRange& range = ranges.at({static_cast<int>(i), names[link.id - 1]});
       const bool is_inside = link.distance_m >= range.min_m && link.distance_m <= range.max_m;

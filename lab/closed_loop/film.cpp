@@ -18,8 +18,7 @@ constexpr std::array kPictures = {0.12, 0.3, 0.42, 0.55, 0.8};
 class FilmedSupervisor : public MonitorSupervisor {
  public:
   FilmedSupervisor(double duration_s, std::filesystem::path folder)
-      : MonitorSupervisor(Method::mesh, {0, 1, 2},
-                          cell_separation(SimulationSettings().request_hz)),
+      : MonitorSupervisor({0, 1, 2}, cell_separation(SimulationSettings().request_hz)),
         duration_s_(duration_s),
         folder_(std::move(folder)) {}
 
@@ -40,8 +39,7 @@ class FilmedSupervisor : public MonitorSupervisor {
  private:
   void draw(double now_s) {
     const Frame& frame = *newest(0);
-    std::vector<LinkResult> links = result().links;
-    app::project_pairs(frame.view->camera(), frame.X_BC, links);
+    const auto links = app::projected(frame.view->camera(), frame.X_BC, result().links);
     app::write_picture(folder_ / fmt::format("film_{}.png", taken_),
                        {newest_depth_m_, &frame.robot, &frame.obstacles, &links, kCellRange_m,
                         fmt::format("{:.2f} s, speed {:.0f} %", now_s, 100 * last().speed_scale)});

@@ -63,7 +63,7 @@ void print_times(const char* of, std::vector<double> us) {
 /// What a request with its monitor takes in real time, with three cameras.
 void print_cost(int encounter, const SimulationSettings& simulation) {
   constexpr double kDeadline_us = 300;
-  MonitorSupervisor supervisor(Method::mesh, {0, 1, 2}, cell_separation(simulation.request_hz),
+  MonitorSupervisor supervisor({0, 1, 2}, cell_separation(simulation.request_hz),
                                ShownBy::along_path, kDeadline_us);
   simulate(static_cast<std::uint32_t>(encounter), supervisor, simulation);
   print_times("requests and their monitor", supervisor.request_us());

@@ -13,7 +13,7 @@ using Made = std::unique_ptr<Supervisor>;
 
 Made monitor(std::vector<int> cameras, const SeparationSettings& settings,
              ShownBy shown = ShownBy::along_path) {
-  return std::make_unique<MonitorSupervisor>(Method::mesh, std::move(cameras), settings, shown);
+  return std::make_unique<MonitorSupervisor>(std::move(cameras), settings, shown);
 }
 
 Made three(SeparationSettings settings, void (*change)(SeparationSettings&)) {
@@ -67,14 +67,7 @@ const std::vector<Row>& rows() {
        [](double hz) { return monitor({0}, cell_separation(hz)); }},
       {{"evading", "three cameras, and the arm gives way to what comes near"},
        [](double hz) -> Made {
-         return std::make_unique<EvadingSupervisor>(Method::mesh, std::vector{0, 1, 2},
-                                                    cell_separation(hz));
-       }},
-      {{"exact", "one camera, the visible side alone (`exact`, what is not seen is ignored)"},
-       [](double hz) -> Made {
-         SeparationSettings settings = cell_separation(hz);
-         settings.not_seen = UnknownPolicy::ignore;
-         return std::make_unique<MonitorSupervisor>(Method::exact, std::vector{0}, settings);
+         return std::make_unique<EvadingSupervisor>(std::vector{0, 1, 2}, cell_separation(hz));
        }},
       {{"conforming", "a fixed zone as a safety scanner has to have it"},
        [](double) -> Made {

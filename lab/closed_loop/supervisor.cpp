@@ -9,13 +9,12 @@ namespace berth::lab {
 
 void Supervisor::see(std::size_t, const DepthImage&, double, const JointBuffer&) {}
 
-MonitorSupervisor::MonitorSupervisor(Method method, std::vector<int> cameras,
-                                     const SeparationSettings& settings, ShownBy shown,
-                                     std::optional<double> deadline_us)
+MonitorSupervisor::MonitorSupervisor(std::vector<int> cameras, const SeparationSettings& settings,
+                                     ShownBy shown, std::optional<double> deadline_us)
     : robot_(cell_robot(deadline_us)),
       cameras_(std::move(cameras)),
       frames_(cameras_.size()),
-      query_(robot_, method),
+      query_(robot_),
       monitor_(robot_, settings),
       shown_(shown) {
   for (const auto& view : cell_views(robot_, cameras_, settings.detection_m.value())) {
@@ -47,7 +46,7 @@ double MonitorSupervisor::scale(const Situation& situation) {
   PlannedMotion motion(situation.plan.velocity_rad_s);
   if (shown_ == ShownBy::along_path) motion.path = situation.path;
   last_ = &monitor_.update(*result_, motion, situation.now_s,
-                           shown_ == ShownBy::formula ? nullptr : query_.frames());
+                           shown_ == ShownBy::formula ? nullptr : &query_.frames());
   const auto done = Clock::now();
   const auto since = [done](Clock::time_point start) {
     return std::chrono::duration<double, std::micro>(done - start).count();
@@ -57,10 +56,9 @@ double MonitorSupervisor::scale(const Situation& situation) {
   return last_->speed_scale;
 }
 
-EvadingSupervisor::EvadingSupervisor(Method method, std::vector<int> cameras,
-                                     const SeparationSettings& settings)
+EvadingSupervisor::EvadingSupervisor(std::vector<int> cameras, const SeparationSettings& settings)
     // It leaves its way where it gives way.
-    : MonitorSupervisor(method, std::move(cameras), settings, ShownBy::formula),
+    : MonitorSupervisor(std::move(cameras), settings, ShownBy::formula),
       evader_(robot(), "arm_link_7", {}) {}
 
 double EvadingSupervisor::scale(const Situation& situation) {

@@ -10,10 +10,10 @@
 #include "berth/pipeline/frame_pool.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "berth/pipeline/prepared_space.hpp"
+#include "berth/pipeline/query.hpp"
 #include "berth/separation/evasion.hpp"
 #include "berth/separation/monitor.hpp"
 #include "lab/closed_loop/path.hpp"
-#include "lab/measure/method_query.hpp"
 
 namespace berth::lab {
 
@@ -80,7 +80,7 @@ class MonitorSupervisor : public Supervisor {
  public:
   /// With a deadline requests are those of a running robot: each has so long, and an image's space
   /// is made ready when it comes, as LiveSpace's thread does, not by the first request about it.
-  MonitorSupervisor(Method method, std::vector<int> cameras, const SeparationSettings& settings,
+  MonitorSupervisor(std::vector<int> cameras, const SeparationSettings& settings,
                     ShownBy shown = ShownBy::along_path, std::optional<double> deadline_us = {});
   std::vector<int> cameras() const override { return cameras_; }
   void see(std::size_t which, const DepthImage& depth_m, double stamp_s,
@@ -101,7 +101,7 @@ class MonitorSupervisor : public Supervisor {
   std::vector<int> cameras_;
   std::vector<std::unique_ptr<Observer>> observers_;
   std::vector<std::shared_ptr<const Frame>> frames_;
-  MethodQuery query_;
+  Query query_;
   SeparationMonitor monitor_;
   ShownBy shown_;
   const Separation* last_ = nullptr;
@@ -115,7 +115,7 @@ class MonitorSupervisor : public Supervisor {
 /// berth, with an arm that gives way besides.
 class EvadingSupervisor : public MonitorSupervisor {
  public:
-  EvadingSupervisor(Method method, std::vector<int> cameras, const SeparationSettings& settings);
+  EvadingSupervisor(std::vector<int> cameras, const SeparationSettings& settings);
   double scale(const Situation& situation) override;
   std::optional<Evasion> evasion() const override { return evasion_; }
 

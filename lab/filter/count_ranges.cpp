@@ -4,7 +4,6 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include "berth/image_distance/evaluate.hpp"
 #include "berth/self_filter/self_filter.hpp"
 #include "berth/sensor/sensor_rules.hpp"
 #include "lab/trust/trial.hpp"
@@ -12,28 +11,14 @@
 namespace berth::lab {
 namespace {
 
-LinkDistances distances_of(const JudgedView& view, const DepthImage& obstacle_depth_m) {
-  SearchableDepth searchable;
-  searchable.build(obstacle_depth_m);
-  EvaluateWorkspace workspace;
-  LinkDistances distances;
-  evaluate(Method::exact,
-           {view.camera,
-            view.robot,
-            view.link_count,
-            searchable,
-            {{.range_m = kTrialRange_m, .mean_direction = false}, {}}},
-           workspace, distances);
-  return distances;
-}
-
 RecordingCount count_view(const JudgedView& view, const FilterChoice& choice) {
   SelfFilterWorkspace workspace;
   SensorWorkspace sensor;
   ObstacleImage obstacles;
   self_filter(view.camera, view.depth_m, view.robot, choice.filter, workspace, obstacles);
   apply_sensor_rules(view.camera, view.depth_m, view.robot, {}, choice.sensor, sensor, obstacles);
-  const LinkDistances distances = distances_of(view, obstacles.depth_m);
+  const LinkDistances distances =
+      exact_distances(view.camera, view.robot, view.link_count, obstacles.depth_m);
   const auto rejected = with_rejected(view.camera, view.robot, view.depth_m, obstacles, distances);
   RecordingCount count;
   for (std::size_t i = 0; i < view.expected.size(); ++i) {

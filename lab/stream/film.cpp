@@ -41,9 +41,6 @@ Film film_of_scene(const OpenScene& scene, const StreamSettings& settings) {
 
 Film film_of(const StreamSettings& settings) {
   const OpenScene scene = open_scene(settings.scene);
-  require(scene.joins_cameras(),
-          fmt::format("{}: evaluation.method compares images; expected mesh, for a stream",
-                      settings.scene.string()));
   if (!settings.room) return film_of_scene(scene, settings);
   const auto cameras = static_cast<std::size_t>(settings.cameras);
   return film_of_room(scene.robot, scene.cameras.front().view->settings(), *settings.room,

@@ -5,9 +5,9 @@
 #include <array>
 
 #include "apps/berth/picture.hpp"
-#include "berth/image_distance/image_result.hpp"
 #include "berth/self_filter/self_filter.hpp"
 #include "lab/trust/scene_images.hpp"
+#include "thesis/image_result.hpp"
 
 namespace berth::lab {
 namespace {
@@ -49,10 +49,15 @@ void draw(const TrialRobot& robot, const sim::DrawnScene& scene, std::uint32_t s
   SelfFilterWorkspace workspace;
   ObstacleImage obstacles;
   self_filter(scene.camera, scene.depth_m, image, {}, workspace, obstacles);
-  Result result = empty_image_result(Robot(robot.model), Method::exact, {});
-  tell_image_distances(exact_distances(robot, scene.camera, image, obstacles.depth_m), scene.X_BC,
-                       result);
-  app::write_picture(picture, {scene.depth_m, &image, &obstacles, &result.links, kTrialRange_m,
+  ImageResult result = empty_image_result(Robot(robot.model), Method::exact, {});
+  tell_image_distances(
+      exact_distances(scene.camera, image, robot.model.link_count(), obstacles.depth_m), scene.X_BC,
+      result);
+  std::vector<app::PictureLink> links;
+  for (std::size_t i = 0; i < result.links.size(); ++i) {
+    links.push_back({result.links[i], result.pairs_of[i].robot_pixel});
+  }
+  app::write_picture(picture, {scene.depth_m, &image, &obstacles, &links, kTrialRange_m,
                                fmt::format("{}, seed {}", robot.name, seed)});
 }
 

@@ -3,11 +3,11 @@
 #include <cmath>
 
 #include "berth/files/png.hpp"
-#include "berth/image_distance/evaluate.hpp"
 #include "berth/render/robot_renderer.hpp"
 #include "sim/drawn_obstacles.hpp"
 #include "sim/drawn_scene.hpp"
 #include "sim/sensor_model.hpp"
+#include "thesis/evaluate.hpp"
 
 namespace berth::lab {
 namespace {
@@ -100,7 +100,8 @@ std::optional<RealScene> draw_into(const RealImage& image, const TrialRobot& rob
   sim::add_noise(kRobotNoise_m_at_1m, seed + 1, robot_m);
   const int shown = compose(image.depth_m, robot_m, scene);
   if (shown < kLeastRobotShare * image.camera.width_px * image.camera.height_px) return {};
-  scene.ideal = exact_distances(robot, image.camera, scene.robot_image, scene.obstacle_depth_m);
+  scene.ideal = exact_distances(image.camera, scene.robot_image, robot.model.link_count(),
+                                scene.obstacle_depth_m);
   if (!is_clear(scene.ideal)) return {};
   return scene;
 }

@@ -87,8 +87,8 @@ std::vector<Estimate> estimate(const RealScene& scene, const RealImageRules& rul
   const Background background = learned(*scene.image, rules.sensor);
   apply_sensor_rules(camera, scene.depth_m, scene.robot_image, {.background = &background},
                      rules.sensor, sensor, obstacles);
-  const LinkDistances distances =
-      exact_distances(*scene.robot, camera, scene.robot_image, obstacles.depth_m);
+  const LinkDistances distances = exact_distances(
+      camera, scene.robot_image, scene.robot->model.link_count(), obstacles.depth_m);
   return rules.counts_rejected
              ? with_rejected(camera, scene.robot_image, scene.depth_m, obstacles, distances)
              : to_estimates(distances);

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <limits>
 
-#include "berth/image_distance/evaluate.hpp"
-#include "berth/image_distance/rejected_distances.hpp"
 #include "berth/render/robot_renderer.hpp"
 #include "berth/self_filter/self_filter.hpp"
+#include "berth/visibility/rejected.hpp"
 #include "lab/trust/scene_images.hpp"
 #include "sim/other_metric.hpp"
+#include "thesis/evaluate.hpp"
 
 namespace berth::lab {
 
@@ -20,8 +20,8 @@ std::vector<Estimate> to_estimates(const LinkDistances& distances) {
   return estimates;
 }
 
-LinkDistances exact_distances(const TrialRobot& robot, const Camera& camera,
-                              const RobotImage& image, const DepthImage& obstacle_depth_m) {
+LinkDistances exact_distances(const Camera& camera, const RobotImage& image, int link_count,
+                              const DepthImage& obstacle_depth_m) {
   SearchableDepth searchable;
   searchable.build(obstacle_depth_m);
   EvaluateWorkspace workspace;
@@ -29,7 +29,7 @@ LinkDistances exact_distances(const TrialRobot& robot, const Camera& camera,
   evaluate(Method::exact,
            {camera,
             image,
-            robot.model.link_count(),
+            link_count,
             searchable,
             {{.range_m = kTrialRange_m, .mean_direction = false}, {}}},
            workspace, distances);
@@ -41,16 +41,12 @@ std::vector<Estimate> with_rejected(const Camera& camera, const RobotImage& imag
                                     const LinkDistances& distances) {
   std::vector<Estimate> estimates = to_estimates(distances);
   RejectedImage rejected;
-  RejectedWorkspace workspace;
-  std::vector<LinkVisibility> links(estimates.size());
   find_rejected(sensed_m, obstacles, rejected);
-  SearchableDepth searchable;
-  searchable.build(rejected.depth_m);
-  find_rejected_distances(camera, image, rejected, searchable, distances, kTrialRange_m, workspace,
-                          links);
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    if (std::isnan(links[i].rejected_distance_m)) continue;
-    estimates[i] = {LinkStatus::ok, links[i].rejected_distance_m};
+  const auto link_count = static_cast<int>(estimates.size());
+  const auto nearer = to_estimates(exact_distances(camera, image, link_count, rejected.depth_m));
+  for (std::size_t i = 0; i < estimates.size(); ++i) {
+    const bool is_nearer = !(estimates[i].distance_m <= nearer[i].distance_m);
+    if (nearer[i].status == LinkStatus::ok && is_nearer) estimates[i] = nearer[i];
   }
   return estimates;
 }
@@ -104,7 +100,7 @@ std::vector<Estimate> estimate(const TrialRobot& robot, const sim::DrawnScene& s
     case MeasuredMetric::hirt:
       break;
   }
-  const LinkDistances distances = exact_distances(robot, camera, image, depth_m);
+  const LinkDistances distances = exact_distances(camera, image, robot.model.link_count(), depth_m);
   return condition.counts_rejected ? with_rejected(camera, image, sensed_m, obstacles, distances)
                                    : to_estimates(distances);
 }

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "berth/render/robot_renderer.hpp"
-#include "berth/types/link_distance.hpp"
 #include "berth/types/obstacle_image.hpp"
 #include "lab/trust/condition.hpp"
 #include "sim/true_distance.hpp"
+#include "thesis/link_distance.hpp"
 
 namespace berth::lab {
 
@@ -43,10 +43,10 @@ struct Trial {
 inline constexpr double kTrialRange_m = 1.0;
 
 /// By the method `exact` within kTrialRange_m, without mean directions.
-LinkDistances exact_distances(const TrialRobot& robot, const Camera& camera,
-                              const RobotImage& image, const DepthImage& obstacle_depth_m);
+LinkDistances exact_distances(const Camera& camera, const RobotImage& image, int link_count,
+                              const DepthImage& obstacle_depth_m);
 std::vector<Estimate> to_estimates(const LinkDistances& distances);
-/// A link's rejected distance in place of its distance, where there is one.
+/// With the distance to what a rule dropped, where that is nearer.
 std::vector<Estimate> with_rejected(const Camera& camera, const RobotImage& image,
                                     DepthView sensed_m, const ObstacleImage& obstacles,
                                     const LinkDistances& distances);

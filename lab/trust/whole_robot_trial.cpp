@@ -114,8 +114,8 @@ class Measured {
       under.mesh.push_back(ask(posed));
     }
     const SensedView& first = views_.front();
-    under.exact =
-        to_estimates(exact_distances(robot_, first.camera, first.robot, first.obstacles.depth_m));
+    under.exact = to_estimates(exact_distances(first.camera, first.robot, robot_.model.link_count(),
+                                               first.obstacles.depth_m));
     return under;
   }
 

@@ -4,12 +4,12 @@
 #include "arrays.hpp"
 #include "berth/files/camera_info.hpp"
 #include "berth/files/png.hpp"
-#include "berth/image_distance/evaluate.hpp"
 #include "berth/pipeline/robot.hpp"
 #include "berth/render/robot_renderer.hpp"
 #include "berth/self_filter/self_filter.hpp"
 #include "berth/sensor/rectification.hpp"
 #include "bindings.hpp"
+#include "thesis/evaluate.hpp"
 
 #include <fmt/format.h>
 

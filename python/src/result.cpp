@@ -264,7 +264,7 @@ void bind_look_ahead(py::module_& m) {
 void bind_result(py::module_& m) {
   // One that has all that a result may have; what `bare` has not is not in each.
   const auto full = std::make_shared<Result>();
-  full->compares_images = full->has_visibility = true;
+  full->has_visibility = true;
   full->cameras.resize(1);
   full->links.resize(1);
   full->links[0].id = 1;

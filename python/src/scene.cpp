@@ -38,7 +38,7 @@ class SceneIterator {
   std::shared_ptr<SceneStep> next() {
     const py::gil_scoped_release release;
     const std::lock_guard lock(mutex_);
-    if (!run_) run_.emplace(*scene_, BackendChoice{}, stop_if_interrupted);
+    if (!run_) run_.emplace(*scene_, stop_if_interrupted);
     if (!run_->next()) throw py::stop_iteration();
     const DepthView depth_m = run_->sensor_depth_m();
     auto step = std::make_shared<SceneStep>();
@@ -95,8 +95,7 @@ void bind_scene(py::module_& m) {
           "numpy.ndarray: the joints at the exposure, in the robot's order")
       .def_property_readonly(
           "result", [](const SceneStep& s) { return s.result; },
-          "Result: of the robot as it stood then, against the newest image of each camera, or\n"
-          "that one image where the scene's method compares images");
+          "Result: of the robot as it stood then, against the newest image of each camera");
   py::class_<SceneIterator>(m, "SceneIterator", "A run of a scene.")
       .def(
           "__iter__", [](SceneIterator& self) -> SceneIterator& { return self; },

@@ -7,9 +7,7 @@
 //   Query          newest frames + any joint angles -> Result. The controller's clock
 //   JointBuffer    the newest joint angles of a running robot
 //
-// What else there is has headers of its own: berth/scene/scene_run.hpp runs scene files,
-// berth/image_distance/image_query.hpp compares images as the thesis does,
-// berth/image_distance/opengl/gl_observer.hpp and gl_image_query.hpp do that work on a GPU.
+// What else there is has headers of its own: berth/scene/scene_run.hpp runs scene files.
 //
 // **Threads.** An Observer and a Query belong to one thread each. Inside of a call they use all
 // processors, by TBB. To give them fewer, hold a limit while you call, such as

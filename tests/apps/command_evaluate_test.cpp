@@ -84,8 +84,8 @@ TEST_F(Evaluate, GivesTheLeastDistanceOfAllPairsOfTheImages) {
   EXPECT_EQ(seen, 4);
 }
 
-TEST_F(Evaluate, AgreesWithRunToTheImagesRounding) {
-  const std::vector<Json> run = scene.run();
+TEST_F(Evaluate, OfThreeImagesAgreesWithOfTheSceneToTheImagesRounding) {
+  const std::vector<Json> run = scene.json({"evaluate", "scene.yaml"});
   for (int i = 0; i < 3; ++i) {
     const Json frame = evaluate(i);
     for (const Json& link : frame["links"]) {
@@ -229,7 +229,7 @@ TEST(Filter, WritesThreeImagesForEachFrameAndNothingElse) {
 
 TEST(Filter, ImagesShowTheRobotItsLinksAndTheObstacles) {
   const CommandScene scene;
-  const Json frame = scene.run().at(0);
+  const Json frame = scene.json({"evaluate", "scene.yaml"}).at(0);
   ASSERT_EQ(scene.berth({"filter", "scene.yaml", "--out", "f"}).exit_status, 0);
   const Camera camera = scene_camera();
   const DepthImage robot_m = read_depth_png(scene / "f/robot_depth_000000.png", camera, 0.001);

@@ -20,7 +20,7 @@ TEST(CommandImplausible, OneOfTwoCamerasIsSaidAndTheOtherAnswers) {
   scene.lines.more_cameras =
       "  - name: wrong\n    info: camera_info.yaml\n    pose: " + scene.lines.pose +
       "\n    depth: " + scene.lines.depth + "\n    depth_scale: 0.0001\n";
-  const Outcome outcome = scene.berth({"run", "scene.yaml", "--method", "mesh"});
+  const Outcome outcome = scene.berth({"run", "scene.yaml"});
   EXPECT_EQ(outcome.exit_status, 0) << outcome.err;
   EXPECT_NE(outcome.err.find("camera wrong: the robot is not where it should be"),
             std::string::npos)

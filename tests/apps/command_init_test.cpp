@@ -127,7 +127,7 @@ TEST(CommandPages, BashCompletesCommandsOptionsAndTheirWords) {
   ASSERT_EQ(run_berth(folder.path(), {"write-pages", "share"}).exit_status, 0);
   const auto script = folder / "share/bash-completion/completions/berth";
   EXPECT_EQ(completed(script, "berth d", 1), "demo doctor");
-  EXPECT_EQ(completed(script, "berth run --meth", 2), "--method");
+  EXPECT_EQ(completed(script, "berth evaluate --meth", 2), "--method");
   EXPECT_EQ(completed(script, "berth run --format ''", 3), "table json");
   EXPECT_EQ(completed(script, "berth init a.urdf --camera z", 4), "zed");
   EXPECT_EQ(completed(script, "berth filter --met", 2), "");

@@ -48,10 +48,9 @@ constexpr int kImages = 300, kWhole = 5;
 
 TEST(LongRecording, AResultIsGivenBeforeTheNextImageIsDecoded) {
   CommandScene scene;
-  for (const std::string evaluation : {"{method: exact, range_m: 2}", "{range_m: 2}"}) {
-    scene.lines.evaluation = evaluation;
-    make_recording(scene, kImages, kWhole);
-    const Outcome outcome = scene.berth({"run", "scene.yaml", "--format", "json"});
+  make_recording(scene, kImages, kWhole);
+  for (const std::string command : {"run", "evaluate"}) {
+    const Outcome outcome = scene.berth({command, "scene.yaml", "--format", "json"});
     EXPECT_EQ(outcome.exit_status, 1);
     EXPECT_EQ(json_lines(outcome.out), kWhole);
     EXPECT_NE(outcome.err.find("damaged.png"), std::string::npos) << outcome.err;
@@ -165,7 +164,7 @@ std::size_t peak_bytes_of(int images) {
     scene << (i == 0 ? "" : ", ") << fmt::format("{:.5f}", i * 3.5 / images);
   }
   scene << "]\n    watch: {min_at_robot: 0}\njoints: " << bundled
-        << "/joints.csv\nevaluation: {method: exact, visibility: false}\n";
+        << "/joints.csv\nevaluation: {visibility: false}\n";
   folder.write("scene.yaml", scene.str());
   const Outcome outcome = run_berth(folder.path(), {"run", "scene.yaml"});
   EXPECT_EQ(outcome.exit_status, 0) << outcome.err;

@@ -1,4 +1,4 @@
-// The options of `run` and `evaluate` that belong to some methods only.
+// The options of `evaluate` that belong to some methods only.
 #include <gtest/gtest.h>
 
 #include "tests/apps/command_scene.hpp"
@@ -8,8 +8,8 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-Words run_with(const Words& more) {
-  Words arguments = {"run", "scene.yaml"};
+Words evaluate_with(const Words& more) {
+  Words arguments = {"evaluate", "scene.yaml"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
 }
@@ -24,7 +24,7 @@ TEST(Methods, EachOptionOfLatticeChangesTheSearch) {
   const CommandScene scene;
   const auto pairs_with = [&](Words more) {
     more.insert(more.begin(), {"--method", "lattice"});
-    return pairs(scene.json(run_with(more)));
+    return pairs(scene.json(evaluate_with(more)));
   };
   const std::int64_t without = pairs_with({});
   EXPECT_LT(pairs_with({"--step-x", "3"}), without);
@@ -63,7 +63,7 @@ TEST(Methods, OptionsAreRefusedForAMethodThatDoesNotHaveThem) {
   const CommandScene scene;
   for (const Wrong& wrong : table) {
     const Outcome outcome =
-        scene.berth(run_with({"--method", wrong.method, wrong.option, wrong.value}));
+        scene.berth(evaluate_with({"--method", wrong.method, wrong.option, wrong.value}));
     EXPECT_EQ(outcome.exit_status, 1) << wrong.method << wrong.option;
     EXPECT_EQ(outcome.out, "");
     EXPECT_NE(

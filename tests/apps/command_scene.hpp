@@ -27,7 +27,7 @@ struct SceneLines {
   std::string joints = "joints.csv";
   /// As simple as it can be, so that a test knows each pixel's fate.
   std::string self_filter = "{padding_m: 0, flying_patch_radius_m: 0}";
-  std::string evaluation = "{method: exact, range_m: 2}";
+  std::string evaluation = "{range_m: 2}";
   std::string more = "";
 
   std::string text() const;

@@ -127,12 +127,9 @@ TEST(SceneKey, BackgroundIsRefusedForACameraThatMovesWithTheRobot) {
 
 TEST(SceneKey, CommandLineWinsOverTheScene) {
   CommandScene scene;
-  scene.lines.evaluation = "{method: brute_force, range_m: 0.2, mean_direction: false}";
-  const Json frame = scene
-                         .json({"run", "scene.yaml", "--method", "exact", "--range", "2",
-                                "--mean-direction", "on"})
-                         .at(0);
-  EXPECT_EQ(frame["method"], "exact");
+  scene.lines.evaluation = "{range_m: 0.2, mean_direction: false}";
+  const Json frame =
+      scene.json({"run", "scene.yaml", "--range", "2", "--mean-direction", "on"}).at(0);
   EXPECT_EQ(frame["range_m"], 2);
   EXPECT_EQ(link_of(frame, "upper")["status"], "ok");
   EXPECT_GT(link_of(frame, "upper")["mean_count"], 0);

@@ -16,7 +16,6 @@ TEST(RunTime, AFrameThatTheJointsDoNotReachHasAStatusAndNoDistance) {
     EXPECT_EQ(frames[i]["stamp_s"], i == 0 ? -0.5 : 2.25);
     EXPECT_EQ(frames[i]["status"], "stale");
     EXPECT_TRUE(frames[i]["nearest"].is_null());
-    EXPECT_EQ(frames[i]["pairs"], 0);
     EXPECT_EQ(frames[i]["links"].size(), frames[1]["links"].size());
     for (const Json& link : frames[i]["links"]) {
       EXPECT_EQ(link["status"], "stale");
@@ -24,7 +23,6 @@ TEST(RunTime, AFrameThatTheJointsDoNotReachHasAStatusAndNoDistance) {
       EXPECT_TRUE(link["robot_point_base_m"].is_null());
     }
   }
-  EXPECT_EQ(frames[2]["time"]["skew_s"], 0.25);
   EXPECT_EQ(frames[1]["time"]["status"], "ok");
   EXPECT_EQ(link_of(frames[1], "upper")["status"], "ok");
   const Outcome table = scene.berth({"run", "scene.yaml"});

@@ -25,9 +25,9 @@ bool inside(const BoxPx& a, const BoxPx& b) {
 PictureLayout layout_of(int width_px, int height_px, int links) {
   const DepthImage depth_m(width_px, height_px, 1.0F);
   const ObstacleImage obstacles{depth_m, Image<PixelFate>(width_px, height_px), {}, {}};
-  LinkResult link;
+  PictureLink link;
   link.link = "a_name_of_usual_length";
-  const std::vector<LinkResult> all(links, link);
+  const std::vector<PictureLink> all(links, link);
   return layout_picture({depth_m, nullptr, &obstacles, &all, 1.0, ""});
 }
 

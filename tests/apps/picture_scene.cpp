@@ -177,14 +177,14 @@ ObstacleImage make_obstacles(const DepthImage& room, const DepthImage& sensor,
 }
 
 /// About what a search would find; every step-th pixel is enough for a picture.
-LinkResult closest_pair(const RobotImage& robot, const DepthImage& obstacles, LinkId id) {
+PictureLink closest_pair(const RobotImage& robot, const DepthImage& obstacles, LinkId id) {
   const int step = std::max(1, obstacles.height() / 60);
-  LinkResult best;
+  PictureLink best;
   best.id = id;
   for (int v = 0; v < obstacles.height(); v += step) {
     for (int u = 0; u < obstacles.width(); u += step) {
       if (robot.link_id(u, v) != id) continue;
-      if (best.image.robot_pixels++ == 0) best.status = LinkStatus::none_in_range;
+      if (best.status == LinkStatus::stale) best.status = LinkStatus::none_in_range;
       const double z = robot.depth_m(u, v), m_per_px = z / (0.9 * obstacles.width());
       for (int v2 = 0; v2 < obstacles.height(); v2 += step) {
         for (int u2 = 0; u2 < obstacles.width(); u2 += step) {
@@ -194,7 +194,7 @@ LinkResult closest_pair(const RobotImage& robot, const DepthImage& obstacles, Li
           if (!(d <= kRange_m) || std::isnan(obstacles(u2, v2)) || best.distance_m <= d) continue;
           best.distance_m = d;
           best.status = LinkStatus::ok;
-          best.image.robot_pixel = {u, v};
+          best.robot_pixel = {u, v};
           best.obstacle_pixel = {u2, v2};
         }
       }
@@ -222,7 +222,7 @@ PictureScene make_picture_scene(int width_px, int height_px, int links) {
     scene.links.back().link =
         links > 16 ? fmt::format("segment_{}_of_the_snake_link", id) : fmt::format("link_{}", id);
   }
-  LinkResult far;
+  PictureLink far;
   far.id = scene.links.front().id;
   far.link = scene.links.front().link;
   far.status = LinkStatus::none_in_range;

@@ -9,7 +9,7 @@ struct PictureScene {
   DepthImage sensor_depth_m;
   RobotImage robot;
   ObstacleImage obstacles;
-  std::vector<LinkResult> links;
+  std::vector<PictureLink> links;
 
   /// With pointers into this scene.
   PictureInput input() const;

@@ -69,15 +69,15 @@ bool all_neighbours(const Image<LinkId>& ids, int u, int v, LinkId id) {
 /// One link before a wall; its closest pair is 20 pixels long.
 struct OneLink {
   DepthImage sensor_depth_m{160, 120, 1.5F};
-  std::vector<LinkResult> links;
+  std::vector<PictureLink> links;
 
   OneLink() {
-    LinkResult& link = links.emplace_back();
+    PictureLink& link = links.emplace_back();
     link.id = 1;
     link.link = "hand";
     link.status = LinkStatus::ok;
     link.distance_m = 0.25F;
-    link.image.robot_pixel = {60, 60};
+    link.robot_pixel = {60, 60};
     link.obstacle_pixel = {80, 60};
   }
   PictureInput input() const { return {sensor_depth_m, nullptr, nullptr, &links, 1.0, ""}; }
@@ -194,7 +194,7 @@ TEST(Picture, LinksWithoutDistanceDrawNothingOnTheImage) {
 TEST(Picture, ContactStandsOut) {
   OneLink one;
   one.links[0].distance_m = 0;
-  one.links[0].obstacle_pixel = one.links[0].image.robot_pixel;
+  one.links[0].obstacle_pixel = one.links[0].robot_pixel;
   const Drawn drawn(one.input()), bare(one.without_distances());
   // A ring around the place, beside the two ends.
   const PointPx centre = drawn.layout().centre({60, 60});

@@ -8,7 +8,6 @@
 #include <array>
 #include <atomic>
 
-#include "berth/image_distance/image_query.hpp"
 #include "berth/live/live_camera.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "berth/scene/scene_run.hpp"
@@ -144,15 +143,6 @@ TEST_F(AskedScene, OldJointsAndNoFramesAreStatuses) {
   for (const LinkResult& link : query.ask({none}).links) {
     EXPECT_EQ(link.status, LinkStatus::stale);
   }
-}
-
-TEST_F(AskedScene, AMethodThatComparesImagesAsksItsOnlyCamera) {
-  ImageQuery query(scene_.robot, Method::exact), plain(scene_.robot, Method::exact);
-  EXPECT_EQ(query.ask(Frame()).time.status, TimeStatus::no_frame);
-  const auto frame = observe(scene_.cameras[0], 5);
-  const Result& result = query.ask(*frame);
-  EXPECT_EQ(distances_of(result), distances_of(plain.ask(*frame)));
-  EXPECT_EQ(result.cameras[0].status, CameraStatus::ok);
 }
 
 TEST_F(AskedScene, CamerasRunWhileRequestsAreAsked) {

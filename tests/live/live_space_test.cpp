@@ -27,12 +27,10 @@ class LiveSpaceScene : public ::testing::Test {
   }
 
   const std::shared_ptr<const Robot>& robot() const { return scene_.robot; }
-  std::shared_ptr<Frame> observe(std::size_t k, std::size_t i, FrameTime time = {},
-                                 FrameUse use = FrameUse::any_query) const {
+  std::shared_ptr<Frame> observe(std::size_t k, std::size_t i, FrameTime time = {}) const {
     const OpenCamera& camera = scene_.cameras[k];
     auto frame = std::make_shared<Frame>();
-    Observer(camera.view, {}, use)
-        .observe(camera.read_depth(i), camera.at_exposure[i], *frame, time);
+    Observer(camera.view).observe(camera.read_depth(i), camera.at_exposure[i], *frame, time);
     return frame;
   }
   static bool knows(const LiveSpace& space, std::size_t k, const SharedFrame& frame) {
@@ -253,9 +251,6 @@ TEST_F(LiveSpaceScene, WhatItRefusesItTells) {
                  {"cameras: " + std::to_string(count), "1 to 8"});
   }
   LiveSpace space(robot(), 3, joints_);
-  expect_parts(error_message<std::invalid_argument>(
-                   [&] { space.put(1, observe(1, 3, {}, FrameUse::image_query)); }),
-               {"left", "images alone"});
   EXPECT_THROW(space.put(3, observe(0, 3)), std::out_of_range);
   EXPECT_EQ(space.counts().prepared, 0);
   EXPECT_EQ(space.newest()->frames()[1], nullptr);

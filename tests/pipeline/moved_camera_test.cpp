@@ -6,7 +6,7 @@
 #include "berth/pipeline/frame_set.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "berth/scene/open_scene.hpp"
-#include "tests/pipeline/any_query.hpp"
+#include "tests/pipeline/frame_query.hpp"
 #include "tests/support/error_message.hpp"
 #include "tests/support/view_with.hpp"
 
@@ -56,56 +56,50 @@ class MovedCamera : public ::testing::Test {
   DepthImage depth_m_;
 };
 
-TEST_F(MovedCamera, NoMethodAnswersFromItsFrame) {
-  for (const Method method : {Method::mesh, Method::exact, Method::brute_force, Method::lattice}) {
-    Observer observer(view_of(kTurn_rad));
-    Frame frame;
-    observe(observer, frame);
-    EXPECT_TRUE(frame.watch.has_moved);
-    EXPECT_GT(frame.watch.seen_through, 0.1);
-    testing::AnyQuery query(robot_, method);
-    expect_withheld(query.ask(frame));
-    expect_withheld(query.ask(frame, {}, frame.stamp_s + 0.01));
-    expect_withheld(query.ask(frame, {}, frame.stamp_s + 10));
-    expect_withheld(query.ask(frame, camera_.at_exposure[3]));
-  }
+TEST_F(MovedCamera, NobodyIsAnsweredFromItsFrame) {
+  Observer observer(view_of(kTurn_rad));
+  Frame frame;
+  observe(observer, frame);
+  EXPECT_TRUE(frame.watch.has_moved);
+  EXPECT_GT(frame.watch.seen_through, 0.1);
+  testing::FrameQuery query(robot_);
+  expect_withheld(query.ask(frame));
+  expect_withheld(query.ask(frame, {}, frame.stamp_s + 0.01));
+  expect_withheld(query.ask(frame, {}, frame.stamp_s + 10));
+  expect_withheld(query.ask(frame, camera_.at_exposure[3]));
 }
 
 TEST_F(MovedCamera, NorFromOneThatIsImplausible) {
-  for (const Method method : {Method::mesh, Method::exact}) {
-    // Without a limit that somebody set.
-    Observer observer(view_of(1.2, {}));
-    Frame frame;
-    DepthImage far_m = depth_m_;
-    for (float& z_m : far_m.pixels()) z_m *= 10;
-    observer.observe(far_m, camera_.at_exposure[kFrame], frame);
-    EXPECT_FALSE(frame.watch.is_implausible) << "no robot in the image, no verdict";
-    Observer other(view_of(0, {}));
-    other.observe(far_m, camera_.at_exposure[kFrame], frame);
-    EXPECT_TRUE(frame.watch.is_implausible);
-    testing::AnyQuery query(robot_, method);
-    expect_withheld(query.ask(frame), TimeStatus::camera_implausible);
-    expect_withheld(query.ask(frame, {}, frame.stamp_s + 0.01), TimeStatus::camera_implausible);
-    EXPECT_EQ(camera_state(&frame, frame.stamp_s, {}).status, CameraStatus::implausible);
-  }
+  // Without a limit that somebody set.
+  Observer observer(view_of(1.2, {}));
+  Frame frame;
+  DepthImage far_m = depth_m_;
+  for (float& z_m : far_m.pixels()) z_m *= 10;
+  observer.observe(far_m, camera_.at_exposure[kFrame], frame);
+  EXPECT_FALSE(frame.watch.is_implausible) << "no robot in the image, no verdict";
+  Observer other(view_of(0, {}));
+  other.observe(far_m, camera_.at_exposure[kFrame], frame);
+  EXPECT_TRUE(frame.watch.is_implausible);
+  testing::FrameQuery query(robot_);
+  expect_withheld(query.ask(frame), TimeStatus::camera_implausible);
+  expect_withheld(query.ask(frame, {}, frame.stamp_s + 0.01), TimeStatus::camera_implausible);
+  EXPECT_EQ(camera_state(&frame, frame.stamp_s, {}).status, CameraStatus::implausible);
 }
 
 TEST_F(MovedCamera, OneThatStandsAsItShouldAnswersAsIfNobodyWatched) {
-  for (const Method method : {Method::mesh, Method::exact}) {
-    Observer watched(view_of(0)), plain(view_of(0, {}));
-    Frame frame, plain_frame;
-    observe(watched, frame);
-    observe(plain, plain_frame);
-    EXPECT_TRUE(frame.watch.is_on);
-    EXPECT_FALSE(frame.watch.has_moved);
-    EXPECT_LT(frame.watch.seen_through, 0.02);
-    EXPECT_FALSE(plain_frame.watch.is_on);
-    testing::AnyQuery one(robot_, method), other(robot_, method);
-    const Result& a = one.ask(frame);
-    const Result& b = other.ask(plain_frame);
-    for (std::size_t i = 0; i < a.links.size(); ++i) {
-      EXPECT_EQ(a.links[i].distance_m, b.links[i].distance_m);
-    }
+  Observer watched(view_of(0)), plain(view_of(0, {}));
+  Frame frame, plain_frame;
+  observe(watched, frame);
+  observe(plain, plain_frame);
+  EXPECT_TRUE(frame.watch.is_on);
+  EXPECT_FALSE(frame.watch.has_moved);
+  EXPECT_LT(frame.watch.seen_through, 0.02);
+  EXPECT_FALSE(plain_frame.watch.is_on);
+  testing::FrameQuery one(robot_), other(robot_);
+  const Result& a = one.ask(frame);
+  const Result& b = other.ask(plain_frame);
+  for (std::size_t i = 0; i < a.links.size(); ++i) {
+    EXPECT_EQ(a.links[i].distance_m, b.links[i].distance_m);
   }
 }
 
@@ -164,7 +158,7 @@ TEST_F(MovedCamera, TheDisplacementIsToldOnceItIsFinished) {
     EXPECT_EQ(frame.watch.has_moved, has_moved);
     EXPECT_EQ(frame.watch.displacement_m, 0.05);
   }
-  testing::AnyQuery query(robot_, Method::exact);
+  testing::FrameQuery query(robot_);
   expect_withheld(query.ask(frame));
   measured_m = 0.001;
   for (const bool has_moved : {true, false}) {

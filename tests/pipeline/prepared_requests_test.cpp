@@ -124,13 +124,7 @@ TEST_F(PreparedScene, WithoutJointsOrFramesThereIsSomethingToAskAllTheSame) {
 TEST_F(PreparedScene, WhatItRefusesItTellsAndItStaysAsItWas) {
   const SharedFrames frames = observe_all(3);
   const auto space = prepare(frames);
-  SharedFrames with_image = frames;
-  with_image[1] = observe(1, 4, {}, FrameUse::image_query);
-  expect_parts(error_message<std::invalid_argument>([&] { space->prepare(with_image, nullptr); }),
-               {"left", "images", "any query"});
-  EXPECT_EQ(space->frames()[1], frames[1]);
   Query query(robot());
-  expect_same(query.ask({.frames = {space}}), cold(frames, {.frames = frames}));
   JointState wrong = joints(3);
   wrong.position.pop_back();
   expect_parts(error_message<std::invalid_argument>([&] { space->prepare(frames, &wrong); }),

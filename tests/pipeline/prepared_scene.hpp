@@ -77,12 +77,11 @@ class PreparedScene : public ::testing::Test {
   const std::shared_ptr<const Robot>& robot() const { return scene_.robot; }
   const JointState& joints(std::size_t i) const { return scene_.cameras[0].at_exposure[i]; }
 
-  std::shared_ptr<Frame> observe(std::size_t k, std::size_t i, const PlaceAtExposure& place = {},
-                                 FrameUse use = FrameUse::any_query) const {
+  std::shared_ptr<Frame> observe(std::size_t k, std::size_t i,
+                                 const PlaceAtExposure& place = {}) const {
     auto frame = std::make_shared<Frame>();
     const OpenCamera& camera = scene_.cameras[k];
-    Observer(views_[k], {}, use)
-        .observe(camera.read_depth(i), camera.at_exposure[i], *frame, {}, place);
+    Observer(views_[k]).observe(camera.read_depth(i), camera.at_exposure[i], *frame, {}, place);
     return frame;
   }
   /// The first camera's frame i, and the others' first ones after that.

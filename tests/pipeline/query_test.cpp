@@ -8,7 +8,7 @@
 #include "berth/pipeline/frame_set.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "berth/scene/open_scene.hpp"
-#include "tests/pipeline/any_query.hpp"
+#include "tests/pipeline/frame_query.hpp"
 #include "tests/support/error_message.hpp"
 #include "tests/support/view_with.hpp"
 
@@ -114,33 +114,29 @@ TEST_F(Queries, CamerasAreToldByTheirNamesAndPlaces) {
 }
 
 TEST_F(Queries, LinksHaveNamesStatusesAndPointsInBothFrames) {
-  for (const Method method : {Method::mesh, Method::exact}) {
-    testing::AnyQuery query(robot_, method);
-    const Result& result = query.ask(left_);
-    EXPECT_EQ(result.method, name_of(method));
-    EXPECT_EQ(result.compares_images, method == Method::exact);
-    EXPECT_EQ(result.status, ResultStatus::ok);
-    EXPECT_EQ(result.range_m, robot_->settings().distance.range_m);
-    EXPECT_EQ(result.pose.X_BL.size(), robot_->model().links.size());
-    const std::vector<std::string> names = robot_->model().evaluated_link_names();
-    ASSERT_EQ(result.links.size(), names.size());
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      const LinkResult& link = result.links[i];
-      EXPECT_EQ(link.id, i + 1);
-      EXPECT_EQ(link.link, names[i]);
-      EXPECT_EQ(link.is_moved, i > 0) << "the arm's first link stands on the table";
-      ASSERT_EQ(link.status, LinkStatus::ok);
-      EXPECT_EQ(link.camera, 0);
-      const auto in_base = [&](const Eigen::Vector3f& p_C) -> Eigen::Vector3f {
-        return (left_.X_BC * p_C.cast<double>()).cast<float>();
-      };
-      EXPECT_TRUE(link.robot_point_B_m.isApprox(in_base(link.robot_point_C_m), 1e-5F));
-      EXPECT_TRUE(link.obstacle_point_B_m.isApprox(in_base(link.obstacle_point_C_m), 1e-5F));
-      EXPECT_NEAR((link.obstacle_point_B_m - link.robot_point_B_m).norm(), link.distance_m, 1e-5);
-      EXPECT_GT(link.mean_count, 0);
-      EXPECT_LE(link.mean_direction_B.norm(), 1.0001F);
-      EXPECT_TRUE(link.visibility.surface.is_known());
-    }
+  testing::FrameQuery query(robot_);
+  const Result& result = query.ask(left_);
+  EXPECT_EQ(result.status, ResultStatus::ok);
+  EXPECT_EQ(result.range_m, robot_->settings().distance.range_m);
+  EXPECT_EQ(result.pose.X_BL.size(), robot_->model().links.size());
+  const std::vector<std::string> names = robot_->model().evaluated_link_names();
+  ASSERT_EQ(result.links.size(), names.size());
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const LinkResult& link = result.links[i];
+    EXPECT_EQ(link.id, i + 1);
+    EXPECT_EQ(link.link, names[i]);
+    EXPECT_EQ(link.is_moved, i > 0) << "the arm's first link stands on the table";
+    ASSERT_EQ(link.status, LinkStatus::ok);
+    EXPECT_EQ(link.camera, 0);
+    const auto in_base = [&](const Eigen::Vector3f& p_C) -> Eigen::Vector3f {
+      return (left_.X_BC * p_C.cast<double>()).cast<float>();
+    };
+    EXPECT_TRUE(link.robot_point_B_m.isApprox(in_base(link.robot_point_C_m), 1e-5F));
+    EXPECT_TRUE(link.obstacle_point_B_m.isApprox(in_base(link.obstacle_point_C_m), 1e-5F));
+    EXPECT_NEAR((link.obstacle_point_B_m - link.robot_point_B_m).norm(), link.distance_m, 1e-5);
+    EXPECT_GT(link.mean_count, 0);
+    EXPECT_LE(link.mean_direction_B.norm(), 1.0001F);
+    EXPECT_TRUE(link.visibility.surface.is_known());
   }
 }
 
@@ -168,30 +164,26 @@ TEST_F(Queries, TheNearestIsTheOneThatMovesHasADistanceAndIsLeast) {
   EXPECT_EQ(result.nearest, 1);
 }
 
-TEST_F(Queries, TheNearestOfEachMethodFollowsThatRule) {
-  for (const Method method : {Method::mesh, Method::exact}) {
-    testing::AnyQuery query(robot_, method);
-    const Result& result = query.ask(left_);
-    ASSERT_NE(result.nearest_link(), nullptr);
-    for (const LinkResult& link : result.links) {
-      if (!link.is_moved) continue;
-      EXPECT_LE(result.nearest_link()->distance_m, link.distance_m);
-    }
-    EXPECT_TRUE(result.nearest_link()->is_moved);
+TEST_F(Queries, TheNearestOfAResultFollowsThatRule) {
+  testing::FrameQuery query(robot_);
+  const Result& result = query.ask(left_);
+  ASSERT_NE(result.nearest_link(), nullptr);
+  for (const LinkResult& link : result.links) {
+    if (!link.is_moved) continue;
+    EXPECT_LE(result.nearest_link()->distance_m, link.distance_m);
   }
+  EXPECT_TRUE(result.nearest_link()->is_moved);
 }
 
 TEST_F(Queries, AFrameThatIsObservedAnewAtItsAddressIsAskedAnew) {
-  for (const Method method : {Method::mesh, Method::exact}) {
-    testing::AnyQuery query(robot_, method), other(robot_, method);
-    Frame frame;
-    observe(17, frame, left_.view);
-    const auto before = testing::distances_of(query.ask(frame));
-    observe(3, frame, left_.view);
-    const auto after = testing::distances_of(query.ask(frame));
-    EXPECT_NE(after, before);
-    EXPECT_EQ(after, testing::distances_of(other.ask(frame)));
-  }
+  testing::FrameQuery query(robot_), other(robot_);
+  Frame frame;
+  observe(17, frame, left_.view);
+  const auto before = testing::distances_of(query.ask(frame));
+  observe(3, frame, left_.view);
+  const auto after = testing::distances_of(query.ask(frame));
+  EXPECT_NE(after, before);
+  EXPECT_EQ(after, testing::distances_of(other.ask(frame)));
 }
 
 TEST_F(Queries, WhatFramesLeaveOfSpaceIsKeptUntilOneOfThemChanges) {
@@ -240,34 +232,13 @@ TEST_F(Queries, NoCameraAndNineAreRefused) {
   EXPECT_EQ(refusal(8), "");
 }
 
-TEST_F(Queries, AFrameForImagesAloneHasTheirResultAndNoOther) {
-  Observer observer(view_named("left"), {}, FrameUse::image_query);
-  Frame frame;
-  observe(3, frame, view_named("left"));  // what this one says of space must not stay
-  observer.observe(camera_.read_depth(17), camera_.at_exposure[17], frame);
-  testing::AnyQuery images(robot_, Method::exact);
-  const std::vector<float> expected = testing::distances_of(images.ask(left_));
-  EXPECT_EQ(testing::distances_of(images.ask(frame)), expected);
-  Query query(robot_);
-  query.ask({left_});
-  const auto refusal = [&] {
-    return error_message<std::invalid_argument>([&] { query.ask({frame}); });
-  };
-  EXPECT_EQ(refusal(),
-            "frames: camera left: observed for methods that compare images alone; expected a frame "
-            "for any query");
-  EXPECT_EQ(refusal(), refusal());
-}
-
 TEST_F(Queries, ABufferOfJointsNeedsTheTimeOfTheRequest) {
   const JointBuffer joints(robot_->model(), 2);
   const std::string expected =
       "now_s: none; expected the time of the request, since joints are a buffer";
-  for (const Method method : {Method::mesh, Method::exact}) {
-    testing::AnyQuery query(robot_, method);
-    EXPECT_EQ(error_message<std::invalid_argument>([&] { query.ask(left_, joints); }), expected);
-    EXPECT_EQ(query.ask(left_, joints, left_.stamp_s).time.status, TimeStatus::no_joints);
-  }
+  testing::FrameQuery query(robot_);
+  EXPECT_EQ(error_message<std::invalid_argument>([&] { query.ask(left_, joints); }), expected);
+  EXPECT_EQ(query.ask(left_, joints, left_.stamp_s).time.status, TimeStatus::no_joints);
 }
 
 }  // namespace

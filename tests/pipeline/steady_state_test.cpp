@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "berth/image_distance/image_query.hpp"
 #include "berth/pipeline/frame_set.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "berth/pipeline/prepared_space.hpp"
@@ -28,7 +27,6 @@ TEST(SteadyState, TheWholeWayAllocatesNothingOnceItHasSeenTheImages) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     Observer observer(camera.view);
     Query query(scene.robot);
-    ImageQuery image_query(scene.robot, Method::exact);
     Observer region_observer(region_view);
     Frame frame;
     observer.observe(images[0], camera.at_exposure[numbers[0]], frame);
@@ -39,10 +37,8 @@ TEST(SteadyState, TheWholeWayAllocatesNothingOnceItHasSeenTheImages) {
         observer.observe(images[i], camera.at_exposure[numbers[i]], frame);
         EXPECT_EQ(frame.obstacles.count_of(PixelFate::flying_patch) > 0, i == 0);
         query.ask({frame});
-        image_query.ask(frame);
         for (const std::size_t other : numbers) {
           query.ask({frame, camera.at_exposure[other]});
-          image_query.ask(frame, camera.at_exposure[other]);
         }
       }
     };
@@ -124,7 +120,6 @@ TEST(SteadyState, TheRunningRobotsWayAllocatesNothingOnceItsBufferIsFull) {
   JointBuffer joints(camera.view->robot()->model(), 50);
   Observer observer(camera.view);
   Query query(scene.robot);
-  ImageQuery image_query(scene.robot, Method::exact);
   Frame frame;
   int ms = 0;
   const auto run_100_ms = [&] {
@@ -136,12 +131,9 @@ TEST(SteadyState, TheRunningRobotsWayAllocatesNothingOnceItsBufferIsFull) {
     EXPECT_EQ(frame.time.status, TimeStatus::ok);
     const double now_s = 1e-3 * ms;
     EXPECT_EQ(query.ask({frame, joints, now_s}).time.status, TimeStatus::ok);
-    EXPECT_EQ(image_query.ask(frame, joints, now_s).time.status, TimeStatus::ok);
     EXPECT_EQ(query.ask({frame, {}, now_s + 1}).time.status, TimeStatus::stale_frame);
-    EXPECT_EQ(image_query.ask(frame, {}, now_s + 1).time.status, TimeStatus::stale_frame);
     observer.observe(depth_m, exposure_s, joints, frame);
     EXPECT_EQ(query.ask({frame}).time.status, TimeStatus::stamp_went_back);
-    EXPECT_EQ(image_query.ask(frame).time.status, TimeStatus::stamp_went_back);
   };
   for (int round = 0; round < 3; ++round) run_100_ms();
   const std::size_t before = allocation_count();

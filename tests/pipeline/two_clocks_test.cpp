@@ -3,11 +3,9 @@
 
 #include <thread>
 
-#include "berth/image_distance/evaluate.hpp"
 #include "berth/pipeline/observer.hpp"
-#include "berth/render/robot_renderer.hpp"
 #include "berth/scene/open_scene.hpp"
-#include "tests/pipeline/any_query.hpp"
+#include "tests/pipeline/frame_query.hpp"
 #include "tests/support/view_with.hpp"
 
 namespace berth {
@@ -15,9 +13,9 @@ namespace {
 
 using testing::distances_of;
 
-class TwoClocksOnImages : public ::testing::Test {
+class TwoClocks : public ::testing::Test {
  protected:
-  TwoClocksOnImages()
+  TwoClocks()
       : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml")),
         camera_(scene_.cameras.front()) {}
 
@@ -32,20 +30,16 @@ class TwoClocksOnImages : public ::testing::Test {
   const OpenCamera& camera_;
 };
 
-class TwoClocks : public TwoClocksOnImages, public ::testing::WithParamInterface<Method> {};
-INSTANTIATE_TEST_SUITE_P(Methods, TwoClocks, ::testing::Values(Method::mesh, Method::exact),
-                         [](const auto& test) { return std::string(name_of(test.param)); });
-
-TEST_P(TwoClocks, TheJointsOfTheExposureGiveTheAnswerOfTheExposure) {
+TEST_F(TwoClocks, TheJointsOfTheExposureGiveTheAnswerOfTheExposure) {
   const Frame frame = observe(3);
-  testing::AnyQuery query(scene_.robot, GetParam());
+  testing::FrameQuery query(scene_.robot);
   const auto at_exposure = distances_of(query.ask(frame));
   EXPECT_EQ(distances_of(query.ask(frame, camera_.at_exposure[3])), at_exposure);
 }
 
-TEST_P(TwoClocks, OtherJointsGiveTheRobotOfThatPoseAgainstWhatTheFrameSaw) {
+TEST_F(TwoClocks, OtherJointsGiveTheRobotOfThatPoseAgainstWhatTheFrameSaw) {
   const Frame frame = observe(3);
-  testing::AnyQuery query(scene_.robot, GetParam());
+  testing::FrameQuery query(scene_.robot);
   JointState next = camera_.at_exposure[20];
   const Result result = query.ask(frame, next);
   EXPECT_EQ(result.stamp_s, camera_.at_exposure[3].stamp_s);
@@ -53,30 +47,9 @@ TEST_P(TwoClocks, OtherJointsGiveTheRobotOfThatPoseAgainstWhatTheFrameSaw) {
   EXPECT_NE(distances_of(result), distances_of(query.ask(frame)));
 }
 
-TEST_F(TwoClocksOnImages, OtherJointsGiveTheImageOfThatPoseAgainstWhatTheFrameSaw) {
-  const Frame frame = observe(3);
-  const JointState next = camera_.at_exposure[20];
-  ImageQuery query(scene_.robot, Method::exact);
-  const Result& result = query.ask(frame, next);
-  const RobotModel& model = scene_.robot->model();
-  RobotPose pose;
-  forward_kinematics(model, next.position, pose);
-  RobotImage robot;
-  RobotRenderer(scene_.robot->meshes(), camera_.view->camera()).render(pose, frame.X_BC, robot);
-  SearchableDepth obstacles;
-  obstacles.build(frame.obstacles.depth_m);
-  EvaluateWorkspace workspace;
-  LinkDistances expected;
-  evaluate(Method::exact, {camera_.view->camera(), robot, model.link_count(), obstacles, {}},
-           workspace, expected);
-  for (std::size_t i = 0; i < expected.links.size(); ++i) {
-    EXPECT_EQ(result.links[i].distance_m, expected.links[i].distance_m);
-  }
-}
-
-TEST_P(TwoClocks, FramesAndQueriesCarryNothingOver) {
+TEST_F(TwoClocks, FramesAndQueriesCarryNothingOver) {
   Observer observer(camera_.view);
-  testing::AnyQuery query(scene_.robot, GetParam());
+  testing::FrameQuery query(scene_.robot);
   Frame frame;
   const auto run = [&](std::size_t i) {
     observer.observe(camera_.read_depth(i), camera_.at_exposure[i], frame);
@@ -87,11 +60,11 @@ TEST_P(TwoClocks, FramesAndQueriesCarryNothingOver) {
   EXPECT_EQ(run(5), first);
 }
 
-TEST_P(TwoClocks, TwoThreadsAskOneFrame) {
+TEST_F(TwoClocks, TwoThreadsAskOneFrame) {
   const Frame frame = observe(7);
   std::vector<float> answers[2];
   const auto ask = [&](std::vector<float>& out) {
-    testing::AnyQuery query(scene_.robot, GetParam());
+    testing::FrameQuery query(scene_.robot);
     for (int i = 0; i < 20; ++i) out = distances_of(query.ask(frame, camera_.at_exposure[8]));
   };
   std::thread other(ask, std::ref(answers[0]));
@@ -101,9 +74,9 @@ TEST_P(TwoClocks, TwoThreadsAskOneFrame) {
   EXPECT_FALSE(answers[0].empty());
 }
 
-TEST_P(TwoClocks, WrongSizesAndJointsAreRefused) {
+TEST_F(TwoClocks, WrongSizesAndJointsAreRefused) {
   Observer observer(camera_.view);
-  testing::AnyQuery query(scene_.robot, GetParam());
+  testing::FrameQuery query(scene_.robot);
   Frame frame = observe(0);
   EXPECT_THROW(observer.observe(DepthImage(10, 10, 1.0F), camera_.at_exposure[0], frame),
                std::invalid_argument);
@@ -113,7 +86,7 @@ TEST_P(TwoClocks, WrongSizesAndJointsAreRefused) {
   EXPECT_THROW(query.ask(frame, bad), std::invalid_argument);
 }
 
-TEST_P(TwoClocks, ABackgroundIsLearnedOnlyWhereItIsAskedForAndFromImagesOfTheCamerasSize) {
+TEST_F(TwoClocks, ABackgroundIsLearnedOnlyWhereItIsAskedForAndFromImagesOfTheCamerasSize) {
   const Frame frame = observe(0);
   const DepthImage depth_m = camera_.read_depth(0);
   EXPECT_THROW(Observer(camera_.view).learn_background(depth_m, frame), std::invalid_argument);

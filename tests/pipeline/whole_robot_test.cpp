@@ -8,7 +8,7 @@
 #include "berth/pipeline/query.hpp"
 #include "berth/robot/primitives.hpp"
 #include "berth/scene/open_scene.hpp"
-#include "tests/pipeline/any_query.hpp"
+#include "tests/pipeline/frame_query.hpp"
 #include "tests/support/error_message.hpp"
 #include "tests/support/view_with.hpp"
 
@@ -143,19 +143,17 @@ TEST_F(WholeRobot, AWithheldResultHasTheCamerasOfItsOwnRequest) {
 }
 
 TEST_F(WholeRobot, AFrameThatNobodyObservedIsNoFrame) {
-  for (const Method method : {Method::mesh, Method::exact}) {
-    testing::AnyQuery query(view_->robot(), method);
-    EXPECT_EQ(query.ask(Frame()).time.status, TimeStatus::no_frame);
-    const Result& result = query.ask(Frame(), camera_.at_exposure[17], 1.7);
-    EXPECT_EQ(result.time.status, TimeStatus::no_frame);
-    EXPECT_TRUE(std::isnan(result.time.frame_age_s));
-    for (const LinkResult& link : result.links) {
-      EXPECT_EQ(link.status, LinkStatus::stale);
-    }
-    for (const CameraResult& camera : result.cameras) {
-      EXPECT_EQ(camera.status, CameraStatus::no_frame);
-      EXPECT_FALSE(camera.has_frame);
-    }
+  testing::FrameQuery query(view_->robot());
+  EXPECT_EQ(query.ask(Frame()).time.status, TimeStatus::no_frame);
+  const Result& result = query.ask(Frame(), camera_.at_exposure[17], 1.7);
+  EXPECT_EQ(result.time.status, TimeStatus::no_frame);
+  EXPECT_TRUE(std::isnan(result.time.frame_age_s));
+  for (const LinkResult& link : result.links) {
+    EXPECT_EQ(link.status, LinkStatus::stale);
+  }
+  for (const CameraResult& camera : result.cameras) {
+    EXPECT_EQ(camera.status, CameraStatus::no_frame);
+    EXPECT_FALSE(camera.has_frame);
   }
 }
 

@@ -19,19 +19,6 @@ def one_camera():
 
 
 @pytest.fixture(scope="session")
-def one_mesh_camera(tmp_path_factory):
-    """The same scene, asked about the whole robot."""
-    folder = SOURCE / "data/bundled"
-    text = (folder / "one_camera.yaml").read_text().replace("method: exact", "method: mesh")
-    for key, name in (("urdf", "arm/arm.urdf"), ("info", "camera_info.yaml"), ("depth", "depth/*.png"), ("joints", "joints.csv"),
-                      ("berth_arm", "arm")):
-        text = text.replace(f"{key}: {name}", f"{key}: {folder / name}")
-    file = tmp_path_factory.mktemp("scene") / "mesh.yaml"
-    file.write_text(text)
-    return berth.open_scene(file)
-
-
-@pytest.fixture(scope="session")
 def bundled():
     return berth.open_scene(SOURCE / "data/bundled/scene.yaml")
 

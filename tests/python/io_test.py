@@ -20,11 +20,11 @@ def record_of(scene, steps, stamps_s=(0.0, 0.1)):
     return berth.io.CameraRecord("front", view.camera, view.parent_link, view.X_PC, [s.depth_m for s in steps], stamps_s)
 
 
-def test_a_scene_that_was_written_gives_the_same_results(tmp_path, one_mesh_camera):
-    steps = [s for i, s in enumerate(one_mesh_camera) if i < 2]
-    names = one_mesh_camera.robot.model.joint_names
+def test_a_scene_that_was_written_gives_the_same_results(tmp_path, one_camera):
+    steps = [s for i, s in enumerate(one_camera) if i < 2]
+    names = one_camera.robot.model.joint_names
     joints = {name: [s.joints[i] for s in steps] for i, name in enumerate(names)}
-    file = berth.io.write_scene(str(tmp_path / "scene"), str(URDF), [record_of(one_mesh_camera, steps)], [0.0, 0.1], joints,
+    file = berth.io.write_scene(str(tmp_path / "scene"), str(URDF), [record_of(one_camera, steps)], [0.0, 0.1], joints,
                                 environment_links=["table"], package_paths={"berth_arm": str(SOURCE / "data/bundled/arm")})
     for was, now in zip(steps, berth.open_scene(file)):
         np.testing.assert_allclose(now.depth_m, was.depth_m, atol=1e-6)

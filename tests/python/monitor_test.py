@@ -19,7 +19,7 @@ BOLD = {"not_seen": "ignore", "no_reading": "ignore", "unknown": "ignore", "huma
 def monitored(tmp_path_factory):
     """The bundled scene with a monitor, a few images of each camera."""
     folder = SOURCE / "data/bundled"
-    text = (folder / "one_camera.yaml").read_text().replace("method: exact", "method: mesh") + "separation: {not_seen: ignore, no_reading: ignore}\n"
+    text = (folder / "one_camera.yaml").read_text() + "separation: {not_seen: ignore, no_reading: ignore}\n"
     for key, name in (("urdf", "arm/arm.urdf"), ("info", "camera_info.yaml"), ("depth", "depth/*.png"), ("joints", "joints.csv"),
                       ("berth_arm", "arm")):
         text = text.replace(f"{key}: {name}", f"{key}: {folder / name}")
@@ -29,9 +29,9 @@ def monitored(tmp_path_factory):
 
 
 @pytest.fixture
-def asked(one_mesh_camera):
+def asked(one_camera):
     """How a request about the first image is asked."""
-    scene = one_mesh_camera
+    scene = one_camera
     step = next(iter(scene))
     frame = berth.Observer(scene.views[0]).observe(step.depth_m, step.joints, stamp_s=0.0)
     query = berth.Query(scene.robot)
@@ -88,17 +88,17 @@ def test_it_wants_a_time_and_results_without_it_have_none(asked):
     assert result.separation is None and all(link.separation is None for link in result.links)
 
 
-def test_settings_are_checked_and_have_a_table_of_stops(one_mesh_camera):
+def test_settings_are_checked_and_have_a_table_of_stops(one_camera):
     settings = berth.SeparationSettings(detection_m=0.03)
     settings.stopping = [[0.25, 0.1, 0.01], [1.0, 0.3, 0.15]]
-    assert berth.SeparationMonitor(one_mesh_camera.robot, settings).settings.stopping == settings.stopping
+    assert berth.SeparationMonitor(one_camera.robot, settings).settings.stopping == settings.stopping
     settings.stopping = [[1.0, 0.3, 0.15], [0.25, 0.1, 0.01]]
     with pytest.raises(ValueError, match="stopping"):
-        berth.SeparationMonitor(one_mesh_camera.robot, settings)
+        berth.SeparationMonitor(one_camera.robot, settings)
 
 
-def test_two_cameras_of_one_name_are_refused(one_mesh_camera):
-    scene = one_mesh_camera
+def test_two_cameras_of_one_name_are_refused(one_camera):
+    scene = one_camera
     step = next(iter(scene))
     view = scene.views[0]
     frames = [berth.Observer(berth.MountedCamera(scene.robot, view.camera, view.parent_link, view.X_PC, name=name)).observe(

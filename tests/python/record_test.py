@@ -6,9 +6,9 @@ import berth
 
 
 @pytest.fixture
-def recorded(one_mesh_camera, tmp_path):
+def recorded(one_camera, tmp_path):
     """A few requests with a monitor that stops at the end, since nobody tells it the velocity."""
-    scene = one_mesh_camera
+    scene = one_camera
     settings = berth.SeparationSettings(no_reading="ignore", not_seen="ignore", camera="ignore", unknown="ignore", human_speed_m_s=0.0, intrusion_m=0.0,
                                         camera_uncertainty_m=0.0, robot_uncertainty_m=0.0, acceleration_m_s2=0.0)
     recorder = berth.Recorder(tmp_path / "stop.mcap", scene.robot, scene.views, settings, seconds=5, after_stop_s=0.0)
@@ -52,11 +52,11 @@ def test_a_file_that_is_cut_off_gives_what_it_has_and_then_says_so(recorded):
     assert len(steps) == len(results) and all(step.difference is None for step in steps)
 
 
-def test_frames_of_other_cameras_and_bad_settings_are_refused(one_mesh_camera, bundled, tmp_path):
+def test_frames_of_other_cameras_and_bad_settings_are_refused(one_camera, bundled, tmp_path):
     with pytest.raises(ValueError, match="seconds: 0"):
-        berth.Recorder(tmp_path / "a.mcap", one_mesh_camera.robot, one_mesh_camera.views, seconds=0)
+        berth.Recorder(tmp_path / "a.mcap", one_camera.robot, one_camera.views, seconds=0)
     recorder = berth.Recorder(tmp_path / "a.mcap", bundled.robot, bundled.views)
-    step = next(iter(one_mesh_camera))
+    step = next(iter(one_camera))
     with pytest.raises(ValueError, match="none of the recorder's"):
         recorder.put(step.frame, step.depth_m)
     recorder.write()

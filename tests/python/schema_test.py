@@ -202,7 +202,8 @@ def results(tmp_path_factory):
     json_of = lambda *arguments: lines(*arguments, "--format", "json")
     found = json_of("run", thinned(folder, "scene.yaml", "monitored.yaml", 12, separation={"no_reading": "ignore"}))
     found += json_of("run", thinned(folder, "scene.yaml", "late.yaml", 12, last_stamp_s=9.0))
-    found += json_of("run", one, "--method", "mesh", "--visibility", "on") + json_of("run", one, "--repeat", 2)
+    found += json_of("run", one, "--visibility", "on") + json_of("run", one, "--repeat", 2)
+    found += json_of("evaluate", one)
     return found + json_of("evaluate", f"--camera={SOURCE}/data/bundled/camera_info.yaml", *images, "--repeat", 2)
 
 

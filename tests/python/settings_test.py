@@ -15,11 +15,6 @@ GROUPS = {
 }
 
 
-# What only scenes have that compare images.
-OF_IMAGES = {"method", "region", "depth_interval", "search_pattern", "shrinking", "step_x", "step_y", "initial_grid_radius_px",
-             "final_grid_radius_px", "tile_px"}
-
-
 @pytest.mark.parametrize("group", GROUPS)
 def test_all_settings_of_the_scene_file_are_here(group):
     text = (SOURCE / "docs/scene.md").read_text()
@@ -28,7 +23,7 @@ def test_all_settings_of_the_scene_file_are_here(group):
     settings = GROUPS[group]().as_dict()
     assert tables, "docs/scene.md has tables of settings"
     if group in tables and tables[group]:
-        assert tables[group] - {"link_padding_m", "stopping"} - OF_IMAGES <= set(settings)
+        assert tables[group] - {"link_padding_m", "stopping"} <= set(settings)
     for name, value in settings.items():
         prop = getattr(GROUPS[group], name)
         assert len(prop.__doc__) > 10, name
@@ -82,10 +77,6 @@ def test_a_wrong_value_changes_nothing():
 def test_a_wrong_name_is_named():
     with pytest.raises(ValueError, match='space.no_reading: "fast"; expected one of '):
         berth.SpaceSettings(no_reading="fast")
-
-
-def test_the_whole_robot_is_asked_without_a_method():
-    assert not OF_IMAGES & set(berth.EvaluationSettings().as_dict())
 
 
 @pytest.mark.parametrize("pose, said", [

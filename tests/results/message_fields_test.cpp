@@ -108,8 +108,7 @@ Result full_result() {
   result.cameras.resize(1);
   result.links.resize(1);
   result.links[0].id = 1;
-  result.compares_images = result.has_visibility = true;
-  result.gl_renderer = "any";
+  result.has_visibility = true;
   result.separation.emplace().links.resize(1);
   return result;
 }
@@ -124,9 +123,7 @@ TEST(MessageFields, OfAResult) {
       {"stamp_s", "ROS has a type for stamps; it is that of the header", "header"},
       {"joints_stamp_s", "ROS has a type for stamps", "joints_stamp"},
       {"frame", "lines of a recording are counted, not those of a running robot"},
-      {"separation", "has a message of its own"},
-      {"gl_renderer", "only methods that compare images have it"},
-      {"pairs", "only methods that compare images have it"}};
+      {"separation", "has a message of its own"}};
   const Exception only_in_message[] = {
       {"question_stamp", "a listener does not know when it was asked"}};
   expect_same_fields("LinkDistances", listed, only_listed, only_in_message);
@@ -139,9 +136,7 @@ TEST(MessageFields, OfALink) {
   const Exception only_listed[] = {{"separation", "has a message of its own"},
                                    {"mean_direction_camera", "TF tells where the camera is"},
                                    {"robot_point_camera_m", "TF tells where the camera is"},
-                                   {"obstacle_point_camera_m", "TF tells where the camera is"},
-                                   {"robot_pixel", "only methods that compare images have it"},
-                                   {"robot_pixels", "only methods that compare images have it"}};
+                                   {"obstacle_point_camera_m", "TF tells where the camera is"}};
   expect_same_fields("LinkDistance", listed, only_listed, {});
 }
 

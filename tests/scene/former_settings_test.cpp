@@ -28,6 +28,15 @@ TEST(FormerSettings, ThoseThatEndedAreToldAndHaveNoEffect) {
                 "scene.yaml:5: directed_speed is no setting any more, and has no effect"}));
 }
 
+TEST(FormerSettings, MethodsOnImagesAreToldWithWhatHasThemNow) {
+  EXPECT_EQ(scene_with("evaluation: {method: exact, range_m: 2, step_x: 3}\n").warnings,
+            (std::vector<std::string>{
+                "scene.yaml:5: method is no setting any more, and has no effect; berth evaluate "
+                "SCENE.yaml --method compares images",
+                "scene.yaml:5: step_x is no setting any more, and has no effect; berth evaluate "
+                "compares images, and has it as an option"}));
+}
+
 TEST(FormerSettings, HolesThatWereObstaclesAreRefusedWithWhatToDoInstead) {
   EXPECT_EQ(
       scene_with("sensor: {holes: free}\n").warnings,

@@ -148,11 +148,11 @@ TEST_F(RewrittenScene, ReadsBackWhatWasChangedAndAllElse) {
 TEST_F(RewrittenScene, WritesOtherValuesAtTheirPlaces) {
   const std::string text = scene_of(kBlockCamera + kFlowCamera);
   SceneChange change;
-  change.values = {{{"evaluation", "method"}, "exact"},
+  change.values = {{{"evaluation", "range_m"}, "0.7"},
                    {{"self_filter", "padding_m"}, "0.03"},
                    {{"cameras", "1", "space", "no_reading"}, "hides"}};
   const SceneFile scene = reread(text, change);
-  EXPECT_EQ(scene.evaluation.method, Method::exact);
+  EXPECT_EQ(scene.evaluation.distance.range_m, 0.7);
   EXPECT_EQ(scene.cameras[0].settings.self_filter.padding_m, 0.03);
   EXPECT_EQ(scene.cameras[0].settings.space.no_reading, NoReading::unknown);
   EXPECT_EQ(scene.cameras[1].settings.space.no_reading, NoReading::hides);

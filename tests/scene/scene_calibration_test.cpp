@@ -34,7 +34,7 @@ class CalibrationScene : public ::testing::Test {
                     "cameras:\n  - name: front\n    info: {0}camera_info.yaml\n"
                     "    pose: {{parent: table, xyz: [0.12, -2.25, 0.8], quaternion_xyzw: "
                     "[-0.788699, 0.0732, -0.05641, 0.607794]}}\n    depth: [{1}]\n{2}"
-                    "joints: joints.csv\nevaluation: {{method: exact}}\n{3}",
+                    "joints: joints.csv\n{3}",
                     kBundled, depth, more_camera, more)));
   }
 

@@ -56,7 +56,7 @@ sensor:
   average_frames: 14
   background_frames: 15
   background_clearance_m: 0.16
-evaluation: {method: lattice, range_m: 0.5, mean_direction: off, visibility: false}
+evaluation: {range_m: 0.5, mean_direction: off, visibility: false}
 time: {max_skew_s: 0.01, max_extrapolation_s: 0.02}
 )");
   const SceneFile scene = read_scene(file);
@@ -102,7 +102,6 @@ time: {max_skew_s: 0.01, max_extrapolation_s: 0.02}
   EXPECT_EQ(sensor.average_frames, 14);
   EXPECT_EQ(sensor.background_frames, 15);
   EXPECT_EQ(sensor.background_clearance_m, 0.16);
-  EXPECT_EQ(scene.evaluation.method, Method::lattice);
   EXPECT_EQ(scene.evaluation.distance.range_m, 0.5);
   EXPECT_EQ(scene.evaluation.distance.mean_direction, false);
   EXPECT_EQ(scene.evaluation.visibility, false);
@@ -120,13 +119,11 @@ TEST(Scene, LeavesDefaultsToThoseWhoOwnThem) {
   EXPECT_EQ(scene.cameras[0].near_m, 0);
   EXPECT_EQ(scene.cameras[0].far_m, std::numeric_limits<double>::infinity());
   const CameraSettings usual;
-  const SceneEvaluation evaluation;
+  const EvaluationSettings evaluation;
   EXPECT_EQ(scene.cameras[0].settings.self_filter.tolerance_m, usual.self_filter.tolerance_m);
   EXPECT_TRUE(scene.cameras[0].settings.link_padding_m.empty());
   EXPECT_EQ(scene.cameras[0].settings.sensor.noise_m, usual.sensor.noise_m);
   EXPECT_EQ(scene.cameras[0].settings.sensor.speckle_px, usual.sensor.speckle_px);
-  EXPECT_EQ(scene.evaluation.method, Method::mesh);
-  EXPECT_EQ(scene.evaluation.images, evaluation.images);
   EXPECT_EQ(scene.evaluation.distance.range_m, evaluation.distance.range_m);
   EXPECT_EQ(scene.evaluation.distance.mean_direction, evaluation.distance.mean_direction);
   EXPECT_EQ(scene.evaluation.visibility, evaluation.visibility);

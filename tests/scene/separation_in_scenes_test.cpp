@@ -76,9 +76,8 @@ TEST(SeparationInScenes, RefusesWhatIsWrongAndSaysWhere) {
 }
 
 /// The bundled scene's first images, with a robot that is hardly ever in somebody's way.
-SceneFile monitored_scene(Method method) {
+SceneFile monitored_scene() {
   SceneFile scene = read_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml");
-  scene.evaluation.method = method;
   for (SceneCamera& camera : scene.cameras) {
     camera.depth.resize(4);
     camera.stamps_s.resize(4);
@@ -95,7 +94,7 @@ SceneFile monitored_scene(Method method) {
 }
 
 TEST(SeparationInScenes, WarnsWhereACameraTellsLessThanWasShown) {
-  SceneFile file = monitored_scene(Method::mesh);
+  SceneFile file = monitored_scene();
   file.separation->intrusion_m.reset();
   file.separation->detection_m = 0.02;
   file.cameras[0].settings.space.detection_capability_m = 0.02;
@@ -110,7 +109,7 @@ TEST(SeparationInScenes, WarnsWhereACameraTellsLessThanWasShown) {
 }
 
 TEST(SeparationInScenes, HasToChooseWhereACameraDoesNotTellWhatGivesNoReading) {
-  SceneFile file = monitored_scene(Method::mesh);
+  SceneFile file = monitored_scene();
   file.separation->no_reading.reset();
   for (SceneCamera& camera : file.cameras) camera.settings.space.no_reading = NoReading::hides;
   const auto refusal = [&] {
@@ -130,7 +129,7 @@ TEST(SeparationInScenes, HasToChooseWhereACameraDoesNotTellWhatGivesNoReading) {
 }
 
 TEST(SeparationInScenes, IsInEachLineOfJson) {
-  const OpenScene scene = open_scene(monitored_scene(Method::mesh));
+  const OpenScene scene = open_scene(monitored_scene());
   SceneRun run(scene);
   int reduced = 0;
   while (run.next()) {
@@ -159,19 +158,8 @@ TEST(SeparationInScenes, IsInEachLineOfJson) {
   EXPECT_GT(reduced, 1);
 }
 
-TEST(SeparationInScenes, AMethodOnImagesIsMonitoredCameraByCamera) {
-  const OpenScene scene = open_scene(monitored_scene(Method::exact));
-  SceneRun run(scene);
-  while (run.next()) {
-    const Json line = Json::parse(result_json(run.ask()));
-    // One camera sees less than enough of some link, or nothing near enough.
-    EXPECT_TRUE(line["separation"]["reason"].is_string());
-    EXPECT_TRUE(line["links"][3]["separation"]["required_m"].is_number());
-  }
-}
-
 TEST(SeparationInScenes, TheTableTellsWhatEachLinkNeeds) {
-  const OpenScene scene = open_scene(monitored_scene(Method::mesh));
+  const OpenScene scene = open_scene(monitored_scene());
   SceneRun run(scene);
   ASSERT_TRUE(run.next());
   const std::string table = result_table(run.ask());
@@ -180,7 +168,7 @@ TEST(SeparationInScenes, TheTableTellsWhatEachLinkNeeds) {
 }
 
 TEST(SeparationInScenes, WithoutItNothingIsAdded) {
-  SceneFile file = monitored_scene(Method::mesh);
+  SceneFile file = monitored_scene();
   file.separation.reset();
   const OpenScene scene = open_scene(file);
   SceneRun run(scene);
@@ -191,11 +179,11 @@ TEST(SeparationInScenes, WithoutItNothingIsAdded) {
 }
 
 TEST(SeparationInScenes, BadSettingsNameTheFile) {
-  SceneFile file = monitored_scene(Method::mesh);
+  SceneFile file = monitored_scene();
   file.separation->stopping = {{1, 0.2, 0.1}, {0.5, 0.3, 0.2}};
   expect_parts(error_message([&] { open_scene(file); }),
                {"scene.yaml", "separation.stopping[1].speed_m_s", "0.5", "above 1"});
-  file = monitored_scene(Method::mesh);
+  file = monitored_scene();
   file.evaluation.visibility = false;
   const OpenScene scene = open_scene(file);
   expect_parts(error_message([&] { SceneRun run(scene); }), {"scene.yaml", "visibility is off"});

@@ -36,9 +36,8 @@ TEST(WatchInScenes, ABiasMayLieBeforeTheModel) {
 }
 
 /// Four images of each of the bundled cameras; the camera `left` was turned by 3 degrees.
-SceneFile bumped_scene(Method method) {
+SceneFile bumped_scene() {
   SceneFile scene = read_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml");
-  scene.evaluation.method = method;
   for (SceneCamera& camera : scene.cameras) {
     camera.depth.resize(4);
     camera.stamps_s.resize(4);
@@ -51,7 +50,7 @@ SceneFile bumped_scene(Method method) {
 }
 
 TEST(WatchInScenes, OfSeveralCamerasTheOneThatMovedIsNamedAndTheOthersAnswer) {
-  const OpenScene scene = open_scene(bumped_scene(Method::mesh));
+  const OpenScene scene = open_scene(bumped_scene());
   SceneRun run(scene);
   Json line;
   while (run.next()) line = Json::parse(result_json(run.ask()));
@@ -70,29 +69,17 @@ TEST(WatchInScenes, OfSeveralCamerasTheOneThatMovedIsNamedAndTheOthersAnswer) {
   }
 }
 
-TEST(WatchInScenes, AMethodOnImagesGivesNoAnswerFromTheOneThatMoved) {
-  const OpenScene scene = open_scene(bumped_scene(Method::exact));
-  SceneRun run(scene);
-  while (run.next()) {
-    const Json line = Json::parse(result_json(run.ask()));
-    const Json& camera = line["cameras"][0];
-    const bool has_moved = camera["camera"] == "left" && camera["frame"] > 0;
-    EXPECT_EQ(camera["status"], has_moved ? "moved" : "ok");
-    EXPECT_EQ(line["status"], has_moved ? "stale" : "ok");
-    EXPECT_EQ(line["time"]["status"], has_moved ? "camera_moved" : "ok");
-    EXPECT_EQ(line["links"][0]["distance_m"].is_null(), has_moved);
-  }
-}
-
 TEST(WatchInScenes, WithoutItNothingIsKnown) {
-  SceneFile file = bumped_scene(Method::exact);
+  SceneFile file = bumped_scene();
   for (SceneCamera& camera : file.cameras) camera.settings.watch = {};
   const OpenScene scene = open_scene(file);
   SceneRun run(scene);
   while (run.next()) {
     const Json line = Json::parse(result_json(run.ask()));
-    EXPECT_EQ(line["cameras"][0]["status"], "ok");
-    EXPECT_TRUE(line["cameras"][0]["seen_through"].is_null());
+    for (const Json& camera : line["cameras"]) {
+      EXPECT_NE(camera["status"], "moved");
+      EXPECT_TRUE(camera["seen_through"].is_null());
+    }
   }
 }
 

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <vector>
 
-#include "berth/image_distance/evaluate.hpp"
 #include "berth/sensor/sensor_rules.hpp"
 #include "tests/self_filter/random_scene.hpp"
 #include "tests/sensor/images.hpp"
 #include "tests/support/same_bits.hpp"
 #include "tests/support/thinned.hpp"
+#include "thesis/evaluate.hpp"
 
 namespace berth {
 namespace {

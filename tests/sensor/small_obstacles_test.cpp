@@ -8,13 +8,13 @@
 #include <numbers>
 #include <optional>
 
-#include "berth/image_distance/evaluate.hpp"
 #include "berth/render/robot_renderer.hpp"
 #include "berth/robot/primitives.hpp"
 #include "berth/sensor/sensor_rules.hpp"
 #include "sim/drawn_obstacles.hpp"
 #include "sim/drawn_scene.hpp"
 #include "sim/sensor_model.hpp"
+#include "thesis/evaluate.hpp"
 
 namespace berth::testing {
 namespace {

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include "berth/image_distance/image_query.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "berth/pipeline/query.hpp"
 #include "berth/robot/link_twists.hpp"

@@ -2,8 +2,8 @@
 """include_graph.py: finds includes that go up.
 
 src/berth/CMakeLists.txt names its folders in order: each may include itself and those before it, and nothing
-of berth/berth.hpp, apps, sim, lab and tests. apps may include src and itself, sim and lab those before them as well, and none
-of them tests. The status is 1 where any goes up.
+of berth/berth.hpp, thesis, apps, sim, lab and tests. thesis may include src and itself, apps, sim and lab those before them as
+well, and none of them tests; thesis/study stands beside lab. The status is 1 where any goes up.
 """
 import re
 import sys
@@ -15,7 +15,7 @@ FOLDER = re.compile(r"^\s*add_subdirectory\(([\w/]+)\)", re.M)
 
 def ranks(cmake_text):
     """Folder -> its place, 0 for the one that may include itself alone; apps, sim and lab come last."""
-    folders = [f"berth/{name}" for name in FOLDER.findall(cmake_text)] + ["apps", "sim", "lab"]
+    folders = [f"berth/{name}" for name in FOLDER.findall(cmake_text)] + ["thesis", "apps", "sim", "lab", "thesis/study"]
     return {folder: place for place, folder in enumerate(folders)}
 
 
@@ -32,7 +32,7 @@ def going_up(texts, ranks_of):
         for included in INCLUDE.findall(text):
             other = folder_of(included, ranks_of)
             # Above all is what has no place: berth.hpp, tests.
-            ours = Path(included).parts[0] in ("berth", "apps", "sim", "lab", "tests")
+            ours = Path(included).parts[0] in ("berth", "thesis", "apps", "sim", "lab", "tests")
             if own and ours and (other is None or ranks_of[other] > ranks_of[own]):
                 found.append((file, included))
     return found
@@ -41,7 +41,7 @@ def going_up(texts, ranks_of):
 def main():
     ranks_of = ranks(Path("src/berth/CMakeLists.txt").read_text(encoding="utf-8"))
     texts = {str(file.relative_to(root)): file.read_text(encoding="utf-8")
-             for root, folder in (("src", "berth"), (".", "apps"), (".", "sim"), (".", "lab"))
+             for root, folder in (("src", "berth"), (".", "thesis"), (".", "apps"), (".", "sim"), (".", "lab"))
              for file in sorted(Path(root, folder).rglob("*.[ch]pp"))}
     if not texts or len(ranks_of) < 2:
         sys.exit("no sources, or no folders in src/berth/CMakeLists.txt")

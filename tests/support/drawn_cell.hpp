@@ -66,7 +66,7 @@ class DrawnCell : public CellFolder {
         "    depth_scale: {9}  # as its driver says\n"
         "    depth_offset_m: {10}\n"
         "joints: joints.csv\n"
-        "evaluation: {{method: exact, range_m: 1}}\n{11}",
+        "evaluation: {{range_m: 1}}\n{11}",
         arm_folder.string(), model.links[drawn.camera->parent].name, p.x(), p.y(), p.z(), q.x(),
         q.y(), q.z(), q.w(), lines.depth_scale_m, lines.depth_offset_m, lines.more);
   }

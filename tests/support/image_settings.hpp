@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "berth/image_distance/settings.hpp"
+#include "thesis/settings.hpp"
 
 namespace berth::testing {
 

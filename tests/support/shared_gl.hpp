@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "berth/image_distance/opengl/gl_context.hpp"
-#include "berth/image_distance/opengl/gl_evaluate.hpp"
+#include "thesis/opengl/gl_context.hpp"
+#include "thesis/opengl/gl_evaluate.hpp"
 
 namespace berth::testing {
 

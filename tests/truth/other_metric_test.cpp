@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "berth/image_distance/brute_force.hpp"
 #include "sim/random.hpp"
 #include "sim/random_images.hpp"
 #include "tests/support/image_settings.hpp"
+#include "thesis/brute_force.hpp"
 
 namespace berth::sim {
 namespace {

@@ -67,7 +67,6 @@ TEST_F(ChangedSceneTest, RefusesWhatAFileMayNotSayAndStaysAsItWas) {
   EXPECT_EQ(text.find(".yaml"), std::string::npos) << "the file has no such line: " << text;
   expect_parts(refused("evaluation", "range_m", "1000"), {"range_m", "1000", "up to 50"});
   expect_parts(refused("self_filter", "paddding_m", "1"), {"paddding_m"});
-  expect_parts(refused("evaluation", "method", "magic"), {"magic", "mesh"});
   EXPECT_EQ(scene_.now().evaluation.distance.range_m, 0.5);
   EXPECT_EQ(scene_.change().values.size(), 1u);
 }

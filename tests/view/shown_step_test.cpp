@@ -59,11 +59,6 @@ void expect_same(const OpenScene& scene, std::size_t every) {
 
 TEST(ShownStep, IsWhatRunSays) { expect_same(bundled("scene.yaml"), 7); }
 
-TEST(ShownStep, IsWhatRunSaysOfImagesAlone) {
-  expect_same(
-      bundled("scene.yaml", [](SceneFile& scene) { scene.evaluation.method = Method::exact; }), 17);
-}
-
 TEST(ShownStep, TakesMeansOverTheImagesBefore) {
   expect_same(
       bundled("one_camera.yaml",

@@ -461,29 +461,6 @@ TEST(MonitoredScene, TellsHowFastTheRobotMayGoAtEachStep) {
   EXPECT_EQ(groups.back()["name"], "separation");
 }
 
-TEST(SceneOfAnotherMethod, IsShownWithMethodMeshAndSaysSo) {
-  for (const std::string method : {"exact", "gl_exact"}) {
-    const TemporaryFolder folder;
-    fs::copy(BERTH_SOURCE_DIR "/data/bundled", folder.path(), fs::copy_options::recursive);
-    std::string text = read_file_bytes(folder / "one_camera.yaml");
-    text.replace(text.find("method: exact"), 13, "method: " + method);
-    folder.write("one_camera.yaml", text);
-    Messages messages;
-    ViewedScene viewed(folder / "one_camera.yaml", folder.path(),
-                       [&](const std::string& kind, PageMessage message) {
-                         messages.take(kind, std::move(message));
-                       });
-    EXPECT_EQ(messages.json("scene")["note"], "method mesh is shown; the file says " + method);
-    EXPECT_EQ(messages.json("shown")["result"]["method"], "mesh");
-    for (const Json& group : messages.json("settings")["groups"]) {
-      for (const Json& setting : group["settings"]) {
-        EXPECT_NE(setting["name"], "method");
-        EXPECT_NE(setting["name"], "tile_px");
-      }
-    }
-  }
-}
-
 TEST(ImplausibleScene, HasNoDistanceOnceThatIsKnown) {
   const TemporaryFolder folder;
   fs::copy(BERTH_SOURCE_DIR "/data/bundled", folder.path(), fs::copy_options::recursive);

@@ -144,11 +144,6 @@ void NodeSettings::judge_scene(const SettingNode& node) const {
   for (const std::string& warning : scene_->warnings) {
     RCLCPP_WARN(node.get_logger(), "%s", warning.c_str());
   }
-  const berth::Method method = scene_->evaluation.method;
-  if (method == berth::Method::mesh) return;
-  throw std::invalid_argument(scene_->file.string() +
-                              ": evaluation.method: " + std::string(name_of(method)) +
-                              "; expected mesh, the only method of the nodes");
 }
 
 void NodeSettings::declare_robot(SettingNode& node) {

@@ -78,7 +78,7 @@ class NodeSettings {
   bool take(const std::vector<rclcpp::Parameter>& changes);
 
  private:
-  /// Tells what it warns of. Throws where its distances are not found by method mesh.
+  /// Tells what it warns of.
   void judge_scene(const SettingNode& node) const;
   void warn_unwatched(const SettingNode& node) const;
   void declare_robot(SettingNode& node);

@@ -100,7 +100,7 @@ void to_message(const berth::Result& result, const std::string& base_frame, cons
   out.frame_age_s = result.time.frame_age_s;
   out.joints_age_s = result.time.joints_age_s;
   out.skew_s = result.time.skew_s;
-  out.method = result.method;
+  out.method = berth::kMethodName;
   out.range_m = static_cast<float>(result.range_m);
   const berth::LinkResult* nearest = result.nearest_link();
   out.nearest = nearest ? nearest->link : std::string();

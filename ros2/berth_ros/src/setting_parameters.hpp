@@ -86,9 +86,6 @@ template <class T>
 rcl_interfaces::msg::ParameterDescriptor descriptor_of(const berth::Setting& setting, const T&) {
   rcl_interfaces::msg::ParameterDescriptor descriptor;
   descriptor.description = setting.sentence;
-  if (!setting.methods.empty()) {
-    descriptor.description += " (methods: " + std::string(setting.methods) + ")";
-  }
   // 0 lies below the least where it turns a rule off; validation knows the gap.
   const double least = setting.domain.has_off ? 0.0 : setting.domain.least;
   if constexpr (std::is_same_v<T, bool>) {

@@ -37,20 +37,16 @@ void visit_settings(Settings& s, Visitor&& visit) {
   visit({"mean_direction", {}, "whether to give the mean direction of what is near each link"},
         s.mean_direction);
   visit({"tolerance_m", kNotNegative,
-         "the search may stop once a link's distance is known to this; without it 0.001 for mesh, "
-         "0 for exact",
-         "mesh exact"},
+         "the search may stop once a link's distance is known to this; without it 0.001"},
         s.tolerance_m);
   visit({"deadline_us",
          {.may_be_infinite = true},
          "the search stops in time for a request to take so many microseconds, and tells what it "
-         "knows by then: distance and lower bound; exact does not count mean directions",
-         "mesh exact"},
+         "knows by then: distance and lower bound"},
         s.deadline_us);
   visit({"min_seen_share",
          {.most = 1},
-         "a link of whose surface the cameras see a smaller share is not_seen",
-         "mesh"},
+         "a link of whose surface the cameras see a smaller share is not_seen"},
         s.min_seen_share);
 }
 

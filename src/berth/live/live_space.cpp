@@ -35,7 +35,6 @@ LiveSpace::LiveSpace(std::shared_ptr<const Robot> robot, std::size_t cameras,
 LiveSpace::~LiveSpace() = default;
 
 void LiveSpace::put(std::size_t camera, std::shared_ptr<const Frame> frame) {
-  if (frame) require_space(*frame);
   {
     const std::lock_guard lock(mutex_);
     frames_.at(camera) = std::move(frame);

@@ -11,10 +11,6 @@ namespace berth {
 
 struct FrameSpace;
 
-/// Which requests a frame is made ready for. ImageQuery alone needs less of it: what the image says
-/// of space is left out.
-enum class FrameUse { any_query, image_query };
-
 /// What one depth image tells, ready for any number of requests; constant while it is asked.
 struct Frame : Exposure {
   Frame();
@@ -37,13 +33,7 @@ struct Frame : Exposure {
   /// camera does not know it, of all that have none and do not show the robot. NaN without an
   /// image.
   double unread_share = std::numeric_limits<double>::quiet_NaN();
-
-  /// Whether Query may be asked about it: it was observed for that, or its time is not ok.
-  bool is_for_any_query() const;
 };
-
-/// Throws std::invalid_argument for a frame that was observed for ImageQuery alone.
-void require_space(const Frame& frame);
 
 /// Of an image's pixels. One whose range is short, or who stands outdoors, still reads many more.
 inline constexpr double kLeastReadOfImage = 0.01;

@@ -51,9 +51,8 @@ std::int64_t count_unread(const RobotImage& robot, const ObstacleImage& obstacle
 
 /// Scratch memory, and what is remembered from image to image.
 struct Observer::Parts {
-  Parts(std::shared_ptr<const MountedCamera> of, MeasureDisplacement measure, FrameUse for_what)
+  Parts(std::shared_ptr<const MountedCamera> of, MeasureDisplacement measure)
       : view(std::move(of)),
-        use(for_what),
         drawing(*view->robot(), view->camera()),
         environment_back(view->robot()->model(), view->camera()),
         watch(view->settings().watch, displacement_of(*view, std::move(measure))) {
@@ -66,7 +65,6 @@ struct Observer::Parts {
   const SensorSettings& background_settings() const;
 
   std::shared_ptr<const MountedCamera> view;
-  FrameUse use;
   RobotDrawing drawing;
   EnvironmentBack environment_back;
   /// Of the robot-shaped region, where there is one.
@@ -81,9 +79,8 @@ struct Observer::Parts {
   JointState at_exposure;
 };
 
-Observer::Observer(std::shared_ptr<const MountedCamera> view, MeasureDisplacement measure,
-                   FrameUse use)
-    : parts_(std::make_unique<Parts>(std::move(view), std::move(measure), use)) {}
+Observer::Observer(std::shared_ptr<const MountedCamera> view, MeasureDisplacement measure)
+    : parts_(std::make_unique<Parts>(std::move(view), std::move(measure))) {}
 
 Observer::~Observer() = default;
 Observer::Observer(Observer&&) noexcept = default;
@@ -100,14 +97,11 @@ void Observer::observe(DepthView depth_m, const JointState& at_exposure, Frame& 
   frame.watch = parts_->watch.look(depth_m, frame.robot, at_exposure, frame.X_PC);
   parts_->filter(depth_m, frame);
   const CameraSettings& settings = parts_->view->settings();
-  EnvironmentSurfaces environment;
-  if (parts_->use == FrameUse::any_query || settings.sensor.has_background()) {
-    environment = parts_->environment_back.at(frame.pose, frame.X_BC);
-  }
+  const EnvironmentSurfaces environment = parts_->environment_back.at(frame.pose, frame.X_BC);
   apply_sensor_rules(camera, depth_m, frame.robot, parts_->known_place(environment.front_m),
                      settings.sensor, parts_->sensor, frame.obstacles);
   parts_->tell_unread(frame);
-  prepare_frame(depth_m, environment, parts_->use, frame);
+  prepare_frame(depth_m, environment, frame);
 }
 
 KnownPlace Observer::Parts::known_place(DepthView environment_m) const {

@@ -14,9 +14,8 @@ namespace berth {
 class Observer {
  public:
   /// `measure` is how the view's WatchSettings::max_displacement_m is watched; without it, as
-  /// FrameDisplacement does. `use` is what the frames are for.
-  explicit Observer(std::shared_ptr<const MountedCamera> view, MeasureDisplacement measure = {},
-                    FrameUse use = FrameUse::any_query);
+  /// FrameDisplacement does.
+  explicit Observer(std::shared_ptr<const MountedCamera> view, MeasureDisplacement measure = {});
   ~Observer();
   Observer(Observer&&) noexcept;
   Observer& operator=(Observer&&) noexcept;

@@ -31,25 +31,18 @@ void prepare_space(DepthView sensor_depth_m, const EnvironmentSurfaces& environm
 
 }  // namespace
 
-void prepare_frame(DepthView sensor_depth_m, const EnvironmentSurfaces& environment, FrameUse use,
-                   Frame& frame) {
+void prepare_frame(DepthView sensor_depth_m, const EnvironmentSurfaces& environment, Frame& frame) {
   const EvaluationSettings& settings = frame.view->robot()->settings();
-  if (use == FrameUse::any_query) {
-    drop_phantoms(frame.view->camera(), sensor_depth_m,
-                  frame.view->settings().sensor.phantom_radius_m, frame.space->phantoms,
-                  frame.obstacles);
-  }
+  drop_phantoms(frame.view->camera(), sensor_depth_m,
+                frame.view->settings().sensor.phantom_radius_m, frame.space->phantoms,
+                frame.obstacles);
   if (settings.visibility) {
     find_rejected(sensor_depth_m, frame.obstacles, frame.space->rejected);
   } else {
     clear_rejected(sensor_depth_m.width, sensor_depth_m.height, frame.space->rejected);
   }
   frame.is_blind = is_blind(frame.obstacles);
-  if (use == FrameUse::any_query) {
-    prepare_space(sensor_depth_m, environment, frame);
-  } else {
-    clear_space(*frame.space);
-  }
+  prepare_space(sensor_depth_m, environment, frame);
 }
 
 }  // namespace berth

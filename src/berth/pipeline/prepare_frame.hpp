@@ -7,7 +7,6 @@ namespace berth {
 
 /// Makes of a frame's images what they say of space. `sensor_depth_m` is the image that
 /// frame.obstacles was made of.
-void prepare_frame(DepthView sensor_depth_m, const EnvironmentSurfaces& environment, FrameUse use,
-                   Frame& frame);
+void prepare_frame(DepthView sensor_depth_m, const EnvironmentSurfaces& environment, Frame& frame);
 
 }  // namespace berth

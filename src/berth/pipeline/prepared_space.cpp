@@ -19,7 +19,6 @@ void PreparedSpace::prepare(std::span<const std::shared_ptr<const Frame>> frames
                             const JointState* joints) {
   asked_.clear();
   for (const auto& frame : frames) {
-    if (frame) require_space(*frame);
     asked_.push_back(frame.get());
   }
   frames_.assign(frames.begin(), frames.end());

@@ -176,9 +176,6 @@ void Query::tell_ahead(const Request& request) {
 const Result& Query::ask(const Request& request) {
   const LinkSearches::Clock::time_point begin = LinkSearches::Clock::now();
   require_length(request.nearer_than_m);
-  for (const Frame* frame : request.frames.get()) {
-    if (frame) require_space(*frame);
-  }
   TimeStatus joints_status = TimeStatus::ok;
   const JointState* joints = request.joints.read(request.now_s, newest_, joints_status);
   const std::span<const Frame* const> frames = request.frames.get();

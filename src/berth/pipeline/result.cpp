@@ -31,7 +31,6 @@ void withhold(Result& result) {
   result.status = ResultStatus::stale;
   result.pose.X_BL.clear();
   result.nearest = -1;
-  result.pairs = 0;
   for (LinkResult& link : result.links) {
     static_cast<SpacePair&>(link) = {};
     link.occupied = {};
@@ -43,7 +42,6 @@ void withhold(Result& result) {
     link.mean_count = 0;
     link.visibility = {};
     link.visibility.id = link.id;
-    link.image = {};
   }
 }
 

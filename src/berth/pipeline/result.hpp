@@ -27,13 +27,6 @@ namespace berth {
 
 class MountedCamera;
 
-/// What only methods that compare images tell of a link's closest pair (Hirt 2.10 to 2.14).
-struct ImagePair {
-  Pixel robot_pixel;
-  /// Pixels of the link in the image of the robot.
-  int robot_pixels = 0;
-};
-
 /// One link's part in a result. The pair to what is occupied or unknown is the link's own: its
 /// distance, points in the robot's root frame B, camera and pixel. Where no pair is known, lengths
 /// and points are NaN: never 0, never a large number, never those of the result before.
@@ -61,8 +54,6 @@ struct LinkResult : SpacePair {
   std::int64_t mean_count = 0;
   /// Nothing is known unless EvaluationSettings::visibility is set.
   LinkVisibility visibility;
-  /// Set where Result::compares_images is.
-  ImagePair image;
 
   bool has_distance() const { return !std::isnan(distance_m); }
 };
@@ -108,6 +99,10 @@ struct RequestTiming {
 /// Of at least one time.
 RequestTiming timing_of(std::vector<double> times_us);
 
+/// How distances are found, as results name it: the whole robot's surface against what all cameras
+/// see.
+inline constexpr std::string_view kMethodName = "mesh";
+
 /// All that a request gives. It owns what it tells.
 struct Result {
   ResultStatus status = ResultStatus::stale;
@@ -121,14 +116,7 @@ struct Result {
   double joints_stamp_s = std::numeric_limits<double>::quiet_NaN();
   /// The pose of each link of the model that was asked about; empty where the result is stale.
   RobotPose pose;
-  std::string method = "mesh";
-  /// Whether the method compares one camera's images: then links have an ImagePair.
-  bool compares_images = false;
-  /// The OpenGL renderer, where a part was computed on it.
-  std::string gl_renderer;
   double range_m = 0;
-  /// Whether the search certifies how near nothing is; always with method mesh.
-  bool has_bounds = true;
   /// Whether visibility was asked for.
   bool has_visibility = false;
   /// In the order of the request's frames.
@@ -138,8 +126,6 @@ struct Result {
   /// The place in `links` of the nearest: it has a distance, and a joint moves it. -1: there is
   /// none.
   int nearest = -1;
-  /// Pair distances that were computed; methods that compare images alone (the thesis plots it).
-  std::int64_t pairs = 0;
   LookAhead ahead;
   /// Where it is monitored.
   std::optional<Separation> separation;
@@ -244,10 +230,6 @@ void visit_fields(const LinkResult& l, const Result& result, Visitor&& visit) {
     visit({"mean_direction_camera", "the mean direction, in the camera's optical frame"},
           l.mean_direction_C);
   }
-  if (result.compares_images) {
-    visit({"robot_pixel", "column and row of the link's closest point"}, l.image.robot_pixel);
-    visit({"robot_pixels", "how many pixels show the link"}, l.image.robot_pixels);
-  }
   if (result.has_visibility) {
     visit({"visibility", "how much of the link and around it the cameras see"}, l.visibility);
   }
@@ -294,16 +276,12 @@ void visit_fields(const Result& r, Visitor&& visit) {
   visit({"joints_stamp_s", "the time of the joints that were asked about"}, r.joints_stamp_s);
   visit({"status", "whether the result is complete, lacks a camera, or is no answer"}, r.status);
   visit({"time", "how the result stands in time"}, r.time);
-  visit({"method", "how the distances were found"}, r.method);
-  if (!r.gl_renderer.empty()) {
-    visit({"gl_renderer", "what OpenGL ran on"}, r.gl_renderer);
-  }
+  visit({"method", "how the distances were found"}, kMethodName);
   visit({"range_m", "distances were looked for up to here"}, r.range_m);
   const LinkResult* nearest = r.nearest_link();
   visit({"nearest", "the nearest link that a joint moves"},
         nearest ? std::optional<std::string_view>(nearest->link) : std::nullopt);
   if (r.separation) visit({"separation", "how fast the robot may go on"}, SeparationOf{r});
-  if (r.compares_images) visit({"pairs", "pair distances that were computed"}, r.pairs);
   visit({"cameras", "each camera's part"}, r.cameras);
   visit({"links", "each link's part"}, r.links);
 }

@@ -25,20 +25,15 @@ struct EvaluationSettings {
   bool operator==(const EvaluationSettings&) const = default;
 };
 
-template <class Settings, class Visitor>
-void visit_visibility(Settings& s, Visitor&& visit) {
+/// The list of these settings but `time`, which has a list of its own.
+template <SettingsOf<EvaluationSettings> Settings, class Visitor>
+void visit_settings(Settings& s, Visitor&& visit) {
+  visit_settings(s.distance, visit);
   visit(
       {"visibility",
        {},
        "whether to tell how much of each link and of the space around its answer the cameras see"},
       s.visibility);
-}
-
-/// The list of these settings but `time`, which has a list of its own.
-template <SettingsOf<EvaluationSettings> Settings, class Visitor>
-void visit_settings(Settings& s, Visitor&& visit) {
-  visit_settings(s.distance, visit);
-  visit_visibility(s, visit);
 }
 
 /// A robot and what is asked about it: constant once made, shared by all views, observers and

@@ -1,7 +1,5 @@
 #include "berth/pipeline/space_map.hpp"
 
-#include <stdexcept>
-
 #include "berth/pipeline/frame_set.hpp"
 
 namespace berth {
@@ -10,10 +8,6 @@ SpaceMap::SpaceMap() : frames_(std::make_unique<FrameSet>()) {}
 SpaceMap::~SpaceMap() = default;
 
 const VoxelGrid& SpaceMap::update(const SpaceMapRequest& request, const TimeSettings& settings) {
-  for (const Frame* frame : request.frames.get()) {
-    if (frame == nullptr || frame->is_for_any_query()) continue;
-    throw std::invalid_argument("a frame was observed for ImageQuery alone; expected any_query");
-  }
   lay_voxels(request.box_B_m, request.edge_m, grid_);
   frames_->assign(request.frames.get(), settings, request.now_s, request.X_WB);
   find_voxels(frames_->space().views(), grid_);

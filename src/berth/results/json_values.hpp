@@ -1,4 +1,4 @@
-// Inside results/ only: single values as JSON. What is not known is null.
+// Inside berth only: values and results as JSON. What is not known is null.
 #pragma once
 
 #include <Eigen/Core>
@@ -42,5 +42,10 @@ inline Json json_value(const std::array<std::int64_t, kPixelFateCount>& counts) 
   for (int i = 0; i < kPixelFateCount; ++i) json[name_of(static_cast<PixelFate>(i))] = counts[i];
   return json;
 }
+
+struct Result;
+
+/// What result_json() writes.
+Json result_values(const Result& result);
 
 }  // namespace berth

@@ -85,7 +85,7 @@ class Writer {
 
 }  // namespace
 
-std::string result_json(const Result& result) {
+Json result_values(const Result& result) {
   Json json = {{"schema", "berth/result/3"}};
   visit_fields(result, Writer(result, json));
   if (const auto& timing = result.timing) {
@@ -96,7 +96,9 @@ std::string result_json(const Result& result) {
                         {"p99", timing->p99_us},
                         {"max", timing->max_us}}}};
   }
-  return json.dump();
+  return json;
 }
+
+std::string result_json(const Result& result) { return result_values(result).dump(); }
 
 }  // namespace berth

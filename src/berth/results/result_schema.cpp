@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "berth/files/json_schema.hpp"
-#include "berth/image_distance/method.hpp"
 #include "berth/pipeline/result.hpp"
 #include "berth/results/json_values.hpp"
 
@@ -29,8 +28,8 @@ constexpr const auto& names_of(SeparationReason) { return kSeparationReasonNames
 /// by the first of each.
 class Describer {
  public:
-  Describer(const Result& least, const Result& most, Json& properties)
-      : least_(least), most_(most), properties_(properties) {}
+  Describer(const Result& least, const Result& most, const Json& more_of_link, Json& properties)
+      : least_(least), most_(most), more_of_link_(more_of_link), properties_(properties) {}
 
   template <class T>
   void operator()(const Field& field, const T& value) const {
@@ -52,11 +51,12 @@ class Describer {
       return count();
     } else {
       Json properties;
-      visit_fields(value, Describer(least_, most_, properties));
+      visit_fields(value, Describer(least_, most_, more_of_link_, properties));
       return map_of_all(properties);
     }
   }
   Json schema_of(const std::string&) const { return schema::text(); }
+  Json schema_of(const std::string_view&) const { return schema::text(); }
   Json schema_of(const std::optional<std::string_view>&) const { return text_or_null(); }
   Json schema_of(const CameraPlace&) const { return text_or_null(); }
   Json schema_of(const Eigen::Vector3f&) const { return or_null(list_of(schema::number(), 3)); }
@@ -68,7 +68,7 @@ class Describer {
   }
   Json schema_of(const SightShares& shares) const {
     Json properties;
-    visit_fields(shares, Describer(least_, most_, properties));
+    visit_fields(shares, Describer(least_, most_, more_of_link_, properties));
     return or_null(map_of_all(properties));
   }
   /// A camera of a stale frame says what is wrong with its time.
@@ -100,18 +100,20 @@ class Describer {
   }
   Json schema_of(const std::vector<CameraResult>& cameras) const {
     Json properties;
-    visit_fields(cameras.front(), Describer(least_, most_, properties));
+    visit_fields(cameras.front(), Describer(least_, most_, more_of_link_, properties));
     return list_of(map_of_all(properties));
   }
   Json schema_of(const std::vector<LinkResult>&) const {
     Json least, most;
-    visit_fields(least_.links.front(), least_, Describer(least_, most_, least));
-    visit_fields(most_.links.front(), most_, Describer(least_, most_, most));
+    visit_fields(least_.links.front(), least_, Describer(least_, most_, more_of_link_, least));
+    visit_fields(most_.links.front(), most_, Describer(least_, most_, more_of_link_, most));
+    most.update(more_of_link_);
     return list_of(schema::map_with(least, most));
   }
 
   const Result& least_;
   const Result& most_;
+  const Json& more_of_link_;
   Json& properties_;
 };
 
@@ -129,8 +131,7 @@ Result full_result() {
   result.cameras.resize(1);
   result.links.resize(1);
   result.links.front().id = 1;
-  result.compares_images = result.has_visibility = true;
-  result.gl_renderer = "any";
+  result.has_visibility = true;
   result.separation.emplace().links.resize(1);
   return result;
 }
@@ -149,13 +150,14 @@ Json timing_schema() {
 
 }  // namespace
 
-std::string result_schema() {
+std::string result_schema(const MoreOfResults& more) {
   const Result least = least_result(), most = full_result();
   const Json name{{"schema", {{"const", "berth/result/3"}}}};
   Json always = name, all = name;
-  visit_fields(least, Describer(least, most, always));
-  visit_fields(most, Describer(least, most, all));
-  all["method"] = {{"description", all["method"]["description"]}, {"enum", kMethodNames}};
+  visit_fields(least, Describer(least, most, more.of_link, always));
+  visit_fields(most, Describer(least, most, more.of_link, all));
+  all["method"] = {{"description", all["method"]["description"]}, {"enum", more.methods}};
+  all.update(more.of_line);
   all["timing"] = timing_schema();
   return schema::text_of(
       "result:3", "berth/result/3",

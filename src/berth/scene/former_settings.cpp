@@ -11,9 +11,23 @@ namespace {
 struct Ended {
   std::string_view group;
   std::string_view key;
+  /// What to do instead; empty: nothing.
+  std::string_view instead = {};
 };
 
-constexpr std::array<Ended, 9> kEnded = {{
+constexpr std::string_view kOfImages = "berth evaluate compares images, and has it as an option";
+
+constexpr std::array<Ended, 19> kEnded = {{
+    {"evaluation", "method", "berth evaluate SCENE.yaml --method compares images"},
+    {"evaluation", "region", kOfImages},
+    {"evaluation", "depth_interval", kOfImages},
+    {"evaluation", "search_pattern", kOfImages},
+    {"evaluation", "shrinking", kOfImages},
+    {"evaluation", "step_x", kOfImages},
+    {"evaluation", "step_y", kOfImages},
+    {"evaluation", "initial_grid_radius_px", kOfImages},
+    {"evaluation", "final_grid_radius_px", kOfImages},
+    {"evaluation", "tile_px", kOfImages},
     {"separation", "directed_speed"},
     {"separation", "hold_s"},
     {"separation", "release_m"},
@@ -25,16 +39,17 @@ constexpr std::array<Ended, 9> kEnded = {{
     {"sensor", "holes"},
 }};
 
-constexpr std::array<std::string_view, 4> kGroups = {"space", "self_filter", "sensor",
+constexpr std::array<std::string_view, 5> kGroups = {"space", "self_filter", "sensor", "evaluation",
                                                      "separation"};
 
 void tell_group(std::string_view name, const YamlValue& group, std::vector<std::string>& told) {
   if (!group.is_map()) return;
-  const std::vector<std::string_view> ended = ended_settings(name);
   for (const auto& [key, value] : group.entries()) {
-    if (std::ranges::find(ended, key) != ended.end()) {
-      told.push_back(fmt::format("{}:{}: {} is no setting any more, and has no effect",
-                                 value.place().file.string(), value.place().line, key));
+    for (const Ended& ended : kEnded) {
+      if (ended.group != name || ended.key != key) continue;
+      told.push_back(fmt::format("{}:{}: {} is no setting any more, and has no effect{}{}",
+                                 value.place().file.string(), value.place().line, key,
+                                 ended.instead.empty() ? "" : "; ", ended.instead));
     }
   }
 }

@@ -224,12 +224,6 @@ OpenCamera& add_camera(const SceneFile& source, OpenScene& scene) {
   return add_camera(source, made->camera(), made, scene);
 }
 
-void take_method(const SceneFile& source, OpenScene& scene) {
-  scene.method = source.evaluation.method;
-  scene.image_settings = source.evaluation.images;
-  with_file_named(source, [&] { validate(scene.image_settings); });
-}
-
 /// The robot with the first `kept` of what is on it, and with `more`.
 std::shared_ptr<const Robot> carrying(const std::shared_ptr<const Robot>& robot, std::size_t kept,
                                       const std::vector<Attachment>& more) {
@@ -257,7 +251,6 @@ OpenScene open_with(const SceneFile& source,
     return std::make_shared<const Robot>(std::move(model), source.evaluation,
                                          attachments_of(source));
   });
-  take_method(source, scene);
   scene.separation = checked_separation(source);
   for (const SceneCamera& from : source.cameras) {
     OpenCamera& camera = add_camera(source, scene);
@@ -338,7 +331,6 @@ OpenScene reopen_scene(const OpenScene& before, const SceneFile& changed,
     return with_settings(carrying(before.robot, changed.attached.size(), carried),
                          changed.evaluation);
   });
-  take_method(changed, scene);
   scene.separation = checked_separation(changed);
   scene.frame_count = before.frame_count;
   for (const OpenCamera& from : before.cameras) {

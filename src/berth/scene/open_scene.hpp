@@ -48,9 +48,6 @@ struct OpenScene {
   /// SceneFile::warnings, and those that need the cameras' intrinsics.
   std::vector<std::string> warnings;
   std::shared_ptr<const Robot> robot;
-  /// How its frames are asked, and with what settings where images are compared.
-  Method method = Method::mesh;
-  ImageSettings image_settings;
   /// With the file's offsets in them.
   std::shared_ptr<const JointTrajectory> joints;
   std::map<std::string, double> joint_offsets;
@@ -58,9 +55,6 @@ struct OpenScene {
   std::size_t frame_count = 0;  ///< of all cameras
   /// None: nothing is monitored.
   std::optional<SeparationSettings> separation;
-
-  /// Whether one result is that of all cameras; else it is that of one image.
-  bool joins_cameras() const { return !compares_images(method); }
 };
 
 /// What the scene's `attached:` describes, with its meshes. Throws std::runtime_error as

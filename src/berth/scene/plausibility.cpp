@@ -286,15 +286,20 @@ bool contradicts(const OpenScene& scene, std::size_t number,
   });
 }
 
+std::string images_text(std::size_t count) {
+  return count == 1 ? "one image" : fmt::format("{} images", count);
+}
+
 std::string counted_text(const RobotReadings& readings, std::size_t frames) {
   const int seen = with_reading(readings);
   if (seen == 0)
-    return fmt::format("in {} of its images no pixel of the robot has a reading", frames);
+    return fmt::format("in {} no pixel that should show the robot has a reading",
+                       images_text(frames));
   const auto percent = [seen](int count) { return 100.0 * count / seen; };
   return fmt::format(
-      "of the robot's readings in {} of its images {:.0f} % lie at its surface, {:.0f} % behind "
-      "it, {:.0f} % in front of it",
-      frames, percent(readings.at_surface), percent(readings.behind),
+      "of the robot's readings in {} {:.0f} % lie at its surface, {:.0f} % behind it, {:.0f} % in "
+      "front of it",
+      images_text(frames), percent(readings.at_surface), percent(readings.behind),
       percent(readings.before + readings.hidden));
 }
 
@@ -335,21 +340,37 @@ std::vector<CameraPlausibility> find_implausible(const OpenScene& scene) {
   return cameras;
 }
 
+std::vector<CameraPlausibility> require_plausible(const OpenScene& scene) {
+  std::vector<CameraPlausibility> cameras = find_implausible(scene);
+  if (!std::ranges::all_of(cameras, &CameraPlausibility::is_implausible) &&
+      std::ranges::all_of(cameras, [](const auto& one) { return one.in_joints.empty(); })) {
+    return cameras;
+  }
+  std::string text;
+  for (const CameraPlausibility& camera : cameras) {
+    if (!camera.is_implausible) continue;
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "\n", scene.file.string(), text_of(camera));
+  }
+  throw std::runtime_error(text);
+}
+
 std::string text_without_name(const CameraPlausibility& camera) {
   if (camera.is_hidden) {
     return fmt::format(
-        "the robot is hidden: {:.0f} % of its readings in {} images lie in front of it; nothing "
-        "tells whether it is where it should be",
-        100 * camera.readings.hidden_share(), camera.frames);
+        "the robot is hidden: {:.0f} % of its readings in {} lie in front of it; nothing tells "
+        "whether it is where it should be",
+        100 * camera.readings.hidden_share(), images_text(camera.frames));
   }
   if (!camera.is_implausible) return {};
   if (!camera.fits_otherwise.empty()) return camera.fits_otherwise;
-  std::string text =
-      fmt::format("the robot is not where it should be: {}; expected most of them at its surface",
-                  counted_text(camera.readings, camera.frames));
+  std::string text = fmt::format(
+      "the robot is not where it should be: {}; expected most of its readings at its surface",
+      counted_text(camera.readings, camera.frames));
   if (!camera.dead.empty()) return text + fmt::format(". The camera is dead: {}", camera.dead);
-  if (camera.as_if.empty()) return text + ". No simple mistake explains it";
-  return text + fmt::format(". {:.0f} % would, as if {}", 100 * camera.share_then, camera.as_if);
+  if (camera.as_if.empty()) return text + ". No mistake that berth tries explains it";
+  text += fmt::format(". {:.0f} % would, as if {}", 100 * camera.share_then, camera.as_if);
+  if (camera.as_if.find(" or ") == std::string::npos) return text;
+  return text + ". The images do not tell which of these it is";
 }
 
 std::string doubt_of(const CameraPlausibility& camera) {
@@ -357,9 +378,8 @@ std::string doubt_of(const CameraPlausibility& camera) {
   std::string text;
   if (camera.readings.at_robot() < kWellPlaced) {
     text = fmt::format(
-        "{:.0f} % of the robot's readings in {} images lie at its surface; expected {:.0f} % at "
-        "least",
-        100 * camera.readings.at_robot(), camera.frames, 100 * kWellPlaced);
+        "{:.0f} % of the robot's readings in {} lie at its surface; expected {:.0f} % at least",
+        100 * camera.readings.at_robot(), images_text(camera.frames), 100 * kWellPlaced);
   }
   if (camera.seen_through.empty()) return text;
   return fmt::format("{}{}most of what is read at {} lies behind it, as if it were not there", text,

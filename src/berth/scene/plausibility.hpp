@@ -47,6 +47,11 @@ inline constexpr double kLeastGain = 0.3;
 /// not looked at. Throws std::runtime_error where an image cannot be read again.
 std::vector<CameraPlausibility> find_implausible(const OpenScene& scene);
 
+/// The same for those who use the images. Throws std::runtime_error where no camera is left, and
+/// where the joints are wrong: then the other cameras look for the robot in the wrong place, too,
+/// even if they do not see enough of it to tell.
+std::vector<CameraPlausibility> require_plausible(const OpenScene& scene);
+
 /// The same of one camera.
 CameraPlausibility find_implausible(const OpenScene& scene, std::size_t camera);
 

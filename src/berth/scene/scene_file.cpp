@@ -180,7 +180,7 @@ SceneFile parse_scene(const std::filesystem::path& file, const std::string& text
   scene.fixed_joints = read_joint_values(map, "fixed_joints");
   scene.evaluation.time.joints = kInRecordings;
   if (const auto evaluation = map.find("evaluation")) {
-    read_settings(*evaluation, scene.evaluation);
+    read_settings(*evaluation, scene.evaluation, with_ended("evaluation"));
   }
   if (const auto time = map.find("time")) read_settings(*time, scene.evaluation.time);
   if (const auto separation = map.find("separation")) {

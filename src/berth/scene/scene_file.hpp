@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "berth/pipeline/mounted_camera.hpp"
+#include "berth/pipeline/robot.hpp"
 #include "berth/robot/robot_model.hpp"
-#include "berth/scene/scene_evaluation.hpp"
 #include "berth/sensor/rectification.hpp"
 #include "berth/separation/settings.hpp"
 #include "berth/types/camera.hpp"
@@ -80,7 +80,7 @@ struct SceneFile {
   std::map<std::string, double> fixed_joints;
   /// Defaults where the file says nothing; the limits between joint samples and images are then
   /// kInRecordings.
-  SceneEvaluation evaluation;
+  EvaluationSettings evaluation;
   /// None: nothing is monitored.
   std::optional<SeparationSettings> separation;
 };

@@ -9,28 +9,9 @@
 #include <utility>
 
 #include "berth/record/recorder.hpp"
-#include "berth/scene/frame_pipeline.hpp"
-#include "berth/scene/gl_backend.hpp"
-#include "berth/scene/learn_background.hpp"
 
 namespace berth {
 namespace {
-
-/// Throws where no camera is left, and where the joints are wrong: then the other cameras look for
-/// the robot in the wrong place, too, even if they do not see enough of it to tell.
-std::vector<CameraPlausibility> plausible_cameras(const OpenScene& scene) {
-  std::vector<CameraPlausibility> cameras = find_implausible(scene);
-  if (!std::ranges::all_of(cameras, &CameraPlausibility::is_implausible) &&
-      std::ranges::all_of(cameras, [](const auto& one) { return one.in_joints.empty(); })) {
-    return cameras;
-  }
-  std::string text;
-  for (const CameraPlausibility& camera : cameras) {
-    if (!camera.is_implausible) continue;
-    text += fmt::format("{}{}: {}", text.empty() ? "" : "\n", scene.file.string(), text_of(camera));
-  }
-  throw std::runtime_error(text);
-}
 
 /// A monitor must not take black clothes for nothing because nobody thought of them. Who calibrates
 /// the scene, or asks the doctor, need not have chosen yet.
@@ -45,113 +26,62 @@ void require_choice(const OpenScene& scene) {
       scene.file.string(), untold->source.name));
 }
 
+std::vector<std::string> names_of(const std::vector<OpenCamera>& cameras) {
+  std::vector<std::string> names;
+  for (const OpenCamera& camera : cameras) names.push_back(camera.source.name);
+  return names;
+}
+
 }  // namespace
 
-SceneRun::SceneRun(const OpenScene& scene, const BackendChoice& where,
-                   const std::function<void()>& before_image)
-    : SceneRun(scene, where, plausible_cameras(scene)) {
+SceneRun::SceneRun(const OpenScene& scene, const std::function<void()>& before_image)
+    : SceneRun(scene, require_plausible(scene)) {
   require_choice(scene);
-  for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
-    if (!plausibility_[i].is_implausible) begin_background(i, before_image);
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    if (!plausibility_[i].is_implausible) cameras_[i].begin_background(before_image);
   }
-  make_monitors();
+  make_monitor();
 }
 
 SceneRun::SceneRun(const OpenScene& scene, SingleSteps)
-    : SceneRun(scene, BackendChoice{}, std::vector<CameraPlausibility>(scene.cameras.size())) {
-  for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
-    pipelines_[i]->tell_watch(nullptr);
-    if (!scene.cameras[i].view->settings().sensor.has_background()) continue;
-    if (scene.cameras[i].background_m)
-      pipelines_[i]->set_background(*scene.cameras[i].background_m);
+    : SceneRun(scene, std::vector<CameraPlausibility>(scene.cameras.size())) {
+  for (CameraFrames& camera : cameras_) {
+    camera.tell_watch(nullptr);
+    camera.begin_given_background();
   }
 }
 
-SceneRun::SceneRun(const OpenScene& scene, const BackendChoice& where,
-                   std::vector<CameraPlausibility> known)
+SceneRun::SceneRun(const OpenScene& scene, std::vector<CameraPlausibility> known)
     : scene_(scene),
       plausibility_(std::move(known)),
-      newest_(scene.cameras.size()),
       steps_(scene_steps(scene)),
-      kept_(scene.cameras.size()) {
-  make_pipelines(where);
-  if (!scene.joins_cameras()) {
-    ask_ = [this](bool) -> const Result& { return pipelines_[step().camera]->ask(); };
-    return;
+      kept_(scene.cameras.size()),
+      query_(scene.robot, names_of(scene.cameras)) {
+  std::map<std::pair<int, int>, FramePool> pools;
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+    const Camera& size = scene.cameras[i].view->camera();
+    cameras_.emplace_back(scene.cameras[i], pools[{size.width_px, size.height_px}]);
+    if (plausibility_[i].is_implausible) cameras_[i].distrust();
   }
-  std::vector<std::string> names;
-  for (const OpenCamera& camera : scene.cameras) names.push_back(camera.source.name);
-  query_.emplace(scene.robot, std::move(names));
-  ask_ = [this](bool anew) -> const Result& {
-    if (anew) query_->forget();
-    const Request request{.frames = kept_, .stop = stop_};
-    return recorder_ ? recorder_->ask(*query_, request) : query_->ask(request);
-  };
 }
 
 SceneRun::~SceneRun() = default;
 
-void SceneRun::make_pipelines(const BackendChoice& where) {
-  gl_ = needed_gl_backend(scene_.method, where);
-  std::map<std::pair<int, int>, FramePool> pools;
-  for (std::size_t i = 0; i < scene_.cameras.size(); ++i) {
-    const OpenCamera& camera = scene_.cameras[i];
-    const int width_px = camera.view->camera().width_px,
-              height_px = camera.view->camera().height_px;
-    try {
-      pipelines_.push_back(
-          where.backend == Backend::opengl
-              ? gl_->make_pipeline(scene_, camera)
-              : make_cpu_pipeline(scene_, camera, pools[{width_px, height_px}], gl_.get()));
-    } catch (const std::invalid_argument& error) {
-      throw std::runtime_error(fmt::format("{}: {}", scene_.file.string(), error.what()));
-    }
-    if (plausibility_[i].is_implausible) pipelines_[i]->distrust();
-  }
-}
-
-void SceneRun::make_monitors() {
+void SceneRun::make_monitor() {
   if (!scene_.separation) return;
   try {
-    for (std::size_t i = 0; i < scene_.cameras.size(); ++i) {
-      monitors_.emplace_back(scene_.robot, *scene_.separation);
-    }
+    monitor_.emplace(scene_.robot, *scene_.separation);
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(fmt::format("{}: {}", scene_.file.string(), error.what()));
   }
 }
 
-void SceneRun::begin_background(std::size_t i, const std::function<void()>& before_image) {
-  const OpenCamera& camera = scene_.cameras[i];
-  if (!camera.view->settings().sensor.has_background()) return;
-  if (camera.background_m) return pipelines_[i]->set_background(*camera.background_m);
-  learn_background(camera, images_to_learn_from(camera), before_image,
-                   [&](DepthView depth_m, const Frame& frame) {
-                     pipelines_[i]->learn_background(depth_m, frame);
-                   });
-}
-
-void SceneRun::observe(std::size_t of, std::size_t frame) {
-  const OpenCamera& camera = scene_.cameras[of];
-  Newest& newest = newest_[of];
-  newest.number = frame;
-  newest.depth_m = camera.read_depth(frame);
-  pipelines_[of]->observe(newest.depth_m, camera.at_exposure[frame], camera.exposure_time[frame]);
-  if (recorder_) recorder_->put(*pipelines_[of]->frame(), newest.depth_m);
-}
-
-void SceneRun::observe_alone(const ImageStep& step) {
-  const std::optional<std::size_t> before = newest_[step.camera].number;
-  if (before == step.frame) return;
-  const SensorSettings& sensor = scene_.cameras[step.camera].view->settings().sensor;
-  const auto memory = static_cast<std::size_t>(std::max(1, sensor.average_frames));
-  const bool goes_on = before && *before + 1 == step.frame;
-  std::size_t first = goes_on ? step.frame : step.frame + 1 - std::min(memory, step.frame + 1);
-  for (; first <= step.frame; ++first) observe(step.camera, first);
+void SceneRun::observe(std::size_t camera, std::size_t image) {
+  cameras_[camera].observe(image);
+  if (recorder_) recorder_->put(*cameras_[camera].frame(), cameras_[camera].depth_m());
 }
 
 bool SceneRun::next() {
-  if (step_ > 0 && gl_) gl_->check(camera().source.name);
   if (step_ == steps_.size()) return false;
   ++step_;
   if (observed_ >= step_) return true;
@@ -163,10 +93,6 @@ bool SceneRun::next() {
 }
 
 void SceneRun::record_with(Recorder& recorder) {
-  if (!query_) {
-    throw std::invalid_argument(fmt::format("{}: method {}: expected mesh, to be recorded",
-                                            scene_.file.string(), name_of(scene_.method)));
-  }
   recorder_ = &recorder;
   for (std::size_t i = 0; i < scene_.cameras.size(); ++i) {
     const std::optional<DepthImage> background = background_m(i);
@@ -174,44 +100,35 @@ void SceneRun::record_with(Recorder& recorder) {
   }
 }
 
-std::optional<DepthImage> SceneRun::background_m(std::size_t camera) const {
-  return pipelines_[camera]->background_m();
-}
-
 void SceneRun::go_to(std::size_t step, const Result* found) {
   step_ = step + 1;
   observed_ = steps_[step].known;
-  const std::size_t first = steps_[step].first_camera, count = steps_[step].camera_count;
   std::vector<bool> has_image(scene_.cameras.size());
   for (std::size_t i = observed_; i-- > 0;) {
     const ImageStep& at = steps_[i];
-    if (has_image[at.camera] || at.camera < first || at.camera >= first + count) continue;
+    if (has_image[at.camera]) continue;
     has_image[at.camera] = true;
-    observe_alone(at);
+    cameras_[at.camera].observe_alone(at.frame);
   }
-  for (std::size_t c = 0; c < has_image.size(); ++c) {
-    if (!has_image[c]) newest_[c].number.reset();
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    pipelines_[first + i]->tell_watch(found ? &found->cameras[i].watch : nullptr);
+  for (std::size_t c = 0; c < cameras_.size(); ++c) {
+    if (!has_image[c]) cameras_[c].forget();
+    cameras_[c].tell_watch(found ? &found->cameras[c].watch : nullptr);
   }
   keep_frames();
 }
 
 void SceneRun::keep_frames() {
-  for (std::size_t c = 0; c < kept_.size(); ++c) {
-    kept_[c] = newest_[c].number ? pipelines_[c]->kept() : nullptr;
-  }
+  std::ranges::transform(cameras_, kept_.begin(), &CameraFrames::frame);
 }
-
-std::shared_ptr<const Frame> SceneRun::frame() { return pipelines_[step().camera]->frame(); }
 
 Result SceneRun::ask(int repeat) {
   std::vector<double> times_us;
   const Result* result = nullptr;
   for (int i = 0; i < std::max(1, repeat); ++i) {
     const auto start = std::chrono::steady_clock::now();
-    result = &ask_(i > 0);
+    if (i > 0) query_.forget();
+    const Request request{.frames = kept_, .stop = stop_};
+    result = recorder_ ? &recorder_->ask(query_, request) : &query_.ask(request);
     const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
     times_us.push_back(took.count());
   }
@@ -225,22 +142,20 @@ Result SceneRun::ask(int repeat) {
 void SceneRun::tell_scene(Result& result) {
   result.frame = static_cast<int>(step().result);
   result.stamp_s = step().stamp_s;
-  if (gl_) result.gl_renderer = gl_->renderer();
   for (std::size_t i = 0; i < result.cameras.size(); ++i) {
-    const std::size_t c = step().first_camera + i;
-    if (!newest_[c].number) continue;
-    result.cameras[i].frame = static_cast<int>(*newest_[c].number);
-    result.cameras[i].self_filter = pipelines_[c]->fate_counts();
+    if (!cameras_[i].number()) continue;
+    result.cameras[i].frame = static_cast<int>(*cameras_[i].number());
+    result.cameras[i].self_filter = cameras_[i].frame()->obstacles.count;
   }
 }
 
 void SceneRun::monitor(Result& result) {
-  if (monitors_.empty()) return;
+  if (!monitor_) return;
   scene_.joints->velocity(result.joints_stamp_s, velocity_);
-  SeparationMonitor& own = monitors_[step().first_camera];
-  const FrameSet* const frames = query_ ? &query_->frames() : nullptr;
-  result.separation = recorder_ ? recorder_->update(own, result, velocity_, result.stamp_s, frames)
-                                : own.update(result, velocity_, result.stamp_s, frames);
+  const FrameSet* const frames = &query_.frames();
+  result.separation = recorder_
+                          ? recorder_->update(*monitor_, result, velocity_, result.stamp_s, frames)
+                          : monitor_->update(result, velocity_, result.stamp_s, frames);
 }
 
 }  // namespace berth

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "berth/pipeline/query.hpp"
-#include "berth/scene/backend.hpp"
+#include "berth/scene/camera_frames.hpp"
 #include "berth/scene/open_scene.hpp"
 #include "berth/scene/plausibility.hpp"
 #include "berth/scene/scene_steps.hpp"
@@ -16,8 +16,6 @@
 
 namespace berth {
 
-class FramePipeline;
-class GlBackend;
 class Recorder;
 
 /// The images of a scene, one after another, through the whole pipeline: what the command, and
@@ -28,9 +26,8 @@ class Recorder;
 ///       if (run.begins_result()) use(run.ask());
 ///     }
 ///
-/// With method `mesh` the images of all cameras come in the order of their stamps, and each result
-/// is that of the newest image of every camera; with a method that compares images they come camera
-/// by camera, and each result is that of one image.
+/// The images of all cameras come in the order of their stamps, and each result is that of the
+/// newest image of every camera.
 ///
 /// No image of a camera that is implausible (find_implausible) is used.
 class SceneRun {
@@ -38,11 +35,9 @@ class SceneRun {
   /// The scene has to outlive it. Learns the background of the cameras that ask for one and whose
   /// scene does not name it;
   /// `before_image` is called before each of these images. Throws std::runtime_error where the
-  /// backend is not there or the scene's settings do not go with it, and where all cameras are
-  /// implausible; it says why.
+  /// scene's settings do not go together, and where all cameras are implausible; it says why.
   explicit SceneRun(
-      const OpenScene& scene, const BackendChoice& where = {},
-      const std::function<void()>& before_image = [] {});
+      const OpenScene& scene, const std::function<void()>& before_image = [] {});
   /// For go_to() alone, without delay: no implausible camera is looked for, no background is
   /// learned, no watch is waited for, and nothing is monitored.
   struct SingleSteps {};
@@ -65,15 +60,15 @@ class SceneRun {
   /// What was found of each camera before the first image.
   const std::vector<CameraPlausibility>& plausibility() const { return plausibility_; }
   /// The background that this camera began with; none where its settings ask for none.
-  std::optional<DepthImage> background_m(std::size_t camera) const;
+  std::optional<DepthImage> background_m(std::size_t camera) const {
+    return cameras_[camera].background_m();
+  }
 
-  /// Once this is asked to stop, a request that runs ends within milliseconds, cut short. Only
-  /// where one result is that of all cameras.
+  /// Once this is asked to stop, a request that runs ends within milliseconds, cut short.
   void stop_with(std::stop_token stop) { stop_ = std::move(stop); }
 
-  /// Each image, request and result is recorded as well; before the first image, and only where one
-  /// result is that of all cameras. The recorder is one of the scene's robot, cameras and
-  /// separation, and outlives the run. Throws std::invalid_argument where it is not.
+  /// Each image, request and result is recorded as well; to be called before the first image. The
+  /// recorder is one of the scene's robot, cameras and separation, and outlives the run.
   void record_with(Recorder& recorder);
 
   /// The rest is about that image. The result, asked so often, with the times of the requests where
@@ -85,60 +80,42 @@ class SceneRun {
   std::size_t camera_number() const { return step().camera; }
   /// Its number among the images of its camera.
   std::size_t frame_number() const { return step().frame; }
-  DepthView sensor_depth_m() const { return newest_[step().camera].depth_m; }
-  /// The images in this program's memory; read back from the GPU at each call. It stays as it is
-  /// for who holds it.
-  std::shared_ptr<const Frame> frame();
-  /// The newest image of any camera; null where it has none yet, and with methods that compare
-  /// images those of the others.
+  DepthView sensor_depth_m() const { return sensor_depth_m(step().camera); }
+  /// It stays as it is for those who hold it.
+  std::shared_ptr<const Frame> frame() const { return cameras_[step().camera].frame(); }
+  /// The newest image of any camera; null where it has none yet.
   std::shared_ptr<const Frame> frame(std::size_t camera) const { return kept_[camera]; }
   /// Its number among the images of its camera.
-  std::size_t frame_number(std::size_t camera) const { return *newest_[camera].number; }
-  const DepthImage& sensor_depth_m(std::size_t camera) const { return newest_[camera].depth_m; }
-  /// What the images leave of space; only where one result is that of all cameras.
-  const FrameSet& frame_set() const { return query_->frames(); }
+  std::size_t frame_number(std::size_t camera) const { return *cameras_[camera].number(); }
+  const DepthImage& sensor_depth_m(std::size_t camera) const { return cameras_[camera].depth_m(); }
+  /// What the images leave of space.
+  const FrameSet& frame_set() const { return query_.frames(); }
 
  private:
-  SceneRun(const OpenScene& scene, const BackendChoice& where,
-           std::vector<CameraPlausibility> known);
-
-  /// One camera's newest image.
-  struct Newest {
-    std::optional<std::size_t> number;
-    DepthImage depth_m;
-  };
+  SceneRun(const OpenScene& scene, std::vector<CameraPlausibility> known);
 
   const ImageStep& step() const { return steps_[step_ - 1]; }
-  void make_pipelines(const BackendChoice& where);
-  void make_monitors();
-  void begin_background(std::size_t camera, const std::function<void()>& before_image);
-  void observe(std::size_t camera, std::size_t frame);
-  /// As if all images before it had been observed.
-  void observe_alone(const ImageStep& step);
+  void make_monitor();
+  void observe(std::size_t camera, std::size_t image);
   void keep_frames();
+  /// Numbers and stamp as the scene has them.
   void tell_scene(Result& result);
   void monitor(Result& result);
 
   const OpenScene& scene_;
   std::vector<CameraPlausibility> plausibility_;
-  std::unique_ptr<GlBackend> gl_;
-  /// One for each camera.
-  std::vector<std::unique_ptr<FramePipeline>> pipelines_;
-  std::vector<Newest> newest_;
+  std::vector<CameraFrames> cameras_;
   std::vector<ImageStep> steps_;
   /// How many of them were taken, and how many observed.
   std::size_t step_ = 0;
   std::size_t observed_ = 0;
   std::vector<std::shared_ptr<const Frame>> kept_;
-  /// Only where one result is that of all cameras.
-  std::optional<Query> query_;
+  Query query_;
   std::stop_token stop_;
   /// Null: nothing is recorded.
   Recorder* recorder_ = nullptr;
-  /// The step's result; `anew`: with nothing known of one before.
-  std::function<const Result&(bool anew)> ask_;
-  /// Where the scene asks for them, one for each camera; where cameras are joined the first serves.
-  std::vector<SeparationMonitor> monitors_;
+  /// Where the scene asks for one.
+  std::optional<SeparationMonitor> monitor_;
   std::vector<double> velocity_;
 };
 

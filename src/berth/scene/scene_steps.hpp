@@ -13,19 +13,15 @@ struct ImageStep {
   /// Its number among the images of its camera.
   std::size_t frame;
   double stamp_s;
-  /// The number of its result: where cameras are joined that of its stamp, else among those of its
-  /// camera.
+  /// The number of its result, that of its stamp.
   std::size_t result;
   /// Whether it is the first image of that result.
   bool begins_result;
-  /// How many steps its result knows: where cameras are joined all up to the last one of its stamp.
+  /// How many steps its result knows: all up to the last one of its stamp.
   std::size_t known;
-  /// The cameras of its result: where cameras are joined all, else its own.
-  std::size_t first_camera;
-  std::size_t camera_count;
 };
 
-/// All of them: with method `mesh` in the order of their stamps, else camera by camera.
+/// All of them in the order of their stamps.
 std::vector<ImageStep> scene_steps(const OpenScene& scene);
 
 }  // namespace berth

@@ -4,8 +4,8 @@
 #include <string_view>
 
 #include "berth/pipeline/mounted_camera.hpp"
+#include "berth/pipeline/robot.hpp"
 #include "berth/robot/joints_at_time.hpp"
-#include "berth/scene/scene_evaluation.hpp"
 #include "berth/separation/settings.hpp"
 
 namespace berth {
@@ -15,7 +15,7 @@ template <class Visitor>
 void visit_scene_groups(Visitor&& visit) {
   const CameraSettings camera = settings_of_real_camera();
   visit_setting_groups(camera, visit);
-  visit(std::string_view("evaluation"), SceneEvaluation());
+  visit(std::string_view("evaluation"), EvaluationSettings());
   // What read_scene() begins with.
   TimeSettings time;
   time.joints = kInRecordings;

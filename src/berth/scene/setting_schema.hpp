@@ -72,7 +72,6 @@ Json setting_properties(const Settings& settings) {
   Json properties = Json::object();
   visit_settings(settings, [&](const Setting& setting, const auto& value) {
     std::string sentence(setting.sentence);
-    if (!setting.methods.empty()) sentence += " (methods: " + std::string(setting.methods) + ")";
     Json& property = properties[setting.name] =
         schema::told(sentence, value_schema(setting.domain, value));
     if (Json standing = value_json(value); !standing.is_null()) {

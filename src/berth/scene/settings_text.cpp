@@ -72,23 +72,14 @@ struct ValueText<std::optional<T>> {
   static std::string possible(const Domain& domain) { return ValueText<T>::possible(domain); }
 };
 
-/// " (`lattice`, `gl_lattice`)" for "lattice gl_lattice".
-std::string methods_text(std::string_view methods) {
-  if (methods.empty()) return "";
-  std::string text = " (`";
-  for (const char c : methods) text += c == ' ' ? std::string("`, `") : std::string(1, c);
-  return text + "`)";
-}
-
 /// Writes one row for each setting that it visits.
 struct TableWriter {
   std::string& table;
 
   template <class T>
   void operator()(const Setting& setting, const T& value) const {
-    table += fmt::format("| `{}` | {} | {} | {}{} |\n", setting.name, ValueText<T>::standing(value),
-                         ValueText<T>::possible(setting.domain), setting.sentence,
-                         methods_text(setting.methods));
+    table += fmt::format("| `{}` | {} | {} | {} |\n", setting.name, ValueText<T>::standing(value),
+                         ValueText<T>::possible(setting.domain), setting.sentence);
   }
 };
 

@@ -34,8 +34,6 @@ struct Setting {
   Domain domain;
   /// What it does, for people; begins in small letters.
   std::string_view sentence;
-  /// The methods that have it, with blanks between; empty: all.
-  std::string_view methods = {};
 };
 
 /// A settings struct, constant or not.

@@ -76,7 +76,6 @@ function setScene(message: Scene): void {
   document.body.classList.remove("waiting");
   byId("scene-name").textContent = scene.file.replace(/.*\//, "");
   byId("scene-name").title = scene.file;
-  byId("scene-note").textContent = scene.note;
   document.title = `berth: ${scene.robot}`;
   byId<HTMLInputElement>("scrub").max = String(scene.steps.length - 1);
   view.setScene(scene);

@@ -28,7 +28,6 @@ export interface Scene {
   type: "scene";
   file: string;
   /** What a user should know of what is shown; empty where there is nothing. */
-  note: string;
   robot: string;
   links: Link[];
   cameras: Camera[];

@@ -1,0 +1,64 @@
+#include "berth/scene/camera_frames.hpp"
+
+#include <algorithm>
+
+#include "berth/scene/learn_background.hpp"
+
+namespace berth {
+
+CameraFrames::CameraFrames(const OpenCamera& camera, const FramePool& pool)
+    : camera_(&camera), observer_(camera.view), pool_(pool) {}
+
+void CameraFrames::begin_given_background() {
+  if (!camera_->view->settings().sensor.has_background()) return;
+  if (camera_->background_m) observer_.set_background(*camera_->background_m);
+}
+
+void CameraFrames::begin_background(const std::function<void()>& before_image) {
+  if (!camera_->view->settings().sensor.has_background()) return;
+  if (camera_->background_m) return begin_given_background();
+  learn_background(
+      *camera_, images_to_learn_from(*camera_), before_image,
+      [&](DepthView depth_m, const Frame& frame) { observer_.learn_background(depth_m, frame); });
+}
+
+std::optional<DepthImage> CameraFrames::background_m() const {
+  if (!camera_->view->settings().sensor.has_background()) return std::nullopt;
+  return observer_.background_m();
+}
+
+void CameraFrames::observe(std::size_t image) {
+  number_ = image;
+  depth_m_ = camera_->read_depth(image);
+  // Given back first, so that its memory serves again where nobody else holds it.
+  frame_.reset();
+  frame_ = pool_.take();
+  observer_.observe(depth_m_, camera_->at_exposure[image], *frame_, camera_->exposure_time[image]);
+  if (!is_told_) observer_.finish_watch(*frame_);
+  own_watch_ = frame_->watch;
+  put_watch();
+}
+
+void CameraFrames::observe_alone(std::size_t image) {
+  if (number_ == image) return;
+  const SensorSettings& sensor = camera_->view->settings().sensor;
+  const auto memory = static_cast<std::size_t>(std::max(1, sensor.average_frames));
+  const bool goes_on = number_ && *number_ + 1 == image;
+  std::size_t first = goes_on ? image : image + 1 - std::min(memory, image + 1);
+  for (; first <= image; ++first) observe(first);
+}
+
+void CameraFrames::tell_watch(const CameraWatch* found) {
+  is_told_ = true;
+  found_ = found ? std::optional(*found) : std::nullopt;
+  if (frame_) put_watch();
+}
+
+void CameraFrames::put_watch() {
+  CameraWatch& watch = frame_->watch;
+  watch = found_.value_or(own_watch_);
+  if (is_told_ && !found_) watch.has_moved = watch.is_implausible = false;
+  watch.is_implausible |= is_distrusted_;
+}
+
+}  // namespace berth

@@ -1,0 +1,60 @@
+// Inside berth only: the images of one camera of a scene, made into frames.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "berth/pipeline/frame_pool.hpp"
+#include "berth/pipeline/observer.hpp"
+#include "berth/scene/open_scene.hpp"
+
+namespace berth {
+
+/// The newest image of one camera of a scene, and the frame that was made of it.
+class CameraFrames {
+ public:
+  /// The camera has to outlive it. Cameras whose images have the same size may share a pool: then
+  /// one frame more than there are cameras is enough.
+  CameraFrames(const OpenCamera& camera, const FramePool& pool);
+
+  /// Where the camera's settings ask for a background: takes the one that the scene names, or
+  /// learns it; `before_image` is called before each image that it learns from.
+  void begin_background(const std::function<void()>& before_image);
+  /// Takes the one that the scene names, if any.
+  void begin_given_background();
+  std::optional<DepthImage> background_m() const;
+
+  void observe(std::size_t image);
+  /// As if all images before it had been observed.
+  void observe_alone(std::size_t image);
+  /// Has no image from then on.
+  void forget() { number_.reset(); }
+  /// Tells in the last frame and those after it what somebody else found out of whether the camera
+  /// stands where it should; null: it does. Nothing waits for its own watch from then on.
+  void tell_watch(const CameraWatch* found);
+  /// Whatever its frames say from now on, the camera is implausible.
+  void distrust() { is_distrusted_ = true; }
+
+  /// The number of the newest image among those of its camera; none: there is no image.
+  const std::optional<std::size_t>& number() const { return number_; }
+  const DepthImage& depth_m() const { return depth_m_; }
+  /// Nothing writes to it while somebody holds it; null where there is no image.
+  std::shared_ptr<const Frame> frame() const { return number_ ? frame_ : nullptr; }
+
+ private:
+  void put_watch();
+
+  const OpenCamera* camera_;
+  Observer observer_;
+  FramePool pool_;
+  std::optional<std::size_t> number_;
+  DepthImage depth_m_;
+  std::shared_ptr<Frame> frame_;
+  CameraWatch own_watch_;
+  std::optional<CameraWatch> found_;
+  bool is_told_ = false;
+  bool is_distrusted_ = false;
+};
+
+}  // namespace berth
