@@ -45,7 +45,7 @@ class Doctor {
       for (const Finding& one : found) take(one);
     } catch (const std::runtime_error& error) {
       progress.clear();
-      take({Verdict::wrong, about, error.what(), "Mend this, then ask again."});
+      take({Verdict::wrong, about, error.what(), "Correct this, then run berth doctor again."});
     }
   }
 
@@ -74,7 +74,8 @@ void doctor_command(const DoctorArguments& arguments) {
     scene = open_scene(read_scene(arguments.scene), pause);
     Findings found{check_images(*scene, pause)};
     for (const std::string& warning : scene->warnings) {
-      found.push_back({Verdict::advice, "scene", warning, "Mend what the advice on the scene says."});
+      found.push_back({Verdict::advice, "scene", warning,
+                       "Look at the advice on the scene: correct what is not meant so."});
     }
     return found;
   });

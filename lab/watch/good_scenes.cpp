@@ -2,6 +2,7 @@
 
 #include "lab/watch/hidden_image.hpp"
 #include "lab/watch/mistakes.hpp"
+#include "sim/drawn_calibration_data.hpp"
 #include "sim/random.hpp"
 
 namespace berth::lab {
@@ -34,6 +35,31 @@ void hide_robot(OpenScene& scene, std::size_t c, std::uint32_t seed) {
   camera.exposure_time = {camera.exposure_time[k]};
   camera.kept_depth_m = {std::make_shared<const DepthImage>(hidden.depth_m)};
   camera.source.depth = {camera.source.depth[k]};
+}
+
+OpenScene draw_good_scene(const RobotModel& model, std::uint32_t seed) {
+  OpenScene scene;
+  scene.file = model.name;
+  scene.robot = std::make_shared<const Robot>(model);
+  sim::DrawnCalibrationData drawn = sim::draw_calibration_data(
+      model, scene.robot->meshes(), {.has_sensor_errors = seed % 2 == 0}, seed);
+  scene.joints = std::move(drawn.joints);
+  const CalibrationCamera& from = *drawn.camera;
+  OpenCamera& camera = scene.cameras.emplace_back();
+  camera.source.name = "camera";
+  camera.source.parent_link = model.links[from.parent].name;
+  camera.source.X_PC = from.X_PC;
+  camera.view = std::make_shared<const MountedCamera>(
+      scene.robot, CameraMount{from.camera, camera.source.parent_link, from.X_PC, "camera"},
+      settings_of_real_camera());
+  for (std::size_t k = 0; k < from.frames.size(); ++k) {
+    camera.source.depth.push_back(std::to_string(k));
+    camera.at_exposure.push_back(from.frames[k].joints);
+    camera.exposure_time.emplace_back();
+    camera.kept_depth_m.push_back(std::make_shared<const DepthImage>(from.frames[k].depth_m));
+  }
+  scene.frame_count = from.frames.size();
+  return scene;
 }
 
 }  // namespace berth::lab

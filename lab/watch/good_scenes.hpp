@@ -15,4 +15,9 @@ void move_camera(OpenScene& scene, std::size_t camera, double offset_m, double a
 /// the robot.
 void hide_robot(OpenScene& scene, std::size_t camera, std::uint32_t seed);
 
+/// The robot in five poses in a drawn room, before a camera that stands where it should. Every
+/// other sensor is ideal, the rest have a Kinect's errors. Throws std::runtime_error where the
+/// robot cannot be seen.
+OpenScene draw_good_scene(const RobotModel& model, std::uint32_t seed);
+
 }  // namespace berth::lab

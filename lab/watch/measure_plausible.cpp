@@ -10,6 +10,7 @@
 
 #include "berth/scene/plausibility.hpp"
 #include "berth/scene/robot_in_images.hpp"
+#include "lab/trust/trial_robots.hpp"
 #include "lab/watch/good_scenes.hpp"
 #include "lab/watch/mistakes.hpp"
 
@@ -101,17 +102,45 @@ void print_scene(const OpenScene& scene, int draws, bool says) {
   print_good(scene, "people who hide up to 90 %", draws, says, hide_robot);
 }
 
+/// Of the robots in turn.
+void print_drawn(const std::filesystem::path& robots_folder, int scenes) {
+  const std::vector<TrialRobot> robots = load_trial_robots(robots_folder);
+  int drawn = 0, implausible = 0, doubted = 0;
+  for (int i = 0; i < scenes; ++i) {
+    const RobotModel& model = robots[i % robots.size()].model;
+    const auto seed = static_cast<std::uint32_t>(40000 + i);
+    try {
+      const OpenScene scene = draw_good_scene(model, seed);
+      const CameraPlausibility found = find_implausible(scene, 0);
+      ++drawn;
+      implausible += found.is_implausible;
+      doubted += !found.is_implausible && !doubt_of(found).empty();
+      if (!text_of(found).empty())
+        fmt::print("{}, seed {}: {}\n", model.name, seed, text_of(found));
+    } catch (const std::runtime_error& error) {
+      fmt::print(stderr, "seed {}: {}\n", seed, error.what());
+    }
+  }
+  fmt::print("{} drawn scenes without a mistake: {} implausible, {} doubted\n", drawn, implausible,
+             doubted);
+}
+
 int run(int argc, char** argv) {
   CLI::App app{
       "Which simple mistakes in a scene are found and named, and what is found for nothing"};
   std::vector<std::string> files;
   int draws = 50;
   bool says = false;
-  app.add_option("scenes", files, "scene files without a mistake")->required();
+  app.add_option("scenes", files, "scene files without a mistake");
   app.add_option("--draws", draws, "poses and people for each camera")->check(CLI::Range(1, 1000));
+  int drawn = 0;
+  std::string robots_folder;
+  app.add_option("--drawn", drawn, "so many drawn scenes without a mistake as well");
+  app.add_option("--robots", robots_folder, "more robots for them, a folder each");
   app.add_flag("--say", says, "print what is said of each mistake to standard error");
   CLI11_PARSE(app, argc, argv);
   for (const std::string& file : files) print_scene(open_scene(file), draws, says);
+  if (drawn > 0) print_drawn(robots_folder, drawn);
   return 0;
 }
 

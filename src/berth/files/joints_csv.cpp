@@ -44,7 +44,11 @@ std::vector<std::string_view> lines_of(std::string_view text) {
 std::vector<std::string> read_header(const FilePlace& place, std::string_view line) {
   const std::vector<std::string_view> fields = split(line, ',');
   if (fields[0] != "time") {
-    throw_bad_file(place, fmt::format("the first column is '{}'", fields[0]), "time");
+    throw_bad_file(place, fmt::format("the first column is '{}'", fields[0]),
+                   fields[0].find(';') != std::string_view::npos
+                       ? "time, and commas between the columns"
+                   : fields[0].starts_with('"') ? "time, without quotation marks"
+                                                : "time");
   }
   std::vector<std::string> names;
   for (std::size_t i = 1; i < fields.size(); ++i) {

@@ -33,9 +33,10 @@ RobotModel with_attachment(const RobotModel& model, const Attachment& attachment
   for (const Eigen::Vector3f& p_A_m : attachment.mesh_A.vertices_m) {
     const double reach_m = p_A_m.cast<double>().norm();
     if (reach_m <= kFarthestPart_m) continue;
-    fail(attachment, fmt::format("the mesh reaches {:g} m from its origin; expected at most {:g} m "
-                                 "(one in millimetres is a thousand times as large)",
-                                 reach_m, kFarthestPart_m));
+    fail(attachment,
+         fmt::format("reaches {:g} m from its origin; expected at most {:g} m, and lengths "
+                     "in metres: in millimetres they are a thousand times as large",
+                     reach_m, kFarthestPart_m));
   }
   if (!attachment.X_LA.matrix().allFinite()) {
     fail(attachment, "the pose X_LA is not set; expected finite numbers");

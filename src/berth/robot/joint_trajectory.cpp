@@ -25,8 +25,8 @@ std::vector<std::size_t> columns_of(const RobotModel& model, const std::string& 
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) {
       throw std::runtime_error(
-          fmt::format("{}: joint \"{}\" of robot \"{}\" is missing; expected a column, or a fixed "
-                      "position, for each of {}; there are {}",
+          fmt::format("{}: joint \"{}\" of robot \"{}\" is missing; expected a column, or an "
+                      "entry in the scene's fixed_joints, for each of {}; the columns are {}",
                       source, name, model.name, fmt::join(known, ", "), fmt::join(names, ", ")));
     }
     columns.push_back(found - names.begin());

@@ -35,8 +35,10 @@ class ShapeReader {
   void append(const pugi::xml_node& shape, TriangleMesh& mesh_L) {
     const auto solids = shape.select_nodes("geometry/*");
     if (solids.size() != 1) {
-      urdf_.fail(shape.child("geometry") ? shape.child("geometry") : shape,
-                 fmt::format("<geometry> holds {} shapes; expected one", solids.size()));
+      urdf_.fail(
+          shape.child("geometry") ? shape.child("geometry") : shape,
+          fmt::format("<geometry> holds {} shapes; expected one box, cylinder, sphere or mesh",
+                      solids.size()));
     }
     const pugi::xml_node solid = solids.first().node();
     const Eigen::Affine3d X(urdf_.origin_of(shape));

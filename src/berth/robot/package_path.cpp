@@ -75,8 +75,9 @@ fs::path on_this_machine(const fs::path& file, const PackagePaths& package_paths
       return folder / file.string().substr(at + inside.size());
   }
   throw std::runtime_error(fmt::format(
-      "{}: No such file; expected one, or one of its folders in package_paths, where it is here",
-      file.string()));
+      "{}: No such file; expected one, or its package's folder on this computer in the robot's "
+      "package_paths, such as {{{}: FOLDER}}",
+      file.string(), file.parent_path().parent_path().filename().string()));
 }
 
 /// %20 is a blank in a URL.
@@ -98,9 +99,11 @@ std::string decoded(const std::string& url) {
 fs::path resolve_mesh_path(const std::string& name, const fs::path& urdf,
                            const PackagePaths& package_paths) {
   if (name.find("$(") != std::string::npos || name.find("${") != std::string::npos) {
-    throw std::runtime_error(fmt::format(
-        "mesh \"{}\": is written for xacro; expected a URDF, such as xacro {} > robot.urdf makes",
-        name, urdf.filename().string()));
+    throw std::runtime_error(
+        fmt::format("mesh \"{}\": is written for xacro; expected a URDF, such as xacro {} -o "
+                    "expanded.urdf makes: "
+                    "name that one in its place",
+                    name, urdf.filename().string()));
   }
   const fs::path urdf_folder = fs::absolute(urdf).lexically_normal().parent_path();
   const auto scheme_end = name.find("://");

@@ -134,8 +134,10 @@ void require_mimic_ends(const std::filesystem::path& path, const urdf::ModelInte
       const std::string& master = current->mimic->joint_name;
       const auto found = model.joints_.find(master);
       if (found == model.joints_.end()) {
-        refuse(path, fmt::format("joint \"{}\" mimics \"{}\"; expected the name of a joint",
-                                 current->name, master));
+        refuse(path,
+               fmt::format(
+                   "joint \"{}\" mimics \"{}\", which there is not; expected the name of a joint",
+                   current->name, master));
       }
       if (type_of(*found->second) == JointType::fixed) {
         refuse(path, fmt::format("joint \"{}\" mimics \"{}\", which is fixed, floating or planar; "

@@ -41,7 +41,8 @@ std::string why_none(const OpenScene& scene, const OpenCamera& camera, const fs:
           file.string(), other.source.name, scene.file.string());
     }
     for (const fs::path& image : other.source.depth) {
-      if (!is_same_place(image.parent_path(), fs::absolute(file).parent_path())) continue;
+      if (!is_same_place(fs::absolute(image).parent_path(), fs::absolute(file).parent_path()))
+        continue;
       return fmt::format("{} would lie among the images of camera {}; choose another folder",
                          file.string(), other.source.name);
     }

@@ -27,11 +27,10 @@ void require_poses(const OpenScene& scene, const CalibrationResult& found) {
   for (std::size_t c = 0; c < found.cameras.size(); ++c) {
     const CameraCalibration& camera = found.cameras[c];
     if (camera.is_found) continue;
-    std::string text =
-        fmt::format("{}: camera {}: {}", scene.file.string(), camera.camera, camera.refused);
     const CameraPlausibility why = find_implausible(scene, c);
-    if (why.is_implausible) text += "; " + text_of(why);
-    throw std::runtime_error(text);
+    const std::string mistake = why.is_implausible ? text_without_name(why) + ". Besides, " : "";
+    throw std::runtime_error(fmt::format("{}: camera {}: {}{}", scene.file.string(), camera.camera,
+                                         mistake, camera.refused));
   }
 }
 

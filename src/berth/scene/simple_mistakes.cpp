@@ -68,7 +68,8 @@ class Mistakes {
         [](CameraBelief& belief) { belief.is_swapped = true; });
   }
   void add_depth(double factor) {
-    add(fmt::format("depth_scale were {:.6g}", factor * camera_.source.depth_scale_m),
+    add(fmt::format("depth_scale were {:.6g}, not {:.6g}", factor * camera_.source.depth_scale_m,
+                    camera_.source.depth_scale_m),
         [&](CameraBelief& belief) { belief.depth_factor = factor; });
   }
 
@@ -77,9 +78,12 @@ class Mistakes {
     const Camera& camera = given_.mount.camera;
     for (double f = kLeastFocalFactor; f <= kGreatestFocalFactor; f *= kFocalStep) {
       for (const double factor : {f, 1 / f}) {
-        const std::string fx = fmt::format("fx were {:.6g} px", factor * camera.fx_px);
-        const std::string fy = fmt::format("fy were {:.6g} px", factor * camera.fy_px);
-        add_focal_length(fmt::format("the focal length were {:.6g} px", factor * camera.fx_px),
+        const std::string fx =
+            fmt::format("fx were {:.6g} px, not {:.6g}", factor * camera.fx_px, camera.fx_px);
+        const std::string fy =
+            fmt::format("fy were {:.6g} px, not {:.6g}", factor * camera.fy_px, camera.fy_px);
+        add_focal_length(fmt::format("the focal length were {:.6g} px, not {:.6g}",
+                                     factor * camera.fx_px, camera.fx_px),
                          factor, factor);
         add_focal_length(fx, factor, 1);
         add_focal_length(fy, 1, factor);
@@ -233,7 +237,8 @@ class Mistakes {
         add_one("were in millimetres", 0.001, 0);
         continue;
       }
-      add_one("were in degrees", kDegree_rad, 0);
+      // Of a single joint that is said already.
+      if (joints.size() > 1) add_one("were in degrees", kDegree_rad, 0);
       add_one("had its zero 180 degrees away", 1, std::numbers::pi);
       add_one("had its zero 90 degrees away", 1, std::numbers::pi / 2);
       add_one("had its zero -90 degrees away", 1, -std::numbers::pi / 2);

@@ -123,10 +123,10 @@ void delete_other_readers(const char* extension, Assimp::Importer& importer) {
 
 /// In the place of a mesh, a download that failed leaves a web page.
 void require_mesh(const std::filesystem::path& path, const std::string& bytes) {
-  if (bytes.empty()) fail(path, "the mesh file is empty; expected an STL, OBJ or DAE file");
+  if (bytes.empty()) fail(path, "the mesh file is empty; expected an STL, OBJ, DAE or glTF file");
   const std::string begin = lower_case(bytes.substr(0, 64));
   if (begin.find("<!doctype html") != std::string::npos || begin.find("<html") != std::string::npos)
-    fail(path, "a web page, not a mesh; expected an STL, OBJ or DAE file");
+    fail(path, "a web page, not a mesh; expected an STL, OBJ, DAE or glTF file");
 }
 
 /// Assimp takes compressed or quantised positions for plain ones.
@@ -174,7 +174,8 @@ TriangleMesh read_mesh_file(const std::filesystem::path& path) {
                                          aiProcess_JoinIdenticalVertices | aiProcess_SortByPType);
   }
   if (scene == nullptr)
-    fail(path, fmt::format("the mesh cannot be read: {}; expected an STL, OBJ or DAE file",
+    fail(path, fmt::format("the mesh cannot be read: {}; expected an STL, OBJ, DAE or glTF file of "
+                           "triangles or polygons without holes",
                            importer.GetErrorString()));
 
   TriangleMesh mesh;
