@@ -8,7 +8,6 @@
 #include "lab/bench/drawn_scenes.hpp"
 #include "lab/bench/extent.hpp"
 #include "lab/bench/gl_bench.hpp"
-#include "lab/bench/growth.hpp"
 #include "lab/bench/recorded_scenes.hpp"
 #include "lab/bench/report.hpp"
 #include "lab/bench/stages.hpp"
@@ -46,12 +45,8 @@ void run_image_methods(const BenchSettings& settings, const BenchExtent& extent)
 
   report.add(compare_peers(random_scenes(extent.random_scenes), extent.limits, make_peers()));
   report.add(compare_peers(hard_scenes(extent.hard_scenes), extent.limits, make_peers()));
-  report.add(compare_peers(bowl_scenes(extent.bowl_scenes), extent.limits, make_peers()));
   measure_recording(bundled, extent, report);
   for (const auto& recording : recordings) measure_recording(recording, extent, report);
-  report.add(measure_growth_of_image(extent.growth_scenes, extent.limits));
-  report.add(measure_growth_of_links(extent.growth_scenes, extent.limits));
-  report.add(measure_growth_of_meshes(settings.bundled_scene, 10 * extent.stage_rounds));
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 namespace berth::lab {
 
-/// The nearest neighbour of any of a link's points: what nanoflann and FLANN call a result set. A
+/// The nearest neighbour of any of a link's points: what nanoflann calls a result set. A
 /// search begins with the best of the searches before it, so that most end at the tree's root.
 struct ClosestSoFar {
   using DistanceType = float;

@@ -76,12 +76,4 @@ SceneSet hard_scenes(int count) {
           count, [](int i) { return scene_of(hard_images(i)); }};
 }
 
-SceneSet bowl_scenes(int count) {
-  return {"Bowls",
-          fmt::format("{} of {}: the same with the far side of the ball, a bowl whose rim is seen "
-                      "at a grazing angle, so that its tiles are long and curved.",
-                      count, kBowlScenes),
-          count, [](int i) { return scene_of(bowl_images(i == 0 ? 0.3 : 0.1, kWidth, kHeight)); }};
-}
-
 }  // namespace berth::lab

@@ -17,8 +17,4 @@ SceneSet random_scenes(int count);
 inline constexpr int kHardScenes = 5;
 SceneSet hard_scenes(int count);
 
-/// Harder still: bowls in shells; `count` is at most kBowlScenes.
-inline constexpr int kBowlScenes = 2;
-SceneSet bowl_scenes(int count);
-
 }  // namespace berth::lab

@@ -12,14 +12,12 @@ struct BenchExtent {
   /// Of them, for the peers that take seconds.
   int cameras_peer_scenes = 10;
   int hard_scenes = kHardScenes;
-  int bowl_scenes = kBowlScenes;
   int recorded_frames = 12;
-  int growth_scenes = 40;
   int stage_rounds = 20;
   RunLimits limits = {};
 };
 
 /// In less than half a minute.
-inline constexpr BenchExtent kQuick{2, 1, 1, 1, 1, 1, 2, 1, {3, 5, 50}};
+inline constexpr BenchExtent kQuick{2, 1, 1, 1, 1, 1, {3, 5, 50}};
 
 }  // namespace berth::lab

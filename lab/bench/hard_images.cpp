@@ -127,8 +127,4 @@ ImagePair ball_images(double gap_m, int width, int height) {
   return sphere_images(gap_m, -1, width, height);
 }
 
-ImagePair bowl_images(double gap_m, int width, int height) {
-  return sphere_images(gap_m, +1, width, height);
-}
-
 }  // namespace berth::lab

@@ -20,7 +20,5 @@ sim::ImagePair plate_images(double tilt_rad, int width, int height);
 /// A ball around (0, 0, 1.5 m) inside a shell gap_m larger, of which the camera sees the far side:
 /// all pairs along the ball's outline tie.
 sim::ImagePair ball_images(double gap_m, int width, int height);
-/// The far sides of both: all pairs of feet tie.
-sim::ImagePair bowl_images(double gap_m, int width, int height);
 
 }  // namespace berth::lab

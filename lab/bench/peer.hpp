@@ -49,7 +49,6 @@ std::unique_ptr<Peer> make_berth_exact();
 std::vector<std::unique_ptr<Peer>> make_berth_variants();
 std::unique_ptr<Peer> make_brute_force();
 std::unique_ptr<Peer> make_nanoflann();
-std::unique_ptr<Peer> make_flann();
 std::unique_ptr<Peer> make_embree();
 std::unique_ptr<Peer> make_fcl_octomap(double resolution_m);
 
