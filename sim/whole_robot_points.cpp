@@ -42,7 +42,6 @@ float own_of_reading(const PointView& view, const SpaceSettings& settings, int u
     case PixelFate::outside_region:
       return sensed_m - margin_m;
     case PixelFate::obstacle:
-    case PixelFate::averaged:
     case PixelFate::hole:
     case PixelFate::no_reading:
       break;
@@ -76,7 +75,7 @@ DepthImage own_free_depth_m(const PointView& view, const SpaceSettings& settings
 
 Image<double> free_depth_m(const PointView& view, const SpaceSettings& settings) {
   Image<double> free_m(view.camera.width_px, view.camera.height_px, kNone);
-  if (view.age_s > settings.free_space_max_age_s) return free_m;
+  if (view.age_s > kYoung_s) return free_m;
   const DepthImage aged_m =
       plainly_aged(view.camera, view.sensor_depth_m, own_free_depth_m(view, settings),
                    settings.obstacle_speed_m_s * view.age_s);

@@ -28,8 +28,11 @@ struct PointView {
   double age_s = 0;
 };
 
+/// An older view tells nothing (D6).
+inline constexpr double kYoung_s = 0.2;
+
 /// Free depth E: a point that projects into the pixel is seen free where its depth is above 0 and
-/// below this (definitions 1 and 2, and its paragraph about age). Infinite where nothing stands.
+/// below this (D1, D2, D6). Infinite where nothing stands.
 Image<double> free_depth_m(const PointView& view, const SpaceSettings& settings);
 
 /// All views together.
@@ -51,14 +54,14 @@ class PointSpace {
   bool is_behind(std::size_t k, const Eigen::Vector3d& p_B) const;
   bool is_free(std::size_t k, const Eigen::Vector3d& p_B) const;
 
-  /// In a surface layer (definition 4).
+  /// In a surface layer (D4).
   bool is_reading(const Eigen::Vector3d& p_B) const;
   /// Whether view k is young enough to tell anything of what lies in its image.
-  bool is_young(std::size_t k) const { return views_[k].age_s <= settings_.free_space_max_age_s; }
+  bool is_young(std::size_t k) const { return views_[k].age_s <= kYoung_s; }
   /// In the image of no young view, where that counts as unknown.
   bool is_unobserved(const Eigen::Vector3d& p_B) const;
 
-  /// Behind a surface layer of some view, and seen free by no other, or unobserved (definition 5).
+  /// Behind a surface layer of some view, and seen free by no other, or unobserved (D5).
   bool is_hidden(const Eigen::Vector3d& p_B) const;
   bool is_obstacle(const Eigen::Vector3d& p_B) const { return is_reading(p_B) || is_hidden(p_B); }
 

@@ -1,4 +1,4 @@
-// The slow twin of the method `mesh`: space around a link is cut into ever smaller cubes, the
+// The slow twin of a request: space around a link is cut into ever smaller cubes, the
 // nearest first, and each is held against every pixel that it projects into.
 #pragma once
 

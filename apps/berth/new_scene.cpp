@@ -33,10 +33,10 @@ const std::array<CameraKind, 5>& camera_kinds() {
        {"near_m: 0.3", "far_m: 5.0", "sensor: {speckle_px: 20}"}},
       {"kinect",
        "Azure Kinect, time of flight",
-       {"near_m: 0.25", "far_m: 5.5", "sensor: {speckle_px: 10, average_frames: 3}"}},
+       {"near_m: 0.25", "far_m: 5.5", "sensor: {speckle_px: 10}"}},
       {"orbbec",
        "Orbbec Femto, time of flight; a Gemini is active stereo, like a RealSense",
-       {"near_m: 0.25", "far_m: 5.5", "sensor: {speckle_px: 10, average_frames: 3}"}},
+       {"near_m: 0.25", "far_m: 5.5", "sensor: {speckle_px: 10}"}},
   }};
   return kinds;
 }

@@ -88,8 +88,6 @@ std::string fate_text(PixelFate fate) {
       return "where something soft hangs";
     case PixelFate::speckle:
       return "speckle";
-    case PixelFate::averaged:
-      return "kept: averaged nearer";
     case PixelFate::background:
       return "kept: background";
     case PixelFate::hole:

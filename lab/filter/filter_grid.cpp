@@ -31,7 +31,6 @@ std::string FilterGrid::heading() const {
   std::string heading;
   name(tolerance_m, "tolerance_m", heading);
   name(padding_m, "padding_m", heading);
-  name(environment_padding_m, "environment_padding_m", heading);
   name(padding_depth_m, "padding_depth_m", heading);
   name(surface_tolerance_m, "surface_tolerance_m", heading);
   name(flying_patch_radius_m, "flying_patch_radius_m", heading);
@@ -45,9 +44,6 @@ std::vector<FilterChoice> FilterGrid::choices() const {
       tolerance_m, [](FilterChoice & c) -> auto& { return c.filter.tolerance_m; }, all);
   cross(
       padding_m, [](FilterChoice & c) -> auto& { return c.filter.padding_m; }, all);
-  cross(
-      environment_padding_m,
-      [](FilterChoice & c) -> auto& { return c.filter.environment_padding_m; }, all);
   cross(
       padding_depth_m, [](FilterChoice & c) -> auto& { return c.filter.padding_depth_m; }, all);
   cross(

@@ -21,7 +21,6 @@ struct FilterChoice {
 struct FilterGrid {
   std::vector<double> tolerance_m;
   std::vector<double> padding_m;
-  std::vector<double> environment_padding_m;
   std::vector<double> padding_depth_m;
   std::vector<double> surface_tolerance_m;
   std::vector<double> flying_patch_radius_m;

@@ -46,7 +46,6 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 1000000));
   app.add_option("--tolerance_m", grid.tolerance_m, "Values, with a comma between")->delimiter(',');
   app.add_option("--padding_m", grid.padding_m)->delimiter(',');
-  app.add_option("--environment_padding_m", grid.environment_padding_m)->delimiter(',');
   app.add_option("--padding_depth_m", grid.padding_depth_m)->delimiter(',');
   app.add_option("--surface_tolerance_m", grid.surface_tolerance_m)->delimiter(',');
   app.add_option("--flying_patch_radius_m", grid.flying_patch_radius_m)->delimiter(',');

@@ -28,7 +28,6 @@ FATE_COLORS = {
     "outside_region": "#B8A43A",
     "soft": "#D87A4A",
     "speckle": "#E0B020",
-    "averaged": "#B0C8E0",
     "background": "#20B870",
     "hole": "#E060C0",
 }

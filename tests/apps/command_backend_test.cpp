@@ -12,9 +12,7 @@ namespace {
 class Backend : public testing::GlTest {
  protected:
   // Two renderers may differ by a pixel at an outline.
-  Backend() {
-    scene_.lines.self_filter = "{padding_m: 0.06, padding_depth_m: 2, flying_patch_radius_m: 0}";
-  }
+  Backend() { scene_.lines.self_filter = "{padding_m: 0.06, flying_patch_radius_m: 0}"; }
 
   static std::vector<Json> lines_of(const std::string& text) {
     std::vector<Json> lines;

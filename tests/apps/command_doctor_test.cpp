@@ -89,12 +89,6 @@ TEST(Doctor, StampsOfAnotherClockAreWrong) {
   expect_text(outcome, {"6 have no joints: these go from 0.000 to 3.700 s"});
 }
 
-TEST(Doctor, AGapThatRunDoesNotMindIsNone) {
-  DoctorsScene scene;
-  scene.more = "time: {max_frame_gap_s: 0.05}\n";
-  expect_text(scene.doctor(), {"ok      stamps, camera camera: 12 images"});
-}
-
 TEST(Doctor, APoseThatIsMeasuredInMillimetresIsExplained) {
   DoctorsScene scene;
   scene.xyz = "[120, -2250, 800]";

@@ -66,9 +66,11 @@ TEST(SceneKey, CameraOnAMovingLinkMovesWithIt) {
 /// Pixels of padding in the first frame with these paddings of links, which take the wall too.
 int padding_with(CommandScene& scene, const std::string& links) {
   scene.lines.self_filter =
-      "{padding_m: 0, padding_depth_m: 2, flying_patch_radius_m: 0, "
+      "{padding_m: 0, flying_patch_radius_m: 0, "
       "link_padding_m: {" +
       links + "}}";
+  scene.surroundings.wall_m = 2.2;
+  scene.write_images();
   scene.lines.depth = "[depth/000000.png]";
   scene.lines.more_camera = "stamps: [0]";
   return scene.run().at(0)["cameras"][0]["self_filter"]["padding"];

@@ -123,14 +123,14 @@ class FilteredImage : public RawImage {
     obstacles_.fate(u, v) = fate;
     obstacles_.depth_m(u, v) = depth_m;
   }
-  /// Kept, robot, no reading; background, averaged, kept.
+  /// Kept, robot, no reading; background twice, kept.
   FilteredImage() {
     obstacles_.fate.resize(3, 2, PixelFate::obstacle);
     obstacles_.depth_m.resize(3, 2, 1.0F);
     set(1, 0, PixelFate::robot, kNoDepth);
     set(2, 0, PixelFate::no_reading, kNoDepth);
     set(0, 1, PixelFate::background, 3.0F);
-    set(1, 1, PixelFate::averaged, 0.7F);
+    set(1, 1, PixelFate::background, 0.7F);
   }
 
   ObstacleImage obstacles_;

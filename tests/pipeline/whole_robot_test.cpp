@@ -291,11 +291,12 @@ TEST_F(WholeRobot, WhatIsAttachedIsPartOfItsLinkOrALinkOfItsOwn) {
 // It would be the robot in every image, and nothing an obstacle.
 TEST_F(WholeRobot, AThingInMillimetresIsRefused) {
   const std::string hand = view_->robot()->model().evaluated_link_names().back();
-  EXPECT_EQ(error_message<std::invalid_argument>([&] {
-              attach(*view_->robot(), {"gripper", hand, make_box({60, 40, 120})});
-            }),
-            "attached \"gripper\": the mesh reaches 70 m from its origin; expected at most 20 m "
-            "(one in millimetres is a thousand times as large)");
+  EXPECT_EQ(
+      error_message<std::invalid_argument>([&] {
+        attach(*view_->robot(), {"gripper", hand, make_box({60, 40, 120})});
+      }),
+      "attached \"gripper\": reaches 70 m from its origin; expected at most 20 m, and lengths "
+      "in metres: in millimetres they are a thousand times as large");
   EXPECT_NO_THROW(attach(*view_->robot(), {"beam", hand, make_box({0.1, 0.1, 12})}));
 }
 

@@ -31,9 +31,9 @@ def test_all_settings_of_the_scene_file_are_here(group):
 
 
 def test_they_can_be_given_set_and_shown():
-    settings = berth.SelfFilterSettings(tolerance_m=0.03, padding_depth_m=2)
+    settings = berth.SelfFilterSettings(tolerance_m=0.03, tolerance_per_m2=0.02)
     settings.padding_m = 0.01
-    assert (settings.tolerance_m, settings.padding_depth_m, settings.padding_m) == (0.03, 2, 0.01)
+    assert (settings.tolerance_m, settings.tolerance_per_m2, settings.padding_m) == (0.03, 0.02, 0.01)
     assert "tolerance_m=0.03" in repr(settings)
     assert berth.SpaceSettings(no_reading="free").no_reading == "free"
     assert berth.EvaluationSettings(deadline_us=None).deadline_us is None

@@ -102,11 +102,10 @@ TEST_F(ReplayTest, GivesTheSameResultsOfPreparedSpaces) {
   EXPECT_GE(found.requests, 55);
 }
 
-TEST_F(ReplayTest, KnowsBackgroundsAndMeansOverImagesFromBefore) {
+TEST_F(ReplayTest, KnowsBackgrounds) {
   OpenScene scene = scene_;
   for (OpenCamera& camera : scene_.cameras) {
     CameraSettings settings = camera.view->settings();
-    settings.sensor.average_frames = 3;
     settings.sensor.background_frames = 2;
     camera.view =
         std::make_shared<const MountedCamera>(scene_.robot, camera.view->mount(), settings);
@@ -251,7 +250,7 @@ TEST_F(ReplayTest, HasEveryBitOfRobotAndSettings) {
       std::vector<Attachment>{{"knife", hand, tool, Pose::Identity(), true, true}});
   CameraSettings settings = settings_of_real_camera();
   settings.link_padding_m = {{hand, 0.1}};
-  settings.self_filter.environment_padding_m = 0.07;
+  settings.self_filter.padding_m = 0.07;
   cell.views = {std::make_shared<const MountedCamera>(cell.robot, views()[0]->mount(), settings)};
   cell.separation->stopping = {{0.1, 0.2, 0.3}, {0.4, 0.5, 0.6}};
   cell.separation->unknown = UnknownPolicy::stop;

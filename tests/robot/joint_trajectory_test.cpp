@@ -113,7 +113,7 @@ TEST(JointTrajectory, AMissingJointIsNamed) {
                  JointTrajectory(three_joints(), "joints.csv", {"turn", "wheel", "finger"},
                                  {{0, {0, 0, 0}}});
                }),
-               {"joints.csv: joint \"lift\"", "there are turn, wheel, finger"});
+               {"joints.csv: joint \"lift\"", "the columns are turn, wheel, finger"});
 }
 
 /// Of three_joints() with these limits of "turn" and "lift".

@@ -37,6 +37,22 @@ TEST(FormerSettings, MethodsOnImagesAreToldWithWhatHasThemNow) {
                 "compares images, and has it as an option"}));
 }
 
+TEST(FormerSettings, EachGroupMayNameThoseThatEnded) {
+  for (const std::string group :
+       {"space", "self_filter", "sensor", "evaluation", "watch", "time", "separation"}) {
+    ASSERT_FALSE(ended_settings(group).empty()) << group;
+    for (const std::string_view key : ended_settings(group)) {
+      if (key == "holes") continue;  // its values are told apart below
+      const std::string text = group + ": {" + std::string(key) + ": 1" +
+                               (group == "separation" ? ", intrusion_m: 0.2}\n" : "}\n");
+      const auto warnings = scene_with(text).warnings;
+      ASSERT_EQ(warnings.size(), 1) << text;
+      EXPECT_EQ(warnings[0].find("scene.yaml:5: " + std::string(key) + " is no setting"), 0)
+          << warnings[0];
+    }
+  }
+}
+
 TEST(FormerSettings, HolesThatWereObstaclesAreRefusedWithWhatToDoInstead) {
   EXPECT_EQ(
       scene_with("sensor: {holes: free}\n").warnings,

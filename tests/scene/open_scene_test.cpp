@@ -58,8 +58,9 @@ TEST(SceneJoints, AJointThatIsMissingTwiceOrUnknownIsNamed) {
   const auto message = [](const char* joints_csv, const std::string& lines) {
     return error_message([&] { open_with(joints_csv, lines); });
   };
-  expect_parts(message(kFiveColumns, "fixed_joints: {arm_joint_5: 0.5}"),
-               {"joints.csv: joint \"arm_joint_7\"", "is missing", "a fixed position"});
+  expect_parts(
+      message(kFiveColumns, "fixed_joints: {arm_joint_5: 0.5}"),
+      {"joints.csv: joint \"arm_joint_7\"", "is missing", "an entry in the scene's fixed_joints"});
   expect_parts(message(kSevenColumns, "fixed_joints: {arm_joint_7: 0.7}"),
                {"scene.yaml: fixed_joints.arm_joint_7: ",
                 "joints.csv has a column of this joint too; expected one of both"});

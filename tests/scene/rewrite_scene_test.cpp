@@ -64,7 +64,7 @@ cameras:
     # Its own settings.
     self_filter:
       tolerance_m: 0.03                    # guessed
-      padding_depth_m: 2
+      tolerance_per_m2: 2
       link_padding_m: {hand: 0.01}
   - {name: right, info: ../cell/right.yaml, clock_offset_s: -0.0125, pose: {parent: base, xyz: [0.25, -1.5, 0.123456789], quaternion_xyzw: [-0.5, 0.5, -0.5, 0.5]}, depth: [../cell/depth/0.png, "../data/1.png", /data/2.png], sensor: {}}
 joints: ../cell/joints.csv
@@ -98,14 +98,14 @@ TEST_F(RewrittenScene, TakesAllKindsOfLinesAndEnds) {
       "    depth_offset_m: 0.004\n"
       "    depth_scale: 0.001013\n"
       "    sensor: {speckle_px: 20}\n"
-      "    self_filter: {padding_depth_m: 2, tolerance_m: 0.03}\n"
+      "    self_filter: {tolerance_m: 0.03, tolerance_per_m2: 2}\n"
       "    pose: " +
       pose +
       "rpy: [-1.5707963268, 0, -1.5707963268]}\n"
       "    depth: [depth/0.png]\n";
   const std::string flow =
       "  - {name: b, info: c.yaml, clock_offset_s: -0.0125, depth_offset_m: 0.004, depth_scale: "
-      "0.001013, sensor: {speckle_px: 20}, self_filter: {padding_depth_m: 2, tolerance_m: 0.03}, "
+      "0.001013, sensor: {speckle_px: 20}, self_filter: {tolerance_m: 0.03, tolerance_per_m2: 2}, "
       "pose: " +
       pose + "quaternion_xyzw: [-0.5, 0.5, -0.5, 0.5]}, depth: [depth/0.png]}\n";
   SceneChange change = full_change("a");
@@ -137,7 +137,7 @@ TEST_F(RewrittenScene, ReadsBackWhatWasChangedAndAllElse) {
   EXPECT_EQ(a.near_m, 0.3);
   EXPECT_EQ(a.settings.self_filter.tolerance_m, 0.03);
   EXPECT_EQ(a.settings.self_filter.padding_m, 0.07);
-  EXPECT_EQ(a.settings.self_filter.padding_depth_m, 2);
+  EXPECT_EQ(a.settings.self_filter.tolerance_per_m2, 2);
   EXPECT_EQ(a.settings.sensor.speckle_px, 20);
   EXPECT_EQ(scene.cameras[1].settings.self_filter.tolerance_m, 0.06);
   EXPECT_EQ(scene.cameras[1].depth_offset_m, 0);

@@ -22,7 +22,7 @@ inline Pose some_pose() {
 
 inline SceneChange full_change(const std::string& camera) {
   SceneCameraChange one{camera, some_pose(), -0.0125, 0.001013, 0.004, {}};
-  one.maps["self_filter"] = {{"tolerance_m", 0.03}, {"padding_depth_m", 2}};
+  one.maps["self_filter"] = {{"tolerance_m", 0.03}, {"tolerance_per_m2", 2}};
   one.maps["sensor"] = {{"speckle_px", 20}};
   return {{one}, {{"joint_2", 0.004}}};
 }

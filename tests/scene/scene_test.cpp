@@ -41,21 +41,16 @@ cameras:
 joints: joints.csv
 self_filter:
   tolerance_m: 0.01
-  tolerance_per_m: 0.02
   tolerance_per_m2: 0.03
   padding_m: 0.04
   link_padding_m: {link_3: 0.05, link_4: 0}
-  environment_padding_m: 0.035
-  padding_depth_m: 0.4
   surface_tolerance_m: 0.07
   flying_patch_radius_m: 0.08
   robot_region_scale: 6.5
 sensor:
   noise_m: 0.011
   speckle_px: 12
-  average_frames: 14
   background_frames: 15
-  background_clearance_m: 0.16
 evaluation: {range_m: 0.5, mean_direction: off, visibility: false}
 time: {max_skew_s: 0.01, max_extrapolation_s: 0.02}
 )");
@@ -86,22 +81,17 @@ time: {max_skew_s: 0.01, max_extrapolation_s: 0.02}
 
   const SelfFilterSettings& filter = scene.cameras[0].settings.self_filter;
   EXPECT_EQ(filter.tolerance_m, 0.01);
-  EXPECT_EQ(filter.tolerance_per_m, 0.02);
   EXPECT_EQ(filter.tolerance_per_m2, 0.03);
   EXPECT_EQ(filter.padding_m, 0.04);
   EXPECT_EQ(scene.cameras[0].settings.link_padding_m,
             (std::map<std::string, double>{{"link_3", 0.05}, {"link_4", 0}}));
-  EXPECT_EQ(filter.environment_padding_m, 0.035);
-  EXPECT_EQ(filter.padding_depth_m, 0.4);
   EXPECT_EQ(filter.surface_tolerance_m, 0.07);
   EXPECT_EQ(filter.flying_patch_radius_m, 0.08);
   EXPECT_EQ(filter.robot_region_scale, 6.5);
   const SensorSettings& sensor = scene.cameras[0].settings.sensor;
   EXPECT_EQ(sensor.noise_m, 0.011);
   EXPECT_EQ(sensor.speckle_px, 12);
-  EXPECT_EQ(sensor.average_frames, 14);
   EXPECT_EQ(sensor.background_frames, 15);
-  EXPECT_EQ(sensor.background_clearance_m, 0.16);
   EXPECT_EQ(scene.evaluation.distance.range_m, 0.5);
   EXPECT_EQ(scene.evaluation.distance.mean_direction, false);
   EXPECT_EQ(scene.evaluation.visibility, false);

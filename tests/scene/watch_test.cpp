@@ -15,14 +15,12 @@ using Json = nlohmann::json;
 
 TEST(WatchInScenes, ACamerasOwnKeysGoOverThoseOfTheScene) {
   SceneText text;
-  text.more_camera = "watch: {max_seen_through: 0.07, frames: 5, agreeing_frames: 4}";
-  text.end += "\nwatch: {max_seen_through: 0.04, max_displacement_m: 0.02, check_every_s: 1}";
+  text.more_camera = "watch: {max_seen_through: 0.07, min_at_robot: 0.3}";
+  text.end += "\nwatch: {max_seen_through: 0.04, max_displacement_m: 0.02, min_at_robot: 0.2}";
   const WatchSettings watch = read_text(text).cameras[0].settings.watch;
   EXPECT_EQ(watch.max_seen_through, 0.07);
   EXPECT_EQ(watch.max_displacement_m, 0.02);
-  EXPECT_EQ(watch.frames, 5);
-  EXPECT_EQ(watch.agreeing_frames, 4);
-  EXPECT_EQ(watch.check_every_s, 1);
+  EXPECT_EQ(watch.min_at_robot, 0.3);
   text.more_camera = "watch: {max_seen: 0.07}";
   expect_parts(error_message([&] { read_text(text); }), {"max_seen", "max_seen_through"});
 }

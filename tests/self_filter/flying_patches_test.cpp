@@ -200,7 +200,7 @@ TEST(FlyingPatches, EnvironmentHasNoFlyingPatches) {
   scene.see(kLink, 1.0F);
   scene.see(kFlyingPixels, 1.0F);
   SelfFilterSettings settings = flying_patch_rule();
-  settings.environment_padding_m = 0;
+  settings.padding_m = 0;
   EXPECT_EQ(filter(scene, settings).count_of(PixelFate::flying_patch), 0);
 }
 

@@ -61,9 +61,8 @@ class PlainFilter {
 
   float least_m(float z) const {
     const auto a = static_cast<float>(settings_.tolerance_m);
-    const auto b = static_cast<float>(settings_.tolerance_per_m);
     const auto c = static_cast<float>(settings_.tolerance_per_m2);
-    return z - (a + (b * z + c * z * z));
+    return z - (a + c * z * z);
   }
 
   /// What the robot's outline of this depth takes beside it.
@@ -332,12 +331,10 @@ class PlainFilter {
   Image<std::uint8_t> reached_from_robot(const Image<PixelFate>& fate) const {
     Image<std::uint8_t> reached(camera_.width_px, camera_.height_px, 0);
     const auto a = static_cast<float>(settings_.tolerance_m);
-    const auto b = static_cast<float>(settings_.tolerance_per_m);
     const auto c = static_cast<float>(settings_.tolerance_per_m2);
     for_each([&](int u, int v) {
       const float z = robot_.depth_m(u, v);
-      reached(u, v) =
-          fate(u, v) == PixelFate::robot && sensor_(u, v) <= z + (a + (b * z + c * z * z));
+      reached(u, v) = fate(u, v) == PixelFate::robot && sensor_(u, v) <= z + (a + c * z * z);
     });
     bool changed = true;
     while (changed) {

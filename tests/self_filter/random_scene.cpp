@@ -19,7 +19,6 @@ double random_setting(Random& random, double low, double high) {
 SelfFilterSettings random_settings(Random& random) {
   SelfFilterSettings settings;
   settings.tolerance_m = random_setting(random, 0.01, 0.08);
-  settings.tolerance_per_m = random.chance(0.3) ? random(0, 0.03) : 0;
   settings.tolerance_per_m2 = random.chance(0.3) ? random(0, 0.03) : 0;
   settings.padding_m = random_setting(random, 0.005, 0.12);
   settings.padding_depth_m = random_setting(random, 0.05, 1.5);
@@ -112,7 +111,6 @@ RandomScene random_scene(std::uint32_t seed) {
   see_robot(random, scene.robot, scene.sensor_depth_m);
   add_patches(random, scene.robot, scene.sensor_depth_m);
   if (random.chance(0.7)) scene.robot.extent = tight_extent(scene.robot);
-  if (random.chance(0.5)) scene.settings.environment_padding_m = random_setting(random, 0.01, 0.2);
   return scene;
 }
 

@@ -72,10 +72,6 @@ TEST(SelfFilter, ToleranceGrowsWithDepthAsAskedFor) {
     return filter(scene, settings).fate(30, 30);
   };
   SelfFilterSettings settings = no_rules();
-  settings.tolerance_per_m = 0.05;
-  EXPECT_EQ(at_two_metres(1.91F, settings), PixelFate::robot);
-  EXPECT_EQ(at_two_metres(1.89F, settings), PixelFate::obstacle);
-  settings = no_rules();
   settings.tolerance_per_m2 = 0.05;
   EXPECT_EQ(at_two_metres(1.81F, settings), PixelFate::robot);
   EXPECT_EQ(at_two_metres(1.79F, settings), PixelFate::obstacle);
@@ -91,23 +87,6 @@ TEST(SelfFilter, EnvironmentIsFilteredAndGrownLikeALink) {
   const ObstacleImage padded = filter(scene, settings);
   EXPECT_EQ(padded.fate(15, 30), PixelFate::padding);
   EXPECT_EQ(padded.fate(14, 30), PixelFate::obstacle);
-}
-
-TEST(SelfFilter, EnvironmentHasAPaddingOfItsOwn) {
-  FlatScene scene;
-  scene.add_link(kEnvironmentLink, {5, 20, 20, 40}, 2.0F);
-  scene.add_link(1, {40, 20, 55, 40}, 2.0F);
-  SelfFilterSettings settings = no_rules();
-  settings.padding_m = 0.041;
-  settings.link_padding_m = {0.061};
-  settings.environment_padding_m = 0.021;
-  const ObstacleImage out = filter(scene, settings);
-  EXPECT_EQ(out.fate(20, 30), PixelFate::padding);
-  EXPECT_EQ(out.fate(21, 30), PixelFate::obstacle);
-  EXPECT_EQ(out.fate(37, 30), PixelFate::padding);
-  EXPECT_EQ(out.fate(36, 30), PixelFate::obstacle);
-  settings.environment_padding_m = 0;
-  EXPECT_EQ(filter(scene, settings).fate(20, 30), PixelFate::obstacle);
 }
 
 /// A board that leans away from the camera, by 3 cm a pixel; before it a thing of one depth, whose

@@ -23,17 +23,14 @@ TEST(SelfFilterSettings, EachKeyOutsideItsDomainIsNamed) {
   using Settings = SelfFilterSettings;
   const std::pair<const char*, std::function<void(Settings&)>> cases[] = {
       {"tolerance_m: -0.1", [](Settings& s) { s.tolerance_m = -0.1; }},
-      {"tolerance_per_m: -1", [](Settings& s) { s.tolerance_per_m = -1; }},
       {"tolerance_per_m2: inf",
        [](Settings& s) { s.tolerance_per_m2 = std::numeric_limits<double>::infinity(); }},
       {"padding_m: nan",
        [](Settings& s) { s.padding_m = std::numeric_limits<double>::quiet_NaN(); }},
-      {"padding_depth_m: -0.1", [](Settings& s) { s.padding_depth_m = -0.1; }},
       {"link_padding_m: -0.5",
        [](Settings& s) {
          s.link_padding_m = {0.1, -0.5};
        }},
-      {"environment_padding_m: -0.1", [](Settings& s) { s.environment_padding_m = -0.1; }},
       {"surface_tolerance_m: -1", [](Settings& s) { s.surface_tolerance_m = -1; }},
       {"flying_patch_radius_m: -1", [](Settings& s) { s.flying_patch_radius_m = -1; }},
       {"robot_region_scale: 0.99", [](Settings& s) { s.robot_region_scale = 0.99; }},

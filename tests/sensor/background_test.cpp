@@ -123,7 +123,6 @@ TEST(Background, IsNotLearnedFromWhatTheSelfFilterDropped) {
   Image<PixelFate> fates(kSide_px, kSide_px, PixelFate::obstacle);
   fates(5, 5) = PixelFate::padding;
   fates(6, 5) = PixelFate::flying_patch;
-  fates(7, 5) = PixelFate::averaged;
   for (int i = 0; i < 2; ++i)
     place.background.learn(camera(), wall(), no_robot(), fates, place.settings);
   EXPECT_FALSE(place.is_known(5, 5));
@@ -231,7 +230,7 @@ TEST(Background, IsNotPutWhereTheRobotHidesEnvironment) {
   const auto fate_before = [&](float environment_m) {
     const DepthImage environment(kSide_px, kSide_px, environment_m);
     return completed(LearnedPlace(), wall_and_robot(robot), robot, {},
-                     {.environment_m = environment, .tolerance = {0.05F, 0, 0}})
+                     {.environment_m = environment, .tolerance = {0.05F, 0}})
         .fate(25, 25);
   };
   EXPECT_EQ(fate_before(kWall_m + 0.04F), PixelFate::robot);

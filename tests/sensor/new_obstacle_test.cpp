@@ -40,7 +40,6 @@ void add_new_thing(sim::Random& random, const RandomScene& scene, DepthImage& de
 SensorSettings random_rules(sim::Random& random) {
   SensorSettings settings;
   settings.noise_m = random(0, 0.1);
-  settings.average_frames = random.chance(0.5) ? random.whole(2, 5) : 0;
   settings.background_frames = random.whole(0, 2);
   settings.background_clearance_m = random(0, 0.2);
   return settings;
@@ -82,14 +81,13 @@ class NewObstacle {
     EXPECT_EQ(after_.count, count);
   }
 
-  /// Averages move an obstacle along its ray by up to the noise, and a distance by that.
   void expect_no_distance_larger() const {
     const std::vector<LinkDistance> before = distances(before_);
     const std::vector<LinkDistance> after = distances(after_);
     for (std::size_t i = 0; i < before.size(); ++i) {
       if (before[i].status != LinkStatus::ok) continue;
       ASSERT_EQ(after[i].status, LinkStatus::ok);
-      EXPECT_LE(after[i].distance_m, before[i].distance_m + slack_m(before[i].obstacle_pixel));
+      EXPECT_LE(after[i].distance_m, before[i].distance_m);
     }
   }
 
@@ -117,18 +115,6 @@ class NewObstacle {
     return out.links;
   }
 
-  double slack_m(Pixel p) const {
-    if (settings_.average_frames < 2) return 0;
-    const Camera& camera = scene_.camera;
-    const double x = (p.u + 1 - camera.cx_px) / camera.fx_px;
-    const double y = (p.v + 1 - camera.cy_px) / camera.fy_px;
-    const double z = before_.depth_m(p.u, p.v);
-    const double left = (p.u - 1 - camera.cx_px) / camera.fx_px;
-    const double above = (p.v - 1 - camera.cy_px) / camera.fy_px;
-    const double ray = std::sqrt(1 + std::max(x * x, left * left) + std::max(y * y, above * above));
-    return settings_.noise_m * std::max(1.0, z * z) * ray + 1e-6;
-  }
-
   sim::Random random_;
   RandomScene scene_;
   SensorSettings settings_;
@@ -151,7 +137,6 @@ TEST(NewObstacle, IsNeverHiddenAtThousandsOfPlaces) {
     for (int fate = 0; fate < kPixelFateCount; ++fate)
       scenes[fate] += thing.has(static_cast<PixelFate>(fate));
   }
-  EXPECT_GT(scenes[static_cast<int>(PixelFate::averaged)], thinned(300));
   EXPECT_GT(scenes[static_cast<int>(PixelFate::background)], thinned(300));
   EXPECT_GT(scenes[static_cast<int>(PixelFate::hole)], thinned(300));
 }
@@ -172,7 +157,6 @@ TEST(SensorRules, ChangeNothingWhereAllAreOff) {
 TEST(SensorRules, DoNotDependOnTheNumberOfThreads) {
   SensorSettings settings;
   settings.speckle_px = 6;
-  settings.average_frames = 3;
   settings.background_frames = 1;
   const auto run = [&](int threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);

@@ -39,7 +39,6 @@ constexpr Shape kFinger{0.015, 0.070};
 SensorSettings strongest_rules() {
   SensorSettings settings;
   settings.speckle_px = kMostSpeckle_px;
-  settings.average_frames = kFrames;
   settings.background_frames = 1;
   return settings;
 }
@@ -171,8 +170,8 @@ class SmallObstacles : public ::testing::TestWithParam<Shape> {
     }
     for (std::size_t i = 0; i < depth_m.pixels().size(); ++i) {
       const PixelFate fate = image.fate.pixels()[i];
-      const bool own = fate == PixelFate::obstacle || fate == PixelFate::averaged;
-      if (!own || std::isnan(thing.visible_m.pixels()[i])) image.depth_m.pixels()[i] = kNoDepth;
+      if (fate != PixelFate::obstacle || std::isnan(thing.visible_m.pixels()[i]))
+        image.depth_m.pixels()[i] = kNoDepth;
     }
     return image.depth_m;
   }

@@ -13,7 +13,6 @@ TEST(SteadyState, TheSensorRulesAllocateNothingOnceTheyHaveSeenTheImages) {
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   SensorSettings settings;
   settings.speckle_px = 8;
-  settings.average_frames = 3;
   settings.background_frames = 2;
   for (std::uint32_t seed = 0; seed < 20; ++seed) {
     const RandomScene scene = random_scene(seed);

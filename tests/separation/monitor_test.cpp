@@ -94,7 +94,7 @@ TEST_F(Monitor, EachLinkHasTheRoomThatItsFormulaSays) {
     EXPECT_GE(link.distance_m, result_.links[link.id - 1].lower_bound_m);
     least = std::min(least, link.speed_scale);
   }
-  EXPECT_EQ(separation.speed_scale, least < settings.least_scale ? 0 : least);
+  EXPECT_EQ(separation.speed_scale, least < kLeastScale ? 0 : least);
 }
 
 TEST_F(Monitor, WhatTheCamerasMayMissByTheirSettingsCounts) {

@@ -45,10 +45,10 @@ MeshWorldView draw_view(sim::Random& random, const MeshWorldSettings& settings) 
 }
 
 PixelFate draw_fate(sim::Random& random, bool hides_otherwise) {
-  constexpr PixelFate kFates[] = {PixelFate::flying_patch,   PixelFate::speckle,
-                                  PixelFate::padding,        PixelFate::averaged,
-                                  PixelFate::background,     PixelFate::hole,
-                                  PixelFate::outside_region, PixelFate::environment};
+  constexpr PixelFate kFates[] = {PixelFate::flying_patch, PixelFate::speckle,
+                                  PixelFate::padding,      PixelFate::background,
+                                  PixelFate::hole,         PixelFate::outside_region,
+                                  PixelFate::environment};
   const PixelFate fate = kFates[random.whole(0, static_cast<int>(std::size(kFates)) - 1)];
   const bool is_plain = fate != PixelFate::flying_patch && fate != PixelFate::hole;
   return is_plain || hides_otherwise ? fate : PixelFate::speckle;

@@ -72,7 +72,6 @@ std::optional<Pixel> plain_pixel(const Camera& camera, const Eigen::Vector3d& p_
 
 Image<double> plain_free_depth(const MeshWorldView& view, const SpaceSettings& settings) {
   Image<double> free_m(view.camera.width_px, view.camera.height_px, 0);
-  if (view.age_s > settings.free_space_max_age_s) return free_m;
   const DepthImage aged_m =
       sim::plainly_aged(view.camera, view.sensor_depth_m, closed_free_depth(view, settings),
                         settings.obstacle_speed_m_s * view.age_s);

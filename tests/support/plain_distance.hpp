@@ -8,7 +8,7 @@
 
 namespace berth::testing {
 
-/// E of one pixel after another (whole-robot definitions 1 and 2, and its paragraph on age).
+/// E of one pixel after another (D1, D2, D6).
 Image<double> plain_free_depth(const MeshWorldView& view, const SpaceSettings& settings);
 
 /// What a point is, asked of all views.

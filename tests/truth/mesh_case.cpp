@@ -23,7 +23,6 @@ float depth_of(Random& random, PixelFate fate, float sensed_m) {
   switch (fate) {
     case PixelFate::obstacle:
       return sensed_m;
-    case PixelFate::averaged:
       return sensed_m * static_cast<float>(random(0.9, 1));
     case PixelFate::background:
     case PixelFate::hole:
@@ -40,8 +39,8 @@ PixelFate draw_fate(Random& random, bool has_reading) {
     return kFates[random.whole(0, 2)];
   }
   constexpr std::array kFates = {
-      PixelFate::obstacle,       PixelFate::robot,   PixelFate::padding,  PixelFate::flying_patch,
-      PixelFate::outside_region, PixelFate::speckle, PixelFate::averaged, PixelFate::background};
+      PixelFate::obstacle,       PixelFate::robot,   PixelFate::padding,   PixelFate::flying_patch,
+      PixelFate::outside_region, PixelFate::speckle, PixelFate::background};
   return kFates[random.whole(0, static_cast<int>(kFates.size()) - 1)];
 }
 

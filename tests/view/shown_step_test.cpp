@@ -59,13 +59,6 @@ void expect_same(const OpenScene& scene, std::size_t every) {
 
 TEST(ShownStep, IsWhatRunSays) { expect_same(bundled("scene.yaml"), 7); }
 
-TEST(ShownStep, TakesMeansOverTheImagesBefore) {
-  expect_same(
-      bundled("one_camera.yaml",
-              [](SceneFile& scene) { scene.cameras[0].settings.sensor.average_frames = 4; }),
-      5);
-}
-
 TEST(ShownStep, GoesBackAsForth) {
   const OpenScene scene = bundled("one_camera.yaml");
   SceneRun steps(scene, SceneRun::SingleSteps{});

@@ -45,7 +45,7 @@ struct DrawnView {
   }
 
   SeeingCamera seeing() const {
-    return {{camera, robot, obstacles, Tolerance{0.02F, 0.005F, 0.002F}}, sensor_depth, X_CB};
+    return {{camera, robot, obstacles, Tolerance{0.02F, 0.004F}}, sensor_depth, X_CB};
   }
 };
 

@@ -248,7 +248,7 @@ TEST(PoseWatch, RefusesBadSettings) {
   expect_parts(error_message<std::invalid_argument>([] { PoseWatch watch(kByDisplacement); }),
                {"watch.max_displacement_m: 0.015", "expected 0"});
   expect_parts(error_message<std::invalid_argument>([] { PoseWatch watch({.frames = 0}); }),
-               {"watch.frames: 0"});
+               {"more than half of watch.frames, 0"});
 }
 
 }  // namespace

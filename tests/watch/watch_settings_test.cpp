@@ -33,8 +33,6 @@ TEST(WatchSettings, EachKeyOutsideItsDomainIsNamed) {
       {"watch.max_seen_through: 1.1", [](Settings& s) { s.max_seen_through = 1.1; }},
       {"watch.max_displacement_m: nan", [](Settings& s) { s.max_displacement_m = kNotTold; }},
       {"watch.agreeing_frames: 0", [](Settings& s) { s.agreeing_frames = 0; }},
-      {"watch.frames: 1001", [](Settings& s) { s.frames = 1001; }},
-      {"watch.check_every_s: -1", [](Settings& s) { s.check_every_s = -1; }},
       {"more than half of watch.frames, 15, and no more than all",
        [](Settings& s) { s.agreeing_frames = 7; }},
       {"watch.agreeing_frames: 16", [](Settings& s) { s.agreeing_frames = 16; }},

@@ -52,7 +52,7 @@ class GlLinkAnswers {
 
   /// Sums the mean directions if the settings ask for them, waits for the GPU, and writes the
   /// links; distances and points are computed here from the pixels that the GPU found, by the
-  /// metric of distance/. `certifies`: whether no pair can be closer than those.
+  /// metric of the thesis. `certifies`: whether no pair can be closer than those.
   void finish(const GlTexture& obstacle_depth_m, const ImageDistanceSettings& settings,
               bool certifies, LinkDistances& out);
 

@@ -8,7 +8,7 @@ namespace berth {
 
 /// `tolerance` of tolerance.glsl.
 inline Eigen::Vector4f gl_tolerance(const Tolerance& tolerance) {
-  return {tolerance.constant_m, tolerance.per_m, tolerance.per_m2, 0};
+  return {tolerance.constant_m, 0, tolerance.per_m2, 0};
 }
 
 }  // namespace berth

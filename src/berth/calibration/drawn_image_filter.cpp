@@ -8,7 +8,6 @@ const ObstacleImage& DrawnImageFilter::run(const FilteredCamera& camera, DepthVi
   self_filter(*camera.camera, depth_m, *camera.robot, settings, workspace_, out_);
   if (camera.soft) drop_soft(*camera.camera, *camera.soft, out_);
   SensorSettings sensor = *camera.sensor;
-  sensor.average_frames = 0;
   sensor.background_frames = 0;
   apply_sensor_rules(*camera.camera, depth_m, *camera.robot, {}, sensor, sensor_workspace_, out_);
   drop_phantoms(*camera.camera, depth_m, sensor.phantom_radius_m, phantoms_, out_);

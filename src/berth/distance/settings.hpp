@@ -13,7 +13,7 @@ inline constexpr Domain kRange{.is_open = true, .most = 50};
 
 /// What is asked of every way to find distances.
 struct DistanceSettings {
-  /// L: a distance above it is no answer. For images the half side of the region of surveillance
+  /// L: a distance above it is no answer. For images half the side of the region of surveillance
   /// (Hirt 2.2.3).
   double range_m = 1.0;
   /// Whether to give the mean direction of what is near (Hirt 2.2.5).

@@ -32,8 +32,7 @@ class LiveSpace {
   LiveSpace(const LiveSpace&) = delete;
   LiveSpace& operator=(const LiveSpace&) = delete;
 
-  /// Camera k's newest frame, observed for any query. From any thread, such as in
-  /// LiveCamera::OnFrame; returns at once. Throws std::invalid_argument for a frame of ImageQuery.
+  /// Camera k's newest frame. From any thread, such as in LiveCamera::OnFrame; returns at once.
   void put(std::size_t camera, std::shared_ptr<const Frame> frame);
 
   /// For Request::frames. Never null: before the first one no camera has a frame. Constant, and

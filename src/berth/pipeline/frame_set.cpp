@@ -26,7 +26,7 @@ CameraState camera_state(const Exposure& exposure, double now_s, const TimeSetti
   } else if (exposure.watch.has_moved) {
     state.status = CameraStatus::moved;
     state.time = TimeStatus::camera_moved;
-  } else if (state.age_s < -settings.max_clock_offset_s) {
+  } else if (state.age_s < -kMostClockOffset_s) {
     state.status = CameraStatus::stale;
     state.time = TimeStatus::frame_in_future;
   } else if (!(state.age_s <= settings.max_frame_age_s)) {

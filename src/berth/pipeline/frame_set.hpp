@@ -12,13 +12,13 @@
 
 namespace berth {
 
-/// The newest frame of each camera, as requests with method `mesh` see them: which of them are
+/// The newest frame of each camera, as requests see them: which of them are
 /// used, and the space that they leave. Assigned at the cameras' clock; then any number of askers
 /// may ask it, and what one of them finds out about unknown space is kept for all.
 class FrameSet {
  public:
   /// Camera k's newest frame, or null where it has none yet. Each belongs to another MountedCamera
-  /// of one robot, whose method is `mesh`, and has to outlive the requests. A frame that is stale,
+  /// of one robot, and has to outlive the requests. A frame that is stale,
   /// of a camera that moved or is implausible, or too old at `now_s`, is left out: its readings are
   /// not known any more, and what it would have seen free is hidden again. Without now_s the newest
   /// stamp is taken for now. X_WB is where the robot's root stands in the requests; none: where it

@@ -30,7 +30,7 @@ std::vector<double> padding_by_id(const RobotModel& model,
     if (!index || model.links[*index].role != LinkRole::evaluated) {
       throw std::invalid_argument(
           fmt::format("self_filter.link_padding_m: \"{}\" is no evaluated link of robot \"{}\"; "
-                      "expected one of {}; environment has environment_padding_m",
+                      "expected one of {}",
                       name, model.name, fmt::join(model.evaluated_link_names(), ", ")));
     }
     if (!(padding_m >= 0)) {

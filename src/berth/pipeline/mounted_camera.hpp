@@ -29,7 +29,6 @@ struct CameraSettings {
   /// Padding of single links by name, instead of self_filter.padding_m.
   std::map<std::string, double> link_padding_m;
   SensorSettings sensor;
-  /// For method `mesh`.
   SpaceSettings space;
   /// Whether the camera stands where it should. It only tells, since images that a program makes up
   /// need not show the robot; settings_of_real_camera() refuses.

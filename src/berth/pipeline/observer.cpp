@@ -140,7 +140,7 @@ void Observer::Parts::filter(DepthView depth_m, Frame& frame) {
 void Observer::observe(DepthView depth_m, double stamp_s, const JointBuffer& joints, Frame& frame,
                        double clock_offset_s, const std::optional<PlaceAtExposure>& place) {
   const TimeSettings& settings = parts_->view->robot()->settings().time;
-  const TimeStatus stamp = parts_->clock.next(stamp_s, settings);
+  const TimeStatus stamp = parts_->clock.next(stamp_s);
   FrameTime time = joints.at(stamp_s + clock_offset_s, settings.joints, parts_->at_exposure);
   parts_->at_exposure.stamp_s = stamp_s;
   if (stamp != TimeStatus::ok) {

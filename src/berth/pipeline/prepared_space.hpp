@@ -26,8 +26,8 @@ class PreparedSpace {
 
   /// Camera k's newest frame, or null, as for Query::ask; the newest of their stamps is taken for
   /// now. The first search is for the robot at `joints`; null: where it was at the newest exposure.
-  /// Nobody may ask meanwhile. Reuses its memory. Throws std::invalid_argument for a frame that was
-  /// observed for ImageQuery alone, and for wrong joints.
+  /// Nobody may ask meanwhile. Reuses its memory. Throws std::invalid_argument for wrong
+  /// joints.
   void prepare(std::span<const std::shared_ptr<const Frame>> frames, const JointState* joints);
 
   /// Searches on, for the robot at `joints` now: so that the next request has little left to do.

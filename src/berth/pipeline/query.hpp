@@ -28,8 +28,8 @@ class Query {
   Query& operator=(const Query&) = delete;
 
   /// Each frame belongs to another camera of one robot. Valid until the next request. Throws
-  /// std::invalid_argument for wrong joints, for a JointBuffer without a time, for a frame that was
-  /// observed for ImageQuery alone, and for a limit of the look-ahead that is no length.
+  /// std::invalid_argument for wrong joints, for a JointBuffer without a time, and for a limit of
+  /// the look-ahead that is no length.
   const Result& ask(const Request& request);
 
   /// A request begins with what is known of the one before. After this nothing is known: for who

@@ -32,8 +32,7 @@ class SpaceMap {
   SpaceMap& operator=(const SpaceMap&) = delete;
 
   /// Valid until the next update. A frame that a Query would leave out is left out. Throws
-  /// std::invalid_argument for a bad box or edge (lay_voxels), and for a frame that was observed
-  /// for ImageQuery alone.
+  /// std::invalid_argument for a bad box or edge (lay_voxels).
   const VoxelGrid& update(const SpaceMapRequest& request, const TimeSettings& settings);
 
   /// How each camera of the last request stands.

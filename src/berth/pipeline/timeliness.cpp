@@ -7,13 +7,13 @@ namespace berth {
 
 void validate(const TimeSettings& settings) { visit_settings(settings, SettingCheck{"time"}); }
 
-TimeStatus FrameClock::next(double stamp_s, const TimeSettings& settings) {
+TimeStatus FrameClock::next(double stamp_s) {
   // A stamp that is no time tells nothing of the next one.
   if (!std::isfinite(stamp_s)) return TimeStatus::stamp_jumped;
   const std::optional<double> last_s = std::exchange(last_s_, stamp_s);
   if (!last_s) return TimeStatus::ok;
   if (stamp_s <= *last_s) return TimeStatus::stamp_went_back;
-  return stamp_s - *last_s <= settings.max_frame_gap_s ? TimeStatus::ok : TimeStatus::stamp_jumped;
+  return stamp_s - *last_s <= kMostFrameGap_s ? TimeStatus::ok : TimeStatus::stamp_jumped;
 }
 
 Timeliness timeliness_of(const Exposure& frame, std::optional<double> now_s,
@@ -32,7 +32,7 @@ Timeliness timeliness_of(const Exposure& frame, std::optional<double> now_s,
   if (!now_s) return time;
   time.frame_age_s = time.joints_age_s = *now_s - frame.stamp_s;
   if (time.status != TimeStatus::ok) return time;
-  if (time.frame_age_s < -settings.max_clock_offset_s) {
+  if (time.frame_age_s < -kMostClockOffset_s) {
     time.status = TimeStatus::frame_in_future;
   } else if (!(time.frame_age_s <= settings.max_frame_age_s)) {
     // So is an age that is NaN.

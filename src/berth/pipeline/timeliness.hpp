@@ -8,6 +8,11 @@
 
 namespace berth {
 
+/// From one frame's stamp to the next. If they are farther apart, one of the two may be wrong.
+inline constexpr double kMostFrameGap_s = 1;
+/// How far a frame's stamp may lie after the request, where the camera's clock goes ahead.
+inline constexpr double kMostClockOffset_s = 0.005;
+
 /// How old is too old. A result that is not in time has no distance (LinkStatus::stale): a
 /// controller that forgets to look at ages must not take an old free space for a new one. To judge
 /// an age yourself, set its limit to infinity and read Result::time.
@@ -19,10 +24,6 @@ struct TimeSettings {
   /// From the joints' stamp to the request. Joints ahead of it, where the robot is about to go,
   /// have a negative age and are within any limit.
   double max_joints_age_s = 0.02;
-  /// From one frame's stamp to the next. If they are farther apart, one of the two may be wrong.
-  double max_frame_gap_s = 1;
-  /// How far a frame's stamp may lie after the request, where the camera's clock goes ahead.
-  double max_clock_offset_s = 0.005;
 
   bool operator==(const TimeSettings&) const = default;
 };
@@ -36,11 +37,6 @@ void visit_settings(Settings& s, Visitor&& visit) {
         s.max_frame_age_s);
   visit({"max_joints_age_s", kSeconds, "how old joints may be when they are asked about"},
         s.max_joints_age_s);
-  visit({"max_frame_gap_s", kSeconds, "how far an image's stamp may lie above the one before"},
-        s.max_frame_gap_s);
-  visit({"max_clock_offset_s", kSeconds,
-         "how far an image's stamp may lie after the time of the request"},
-        s.max_clock_offset_s);
 }
 
 /// Throws std::invalid_argument with name, value and what was expected: a limit that is negative or
@@ -52,7 +48,7 @@ void validate(const TimeSettings& settings);
 class FrameClock {
  public:
   /// ok, stamp_went_back (an image that comes a second time, too) or stamp_jumped.
-  TimeStatus next(double stamp_s, const TimeSettings& settings);
+  TimeStatus next(double stamp_s);
 
  private:
   std::optional<double> last_s_;

@@ -11,7 +11,6 @@
 
 #include "berth/pipeline/frame_pool.hpp"
 #include "berth/pipeline/prepared_space.hpp"
-#include "berth/record/kept_images.hpp"
 #include "berth/record/tape.hpp"
 
 namespace berth {
@@ -46,6 +45,39 @@ void copy(DepthView from, DepthImage& to) {
 
 }  // namespace
 
+using KeptImage = std::shared_ptr<const RecordedImage>;
+
+/// Images that nobody asks are kept up to so many of each camera.
+constexpr std::size_t kMostKept = 64;
+
+/// The images of one camera that a request may still be about.
+class KeptImages {
+ public:
+  void put(KeptImage image) {
+    images_.push_back(std::move(image));
+    if (images_.size() > kMostKept) images_.erase(images_.begin());
+  }
+  /// What comes does not go on from these.
+  void lose() { images_.clear(); }
+  bool holds(std::uint64_t number) const {
+    return std::ranges::any_of(images_, [=](const KeptImage& image) { return is(image, number); });
+  }
+  /// Nothing before this frame will be asked any more.
+  void drop_before(std::uint64_t number) {
+    images_.erase(images_.begin(), std::ranges::find_if(images_, [=](const KeptImage& image) {
+                    return is(image, number);
+                  }));
+  }
+  const std::vector<KeptImage>& images() const { return images_; }
+
+ private:
+  static bool is(const KeptImage& image, std::uint64_t number) {
+    return image->exposure.number == number;
+  }
+
+  std::vector<KeptImage> images_;
+};
+
 struct Recorder::Parts {
   Parts(RecordedCell of, RecorderSettings with);
 
@@ -66,7 +98,7 @@ struct Recorder::Parts {
   void close();
   void pass(const Request& request);
   void lose_request();
-  bool are_kept(const Request& request, bool whole);
+  bool are_kept(const Request& request);
 
   RecordedCell cell;
   RecorderSettings settings;
@@ -102,9 +134,8 @@ Recorder::Parts::Parts(RecordedCell of, RecorderSettings with)
     : cell(std::move(of)),
       settings(std::move(with)),
       tape(cell, settings),
-      backgrounds(cell.views.size()) {
-  for (const auto& view : cell.views) kept.emplace_back(*view);
-}
+      kept(cell.views.size()),
+      backgrounds(cell.views.size()) {}
 
 std::size_t Recorder::Parts::camera_of(const MountedCamera* view) const {
   for (std::size_t k = 0; k < cell.views.size(); ++k) {
@@ -128,14 +159,13 @@ void Recorder::Parts::put(KeptImage image) {
   }
   ++lost_images;
   is_broken = true;
-  if (!image->is_background) kept[k].lose_one();
+  if (!image->is_background) kept[k].lose();
 }
 
-bool Recorder::Parts::are_kept(const Request& request, bool whole) {
+bool Recorder::Parts::are_kept(const Request& request) {
   return std::ranges::all_of(request.frames.get(), [&](const Frame* frame) {
     if (!frame || !frame->view) return true;
-    const KeptImages& of_camera = kept[camera_of(frame->view.get())];
-    return whole ? of_camera.is_whole(frame->number) : of_camera.holds(frame->number);
+    return kept[camera_of(frame->view.get())].holds(frame->number);
   });
 }
 
@@ -151,10 +181,9 @@ void Recorder::Parts::pass(const Request& request) {
 
 bool Recorder::Parts::begins_with(const Query& query, const Request& request) {
   const std::lock_guard lock(mutex);
-  const bool is_due = is_broken || asked != &query ||
-                      elapsed_s - segment_s >= settings.seconds / kSegments ||
-                      !are_kept(request, false);
-  return is_due && tape.has_room() && are_kept(request, true);
+  const bool is_due =
+      is_broken || asked != &query || elapsed_s - segment_s >= settings.seconds / kSegments;
+  return is_due && tape.has_room() && are_kept(request);
 }
 
 void Recorder::Parts::lose_request() {
@@ -165,7 +194,7 @@ void Recorder::Parts::lose_request() {
 bool Recorder::Parts::open(const Query& query, const Request& request, bool begins) {
   const std::lock_guard lock(mutex);
   // Much may have come since the request began.
-  if (!are_kept(request, begins) || (is_broken && !begins)) {
+  if (!are_kept(request) || (is_broken && !begins)) {
     ++number;
     // About frames of before the recorder: then it has not begun, and nothing is lost.
     if (asked || lost_images > 0) lose_request();

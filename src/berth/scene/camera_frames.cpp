@@ -1,7 +1,5 @@
 #include "berth/scene/camera_frames.hpp"
 
-#include <algorithm>
-
 #include "berth/scene/learn_background.hpp"
 
 namespace berth {
@@ -37,15 +35,6 @@ void CameraFrames::observe(std::size_t image) {
   if (!is_told_) observer_.finish_watch(*frame_);
   own_watch_ = frame_->watch;
   put_watch();
-}
-
-void CameraFrames::observe_alone(std::size_t image) {
-  if (number_ == image) return;
-  const SensorSettings& sensor = camera_->view->settings().sensor;
-  const auto memory = static_cast<std::size_t>(std::max(1, sensor.average_frames));
-  const bool goes_on = number_ && *number_ + 1 == image;
-  std::size_t first = goes_on ? image : image + 1 - std::min(memory, image + 1);
-  for (; first <= image; ++first) observe(first);
 }
 
 void CameraFrames::tell_watch(const CameraWatch* found) {

@@ -26,8 +26,6 @@ class CameraFrames {
   std::optional<DepthImage> background_m() const;
 
   void observe(std::size_t image);
-  /// As if all images before it had been observed.
-  void observe_alone(std::size_t image);
   /// Has no image from then on.
   void forget() { number_.reset(); }
   /// Tells in the last frame and those after it what somebody else found out of whether the camera

@@ -15,9 +15,10 @@ struct Ended {
   std::string_view instead = {};
 };
 
+constexpr std::string_view kConstant = "it is a constant now, as nobody could choose it";
 constexpr std::string_view kOfImages = "berth evaluate compares images, and has it as an option";
 
-constexpr std::array<Ended, 19> kEnded = {{
+constexpr std::array<Ended, 34> kEnded = {{
     {"evaluation", "method", "berth evaluate SCENE.yaml --method compares images"},
     {"evaluation", "region", kOfImages},
     {"evaluation", "depth_interval", kOfImages},
@@ -28,6 +29,21 @@ constexpr std::array<Ended, 19> kEnded = {{
     {"evaluation", "initial_grid_radius_px", kOfImages},
     {"evaluation", "final_grid_radius_px", kOfImages},
     {"evaluation", "tile_px", kOfImages},
+    {"self_filter", "tolerance_per_m", "use tolerance_m and tolerance_per_m2"},
+    {"self_filter", "environment_padding_m", "environment has padding_m"},
+    {"self_filter", "padding_depth_m", kConstant},
+    {"sensor", "average_frames", "on recordings no distance came nearer to the truth"},
+    {"sensor", "background_clearance_m", kConstant},
+    {"space", "surface_thickness_m", kConstant},
+    {"space", "free_space_margin_m", kConstant},
+    {"space", "behind_robot_m", kConstant},
+    {"space", "free_space_max_age_s", kConstant},
+    {"watch", "agreeing_frames", kConstant},
+    {"watch", "frames", kConstant},
+    {"watch", "check_every_s", kConstant},
+    {"time", "max_frame_gap_s", kConstant},
+    {"time", "max_clock_offset_s", kConstant},
+    {"separation", "least_scale", kConstant},
     {"separation", "directed_speed"},
     {"separation", "hold_s"},
     {"separation", "release_m"},
@@ -39,8 +55,8 @@ constexpr std::array<Ended, 19> kEnded = {{
     {"sensor", "holes"},
 }};
 
-constexpr std::array<std::string_view, 5> kGroups = {"space", "self_filter", "sensor", "evaluation",
-                                                     "separation"};
+constexpr std::array<std::string_view, 7> kGroups = {
+    "space", "self_filter", "sensor", "evaluation", "separation", "watch", "time"};
 
 void tell_group(std::string_view name, const YamlValue& group, std::vector<std::string>& told) {
   if (!group.is_map()) return;

@@ -154,8 +154,12 @@ void read_view_settings(const YamlMap& map, CameraSettings& settings) {
   if (const auto sensor = map.find("sensor")) {
     require_no_hole_policy(read_settings(*sensor, settings.sensor, with_ended("sensor")));
   }
-  if (const auto space = map.find("space")) read_settings(*space, settings.space);
-  if (const auto watch = map.find("watch")) read_settings(*watch, settings.watch);
+  if (const auto space = map.find("space")) {
+    read_settings(*space, settings.space, with_ended("space"));
+  }
+  if (const auto watch = map.find("watch")) {
+    read_settings(*watch, settings.watch, with_ended("watch"));
+  }
 }
 
 SceneFile read_scene(const std::filesystem::path& file) {
@@ -182,7 +186,9 @@ SceneFile parse_scene(const std::filesystem::path& file, const std::string& text
   if (const auto evaluation = map.find("evaluation")) {
     read_settings(*evaluation, scene.evaluation, with_ended("evaluation"));
   }
-  if (const auto time = map.find("time")) read_settings(*time, scene.evaluation.time);
+  if (const auto time = map.find("time")) {
+    read_settings(*time, scene.evaluation.time, with_ended("time"));
+  }
   if (const auto separation = map.find("separation")) {
     scene.separation = read_separation(*separation);
     warn_of_what_is_not_shown(scene, separation->place().line);

@@ -108,7 +108,7 @@ void SceneRun::go_to(std::size_t step, const Result* found) {
     const ImageStep& at = steps_[i];
     if (has_image[at.camera]) continue;
     has_image[at.camera] = true;
-    cameras_[at.camera].observe_alone(at.frame);
+    if (cameras_[at.camera].number() != at.frame) cameras_[at.camera].observe(at.frame);
   }
   for (std::size_t c = 0; c < cameras_.size(); ++c) {
     if (!has_image[c]) cameras_[c].forget();

@@ -51,7 +51,7 @@ class SceneRun {
   bool next();
 
   /// Observes what is known at this step, whatever was observed before: the newest image of each
-  /// camera, and those before it that its means are taken over. What needs all images before is
+  /// camera. What needs all images before is
   /// what `found` says of the cameras' watch, which is a run's result of this step; without it
   /// every camera is taken to stand where it should. After this a run goes on by go_to() alone.
   void go_to(std::size_t step, const Result* found = nullptr);

@@ -1,12 +1,64 @@
 #include "berth/self_filter/flying_patches.hpp"
 
+#include <algorithm>
 #include <span>
+#include <vector>
 
+#include "berth/self_filter/beside_robot.hpp"
 #include "berth/self_filter/joined.hpp"
-#include "berth/self_filter/seam.hpp"
+#include "berth/self_filter/tolerance.hpp"
+#include "berth/types/obstacle_image.hpp"
+#include "berth/types/robot_image.hpp"
 
 namespace berth {
 namespace {
+
+PixelRect with_border(const PixelRect& rect, const Image<PixelFate>& fate) {
+  const PixelRect inside = clip(rect, fate.width(), fate.height());
+  return clip({inside.u_begin - 1, inside.v_begin - 1, inside.u_end + 1, inside.v_end + 1},
+              fate.width(), fate.height());
+}
+
+/// Appends the obstacles that the robot's own readings lead to, and the pixels between. Own are the
+/// readings on the model's surface: fate `robot`, and not behind it by more than the tolerance.
+/// They lead to a pixel beside it by steps to neighbours (8) that are joined (joined.hpp), from
+/// pixel to pixel of what was dropped there as `padding`. What stands behind the
+/// robot, or before it, is a step away from its readings. `is_found` is 0 everywhere, before and
+/// after.
+void append_seam(DepthView sensor_depth_m, const RobotImage& robot, const Tolerance& tolerance,
+                 const Image<PixelFate>& fate, Image<std::uint8_t>& is_found,
+                 std::vector<Pixel>& seam) {
+  const auto shows_robot = [&](Pixel q) { return fate(q.u, q.v) == PixelFate::robot; };
+  const auto is_on_model = [&](Pixel q) {
+    return sensor_depth_m(q.u, q.v) <= tolerance.greatest_reading_m(robot.depth_m(q.u, q.v));
+  };
+  const auto may_be_next = [&](Pixel q) {
+    const PixelFate f = fate(q.u, q.v);
+    return is_found(q.u, q.v) == 0 && (f == PixelFate::padding || f == PixelFate::obstacle);
+  };
+  const auto append = [&](Pixel q) {
+    is_found(q.u, q.v) = 1;
+    seam.push_back(q);
+    return false;
+  };
+
+  append_beside_robot(fate, with_border(robot.extent, fate), seam);
+  const auto hangs = [&](Pixel p) {
+    return any_joined(sensor_depth_m, p, shows_robot, is_on_model);
+  };
+  seam.erase(std::remove_if(seam.begin(), seam.end(),
+                            [&](Pixel p) {
+                              if (is_found(p.u, p.v) != 0 || !hangs(p)) return true;
+                              is_found(p.u, p.v) = 1;
+                              return false;
+                            }),
+             seam.end());
+  for (std::size_t i = 0; i < seam.size(); ++i) {
+    const Pixel p = seam[i];
+    if (fate(p.u, p.v) == PixelFate::padding) any_joined(sensor_depth_m, p, may_be_next, append);
+  }
+  for (const Pixel& p : seam) is_found(p.u, p.v) = 0;
+}
 
 /// The middle of plateaus (docs/self-filter-defaults.md): shares from 0.15 to 0.35, holes from 3 to
 /// 5 mm.
@@ -183,6 +235,35 @@ void judge_flying_patches(const Camera& camera, DepthView sensor_depth_m, const 
   for (const Pixel& p : workspace.seam) {
     if (out.fate(p.u, p.v) == PixelFate::obstacle && !walk.has_seen(p)) walk.from(p);
   }
+}
+
+void Neighbourhood::begin(const Camera& camera, const RobotImage& robot,
+                          const SelfFilterSettings& settings, const Outline& outline) {
+  grown_.begin(camera, robot, settings, outline, PixelFate::flying_patch);
+  outline_ = &outline;
+  grid_ = tiles_of(camera);
+  has_discs_ = false;
+  is_found_.assign(grid_.count(), 0);
+  near_.resize(grid_.count());
+}
+
+bool Neighbourhood::holds(Pixel p, DepthView sensor_depth_m, const Image<PixelFate>& fate) {
+  if (!has_discs_) make_discs();
+  const int column = p.u / kTileWidth_px;
+  const int row = p.v / kTileHeight_px;
+  const std::size_t tile = grid_.index(column, row);
+  if (is_found_[tile] == 0) {
+    near_[tile] = grown_.covered(column, row, sensor_depth_m, fate);
+    is_found_[tile] = 1;
+  }
+  return (near_[tile][p.v % kTileHeight_px] >> (p.u % kTileWidth_px) & 1) != 0;
+}
+
+void Neighbourhood::make_discs() {
+  for (int row = outline_->tiles().v_begin; row < outline_->tiles().v_end; ++row)
+    grown_.make_discs(row);
+  grown_.end_discs();
+  has_discs_ = true;
 }
 
 }  // namespace berth

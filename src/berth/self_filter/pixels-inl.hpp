@@ -75,8 +75,7 @@ HWY_INLINE hn::Mask<D> is_environment(D d, const LinkId* link_id) {
 /// Whether readings belong to a surface of depth z, or lie behind it; false where one is NaN.
 template <class D>
 HWY_INLINE hn::Mask<D> belongs_to(D d, hn::Vec<D> reading, hn::Vec<D> z, const Tolerance& t) {
-  const auto noise =
-      hn::Add(hn::Mul(hn::Set(d, t.per_m), z), hn::Mul(hn::Mul(hn::Set(d, t.per_m2), z), z));
+  const auto noise = hn::Mul(hn::Mul(hn::Set(d, t.per_m2), z), z);
   return hn::Ge(reading, hn::Sub(z, hn::Add(hn::Set(d, t.constant_m), noise)));
 }
 

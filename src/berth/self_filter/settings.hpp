@@ -14,22 +14,19 @@ namespace berth {
 /// real recordings of two robots and two kinds of camera.
 struct SelfFilterSettings {
   /// A reading belongs to the robot unless it is nearer than the model by more than
-  /// tolerance_m + tolerance_per_m z + tolerance_per_m2 z^2 (z = the model's depth): calibration,
-  /// then noise.
+  /// tolerance_m + tolerance_per_m2 z^2 (z = the model's depth): calibration, then noise.
   double tolerance_m = 0.05;
-  double tolerance_per_m = 0;
   double tolerance_per_m2 = 0;
   /// The silhouette grows by this length at the robot's depth, on all sides in the image.
   double padding_m = 0.02;
   /// Padding of single links: link_padding_m[i] is that of the link with the id i + 1; where the
-  /// list ends or holds NaN, padding_m.
+  /// list ends or holds NaN, padding_m. Environment pads around its outline only, and has no flying
+  /// patches: a thing that stands on a table stays.
   std::vector<double> link_padding_m;
-  /// Padding of all environment (environment links); none: padding_m. Environment pads around its
-  /// outline only, and has no flying patches: a thing that stands on a table stays.
-  std::optional<double> environment_padding_m;
   /// Padding takes what lies behind the robot's outline by no more than this: a camera that smooths
   /// draws flying pixels from the arm to what is behind it. Farther behind it takes only what is on
-  /// no surface (discs.hpp), as mixed pixels are: a thing that is seen there is one.
+  /// no surface (discs.hpp), as mixed pixels are: a thing that is seen there is one. No setting:
+  /// nobody can choose it.
   double padding_depth_m = 0.3;
   /// t: what stands off the robot's or environment's surface in space by more than this, times
   /// surface_growth(z), is a thing that lies on it (surface_things.hpp); none: what the image's own
@@ -47,7 +44,7 @@ struct SelfFilterSettings {
   double robot_region_scale = 0;
 
   double padding_of(LinkId id) const {
-    if (id == kEnvironmentLink) return environment_padding_m.value_or(padding_m);
+    if (id == kEnvironmentLink) return padding_m;
     const std::size_t i = static_cast<std::size_t>(id) - 1;
     return i < link_padding_m.size() && !std::isnan(link_padding_m[i]) ? link_padding_m[i]
                                                                        : padding_m;
@@ -59,21 +56,13 @@ template <SettingsOf<SelfFilterSettings> Settings, class Visitor>
 void visit_settings(Settings& s, Visitor&& visit) {
   visit({"tolerance_m", kNotNegative,
          "a reading is the robot's unless it is nearer than the model by more than tolerance_m + "
-         "tolerance_per_m z + tolerance_per_m2 z²"},
+         "tolerance_per_m2 z²"},
         s.tolerance_m);
-  visit({"tolerance_per_m", kNotNegative, "part of the tolerance that grows with the depth z"},
-        s.tolerance_per_m);
   visit({"tolerance_per_m2", kNotNegative, "part of the tolerance that grows with z²"},
         s.tolerance_per_m2);
   visit({"padding_m", kNotNegative,
          "a reading beside the robot within this length is taken for the robot too"},
         s.padding_m);
-  visit({"environment_padding_m", kNotNegative,
-         "the same beside environment (environment_links); none: as padding_m"},
-        s.environment_padding_m);
-  visit({"padding_depth_m", kNotNegative,
-         "padding takes nothing farther behind the robot than this, but mixed pixels"},
-        s.padding_depth_m);
   visit({"surface_tolerance_m", kNotNegative,
          "what stands off a surface by more than this (at 1 m) in space lies on it, and is an "
          "obstacle; none: 0.01 to 0.025, as the camera's own readings scatter; 0 is off"},

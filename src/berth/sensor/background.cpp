@@ -2,17 +2,18 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
-
-#include "berth/sensor/noise.hpp"
 
 namespace berth {
 namespace {
 
+/// What `at_1m_m` is at depth z: a depth camera's steps and noise grow with z^2, and not below 1 m.
+float grown_with_depth(float at_1m_m, float z_m) { return at_1m_m * std::max(1.0F, z_m * z_m); }
+
 /// Whether the camera read the empty cell there, and not the robot or what the filter drops.
 bool shows_cell(PixelFate fate) {
-  return fate == PixelFate::obstacle || fate == PixelFate::averaged ||
-         fate == PixelFate::environment;
+  return fate == PixelFate::obstacle || fate == PixelFate::environment;
 }
 
 bool is_environment(const KnownPlace& place, int u, int v, float depth_m) {

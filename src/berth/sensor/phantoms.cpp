@@ -172,7 +172,7 @@ void drop_phantoms(const Camera& camera, DepthView sensor_depth_m, double phanto
   find_doubtful(out.depth_m, d_m, lonely);
   std::erase_if(lonely, [&](const Pixel& p) {
     const PixelFate fate = out.fate(p.u, p.v);
-    if (fate != PixelFate::obstacle && fate != PixelFate::averaged) return true;
+    if (fate != PixelFate::obstacle) return true;
     const float z_m = out.depth_m(p.u, p.v);
     const int wanted = support_of_phantom_rule(camera, phantom_radius_m, z_m);
     const int reach_px =

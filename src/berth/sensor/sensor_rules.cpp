@@ -25,7 +25,6 @@ void apply_sensor_rules(const Camera& camera, DepthView sensor_depth_m, const Ro
   if (settings.first_rule().empty() && !place.always_reads) return;
   const bool has_background = settings.has_background() && place.background;
   if (settings.drops_speckle()) drop_speckle(settings, workspace.speckle, out);
-  if (settings.averages()) average_readings(settings, workspace.history, out);
   if (has_background) place.background->complete(sensor_depth_m, place, settings, out);
   if (has_background || place.always_reads) {
     find_holes(camera, sensor_depth_m, robot, place, settings, workspace.holes, out);

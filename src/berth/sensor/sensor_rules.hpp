@@ -1,6 +1,5 @@
 #pragma once
 
-#include "berth/sensor/average.hpp"
 #include "berth/sensor/background.hpp"
 #include "berth/sensor/holes.hpp"
 #include "berth/sensor/settings.hpp"
@@ -8,15 +7,14 @@
 
 namespace berth {
 
-/// Scratch of apply_sensor_rules, and what it remembers of earlier frames; one for each camera.
+/// Scratch of apply_sensor_rules; one for each camera.
 struct SensorWorkspace {
   SpeckleWorkspace speckle;
-  ReadingHistory history;
   HolesWorkspace holes;
 };
 
 /// Applies the rules for what sensors do wrong to the self filter's result `out`, in this order:
-/// speckle is dropped, readings are averaged towards the camera, the background is put where F has
+/// speckle is dropped, the background is put where F has
 /// no depth, holes are found. Depth, fates and counts of `out` tell what became of each pixel. All
 /// images have the camera's size. The result does not depend on the number of threads.
 void apply_sensor_rules(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,

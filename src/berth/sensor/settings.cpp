@@ -3,7 +3,6 @@
 namespace berth {
 std::string_view SensorSettings::first_rule() const {
   if (drops_speckle()) return "speckle_px";
-  if (averages()) return "average_frames";
   if (has_background()) return "background_frames";
   return {};
 }

@@ -7,8 +7,7 @@
 namespace berth {
 
 /// What is known of the sensor's faults. Every rule but `phantom_radius_m` is off by default. Only
-/// that and `speckle_px` ever drop anything; the other rules add obstacles or move them towards the
-/// camera.
+/// that and `speckle_px` ever drop anything; the background adds obstacles.
 struct SensorSettings {
   /// Two readings of one surface at z m differ by no more than noise_m max(1, z^2).
   double noise_m = 0.02;
@@ -18,28 +17,22 @@ struct SensorSettings {
   /// px is 1.3 cm^2, 60 is 3.8 cm^2; a fingertip of 15 x 70 mm has 10 cm^2.
   int speckle_px = 0;
   /// d: a reading that is alone in space, with fewer than a quarter of the readings within d that a
-  /// ball of this diameter would show, at most 5, is dropped as speckle before `mesh` looks
-  /// (drop_phantoms); 0 turns the rule off. Methods on images do not know it.
+  /// ball of this diameter would show, at most 5, is dropped as speckle (drop_phantoms);
+  /// 0 turns the rule off.
   double phantom_radius_m = 0.03;
-  /// A reading moves to the mean of this many of its pixel's last ones (itself among them) where
-  /// that is nearer; 0 and 1 turn the rule off.
-  int average_frames = 0;
   /// A pixel of the empty cell is known once so many images agree on it; 0 turns the rule off. What
   /// the robot hides of it stays an obstacle, and where it was read and nothing is read now,
   /// something is that gives no reading (find_holes()).
   int background_frames = 0;
-  /// No background is learned where the robot is within this length in the image, at its depth.
+  /// No background is learned where the robot is within this length in the image, at its depth. No
+  /// setting: nobody can choose it.
   double background_clearance_m = 0.15;
 
   bool drops_speckle() const { return speckle_px > 1; }
-  bool averages() const { return average_frames > 1; }
   bool has_background() const { return background_frames > 0; }
   /// The key of the first of apply_sensor_rules()'s rules that is on; empty where all are off.
   std::string_view first_rule() const;
 };
-
-/// Most of average_frames: that many images are held.
-inline constexpr int kMostAverageFrames = 100;
 
 /// The list of these settings.
 template <SettingsOf<SensorSettings> Settings, class Visitor>
@@ -50,23 +43,14 @@ void visit_settings(Settings& s, Visitor&& visit) {
         s.noise_m);
   visit({"speckle_px", kNotNegative, "blobs of fewer pixels are dropped; 0 and 1 are off"},
         s.speckle_px);
-  visit(
-      {"phantom_radius_m", kNotNegative,
-       "mesh: a reading is dropped that has fewer others within this distance than a thing of this "
-       "size shows, at most 5; 0 is off"},
-      s.phantom_radius_m);
-  visit({"average_frames",
-         {.most = kMostAverageFrames},
-         "a reading moves to the mean of this many of its pixel's last ones where that is nearer; "
-         "0 and 1 are off"},
-        s.average_frames);
+  visit({"phantom_radius_m", kNotNegative,
+         "a reading is dropped that has fewer others within this distance than a thing of this "
+         "size shows, at most 5; 0 is off"},
+        s.phantom_radius_m);
   visit({"background_frames", kNotNegative,
          "what so many images of the empty cell agree on stands where the robot hides it now, and "
          "something is where it cannot be read any more; 0 is off"},
         s.background_frames);
-  visit({"background_clearance_m", kNotNegative,
-         "no background is learned this near to the robot in the image"},
-        s.background_clearance_m);
 }
 
 /// Throws std::invalid_argument that names key, value and what was expected.

@@ -345,7 +345,7 @@ void SeparationMonitor::Parts::decide(double most) {
   const bool is_contact = out.speed_scale < contact;
   out.speed_scale = std::max(out.speed_scale, contact);
   rise.take(out.speed_scale);
-  if (!is_contact && out.speed_scale < settings.least_scale) out.speed_scale = 0;
+  if (!is_contact && out.speed_scale < kLeastScale) out.speed_scale = 0;
   out.state = is_contact             ? SeparationState::contact_speed
               : out.speed_scale >= 1 ? SeparationState::clear
               : out.speed_scale > 0  ? SeparationState::reduced

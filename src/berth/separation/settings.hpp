@@ -35,6 +35,9 @@ struct StoppingRow {
 /// C where nobody has shown what the cameras detect: an arm's length (ISO 13855).
 inline constexpr double kUnprovenIntrusion_m = 0.85;
 
+/// A smaller scale of the speed is a stop.
+inline constexpr double kLeastScale = 0.05;
+
 /// What the protective separation distance is made from (ISO/TS 15066, 5.5.4).
 struct SeparationSettings {
   /// v_h: how fast a person may come nearer.
@@ -64,8 +67,6 @@ struct SeparationSettings {
   /// contact at this speed tolerable; 0: it has to stand. It stands all the same where a camera or
   /// the joints are not in order, a link is not seen, or it holds something sharp.
   double contact_speed_m_s = 0;
-  /// A scale below this is 0: the robot stops.
-  double least_scale = 0.05;
   /// A link is not seen enough where a smaller share of its surface is seen.
   double least_seen = 0.25;
   /// The policies, by what is not known.
@@ -111,7 +112,6 @@ void visit_settings(Settings& s, Visitor&& visit) {
   visit({"contact_speed_m_s", kNotNegative,
          "the robot need not be slower than this; 0: it has to stand"},
         s.contact_speed_m_s);
-  visit({"least_scale", {.most = 1}, "a smaller scale of the speed is a stop"}, s.least_scale);
   visit({"least_seen", {.most = 1}, "a link of which a smaller share is seen is not seen enough"},
         s.least_seen);
   visit({"not_seen", {}, "what to do where a link is not seen enough"}, s.not_seen);

@@ -180,7 +180,6 @@ float own_of_reading(float sensed_m, float obstacle_m, float environment_back_m,
       return sensed_m - margin_m;
     case PixelFate::obstacle:
     case PixelFate::no_reading:
-    case PixelFate::averaged:
     case PixelFate::hole:
       break;
   }

@@ -9,7 +9,7 @@
 namespace berth {
 
 /// Writes S in units (depth_units.hpp), into `hidden` from where on each reading hides, and into
-/// `own` what each pixel frees by itself (whole-robot definition 1), rounded down to them; 0 where
+/// `own` what each pixel frees by itself (D1), rounded down to them; 0 where
 /// that is nothing, and kEndlessUnits where nothing ends it. A kept reading hides from F + t on, a
 /// flying patch from S on: it may be a thing or nothing. With a reading in F it is F - m, where F
 /// is a learned background the lesser of that and S + rho; with a reading of the robot, or beside
@@ -23,7 +23,7 @@ void find_own_free_depth(DepthView sensor_depth_m, const ObstacleImage& obstacle
                          DepthView environment_back_m, const SpaceSettings& settings,
                          UnitImage& sensor_depth, DepthWindows& hidden, UnitImage& own);
 
-/// Free depth E (definition 2): the least of 3 x 3 pixels; 0 in the outermost ring. `out` gets the
+/// Free depth E (D2): the least of 3 x 3 pixels; 0 in the outermost ring. `out` gets the
 /// image alone.
 void find_free_depth(const UnitImage& own, DepthWindows& out);
 

@@ -36,7 +36,8 @@ constexpr std::string_view name_of(Unobserved meaning) {
 }
 constexpr const auto& all_of(Unobserved) { return kUnobserveds; }
 
-/// What a camera's readings say of space.
+/// What a camera's readings say of space. The first three lengths are no settings, since nobody can
+/// choose them: no list has them, and only the twins' tests vary them.
 struct SpaceSettings {
   /// t: how thick a surface is that a camera measured. What lies deeper is hidden.
   double surface_thickness_m = 0.03;
@@ -54,8 +55,6 @@ struct SpaceSettings {
   /// from a camera does not hide: a pixel without a reading, a cable; 0 turns that off. None: what
   /// suits the camera (detection_capability_m()).
   std::optional<double> detection_capability_m = std::nullopt;
-  /// A frame frees nothing once it is older than the newest one by more than this.
-  double free_space_max_age_s = 0.2;
   /// v: how fast something may have come into space that an older frame saw free.
   double obstacle_speed_m_s = 1.6;
 };
@@ -63,16 +62,6 @@ struct SpaceSettings {
 /// The list of these settings.
 template <SettingsOf<SpaceSettings> Settings, class Visitor>
 void visit_settings(Settings& s, Visitor&& visit) {
-  visit({"surface_thickness_m", kNotNegative,
-         "how thick a surface is that the camera measured; what lies deeper "
-         "is hidden"},
-        s.surface_thickness_m);
-  visit({"free_space_margin_m", kNotNegative,
-         "a reading frees what is nearer to the camera than it by more than this"},
-        s.free_space_margin_m);
-  visit({"behind_robot_m", kNotNegative,
-         "where the camera sees the robot, what is up to this far behind it is free as well"},
-        s.behind_robot_m);
   visit({"no_reading",
          {},
          "what a pixel without a reading says of its line of sight: free is for a camera that sees "
@@ -87,9 +76,6 @@ void visit_settings(Settings& s, Visitor&& visit) {
          "pixels without a reading, and thin things, hide nothing where no ball of this diameter "
          "fits behind them; 0 is off; none: 0.04, or what a coarse camera tells 3 m away"},
         s.detection_capability_m);
-  visit({"free_space_max_age_s", kNotNegative,
-         "an image frees nothing once it is older than the newest one by more than this"},
-        s.free_space_max_age_s);
   visit({"obstacle_speed_m_s", kNotNegative,
          "how fast something may have come into space that an older image saw free"},
         s.obstacle_speed_m_s);

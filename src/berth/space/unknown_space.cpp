@@ -72,7 +72,7 @@ void UnknownSpace::assign(std::span<const PosedSpace> views, const UnknownSpace*
     const double age_s = views[k].age_s;
     FreeingCamera view{&space, views[k].X_BC, views[k].X_BC.inverse(), age_s, nullptr};
     const FreeingCamera* const same = aged ? aged->find_aged(space, age_s) : nullptr;
-    if (!space.has_free_depth || age_s > space.settings.free_space_max_age_s) {
+    if (!space.has_free_depth || age_s > kMostFreeingAge_s) {
       // Frees nothing.
     } else if (age_s == 0 || views.size() < 2) {
       view.free_depth = &space.free_depth;

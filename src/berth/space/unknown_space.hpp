@@ -34,7 +34,7 @@ struct FreeingCamera {
   const DepthWindows* free_depth = nullptr;
 };
 
-/// Whether 0 < z < E (whole-robot definition 3).
+/// Whether 0 < z < E (D3).
 bool is_seen_free(const FreeingCamera& view, const Eigen::Vector3d& p_B);
 
 /// The view that hides a point, and the pixel behind whose reading it lies; (-1, -1) where it lies
@@ -49,16 +49,17 @@ struct HidingPixel {
 /// and kept for all later requests, in bounded memory. Any number of threads may ask at a time.
 class UnknownSpace {
  public:
+  /// A view that is older than the newest one by more than this frees nothing.
+  static constexpr double kMostFreeingAge_s = 0.2;
   static constexpr int kMostViews = 64;
 
   UnknownSpace();
 
   /// Begins anew with these views, which have to outlive it; reuses its memory. Nobody may ask
-  /// meanwhile. A view whose age is above its free_space_max_age_s frees nothing; a lesser one
-  /// shrinks what it frees (age_free_depth). `guarded` are never unobserved. Throws
-  /// std::invalid_argument for more than kMostViews, an age below 0 or a pose that is not finite. A
-  /// view that `aged` has at the same age is not aged again: `aged` has to outlive it then,
-  /// unchanged.
+  /// meanwhile. An older view shrinks what it frees (age_free_depth), and frees nothing beyond
+  /// kMostFreeingAge_s. `guarded` are never unobserved. Throws std::invalid_argument for more than
+  /// kMostViews, an age below 0 or a pose that is not finite. A view that `aged` has at the same
+  /// age is not aged again: `aged` has to outlive it then, unchanged.
   void assign(std::span<const PosedSpace> views, const UnknownSpace* aged = nullptr,
               std::span<const GuardedBox> guarded = {});
 
@@ -77,7 +78,7 @@ class UnknownSpace {
   std::uint64_t serial_number() const { return serial_number_; }
 
   /// Who hides this point, if it is hidden: farther than H of its pixel in some view, and before
-  /// environment's front there, and seen free by no other one (definition 5); or in no image and no
+  /// environment's front there, and seen free by no other one (D5); or in no image and no
   /// guarded box, if SpaceSettings::unobserved says that this is unknown.
   std::optional<HidingPixel> hiding_pixel(const Eigen::Vector3d& p_B) const;
 

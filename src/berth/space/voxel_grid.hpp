@@ -56,7 +56,7 @@ struct VoxelGrid {
 /// std::invalid_argument for an empty box, an edge below kLeastEdge_m or more than kMostVoxels.
 void lay_voxels(const Eigen::AlignedBox3d& box_B_m, double edge_m, VoxelGrid& grid);
 
-/// Tells of each voxel what these views do (whole-robot definitions 2, 3 and 5). Whole voxels are
+/// Tells of each voxel what these views do (D2 to D5 of ARCHITECTURE.md). Whole voxels are
 /// judged, not their middles: what is free has no point that is not, and what may be hidden in part
 /// is hidden. Beside what is free and what is occupied there can be a layer of neither.
 void find_voxels(std::span<const FreeingCamera> views, VoxelGrid& grid);

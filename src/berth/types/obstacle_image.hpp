@@ -24,20 +24,20 @@ enum class PixelFate : std::uint8_t {
   soft,            ///< where something soft may hang that is attached to the robot
   speckle,         ///< a blob of fewer pixels than count as an obstacle, or a crumb of a flying
                    ///< patch
-  averaged,        ///< kept, at the mean of the pixel's last readings: it is nearer than the newest
   background,      ///< kept, at the depth that the pixel had when the robot was elsewhere; its own
                    ///< reading shows the robot, or was dropped
   hole,            ///< kept: it has no reading, although the camera could read the empty cell
                    ///< there. F has what stood there then, if it is known and no environment
 };
-inline constexpr int kPixelFateCount = 12;
+inline constexpr int kPixelFateCount = static_cast<int>(PixelFate::hole) + 1;
 /// The self filter gives those up to `outside_region`, and `speckle`.
 inline constexpr int kSelfFilterFateCount = 7;
 
 /// By enumerator.
-inline constexpr std::array<std::string_view, kPixelFateCount> kPixelFateNames = {
-    "obstacle",       "no_reading", "robot",   "environment", "padding",    "flying_patch",
-    "outside_region", "soft",       "speckle", "averaged",    "background", "hole"};
+inline constexpr std::array kPixelFateNames = std::to_array<std::string_view>(
+    {"obstacle", "no_reading", "robot", "environment", "padding", "flying_patch", "outside_region",
+     "soft", "speckle", "background", "hole"});
+static_assert(kPixelFateNames.size() == kPixelFateCount);
 
 constexpr std::string_view name_of(PixelFate fate) {
   return kPixelFateNames[static_cast<std::size_t>(fate)];
@@ -45,8 +45,7 @@ constexpr std::string_view name_of(PixelFate fate) {
 
 /// Whether F has a depth there; a `hole` may have none.
 inline bool is_kept(PixelFate fate) {
-  return fate == PixelFate::obstacle || fate == PixelFate::averaged ||
-         fate == PixelFate::background || fate == PixelFate::hole;
+  return fate == PixelFate::obstacle || fate == PixelFate::background || fate == PixelFate::hole;
 }
 
 /// How far readings of a surface may stand off its model in space, at 1 m; NaN where nobody asks.

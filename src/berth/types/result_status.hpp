@@ -9,12 +9,12 @@ namespace berth {
 enum class LinkStatus : std::uint8_t {
   ok,             ///< there is a distance
   none_in_range,  ///< the link is seen, and nothing is within the range
-  not_visible,    ///< the camera sees no pixel of the link: nothing is known
+  not_visible,    ///< the thesis: the camera sees no pixel of the link, so nothing is known
   cut_short,      ///< the search was stopped before it found a pair within the range
   stale,          ///< stamps or ages allow no answer (Result::time): nothing is known
-  not_seen,       ///< method mesh: hardly anything of the link is seen by any camera. What is known
+  not_seen,       ///< hardly anything of the link is seen by any camera. What is known
                   ///< to be near stands beside it, but nothing is promised
-  not_observed,   ///< method mesh: too much of the space within its distance, or the range, lies in
+  not_observed,   ///< too much of the space within its distance, or the range, lies in
                   ///< no image. What is known to be near stands beside it, but nothing is promised
 };
 /// By enumerator.

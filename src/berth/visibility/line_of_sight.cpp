@@ -17,7 +17,6 @@ Sight sight_up_to(const SeenFrame& frame, Pixel pixel, float obstacle_up_to_m,
   }
   switch (fate) {
     case PixelFate::obstacle:
-    case PixelFate::averaged:
       return Sight::seen;
     case PixelFate::robot:
     case PixelFate::environment:

@@ -5,6 +5,7 @@
 
 #include "berth/self_filter/tolerance.hpp"
 #include "berth/types/camera.hpp"
+#include "berth/types/depth_units.hpp"
 #include "berth/types/link_visibility.hpp"
 #include "berth/types/obstacle_image.hpp"
 #include "berth/types/robot_image.hpp"
@@ -48,5 +49,13 @@ struct SurfaceSight {
 /// reading.
 SurfaceSight sight_of_surface(const SeenFrame& frame, const RobotImage& robot,
                               const LinkPoint& point);
+
+/// One camera's frame for find_whole_robot_visibility().
+struct SeeingCamera {
+  SeenFrame frame;
+  /// The raw image, rounded down.
+  const UnitImage& sensor_depth;
+  Pose X_CB;
+};
 
 }  // namespace berth

@@ -83,8 +83,8 @@ struct FateCodes {
       const auto fate = static_cast<PixelFate>(i);
       const bool was_robot = fate == PixelFate::robot || fate == PixelFate::environment;
       // Nobody saw the space before a background or what fills a hole.
-      const bool was_seen = was_robot || fate == PixelFate::obstacle ||
-                            fate == PixelFate::averaged || (of_surface && is_kept(fate));
+      const bool was_seen =
+          was_robot || fate == PixelFate::obstacle || (of_surface && is_kept(fate));
       sight[i] = static_cast<float>(was_seen ? Sight::seen : Sight::no_reading);
       is_robot[i] = was_robot ? 1.0f : 0.0f;
     }
@@ -110,7 +110,7 @@ HWY_INLINE Lanes sights_in(const SeeingCamera& view, const FateCodes& fates,
   }
   const auto least_reading = [&](Lanes z) HWY_ATTR {
     const Tolerance& t = frame.tolerance;
-    return z - (Lanes(t.constant_m) + (Lanes(t.per_m) * z + Lanes(t.per_m2) * z * z));
+    return z - (Lanes(t.constant_m) + Lanes(t.per_m2) * z * z);
   };
   const Lanes other = load(other_m);
   const Lanes before = of_surface ? least_reading(p_C.z) : p_C.z;

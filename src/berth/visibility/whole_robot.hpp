@@ -7,8 +7,8 @@
 #include "berth/robot/kinematics.hpp"
 #include "berth/types/link_visibility.hpp"
 #include "berth/types/space_pair.hpp"
+#include "berth/visibility/line_of_sight.hpp"
 #include "berth/visibility/sample_points.hpp"
-#include "berth/visibility/seeing_camera.hpp"
 
 namespace berth {
 

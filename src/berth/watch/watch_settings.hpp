@@ -37,9 +37,6 @@ struct WatchSettings {
   bool is_on() const { return max_seen_through > 0 || max_displacement_m > 0; }
 };
 
-/// Most of `frames`.
-inline constexpr int kMostWatchedFrames = 1000;
-
 /// The list of these settings.
 template <SettingsOf<WatchSettings> Settings, class Visitor>
 void visit_settings(Settings& s, Visitor&& visit) {
@@ -67,18 +64,6 @@ void visit_settings(Settings& s, Visitor&& visit) {
          {.least = -0.1, .most = 0.1},
          "how far readings of the robot lie behind its surface while the camera stands well"},
         s.bias_m);
-  visit({"agreeing_frames",
-         {.least = 1, .most = kMostWatchedFrames},
-         "so many of the last `frames` have to say moved, and to say that all is well again; more "
-         "than half of them"},
-        s.agreeing_frames);
-  visit({"frames",
-         {.least = 1, .most = kMostWatchedFrames},
-         "how many of the last frames are remembered that show enough of the robot"},
-        s.frames);
-  visit({"check_every_s", kNotNegative,
-         "how often the displacement is measured, which is done beside the other work"},
-        s.check_every_s);
 }
 
 /// Throws std::invalid_argument that names key, value and what was expected.

@@ -148,7 +148,6 @@ TEST_F(GlPipeline, ASensorRuleIsRefusedByName) {
   };
   const std::string rest = ": runs on the CPU alone; expected it off on OpenGL";
   EXPECT_EQ(refusal({.speckle_px = 20}), "sensor.speckle_px" + rest);
-  EXPECT_EQ(refusal({.average_frames = 3}), "sensor.average_frames" + rest);
   EXPECT_EQ(refusal({.background_frames = 3}), "sensor.background_frames" + rest);
   EXPECT_EQ(refusal({}), "");
 }

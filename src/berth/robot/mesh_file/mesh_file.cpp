@@ -6,6 +6,7 @@
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
+#include <assimp/importerdesc.h>
 #include <algorithm>
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
@@ -19,11 +20,48 @@
 #include "berth/files/read_file.hpp"
 #include "berth/robot/mesh_file/collada_guard.hpp"
 #include "berth/robot/mesh_file/obj_polygons.hpp"
-#include "berth/robot/mesh_file/polygon_reader.hpp"
 #include "berth/robot/mesh_file/stl_polygons.hpp"
 
 namespace berth {
 namespace {
+
+/// Polygons for Assimp to cut into triangles, in the place of a file.
+class PolygonReader : public Assimp::BaseImporter {
+ public:
+  explicit PolygonReader(Polygons polygons) : polygons_(std::move(polygons)) {}
+
+  bool CanRead(const std::string&, Assimp::IOSystem*, bool) const override { return true; }
+  const aiImporterDesc* GetInfo() const override { return &kInfo; }
+
+ protected:
+  void InternReadFile(const std::string&, aiScene* scene, Assimp::IOSystem*) override;
+
+ private:
+  static constexpr aiImporterDesc kInfo{"polygons", "", "", "", 0, 0, 0, 0, 0, "obj"};
+  Polygons polygons_;
+};
+
+void PolygonReader::InternReadFile(const std::string&, aiScene* scene, Assimp::IOSystem*) {
+  // Assimp deletes all of them.
+  auto* const mesh = new aiMesh;
+  scene->mMeshes = new aiMesh* [1] { mesh };
+  scene->mNumMeshes = 1;
+  scene->mRootNode = new aiNode;
+  scene->mRootNode->mMeshes = new unsigned[1]{0};
+  scene->mRootNode->mNumMeshes = 1;
+  mesh->mNumVertices = static_cast<unsigned>(polygons_.vertices_m.size());
+  mesh->mVertices = new aiVector3D[mesh->mNumVertices];
+  std::transform(polygons_.vertices_m.begin(), polygons_.vertices_m.end(), mesh->mVertices,
+                 [](const Eigen::Vector3f& p) { return aiVector3D(p.x(), p.y(), p.z()); });
+  mesh->mNumFaces = static_cast<unsigned>(polygons_.faces.size());
+  mesh->mFaces = new aiFace[mesh->mNumFaces];
+  for (unsigned i = 0; i < mesh->mNumFaces; ++i) {
+    const std::vector<std::uint32_t>& corners = polygons_.faces[i];
+    mesh->mFaces[i].mNumIndices = static_cast<unsigned>(corners.size());
+    mesh->mFaces[i].mIndices = new unsigned[corners.size()];
+    std::copy(corners.begin(), corners.end(), mesh->mFaces[i].mIndices);
+  }
+}
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& what) {
   throw std::runtime_error(fmt::format("{}: {}", path.string(), what));
