@@ -27,6 +27,51 @@ struct SpaceLengths {
   float behind_m = 0;
   float thickness_m = 0;
 };
+
+/// Up to where a pixel frees.
+enum class Frees {
+  before_obstacle,
+  before_reading,
+  behind_robot,
+  environment,
+  background,
+  as_hole
+};
+
+/// The one place where a fate becomes a rule: a new fate does not compile before it has one.
+constexpr Frees frees(PixelFate fate) {
+  switch (fate) {
+    case PixelFate::obstacle:
+    case PixelFate::no_reading:
+      return Frees::before_obstacle;
+    case PixelFate::flying_patch:
+    case PixelFate::outside_region:
+    case PixelFate::soft:
+    case PixelFate::speckle:
+      return Frees::before_reading;
+    case PixelFate::robot:
+    case PixelFate::padding:
+      return Frees::behind_robot;
+    case PixelFate::environment:
+      return Frees::environment;
+    case PixelFate::background:
+      return Frees::background;
+    case PixelFate::hole:
+      return Frees::as_hole;
+  }
+  return Frees::as_hole;
+}
+
+/// Bit i: of fate i.
+constexpr std::int32_t bit_of(PixelFate fate) { return 1 << static_cast<int>(fate); }
+constexpr std::int32_t fates_that_free(Frees rule) {
+  std::int32_t fates = 0;
+  for (int i = 0; i < kPixelFateCount; ++i) {
+    const auto fate = static_cast<PixelFate>(i);
+    if (frees(fate) == rule) fates |= bit_of(fate);
+  }
+  return fates;
+}
 }  // namespace berth
 #endif
 
@@ -50,42 +95,39 @@ HWY_INLINE LaneMask is_nan(Lanes x) { return hn::Not(hn::Eq(x.v, x.v)); }
 struct FreeDepthPixels {
   Lanes sensed_m;
   Lanes obstacle_m;
-  hn::Vec<WholeTag> fate;
+  /// bit_of() each fate.
+  hn::Vec<WholeTag> fate_bit;
   /// 0 where it is not known.
   Lanes environment_back_m;
 
   HWY_INLINE FreeDepthPixels(const FreeDepthRow& row, int u)
       : sensed_m(load(row.sensed_m + u)),
         obstacle_m(load(row.obstacle_m + u)),
-        fate(hn::PromoteTo(WholeTag(), hn::LoadU(FateTag(), row.fate + u))),
+        fate_bit(hn::Shl(hn::Set(WholeTag(), 1),
+                         hn::PromoteTo(WholeTag(), hn::LoadU(FateTag(), row.fate + u)))),
         environment_back_m(0.0f) {
     if (row.environment_back_m == nullptr) return;
     const Lanes back_m = load(row.environment_back_m + u);
     environment_back_m = hn::IfThenZeroElse(is_nan(back_m), back_m.v);
   }
 
-  /// Whether the fate is one of these and those between them.
-  HWY_INLINE LaneMask is_within(PixelFate first, PixelFate last) const {
-    const WholeTag d;
-    const auto before = hn::Set(d, static_cast<int>(first) - 1);
-    const auto after = hn::Set(d, static_cast<int>(last) + 1);
-    return hn::RebindMask(FloatTag(), hn::And(hn::Gt(fate, before), hn::Gt(after, fate)));
+  HWY_INLINE LaneMask is_one_of(std::int32_t fates) const {
+    const auto theirs = hn::And(fate_bit, hn::Set(WholeTag(), fates));
+    return hn::RebindMask(FloatTag(), hn::Eq(theirs, fate_bit));
   }
-  HWY_INLINE LaneMask is_robot() const { return is_within(PixelFate::robot, PixelFate::padding); }
+  template <Frees rule>
+  HWY_INLINE LaneMask frees_by() const {
+    constexpr std::int32_t kFates = fates_that_free(rule);
+    return is_one_of(kFates);
+  }
   HWY_INLINE Lanes of_environment_m(float margin_m, Lanes most_m) const {
     return greater_or_first(sensed_m - Lanes(margin_m), least(most_m, environment_back_m));
   }
-  HWY_INLINE LaneMask is_dropped() const {
-    static_assert(static_cast<int>(PixelFate::padding) + 1 ==
-                  static_cast<int>(PixelFate::flying_patch));
-    return is_within(PixelFate::flying_patch, PixelFate::speckle);
-  }
   HWY_INLINE LaneMask is_hole() const {
-    return hn::Or(hn::And(is_nan(sensed_m), is_nan(obstacle_m)),
-                  is_within(PixelFate::hole, PixelFate::hole));
+    return hn::Or(hn::And(is_nan(sensed_m), is_nan(obstacle_m)), frees_by<Frees::as_hole>());
   }
   HWY_INLINE Lanes hides_from_m(float thickness_m) const {
-    return hn::IfThenElse(is_within(PixelFate::flying_patch, PixelFate::flying_patch), sensed_m.v,
+    return hn::IfThenElse(is_one_of(bit_of(PixelFate::flying_patch)), sensed_m.v,
                           (obstacle_m + Lanes(thickness_m)).v);
   }
 };
@@ -112,13 +154,12 @@ void fill_own(const FreeDepthRow& row, int width, const SpaceLengths& lengths, D
         const Lanes before_m = pixels.obstacle_m - Lanes(lengths.margin_m);
         const Lanes background_m =
             hn::IfThenZeroElse(is_nan(pixels.sensed_m), lesser_or_first(before_m, robot_m).v);
-        auto own = hn::IfThenElse(pixels.is_within(PixelFate::background, PixelFate::background),
-                                  background_m.v, before_m.v);
-        own = hn::IfThenElse(pixels.is_robot(), robot_m.v, own);
-        own = hn::IfThenElse(pixels.is_within(PixelFate::environment, PixelFate::environment),
+        auto own = hn::IfThenElse(pixels.frees_by<Frees::background>(), background_m.v, before_m.v);
+        own = hn::IfThenElse(pixels.frees_by<Frees::behind_robot>(), robot_m.v, own);
+        own = hn::IfThenElse(pixels.frees_by<Frees::environment>(),
                              pixels.of_environment_m(lengths.margin_m, robot_m).v, own);
-        own =
-            hn::IfThenElse(pixels.is_dropped(), (pixels.sensed_m - Lanes(lengths.margin_m)).v, own);
+        own = hn::IfThenElse(pixels.frees_by<Frees::before_reading>(),
+                             (pixels.sensed_m - Lanes(lengths.margin_m)).v, own);
         // A hole is NaN, and what else is NaN frees nothing.
         own = hn::IfThenZeroElse(is_nan(own), own);
         own = hn::IfThenElse(pixels.is_hole(), hn::NaN(FloatTag()), own);
@@ -163,24 +204,19 @@ namespace {
 float own_of_reading(float sensed_m, float obstacle_m, float environment_back_m, PixelFate fate,
                      const SpaceLengths& lengths) {
   const auto [margin_m, behind_m, thickness_m] = lengths;
-  switch (fate) {
-    case PixelFate::background:
+  switch (frees(fate)) {
+    case Frees::background:
       return std::isnan(sensed_m) ? 0 : std::min(obstacle_m - margin_m, sensed_m + behind_m);
-    case PixelFate::environment: {
+    case Frees::environment: {
       const float back_m = std::isnan(environment_back_m) ? 0 : environment_back_m;
       return std::max(sensed_m - margin_m, std::min(sensed_m + behind_m, back_m));
     }
-    case PixelFate::robot:
-    case PixelFate::padding:
+    case Frees::behind_robot:
       return sensed_m + behind_m;
-    case PixelFate::flying_patch:
-    case PixelFate::outside_region:
-    case PixelFate::soft:
-    case PixelFate::speckle:
+    case Frees::before_reading:
       return sensed_m - margin_m;
-    case PixelFate::obstacle:
-    case PixelFate::no_reading:
-    case PixelFate::hole:
+    case Frees::before_obstacle:
+    case Frees::as_hole:
       break;
   }
   return obstacle_m - margin_m;
@@ -191,7 +227,7 @@ DepthUnits own_of_pixel(const FreeDepthRow& row, int u, const SpaceLengths& leng
                         DepthUnits of_hole) {
   const auto fate = static_cast<PixelFate>(row.fate[u]);
   const bool is_empty = std::isnan(row.sensed_m[u]) && std::isnan(row.obstacle_m[u]);
-  if (is_empty || fate == PixelFate::hole) return of_hole;
+  if (is_empty || frees(fate) == Frees::as_hole) return of_hole;
   const float back_m = row.environment_back_m ? row.environment_back_m[u] : kNoDepth;
   const float own_m = own_of_reading(row.sensed_m[u], row.obstacle_m[u], back_m, fate, lengths);
   return std::isnan(own_m) ? DepthUnits{0} : units_of(own_m);
