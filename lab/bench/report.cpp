@@ -1,7 +1,6 @@
 #include "lab/bench/report.hpp"
 
 #include <fcl/config.h>
-#include <flann/config.h>
 #include <fmt/format.h>
 #include <tbb/version.h>
 
@@ -26,12 +25,10 @@ std::vector<std::string> describe_machine() {
       "stages and of meshes, by the clock on the wall",
       fmt::format("compiler: {}", compiler_name()),
       fmt::format("libraries: Highway {}, Embree {}, Eigen {}.{}.{}, TBB {}.{}, nanoflann {:x}, "
-                  "FLANN {}, FCL "
-                  "{}, OctoMap {}.{}.{}",
+                  "FCL {}, OctoMap {}.{}.{}",
                   BERTH_BENCH_HIGHWAY, RTC_VERSION_STRING, EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION,
                   EIGEN_MINOR_VERSION, TBB_VERSION_MAJOR, TBB_VERSION_MINOR, NANOFLANN_VERSION,
-                  FLANN_VERSION_, FCL_VERSION, OCTOMAP_MAJOR_VERSION, OCTOMAP_MINOR_VERSION,
-                  OCTOMAP_PATCH_VERSION),
+                  FCL_VERSION, OCTOMAP_MAJOR_VERSION, OCTOMAP_MINOR_VERSION, OCTOMAP_PATCH_VERSION),
       fmt::format("commit: {}", commit_name()),
   };
 }
