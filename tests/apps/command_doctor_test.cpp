@@ -61,22 +61,23 @@ TEST(Doctor, AGoodSceneGetsAllChecksAndExitStatusZero) {
   EXPECT_EQ(outcome.exit_status, 0) << outcome.out << outcome.err;
   EXPECT_EQ(outcome.err, "");
   EXPECT_EQ(outcome.out.find("wrong"), std::string::npos) << outcome.out;
-  expect_text(outcome,
-              {"ok      files: robot berth_arm with 8 links, 12 images of 1 camera, joints",
-               "ok      stamps, camera camera: 12 images, 0.013 to 3.313 s",
-               "ok      place, camera camera: 100 % of the robot's readings",
-               "advice  no reading, camera camera: what gives none, such as black clothes, is not",
-               "in no image: ", " % of the ball in which the robot moves", "ok      results: 12",
-               "detection, camera camera: ", "a fingertip of", "advice  watch, camera camera: off",
-               "separation: not asked for", "time, camera camera: ", " ms for a request",
-               "What to do next:\n1. ", "berth calibrate scene.yaml --out calibrated.yaml"});
+  expect_text(
+      outcome,
+      {"ok      files: robot berth_arm with 8 links, 12 images of 1 camera, joints",
+       "ok      stamps, camera camera: 12 images, 0.013 to 3.313 s",
+       "ok      place, camera camera: 100 % of the robot's readings",
+       "advice  no reading, camera camera: what gives none, such as black clothes, is no obstacle",
+       "in no image: ", " % of the ball in which the robot moves", "ok      results: 12",
+       "detection, camera camera: ", "a fingertip of", "advice  watch, camera camera: off",
+       "separation: not asked for", "time, camera camera: ", " ms for a request",
+       "What to do next:\n1. ", "berth calibrate scene.yaml --out calibrated.yaml"});
 }
 
 TEST(Doctor, AMissingImageIsNamedAndNothingMoreIsLookedAt) {
   DoctorsScene scene;
   scene.last_image = "nowhere.png";
   const Outcome outcome = scene.doctor();
-  expect_wrong(outcome, "files: ", "1. Mend this, then ask again.");
+  expect_wrong(outcome, "files: ", "1. Correct this, then run berth doctor again.");
   expect_text(outcome, {"nowhere.png: No such file"});
   EXPECT_EQ(outcome.out.find("stamps"), std::string::npos);
 }
@@ -94,7 +95,7 @@ TEST(Doctor, APoseThatIsMeasuredInMillimetresIsExplained) {
   scene.xyz = "[120, -2250, 800]";
   const Outcome outcome = scene.doctor();
   expect_wrong(outcome,
-               "place, camera camera: ", "1. Mend what the sentence about camera camera says");
+               "place, camera camera: ", "1. Correct what is said of camera camera, then run");
   EXPECT_EQ(outcome.out.find("results"), std::string::npos);
 }
 

@@ -196,18 +196,6 @@ test("each question has its answer a click away", async () => {
   await page.close();
 });
 
-test("a scene of another method is shown with method mesh, and says so", async () => {
-  const page = await open();
-  assert.equal(await text(page, "#scene-note"), "method mesh is shown; the file says exact");
-  assert.equal(await page.locator("[id='evaluation.method']").count(), 0);
-  await click(page, "#questions button:nth-child(5)");
-  assert.match(await text(page, "#legend"), /unknown space/);
-  await page.close();
-  const all = await open(berth.url);
-  assert.equal(await text(all, "#scene-note"), "");
-  await all.close();
-});
-
 test("a result that lacks a camera is marked on every panel", async () => {
   const folder = join(place.folder, "degraded");
   cpSync(join(process.env.BERTH_SOURCE_DIR, "data/bundled"), folder, { recursive: true });
