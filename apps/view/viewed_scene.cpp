@@ -12,6 +12,7 @@
 #include "apps/view/settings_message.hpp"
 #include "apps/view/space_grid.hpp"
 #include "berth/pipeline/frame_set.hpp"
+#include "berth/scene/former_settings.hpp"
 #include "berth/scene/settings_text.hpp"
 #include "berth/types/rpy.hpp"
 
@@ -211,6 +212,11 @@ void ViewedScene::set(const Request& request) {
   if (std::find(kSettingGroups.begin(), kSettingGroups.end(), group) == kSettingGroups.end()) {
     throw std::runtime_error(
         fmt::format("group \"{}\": expected one of {}", group, fmt::join(kSettingGroups, ", ")));
+  }
+  // A file may name it; nobody should write it anew.
+  if (std::ranges::count(ended_settings(group), key) > 0) {
+    throw std::runtime_error(
+        fmt::format("{}.{}: is no setting any more; expected one that has an effect", group, key));
   }
   std::optional<std::size_t> camera;
   if (request.contains("camera") && !request["camera"].is_null()) camera = camera_in(request);

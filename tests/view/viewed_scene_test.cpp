@@ -257,6 +257,8 @@ TEST_F(ViewedSceneTest, RefusesWhatNoPageAsks) {
         R"({"do": "set", "group": "space", "key": "no_reading", "value": "free\nrobot: x"})",
         R"({"do": "set", "group": "space", "key": "no_reading", "value": "free", "camera": 9})",
         R"({"do": "set", "group": 7, "key": {}, "value": 1})",
+        R"({"do": "set", "group": "evaluation", "key": "method", "value": "exact"})",
+        R"({"do": "set", "group": "evaluation", "key": "tile_px", "value": 8})",
         R"({"do": "set", "group": "evaluation", "key": "no_such_key", "value": 8})",
         R"({"do": "pose", "camera": 0, "xyz_m": [1e9, 0, 0], "rpy_rad": [0, 0, 0]})",
         R"({"do": "pose", "camera": -1, "xyz_m": [0, 0, 0], "rpy_rad": [0, 0, 0]})",

@@ -196,6 +196,14 @@ test("each question has its answer a click away", async () => {
   await page.close();
 });
 
+test("a scene of another method has no control for it", async () => {
+  const page = await open();
+  assert.equal(await page.locator("[id='evaluation.method']").count(), 0);
+  await click(page, "#questions button:nth-child(5)");
+  assert.match(await text(page, "#legend"), /unknown space/);
+  await page.close();
+});
+
 test("a result that lacks a camera is marked on every panel", async () => {
   const folder = join(place.folder, "degraded");
   cpSync(join(process.env.BERTH_SOURCE_DIR, "data/bundled"), folder, { recursive: true });
