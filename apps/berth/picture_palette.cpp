@@ -63,7 +63,6 @@ Rgb fate_color(PixelFate fate) {
       return {0xD8, 0x7A, 0x4A};
     case PixelFate::speckle:
       return {0xE0, 0xB0, 0x20};
-      return {0xB0, 0xC8, 0xE0};
     case PixelFate::background:
       return {0x20, 0xB8, 0x70};
     case PixelFate::hole:

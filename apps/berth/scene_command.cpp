@@ -50,8 +50,7 @@ void run_command(const RunArguments& arguments) {
 }
 
 void filter_command(const FilterArguments& arguments) {
-  const OpenScene scene =
-      open_with_progress(read_scene(arguments.scene), "check images", open_scene);
+  const OpenScene scene = open_scene_over(arguments.scene, {});
   SceneRun run(scene, stop_if_interrupted);
   make_folders(scene, arguments.out_folder);
   each_frame(scene, run, "filter", [&] {

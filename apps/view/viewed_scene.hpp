@@ -24,7 +24,6 @@ namespace berth::app {
 /// frame is provisional until the run in the background has come there; then it is what that run
 /// says, as in the curves.
 ///
-///
 /// A request is an object with `do`, and:
 ///
 ///     {"do": "show", "step": 17}

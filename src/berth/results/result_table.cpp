@@ -1,10 +1,11 @@
+#include "berth/results/result_text.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "berth/results/link_table.hpp"
-#include "berth/results/result_text.hpp"
 
 namespace berth {
 namespace {

@@ -13,8 +13,8 @@ void CameraFrames::begin_given_background() {
 }
 
 void CameraFrames::begin_background(const std::function<void()>& before_image) {
-  if (!camera_->view->settings().sensor.has_background()) return;
-  if (camera_->background_m) return begin_given_background();
+  begin_given_background();
+  if (camera_->background_m || !camera_->view->settings().sensor.has_background()) return;
   learn_background(
       *camera_, images_to_learn_from(*camera_), before_image,
       [&](DepthView depth_m, const Frame& frame) { observer_.learn_background(depth_m, frame); });

@@ -18,7 +18,7 @@ struct Ended {
 constexpr std::string_view kConstant = "it is a constant now, as nobody could choose it";
 constexpr std::string_view kOfImages = "berth evaluate compares images, and has it as an option";
 
-constexpr std::array<Ended, 34> kEnded = {{
+constexpr std::array kEnded = std::to_array<Ended>({
     {"evaluation", "method", "berth evaluate SCENE.yaml --method compares images"},
     {"evaluation", "region", kOfImages},
     {"evaluation", "depth_interval", kOfImages},
@@ -53,10 +53,7 @@ constexpr std::array<Ended, 34> kEnded = {{
     {"self_filter", "island_jump_m"},
     {"sensor", "speckle_jump_m"},
     {"sensor", "holes"},
-}};
-
-constexpr std::array<std::string_view, 7> kGroups = {
-    "space", "self_filter", "sensor", "evaluation", "separation", "watch", "time"};
+});
 
 void tell_group(std::string_view name, const YamlValue& group, std::vector<std::string>& told) {
   if (!group.is_map()) return;
@@ -76,7 +73,7 @@ void tell_all(const YamlValue& value, std::vector<std::string>& told) {
   }
   if (!value.is_map()) return;
   for (const auto& [key, entry] : value.entries()) {
-    const bool is_group = std::ranges::find(kGroups, key) != kGroups.end();
+    const bool is_group = !ended_settings(key).empty();
     is_group ? tell_group(key, entry, told) : tell_all(entry, told);
   }
 }

@@ -27,7 +27,6 @@ export interface Fate {
 export interface Scene {
   type: "scene";
   file: string;
-  /** What a user should know of what is shown; empty where there is nothing. */
   robot: string;
   links: Link[];
   cameras: Camera[];
