@@ -11,14 +11,17 @@ ImageDistanceSettings settings_of(const Robot& robot, const ImageSettings& image
   return settings;
 }
 
+bool may_end_early(const DistanceSettings& settings) {
+  return settings.tolerance_m.value_or(0) > 0 || settings.deadline_us;
+}
+
 ImageResult empty_image_result(const Robot& robot, Method method, const ImageSettings& images) {
   validate(images);
-  const DistanceSettings& settings = robot.settings().distance;
   ImageResult result;
   begin_result(robot, result);
   result.has_visibility = false;
   result.method = method;
-  result.has_bounds = settings.tolerance_m.value_or(0) > 0 || settings.deadline_us;
+  result.has_bounds = may_end_early(robot.settings().distance);
   result.cameras.resize(1);
   return result;
 }

@@ -38,6 +38,9 @@ struct ImageResult : Result {
 /// What requests about images are asked with: the robot's own settings, and the method's.
 ImageDistanceSettings settings_of(const Robot& robot, const ImageSettings& images);
 
+/// Whether a search with these settings may end before its bounds are the distances.
+bool may_end_early(const DistanceSettings& settings);
+
 /// A result of this robot and method about which nothing is known yet.
 ImageResult empty_image_result(const Robot& robot, Method method, const ImageSettings& images);
 

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <chrono>
+#include <optional>
 #include <stdexcept>
 
 #include "berth/scene/camera_frames.hpp"
+#include "berth/scene/repeated_request.hpp"
 #include "thesis/image_query.hpp"
 
 namespace berth {
@@ -77,17 +77,11 @@ bool ImageScene::next() {
 }
 
 ImageResult ImageScene::ask(int repeat) {
-  std::vector<double> times_us;
-  const ImageResult* result = nullptr;
-  for (int i = 0; i < std::max(1, repeat); ++i) {
-    const auto start = std::chrono::steady_clock::now();
-    result = &cameras_[camera_]->ask();
-    const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
-    times_us.push_back(took.count());
-  }
-  ImageResult told = *result;
+  const auto ask = [this](int) -> const ImageResult& { return cameras_[camera_]->ask(); };
+  std::optional<RequestTiming> timing;
+  ImageResult told = ask_repeatedly(repeat, ask, timing);
   told.timing_name = "evaluate_us";
-  if (repeat > 0) told.timing = timing_of(std::move(times_us));
+  told.timing = timing;
   told.frame = told.cameras.front().frame = static_cast<int>(taken_ - 1);
   told.stamp_s = scene_.cameras[camera_].at_exposure[taken_ - 1].stamp_s;
   told.cameras.front().self_filter = cameras_[camera_]->fate_counts();

@@ -121,7 +121,7 @@ void evaluate_images(const EvaluateArguments& arguments) {
   result.method = arguments.method;
   if (evaluator.gl) result.gl_renderer = evaluator.gl->renderer();
   result.range_m = settings.range_m;
-  result.has_bounds = settings.tolerance_m.value_or(0) > 0 || settings.deadline_us;
+  result.has_bounds = may_end_early(settings);
   if (arguments.repeat > 0) result.timing = timing_of(std::move(times_us));
   output.write(result);
   output.finish();

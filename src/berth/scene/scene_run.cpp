@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "berth/record/recorder.hpp"
+#include "berth/scene/repeated_request.hpp"
 
 namespace berth {
 namespace {
@@ -122,18 +123,14 @@ void SceneRun::keep_frames() {
 }
 
 Result SceneRun::ask(int repeat) {
-  std::vector<double> times_us;
-  const Result* result = nullptr;
-  for (int i = 0; i < std::max(1, repeat); ++i) {
-    const auto start = std::chrono::steady_clock::now();
+  const auto ask = [this](int i) -> const Result& {
     if (i > 0) query_.forget();
     const Request request{.frames = kept_, .stop = stop_};
-    result = recorder_ ? &recorder_->ask(query_, request) : &query_.ask(request);
-    const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
-    times_us.push_back(took.count());
-  }
-  Result told = *result;
-  if (repeat > 0) told.timing = timing_of(std::move(times_us));
+    return recorder_ ? recorder_->ask(query_, request) : query_.ask(request);
+  };
+  std::optional<RequestTiming> timing;
+  Result told = ask_repeatedly(repeat, ask, timing);
+  told.timing = timing;
   tell_scene(told);
   monitor(told);
   return told;
