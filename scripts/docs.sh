@@ -6,6 +6,7 @@ set -eu
 cd "$(dirname "$0")/.."
 headers=$(cmake -P cmake/print_public_headers.cmake 2>&1 | sed 's|^|src/|')
 version=$(sed -n 's/^project(berth VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
+rm -rf build/docs # a page of what is gone would stay
 mkdir -p build/docs
 {
   cat docs/Doxyfile

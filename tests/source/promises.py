@@ -106,9 +106,13 @@ def newest_section(changelog):
 
 
 def unnamed(before, now, section):
-    """(key, what it was, what it is or None) of each that changed or went and that no `code` of the section names."""
+    """(key, what it was, what it is or None) of each that changed or went and that no `code` of the section names. A class that went
+    takes its members along."""
     code = " ".join(re.findall(r"`([^`]+)`", section))
+    gone = before.keys() - now.keys()
     for key, text in before.items():
+        if key.rpartition("::")[0] in gone:
+            continue
         if now.get(key) != text and not re.search(rf"(?<!\w){re.escape(word_of(key))}(?!\w)", code):
             yield key, text, now.get(key)
 

@@ -41,6 +41,11 @@ class Promises(unittest.TestCase):
         self.assertEqual(keys("slab_m is gone; `LinkDistance` has more"), ["scene space.slab_m", "message Link.msg"])
         self.assertEqual(keys("`slab_m` is gone; `Link.msg` has more"), [])
 
+    def test_a_class_that_went_takes_its_members_along(self):
+        before = {"c++ berth::Query": "class", "c++ berth::Query::ask": "x", "c++ berth::Query::~Query": "x"}
+        self.assertEqual([key for key, _, _ in unnamed(before, {}, "nothing")], ["c++ berth::Query"])
+        self.assertEqual([key for key, _, _ in unnamed(before, {"c++ berth::Query": "class"}, "`ask`")], ["c++ berth::Query::~Query"])
+
     def test_names_and_sections(self):
         self.assertEqual([word_of(key) for key in ("message Link.msg", "scene space.slab_m", "c++ berth::Query::ask", "header berth/query.hpp")],
                          ["Link", "slab_m", "ask", "query"])
