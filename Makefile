@@ -1,5 +1,5 @@
 # Thin fronts of CMake. Each target does all set-up that it needs, on a bare Debian 12 too.
-.PHONY: demo view opengl python test test-ros2 build bench lab study closed-loop bench-gpu sanitize sanitize-thinned fuzz trust berth_trust trust-distances trust-real-images trust-long-runs trust-sequences trust-streams trust-whole-robot trust-contact setup docs site release deb wheel test-debian13 test-arm64 ros-release lint format clean
+.PHONY: demo view opengl python test test-ros2 build bench figures lab study closed-loop bench-gpu sanitize sanitize-thinned fuzz trust berth_trust trust-distances trust-real-images trust-long-runs trust-sequences trust-streams trust-whole-robot trust-contact setup docs site release deb wheel test-debian13 test-arm64 ros-release lint format clean
 
 # A fresh build folder is configured for berth alone, which needs the fewest packages. One that has more keeps it.
 product = test -e build/release/build.ninja || cmake --preset product
@@ -42,6 +42,13 @@ bench:
 	cmake --build --preset bench
 	build/bench/lab/berth_bench --out build/bench_results $(if $(BERTH_DATA),$(recordings)) $(BENCH_OPTIONS)
 	test ! -e build/bench_results/bench.csv || lab/bench/plot.py build/bench_results/bench.csv build/bench_results/results.svg
+
+# Measures the speeds that README.md and lab/bench/RESULTS.md quote, and writes them there; best where nothing else runs.
+figures:
+	scripts/setup.sh packages.txt packages-opengl.txt packages-lab.txt packages-bench.txt
+	cmake --preset bench
+	cmake --build --preset bench --target berth_bench
+	lab/bench/figures.py build/bench/lab/berth_bench
 
 # Adds the laboratory to what build/release has.
 lab:
