@@ -36,6 +36,7 @@ set(BERTH_PUBLIC_HEADERS
   berth/separation/evasion.hpp
   berth/separation/monitor.hpp
   berth/separation/settings.hpp
+  berth/record/monitor_loop.hpp
   berth/record/recorder.hpp
   berth/record/replay.hpp
   berth/results/result_json.hpp

@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
   mount.X_PC.translation() << 2, 0, 0.5;
   // A real camera has berth::settings_of_real_camera(): an image that does not show the robot is
   // not used then.
-  const auto view = std::make_shared<const berth::MountedCamera>(robot, mount);
+  const auto mounted = std::make_shared<const berth::MountedCamera>(robot, mount);
 
   // What the driver of a real camera gives: metres, NaN where there is no reading. Here it is a
   // wall.
@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
       .stamp_s = 0, .position = std::vector<double>(robot->model().joints.size(), 0.0)};
 
   berth::Frame frame;
-  berth::Observer(view).observe(depth_m, at_exposure, frame);
+  berth::Observer(mounted).observe(depth_m, at_exposure, frame);
   berth::Query query(robot);
   for (const berth::LinkResult& link : query.ask({.frames = frame}).links) {
     if (link.has_distance()) std::printf("%s: %.3f m\n", link.link.c_str(), link.distance_m);

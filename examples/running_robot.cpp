@@ -32,13 +32,13 @@ int main(int argc, char** argv) {
   berth::CameraMount mount{{640, 480, 525, 525, 319.5, 239.5}, model.links.front().name};
   mount.X_PC.linear() << 0, 0, -1, 1, 0, 0, 0, -1, 0;
   mount.X_PC.translation() << 2, 0, 0.5;
-  const auto view = std::make_shared<const berth::MountedCamera>(robot, mount);
+  const auto mounted = std::make_shared<const berth::MountedCamera>(robot, mount);
 
   // In this order: each uses those before it until it is destroyed.
   berth::JointIntake joints(model, {});
   berth::LiveSpace space(robot, 1, joints);
-  berth::LiveCamera camera(view, joints, {},
-                           [&](const auto&...) { space.put(0, camera.newest()); });
+  berth::LiveCamera camera(mounted, joints, {},
+                           [&](const auto& frame, const auto&...) { space.put(0, frame); });
   std::atomic<bool> stop = false;
   std::thread encoders([&] {
     std::vector<std::string> names;

@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
   mount.X_PC.translation() << 2, 0, 0.5;
   // A real camera has berth::settings_of_real_camera(): an image that does not show the robot is
   // not used then.
-  const auto view = std::make_shared<const berth::MountedCamera>(robot, mount);
+  const auto mounted = std::make_shared<const berth::MountedCamera>(robot, mount);
   berth::JointBuffer joints(model, 500);
 
   LatestFrame latest;
@@ -63,7 +63,7 @@ int main(int argc, char** argv) {
     for (; !stop; sleep_ms(1)) joints.push(now_s(), names, std::vector<double>(names.size(), 0.0));
   });
   std::thread camera([&] {
-    berth::Observer observer(view);
+    berth::Observer observer(mounted);
     while (!stop) {
       const double exposure_s = now_s();
       sleep_ms(33);  // the image is on its way

@@ -15,7 +15,7 @@ mkdir -p build/docs
 } | doxygen - 2>build/docs/warnings.txt
 needs_none='Member .* \((variable|enumvalue|function)\) of (struct|class) .* is not documented|Member (name_of|all_of|visit_[a-z]+)\('
 if grep -Ev "$needs_none" build/docs/warnings.txt; then
-  echo "docs: mend the comments named above" >&2
+  echo "docs: fix the comments named above" >&2
   exit 1
 fi
 echo "The API's pages: build/docs/html/index.html"

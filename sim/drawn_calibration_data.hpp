@@ -14,7 +14,7 @@ namespace berth::sim {
 
 /// What is wrong. Zeros: nothing.
 struct CalibrationErrors {
-  /// The sensor tells depths that are too large by this part of them.
+  /// The sensor reports depths that are too large by this part of them.
   double depth_share = 0;
   /// The joints' clock at an exposure is the stamp plus this; nobody knows.
   double clock_offset_s = 0;

@@ -34,9 +34,10 @@ struct DrawnViews {
   std::vector<DrawnView> views;
 };
 
-/// draw_scene() of the same arguments, and so many cameras altogether: each of the others sees some
-/// of the robot and is 0.25 m clear of the obstacles. Of two calls with the same seed the one with
-/// more cameras has the others' as well. Throws std::runtime_error where the robot cannot be seen.
+/// draw_scene() of the same arguments, with `cameras` cameras altogether: each of the others sees
+/// some of the robot and is 0.25 m clear of the obstacles. Of two calls with the same seed the one
+/// with more cameras has the others' as well. Throws std::runtime_error where the robot cannot be
+/// seen.
 DrawnViews draw_views(const RobotModel& model, const std::vector<MeshTree>& link_trees,
                       const DrawnSceneSettings& settings, std::uint32_t seed, int cameras);
 

@@ -42,7 +42,7 @@ Holding taken_together(const Holding& fine) {
   return out;
 }
 
-/// The least that holds for each pixel.
+/// The minimum over each pixel's neighbourhood.
 DepthImage held(const Holding& fine) {
   const int width = fine.left_m.width(), height = fine.left_m.height();
   DepthImage out(width, height, std::numeric_limits<float>::infinity());

@@ -44,7 +44,7 @@ class Depths {
   Image<int> counts_;
 };
 
-/// Balls that cover all blocks of side x side pixels within so many blocks of one, wherever their
+/// Balls that cover all blocks of side x side pixels within `radius` blocks of one, wherever their
 /// centres are.
 class Discs {
  public:

@@ -35,7 +35,7 @@ std::vector<TrueDistance> true_distances(const RobotModel& model,
                                          const DrawnScene& scene);
 
 /// In a clean image without the robot, no distance is larger than the true one of what the camera
-/// sees of the link by more than (1 / cos(angle) - 1) times the true one, plus so many times the
+/// sees of the link by more than (1 / cos(angle) - 1) times the true one, plus a multiple of the
 /// size of a pixel at the farther of the two points. `angle` lies between the optical axis and the
 /// ray to the obstacle's nearest point, which has to be covered (ObstacleSight).
 ///

@@ -28,7 +28,7 @@ struct PointView {
   double age_s = 0;
 };
 
-/// An older view tells nothing (D6).
+/// An older view shows nothing (D6).
 inline constexpr double kYoung_s = 0.2;
 
 /// Free depth E: a point that projects into the pixel is seen free where its depth is above 0 and

@@ -19,7 +19,7 @@ struct TwinSettings {
   double gap_m = 0.0005;
   /// Cubes that hold an obstacle or not, nobody knows, are given up at this edge.
   double least_edge_m = 1e-4;
-  /// The search is given up after so many cubes.
+  /// The number of cubes after which the search is given up.
   std::size_t most_cubes = 60000;
 };
 

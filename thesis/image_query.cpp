@@ -19,7 +19,7 @@ struct ImageQuery::Parts {
         method(std::move(by)),
         result(empty_image_result(*robot, named, with)) {}
 
-  RobotRenderer& renderer_of(const std::shared_ptr<const MountedCamera>& view);
+  RobotRenderer& renderer_of(const std::shared_ptr<const MountedCamera>& mounted);
   const ImageResult& evaluate(const Frame& frame, const RobotImage& asked);
 
   std::shared_ptr<const Robot> robot;
@@ -77,21 +77,22 @@ const ImageResult& ImageQuery::ask(const Frame& frame, const RequestedJoints& jo
     return parts_->evaluate(frame, frame.robot);
   }
   forward_kinematics(parts_->robot->model(), state->position, result.pose);
-  parts_->renderer_of(frame.view).render(result.pose, frame.X_BC, parts_->image);
+  parts_->renderer_of(frame.mounted).render(result.pose, frame.X_BC, parts_->image);
   return parts_->evaluate(frame, parts_->image);
 }
 
 const ImageResult& ImageQuery::Parts::evaluate(const Frame& frame, const RobotImage& asked) {
-  method->evaluate({frame.view->camera(), asked, robot->model().link_count(), searchable, settings},
-                   distances);
+  method->evaluate(
+      {frame.mounted->camera(), asked, robot->model().link_count(), searchable, settings},
+      distances);
   tell_image_distances(distances, frame.X_BC, result);
   return result;
 }
 
-RobotRenderer& ImageQuery::Parts::renderer_of(const std::shared_ptr<const MountedCamera>& view) {
-  if (rendered_view == view) return *renderer;
-  rendered_view = view;
-  return renderer.emplace(robot->meshes(), view->camera());
+RobotRenderer& ImageQuery::Parts::renderer_of(const std::shared_ptr<const MountedCamera>& mounted) {
+  if (rendered_view == mounted) return *renderer;
+  rendered_view = mounted;
+  return renderer.emplace(robot->meshes(), mounted->camera());
 }
 
 }  // namespace berth

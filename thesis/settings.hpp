@@ -67,10 +67,10 @@ void visit_settings(Settings& s, Visitor&& visit) {
   searched("search_pattern", "the order of obstacle pixels", s.surveillance.search_pattern);
   searched("shrinking", "whether the region shrinks with a link's closest pair",
            s.surveillance.shrinking);
-  visit(MethodSetting{{"step_x", kPixels, "tries every so many columns of obstacle pixels"},
+  visit(MethodSetting{{"step_x", kPixels, "tries every Nth column of obstacle pixels"},
                       "lattice gl_lattice gl_hybrid"},
         s.lattice.step_x);
-  visit(MethodSetting{{"step_y", kPixels, "tries every so many rows of obstacle pixels"},
+  visit(MethodSetting{{"step_y", kPixels, "tries every Nth row of obstacle pixels"},
                       "lattice gl_lattice gl_hybrid"},
         s.lattice.step_y);
   visit(MethodSetting{{"initial_grid_radius_px", kPixels,

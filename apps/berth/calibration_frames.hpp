@@ -33,7 +33,7 @@ struct CalibrationFrames {
   std::vector<FramePictures> pictures;
 };
 
-/// At most so many frames of a camera are drawn.
+/// The most frames of one camera that are drawn.
 inline constexpr std::size_t kMostPictures = 6;
 
 /// Which frames are drawn: spread over all, and the one that agrees worst. Increasing.

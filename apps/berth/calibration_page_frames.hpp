@@ -8,7 +8,7 @@
 
 namespace berth::app {
 
-/// `found` tells whether there is an after.
+/// `found` reports whether there is an after.
 std::string frames_html(const CalibrationCamera& source, const CameraCalibration& found,
                         const CalibrationFrames& frames);
 

@@ -17,7 +17,7 @@
 namespace berth::app {
 namespace {
 
-/// A check of a long recording looks at so many results.
+/// How many results a check of a long recording looks at.
 constexpr std::size_t kCheckedResults = 100;
 /// A link that is seen in fewer of the results than this is worth another camera.
 constexpr double kOftenSeen = 0.5;
@@ -34,7 +34,7 @@ std::vector<Pose> first_camera_poses(const OpenScene& scene) {
   RobotPose pose;
   for (const OpenCamera& camera : scene.cameras) {
     forward_kinematics(scene.robot->model(), camera.at_exposure.front().position, pose);
-    X_CB.push_back(camera.view->camera_pose(pose).inverse());
+    X_CB.push_back(camera.mounted->camera_pose(pose).inverse());
   }
   return X_CB;
 }
@@ -239,7 +239,7 @@ std::vector<Finding> check_unread(const OpenScene& scene) {
   for (const OpenCamera& camera : scene.cameras) {
     Finding found{.about = about_camera("no reading", camera),
                   .text = "what gives none, such as black clothes, is unknown space"};
-    if (camera.view->settings().space.no_reading == NoReading::free) {
+    if (camera.mounted->settings().space.no_reading == NoReading::free) {
       found.text = "what gives none, such as black clothes, is taken for free (space.no_reading)";
     } else if (!tells_unread(camera)) {
       found.verdict = Verdict::advice;
@@ -256,7 +256,7 @@ std::vector<Finding> check_watch(const OpenScene& scene) {
   std::vector<Finding> all;
   for (const OpenCamera& camera : scene.cameras) {
     Finding found{.about = about_camera("watch", camera), .text = "a bumped camera is noticed"};
-    if (!camera.view->settings().watch.is_on()) {
+    if (!camera.mounted->settings().watch.is_on()) {
       found.verdict = Verdict::advice;
       found.text = "off: nobody notices when the camera is bumped";
       found.next = calibrate_text(scene);
@@ -290,7 +290,8 @@ Finding check_views(const OpenScene& scene) {
     const Eigen::Vector3d p_B_m = reach.center_B_m + reach.radius_m * unit;
     bool is_known = is_guarded(model.guarded, p_B_m);
     for (std::size_t k = 0; k < X_CB.size() && !is_known; ++k) {
-      is_known = project_into_image(scene.cameras[k].view->camera(), X_CB[k] * p_B_m).has_value();
+      is_known =
+          project_into_image(scene.cameras[k].mounted->camera(), X_CB[k] * p_B_m).has_value();
     }
     if (is_known) continue;
     const int eighth = (unit.x() > 0) + 2 * (unit.y() > 0) + 4 * (unit.z() > 0);

@@ -36,7 +36,7 @@ std::vector<Finding> check_stamps(const OpenScene& scene);
 /// Whether the robot is where it should be in some images of each camera, and what simple mistake
 /// explains where it is.
 std::vector<Finding> check_poses(const OpenScene& scene);
-/// Whether each camera tells what gives no reading.
+/// Whether each camera reports what gives no reading.
 std::vector<Finding> check_unread(const OpenScene& scene);
 /// How much of the space that the robot moves in is in no camera's first image.
 Finding check_views(const OpenScene& scene);

@@ -74,7 +74,7 @@ Finding detection_of(const OpenScene& scene, const OpenCamera& camera,
   if (filter.smallest.empty()) found.text = "no image has room to measure it";
   found.text += fmt::format(
       "; pixels without a reading hide nothing below {:.0f} mm",
-      1000 * detection_capability_m(camera.view->settings().space, camera.view->camera()));
+      1000 * detection_capability_m(camera.mounted->settings().space, camera.mounted->camera()));
   // Endless where it promises nothing.
   const double promised_m =
       scene.separation ? scene.separation->detection_m.value_or(HUGE_VAL) : HUGE_VAL;
@@ -108,7 +108,7 @@ double median(std::vector<double> values) {
 
 /// The median of some images, and the last frame.
 double observe_ms(const OpenCamera& camera, const Pause& pause, Frame& frame) {
-  Observer observer(camera.view);
+  Observer observer(camera.mounted);
   std::vector<double> times_ms;
   const std::size_t images = std::min(camera.source.depth.size(), kTimedImages);
   for (std::size_t k = 0; k < images; ++k) {
@@ -158,7 +158,7 @@ std::vector<Finding> check_detection(const OpenScene& scene) {
   }
   const CalibrationResult found = as_the_scene_says(material);
   for (std::size_t c = 0; c < scene.cameras.size(); ++c) {
-    const CameraSettings& settings = scene.cameras[c].view->settings();
+    const CameraSettings& settings = scene.cameras[c].mounted->settings();
     all.push_back(detection_of(scene, scene.cameras[c],
                                propose_filter(material.calibration_data, c, found, false,
                                               settings.self_filter, settings.sensor)));

@@ -17,7 +17,7 @@ int run_command_line(int argc, const char* const* argv) {
       "distance, the two\n"
       "closest points and the mean direction of what is near. What an obstacle hides counts as "
       "obstacle.");
-  // None at all is found below: CLI11 would tell of that before it tells of an unknown word.
+  // None at all is found below: CLI11 would report that before an unknown word.
   program.require_subcommand(0, 1);
   program.set_version_flag("--version", BERTH_VERSION);
   DemoArguments demo;

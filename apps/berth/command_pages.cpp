@@ -30,7 +30,8 @@ std::vector<const CLI::Option*> shown_options(CLI::App& command) {
   return options;
 }
 
-/// The words that the option takes, where it takes no others: CLI11 tells them as "TEXT:{on,off}".
+/// The words that the option takes, where it takes no others: CLI11 reports them as
+/// "TEXT:{on,off}".
 std::vector<std::string> words_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const std::size_t first = type.find('{'), last = type.rfind('}');

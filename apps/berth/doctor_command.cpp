@@ -26,7 +26,7 @@ class Doctor {
     std::fflush(stdout);
     const bool is_wrong = found.verdict == Verdict::wrong;
     wrong_ += is_wrong;
-    std::vector<std::string>& next = is_wrong ? mend_ : improve_;
+    std::vector<std::string>& next = is_wrong ? fix_ : improve_;
     const bool is_new = std::ranges::find(next, found.next) == next.end();
     if (!found.next.empty() && is_new) next.push_back(found.next);
   }
@@ -50,7 +50,7 @@ class Doctor {
   }
 
   void say_next(const std::string& scene) const {
-    std::vector<std::string> next = mend_;
+    std::vector<std::string> next = fix_;
     next.insert(next.end(), improve_.begin(), improve_.end());
     if (next.empty()) return fmt::print("\nNothing is left to do: berth run {}\n", scene);
     fmt::print("\nWhat to do next:\n");
@@ -61,7 +61,7 @@ class Doctor {
  private:
   int wrong_ = 0;
   /// What to do next: where something is wrong, and then where something could be better.
-  std::vector<std::string> mend_, improve_;
+  std::vector<std::string> fix_, improve_;
 };
 
 }  // namespace

@@ -35,7 +35,7 @@ class Output {
   std::size_t count_ = 0;
 };
 
-/// Carries it out; where that ends early, what is thrown tells that the file holds what is done.
+/// Carries it out; where that ends early, what is thrown says that the file holds what is done.
 void keep_what_is_done(const CommonArguments& arguments, Output& output,
                        const std::function<void()>& work);
 

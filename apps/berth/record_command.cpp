@@ -52,9 +52,9 @@ void record_command(const RecordArguments& arguments) {
         "{}: separation: missing, so that nothing stops the robot; expected it, or --on always",
         arguments.scene.string()));
   }
-  std::vector<std::shared_ptr<const MountedCamera>> views;
-  for (const OpenCamera& camera : scene.cameras) views.push_back(camera.view);
-  Recorder recorder(scene.robot, views, scene.separation, settings_of(arguments, file));
+  std::vector<std::shared_ptr<const MountedCamera>> cameras;
+  for (const OpenCamera& camera : scene.cameras) cameras.push_back(camera.mounted);
+  Recorder recorder(scene.robot, cameras, scene.separation, settings_of(arguments, file));
   SceneRun run(scene, stop_if_interrupted);
   run.record_with(recorder);
   // What is done is kept, whatever ends the run.

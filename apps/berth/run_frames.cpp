@@ -39,7 +39,7 @@ void draw(const fs::path& folder, const OpenScene& scene, SceneRun& run, const R
   const std::shared_ptr<const Frame> kept = run.frame();
   const Frame& frame = *kept;
   const std::vector<PictureLink> links =
-      projected(run.camera().view->camera(), frame.X_BC, result.links);
+      projected(run.camera().mounted->camera(), frame.X_BC, result.links);
   write_picture(
       folder_of(scene, run.camera(), folder) / fmt::format("frame_{:06}.png", run.frame_number()),
       {run.sensor_depth_m(), &frame.robot, &frame.obstacles, &links, result.range_m,

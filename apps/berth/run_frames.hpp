@@ -32,7 +32,7 @@ void make_folders(const OpenScene& scene, const std::filesystem::path& folder);
 
 /// Says what is doubtful in the scene and its `cameras`. Calls `take` after each image that `next`
 /// has observed, with a progress bar on a terminal. Where that ends before the last one, what is
-/// thrown tells after how many images.
+/// thrown says after how many images.
 void each_frame(const OpenScene& scene, const std::vector<CameraPlausibility>& cameras,
                 const char* doing, const std::function<bool()>& next,
                 const std::function<void()>& take);

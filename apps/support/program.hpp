@@ -5,8 +5,8 @@
 
 namespace berth::app {
 
-/// Does the work with so many threads (0: as many as there are processors), and gives the exit
-/// status: 0, 1 where it could not be done, 130 where the user stopped it; both are said on
+/// Does the work with this number of threads (0: as many as there are processors), and gives the
+/// exit status: 0, 1 where it could not be done, 130 where the user stopped it; both are said on
 /// standard error, with the program's name.
 int carry_out(const char* program_name, int threads, const std::function<void()>& work);
 

@@ -5,7 +5,7 @@
 
 namespace berth::app {
 
-/// A line that tells how far a command is, on standard error; nothing where that is no terminal.
+/// A line that reports how far a command is, on standard error; nothing where that is no terminal.
 class ProgressBar {
  public:
   /// Shows it at once. 0: how many steps there will be is not known.

@@ -11,7 +11,7 @@
 namespace berth::app {
 namespace {
 
-/// Half a minute at 30 Hz; docs/view.md tells it.
+/// Half a minute at 30 Hz; docs/view.md describes it.
 constexpr std::size_t kMostLiveColumns = 900;
 constexpr std::chrono::milliseconds kBetweenCurves{250};
 

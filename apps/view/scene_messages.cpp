@@ -107,7 +107,7 @@ PageMessage scene_message(const OpenScene& scene, const std::vector<ImageStep>& 
 std::vector<PageCamera> page_cameras(const OpenScene& scene) {
   std::vector<PageCamera> cameras;
   for (const OpenCamera& one : scene.cameras) {
-    cameras.push_back({one.source.name, one.view->camera()});
+    cameras.push_back({one.source.name, one.mounted->camera()});
   }
   return cameras;
 }

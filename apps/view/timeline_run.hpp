@@ -50,7 +50,7 @@ class TimelineRun {
   void run(const OpenScene& scene);
   /// Throws where the run is to end.
   void pause();
-  /// Changes what was found, unless that was dropped meanwhile, and tells it where somebody waits
+  /// Changes what was found, unless that was dropped meanwhile, and reports it where somebody waits
   /// for it. Throws as pause() does.
   void note(const std::function<void()>& change);
 

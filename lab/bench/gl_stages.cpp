@@ -29,23 +29,24 @@ constexpr int kLatticeStep = 8;
 
 constexpr Method kGlMethods[] = {Method::gl_exact, Method::gl_lattice, Method::gl_hybrid};
 
-/// A view's pipeline on the GPU, taken apart, and the whole of it.
+/// A camera's pipeline on the GPU, taken apart, and the whole of it.
 class GlStages {
  public:
-  GlStages(const std::shared_ptr<const MountedCamera>& view, const ImageSettings& images)
-      : view_(view),
-        camera_(view->camera()),
+  GlStages(const std::shared_ptr<const MountedCamera>& mounted, const ImageSettings& images)
+      : mounted_(mounted),
+        camera_(mounted->camera()),
         upload_(camera_.width_px, camera_.height_px),
         sensor_depth_m_(GlPixel::depth_m, camera_.width_px, camera_.height_px),
         region_(camera_.width_px, camera_.height_px),
         frame_(camera_),
-        renderer_(view->robot()->model(), camera_),
-        observer_(view),
-        settings_(settings_of(*view->robot(), images)) {
+        renderer_(mounted->robot()->model(), camera_),
+        observer_(mounted),
+        settings_(settings_of(*mounted->robot(), images)) {
     settings_.mean_direction = false;
     settings_.lattice.step_x = settings_.lattice.step_y = kLatticeStep;
-    const double scale = view->settings().self_filter.robot_region_scale;
-    if (scale > 0) region_renderer_.emplace(robot_region(view->robot()->model(), scale), camera_);
+    const double scale = mounted->settings().self_filter.robot_region_scale;
+    if (scale > 0)
+      region_renderer_.emplace(robot_region(mounted->robot()->model(), scale), camera_);
     for (const Method method : kGlMethods) {
       const std::string_view name = name_of(method);
       evaluate_.push_back({fmt::format("{}, read-back included", name)});
@@ -101,14 +102,14 @@ class GlStages {
   }
 
   void render(const JointState& joints) {
-    forward_kinematics(view_->robot()->model(), joints.position, frame_.pose);
-    frame_.X_BC = view_->camera_pose(frame_.pose);
+    forward_kinematics(mounted_->robot()->model(), joints.position, frame_.pose);
+    frame_.X_BC = mounted_->camera_pose(frame_.pose);
     renderer_.render(frame_.pose, frame_.X_BC, frame_.images->robot);
     if (region_renderer_) region_renderer_->render(frame_.pose, frame_.X_BC, region_);
   }
 
   void filter() {
-    const SelfFilterSettings& settings = view_->settings().self_filter;
+    const SelfFilterSettings& settings = mounted_->settings().self_filter;
     if (region_renderer_) {
       filter_.filter(camera_, sensor_depth_m_, frame_.images->robot, region_.link_id, settings,
                      frame_.images->obstacles);
@@ -121,10 +122,10 @@ class GlStages {
   void evaluate(Method method) {
     answer_.links.clear();
     evaluator_.evaluate(method, camera_, frame_.images->robot, frame_.images->obstacles.depth_m,
-                        view_->robot()->model().link_count(), settings_, answer_);
+                        mounted_->robot()->model().link_count(), settings_, answer_);
   }
 
-  std::shared_ptr<const MountedCamera> view_;
+  std::shared_ptr<const MountedCamera> mounted_;
   Camera camera_;
   GlUpload upload_;
   GlTexture sensor_depth_m_;
@@ -147,8 +148,8 @@ class GlStages {
 };
 
 Table measure(const std::string& title, const Recording& recording,
-              const std::shared_ptr<const MountedCamera>& view, int frames, int rounds) {
-  GlStages stages(view, {});
+              const std::shared_ptr<const MountedCamera>& mounted, int frames, int rounds) {
+  GlStages stages(mounted, {});
   app::ProgressBar progress(title, frames);
   for (int i = 0; i < frames; ++i) {
     const std::size_t frame = recording.sampled_frame(i, frames);
@@ -166,8 +167,8 @@ Table measure(const std::string& title, const Recording& recording,
                   "directions, lattices with steps of {} px, by the clock on the wall. "
                   "Upload, render and self filter each until the GPU has done them; the "
                   "rows below those begin with images on the GPU, but for the last three.",
-                  view->camera().width_px, view->camera().height_px,
-                  triangle_count(view->robot()->model()), view->robot()->model().link_count(),
+                  mounted->camera().width_px, mounted->camera().height_px,
+                  triangle_count(mounted->robot()->model()), mounted->robot()->model().link_count(),
                   frames, rounds + 1, kLatticeStep),
       stages.all());
 }
@@ -176,17 +177,18 @@ Table measure(const std::string& title, const Recording& recording,
 
 Table measure_gl_stages(const Recording& recording, int max_frames, int rounds) {
   return measure(fmt::format("Stages on OpenGL, {}", recording.title), recording,
-                 recording.camera().view, std::min(max_frames, recording.frame_count()), rounds);
+                 recording.camera().mounted, std::min(max_frames, recording.frame_count()), rounds);
 }
 
 Table measure_gl_stages_of_100_000(const std::filesystem::path& scene_file, int rounds) {
   const auto recording = open_recording(scene_file, "bundled");
   const OpenCamera& camera = recording->camera();
-  const auto robot = std::make_shared<const Robot>(
-      coarse_robot(read_scene(scene_file).robot, kCoarseParts), camera.view->robot()->settings());
-  const auto view =
-      std::make_shared<const MountedCamera>(robot, camera.view->mount(), camera.view->settings());
-  return measure("Stages on OpenGL, 100 000 triangles", *recording, view, 1, rounds);
+  const auto robot =
+      std::make_shared<const Robot>(coarse_robot(read_scene(scene_file).robot, kCoarseParts),
+                                    camera.mounted->robot()->settings());
+  const auto mounted = std::make_shared<const MountedCamera>(robot, camera.mounted->mount(),
+                                                             camera.mounted->settings());
+  return measure("Stages on OpenGL, 100 000 triangles", *recording, mounted, 1, rounds);
 }
 
 }  // namespace berth::lab

@@ -49,8 +49,9 @@ void add_options(CLI::App& program, BenchSettings& settings, BackendChoice& wher
 void add_stream_options(CLI::App& program, StreamSettings& stream) {
   CLI::Option* const scene =
       program
-          .add_option("--stream", stream.scene,
-                      "Nothing but this: play the scene to and fro in real time, and ask meanwhile")
+          .add_option(
+              "--stream", stream.scene,
+              "Nothing but this: play the scene forth and back in real time, and ask meanwhile")
           ->type_name("SCENE.yaml");
   program
       .add_option("--cameras", stream.cameras, "How many of the stream's cameras (default: all)")

@@ -26,7 +26,7 @@ class Peer {
   virtual std::string lacks() const = 0;
   /// How many may work for it.
   virtual int threads() const { return 1; }
-  /// Whether others than its one thread work for it, so that only the clock on the wall tells its
+  /// Whether others than its one thread work for it, so that only the clock on the wall shows its
   /// time.
   virtual bool has_company() const { return threads() > 1; }
   /// What can be made ready before any frame comes; not timed.

@@ -28,12 +28,12 @@ class Stages {
  public:
   explicit Stages(const Recording& recording)
       : camera_(recording.camera()),
-        view_(camera_.view),
-        renderer_(view_->robot()->meshes(), view_->camera()),
-        rays_(view_->robot()->model(), view_->camera()),
-        observer_(view_),
-        query_(view_->robot(), Method::exact),
-        settings_(settings_of(*view_->robot(), {})) {
+        mounted_(camera_.mounted),
+        renderer_(mounted_->robot()->meshes(), mounted_->camera()),
+        rays_(mounted_->robot()->model(), mounted_->camera()),
+        observer_(mounted_),
+        query_(mounted_->robot(), Method::exact),
+        settings_(settings_of(*mounted_->robot(), {})) {
     settings_.mean_direction = false;
   }
 
@@ -52,8 +52,9 @@ class Stages {
   }
 
   void run_embree(std::size_t frame_number) {
-    forward_kinematics(view_->robot()->model(), camera_.at_exposure[frame_number].position, pose_);
-    embree_.take([&] { rays_.render(pose_, view_->camera_pose(pose_), traced_); });
+    forward_kinematics(mounted_->robot()->model(), camera_.at_exposure[frame_number].position,
+                       pose_);
+    embree_.take([&] { rays_.render(pose_, mounted_->camera_pose(pose_), traced_); });
   }
 
   void forget_times() {
@@ -67,24 +68,24 @@ class Stages {
  private:
   void run_apart(DepthView depth_m, const JointState& joints) {
     render_.take([&] {
-      forward_kinematics(view_->robot()->model(), joints.position, pose_);
-      renderer_.render(pose_, view_->camera_pose(pose_), frame_.robot);
+      forward_kinematics(mounted_->robot()->model(), joints.position, pose_);
+      renderer_.render(pose_, mounted_->camera_pose(pose_), frame_.robot);
     });
     self_filter_.take([&] {
-      self_filter(view_->camera(), depth_m, frame_.robot, view_->settings().self_filter, filter_,
-                  frame_.obstacles);
+      self_filter(mounted_->camera(), depth_m, frame_.robot, mounted_->settings().self_filter,
+                  filter_, frame_.obstacles);
     });
     both_.times_ms.push_back(render_.times_ms.back() + self_filter_.times_ms.back());
     tree_.take([&] { searchable_.build(frame_.obstacles.depth_m); });
     distances_.links.clear();
-    const ImageRequest request{view_->camera(), frame_.robot, view_->robot()->model().link_count(),
-                               searchable_, settings_};
+    const ImageRequest request{mounted_->camera(), frame_.robot,
+                               mounted_->robot()->model().link_count(), searchable_, settings_};
     exact_.take([&] { evaluate(Method::exact, request, workspace_, distances_); });
     mean_.take([&] { fill_mean_directions(request, workspace_.directions, distances_); });
   }
 
   const OpenCamera& camera_;
-  std::shared_ptr<const MountedCamera> view_;
+  std::shared_ptr<const MountedCamera> mounted_;
   RobotRenderer renderer_;
   EmbreeRays rays_;
   RobotImage traced_;
@@ -138,9 +139,9 @@ Table measure_stages(const Recording& recording, int threads, int rounds) {
       fmt::format("{} x {}, {} triangles, {} links, {} frames, each {} times. The image to "
                   "result and the request are the whole pipeline, with mean directions; "
                   "Embree is beside it.",
-                  camera.view->camera().width_px, camera.view->camera().height_px,
-                  triangle_count(camera.view->robot()->model()),
-                  camera.view->robot()->model().link_count(), frames, rounds + 1),
+                  camera.mounted->camera().width_px, camera.mounted->camera().height_px,
+                  triangle_count(camera.mounted->robot()->model()),
+                  camera.mounted->robot()->model().link_count(), frames, rounds + 1),
       stages.all());
 }
 

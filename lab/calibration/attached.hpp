@@ -20,8 +20,9 @@ inline constexpr int kShown_px = 100;
 /// One cell, and what was made of it.
 struct AttachedTrial {
   int parts = 0;
-  /// In so many poses some camera shows the thing on kShown_px pixels or more of every other one in
-  /// both directions. Fewer than three of them prove nothing, however good the search is.
+  /// The number of poses in which some camera shows the thing on kShown_px pixels or more of every
+  /// other one in both directions. Fewer than three of them prove nothing, however good the search
+  /// is.
   int poses_shown = 0;
   /// Whether the thing's own link has a part.
   bool is_found = false;

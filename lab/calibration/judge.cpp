@@ -70,7 +70,7 @@ Calibrated calibration_data(const SceneFile& file) {
   const Stopwatch stopwatch;
   calibrated.found = calibrate(material.calibration_data);
   calibrated.time_s = stopwatch.ms() / 1000;
-  const CameraSettings& settings = scene.cameras[0].view->settings();
+  const CameraSettings& settings = scene.cameras[0].mounted->settings();
   calibrated.proposal = propose_filter(material.calibration_data, 0, calibrated.found, false,
                                        settings.self_filter, settings.sensor);
   return calibrated;
@@ -115,7 +115,7 @@ Judgement judge(const SceneFile& file, const std::filesystem::path& folder) {
     ranges = read_expected_ranges(tsv);
   }
   const std::vector<std::string> names = scene.robot->model().evaluated_link_names();
-  Observer observer(camera.view);
+  Observer observer(camera.mounted);
   ImageQuery query(scene.robot, Method::exact);
   Frame frame;
   Judgement judgement;
@@ -130,7 +130,7 @@ Judgement judge(const SceneFile& file, const std::filesystem::path& folder) {
       (range.is_checked ? judgement.checked_in_range : judgement.estimates_in_range) += is_inside;
       judgement.too_far += !(link.distance_m <= range.max_m + kFarMargin_m);
     }
-    if (const auto mask = read_mask(folder, i, camera.view->camera())) {
+    if (const auto mask = read_mask(folder, i, camera.mounted->camera())) {
       count_mask(*mask, frame, depth_m, judgement);
     }
   }

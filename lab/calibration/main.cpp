@@ -29,11 +29,11 @@ int main(int argc, char** argv) {
   app.add_option("--data", data, "Folder with robots and recordings")
       ->required()
       ->check(CLI::ExistingDirectory);
-  app.add_option("--starts", starts, "Recordings: so many random starts");
-  app.add_option("--judged", trials.start.judged, "So many of them are judged by known distances");
+  app.add_option("--starts", starts, "Recordings: the number of random starts");
+  app.add_option("--judged", trials.start.judged, "How many of them are judged by known distances");
   app.add_option("--offset-m", trials.start.offset_m, "How far off a start is");
   app.add_option("--angle-deg", trials.start.angle_deg);
-  app.add_option("--seeds", trials.seeds, "Drawn scenes: so many of each robot");
+  app.add_option("--seeds", trials.seeds, "Drawn scenes: how many of each robot");
   app.add_option("--robot", robot, "Only robots whose names hold this");
   app.add_option("--poses", trials.drawn.poses);
   app.add_flag("--moves", trials.drawn.moves, "Images are taken while the robot moves");
@@ -44,7 +44,7 @@ int main(int argc, char** argv) {
   app.add_option("--clock-s", trials.drawn.errors.clock_offset_s);
   app.add_option("--joint-zero-deg", zero_deg);
   app.add_option("--attached", attached_seeds,
-                 "Cells with what robots carry: so many of each robot, kind, poses and cameras");
+                 "Cells with what robots carry: how many of each robot, kind, poses and cameras");
   app.add_option("--company", company_seeds,
                  "The same of robots that carry nothing, with others in their images");
   app.add_flag("--each", trials.prints_each, "Tell each drawn scene on standard error");

@@ -129,7 +129,7 @@ class DrawnThings {
  public:
   explicit DrawnThings(const CalibratedScene& calibrated) : calibrated_(calibrated) {
     for (const OpenCamera& camera : calibrated.scene.cameras) {
-      observers_.emplace_back(camera.view);
+      observers_.emplace_back(camera.mounted);
     }
   }
 
@@ -165,7 +165,7 @@ class DrawnThings {
   bool is_in_view(const Thing& thing) const {
     bool is_seen = false;
     for (std::size_t c = 0; c < images_.size(); ++c) {
-      const BallPlace place = ball_at(calibrated_.scene.cameras[c].view->camera(), images_[c],
+      const BallPlace place = ball_at(calibrated_.scene.cameras[c].mounted->camera(), images_[c],
                                       thing.X_BP.translation(), thing.diameter_m / 2);
       if (!place.is_possible) return false;
       is_seen = is_seen || place.ball.has_value();
@@ -177,7 +177,7 @@ class DrawnThings {
     for (std::size_t c = 0; c < images_.size(); ++c) {
       const OpenCamera& camera = calibrated_.scene.cameras[c];
       const DrawnImage drawn =
-          draw_into(images_[c].depth_m, camera.view->camera(), images_[c].X_BC, thing, seed);
+          draw_into(images_[c].depth_m, camera.mounted->camera(), images_[c].X_BC, thing, seed);
       observers_[c].observe(drawn.depth_m, camera.at_exposure[frames_at_[c]], frame_);
       if (is_left(drawn, frame_.obstacles)) return true;
     }

@@ -8,7 +8,7 @@ namespace berth::lab {
 struct StartErrors {
   double offset_m = 0.05;
   double angle_deg = 5;
-  /// So many of the starts are judged by the recording's known distances.
+  /// How many of the starts are judged by the recording's known distances.
   int judged = 1;
   /// Of the robot's middle, about.
   double robot_depth_m = 1.2;

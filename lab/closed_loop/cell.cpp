@@ -86,15 +86,15 @@ std::vector<std::shared_ptr<const MountedCamera>> cell_views(
   CameraSettings settings = settings_of_real_camera();
   settings.sensor.speckle_px = speckle_px(all.front().camera, detection_m);
   settings.space.detection_capability_m = detection_m;
-  std::vector<std::shared_ptr<const MountedCamera>> views;
+  std::vector<std::shared_ptr<const MountedCamera>> mounted;
   for (const int camera : cameras) {
-    views.push_back(std::make_shared<const MountedCamera>(
+    mounted.push_back(std::make_shared<const MountedCamera>(
         robot,
         CameraMount{all[camera].camera, robot->model().links.front().name, all[camera].X_BC,
                     all[camera].name},
         settings));
   }
-  return views;
+  return mounted;
 }
 
 }  // namespace berth::lab

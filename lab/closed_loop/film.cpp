@@ -39,7 +39,7 @@ class FilmedSupervisor : public MonitorSupervisor {
  private:
   void draw(double now_s) {
     const Frame& frame = *newest(0);
-    const auto links = app::projected(frame.view->camera(), frame.X_BC, result().links);
+    const auto links = app::projected(frame.mounted->camera(), frame.X_BC, result().links);
     app::write_picture(folder_ / fmt::format("film_{}.png", taken_),
                        {newest_depth_m_, &frame.robot, &frame.obstacles, &links, kCellRange_m,
                         fmt::format("{:.2f} s, speed {:.0f} %", now_s, 100 * last().speed_scale)});

@@ -1,4 +1,4 @@
-// measure_sequences: what berth tells of an arm and people that move, beside the truth.
+// measure_sequences: what berth reports on an arm and people that move, beside the truth.
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>

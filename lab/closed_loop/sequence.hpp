@@ -1,4 +1,4 @@
-// What berth tells of an arm and people that move, instant by instant, beside the truth.
+// What berth reports on an arm and people that move, instant by instant, beside the truth.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ struct SequenceLink {
   /// To what is seen or unknown, and to what is seen.
   double told_m = 0;
   double occupied_m = 0;
-  /// How the truth's nearest point shows in the images, by the camera that tells most.
+  /// How the truth's nearest point shows in the images, by the camera that shows most.
   sim::ObstacleSight sight = sim::ObstacleSight::outside;
 };
 using SequenceInstant = std::vector<SequenceLink>;

@@ -14,11 +14,10 @@ MonitorSupervisor::MonitorSupervisor(std::vector<int> cameras, const SeparationS
     : robot_(cell_robot(deadline_us)),
       cameras_(std::move(cameras)),
       frames_(cameras_.size()),
-      query_(robot_),
-      monitor_(robot_, settings),
+      loop_(robot_, {}, settings),
       shown_(shown) {
-  for (const auto& view : cell_views(robot_, cameras_, settings.detection_m.value())) {
-    observers_.push_back(std::make_unique<Observer>(view));
+  for (const auto& mounted : cell_views(robot_, cameras_, settings.detection_m.value())) {
+    observers_.push_back(std::make_unique<Observer>(mounted));
   }
 }
 
@@ -39,21 +38,20 @@ void MonitorSupervisor::see(std::size_t which, const DepthImage& depth_m, double
 double MonitorSupervisor::scale(const Situation& situation) {
   using Clock = std::chrono::steady_clock;
   const auto asked = Clock::now();
-  result_ = &query_.ask({.frames = space_ ? NewestFrames(space_) : NewestFrames(frames_),
-                         .joints = situation.joints,
-                         .now_s = situation.now_s});
+  loop_.ask({.frames = space_ ? NewestFrames(space_) : NewestFrames(frames_),
+             .joints = situation.joints,
+             .now_s = situation.now_s});
   const auto answered = Clock::now();
   PlannedMotion motion(situation.plan.velocity_rad_s);
   if (shown_ == ShownBy::along_path) motion.path = situation.path;
-  last_ = &monitor_.update(*result_, motion, situation.now_s,
-                           shown_ == ShownBy::formula ? nullptr : &query_.frames());
+  result_ = &loop_.monitor(motion, situation.now_s, shown_ != ShownBy::formula);
   const auto done = Clock::now();
   const auto since = [done](Clock::time_point start) {
     return std::chrono::duration<double, std::micro>(done - start).count();
   };
   monitor_us_.push_back(since(answered));
   request_us_.push_back(since(asked));
-  return last_->speed_scale;
+  return last().speed_scale;
 }
 
 EvadingSupervisor::EvadingSupervisor(std::vector<int> cameras, const SeparationSettings& settings)

@@ -10,9 +10,8 @@
 #include "berth/pipeline/frame_pool.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "berth/pipeline/prepared_space.hpp"
-#include "berth/pipeline/query.hpp"
+#include "berth/record/monitor_loop.hpp"
 #include "berth/separation/evasion.hpp"
-#include "berth/separation/monitor.hpp"
 #include "lab/closed_loop/path.hpp"
 
 namespace berth::lab {
@@ -86,7 +85,7 @@ class MonitorSupervisor : public Supervisor {
   void see(std::size_t which, const DepthImage& depth_m, double stamp_s,
            const JointBuffer& joints) override;
   double scale(const Situation& situation) override;
-  const Separation& last() const { return *last_; }
+  const Separation& last() const { return *result_->separation; }
   const std::shared_ptr<const Robot>& robot() const { return robot_; }
   const Result& result() const { return *result_; }
   /// How long the monitor took, in each request.
@@ -101,10 +100,8 @@ class MonitorSupervisor : public Supervisor {
   std::vector<int> cameras_;
   std::vector<std::unique_ptr<Observer>> observers_;
   std::vector<std::shared_ptr<const Frame>> frames_;
-  Query query_;
-  SeparationMonitor monitor_;
+  MonitorLoop loop_;
   ShownBy shown_;
-  const Separation* last_ = nullptr;
   const Result* result_ = nullptr;
   Pool<PreparedSpace> spaces_;
   std::shared_ptr<const PreparedSpace> space_;

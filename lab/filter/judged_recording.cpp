@@ -42,11 +42,11 @@ struct Draw {
 JudgedRecording load_recording(const std::filesystem::path& folder, int draws) {
   const OpenScene scene = open_scene(folder / "scene.yaml");
   const OpenCamera& camera = scene.cameras.front();
-  const MountedCamera& view = *camera.view;
-  const RobotModel& model = view.robot()->model();
+  const MountedCamera& mounted = *camera.mounted;
+  const RobotModel& model = mounted.robot()->model();
   const ExpectedRanges ranges = read_expected_ranges(folder / "expected.tsv");
   const std::vector<std::string> names = model.evaluated_link_names();
-  RobotRenderer renderer(view.robot()->meshes(), view.camera());
+  RobotRenderer renderer(mounted.robot()->meshes(), mounted.camera());
   JudgedRecording recording{folder.filename().string(), {}};
   for (int seed = draws == 0 ? 0 : 1; seed <= draws; ++seed) {
     for (std::size_t i = 0; i < camera.source.depth.size(); ++i) {
@@ -55,8 +55,8 @@ JudgedRecording load_recording(const std::filesystem::path& folder, int draws) {
       for (std::size_t k = 0; k < position.size(); ++k) position[k] += draw.joints_rad[k];
       RobotPose pose;
       forward_kinematics(model, position, pose);
-      JudgedView judged{view.camera(), camera.read_depth(i), {}, model.link_count(), {}};
-      renderer.render(pose, view.camera_pose(pose) * draw.X_CC, judged.robot);
+      JudgedView judged{mounted.camera(), camera.read_depth(i), {}, model.link_count(), {}};
+      renderer.render(pose, mounted.camera_pose(pose) * draw.X_CC, judged.robot);
       for (const std::string& name : names) {
         judged.expected.push_back(ranges.at({static_cast<int>(i), name}));
       }

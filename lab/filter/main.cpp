@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
   app.add_flag("--recordings", has_recordings, "Count the recordings' rows in range");
   app.add_option("--draws", draws, "Recordings: wrong calibrations; 0: as it is")
       ->check(CLI::Range(0, 1000));
-  app.add_option("--drawn-scenes", drawn_scenes, "Measure on so many")
+  app.add_option("--drawn-scenes", drawn_scenes, "Measure on this number")
       ->check(CLI::Range(1, 1000000));
   app.add_option("--real-tries", real_tries, "Draw robots into real images so often")
       ->check(CLI::Range(1, 1000000));

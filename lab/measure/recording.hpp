@@ -21,7 +21,7 @@ struct Recording {
   }
 };
 
-/// Answers go without visibility, which nothing that is measured beside them tells. Throws as
+/// Answers go without visibility, which nothing that is measured beside them has. Throws as
 /// open_scene does.
 std::shared_ptr<const Recording> open_recording(const std::filesystem::path& file,
                                                 std::string title);

@@ -28,7 +28,7 @@ Film film_of_scene(const OpenScene& scene, const StreamSettings& settings) {
   for (std::size_t k = 0; k < film.cameras.size(); ++k) {
     const OpenCamera& from = scene.cameras[k];
     FilmedCamera& to = film.cameras[k];
-    to.view = from.view;
+    to.mounted = from.mounted;
     for (std::size_t i = 0; i < from.at_exposure.size(); ++i) {
       to.stamps_s.push_back(from.at_exposure[i].stamp_s);
       to.depth_m.push_back(from.read_depth(i));
@@ -43,7 +43,7 @@ Film film_of(const StreamSettings& settings) {
   const OpenScene scene = open_scene(settings.scene);
   if (!settings.room) return film_of_scene(scene, settings);
   const auto cameras = static_cast<std::size_t>(settings.cameras);
-  return film_of_room(scene.robot, scene.cameras.front().view->settings(), *settings.room,
+  return film_of_room(scene.robot, scene.cameras.front().mounted->settings(), *settings.room,
                       cameras == 0 ? scene.cameras.size() : cameras);
 }
 

@@ -12,7 +12,7 @@
 namespace berth::lab {
 
 struct FilmedCamera {
-  std::shared_ptr<const MountedCamera> view;
+  std::shared_ptr<const MountedCamera> mounted;
   std::vector<double> stamps_s;
   /// One for each stamp.
   std::vector<DepthImage> depth_m;
@@ -37,7 +37,7 @@ Film film_of(const StreamSettings& settings);
 Film film_of_room(const std::shared_ptr<const Robot>& robot, const CameraSettings& settings,
                   const RoomSettings& room, std::size_t cameras);
 
-/// The film's time as it goes to and fro, `speed` times as fast.
+/// The film's time as it plays forth and back, `speed` times as fast.
 struct Play {
   double first_s, last_s, speed, begin_s;
 

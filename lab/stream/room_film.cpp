@@ -55,7 +55,7 @@ DepthImage drawn_over(const DepthImage& robot_m, DepthImage depth_m) {
 FilmedCamera film_from(const Film& film, const sim::DrawnScene& drawn, const Pose& X_BC,
                        const CameraSettings& settings, double first_s) {
   FilmedCamera camera;
-  camera.view = std::make_shared<const MountedCamera>(
+  camera.mounted = std::make_shared<const MountedCamera>(
       film.robot, CameraMount{drawn.camera, film.robot->model().links.front().name, X_BC},
       settings);
   const DepthImage room_m = sim::cast_obstacles(drawn.obstacles, drawn.camera, X_BC);

@@ -39,8 +39,8 @@ class Steps {
         frame_pools_(film.cameras.size()),
         frames_(film.cameras.size()) {
     for (const FilmedCamera& camera : film.cameras) {
-      // Images are made for all that the scene tells, whatever is asked.
-      observers_.emplace_back(camera.view);
+      // Images are made for all that the scene reports, whatever is asked.
+      observers_.emplace_back(camera.mounted);
     }
   }
 

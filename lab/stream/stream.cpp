@@ -39,7 +39,7 @@ void use_cores(const cpu_set_t& cores) {
   (void)pthread_setaffinity_np(pthread_self(), sizeof(cores), &cores);
 }
 
-/// The last core for who asks, the others for who makes images ready; all for both where there is
+/// The last core for requests, the others for making images ready; all for both where there is
 /// only one.
 struct Cores {
   cpu_set_t of_requests, of_images;
@@ -93,9 +93,10 @@ class Stream {
     if (!settings.record.empty()) record();
     for (std::size_t k = 0; k < count_; ++k) {
       cameras_.push_back(std::make_unique<LiveCamera>(
-          film.cameras[k].view, joints_, LiveCameraSettings{},
-          [this, k](const Frame& frame, DepthView depth_m, const std::shared_ptr<const void>&) {
-            if (recorder_) recorder_->put(frame, depth_m);
+          film.cameras[k].mounted, joints_, LiveCameraSettings{},
+          [this, k](const std::shared_ptr<const Frame>& frame, DepthView depth_m,
+                    const std::shared_ptr<const void>&) {
+            if (recorder_) recorder_->put(*frame, depth_m);
             keep(k);
           }));
     }
@@ -120,9 +121,9 @@ class Stream {
 
  private:
   void record() {
-    std::vector<std::shared_ptr<const MountedCamera>> views;
-    for (const FilmedCamera& camera : film_.cameras) views.push_back(camera.view);
-    recorder_.emplace(robot_, views, std::nullopt, RecorderSettings{.file = settings_.record});
+    std::vector<std::shared_ptr<const MountedCamera>> cameras;
+    for (const FilmedCamera& camera : film_.cameras) cameras.push_back(camera.mounted);
+    recorder_.emplace(robot_, cameras, std::nullopt, RecorderSettings{.file = settings_.record});
   }
 
   void keep(std::size_t camera) {

@@ -33,7 +33,7 @@ struct StreamSettings {
   bool as_json = false;
 };
 
-/// Plays the scene to and fro in real time: one thread gives joints, at the requests' rate, and
+/// Plays the scene forth and back in real time: one thread gives joints, at the requests' rate, and
 /// images as a driver does, each camera has its thread, and one thread asks. Returns what came
 /// of it, in lines or as one JSON object. Throws std::runtime_error where the scene cannot be read
 /// or played.

@@ -56,7 +56,7 @@ struct ContactTrial {
 ContactTrial run_contact_trial(const TrialRobot& robot, const ContactCase& of, std::uint32_t seed);
 
 /// People beside all images by SpaceSettings::unobserved with one to four cameras, as Markdown;
-/// each row has so many scenes.
+/// each row has this number of scenes.
 std::string unobserved_table(const std::vector<TrialRobot>& robots, int first, int scenes);
 
 /// Things of each kind with one to three cameras, as Markdown; `scenes` are shared by its rows.

@@ -24,7 +24,7 @@ SelfFilterSettings narrow_filter() {
   return settings;
 }
 
-/// [k] for the first k + 1 cameras; the sight that tells most counts.
+/// [k] for the first k + 1 cameras; the sight that shows most counts.
 std::array<sim::ObstacleSight, kMostTrialCameras> sights_of(
     const Eigen::Vector3d& p_B, const std::vector<sim::DrawnView>& views) {
   std::array<sim::ObstacleSight, kMostTrialCameras> sights;

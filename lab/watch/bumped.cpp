@@ -13,7 +13,7 @@
 namespace berth::lab {
 namespace {
 
-/// Never an alarm: tells T alone.
+/// Never an alarm: reports T alone.
 constexpr WatchSettings kTellT{.max_seen_through = 1};
 
 std::vector<Eigen::Vector3d> directions() {
@@ -31,16 +31,16 @@ std::vector<Eigen::Vector3d> directions() {
 class Believed {
  public:
   explicit Believed(const OpenCamera& camera)
-      : view_(*camera.view), renderer_(view_.robot()->meshes(), view_.camera()) {}
+      : mounted_(*camera.mounted), renderer_(mounted_.robot()->meshes(), mounted_.camera()) {}
 
   const RobotImage& robot(const JointState& joints, const Pose& X_CC = Pose::Identity()) {
-    forward_kinematics(view_.robot()->model(), joints.position, pose_);
-    renderer_.render(pose_, view_.camera_pose(pose_) * X_CC, image_);
+    forward_kinematics(mounted_.robot()->model(), joints.position, pose_);
+    renderer_.render(pose_, mounted_.camera_pose(pose_) * X_CC, image_);
     return image_;
   }
 
  private:
-  const MountedCamera& view_;
+  const MountedCamera& mounted_;
   RobotRenderer renderer_;
   RobotPose pose_;
   RobotImage image_;
@@ -98,10 +98,10 @@ SeenThroughs seen_throughs(const Second& second) {
 }
 
 FrameDisplacement displacement_of(const OpenCamera& camera, const Pose& X_CC) {
-  const RobotModel& model = camera.view->robot()->model();
-  const CameraMount& mount = camera.view->mount();
+  const RobotModel& model = camera.mounted->robot()->model();
+  const CameraMount& mount = camera.mounted->mount();
   return {model,
-          camera.view->robot()->meshes(),
+          camera.mounted->robot()->meshes(),
           mount.camera,
           *model.find_link(mount.parent_link),
           mount.X_PC * X_CC,

@@ -20,7 +20,7 @@ Eigen::Vector3d direction(sim::Random& random) {
 void move_camera(OpenScene& scene, std::size_t c, double offset_m, double angle_rad,
                  std::uint32_t seed) {
   sim::Random random(300 + seed);
-  CameraMount mount = scene.cameras[c].view->mount();
+  CameraMount mount = scene.cameras[c].mounted->mount();
   const Eigen::Vector3d offset = offset_m * direction(random);
   mount.X_PC =
       mount.X_PC * Eigen::Translation3d(offset) * Eigen::AngleAxisd(angle_rad, direction(random));
@@ -49,7 +49,7 @@ OpenScene draw_good_scene(const RobotModel& model, std::uint32_t seed) {
   camera.source.name = "camera";
   camera.source.parent_link = model.links[from.parent].name;
   camera.source.X_PC = from.X_PC;
-  camera.view = std::make_shared<const MountedCamera>(
+  camera.mounted = std::make_shared<const MountedCamera>(
       scene.robot, CameraMount{from.camera, camera.source.parent_link, from.X_PC, "camera"},
       settings_of_real_camera());
   for (std::size_t k = 0; k < from.frames.size(); ++k) {

@@ -98,7 +98,7 @@ int run(int argc, char** argv) {
   int nth = 1, draws = 50;
   bool whole_watch = false;
   app.add_option("scene", scene_file, "the scene file")->required();
-  app.add_option("--nth", nth, "every so many frames are bumped")->check(CLI::Range(1, 1000));
+  app.add_option("--nth", nth, "every Nth frame is bumped")->check(CLI::Range(1, 1000));
   app.add_option("--draws", draws, "people for each camera")->check(CLI::Range(1, 1000));
   app.add_flag("--whole-watch", whole_watch, "T and D together, by the limits that are learned");
   CLI11_PARSE(app, argc, argv);

@@ -135,7 +135,7 @@ int run(int argc, char** argv) {
   app.add_option("--draws", draws, "poses and people for each camera")->check(CLI::Range(1, 1000));
   int drawn = 0;
   std::string robots_folder;
-  app.add_option("--drawn", drawn, "so many drawn scenes without a mistake as well");
+  app.add_option("--drawn", drawn, "how many drawn scenes without a mistake as well");
   app.add_option("--robots", robots_folder, "more robots for them, a folder each");
   app.add_flag("--say", says, "print what is said of each mistake to standard error");
   CLI11_PARSE(app, argc, argv);

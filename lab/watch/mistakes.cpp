@@ -46,7 +46,7 @@ auto scaled_depth(float factor) {
 template <class Change>
 auto other_mount(Change change) {
   return [change](OpenScene& scene, std::size_t c) {
-    CameraMount mount = scene.cameras[c].view->mount();
+    CameraMount mount = scene.cameras[c].mounted->mount();
     change(mount);
     set_mount(scene, scene.cameras[c], mount);
   };
@@ -72,7 +72,7 @@ auto each_position(Change change) {
 
 void rpy_in_degrees(OpenScene& scene, std::size_t c) {
   OpenCamera& camera = scene.cameras[c];
-  CameraMount mount = camera.view->mount();
+  CameraMount mount = camera.mounted->mount();
   // yaw, pitch, roll.
   const Eigen::Vector3d ypr = mount.X_PC.linear().eulerAngles(2, 1, 0) / kDegree_rad;
   camera.source.rpy_rad = Eigen::Vector3d(ypr.z(), ypr.y(), ypr.x());
@@ -97,7 +97,7 @@ auto shifted_joints(int shift) {
 /// As if another camera of the same kind had taken the images.
 void swap_poses(OpenScene& scene, std::size_t c) {
   OpenCamera& other = scene.cameras[c == 0 ? 1 : 0];
-  CameraMount one = scene.cameras[c].view->mount(), two = other.view->mount();
+  CameraMount one = scene.cameras[c].mounted->mount(), two = other.mounted->mount();
   std::swap(one.X_PC, two.X_PC);
   set_mount(scene, scene.cameras[c], one);
   set_mount(scene, other, two);
@@ -137,7 +137,7 @@ void add_cameras(Mistakes& all) {
                    is_slight});
   }
   all.push_back({"depth along the ray", "along the ray", [](OpenScene& scene, std::size_t c) {
-                   const Camera& camera = scene.cameras[c].view->camera();
+                   const Camera& camera = scene.cameras[c].mounted->camera();
                    each_image([&](DepthImage& image) {
                      for (int v = 0; v < image.height(); ++v) {
                        for (int u = 0; u < image.width(); ++u) {
@@ -228,7 +228,8 @@ std::vector<MadeMistake> mistakes_in(const OpenScene& scene) {
 }
 
 void set_mount(const OpenScene& scene, OpenCamera& camera, const CameraMount& mount) {
-  camera.view = std::make_shared<const MountedCamera>(scene.robot, mount, camera.view->settings());
+  camera.mounted =
+      std::make_shared<const MountedCamera>(scene.robot, mount, camera.mounted->settings());
 }
 
 }  // namespace berth::lab

@@ -5,8 +5,7 @@
 #include <mutex>
 #include <utility>
 
-#include "berth/record/recorder.hpp"
-#include "berth/separation/monitor.hpp"
+#include "berth/record/monitor_loop.hpp"
 
 namespace berth::python {
 
@@ -15,16 +14,11 @@ class SharedMonitor {
   SharedMonitor(std::shared_ptr<const Robot> robot, SeparationSettings settings)
       : monitor_(std::move(robot), std::move(settings)) {}
 
-  Separation update(const Result& result, const PlannedMotion& motion, double now_s,
-                    const FrameSet& frames) {
-    const std::lock_guard lock(mutex_);
-    return monitor_.update(result, motion, now_s, &frames);
-  }
-  /// The same, recorded.
-  Separation update(Recorder& recorder, const Result& result, const PlannedMotion& motion,
+  /// Null: nothing is recorded.
+  Separation update(Recorder* recorder, const Result& result, const PlannedMotion& motion,
                     double now_s, const FrameSet& frames) {
     const std::lock_guard lock(mutex_);
-    return recorder.update(monitor_, result, motion, now_s, &frames);
+    return update_recorded(recorder, monitor_, result, motion, now_s, &frames);
   }
   SeparationSettings settings() const { return monitor_.settings(); }
 

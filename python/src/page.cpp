@@ -19,10 +19,10 @@ std::vector<std::filesystem::path> package_page_folders() {
 }
 
 std::unique_ptr<app::LivePage> make_page(const std::shared_ptr<Robot>& robot,
-                                         const std::vector<std::shared_ptr<MountedCamera>>& views,
+                                         const std::vector<std::shared_ptr<MountedCamera>>& given,
                                          int port, const std::string& bind) {
   std::vector<app::PageCamera> cameras;
-  for (const auto& view : views) cameras.push_back({view->mount().name, view->camera()});
+  for (const auto& mounted : given) cameras.push_back({mounted->mount().name, mounted->camera()});
   return std::make_unique<app::LivePage>(robot, cameras, app::PageAddress{bind, port},
                                          app::read_page_files(package_page_folders()));
 }

@@ -22,8 +22,8 @@ std::vector<std::shared_ptr<const Frame>> frames_of(const py::object& frames) {
   std::set<std::string> names;
   for (const py::handle one : frames) {
     all.push_back(one.cast<std::shared_ptr<Frame>>());
-    if (!all.back() || !all.back()->view) continue;
-    const std::string& name = all.back()->view->mount().name;
+    if (!all.back() || !all.back()->mounted) continue;
+    const std::string& name = all.back()->mounted->mount().name;
     if (names.insert(name).second) continue;
     throw std::invalid_argument(
         fmt::format("frames: two of a camera named \"{}\"; expected one of each camera, and a name "
@@ -57,7 +57,7 @@ Motion motion_of(const RobotModel& model, const py::object& velocity, const py::
 class SharedQuery {
  public:
   SharedQuery(const std::shared_ptr<Robot>& robot, std::vector<std::string> camera_names)
-      : robot_(robot), query_(robot, std::move(camera_names)) {}
+      : robot_(robot), loop_(robot, std::move(camera_names)) {}
 
   Part<Result> ask(const py::object& of, const py::object& joints, std::optional<double> now_s,
                    double joints_stamp_s, const py::object& ahead, double nearer_than_m,
@@ -84,11 +84,14 @@ class SharedQuery {
                           .now_s = now_s,
                           .ahead = poses,
                           .nearer_than_m = nearer_than_m};
-    if (recorder) return owned(ask_recorded(**recorder, request, monitor, motion));
-    Result result = query_.ask(request);
+    std::unique_lock<std::mutex> recording;
+    if (recorder) recording = std::unique_lock((*recorder)->mutex);
+    Recorder* const into = recorder ? &(*recorder)->recorder : nullptr;
+    loop_.record_with(into);
+    Result result = loop_.ask(request);
     if (monitor) {
       result.separation =
-          (*monitor)->update(result, {motion.velocity, motion.path}, *now_s, query_.frames());
+          (*monitor)->update(into, result, {motion.velocity, motion.path}, *now_s, loop_.frames());
     }
     return owned(std::move(result));
   }
@@ -96,25 +99,14 @@ class SharedQuery {
   void forget() {
     const py::gil_scoped_release release;
     const std::lock_guard lock(mutex_);
-    query_.forget();
+    loop_.forget();
   }
 
  private:
-  Result ask_recorded(SharedRecorder& shared, const Request& request,
-                      const std::optional<std::shared_ptr<SharedMonitor>>& monitor,
-                      const Motion& motion) {
-    const std::lock_guard lock(shared.mutex);
-    Result result = shared.recorder.ask(query_, request);
-    if (monitor) {
-      result.separation = (*monitor)->update(
-          shared.recorder, result, {motion.velocity, motion.path}, *request.now_s, query_.frames());
-    }
-    return result;
-  }
-
   std::shared_ptr<const Robot> robot_;
   std::mutex mutex_;
-  Query query_;
+  /// Python's monitors are objects of their own.
+  MonitorLoop loop_;
 };
 
 }  // namespace

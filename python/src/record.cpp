@@ -12,7 +12,7 @@ namespace {
 
 std::shared_ptr<SharedRecorder> make(const std::filesystem::path& file,
                                      const std::shared_ptr<Robot>& robot,
-                                     const std::vector<std::shared_ptr<MountedCamera>>& views,
+                                     const std::vector<std::shared_ptr<MountedCamera>>& cameras,
                                      const std::optional<SeparationSettings>& separation,
                                      double seconds, bool on_stop, double after_stop_s) {
   RecorderSettings settings;
@@ -21,7 +21,7 @@ std::shared_ptr<SharedRecorder> make(const std::filesystem::path& file,
   settings.on_stop = on_stop;
   settings.after_stop_s = after_stop_s;
   return std::make_shared<SharedRecorder>(
-      robot, std::vector<std::shared_ptr<const MountedCamera>>(views.begin(), views.end()),
+      robot, std::vector<std::shared_ptr<const MountedCamera>>(cameras.begin(), cameras.end()),
       separation, settings);
 }
 

@@ -10,9 +10,10 @@ namespace berth::python {
 
 struct SharedRecorder {
   SharedRecorder(std::shared_ptr<const Robot> robot,
-                 std::vector<std::shared_ptr<const MountedCamera>> views,
+                 std::vector<std::shared_ptr<const MountedCamera>> cameras,
                  std::optional<SeparationSettings> separation, RecorderSettings settings)
-      : recorder(std::move(robot), std::move(views), std::move(separation), std::move(settings)) {}
+      : recorder(std::move(robot), std::move(cameras), std::move(separation), std::move(settings)) {
+  }
 
   std::mutex mutex;
   Recorder recorder;

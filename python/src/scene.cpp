@@ -65,10 +65,10 @@ SceneHandle open(const std::filesystem::path& file) {
   return {std::make_shared<OpenScene>(open_scene(read_scene(file), stop_if_interrupted))};
 }
 
-std::vector<std::shared_ptr<MountedCamera>> views(const SceneHandle& handle) {
+std::vector<std::shared_ptr<MountedCamera>> cameras(const SceneHandle& handle) {
   std::vector<std::shared_ptr<MountedCamera>> all;
   for (const OpenCamera& camera : handle.scene->cameras) {
-    all.push_back(std::const_pointer_cast<MountedCamera>(camera.view));
+    all.push_back(std::const_pointer_cast<MountedCamera>(camera.mounted));
   }
   return all;
 }
@@ -111,7 +111,7 @@ void bind_scene(py::module_& m) {
           "robot",
           [](const SceneHandle& h) { return std::const_pointer_cast<Robot>(h.scene->robot); },
           "Robot: with the scene's evaluation settings")
-      .def_property_readonly("views", &views, "List[MountedCamera]: one for each camera")
+      .def_property_readonly("views", &cameras, "List[MountedCamera]: one for each camera")
       .def("__len__", [](const SceneHandle& h) { return h.scene->frame_count; })
       .def("__iter__", [](const SceneHandle& h) { return std::make_unique<SceneIterator>(h); });
   m.def("open_scene", &open, py::arg("file"),

@@ -27,8 +27,8 @@ std::shared_ptr<MountedCamera> make_view(std::shared_ptr<Robot> robot, const Cam
 /// An observer that several threads may call, one after another.
 class SharedObserver {
  public:
-  explicit SharedObserver(const std::shared_ptr<MountedCamera>& view)
-      : view_(view), observer_(view) {}
+  explicit SharedObserver(const std::shared_ptr<MountedCamera>& mounted)
+      : mounted_(mounted), observer_(mounted) {}
 
   std::shared_ptr<Frame> observe(const py::object& depth, const py::object& joints, double stamp_s,
                                  std::optional<double> depth_scale, double clock_offset_s) {
@@ -39,7 +39,7 @@ class SharedObserver {
         observer_.observe(input.view, stamp_s, buffer, frame, clock_offset_s);
       });
     }
-    const JointState state = joints_of(view_->robot()->model(), joints, stamp_s);
+    const JointState state = joints_of(mounted_->robot()->model(), joints, stamp_s);
     return locked([&](Frame& frame) { observer_.observe(input.view, state, frame); });
   }
 
@@ -61,7 +61,7 @@ class SharedObserver {
     return frame;
   }
 
-  std::shared_ptr<const MountedCamera> view_;
+  std::shared_ptr<const MountedCamera> mounted_;
   std::mutex mutex_;
   Observer observer_;
   FramePool pool_;
@@ -105,7 +105,8 @@ void bind_frame(py::module_& m) {
       m, "Frame",
       "What one depth image tells. Its arrays are views, read only, and keep the frame alive.")
       .def_property_readonly(
-          "camera", [](const Frame& f) { return f.view->mount().name; }, "str: the camera's name")
+          "camera", [](const Frame& f) { return f.mounted->mount().name; },
+          "str: the camera's name")
       .def_property_readonly(
           "stamp_s", [](const Frame& f) { return f.stamp_s; }, "float: the exposure")
       .def_property_readonly(

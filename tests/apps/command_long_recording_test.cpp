@@ -15,7 +15,7 @@
 namespace berth {
 namespace {
 
-/// The scene with so many images, by turns those that it has; the one after `whole` and all behind
+/// The scene with `images` images, by turns those that it has; the one after `whole` and all behind
 /// it are damaged inside.
 void make_recording(CommandScene& scene, int images, int whole) {
   std::string damaged = read_file_bytes(scene / "depth/000001.png");
@@ -145,7 +145,7 @@ TEST(LongRecording, ATerminalShowsFromTheStartHowFarItIs) {
   }
 }
 
-/// Of a run over so many images of the bundled scene's first camera.
+/// Of a run over `images` images of the bundled scene's first camera.
 std::size_t peak_bytes_of(int images) {
   const TemporaryFolder folder;
   std::ostringstream scene;

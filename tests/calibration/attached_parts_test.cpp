@@ -28,7 +28,7 @@ sim::DrawnObstacle box_at(const Eigen::Vector3d& size_m, const Eigen::Vector3d& 
   return {make_box(size_m), sim::translation(p_B_m.x(), p_B_m.y(), p_B_m.z())};
 }
 
-/// The wrist goes to and fro before the camera, and turns.
+/// The wrist swings before the camera, and turns.
 const Positions kPoses = {
     {0.0, 0.6, 0.0, 1.2, 0.0, 0.9, 0.0},   {0.7, 0.3, 0.2, 1.5, 0.6, 0.5, 0.9},
     {-0.6, 0.5, 0.0, 1.0, -0.8, 1.2, 2.0}, {0.3, 0.9, -0.4, 1.4, 1.2, -0.6, -1.2},
@@ -127,7 +127,7 @@ TEST(AttachedParts, WhatTwoLinksExplainAlikeBelongsToTheOneNearerToTheTip) {
 /// What stands in the room, and looks the same to a link in all poses.
 TEST(AttachedParts, ATableUnderALinkThatNeverMovesAgainstItIsNoPart) {
   sim::CarryingRobotSettings settings = cell();
-  // The hand goes to and fro at one height, 3 cm above a plate.
+  // The hand swings at one height, 3 cm above a plate.
   settings.positions.clear();
   for (const double turn : {-1.0, -0.6, -0.2, 0.2, 0.6, 1.0}) {
     settings.positions.push_back({turn, 1.0, 0, 1.2, 0, 0.941592654, 0});

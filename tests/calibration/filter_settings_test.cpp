@@ -63,7 +63,7 @@ class FilterProposalOf : public ::testing::Test {
     }
   }
 
-  /// A thing of so many pixels in one frame, 6 cm before the arm, where the arm is wide.
+  /// A thing of width_px x height_px in one frame, 6 cm before the arm, where the arm is wide.
   void draw_blob(std::size_t frame, int width_px, int height_px) {
     const RobotImage& robot = robots_[frame];
     for (int v = 0; v + height_px < robot.link_id.height(); ++v) {

@@ -28,8 +28,8 @@ class DrawnThings {
                              : sim::make_ellipsoid(Eigen::Vector3d::Constant(radius_m_), 16)},
         sensors_(model_, meshes_, 7),
         clearance_(model_, meshes_) {
-    for (const auto& view : cell_views(cell_robot(), {0, 1, 2}, diameter_m)) {
-      observers_.push_back(std::make_unique<Observer>(view));
+    for (const auto& mounted : cell_views(cell_robot(), {0, 1, 2}, diameter_m)) {
+      observers_.push_back(std::make_unique<Observer>(mounted));
     }
   }
 
@@ -100,7 +100,7 @@ class DrawnThings {
   }
 
   bool has_reading(const Frame& frame, const Pose& X_BP) const {
-    const Camera& camera = frame.view->camera();
+    const Camera& camera = frame.mounted->camera();
     const Pose X_PC = X_BP.inverse() * frame.X_BC;
     for (int v = 0; v < camera.height_px; ++v) {
       for (int u = 0; u < camera.width_px; ++u) {
@@ -153,8 +153,9 @@ TEST(UndetectedBalls, MuchSmallerBallsAreNotTold) {
 /// What calibration's map says of the same cameras, by ten poses of the arm.
 DetectionMap map_of_cell() {
   std::vector<DetectionCamera> cameras;
-  for (const auto& view : cell_views(cell_robot(), {0, 1, 2}, kCellDetection_m)) {
-    cameras.push_back({view->camera(), view->settings().self_filter, view->settings().sensor, {}});
+  for (const auto& mounted : cell_views(cell_robot(), {0, 1, 2}, kCellDetection_m)) {
+    cameras.push_back(
+        {mounted->camera(), mounted->settings().self_filter, mounted->settings().sensor, {}});
   }
   DrawnThings balls(kCellDetection_m);
   for (int i = 0; i < 10; ++i) {

@@ -1,4 +1,4 @@
-// What berth tells of an arm and people that move, instant by instant.
+// What berth reports on an arm and people that move, instant by instant.
 #include "lab/closed_loop/sequence.hpp"
 
 #include <gtest/gtest.h>

@@ -19,7 +19,8 @@ class Live : public ::testing::Test {
 
   void start(const LiveCameraSettings& settings, LiveCamera::OnFrame on_frame = {},
              FindPlace find_place = {}) {
-    camera_.emplace(source().view, joints_, settings, std::move(on_frame), std::move(find_place));
+    camera_.emplace(source().mounted, joints_, settings, std::move(on_frame),
+                    std::move(find_place));
   }
   const OpenCamera& source() const { return scene_.cameras.front(); }
   double stamp_s(std::size_t i) const { return source().source.stamps_s[i]; }
@@ -53,7 +54,7 @@ TEST_F(Live, AnImageWaitsForTheJointsAfterItsExposure) {
   EXPECT_EQ(frame->stamp_s, stamp_s(2));
   EXPECT_GE(camera_->counts().longest_wait_s, 0.05);
 
-  Observer observer(source().view);
+  Observer observer(source().mounted);
   Frame expected;
   observer.observe(source().read_depth(2), source().at_exposure[2], expected);
   EXPECT_EQ(frame->obstacles.count, expected.obstacles.count);
@@ -77,7 +78,7 @@ TEST_F(Live, AnImageThatWaitedTooLongSaysSo) {
 }
 
 TEST_F(Live, AnImageWaitsForThePlaceOfItsCamera) {
-  Pose X_PC = source().view->mount().X_PC;
+  Pose X_PC = source().mounted->mount().X_PC;
   X_PC.translation().x() += 0.1;
   std::atomic<bool> is_known = false;
   start({.max_wait_s = kPatient_s}, {},
@@ -116,12 +117,11 @@ TEST_F(Live, OfImagesThatWaitTheOldestAreDropped) {
 
 TEST_F(Live, OfImagesThatAreReadyTheNewestIsObserved) {
   std::vector<double> stamps_s;
-  start({.max_wait_s = kPatient_s},
-        [&](const Frame& frame, DepthView, const std::shared_ptr<const void>&) {
-          stamps_s.push_back(frame.stamp_s);
-          if (stamps_s.size() > 1) return;
-          for (const std::size_t i : {1, 2, 3}) push(i);
-        });
+  start({.max_wait_s = kPatient_s}, [&](const std::shared_ptr<const Frame>& frame, const auto&...) {
+    stamps_s.push_back(frame->stamp_s);
+    if (stamps_s.size() > 1) return;
+    for (const std::size_t i : {1, 2, 3}) push(i);
+  });
   push_joints_until((stamp_s(2) + stamp_s(3)) / 2);
   push(0);
   ASSERT_TRUE(observed(2));
@@ -203,9 +203,10 @@ TEST_F(Live, OnFrameHasTheImageAndWhatCameWithIt) {
   push_joints(scene_, -1, 10, joints_);
   std::atomic<int> seen = 0;
   start({.max_wait_s = kPatient_s},
-        [&](const Frame& frame, DepthView depth_m, const std::shared_ptr<const void>& with) {
-          EXPECT_EQ(frame.stamp_s, stamp_s(4));
-          EXPECT_EQ(depth_m.width, source().view->camera().width_px);
+        [&](const std::shared_ptr<const Frame>& frame, DepthView depth_m,
+            const std::shared_ptr<const void>& with) {
+          EXPECT_EQ(frame->stamp_s, stamp_s(4));
+          EXPECT_EQ(depth_m.width, source().mounted->camera().width_px);
           EXPECT_EQ(*std::static_pointer_cast<const int>(with), 44);
           ++seen;
         });

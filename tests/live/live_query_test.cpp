@@ -37,7 +37,7 @@ void expect_near(const std::vector<float>& got, const std::vector<float>& expect
 }
 
 std::shared_ptr<const Frame> observe(const OpenCamera& camera, std::size_t i) {
-  Observer observer(camera.view);
+  Observer observer(camera.mounted);
   auto frame = std::make_shared<Frame>();
   observer.observe(camera.read_depth(i), camera.at_exposure[i], *frame, camera.exposure_time[i]);
   return frame;
@@ -148,8 +148,8 @@ TEST_F(AskedScene, OldJointsAndNoFramesAreStatuses) {
 TEST_F(AskedScene, CamerasRunWhileRequestsAreAsked) {
   std::vector<std::unique_ptr<LiveCamera>> cameras;
   for (const OpenCamera& camera : scene_.cameras) {
-    cameras.push_back(
-        std::make_unique<LiveCamera>(camera.view, joints_, LiveCameraSettings{.max_wait_s = 30}));
+    cameras.push_back(std::make_unique<LiveCamera>(camera.mounted, joints_,
+                                                   LiveCameraSettings{.max_wait_s = 30}));
   }
   std::atomic<bool> stop = false;
   std::jthread feeder([&] {
@@ -179,7 +179,7 @@ TEST_F(AskedScene, MemoryStaysAsItIsOnceWarm) {
   const OpenCamera& from = scene_.cameras[0];
   const std::vector<std::string> names = joint_names(scene_.robot->model());
   JointIntake joints(scene_.robot->model(), {});
-  LiveCamera camera(from.view, joints, LiveCameraSettings{.max_wait_s = 30});
+  LiveCamera camera(from.mounted, joints, LiveCameraSettings{.max_wait_s = 30});
   Query query(scene_.robot);
   const DepthImage image = from.read_depth(0);
   double time_s = 0;

@@ -30,7 +30,7 @@ class LiveSpaceScene : public ::testing::Test {
   std::shared_ptr<Frame> observe(std::size_t k, std::size_t i, FrameTime time = {}) const {
     const OpenCamera& camera = scene_.cameras[k];
     auto frame = std::make_shared<Frame>();
-    Observer(camera.view).observe(camera.read_depth(i), camera.at_exposure[i], *frame, time);
+    Observer(camera.mounted).observe(camera.read_depth(i), camera.at_exposure[i], *frame, time);
     return frame;
   }
   static bool knows(const LiveSpace& space, std::size_t k, const SharedFrame& frame) {
@@ -181,14 +181,13 @@ TEST_F(LiveSpaceScene, ItMayEndInTheTurnOfACamera) {
   auto space = std::make_unique<LiveSpace>(robot(), 1, joints_);
   const SharedFrame frame = observe(0, 3);
   std::atomic<bool> has_ended = false;
-  LiveCamera camera(scene_.cameras[0].view, joints_, {.max_wait_s = 30},
-                    [&](const Frame&, DepthView, const std::shared_ptr<const void>&) {
-                      space->put(0, frame);
-                      // So that its thread waits for a turn.
-                      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-                      space.reset();
-                      has_ended = true;
-                    });
+  LiveCamera camera(scene_.cameras[0].mounted, joints_, {.max_wait_s = 30}, [&](const auto&...) {
+    space->put(0, frame);
+    // So that its thread waits for a turn.
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    space.reset();
+    has_ended = true;
+  });
   camera.push(scene_.cameras[0].source.stamps_s[0], scene_.cameras[0].read_depth(0));
   EXPECT_TRUE(comes_true([&] { return has_ended.load(); }));
 }
@@ -261,10 +260,8 @@ TEST_F(LiveSpaceScene, CamerasPutWhatTheyObserve) {
   std::vector<std::unique_ptr<LiveCamera>> cameras(3);
   for (std::size_t k = 0; k < 3; ++k) {
     cameras[k] = std::make_unique<LiveCamera>(
-        scene_.cameras[k].view, joints_, LiveCameraSettings{.max_wait_s = 30},
-        [&, k](const Frame&, DepthView, const std::shared_ptr<const void>&) {
-          space.put(k, cameras[k]->newest());
-        });
+        scene_.cameras[k].mounted, joints_, LiveCameraSettings{.max_wait_s = 30},
+        [&, k](const SharedFrame& frame, const auto&...) { space.put(k, frame); });
   }
   Query query(robot());
   for (std::size_t i = 0; i < 3; ++i) {

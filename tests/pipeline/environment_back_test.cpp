@@ -126,11 +126,11 @@ class UnderTheTable : public ::testing::Test {
  protected:
   double freed_below_m(const RobotModel& model) {
     const auto robot = std::make_shared<const Robot>(model);
-    const auto view = std::make_shared<const MountedCamera>(
+    const auto mounted = std::make_shared<const MountedCamera>(
         robot, CameraMount{kCamera, "table", looking_down(), "above"});
     DepthImage depth_m(kCamera.width_px, kCamera.height_px, 1.5F);
     Frame frame;
-    Observer(view).observe(depth_m, JointState{}, frame);
+    Observer(mounted).observe(depth_m, JointState{}, frame);
     EXPECT_EQ(frame.obstacles.fate(18, 23), PixelFate::environment);
     // As far as it sees, less the table's distance.
     return in_metres(frame.space->seen.free_depth(18, 23)) - 1.5;

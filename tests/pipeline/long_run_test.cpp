@@ -136,9 +136,9 @@ void run_long(const char* what, int count, Step step) {
 
 class LongRun : public ::testing::Test {
  protected:
-  std::shared_ptr<const MountedCamera> view_ = make_view();
-  testing::FrameQuery query_{view_->robot()};
-  Observer observer_{view_};
+  std::shared_ptr<const MountedCamera> mounted_ = make_view();
+  testing::FrameQuery query_{mounted_->robot()};
+  Observer observer_{mounted_};
   Frame frame_;
 };
 TEST_F(LongRun, RequestsTakeNoMemoryAndTheirAnswersStayTheSame) {
@@ -162,8 +162,8 @@ TEST_F(LongRun, FramesTakeNoMemoryAndTheirAnswersStayTheSame) {
   });
 }
 
-/// The newest frame of a camera, for any number of queries: it is swapped as a whole, and who asks
-/// the one before keeps it until the answer is there.
+/// The newest frame of a camera, for any number of queries: it is swapped as a whole, and who holds
+/// it the one before keeps it until the answer is there.
 class LatestFrame {
  public:
   void set(std::shared_ptr<const Frame> frame) {
@@ -186,7 +186,7 @@ TEST_F(LongRun, AFrameThatIsReplacedWhileTwoThreadsAskGivesTheAnswersOfOneFrameE
   Result expected[2];
   for (int i = 0; i < 2; ++i) {
     Frame frame;
-    Observer(view_).observe(image_of(5 * i), joints_of(5 * i), frame);
+    Observer(mounted_).observe(image_of(5 * i), joints_of(5 * i), frame);
     expected[i] = query_.ask(frame, asked);
   }
   ASSERT_FALSE(same_bits(expected[0], expected[1]));
@@ -202,7 +202,7 @@ TEST_F(LongRun, AFrameThatIsReplacedWhileTwoThreadsAskGivesTheAnswersOfOneFrameE
   };
   observe(observer_, 0);
   const auto ask = [&] {
-    testing::FrameQuery query(view_->robot());
+    testing::FrameQuery query(mounted_->robot());
     while (!stop) {
       const std::shared_ptr<const Frame> frame = latest.get();
       const Result& result = query.ask(*frame, asked);

@@ -14,11 +14,11 @@ class MadeUpImage : public ::testing::Test {
  protected:
   /// Of a wall behind the robot, which nothing shows.
   const Result& ask(const CameraSettings& settings) {
-    const auto view = std::make_shared<const MountedCamera>(
-        scene_.robot, scene_.cameras[0].view->mount(), settings);
-    const Camera& camera = view->camera();
-    Observer(view).observe(DepthImage(camera.width_px, camera.height_px, 10.0F),
-                           scene_.cameras[0].at_exposure[0], frame_);
+    const auto mounted = std::make_shared<const MountedCamera>(
+        scene_.robot, scene_.cameras[0].mounted->mount(), settings);
+    const Camera& camera = mounted->camera();
+    Observer(mounted).observe(DepthImage(camera.width_px, camera.height_px, 10.0F),
+                              scene_.cameras[0].at_exposure[0], frame_);
     return query_.ask({.frames = frame_});
   }
 
@@ -49,7 +49,7 @@ TEST_F(MadeUpImage, WithoutTheRobotIsRefusedFromTheFirstOneOfARealCameraOn) {
 TEST_F(MadeUpImage, TheCamerasOfASceneAreReal) {
   EXPECT_FALSE(settings_of_real_camera().watch.tell_only);
   EXPECT_FALSE(SceneCamera{}.settings.watch.tell_only);
-  EXPECT_FALSE(scene_.cameras[0].view->settings().watch.tell_only);
+  EXPECT_FALSE(scene_.cameras[0].mounted->settings().watch.tell_only);
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ class MovedCamera : public ::testing::Test {
   /// As the bundled camera, but believed to be turned by so much.
   std::shared_ptr<const MountedCamera> view_of(double turn_rad,
                                                const WatchSettings& watch = kEachFrame) const {
-    CameraMount mount = camera_.view->mount();
+    CameraMount mount = camera_.mounted->mount();
     mount.X_PC.rotate(Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitY()));
     CameraSettings settings;
     settings.watch = watch;
@@ -170,10 +170,10 @@ TEST_F(MovedCamera, TheDisplacementIsToldOnceItIsFinished) {
 
 TEST_F(MovedCamera, NothingIsLearnedFromIt) {
   for (const double turn_rad : {0.0, kTurn_rad}) {
-    const auto view = view_of(turn_rad);
-    CameraSettings settings = view->settings();
+    const auto mounted = view_of(turn_rad);
+    CameraSettings settings = mounted->settings();
     settings.sensor.background_frames = 1;
-    Observer observer(testing::view_with(*view, settings));
+    Observer observer(testing::view_with(*mounted, settings));
     Frame frame;
     observer.observe(depth_m_, camera_.at_exposure[kFrame], frame);
     observer.learn_background(depth_m_, frame);

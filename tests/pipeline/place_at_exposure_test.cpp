@@ -25,14 +25,14 @@ class PlaceAtExposureOf : public ::testing::Test {
         camera_(scene_.cameras.front()) {}
 
   std::shared_ptr<const MountedCamera> view_turned(double turn_rad) const {
-    CameraMount mount = camera_.view->mount();
+    CameraMount mount = camera_.mounted->mount();
     mount.X_PC.rotate(Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitY()));
     return std::make_shared<const MountedCamera>(scene_.robot, mount, CameraSettings{});
   }
-  Frame observed(const std::shared_ptr<const MountedCamera>& view,
+  Frame observed(const std::shared_ptr<const MountedCamera>& mounted,
                  const PlaceAtExposure& place = {}, std::size_t i = kFrame) const {
     Frame frame;
-    Observer(view).observe(camera_.read_depth(i), camera_.at_exposure[i], frame, {}, place);
+    Observer(mounted).observe(camera_.read_depth(i), camera_.at_exposure[i], frame, {}, place);
     return frame;
   }
   static void expect_same(const Result& a, const Result& b, float within_m) {
@@ -55,7 +55,7 @@ class PlaceAtExposureOf : public ::testing::Test {
 
 TEST_F(PlaceAtExposureOf, ACameraIsWhereItIsToldAndNotWhereItsMountSays) {
   const Frame right = observed(view_turned(0));
-  const Frame told = observed(view_turned(0.1), {.X_PC = camera_.view->mount().X_PC});
+  const Frame told = observed(view_turned(0.1), {.X_PC = camera_.mounted->mount().X_PC});
   EXPECT_EQ(told.X_BC.matrix(), right.X_BC.matrix());
   EXPECT_EQ(told.obstacles.count, right.obstacles.count);
   const Result expected = Query(scene_.robot).ask({right});
@@ -73,7 +73,7 @@ TEST_F(PlaceAtExposureOf, WithoutAPlaceNothingIsKnown) {
   for (const double before_s : {0.01, -0.01}) {
     ASSERT_EQ(joints.push(at.stamp_s - before_s, names, at.position), TimeStatus::ok);
   }
-  Observer observer(camera_.view);
+  Observer observer(camera_.mounted);
   Frame lost;
   observer.observe(camera_.read_depth(kFrame), at.stamp_s, joints, lost, 0, std::nullopt);
   EXPECT_EQ(lost.time.status, TimeStatus::stale_pose);
@@ -93,14 +93,14 @@ TEST_F(PlaceAtExposureOf, WithoutAPlaceNothingIsKnown) {
 TEST_F(PlaceAtExposureOf, ARootThatHasMovedSinceIsFartherFromWhatWasSeen) {
   const Pose X_WB_then = moved_by(0.3, 0.2);
   const Pose X_WB_now = moved_by(0.35, 0.25);
-  const Frame frame = observed(camera_.view, {.X_WB = X_WB_then});
+  const Frame frame = observed(camera_.mounted, {.X_WB = X_WB_then});
   // The twin: a root that stands still, and a camera that was carried the other way.
-  Frame carried = observed(camera_.view);
+  Frame carried = observed(camera_.mounted);
   carried.X_BC = X_WB_now.inverse() * X_WB_then * carried.X_BC;
   const Result expected = Query(scene_.robot).ask({carried});
 
   Query query(scene_.robot);
-  const Frame still_frame = observed(camera_.view);
+  const Frame still_frame = observed(camera_.mounted);
   const Result still = query.ask({frame});
   expect_same(still, Query(scene_.robot).ask({still_frame}), 0);
   const Result& moved = query.ask({.frames = frame, .X_WB = X_WB_now});
@@ -124,7 +124,7 @@ TEST_F(PlaceAtExposureOf, FramesOfOtherTimesArePlacedWhereTheRootWasThen) {
 }
 
 TEST_F(PlaceAtExposureOf, WhereNobodyKnowsTheRootThereIsNoDistance) {
-  const Frame frame = observed(camera_.view);
+  const Frame frame = observed(camera_.mounted);
   Query query(scene_.robot);
   const Result& result = query.ask({.frames = frame, .X_WB = unset_pose()});
   EXPECT_EQ(result.status, ResultStatus::stale);

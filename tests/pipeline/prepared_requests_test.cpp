@@ -45,19 +45,19 @@ TEST_F(PreparedScene, LookAheadIsThatOfItsFrames) {
 TEST_F(PreparedScene, VisibilityAndWhatWasRejectedAreThoseOfItsFrames) {
   EvaluationSettings settings = robot()->settings();
   settings.visibility = true;
-  const auto view =
-      testing::view_with(*scene_.cameras[0].view, settings, scene_.cameras[0].view->settings());
+  const auto mounted = testing::view_with(*scene_.cameras[0].mounted, settings,
+                                          scene_.cameras[0].mounted->settings());
   SharedFrames frames(1);
   int rejected = 0;
-  Query query(view->robot()), plain(view->robot());
+  Query query(mounted->robot()), plain(mounted->robot());
   for (const std::size_t i : {3, 17, 30}) {
     const auto frame = std::make_shared<Frame>();
     DepthImage depth_m = scene_.cameras[0].read_depth(i);
-    Observer(view).observe(depth_m, joints(i), *frame);
+    Observer(mounted).observe(depth_m, joints(i), *frame);
     draw_flying_pixels(frame->robot, depth_m, 6);
-    Observer(view).observe(depth_m, joints(i), *frame);
+    Observer(mounted).observe(depth_m, joints(i), *frame);
     frames[0] = frame;
-    auto space = std::make_shared<PreparedSpace>(view->robot(), 1);
+    auto space = std::make_shared<PreparedSpace>(mounted->robot(), 1);
     space->prepare(frames, nullptr);
     const Result& result = query.ask({.frames = {space}, .joints = joints(i + 1)});
     const Result& expected = plain.ask({.frames = frames, .joints = joints(i + 1)});
@@ -90,12 +90,12 @@ TEST_F(PreparedScene, OneThatIsSearchedOnIsAskedAsBefore) {
 TEST_F(PreparedScene, WithoutTimeARequestTellsWhatWasFoundBeforehand) {
   EvaluationSettings settings = robot()->settings();
   settings.distance.deadline_us = 0;
-  const auto view = testing::view_with(*views_[0], settings, CameraSettings{});
+  const auto mounted = testing::view_with(*cameras_[0], settings, CameraSettings{});
   const auto frame = std::make_shared<Frame>();
-  Observer(view).observe(scene_.cameras[0].read_depth(3), joints(3), *frame);
-  const auto space = std::make_shared<PreparedSpace>(view->robot(), 1);
+  Observer(mounted).observe(scene_.cameras[0].read_depth(3), joints(3), *frame);
+  const auto space = std::make_shared<PreparedSpace>(mounted->robot(), 1);
   space->prepare(SharedFrames{frame}, &joints(3));
-  Query query(view->robot()), plain(view->robot());
+  Query query(mounted->robot()), plain(mounted->robot());
   const Result& result = query.ask({.frames = {space}, .joints = joints(3)});
   for (const LinkResult& link : result.links) {
     ASSERT_TRUE(link.is_known());

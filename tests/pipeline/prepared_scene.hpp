@@ -70,7 +70,7 @@ class PreparedScene : public ::testing::Test {
   PreparedScene() : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml")) {
     const CameraSettings plain;
     for (const OpenCamera& camera : scene_.cameras) {
-      views_.push_back(testing::view_with(*camera.view, plain));
+      cameras_.push_back(testing::view_with(*camera.mounted, plain));
     }
   }
 
@@ -81,13 +81,13 @@ class PreparedScene : public ::testing::Test {
                                  const PlaceAtExposure& place = {}) const {
     auto frame = std::make_shared<Frame>();
     const OpenCamera& camera = scene_.cameras[k];
-    Observer(views_[k]).observe(camera.read_depth(i), camera.at_exposure[i], *frame, {}, place);
+    Observer(cameras_[k]).observe(camera.read_depth(i), camera.at_exposure[i], *frame, {}, place);
     return frame;
   }
   /// The first camera's frame i, and the others' first ones after that.
   SharedFrames observe_all(std::size_t i, const PlaceAtExposure& place = {}) const {
     SharedFrames frames;
-    for (std::size_t k = 0; k < views_.size(); ++k)
+    for (std::size_t k = 0; k < cameras_.size(); ++k)
       frames.push_back(observe(k, after(k, i), place));
     return frames;
   }
@@ -109,7 +109,7 @@ class PreparedScene : public ::testing::Test {
   }
 
   OpenScene scene_;
-  std::vector<std::shared_ptr<const MountedCamera>> views_;
+  std::vector<std::shared_ptr<const MountedCamera>> cameras_;
 };
 
 }  // namespace berth

@@ -75,9 +75,10 @@ TEST_F(PreparedScene, WhatALostCameraSawFreeIsUnknownAgain) {
   SharedFrames frames = observe_all(3);
   for (const std::size_t k : {1, 2}) {
     auto covered = std::make_shared<Frame>();
-    const Camera& camera = views_[k]->camera();
-    Observer(views_[k]).observe(DepthImage(camera.width_px, camera.height_px, 0.3F),
-                                scene_.cameras[k].at_exposure[after(k, 3)], *covered);
+    const Camera& camera = cameras_[k]->camera();
+    Observer(cameras_[k])
+        .observe(DepthImage(camera.width_px, camera.height_px, 0.3F),
+                 scene_.cameras[k].at_exposure[after(k, 3)], *covered);
     frames[k] = covered;
   }
   const auto space = prepare(frames);
@@ -106,13 +107,13 @@ TEST_F(PreparedScene, AFrameInTheFutureIsNotUsedUntilItsTime) {
 
 TEST_F(PreparedScene, ACameraThatIsBlindMovedStaleOrMissingIsNamed) {
   const auto blind = std::make_shared<Frame>();
-  Observer(views_[0]).observe(DepthImage(640, 480, kNoDepth), joints(3), *blind);
+  Observer(cameras_[0]).observe(DepthImage(640, 480, kNoDepth), joints(3), *blind);
   const auto moved = observe(0, 3);
   moved->watch.has_moved = true;
   const auto skewed = std::make_shared<Frame>();
   FrameTime time;
   time.status = TimeStatus::skewed;
-  Observer(views_[0]).observe(scene_.cameras[0].read_depth(3), joints(3), *skewed, time);
+  Observer(cameras_[0]).observe(scene_.cameras[0].read_depth(3), joints(3), *skewed, time);
   const std::array<std::pair<std::shared_ptr<const Frame>, CameraStatus>, 4> cases = {
       {{blind, CameraStatus::blind},
        {moved, CameraStatus::moved},

@@ -30,16 +30,16 @@ class Queries : public ::testing::Test {
   /// As the bundled camera, but believed to be turned by so much.
   std::shared_ptr<const MountedCamera> view_named(const std::string& name, double turn_rad = 0,
                                                   const WatchSettings& watch = {}) const {
-    CameraMount mount = camera_.view->mount();
+    CameraMount mount = camera_.mounted->mount();
     mount.name = name;
     mount.X_PC.rotate(Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitY()));
     CameraSettings settings;
     settings.watch = watch;
     return std::make_shared<const MountedCamera>(robot_, mount, settings);
   }
-  void observe(std::size_t i, Frame& frame, const std::shared_ptr<const MountedCamera>& view,
+  void observe(std::size_t i, Frame& frame, const std::shared_ptr<const MountedCamera>& mounted,
                FrameTime time = {}) const {
-    Observer(view).observe(camera_.read_depth(i), camera_.at_exposure[i], frame, time);
+    Observer(mounted).observe(camera_.read_depth(i), camera_.at_exposure[i], frame, time);
   }
 
   OpenScene scene_;
@@ -100,7 +100,7 @@ TEST_F(Queries, CamerasAreToldByTheirNamesAndPlaces) {
   EXPECT_FALSE(result.cameras[0].mounted);
   const CameraResult& left = result.cameras[2];
   EXPECT_TRUE(left.has_frame);
-  EXPECT_EQ(left.mounted, left_.view);
+  EXPECT_EQ(left.mounted, left_.mounted);
   EXPECT_TRUE(left.X_BC.isApprox(left_.X_BC));
   EXPECT_EQ(left.self_filter, left_.obstacles.count);
   EXPECT_EQ(left.stamp_s, left_.stamp_s);
@@ -178,9 +178,9 @@ TEST_F(Queries, TheNearestOfAResultFollowsThatRule) {
 TEST_F(Queries, AFrameThatIsObservedAnewAtItsAddressIsAskedAnew) {
   testing::FrameQuery query(robot_), other(robot_);
   Frame frame;
-  observe(17, frame, left_.view);
+  observe(17, frame, left_.mounted);
   const auto before = testing::distances_of(query.ask(frame));
-  observe(3, frame, left_.view);
+  observe(3, frame, left_.mounted);
   const auto after = testing::distances_of(query.ask(frame));
   EXPECT_NE(after, before);
   EXPECT_EQ(after, testing::distances_of(other.ask(frame)));

@@ -43,12 +43,12 @@ class Recording : public ::testing::TestWithParam<std::string> {
 TEST_P(Recording, AtLeast99PercentOfTheRobotIsFiltered) {
   const OpenScene scene = open_scene(folder_ / "scene.yaml");
   const OpenCamera& camera = scene.cameras.front();
-  Observer observer(camera.view);
+  Observer observer(camera.mounted);
   Frame frame;
   for (std::size_t i = 0; i < camera.source.depth.size(); ++i) {
     observer.observe(camera.read_depth(i), camera.at_exposure[i], frame);
     const auto mask = read_link_ids_png(folder_ / fmt::format("reference/robot_mask_{:06}.png", i),
-                                        camera.view->camera());
+                                        camera.mounted->camera());
     const double share = filtered_share(mask, frame.obstacles);
     fmt::print("{} frame {}: {:.2f} % of the mask filtered\n", GetParam(), i, 100 * share);
     EXPECT_GE(share, 0.99) << "frame " << i;
@@ -60,7 +60,7 @@ TEST_P(Recording, NoLinkIsTooFarFromReadingsAsAWhole) {
   const OpenCamera& camera = scene.cameras.front();
   const lab::ExpectedRanges ranges = lab::read_expected_ranges(folder_ / "expected.tsv");
   const std::vector<std::string> names = scene.robot->model().evaluated_link_names();
-  Observer observer(camera.view);
+  Observer observer(camera.mounted);
   Query query(scene.robot);
   Frame frame;
   int rows = 0;

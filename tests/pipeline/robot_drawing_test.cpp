@@ -24,20 +24,20 @@ class StandingRobot : public ::testing::Test {
  protected:
   const OpenScene scene_ = open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml");
   const OpenCamera& camera_ = scene_.cameras[0];
-  std::shared_ptr<const MountedCamera> view_ = camera_.view;
+  std::shared_ptr<const MountedCamera> mounted_ = camera_.mounted;
 
   /// With memory of what came before, and without.
   void expect_as_alone(Observer& observer, DepthView depth_m, const JointState& joints) {
     Frame frame, alone;
     observer.observe(depth_m, joints, frame);
-    Observer(view_).observe(depth_m, joints, alone);
+    Observer(mounted_).observe(depth_m, joints, alone);
     expect_same_images(frame, alone);
     EXPECT_EQ(frame.pose.X_BL[3].matrix(), alone.pose.X_BL[3].matrix());
   }
 };
 
 TEST_F(StandingRobot, IsFilteredFromEachNewImageAsByANewObserver) {
-  Observer observer(view_);
+  Observer observer(mounted_);
   const JointState joints = camera_.at_exposure[2];
   for (const int image : {2, 3, 4, 2}) {
     expect_as_alone(observer, camera_.read_depth(image), joints);
@@ -45,7 +45,7 @@ TEST_F(StandingRobot, IsFilteredFromEachNewImageAsByANewObserver) {
 }
 
 TEST_F(StandingRobot, IsRenderedAgainAsSoonAsItHasMoved) {
-  Observer observer(view_);
+  Observer observer(mounted_);
   JointState joints = camera_.at_exposure[2];
   const DepthImage depth_m = camera_.read_depth(2);
   for (int i = 0; i < 6; ++i) {
@@ -57,16 +57,16 @@ TEST_F(StandingRobot, IsRenderedAgainAsSoonAsItHasMoved) {
 }
 
 TEST_F(StandingRobot, NoiseOfItsEncodersDoesNotAddUp) {
-  RobotDrawing drawing(*view_->robot(), view_->camera());
-  RobotRenderer renderer(view_->robot()->meshes(), view_->camera());
+  RobotDrawing drawing(*mounted_->robot(), mounted_->camera());
+  RobotRenderer renderer(mounted_->robot()->meshes(), mounted_->camera());
   RobotPose pose;
   JointState joints = camera_.at_exposure[2];
   Frame frame;
-  Observer(view_).observe(camera_.read_depth(2), joints, frame);
+  Observer(mounted_).observe(camera_.read_depth(2), joints, frame);
   RobotImage drawn, rendered;
   for (int i = 0; i < 200; ++i) {
     joints.position[1] += 1e-6;
-    forward_kinematics(view_->robot()->model(), joints.position, pose);
+    forward_kinematics(mounted_->robot()->model(), joints.position, pose);
     drawing.draw(pose, frame.X_BC, drawn);
   }
   renderer.render(pose, frame.X_BC, rendered);

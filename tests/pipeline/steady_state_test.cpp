@@ -20,12 +20,12 @@ TEST(SteadyState, TheWholeWayAllocatesNothingOnceItHasSeenTheImages) {
   const OpenCamera& camera = scene.cameras.front();
   DepthImage images[] = {camera.read_depth(3), camera.read_depth(17), camera.read_depth(30)};
   const std::size_t numbers[] = {3, 17, 30};
-  CameraSettings with_region = camera.view->settings();
+  CameraSettings with_region = camera.mounted->settings();
   with_region.self_filter.robot_region_scale = 3;
-  const auto region_view = testing::view_with(*camera.view, with_region);
+  const auto region_view = testing::view_with(*camera.mounted, with_region);
   for (const int threads : {1, 2}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    Observer observer(camera.view);
+    Observer observer(camera.mounted);
     Query query(scene.robot);
     Observer region_observer(region_view);
     Frame frame;
@@ -58,7 +58,7 @@ TEST(SteadyState, TheSameFramesAskedAgainAreNotAssembledAnew) {
   std::vector<const Frame*> frames;
   for (std::size_t c = 0; c < observed.size(); ++c) {
     const OpenCamera& camera = scene.cameras[c];
-    Observer(camera.view).observe(camera.read_depth(0), camera.at_exposure[0], observed[c]);
+    Observer(camera.mounted).observe(camera.read_depth(0), camera.at_exposure[0], observed[c]);
     frames.push_back(&observed[c]);
   }
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
@@ -71,7 +71,7 @@ TEST(SteadyState, TheSameFramesAskedAgainAreNotAssembledAnew) {
   EXPECT_EQ(allocation_count(), before);
   EXPECT_EQ(query.frames().space().serial_number(), assembled);
   const OpenCamera& camera = scene.cameras[0];
-  Observer(camera.view).observe(camera.read_depth(1), camera.at_exposure[1], observed[0]);
+  Observer(camera.mounted).observe(camera.read_depth(1), camera.at_exposure[1], observed[0]);
   query.ask({frames});
   EXPECT_NE(query.frames().space().serial_number(), assembled);
 }
@@ -85,7 +85,7 @@ TEST(SteadyState, PreparedSpacesAllocateNothingOnceTheyHaveSeenTheFrames) {
     std::vector<std::shared_ptr<const Frame>>& set = sets.emplace_back();
     for (const OpenCamera& camera : scene.cameras) {
       auto frame = std::make_shared<Frame>();
-      Observer(camera.view).observe(camera.read_depth(i), camera.at_exposure[i], *frame);
+      Observer(camera.mounted).observe(camera.read_depth(i), camera.at_exposure[i], *frame);
       set.push_back(std::move(frame));
     }
   }
@@ -115,10 +115,10 @@ TEST(SteadyState, TheRunningRobotsWayAllocatesNothingOnceItsBufferIsFull) {
   const OpenCamera& camera = scene.cameras.front();
   const DepthImage depth_m = camera.read_depth(3);
   std::vector<std::string> names;
-  for (const MovableJoint& joint : camera.view->robot()->model().joints)
+  for (const MovableJoint& joint : camera.mounted->robot()->model().joints)
     names.push_back(joint.name);
-  JointBuffer joints(camera.view->robot()->model(), 50);
-  Observer observer(camera.view);
+  JointBuffer joints(camera.mounted->robot()->model(), 50);
+  Observer observer(camera.mounted);
   Query query(scene.robot);
   Frame frame;
   int ms = 0;

@@ -29,8 +29,8 @@ class RunningRobot : public ::testing::Test {
       : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml")),
         camera_(scene_.cameras.front()),
         depth_m_(camera_.read_depth(3)),
-        view_(testing::view_with(*camera_.view, EvaluationSettings(), {})),
-        names_(joint_names(view_->robot()->model())) {
+        mounted_(testing::view_with(*camera_.mounted, EvaluationSettings(), {})),
+        names_(joint_names(mounted_->robot()->model())) {
     push_until(10.5);
   }
 
@@ -48,12 +48,12 @@ class RunningRobot : public ::testing::Test {
   OpenScene scene_;
   const OpenCamera& camera_;
   DepthImage depth_m_;
-  std::shared_ptr<const MountedCamera> view_;
+  std::shared_ptr<const MountedCamera> mounted_;
   std::vector<std::string> names_;
   double next_s_ = 10;
-  JointBuffer buffer_{view_->robot()->model(), 100};
-  Observer observer_{view_};
-  testing::FrameQuery query_{view_->robot()};
+  JointBuffer buffer_{mounted_->robot()->model(), 100};
+  Observer observer_{mounted_};
+  testing::FrameQuery query_{mounted_->robot()};
   Frame frame_;
 };
 
@@ -96,7 +96,7 @@ TEST_F(RunningRobot, TheAnswerIsThatOfTheSameJointsWithoutAnyClock) {
   ASSERT_EQ(observe(10.303), TimeStatus::ok);
   const Result timed = query_.ask(frame_, {}, 10.35);
   Frame plain;
-  Observer(view_).observe(depth_m_, camera_.at_exposure[3], plain);
+  Observer(mounted_).observe(depth_m_, camera_.at_exposure[3], plain);
   const Result& untimed = query_.ask(plain);
   EXPECT_TRUE(std::isnan(untimed.time.frame_age_s));
   EXPECT_EQ(untimed.time.status, TimeStatus::ok);
@@ -110,10 +110,10 @@ TEST_F(RunningRobot, AStaleFrameGivesNoAnswerHoweverOftenItIsAsked) {
   EXPECT_TRUE(all_ok(query_.ask(frame_, {}, 10.349)));
   for (const double now_s : {10.351, 11.0, 1e9, kNaN}) {
     expect_withheld(query_.ask(frame_, {}, now_s), TimeStatus::stale_frame,
-                    view_->robot()->model().link_count());
+                    mounted_->robot()->model().link_count());
   }
   expect_withheld(query_.ask(frame_, {}, 10.194), TimeStatus::frame_in_future,
-                  view_->robot()->model().link_count());
+                  mounted_->robot()->model().link_count());
   EXPECT_TRUE(all_ok(query_.ask(frame_, {}, 10.349))) << "an earlier refusal leaves nothing behind";
 }
 
@@ -121,7 +121,7 @@ TEST_F(RunningRobot, StaleJointsGiveNoAnswerAndPlannedOnesDo) {
   ASSERT_EQ(observe(10.4), TimeStatus::ok);
   EXPECT_TRUE(all_ok(query_.ask(frame_, buffer_, 10.51)));
   expect_withheld(query_.ask(frame_, buffer_, 10.53), TimeStatus::stale_joints,
-                  view_->robot()->model().link_count());
+                  mounted_->robot()->model().link_count());
   const JointState planned{10.9, camera_.at_exposure[3].position};
   const Result& answer = query_.ask(frame_, planned, 10.45);
   EXPECT_NEAR(answer.time.joints_age_s, -0.45, 1e-9);
@@ -133,9 +133,9 @@ TEST_F(RunningRobot, AnExposureThatTheJointsDoNotReachLeavesNothingOfTheFrameBef
   ASSERT_TRUE(all_ok(query_.ask(frame_)));
   EXPECT_EQ(observe(10.52), TimeStatus::extrapolated_too_far);
   expect_withheld(query_.ask(frame_), TimeStatus::extrapolated_too_far,
-                  view_->robot()->model().link_count());
+                  mounted_->robot()->model().link_count());
   expect_withheld(query_.ask(frame_, camera_.at_exposure[3]), TimeStatus::extrapolated_too_far,
-                  view_->robot()->model().link_count());
+                  mounted_->robot()->model().link_count());
   EXPECT_EQ(query_.ask(frame_).cameras[0].stamp_s, 10.52);
   for (const float z_m : frame_.obstacles.depth_m.pixels()) ASSERT_TRUE(std::isnan(z_m));
   for (const LinkId id : frame_.robot.link_id.pixels()) ASSERT_EQ(id, kNoLink);
@@ -160,7 +160,7 @@ TEST_F(RunningRobot, StampsThatGoBackRepeatOrJumpCostTheirFrame) {
   EXPECT_EQ(observe(10.3), TimeStatus::stamp_went_back) << "the same image again";
   EXPECT_EQ(observe(10.2), TimeStatus::stamp_went_back);
   expect_withheld(query_.ask(frame_), TimeStatus::stamp_went_back,
-                  view_->robot()->model().link_count());
+                  mounted_->robot()->model().link_count());
   EXPECT_EQ(observe(10.2 + kPeriod_s), TimeStatus::ok) << "judged by the frame before alone";
   EXPECT_EQ(observe(1e9), TimeStatus::stamp_jumped);
   EXPECT_EQ(observe(10.4), TimeStatus::stamp_went_back);
@@ -174,13 +174,13 @@ TEST_F(RunningRobot, AMissingJointIsTheStatusOfFramesAndRequests) {
   buffer_.push(10.52, fewer, std::vector<double>(fewer.size(), 0.0));
   EXPECT_EQ(buffer_.missing_joint(), names_.front());
   expect_withheld(query_.ask(frame_, buffer_, 10.45), TimeStatus::missing_joint,
-                  view_->robot()->model().link_count());
+                  mounted_->robot()->model().link_count());
   EXPECT_EQ(observe(10.52), TimeStatus::missing_joint);
   expect_withheld(query_.ask(frame_, {}, 10.53), TimeStatus::missing_joint,
-                  view_->robot()->model().link_count());
-  const JointBuffer empty(view_->robot()->model(), 2);
+                  mounted_->robot()->model().link_count());
+  const JointBuffer empty(mounted_->robot()->model(), 2);
   expect_withheld(query_.ask(frame_, empty, 10.45), TimeStatus::no_joints,
-                  view_->robot()->model().link_count());
+                  mounted_->robot()->model().link_count());
 }
 
 TEST(FrameClock, AStampThatIsNoTimeTellsNothingOfTheNext) {

@@ -20,7 +20,7 @@ class TwoClocks : public ::testing::Test {
         camera_(scene_.cameras.front()) {}
 
   Frame observe(std::size_t i) {
-    Observer observer(camera_.view);
+    Observer observer(camera_.mounted);
     Frame frame;
     observer.observe(camera_.read_depth(i), camera_.at_exposure[i], frame);
     return frame;
@@ -48,7 +48,7 @@ TEST_F(TwoClocks, OtherJointsGiveTheRobotOfThatPoseAgainstWhatTheFrameSaw) {
 }
 
 TEST_F(TwoClocks, FramesAndQueriesCarryNothingOver) {
-  Observer observer(camera_.view);
+  Observer observer(camera_.mounted);
   testing::FrameQuery query(scene_.robot);
   Frame frame;
   const auto run = [&](std::size_t i) {
@@ -75,7 +75,7 @@ TEST_F(TwoClocks, TwoThreadsAskOneFrame) {
 }
 
 TEST_F(TwoClocks, WrongSizesAndJointsAreRefused) {
-  Observer observer(camera_.view);
+  Observer observer(camera_.mounted);
   testing::FrameQuery query(scene_.robot);
   Frame frame = observe(0);
   EXPECT_THROW(observer.observe(DepthImage(10, 10, 1.0F), camera_.at_exposure[0], frame),
@@ -89,11 +89,11 @@ TEST_F(TwoClocks, WrongSizesAndJointsAreRefused) {
 TEST_F(TwoClocks, ABackgroundIsLearnedOnlyWhereItIsAskedForAndFromImagesOfTheCamerasSize) {
   const Frame frame = observe(0);
   const DepthImage depth_m = camera_.read_depth(0);
-  EXPECT_THROW(Observer(camera_.view).learn_background(depth_m, frame), std::invalid_argument);
+  EXPECT_THROW(Observer(camera_.mounted).learn_background(depth_m, frame), std::invalid_argument);
 
   CameraSettings settings;
   settings.sensor.background_frames = 1;
-  Observer observer(testing::view_with(*camera_.view, settings));
+  Observer observer(testing::view_with(*camera_.mounted, settings));
   EXPECT_THROW(observer.learn_background(DepthImage(10, 10, 1.0F), frame), std::invalid_argument);
   Frame learned;
   observer.observe(depth_m, camera_.at_exposure[0], learned);

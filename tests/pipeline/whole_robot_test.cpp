@@ -20,21 +20,21 @@ class WholeRobot : public ::testing::Test {
   WholeRobot()
       : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml")),
         camera_(scene_.cameras.front()),
-        view_(testing::view_with(*camera_.view, EvaluationSettings{}, {})) {}
+        mounted_(testing::view_with(*camera_.mounted, EvaluationSettings{}, {})) {}
 
   void observe(std::size_t i, Frame& frame) const {
-    Observer(view_).observe(camera_.read_depth(i), camera_.at_exposure[i], frame);
+    Observer(mounted_).observe(camera_.read_depth(i), camera_.at_exposure[i], frame);
   }
 
   OpenScene scene_;
   const OpenCamera& camera_;
-  std::shared_ptr<const MountedCamera> view_;
+  std::shared_ptr<const MountedCamera> mounted_;
 };
 
 TEST_F(WholeRobot, AnswersHaveBothDistancesInTheirOrderWithTheirPoints) {
   Frame frame;
   observe(17, frame);
-  Query query(view_->robot());
+  Query query(mounted_->robot());
   const Result& result = query.ask({frame});
   ASSERT_EQ(result.cameras.size(), 1U);
   EXPECT_EQ(result.cameras[0].status, CameraStatus::ok);
@@ -58,7 +58,7 @@ TEST_F(WholeRobot, AnswersHaveBothDistancesInTheirOrderWithTheirPoints) {
 TEST_F(WholeRobot, AskingAFrameAListOfOneAndTheJointsOfTheExposureIsTheSame) {
   Frame frame;
   observe(17, frame);
-  Query query(view_->robot());
+  Query query(mounted_->robot());
   const auto anew = [&](const Request& request) {
     query.forget();
     return testing::distances_of(query.ask(request));
@@ -77,10 +77,10 @@ TEST_F(WholeRobot, ACameraThatIsMissingLateStaleOrBlindIsNamed) {
   observe(3, old);
   FrameTime skewed;
   skewed.status = TimeStatus::skewed;
-  Observer(view_).observe(camera_.read_depth(17), camera_.at_exposure[17], stale, skewed);
-  Observer(view_).observe(DepthImage(640, 480, kNoDepth), camera_.at_exposure[17], blind);
+  Observer(mounted_).observe(camera_.read_depth(17), camera_.at_exposure[17], stale, skewed);
+  Observer(mounted_).observe(DepthImage(640, 480, kNoDepth), camera_.at_exposure[17], blind);
   const std::vector<const Frame*> frames = {&fresh, nullptr, &old, &stale, &blind};
-  Query query(view_->robot());
+  Query query(mounted_->robot());
   const Result result = query.ask({frames});
   const std::vector<CameraStatus> expected = {CameraStatus::ok, CameraStatus::no_frame,
                                               CameraStatus::too_old, CameraStatus::stale,
@@ -101,7 +101,7 @@ TEST_F(WholeRobot, ACameraThatIsMissingLateStaleOrBlindIsNamed) {
 TEST_F(WholeRobot, WithoutAnyFrameInTimeTheAnswerIsWithheld) {
   Frame frame;
   observe(17, frame);
-  Query query(view_->robot());
+  Query query(mounted_->robot());
   const std::vector<const Frame*> none = {nullptr};
   const Request requests[] = {{none}, {frame, {}, frame.stamp_s + 1}};
   const TimeStatus statuses[] = {TimeStatus::no_frame, TimeStatus::stale_frame};
@@ -123,9 +123,9 @@ TEST_F(WholeRobot, AWithheldResultHasTheCamerasOfItsOwnRequest) {
   observe(17, right);
   FrameTime skewed;
   skewed.status = TimeStatus::skewed;
-  Observer(view_).observe(camera_.read_depth(17), camera_.at_exposure[17], stale, skewed);
+  Observer(mounted_).observe(camera_.read_depth(17), camera_.at_exposure[17], stale, skewed);
   const std::vector<const Frame*> both = {&left, &right};
-  Query query(view_->robot());
+  Query query(mounted_->robot());
   EXPECT_EQ(query.ask({both}).cameras.size(), 2U);
   ASSERT_EQ(query.ask({stale}).cameras.size(), 1U);
   EXPECT_EQ(query.ask({stale}).cameras[0].status, CameraStatus::stale);
@@ -137,13 +137,13 @@ TEST_F(WholeRobot, AWithheldResultHasTheCamerasOfItsOwnRequest) {
   EXPECT_EQ(query.ask({left, {}, late_s}).cameras[0].status, CameraStatus::too_old);
   EXPECT_NEAR(query.ask({left, {}, late_s}).cameras[0].age_s, 1, 1e-9);
 
-  const JointBuffer no_joints(view_->robot()->model(), 2);
+  const JointBuffer no_joints(mounted_->robot()->model(), 2);
   EXPECT_EQ(query.ask({both, no_joints, left.stamp_s}).cameras.size(), 2U);
   ASSERT_EQ(query.ask({left, no_joints, left.stamp_s}).cameras.size(), 1U);
 }
 
 TEST_F(WholeRobot, AFrameThatNobodyObservedIsNoFrame) {
-  testing::FrameQuery query(view_->robot());
+  testing::FrameQuery query(mounted_->robot());
   EXPECT_EQ(query.ask(Frame()).time.status, TimeStatus::no_frame);
   const Result& result = query.ask(Frame(), camera_.at_exposure[17], 1.7);
   EXPECT_EQ(result.time.status, TimeStatus::no_frame);
@@ -159,8 +159,8 @@ TEST_F(WholeRobot, AFrameThatNobodyObservedIsNoFrame) {
 
 TEST_F(WholeRobot, NothingSeenIsNotFree) {
   Frame frame;
-  Observer(view_).observe(DepthImage(640, 480, kNoDepth), camera_.at_exposure[17], frame);
-  Query query(view_->robot());
+  Observer(mounted_).observe(DepthImage(640, 480, kNoDepth), camera_.at_exposure[17], frame);
+  Query query(mounted_->robot());
   const Result& result = query.ask({frame});
   EXPECT_EQ(result.cameras[0].status, CameraStatus::blind);
   EXPECT_EQ(result.status, ResultStatus::degraded);
@@ -177,8 +177,8 @@ TEST_F(WholeRobot, ALinkThatNoCameraSeesKeepsItsDistanceBesideTheStatus) {
     for (int u = 0; u < 640; ++u) depth_m(u, v) = 0.3F;
   }
   Frame frame;
-  Observer(view_).observe(depth_m, camera_.at_exposure[17], frame);
-  Query query(view_->robot());
+  Observer(mounted_).observe(depth_m, camera_.at_exposure[17], frame);
+  Query query(mounted_->robot());
   for (const LinkResult& link : query.ask({frame}).links) {
     EXPECT_EQ(link.status, LinkStatus::not_seen);
     EXPECT_LE(link.distance_m, MeshRequest{}.tolerance_m) << "all of it is hidden";
@@ -194,14 +194,14 @@ TEST_F(WholeRobot, ALinkNearMuchThatIsInNoImageIsNotCalledFree) {
     evaluation.distance.range_m = 3;
     CameraSettings settings;
     settings.space.unobserved = unobserved;
-    const auto view = testing::view_with(*camera_.view, evaluation, settings);
+    const auto mounted = testing::view_with(*camera_.mounted, evaluation, settings);
     Frame frame;
-    Observer observer(view);
+    Observer observer(mounted);
     observer.observe(camera_.read_depth(17), camera_.at_exposure[17], frame);
     DepthImage depth_m = frame.robot.depth_m;
     for (float& one_m : depth_m.pixels()) one_m = std::isnan(one_m) ? 9 : one_m;
     observer.observe(depth_m, camera_.at_exposure[17], frame);
-    return Query(view->robot()).ask({frame}).links.back();
+    return Query(mounted->robot()).ask({frame}).links.back();
   };
   EXPECT_EQ(ask(std::nullopt).status, LinkStatus::not_observed);
   EXPECT_EQ(ask(Unobserved::ignore).status, LinkStatus::none_in_range);
@@ -211,18 +211,19 @@ TEST_F(WholeRobot, ALinkNearMuchThatIsInNoImageIsNotCalledFree) {
   EXPECT_EQ(link.obstacle_pixel, (Pixel{-1, -1}));
   EXPECT_LT(link.distance_m, 1.5F);
   EXPECT_LE(link.distance_m - link.lower_bound_m, 0.00101F);
-  EXPECT_FALSE(project_into_image(camera_.view->camera(), link.obstacle_point_C_m.cast<double>()));
+  EXPECT_FALSE(
+      project_into_image(camera_.mounted->camera(), link.obstacle_point_C_m.cast<double>()));
 }
 
 TEST_F(WholeRobot, LookAheadIsItsPosesAndSaysWhichComesNearerFirst) {
   Frame frame;
   observe(3, frame);
   std::vector<JointState> path(camera_.at_exposure.begin(), camera_.at_exposure.begin() + 12);
-  Query looking_ahead(view_->robot());
+  Query looking_ahead(mounted_->robot());
   const LookAhead found = looking_ahead.ask({.frames = frame, .ahead = path}).ahead;
   ASSERT_EQ(found.poses.size(), path.size());
   EXPECT_FALSE(found.first_nearer.has_value());
-  Query query(view_->robot());
+  Query query(mounted_->robot());
   float least_m = 1;
   for (std::size_t i = 0; i < path.size(); ++i) {
     const Result& result = query.ask({frame, path[i]});
@@ -257,66 +258,66 @@ TEST_F(WholeRobot, LookAheadIsItsPosesAndSaysWhichComesNearerFirst) {
 }
 
 TEST_F(WholeRobot, WhatIsAttachedIsPartOfItsLinkOrALinkOfItsOwn) {
-  const RobotModel& model = view_->robot()->model();
+  const RobotModel& model = mounted_->robot()->model();
   const std::string hand = model.evaluated_link_names().back();
   Attachment tool{"tool", hand, make_box({0.02, 0.02, 0.4}), Pose::Identity(), true};
-  const auto with_tool = attach(*view_->robot(), tool);
+  const auto with_tool = attach(*mounted_->robot(), tool);
   EXPECT_EQ(with_tool->model().link_count(), model.link_count() + 1);
   EXPECT_EQ(with_tool->model().evaluated_link_names().back(), "tool");
   tool.is_link = false;
-  const auto longer_hand = attach(*view_->robot(), tool);
+  const auto longer_hand = attach(*mounted_->robot(), tool);
   EXPECT_EQ(longer_hand->model().link_count(), model.link_count());
 
   const auto distance_of_last = [&](const std::shared_ptr<const Robot>& robot) {
-    const auto view = with_robot(*view_, robot);
+    const auto mounted = with_robot(*mounted_, robot);
     Frame frame;
-    Observer(view).observe(camera_.read_depth(3), camera_.at_exposure[3], frame);
+    Observer(mounted).observe(camera_.read_depth(3), camera_.at_exposure[3], frame);
     return Query(robot).ask({frame}).links.back().distance_m;
   };
   const float own = distance_of_last(with_tool), part = distance_of_last(longer_hand);
-  const float bare = distance_of_last(view_->robot());
+  const float bare = distance_of_last(mounted_->robot());
   EXPECT_LT(part, bare);
   EXPECT_NEAR(std::min(own, bare), part, 0.03);
   EXPECT_EQ(distance_of_last(detach(*longer_hand, "tool")), bare);
 
   EXPECT_THROW(attach(*with_tool, tool), std::invalid_argument);
-  EXPECT_THROW(detach(*view_->robot(), "tool"), std::invalid_argument);
+  EXPECT_THROW(detach(*mounted_->robot(), "tool"), std::invalid_argument);
   tool.link = "nowhere";
   EXPECT_NE(error_message<std::invalid_argument>([&] {
-              attach(*view_->robot(), tool);
+              attach(*mounted_->robot(), tool);
             }).find("link \"nowhere\" is no evaluated link"),
             std::string::npos);
 }
 
 // It would be the robot in every image, and nothing an obstacle.
 TEST_F(WholeRobot, AThingInMillimetresIsRefused) {
-  const std::string hand = view_->robot()->model().evaluated_link_names().back();
+  const std::string hand = mounted_->robot()->model().evaluated_link_names().back();
   EXPECT_EQ(
       error_message<std::invalid_argument>([&] {
-        attach(*view_->robot(), {"gripper", hand, make_box({60, 40, 120})});
+        attach(*mounted_->robot(), {"gripper", hand, make_box({60, 40, 120})});
       }),
       "attached \"gripper\": reaches 70 m from its origin; expected at most 20 m, and lengths "
       "in metres: in millimetres they are a thousand times as large");
-  EXPECT_NO_THROW(attach(*view_->robot(), {"beam", hand, make_box({0.1, 0.1, 12})}));
+  EXPECT_NO_THROW(attach(*mounted_->robot(), {"beam", hand, make_box({0.1, 0.1, 12})}));
 }
 
 TEST_F(WholeRobot, WhatIsSoftIsRejected) {
   Frame bare_frame;
   observe(17, bare_frame);
-  const LinkResult bare = Query(view_->robot()).ask({bare_frame}).links.back();
+  const LinkResult bare = Query(mounted_->robot()).ask({bare_frame}).links.back();
   ASSERT_TRUE(bare.occupied.is_known());
   // Where the nearest thing is, something soft may hang.
-  const RobotModel& model = view_->robot()->model();
+  const RobotModel& model = mounted_->robot()->model();
   const std::string hand = model.evaluated_link_names().back();
   Attachment hose{"hose", hand, make_sphere(0.1)};
   hose.X_LA.translation() = bare_frame.pose.X_BL[*model.find_link(hand)].inverse() *
                             bare.occupied.obstacle_point_B_m.cast<double>();
   hose.is_soft = true;
-  const auto robot = attach(*view_->robot(), hose);
+  const auto robot = attach(*mounted_->robot(), hose);
   EXPECT_EQ(robot->model().links.size(), model.links.size());
-  const auto view = with_robot(*view_, robot);
+  const auto mounted = with_robot(*mounted_, robot);
   Frame frame;
-  Observer(view).observe(camera_.read_depth(17), camera_.at_exposure[17], frame);
+  Observer(mounted).observe(camera_.read_depth(17), camera_.at_exposure[17], frame);
   EXPECT_GT(frame.obstacles.count_of(PixelFate::soft), 10);
   const LinkResult soft = Query(robot).ask({frame}).links.back();
   EXPECT_GT(soft.occupied.distance_m, bare.occupied.distance_m + 0.01F);
@@ -324,7 +325,7 @@ TEST_F(WholeRobot, WhatIsSoftIsRejected) {
   EXPECT_TRUE(detach(*robot, "hose")->model().soft_bodies.empty());
 
   hose.mesh_A.triangles.pop_back();
-  EXPECT_EQ(error_message<std::invalid_argument>([&] { attach(*view_->robot(), hose); }),
+  EXPECT_EQ(error_message<std::invalid_argument>([&] { attach(*mounted_->robot(), hose); }),
             "attached \"hose\": the mesh is not closed; expected one that encloses a space");
 }
 

@@ -9,7 +9,7 @@ namespace berth {
 class OneCameraLoop : public RecordedScene {
  protected:
   OneCameraLoop()
-      : observer_(scene_.cameras[0].view),
+      : observer_(scene_.cameras[0].mounted),
         query_(scene_.robot),
         monitor_(scene_.robot, lenient()),
         depth_m_(scene_.cameras[0].read_depth(0)) {

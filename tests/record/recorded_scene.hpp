@@ -33,13 +33,13 @@ class RecordedScene : public ::testing::Test {
 
   std::filesystem::path file() const { return folder_ / "stop.mcap"; }
   RecorderSettings settings() const { return {.file = file(), .seconds = 1}; }
-  std::vector<std::shared_ptr<const MountedCamera>> views() const {
-    std::vector<std::shared_ptr<const MountedCamera>> views;
-    for (const OpenCamera& camera : scene_.cameras) views.push_back(camera.view);
-    return views;
+  std::vector<std::shared_ptr<const MountedCamera>> cameras() const {
+    std::vector<std::shared_ptr<const MountedCamera>> cameras;
+    for (const OpenCamera& camera : scene_.cameras) cameras.push_back(camera.mounted);
+    return cameras;
   }
   std::unique_ptr<Recorder> recorder(const RecorderSettings& settings) const {
-    return std::make_unique<Recorder>(scene_.robot, views(), scene_.separation, settings);
+    return std::make_unique<Recorder>(scene_.robot, cameras(), scene_.separation, settings);
   }
 
   /// The scene's first results, recorded; a recording of them.

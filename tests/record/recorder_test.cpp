@@ -261,7 +261,7 @@ TEST_F(RecorderTest, RefusesAPlaceThatIsNotThereAndSettingsOutsideOfTheirDomain)
 }
 
 TEST_F(RecorderTest, RefusesAMonitorWhoseSettingsItWasNotGiven) {
-  Recorder black_box(scene_.robot, views(), std::nullopt, settings());
+  Recorder black_box(scene_.robot, cameras(), std::nullopt, settings());
   observe();
   black_box.put(*frame_, depth_m_);
   expect_parts(error_message<std::invalid_argument>([&] { ask(black_box, false); }),
@@ -269,7 +269,7 @@ TEST_F(RecorderTest, RefusesAMonitorWhoseSettingsItWasNotGiven) {
 }
 
 TEST_F(RecorderTest, RefusesFramesOfOtherCameras) {
-  Recorder black_box(scene_.robot, {views()[1]}, scene_.separation, settings());
+  Recorder black_box(scene_.robot, {cameras()[1]}, scene_.separation, settings());
   observe();
   expect_parts(error_message<std::invalid_argument>([&] { black_box.put(*frame_, depth_m_); }),
                {"frame", "none of the recorder's"});

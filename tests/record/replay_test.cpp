@@ -47,7 +47,7 @@ TEST_F(ReplayTest, GivesTheSameResultsOfPreparedSpaces) {
   const auto black_box = recorder(settings());
   std::vector<Observer> observers;
   std::vector<std::shared_ptr<const Frame>> frames(scene_.cameras.size());
-  for (const auto& view : views()) observers.emplace_back(view);
+  for (const auto& mounted : cameras()) observers.emplace_back(mounted);
   Query query(scene_.robot, {"front", "left", "right"});
   SeparationMonitor monitor(scene_.robot, *scene_.separation);
   JointBuffer buffer(scene_.robot->model(), 100);
@@ -105,10 +105,10 @@ TEST_F(ReplayTest, GivesTheSameResultsOfPreparedSpaces) {
 TEST_F(ReplayTest, KnowsBackgrounds) {
   OpenScene scene = scene_;
   for (OpenCamera& camera : scene_.cameras) {
-    CameraSettings settings = camera.view->settings();
+    CameraSettings settings = camera.mounted->settings();
     settings.sensor.background_frames = 2;
-    camera.view =
-        std::make_shared<const MountedCamera>(scene_.robot, camera.view->mount(), settings);
+    camera.mounted =
+        std::make_shared<const MountedCamera>(scene_.robot, camera.mounted->mount(), settings);
     camera.background_m = camera.read_depth(0);
   }
   record_scene(settings(), 24);
@@ -237,7 +237,7 @@ TEST_F(ReplayTest, SaysWhatADeadlineMayHaveDone) {
 }
 
 TEST_F(ReplayTest, HasEveryBitOfRobotAndSettings) {
-  RecordedCell cell{scene_.robot, views(), some_separation(), "1.2.3"};
+  RecordedCell cell{scene_.robot, cameras(), some_separation(), "1.2.3"};
   EvaluationSettings evaluation;
   evaluation.distance.range_m = 1.0 / 3;
   evaluation.time.max_frame_age_s = std::numeric_limits<double>::infinity();
@@ -251,7 +251,8 @@ TEST_F(ReplayTest, HasEveryBitOfRobotAndSettings) {
   CameraSettings settings = settings_of_real_camera();
   settings.link_padding_m = {{hand, 0.1}};
   settings.self_filter.padding_m = 0.07;
-  cell.views = {std::make_shared<const MountedCamera>(cell.robot, views()[0]->mount(), settings)};
+  cell.cameras = {
+      std::make_shared<const MountedCamera>(cell.robot, cameras()[0]->mount(), settings)};
   cell.separation->stopping = {{0.1, 0.2, 0.3}, {0.4, 0.5, 0.6}};
   cell.separation->unknown = UnknownPolicy::stop;
   const mcap::Head head = head_of(cell);

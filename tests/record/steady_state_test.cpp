@@ -1,4 +1,4 @@
-// Recording costs who asks no memory.
+// Recording costs requests no memory.
 #include <chrono>
 #include <thread>
 
@@ -31,8 +31,8 @@ TEST_F(RecorderSteadyState, AsksWithoutAnAllocationOnceItIsWarm) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     return count;
   };
-  // A ring turns in so many rounds. On a busy machine more waits for the writer than ever before,
-  // and has to have memory.
+  // A ring turns in this number of rounds. On a busy machine more waits for the writer than ever
+  // before, and has to have memory.
   std::size_t in_one_turn = 1;
   for (int turn = 0; turn < 10 && in_one_turn > 0; ++turn) {
     in_one_turn = 0;

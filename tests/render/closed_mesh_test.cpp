@@ -127,7 +127,7 @@ TEST(ClosedMesh, HasNoHoles) {
 }
 
 /// A rectangle 1 m before the camera, cut into a fan around one of its points. All corners project
-/// to centres of pixels, and so many edges pass through other centres.
+/// to centres of pixels, and enough edges pass through other centres.
 TriangleMesh fan(const Camera& camera, const PixelRect& rect, int u, int v) {
   TriangleMesh mesh;
   const auto add = [&](int at_u, int at_v) {

@@ -16,10 +16,10 @@ const OpenScene& bundled() {
   return scene;
 }
 
-/// So many images of a bundled camera, the arm in another pose in each.
+/// Images of a bundled camera, the arm in another pose in each.
 LiveImages images_of(std::size_t camera, std::size_t count) {
   const OpenCamera& source = bundled().cameras[camera];
-  LiveImages live{source.view, source.source.depth_scale_m, {}};
+  LiveImages live{source.mounted, source.source.depth_scale_m, {}};
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t k = i * (source.source.depth.size() - 1) / count;
     live.images.push_back(
@@ -29,12 +29,12 @@ LiveImages images_of(std::size_t camera, std::size_t count) {
 }
 
 LiveImages with_focal_length(LiveImages live, double factor, WatchSettings watch = {}) {
-  CameraMount mount = live.view->mount();
+  CameraMount mount = live.mounted->mount();
   mount.camera.fx_px *= factor;
   mount.camera.fy_px *= factor;
-  CameraSettings settings = live.view->settings();
+  CameraSettings settings = live.mounted->settings();
   settings.watch = watch;
-  live.view = std::make_shared<const MountedCamera>(live.view->robot(), mount, settings);
+  live.mounted = std::make_shared<const MountedCamera>(live.mounted->robot(), mount, settings);
   return live;
 }
 
@@ -53,7 +53,7 @@ TEST(LivePlausibility, AFocalLengthThatIsATenthOffIsTold) {
   // Of the first and the last camera a fit does not get from 1.1 to the right pose.
   for (const std::size_t c : {0, 1, 2}) {
     const LiveImages live = images_of(c, kLeastPosesForFocalLength);
-    const auto right_px = static_cast<int>(live.view->mount().camera.fx_px);
+    const auto right_px = static_cast<int>(live.mounted->mount().camera.fx_px);
     for (const double factor : {0.9, 1.1}) {
       const CameraPlausibility found = find_implausible({with_focal_length(live, factor)})[0];
       EXPECT_TRUE(found.is_implausible) << found.camera << ", " << factor;

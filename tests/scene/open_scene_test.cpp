@@ -142,11 +142,11 @@ TEST(SceneCameras, RectifyWhatALensBends) {
   const OpenScene scene = camera.open(given_m);
   const OpenCamera& open = scene.cameras[0];
   EXPECT_EQ(open.given().width_px, 160);
-  EXPECT_GT(open.view->camera().width_px, 170);
+  EXPECT_GT(open.mounted->camera().width_px, 170);
   const DepthImage read_m = open.read_depth(0);
-  ASSERT_EQ(read_m.width(), open.view->camera().width_px);
+  ASSERT_EQ(read_m.width(), open.mounted->camera().width_px);
   // 70 pixels to the right of the middle: 0.583 = x (1 - 0.3 x^2 + 0.1 x^4).
-  const auto at = pixel_of(open.view->camera(), Eigen::Vector3d(0.6556, 0, 1));
+  const auto at = pixel_of(open.mounted->camera(), Eigen::Vector3d(0.6556, 0, 1));
   ASSERT_TRUE(at);
   EXPECT_NEAR(read_m(at->u, at->v), 1, 0.001);
 }
@@ -156,7 +156,7 @@ TEST(SceneCameras, WhoeverHasDistortionHasToSayWhetherItIsLeft) {
       error_message([] { OtherCamera(kOtherInfo + "[0.1]}\n", "").open(DepthImage(160, 120, 1)); }),
       {"info.yaml:5", "rectified: true"});
   const OtherCamera rectified(kOtherInfo + "[0.1]}\n", "rectified: true");
-  EXPECT_EQ(rectified.open(DepthImage(160, 120, 1)).cameras[0].view->camera().width_px, 160);
+  EXPECT_EQ(rectified.open(DepthImage(160, 120, 1)).cameras[0].mounted->camera().width_px, 160);
 }
 
 TEST(SceneCameras, WithoutStampsEachImageHasItsRow) {
@@ -199,10 +199,10 @@ TEST(BackgroundOfALongRecording, IsLearnedFromRunsOfImagesThatLieEvenlyOverIt) {
   OpenCamera camera = open_scene(bundled_file()).cameras[0];
   const auto images_of = [&](std::size_t count, int background_frames) {
     camera.source.depth.resize(count);
-    CameraSettings settings = camera.view->settings();
+    CameraSettings settings = camera.mounted->settings();
     settings.sensor.background_frames = background_frames;
-    camera.view =
-        std::make_shared<const MountedCamera>(camera.view->robot(), camera.view->mount(), settings);
+    camera.mounted = std::make_shared<const MountedCamera>(camera.mounted->robot(),
+                                                           camera.mounted->mount(), settings);
     std::size_t images = 0, next = 0;
     for (const ImageRun& run : images_to_learn_from(camera)) {
       EXPECT_GE(run.first, next);
@@ -230,8 +230,8 @@ TEST(ReopenedScene, SharesRobotAndImages) {
   EXPECT_EQ(scene.robot, before.robot);
   EXPECT_EQ(scene.frame_count, before.frame_count);
   EXPECT_EQ(scene.cameras[0].kept_depth_m, before.cameras[0].kept_depth_m);
-  EXPECT_EQ(scene.cameras[0].view->settings().self_filter.padding_m, 0.05);
-  EXPECT_EQ(scene.cameras[0].view->mount().X_PC.translation(),
+  EXPECT_EQ(scene.cameras[0].mounted->settings().self_filter.padding_m, 0.05);
+  EXPECT_EQ(scene.cameras[0].mounted->mount().X_PC.translation(),
             changed.cameras[0].X_PC.translation());
 }
 
@@ -264,7 +264,7 @@ TEST(ReopenedScene, CarriesWhatItIsToldTo) {
   };
   EXPECT_EQ(names(carries), (std::vector<std::string>{"box", "ball"}));
   EXPECT_TRUE(carries.robot->model().find_link("ball"));
-  EXPECT_EQ(carries.cameras[0].view->robot(), carries.robot);
+  EXPECT_EQ(carries.cameras[0].mounted->robot(), carries.robot);
   EXPECT_EQ(reopen_scene(carries, file, carried).robot, carries.robot);
   EXPECT_EQ(names(reopen_scene(carries, file)), std::vector<std::string>{"box"});
 }

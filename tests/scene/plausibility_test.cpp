@@ -89,7 +89,7 @@ TEST_F(Plausibility, ABlindCameraIsDeadWhereverTheRobotIs) {
   OpenScene scene = right();
   lab::move_camera(scene, 0, 30, 0, 1);
   OpenCamera& camera = scene.cameras[0];
-  const Camera& size = camera.view->camera();
+  const Camera& size = camera.mounted->camera();
   const auto none = std::make_shared<const DepthImage>(size.width_px, size.height_px, kNoDepth);
   std::ranges::fill(camera.kept_depth_m, none);
   expect_parts(text_of(find_implausible(scene, 0)), {"no pixel of its images has a reading"});
@@ -219,7 +219,7 @@ DepthImage near_robot(DepthImage depth_m, const RobotImage& robot) {
 TEST_F(Plausibility, ACameraThatReadsAQuarterOfItsPixelsIsOk) {
   OpenScene scene = open_scene(thinned_scene());
   for (OpenCamera& camera : scene.cameras) {
-    Observer observer(camera.view);
+    Observer observer(camera.mounted);
     Frame frame;
     for (std::size_t k = 0; k < camera.source.depth.size(); ++k) {
       const DepthImage depth_m = camera.read_depth(k);

@@ -47,7 +47,7 @@ TEST(FlyingPatches, AThingThatEndsInAStepIsKept) {
   EXPECT_EQ(out.fate(34, 30), PixelFate::obstacle);
 }
 
-/// Of the 28 pixels of the flying pixels' free rim, so many rows of three end in a step.
+/// Of the 28 pixels of the flying pixels' free rim, `rows` rows of three end in a step.
 PixelFate fate_with_sharp_rows(int rows) {
   FlatScene scene = scene_with_flying_pixels(1.0F);
   scene.see({36, 25, 39, 25 + rows}, FlatScene::kWall_m);

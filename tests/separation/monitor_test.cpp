@@ -41,7 +41,7 @@ class Monitor : public ::testing::Test {
       : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml")), query_(scene_.robot) {
     for (std::size_t c = 0; c < scene_.cameras.size(); ++c) {
       const OpenCamera& camera = scene_.cameras[c];
-      Observer observer(camera.view);
+      Observer observer(camera.mounted);
       auto frame = std::make_shared<Frame>();
       observer.observe(camera.read_depth(kImages[c]), camera.at_exposure[kImages[c]], *frame);
       now_s_ = std::max(now_s_, frame->stamp_s);
@@ -103,7 +103,7 @@ TEST_F(Monitor, WhatTheCamerasMayMissByTheirSettingsCounts) {
   settings.detection_m = 0.02;
   const LinkSeparation promised = update(settings).links.back();
   const double told_m =
-      detection_capability_m(frames_[0]->view->settings().space, frames_[0]->view->camera());
+      detection_capability_m(frames_[0]->mounted->settings().space, frames_[0]->mounted->camera());
   settings.detection_m = told_m;
   const LinkSeparation told = update(settings).links.back();
   EXPECT_GT(told_m, 0.02);
@@ -161,13 +161,13 @@ TEST_F(Monitor, WhereNobodyHasChosenWhatGivesNoReadingStopsTheRobot) {
 
 TEST_F(Monitor, AsksForNoChoiceWhereNoReadingMeansSomething) {
   for (const NoReading no_reading : kNoReadings) {
-    CameraSettings settings = scene_.cameras[0].view->settings();
+    CameraSettings settings = scene_.cameras[0].mounted->settings();
     settings.space.no_reading = no_reading;
-    const auto view = std::make_shared<const MountedCamera>(
-        scene_.robot, scene_.cameras[0].view->mount(), settings);
+    const auto mounted = std::make_shared<const MountedCamera>(
+        scene_.robot, scene_.cameras[0].mounted->mount(), settings);
     auto frame = std::make_shared<Frame>();
-    Observer(view).observe(scene_.cameras[0].read_depth(0), scene_.cameras[0].at_exposure[0],
-                           *frame);
+    Observer(mounted).observe(scene_.cameras[0].read_depth(0), scene_.cameras[0].at_exposure[0],
+                              *frame);
     EXPECT_EQ(frame->tells_unread, no_reading != NoReading::unknown);
     EXPECT_GE(frame->unread_share, 0);
     EXPECT_LT(frame->unread_share, 0.5);
@@ -281,7 +281,7 @@ TEST_F(Monitor, ACoveredCameraIsALostOne) {
   DepthImage dark = camera.read_depth(kImages[2]);
   for (float& depth_m : dark.pixels()) depth_m = std::numeric_limits<float>::quiet_NaN();
   auto covered = std::make_shared<Frame>();
-  Observer(camera.view).observe(dark, camera.at_exposure[kImages[2]], *covered);
+  Observer(camera.mounted).observe(dark, camera.at_exposure[kImages[2]], *covered);
   frames_[2] = covered;
   ask();
   ASSERT_EQ(result_.cameras[2].status, CameraStatus::blind);

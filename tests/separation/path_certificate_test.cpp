@@ -39,7 +39,7 @@ class PathCertificates : public ::testing::Test {
     for (std::size_t c = 0; c < scene_.cameras.size(); ++c) {
       const OpenCamera& camera = scene_.cameras[c];
       auto frame = std::make_shared<Frame>();
-      Observer(camera.view).observe(camera.read_depth(5), camera.at_exposure[5], *frame);
+      Observer(camera.mounted).observe(camera.read_depth(5), camera.at_exposure[5], *frame);
       frames.push_back(frame);
     }
     kept_ = frames;
@@ -239,12 +239,12 @@ Frame wall_frame(const std::shared_ptr<const Robot>& robot, float wall_x_m) {
   X_BC.translation() = Eigen::Vector3d(-1, 0, 0.1);
   CameraSettings settings;
   settings.self_filter.tolerance_m = 0.02;
-  const auto view = std::make_shared<const MountedCamera>(
+  const auto mounted = std::make_shared<const MountedCamera>(
       robot, CameraMount{camera, "base", X_BC, "above"}, settings);
   DepthImage depth_m(64, 48, wall_x_m + 1);
   Frame frame;
   FrameTime time;
-  Observer(view).observe(depth_m, JointState{0, {0.0}}, frame);
+  Observer(mounted).observe(depth_m, JointState{0, {0.0}}, frame);
   return frame;
 }
 

@@ -88,7 +88,7 @@ void expect_as_defined(const AgedCase& asked, AgingWorkspace& workspace) {
   }
 }
 
-/// The least that all pixels within its reach have left, and no blocks.
+/// The minimum over all pixels within its reach, and no blocks.
 TEST(AgedDepth, HoldsForAtLeastThePixelsWithinReach) {
   sim::Random random(3);
   AgingWorkspace workspace;

@@ -31,7 +31,7 @@ struct SeenRoom {
 
 struct BallCount {
   int drawn = 0;
-  /// No image tells that there is none.
+  /// No image reports that there is none.
   int possible = 0;
   /// A reading before the ball frees some of it: its error is above the margin, or it is the
   /// robot's.
@@ -190,7 +190,7 @@ Camera draw_camera(sim::Random& random, bool is_coarse) {
   return {320, 240, random(220, 330), random(220, 330), 159.5, 119.5};
 }
 
-/// Of the one that tells the least.
+/// Of the one that shows the least.
 double told_m(const std::vector<SeenRoom>& views) {
   double told_m = 0;
   for (const SeenRoom& view : views) {

@@ -34,7 +34,7 @@ MeshWorld world_of(std::uint32_t seed) {
   return world;
 }
 
-/// What a point is, told point by point, its voxel tells too, or something worse.
+/// What a point is, told point by point, its voxel reports too, or something worse.
 TEST(VoxelGrid, VoxelsTellTheWorstOfTheirPoints) {
   sim::Random random(3);
   int hidden = 0, free = 0, told_free = 0;

@@ -51,7 +51,7 @@ TriangleSoup read_text_stl(const std::string& bytes) {
 }
 
 TriangleSoup read_stl(const std::string& bytes) {
-  // A binary STL may begin with "solid" too: only its size tells.
+  // A binary STL may begin with "solid" too: only its size decides.
   if (bytes.size() >= 84) {
     const auto count = number_at<std::uint32_t>(bytes, 80);
     if (bytes.size() == 84 + 50 * std::size_t{count}) return read_binary_stl(bytes, count);

@@ -7,17 +7,18 @@
 
 namespace berth::testing {
 
-inline std::shared_ptr<const MountedCamera> view_with(const MountedCamera& view,
+inline std::shared_ptr<const MountedCamera> view_with(const MountedCamera& mounted,
                                                       const CameraSettings& settings) {
-  return std::make_shared<const MountedCamera>(view.robot(), view.mount(), settings);
+  return std::make_shared<const MountedCamera>(mounted.robot(), mounted.mount(), settings);
 }
 
 /// Of a robot of its own.
-inline std::shared_ptr<const MountedCamera> view_with(const MountedCamera& view,
+inline std::shared_ptr<const MountedCamera> view_with(const MountedCamera& mounted,
                                                       const EvaluationSettings& evaluation,
                                                       const CameraSettings& settings) {
   return std::make_shared<const MountedCamera>(
-      std::make_shared<const Robot>(view.robot()->model(), evaluation), view.mount(), settings);
+      std::make_shared<const Robot>(mounted.robot()->model(), evaluation), mounted.mount(),
+      settings);
 }
 
 }  // namespace berth::testing

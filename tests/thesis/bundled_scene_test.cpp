@@ -50,8 +50,8 @@ TEST(BundledScene, NoDistanceIsAboveTheTrueOneByMoreThanTheNamedBound) {
   const auto truth = read_truth(folder + "/truth.csv");
   const OpenScene scene = open_scene(folder + "/one_camera.yaml");
   const OpenCamera& camera = scene.cameras.front();
-  const std::vector<std::string> names = camera.view->robot()->model().evaluated_link_names();
-  Observer observer(camera.view);
+  const std::vector<std::string> names = camera.mounted->robot()->model().evaluated_link_names();
+  Observer observer(camera.mounted);
   ImageQuery query(scene.robot, Method::exact);
   Frame frame;
   std::map<std::string, std::pair<double, double>>
@@ -81,7 +81,7 @@ TEST(BundledScene, NoDistanceIsAboveTheTrueOneByMoreThanTheNamedBound) {
 TEST(BundledScene, BruteForceGivesTheSameDistances) {
   const OpenScene scene = open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml");
   const OpenCamera& camera = scene.cameras.front();
-  Observer observer(camera.view);
+  Observer observer(camera.mounted);
   ImageQuery query(scene.robot, Method::exact);
   Frame frame;
   const std::size_t closest_approach = 19;
@@ -90,9 +90,9 @@ TEST(BundledScene, BruteForceGivesTheSameDistances) {
   const ImageResult exact = query.ask(frame);
   const SearchableDepth obstacles(frame.obstacles.depth_m);
   LinkDistances brute;
-  brute_force({camera.view->camera(),
+  brute_force({camera.mounted->camera(),
                frame.robot,
-               camera.view->robot()->model().link_count(),
+               camera.mounted->robot()->model().link_count(),
                obstacles,
                {}},
               brute);

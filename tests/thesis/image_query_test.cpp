@@ -23,7 +23,7 @@ class ImageQueries : public ::testing::Test {
   }
 
   void observe(std::size_t i, Frame& frame, FrameTime time = {}) const {
-    Observer(camera_.view).observe(camera_.read_depth(i), camera_.at_exposure[i], frame, time);
+    Observer(camera_.mounted).observe(camera_.read_depth(i), camera_.at_exposure[i], frame, time);
   }
   static std::vector<float> distances_of(const ImageResult& result) {
     std::vector<float> distances;
@@ -96,12 +96,12 @@ TEST_F(ImageQueries, OtherJointsGiveTheImageOfThatPoseAgainstWhatTheFrameSaw) {
   RobotPose pose;
   forward_kinematics(model, next.position, pose);
   RobotImage robot;
-  RobotRenderer(scene_.robot->meshes(), camera_.view->camera()).render(pose, frame_.X_BC, robot);
+  RobotRenderer(scene_.robot->meshes(), camera_.mounted->camera()).render(pose, frame_.X_BC, robot);
   SearchableDepth obstacles;
   obstacles.build(frame_.obstacles.depth_m);
   EvaluateWorkspace workspace;
   LinkDistances expected;
-  evaluate(Method::exact, {camera_.view->camera(), robot, model.link_count(), obstacles, {}},
+  evaluate(Method::exact, {camera_.mounted->camera(), robot, model.link_count(), obstacles, {}},
            workspace, expected);
   for (std::size_t i = 0; i < expected.links.size(); ++i) {
     EXPECT_EQ(result.links[i].distance_m, expected.links[i].distance_m);

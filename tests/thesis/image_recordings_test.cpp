@@ -28,8 +28,8 @@ TEST_P(ImageRecording, NoLinkIsTooFarAndMostAreInTheirRange) {
   const OpenScene scene = open_scene(folder_ / "scene.yaml");
   const OpenCamera& camera = scene.cameras.front();
   const lab::ExpectedRanges ranges = lab::read_expected_ranges(folder_ / "expected.tsv");
-  const std::vector<std::string> names = camera.view->robot()->model().evaluated_link_names();
-  Observer observer(camera.view);
+  const std::vector<std::string> names = camera.mounted->robot()->model().evaluated_link_names();
+  Observer observer(camera.mounted);
   ImageQuery query(scene.robot, Method::exact);
   Frame frame;
   int checked = 0;
@@ -60,9 +60,9 @@ TEST_P(ImageRecording, NoLinkIsTooFarAndMostAreInTheirRange) {
 /// The camera again, its view with these rules.
 std::shared_ptr<const MountedCamera> with_rules(const OpenCamera& camera,
                                                 const SensorSettings& rules) {
-  CameraSettings settings = camera.view->settings();
+  CameraSettings settings = camera.mounted->settings();
   settings.sensor = rules;
-  return testing::view_with(*camera.view, settings);
+  return testing::view_with(*camera.mounted, settings);
 }
 
 TEST_P(ImageRecording, SpeckleAndBackgroundMakeNoDistanceLarger) {
@@ -72,7 +72,7 @@ TEST_P(ImageRecording, SpeckleAndBackgroundMakeNoDistanceLarger) {
   rules.speckle_px = 20;
   rules.background_frames = 2;
   const auto ruled = with_rules(camera, rules);
-  Observer observer(camera.view), ruled_observer(ruled);
+  Observer observer(camera.mounted), ruled_observer(ruled);
   ImageQuery query(scene.robot, Method::exact);
   ImageQuery ruled_query(scene.robot, Method::exact);
   Frame frame;

@@ -24,7 +24,7 @@ TEST(ImageScene, ImagesComeCameraByCameraAndEachIsAskedAlone) {
   const OpenScene scene = open_scene(bundled(2));
   ImageScene images(scene, Method::exact);
   for (const OpenCamera& camera : scene.cameras) {
-    Observer observer(camera.view);
+    Observer observer(camera.mounted);
     for (std::size_t k = 0; k < 2; ++k) {
       ASSERT_TRUE(images.next());
       const ImageResult result = images.ask();

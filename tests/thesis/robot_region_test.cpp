@@ -18,16 +18,16 @@ class RobotRegion : public ::testing::Test {
 
   /// The bundled scene with a region.
   std::shared_ptr<const MountedCamera> view_with(double scale) const {
-    CameraSettings settings = camera_.view->settings();
+    CameraSettings settings = camera_.mounted->settings();
     settings.self_filter.robot_region_scale = scale;
     // It looks at what the region left.
     settings.sensor.phantom_radius_m = 0;
-    return testing::view_with(*camera_.view, settings);
+    return testing::view_with(*camera_.mounted, settings);
   }
 
-  Frame observe(const std::shared_ptr<const MountedCamera>& view, std::size_t i) const {
+  Frame observe(const std::shared_ptr<const MountedCamera>& mounted, std::size_t i) const {
     Frame frame;
-    Observer observer(view);
+    Observer observer(mounted);
     // Twice, so that the second has the memory of the first.
     observer.observe(camera_.read_depth(i + 1), camera_.at_exposure[i + 1], frame);
     observer.observe(camera_.read_depth(i), camera_.at_exposure[i], frame);
@@ -39,13 +39,13 @@ class RobotRegion : public ::testing::Test {
 };
 
 TEST_F(RobotRegion, IgnoresOnlyWhatIsNotSeenThroughIt) {
-  const auto view = view_with(3);
+  const auto mounted = view_with(3);
   const Frame all = observe(view_with(0), 19);
-  const Frame some = observe(view, 19);
+  const Frame some = observe(mounted, 19);
   RobotPose pose;
-  forward_kinematics(view->robot()->model(), camera_.at_exposure[19].position, pose);
+  forward_kinematics(mounted->robot()->model(), camera_.at_exposure[19].position, pose);
   RobotImage region;
-  RobotRenderer(view->region_meshes(), view->camera()).render(pose, some.X_BC, region);
+  RobotRenderer(mounted->region_meshes(), mounted->camera()).render(pose, some.X_BC, region);
   for (std::size_t i = 0; i < region.link_id.pixels().size(); ++i) {
     PixelFate expected = all.obstacles.fate.pixels()[i];
     if (expected == PixelFate::obstacle && region.link_id.pixels()[i] == kNoLink)
@@ -57,11 +57,11 @@ TEST_F(RobotRegion, IgnoresOnlyWhatIsNotSeenThroughIt) {
 }
 
 TEST_F(RobotRegion, NeverMakesADistanceSmaller) {
-  const auto view = view_with(2);
-  const Frame all = observe(camera_.view, 19);
-  const Frame some = observe(view, 19);
-  ImageQuery everything(camera_.view->robot(), Method::exact);
-  ImageQuery ignoring(view->robot(), Method::exact);
+  const auto mounted = view_with(2);
+  const Frame all = observe(camera_.mounted, 19);
+  const Frame some = observe(mounted, 19);
+  ImageQuery everything(camera_.mounted->robot(), Method::exact);
+  ImageQuery ignoring(mounted->robot(), Method::exact);
   const auto& larger = ignoring.ask(some).links;
   const auto& least = everything.ask(all).links;
   for (std::size_t i = 0; i < least.size(); ++i) {

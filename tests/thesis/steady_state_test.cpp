@@ -40,7 +40,8 @@ TEST(ImageQuerySteadyState, NothingIsAllocatedOnceTheFramesWereSeen) {
   const OpenCamera& camera = scene.cameras.front();
   Frame frames[2];
   for (std::size_t i = 0; i < 2; ++i) {
-    Observer(camera.view).observe(camera.read_depth(9 * i), camera.at_exposure[9 * i], frames[i]);
+    Observer(camera.mounted)
+        .observe(camera.read_depth(9 * i), camera.at_exposure[9 * i], frames[i]);
   }
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   ImageQuery query(scene.robot, Method::exact);

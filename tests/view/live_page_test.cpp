@@ -12,7 +12,7 @@ namespace {
 TEST(LivePage, ShowsAnswersAsTheyCome) {
   const OpenScene scene = open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml");
   SceneRun run(scene);
-  LivePage page(scene.robot, {{"camera", scene.cameras[0].view->camera()}}, {.port = 0},
+  LivePage page(scene.robot, {{"camera", scene.cameras[0].mounted->camera()}}, {.port = 0},
                 {{"/", {"text/html", "the page"}}});
   const std::string url = page.url();
   PageClient client(std::atoi(url.c_str() + url.rfind(':') + 1));

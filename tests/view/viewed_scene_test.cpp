@@ -88,7 +88,7 @@ class ViewedSceneTest : public ::testing::Test {
     viewed_.receive(request);
     return messages_.after(kind, before);
   }
-  /// Of a run that began after so many messages.
+  /// Of a run that began after `before` messages.
   Json finished_timeline(int before) {
     Json timeline = messages_.after("timeline", before);
     while (timeline["done"] != timeline["total"] && timeline["error"] == "") {

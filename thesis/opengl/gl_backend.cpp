@@ -13,7 +13,7 @@ class CameraOnGl : public ImageCamera {
  public:
   CameraOnGl(const OpenScene& scene, const OpenCamera& camera, Method method,
              const ImageSettings& settings)
-      : camera_(camera), observer_(camera.view), gl_frame_(camera.view->camera()) {
+      : camera_(camera), observer_(camera.mounted), gl_frame_(camera.mounted->camera()) {
     if (runs_on_opengl(method)) {
       gl_query_ = std::make_unique<GlImageQuery>(scene.robot, method, settings);
     } else {

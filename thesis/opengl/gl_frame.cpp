@@ -14,12 +14,12 @@ GlFrame& GlFrame::operator=(GlFrame&&) noexcept = default;
 
 void read_back(const GlFrame& frame, Frame& out) {
   static_cast<Exposure&>(out) = frame;
-  if (frame.time.status != TimeStatus::ok) return clear_images(frame.view->camera(), out);
+  if (frame.time.status != TimeStatus::ok) return clear_images(frame.mounted->camera(), out);
   read_back(frame.images->robot, out.robot);
   read_back(frame.images->obstacles, out.obstacles);
   DepthImage sensor_depth_m;
   read_back(frame.images->sensor_depth_m, sensor_depth_m);
-  EnvironmentBack drawing(out.view->robot()->model(), out.view->camera());
+  EnvironmentBack drawing(out.mounted->robot()->model(), out.mounted->camera());
   prepare_frame(sensor_depth_m, drawing.at(out.pose, out.X_BC), out);
 }
 

@@ -97,9 +97,9 @@ bool GlImageQuery::Parts::begin(const GlFrame& frame, std::optional<double> join
 }
 
 void GlImageQuery::Parts::render(const RobotPose& pose, const GlFrame& frame) {
-  if (rendered_view != frame.view) {
-    rendered_view = frame.view;
-    const Camera& camera = frame.view->camera();
+  if (rendered_view != frame.mounted) {
+    rendered_view = frame.mounted;
+    const Camera& camera = frame.mounted->camera();
     renderer.emplace(robot->model(), camera);
     asked_on_gl = GlRobotImage(camera.width_px, camera.height_px);
   }
@@ -107,7 +107,7 @@ void GlImageQuery::Parts::render(const RobotPose& pose, const GlFrame& frame) {
 }
 
 void GlImageQuery::Parts::evaluate(const GlFrame& frame, const GlRobotImage& of_robot) {
-  evaluator.evaluate(method, frame.view->camera(), of_robot, frame.images->obstacles.depth_m,
+  evaluator.evaluate(method, frame.mounted->camera(), of_robot, frame.images->obstacles.depth_m,
                      robot->model().link_count(), settings, distances);
   tell_image_distances(distances, frame.X_BC, result);
 }

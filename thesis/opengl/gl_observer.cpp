@@ -37,14 +37,14 @@ void require_nothing_soft(const RobotModel& model) {
 
 struct GlObserver::Parts {
   explicit Parts(std::shared_ptr<const MountedCamera> of)
-      : view(std::move(of)),
-        upload(view->camera().width_px, view->camera().height_px),
-        renderer(view->robot()->model(), view->camera()),
-        region(view->camera().width_px, view->camera().height_px) {}
+      : mounted(std::move(of)),
+        upload(mounted->camera().width_px, mounted->camera().height_px),
+        renderer(mounted->robot()->model(), mounted->camera()),
+        region(mounted->camera().width_px, mounted->camera().height_px) {}
 
   void apply_filter(GlFrame& frame);
 
-  std::shared_ptr<const MountedCamera> view;
+  std::shared_ptr<const MountedCamera> mounted;
   GlUpload upload;
   GlRobotRenderer renderer;
   /// Of the robot-shaped region, where there is one.
@@ -54,23 +54,23 @@ struct GlObserver::Parts {
   bool has_images = false;
 };
 
-GlObserver::GlObserver(std::shared_ptr<const MountedCamera> view)
-    : parts_(std::make_unique<Parts>(std::move(view))) {
-  const CameraSettings& settings = parts_->view->settings();
+GlObserver::GlObserver(std::shared_ptr<const MountedCamera> mounted)
+    : parts_(std::make_unique<Parts>(std::move(mounted))) {
+  const CameraSettings& settings = parts_->mounted->settings();
   require_no_sensor_rules(settings.sensor);
   require_no_watch(settings.watch);
-  require_nothing_soft(parts_->view->robot()->model());
+  require_nothing_soft(parts_->mounted->robot()->model());
   const double scale = settings.self_filter.robot_region_scale;
   if (scale == 0) return;
-  parts_->region_renderer.emplace(robot_region(parts_->view->robot()->model(), scale),
-                                  parts_->view->camera());
+  parts_->region_renderer.emplace(robot_region(parts_->mounted->robot()->model(), scale),
+                                  parts_->mounted->camera());
 }
 
 GlObserver::~GlObserver() = default;
 
 void GlObserver::observe(DepthView depth_m, const JointState& at_exposure, GlFrame& frame,
                          FrameTime time) {
-  parts_->has_images = begin_exposure(parts_->view, depth_m, at_exposure, time, {}, frame);
+  parts_->has_images = begin_exposure(parts_->mounted, depth_m, at_exposure, time, {}, frame);
   if (!parts_->has_images) return;
   parts_->upload.send(depth_m, frame.images->sensor_depth_m);
   parts_->renderer.render(frame.pose, frame.X_BC, frame.images->robot);
@@ -78,22 +78,22 @@ void GlObserver::observe(DepthView depth_m, const JointState& at_exposure, GlFra
 }
 
 void GlObserver::Parts::apply_filter(GlFrame& frame) {
-  const SelfFilterSettings& settings = view->settings().self_filter;
+  const SelfFilterSettings& settings = mounted->settings().self_filter;
   if (!region_renderer) {
-    filter.filter(view->camera(), frame.images->sensor_depth_m, frame.images->robot, settings,
+    filter.filter(mounted->camera(), frame.images->sensor_depth_m, frame.images->robot, settings,
                   frame.images->obstacles);
     return;
   }
   region_renderer->render(frame.pose, frame.X_BC, region);
-  filter.filter(view->camera(), frame.images->sensor_depth_m, frame.images->robot, region.link_id,
-                settings, frame.images->obstacles);
+  filter.filter(mounted->camera(), frame.images->sensor_depth_m, frame.images->robot,
+                region.link_id, settings, frame.images->obstacles);
 }
 
 std::array<std::int64_t, kPixelFateCount> GlObserver::fate_counts() {
   if (parts_->has_images) return parts_->filter.count();
   std::array<std::int64_t, kPixelFateCount> none{};
   none[static_cast<std::size_t>(PixelFate::no_reading)] =
-      std::int64_t{parts_->view->camera().width_px} * parts_->view->camera().height_px;
+      std::int64_t{parts_->mounted->camera().width_px} * parts_->mounted->camera().height_px;
   return none;
 }
 

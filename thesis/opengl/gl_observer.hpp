@@ -17,7 +17,7 @@ class GlObserver {
  public:
   /// Throws std::invalid_argument where a rule of the view's SensorSettings is on, or its watch:
   /// they run on the CPU alone.
-  explicit GlObserver(std::shared_ptr<const MountedCamera> view);
+  explicit GlObserver(std::shared_ptr<const MountedCamera> mounted);
   ~GlObserver();
 
   /// As Observer::observe. `frame` was made for the view's camera.

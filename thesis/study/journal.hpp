@@ -12,7 +12,7 @@ namespace berth::lab {
 /// What has to be the same for two runs to be one study: commit, seed, scenes, machine ...
 using Identity = std::map<std::string, std::string>;
 
-/// A folder with study.json, which tells the identity, and measurements.csv, one line for each
+/// A folder with study.json, which reports the identity, and measurements.csv, one line for each
 /// scene and parameter set, each of them whole: one that was cut while it was written is dropped.
 class Journal {
  public:

@@ -14,10 +14,10 @@ namespace {
 sim::ImagePair images_of(const Recording& recording, std::size_t frame_number) {
   const OpenCamera& camera = recording.camera();
   Frame frame;
-  Observer(camera.view)
+  Observer(camera.mounted)
       .observe(camera.read_depth(frame_number), camera.at_exposure[frame_number], frame);
-  return {camera.view->camera(), std::move(frame.robot), std::move(frame.obstacles.depth_m),
-          camera.view->robot()->model().link_count()};
+  return {camera.mounted->camera(), std::move(frame.robot), std::move(frame.obstacles.depth_m),
+          camera.mounted->robot()->model().link_count()};
 }
 
 /// A folder may have any name; the journal's columns are apart by commas.
@@ -65,7 +65,8 @@ StudyScene recorded_scene(std::shared_ptr<const Recording> recording, SceneKind 
 
 std::vector<StudyScene> drawn_scenes(const Recording& recording, std::uint32_t seed, int count,
                                      int width_px, int height_px) {
-  const auto model = std::make_shared<const RobotModel>(recording.camera().view->robot()->model());
+  const auto model =
+      std::make_shared<const RobotModel>(recording.camera().mounted->robot()->model());
   const auto trees =
       std::make_shared<const std::vector<sim::MeshTree>>(sim::build_link_trees(*model));
   sim::DrawnSceneSettings settings;

@@ -25,7 +25,7 @@ class AttachActions {
  private:
   using Attach = berth_msgs::action::Attach;
   using Detach = berth_msgs::action::Detach;
-  /// A goal whose robot is made, until images of it came: tells its feedback or its end to the
+  /// A goal whose robot is made, until images of it came: reports its feedback or its end to the
   /// client, and returns whether it has ended.
   using Pending = std::function<bool(const std::vector<std::string>& waiting_for)>;
 

@@ -31,14 +31,15 @@ void BlackBox::use(std::shared_ptr<const berth::Robot> robot,
   const std::lock_guard lock(mutex_);
   robot_ = std::move(robot);
   separation_ = std::move(separation);
-  views_.assign(cameras, nullptr);
+  mounted_.assign(cameras, nullptr);
   retire();
 }
 
-void BlackBox::mount(std::size_t camera, const std::shared_ptr<const berth::MountedCamera>& view) {
+void BlackBox::mount(std::size_t camera,
+                     const std::shared_ptr<const berth::MountedCamera>& mounted) {
   const std::lock_guard lock(mutex_);
-  if (view->robot() != robot_) return;
-  views_[camera] = view;
+  if (mounted->robot() != robot_) return;
+  mounted_[camera] = mounted;
   retire();
 }
 
@@ -49,8 +50,8 @@ void BlackBox::retire() {
 }
 
 std::unique_ptr<berth::Recorder> BlackBox::make(
-    const Views& views, std::optional<berth::SeparationSettings> separation) const {
-  Views known = views;
+    const MountedCameras& cameras, std::optional<berth::SeparationSettings> separation) const {
+  MountedCameras known = cameras;
   std::erase(known, nullptr);
   if (known.empty()) return nullptr;
   try {
@@ -68,11 +69,11 @@ void BlackBox::run(const std::stop_token& stop) {
   while (changed_.wait(lock, stop, [&] { return has_changed_; })) {
     has_changed_ = false;
     auto ended = std::exchange(retired_, {});
-    const Views views = views_;
+    const MountedCameras cameras = mounted_;
     const auto separation = separation_;
     lock.unlock();
     ended.clear();
-    auto made = make(views, separation);
+    auto made = make(cameras, separation);
     lock.lock();
     (has_changed_ ? retired_.emplace_back() : recorder_) = std::move(made);
   }
@@ -82,13 +83,13 @@ void BlackBox::put(std::size_t camera, const berth::Frame& frame, berth::DepthVi
   if (settings_.file.empty()) return;
   {
     const std::shared_lock lock(mutex_);
-    if (frame.view->robot() != robot_) return;
-    if (views_[camera] == frame.view) {
+    if (frame.mounted->robot() != robot_) return;
+    if (mounted_[camera] == frame.mounted) {
       if (recorder_) recorder_->put(frame, depth_m);
       return;
     }
   }
-  mount(camera, frame.view);
+  mount(camera, frame.mounted);
 }
 
 void BlackBox::push_joints(double stamp_s, const std::vector<std::string>& names,
@@ -99,22 +100,8 @@ void BlackBox::push_joints(double stamp_s, const std::vector<std::string>& names
 
 bool BlackBox::knows_all(const berth::Request& request) const {
   return std::ranges::all_of(request.frames.get(), [&](const berth::Frame* frame) {
-    return !frame || std::ranges::find(views_, frame->view) != views_.end();
+    return !frame || std::ranges::find(mounted_, frame->mounted) != mounted_.end();
   });
-}
-
-const berth::Result& BlackBox::ask(berth::Query& query, const berth::Request& request) {
-  const std::shared_lock lock(mutex_);
-  return recorder_ && knows_all(request) ? recorder_->ask(query, request) : query.ask(request);
-}
-
-const berth::Separation& BlackBox::update(berth::SeparationMonitor& monitor,
-                                          const berth::Result& result,
-                                          const berth::PlannedMotion& motion, double now_s,
-                                          const berth::FrameSet& frames) {
-  const std::shared_lock lock(mutex_);
-  return recorder_ ? recorder_->update(monitor, result, motion, now_s, &frames)
-                   : monitor.update(result, motion, now_s, &frames);
 }
 
 bool BlackBox::write() {

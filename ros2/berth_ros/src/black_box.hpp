@@ -35,24 +35,27 @@ class BlackBox {
   void put(std::size_t camera, const berth::Frame& frame, berth::DepthView depth_m);
   void push_joints(double stamp_s, const std::vector<std::string>& names,
                    const std::vector<double>& positions);
-  const berth::Result& ask(berth::Query& query, const berth::Request& request);
-  const berth::Separation& update(berth::SeparationMonitor& monitor, const berth::Result& result,
-                                  const berth::PlannedMotion& motion, double now_s,
-                                  const berth::FrameSet& frames);
+  /// Calls use() with the recorder, which nobody exchanges meanwhile; with null where nothing is
+  /// recorded, or where a frame's camera is about to be mounted anew. By the thread that asks.
+  template <class Use>
+  void record(const berth::Request& request, const Use& use) {
+    const std::shared_lock lock(mutex_);
+    use(recorder_ && knows_all(request) ? recorder_.get() : nullptr);
+  }
   /// Writes a recording of what there is; false: nothing is. By the thread that asks.
   bool write();
 
  private:
-  using Views = std::vector<std::shared_ptr<const berth::MountedCamera>>;
+  using MountedCameras = std::vector<std::shared_ptr<const berth::MountedCamera>>;
 
-  void mount(std::size_t camera, const std::shared_ptr<const berth::MountedCamera>& view);
+  void mount(std::size_t camera, const std::shared_ptr<const berth::MountedCamera>& mounted);
   /// False for a frame whose camera is about to be mounted anew.
   bool knows_all(const berth::Request& request) const;
   /// To be called with the mutex where robot, monitor or cameras are others.
   void retire();
   void run(const std::stop_token& stop);
   /// Null where no camera is known, or nothing can be written.
-  std::unique_ptr<berth::Recorder> make(const Views& views,
+  std::unique_ptr<berth::Recorder> make(const MountedCameras& cameras,
                                         std::optional<berth::SeparationSettings> separation) const;
 
   berth::RecorderSettings settings_;
@@ -62,8 +65,8 @@ class BlackBox {
   std::condition_variable_any changed_;
   std::shared_ptr<const berth::Robot> robot_;
   std::optional<berth::SeparationSettings> separation_;
-  Views views_;
-  /// Null until there is one of these views.
+  MountedCameras mounted_;
+  /// Null until there is one of these cameras.
   std::unique_ptr<berth::Recorder> recorder_;
   /// What they have to write still is written before another one begins.
   std::vector<std::unique_ptr<berth::Recorder>> retired_;

@@ -13,7 +13,7 @@
 namespace berth_ros {
 namespace {
 
-/// So many images of each camera are looked at, each of another pose.
+/// How many images of each camera are looked at, each of another pose.
 constexpr std::size_t kImages = 6;
 /// Two poses differ where a joint does by this, rad or m.
 constexpr double kOtherPose = 0.05;
@@ -65,7 +65,7 @@ void CameraExplanations::put(std::size_t camera, const berth::Frame& frame,
                              const std::shared_ptr<const sensor_msgs::msg::Image>& image) {
   // Where the robot is taken out already there is nothing to look at, and where a camera moves
   // otherwise than by the robot's joints it stands elsewhere in each image.
-  const berth::CameraMount& mount = frame.view->mount();
+  const berth::CameraMount& mount = frame.mounted->mount();
   if (settings_[camera].is_filtered || frame.time.status != berth::TimeStatus::ok ||
       !is_same_place(frame.X_PC, mount.X_PC)) {
     return;
@@ -73,14 +73,14 @@ void CameraExplanations::put(std::size_t camera, const berth::Frame& frame,
   const std::lock_guard lock(mutex_);
   Camera& of = cameras_[camera];
   of.is_suspected = !frame.watch.is_trusted() || frame.watch.is_unconfirmed;
-  of.is_new = of.newest.view && !is_same_mount(of.newest.view->mount(), mount);
+  of.is_new = of.newest.mounted && !is_same_mount(of.newest.mounted->mount(), mount);
   if (!of.is_wanted) return;
   const auto joints = find_joints_();
   if (!joints) return;
-  Taken taken{frame.view, image, {}};
+  Taken taken{frame.mounted, image, {}};
   const double exposure_s = frame.stamp_s + settings_[camera].live.clock_offset_s;
   const berth::FrameTime time = joints->buffer().at(
-      exposure_s, frame.view->robot()->settings().time.joints, taken.at_exposure);
+      exposure_s, frame.mounted->robot()->settings().time.joints, taken.at_exposure);
   if (time.status != berth::TimeStatus::ok) return;
   of.taken = std::move(taken);
   of.is_wanted = false;
@@ -179,15 +179,15 @@ bool CameraExplanations::has_moved(const std::vector<double>& positions) const {
 
 void CameraExplanations::keep(std::size_t camera, const Taken& taken) {
   berth::LiveImages& kept = cameras_[camera].kept;
-  if (kept.view != taken.view) kept.images.clear();
-  kept.view = taken.view;
+  if (kept.mounted != taken.mounted) kept.images.clear();
+  kept.mounted = taken.mounted;
   // A wrong unit takes all readings out of the camera's limits.
   berth::DepthUnits units = settings_[camera].units;
   units.near_m = 0;
   units.far_m = std::numeric_limits<double>::infinity();
   kept.depth_scale_m = units.scale_m;
   berth::DepthImage depth_m;
-  berth::read_raw_depth(raw_of(*taken.image), taken.view->camera(), units, depth_m);
+  berth::read_raw_depth(raw_of(*taken.image), taken.mounted->camera(), units, depth_m);
   kept.images.push_back(
       {std::make_shared<const berth::DepthImage>(std::move(depth_m)), taken.at_exposure});
 }
@@ -204,7 +204,7 @@ void CameraExplanations::look() {
     const berth::LiveImages& kept = cameras_[c].kept;
     // Of a robot that was made anew meanwhile there is no whole set.
     if (kept.images.empty()) continue;
-    if (!looked_at.empty() && kept.view->robot() != looked_at[0].view->robot()) continue;
+    if (!looked_at.empty() && kept.mounted->robot() != looked_at[0].mounted->robot()) continue;
     looked_at.push_back(kept);
     numbers.push_back(c);
   }
@@ -225,11 +225,11 @@ std::optional<CameraExplanation> CameraExplanations::take(std::size_t camera,
   const berth::LiveImages& kept = cameras_[camera].kept;
   const bool is_sure = kept.images.size() >= berth::kLeastPosesForFocalLength;
   const bool is_known_wrong = newest.is_sure && !newest.text.empty() &&
-                              is_same_mount(newest.view->mount(), kept.view->mount());
+                              is_same_mount(newest.mounted->mount(), kept.mounted->mount());
   ++newest.looks;
   // Few images of a robot that stands still acquit nobody.
   if (is_known_wrong && !is_sure) return std::nullopt;
-  newest.view = kept.view;
+  newest.mounted = kept.mounted;
   newest.is_sure = is_sure;
   newest.text = found.is_implausible ? berth::text_of(found) : "";
   return newest;

@@ -1,5 +1,5 @@
 // Whether the cameras of a running robot see it where it should be, as far as no single image
-// tells.
+// reports.
 #pragma once
 
 #include <condition_variable>
@@ -23,7 +23,7 @@ namespace berth_ros {
 /// What several images of one camera say.
 struct CameraExplanation {
   /// Of the camera as it was then; null before the first look.
-  std::shared_ptr<const berth::MountedCamera> view;
+  std::shared_ptr<const berth::MountedCamera> mounted;
   /// A sentence that begins with the camera's name; empty where nothing is wrong.
   std::string text;
   /// There were enough of them to take the camera out; else they explain what single images told.
@@ -36,8 +36,8 @@ struct CameraExplanation {
 class CameraExplanations {
  public:
   using FindJoints = std::function<std::shared_ptr<const berth::JointIntake>()>;
-  /// Called in that thread for each camera once its images are looked at, with what newest() tells
-  /// from then on.
+  /// Called in that thread for each camera once its images are looked at, with what newest()
+  /// reports from then on.
   using OnLook = std::function<void(std::size_t camera, const CameraExplanation&)>;
 
   CameraExplanations(std::vector<CameraSettings> cameras, FindJoints find_joints, OnLook on_look);
@@ -55,7 +55,7 @@ class CameraExplanations {
 
  private:
   struct Taken {
-    std::shared_ptr<const berth::MountedCamera> view;
+    std::shared_ptr<const berth::MountedCamera> mounted;
     std::shared_ptr<const sensor_msgs::msg::Image> image;
     berth::JointState at_exposure;
   };

@@ -87,14 +87,14 @@ CameraInput::CameraInput(rclcpp_lifecycle::LifecycleNode& node,
 
 void CameraInput::use(std::shared_ptr<const berth::Robot> robot,
                       std::shared_ptr<const berth::JointIntake> joints,
-                      const berth::CameraSettings& view) {
+                      const berth::CameraSettings& settings) {
   // Its thread ends once the mutex is free: it may be in on_frame_, which asks for frames.
   std::unique_ptr<berth::LiveCamera> before;
   const std::lock_guard lock(mutex_);
   before = take_live();
   robot_ = std::move(robot);
   joints_ = std::move(joints);
-  settings_.view = view;
+  settings_.settings = settings;
   mount_.reset();
 }
 
@@ -107,7 +107,7 @@ void CameraInput::distrust(const std::optional<berth::CameraMount>& mount) {
   const std::lock_guard lock(mutex_);
   distrusted_ = mount;
   const std::lock_guard lock_live(live_mutex_);
-  if (live_) live_->distrust(is_distrusted(live_->view()->mount()));
+  if (live_) live_->distrust(is_distrusted(live_->mounted()->mount()));
 }
 
 void CameraInput::look_again() {
@@ -118,7 +118,7 @@ void CameraInput::look_again() {
 std::shared_ptr<const berth::Frame> CameraInput::newest(const berth::Robot* robot) const {
   const std::lock_guard lock(live_mutex_);
   auto frame = live_ ? live_->newest() : nullptr;
-  return frame && frame->view->robot().get() == robot ? frame : nullptr;
+  return frame && frame->mounted->robot().get() == robot ? frame : nullptr;
 }
 
 CameraReport CameraInput::report() const {
@@ -219,14 +219,15 @@ void CameraInput::make_live(const ImageMessage& image) {
   berth::CameraMount mount = *mount_;
   mount.camera = *camera_;
   mount.name = settings_.name;
-  const auto view = std::make_shared<const berth::MountedCamera>(robot_, mount, settings_.view);
+  const auto mounted =
+      std::make_shared<const berth::MountedCamera>(robot_, mount, settings_.settings);
   const PlaceSource source{takes_scene_pose_ ? std::string() : image.header.frame_id,
                            mount.parent_link, robot_->model().links.front().name,
                            robot_->settings().time.max_joints_age_s};
   auto live = std::make_unique<berth::LiveCamera>(
-      view, *joints_, settings_.live,
-      [this, kept = joints_](const berth::Frame& frame, berth::DepthView depth_m,
-                             const std::shared_ptr<const void>& with) {
+      mounted, *joints_, settings_.live,
+      [this, kept = joints_](const std::shared_ptr<const berth::Frame>& frame,
+                             berth::DepthView depth_m, const std::shared_ptr<const void>& with) {
         on_frame_(frame, depth_m, std::static_pointer_cast<const ImageMessage>(with));
       },
       [this, source](double stamp_s) { return place_at(source, stamp_s); });

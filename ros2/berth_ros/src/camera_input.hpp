@@ -20,8 +20,9 @@
 
 namespace berth_ros {
 
-/// The pinhole camera of a camera_info: its P, or K where it has no P. Throws std::invalid_argument where it is none: without
-/// intrinsics, with distortion unless `is_rectified`, with binning or a region of interest.
+/// The pinhole camera of a camera_info: its P, or K where it has no P. Throws std::invalid_argument
+/// where it is none: without intrinsics, with distortion unless `is_rectified`, with binning or a
+/// region of interest.
 berth::Camera camera_of(const sensor_msgs::msg::CameraInfo& info, bool is_rectified);
 
 /// Whether both are the same camera in the same place.
@@ -47,8 +48,9 @@ struct CameraReport {
 class CameraInput {
  public:
   using ImageMessage = sensor_msgs::msg::Image;
-  using OnFrame = std::function<void(const berth::Frame&, berth::DepthView depth_m,
-                                     const std::shared_ptr<const ImageMessage>&)>;
+  using OnFrame =
+      std::function<void(const std::shared_ptr<const berth::Frame>&, berth::DepthView depth_m,
+                         const std::shared_ptr<const ImageMessage>&)>;
 
   /// `on_frame` is called in the camera's own thread. Images come by `images`, a plain node, since
   /// image_transport knows no other; callbacks of `node` pass `gate`. Frames are placed in
@@ -59,7 +61,7 @@ class CameraInput {
 
   /// From now on frames are of this robot, whose joints these are; null: there is none.
   void use(std::shared_ptr<const berth::Robot> robot,
-           std::shared_ptr<const berth::JointIntake> joints, const berth::CameraSettings& view);
+           std::shared_ptr<const berth::JointIntake> joints, const berth::CameraSettings& settings);
   /// The camera of this mount is implausible whatever its frames say; none: no camera is. Holds
   /// until it is told otherwise, for the robot made anew too.
   void distrust(const std::optional<berth::CameraMount>& mount);
@@ -119,7 +121,7 @@ class CameraInput {
   std::int64_t refused_ = 0;
   std::int64_t mounts_ = 0;
   ImageRate rate_;
-  /// Is held where live_ changes, beside mutex_, and by who asks it from elsewhere: questions and
+  /// Is held where live_ changes, beside mutex_, and by other threads that read it: questions and
   /// joint states do not wait until an image is read.
   mutable std::mutex live_mutex_;
   std::unique_ptr<berth::LiveCamera> live_;

@@ -8,8 +8,10 @@
 #include <std_srvs/srv/trigger.hpp>
 #include <visualization_msgs/msg/marker_array.hpp>
 
-#include "berth/pipeline/query.hpp"
+#include "berth/live/live_space.hpp"
+#include "berth/record/monitor_loop.hpp"
 #include "berth/results/result_text.hpp"
+#include "black_box.hpp"
 #include "exposure_answers.hpp"
 #include "live_node.hpp"
 #include "markers.hpp"
@@ -17,7 +19,6 @@
 #include "planner_topics.hpp"
 #include "question_times.hpp"
 #include "result_messages.hpp"
-#include "robot_space.hpp"
 #include "speed_monitor.hpp"
 
 namespace berth_ros {
@@ -37,6 +38,24 @@ rcl_interfaces::msg::ParameterDescriptor described(const std::string& text) {
   descriptor.description = text;
   descriptor.read_only = true;
   return descriptor;
+}
+
+/// What the cameras of one robot leave of space, made ready as images come.
+struct RobotSpace {
+  RobotSpace(const LiveRobot& of, std::size_t cameras)
+      : robot(of), live(robot.robot, cameras, *robot.joints) {}
+
+  LiveRobot robot;
+  berth::LiveSpace live;
+};
+
+/// Not so where a camera is another one than that of its frame, or elsewhere.
+bool is_still(const berth::PreparedSpace& space, const LiveFrames& now) {
+  for (std::size_t k = 0; k < now.size(); ++k) {
+    const auto& frame = space.frames()[k];
+    if (frame && (!now[k] || now[k]->mounted != frame->mounted)) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -150,23 +169,21 @@ class DistanceNode : public LiveNode {
     const LiveRobot now = live();
     std::shared_ptr<RobotSpace> space;
     if (now.robot) {
-      space = std::make_shared<RobotSpace>(now, camera_names().size(),
-                                           [this, robot = now.robot] { return frames(*robot); });
+      space = std::make_shared<RobotSpace>(now, camera_names().size());
+      const LiveFrames newest = frames(*now.robot);
+      for (std::size_t k = 0; k < newest.size(); ++k) space->live.put(k, newest[k]);
     }
     exposures_.use(now.robot, camera_names());
     keep_space(space);
     const std::lock_guard lock(query_mutex_);
-    query_.reset();
+    loop_.reset();
     asked_space_ = space;
     robot_ = now;
-    monitor_.reset();
     planned_ = {};
     const std::optional<berth::SeparationSettings> separation = separation_settings();
     black_box_->use(now.robot, separation, camera_names().size());
     may_be_degraded_ = separation && separation->camera != berth::UnknownPolicy::stop;
-    if (!now.robot) return;
-    if (separation) monitor_.emplace(now.robot, *separation, velocity_window_s_);
-    query_.emplace(now.robot, camera_names());
+    if (now.robot) loop_.emplace(now.robot, camera_names(), separation);
   }
   /// For the cameras' threads, which do not wait for questions.
   void keep_space(std::shared_ptr<RobotSpace> space) {
@@ -190,7 +207,7 @@ class DistanceNode : public LiveNode {
     bool is_monitored = false;
     {
       const std::lock_guard lock(query_mutex_);
-      if (query_ && is_answering()) {
+      if (loop_ && is_answering()) {
         answer(*message);
       } else {
         say_nothing(*message);
@@ -213,28 +230,43 @@ class DistanceNode : public LiveNode {
 
   void answer(LinkDistances& message) {
     const LiveFrames frames = this->frames(*robot_.robot);
-    const std::shared_ptr<const berth::PreparedSpace> ready = asked_space_->ready(frames);
+    const std::shared_ptr<const berth::PreparedSpace> ready = asked_space_->live.newest();
     const berth::JointBuffer& joints = robot_.joints->buffer();
     // Later than any image and any joint state that it asks about.
     const rclcpp::Time now = this->now();
     const double now_s = clock_.seconds(now);
-    const berth::Request request{
-        .frames = ready ? berth::NewestFrames(ready) : berth::NewestFrames(frames),
-        .joints = requested_joints(joints, now_s),
-        .now_s = now_s,
-        .X_WB = root_at(*robot_.robot, joints.newest_stamp_s())};
-    result_ = black_box_->ask(*query_, request);
-    to_message(result_, base_frame(), now, clock_, message);
-    if (monitor_) {
-      monitor_->update(*black_box_, result_, joints, planned_, now_s, query_->frames(),
-                       separation_message_);
+    const berth::Request request{.frames = is_still(*ready, frames) ? berth::NewestFrames(ready)
+                                                                    : berth::NewestFrames(frames),
+                                 .joints = requested_joints(joints, now_s),
+                                 .now_s = now_s,
+                                 .X_WB = root_at(*robot_.robot, joints.newest_stamp_s())};
+    const berth::Result& result = ask_loop(request);
+    to_message(result, base_frame(), now, clock_, message);
+    if (result.separation) {
+      to_message(result, planned_.is_there(), separation_message_);
     } else {
       say_unmonitored(separation_message_);
-      if (result_.status != berth::ResultStatus::ok) {
-        separation_message_.text = berth::status_text(result_);
+      if (result.status != berth::ResultStatus::ok) {
+        separation_message_.text = berth::status_text(result);
       }
     }
     to_message(message, may_be_degraded_, separation_message_);
+  }
+
+  /// Velocities are those of the plan where any came, else those of the joints.
+  const berth::Result& ask_loop(const berth::Request& request) {
+    const berth::Result* result = nullptr;
+    black_box_->record(request, [&](berth::Recorder* recorder) {
+      loop_->record_with(recorder);
+      loop_->ask(request);
+      const double now_s = *request.now_s;
+      robot_.joints->buffer().velocity(velocity_window_s_, velocity_);
+      result = &loop_->monitor(
+          planned_.is_there() ? planned_.at(now_s, robot_.robot->settings().time.max_frame_age_s)
+                              : velocity_,
+          now_s);
+    });
+    return *result;
   }
 
   /// The newest ones. Where they come too seldom for questions between them, they are as old as
@@ -275,14 +307,15 @@ class DistanceNode : public LiveNode {
     if (robot_.robot) planned_.take(message, robot_.robot->model(), clock_.seconds(this->now()));
   }
 
-  void on_frame(std::size_t camera, const berth::Frame& frame, berth::DepthView depth_m,
+  void on_frame(std::size_t camera, const std::shared_ptr<const berth::Frame>& frame,
+                berth::DepthView depth_m,
                 const std::shared_ptr<const sensor_msgs::msg::Image>&) override {
-    black_box_->put(camera, frame, depth_m);
-    if (const std::shared_ptr<RobotSpace> space = this->space()) space->take_frame(camera);
+    black_box_->put(camera, *frame, depth_m);
+    const std::shared_ptr<RobotSpace> space = this->space();
+    if (space && frame->mounted->robot() == space->robot.robot) space->live.put(camera, frame);
     if (at_exposure_->get_subscription_count() == 0) return;
     auto message = std::make_unique<LinkDistances>();
-    const auto look = [this](const berth::Robot& robot) { return frames(robot); };
-    if (!exposures_.ask(camera, frame.stamp_s, look, this->now(), clock_, *message)) return;
+    if (!exposures_.ask(camera, frame, this->now(), clock_, *message)) return;
     at_exposure_->publish(std::move(message));
   }
 
@@ -308,8 +341,8 @@ class DistanceNode : public LiveNode {
     status.add("99 %, us", times->p99_us);
     status.add("greatest, us", times->max_us);
     if (const std::shared_ptr<RobotSpace> space = this->space()) {
-      status.add("spaces made ready", space->counts().prepared);
-      status.add("made ready in, ms", 1e3 * space->counts().last_prepare_s);
+      status.add("spaces made ready", space->live.counts().prepared);
+      status.add("made ready in, ms", 1e3 * space->live.counts().last_prepare_s);
     }
     std::uint8_t result = 0;
     std::string text;
@@ -336,27 +369,25 @@ class DistanceNode : public LiveNode {
   std::mutex answer_mutex_;
   std::mutex query_mutex_;
   LiveRobot robot_;
-  std::optional<berth::Query> query_;
-  /// Of the same robot as query_.
+  std::optional<berth::MonitorLoop> loop_;
+  /// Of the same robot as loop_.
   std::shared_ptr<RobotSpace> asked_space_;
   mutable std::mutex space_mutex_;
   std::shared_ptr<RobotSpace> space_;
   ExposureAnswers exposures_;
   /// Of a question whose joints come too seldom.
   berth::JointState seldom_joints_;
-  /// The newest, with its separation.
-  berth::Result result_;
   /// For markers, where there are any.
   LinkDistances last_;
   std::uint8_t last_status_ = LinkDistances::STALE;
   std::string last_text_;
   berth_msgs::msg::Separation separation_message_;
   double velocity_window_s_ = 0;
+  std::vector<double> velocity_;
   /// What the monitor does without a camera was chosen by the user.
   bool may_be_degraded_ = false;
   std::optional<BlackBox> black_box_;
   rclcpp::Service<Trigger>::SharedPtr write_recording_;
-  std::optional<SpeedMonitor> monitor_;
   std::optional<PlannerTopics> planners_;
   PlannedVelocity planned_;
   QuestionTimes times_;

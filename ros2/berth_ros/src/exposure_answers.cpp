@@ -5,7 +5,7 @@
 namespace berth_ros {
 namespace {
 
-/// So many frames of a camera another one's may be behind.
+/// How many frames one camera may be behind another.
 constexpr std::size_t kKeptFrames = 4;
 
 }  // namespace
@@ -19,15 +19,15 @@ void ExposureAnswers::use(std::shared_ptr<const berth::Robot> robot,
   if (robot_) query_.emplace(robot_, cameras);
 }
 
-bool ExposureAnswers::ask(std::size_t camera, double stamp_s, const Look& look,
+bool ExposureAnswers::ask(std::size_t camera, const std::shared_ptr<const berth::Frame>& frame,
                           const rclcpp::Time& now, const StampClock& clock,
                           berth_msgs::msg::LinkDistances& message) {
   const std::lock_guard lock(mutex_);
-  if (!query_) return false;
+  if (frame->mounted->robot() != robot_) return false;
   auto& recent = recent_[camera];
   if (recent.size() == kKeptFrames) recent.pop_front();
-  recent.push_back(look(*robot_)[camera]);
-  const LiveFrames frames = frames_at(stamp_s);
+  recent.push_back(frame);
+  const LiveFrames frames = frames_at(frame->stamp_s);
   const std::string& base_frame = robot_->model().links.front().name;
   to_message(query_->ask({.frames = frames}), base_frame, now, clock, message);
   return true;

@@ -3,7 +3,6 @@
 
 #include <berth_msgs/msg/link_distances.hpp>
 #include <deque>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -19,15 +18,13 @@ namespace berth_ros {
 /// One answer for each image, asked in the camera's thread: no other question waits for it.
 class ExposureAnswers {
  public:
-  /// The newest frame of each camera of a robot.
-  using Look = std::function<LiveFrames(const berth::Robot&)>;
-
   /// From now on it is about this robot; null: none.
   void use(std::shared_ptr<const berth::Robot> robot, const std::vector<std::string>& cameras);
-  /// A camera's newest frame, with the newest that the others had at that time. False: there is no
-  /// robot.
-  bool ask(std::size_t camera, double stamp_s, const Look& look, const rclcpp::Time& now,
-           const StampClock& clock, berth_msgs::msg::LinkDistances& message);
+  /// A camera's newest frame, with the newest that the others had at that time. False: it is of
+  /// another robot.
+  bool ask(std::size_t camera, const std::shared_ptr<const berth::Frame>& frame,
+           const rclcpp::Time& now, const StampClock& clock,
+           berth_msgs::msg::LinkDistances& message);
 
  private:
   /// Each camera's newest frame of that time: another camera's thread may be ahead.

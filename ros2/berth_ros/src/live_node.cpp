@@ -151,9 +151,9 @@ void LiveNode::make_cameras() {
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     inputs_.push_back(std::make_unique<CameraInput>(
         *this, gate(), images_->node(), cameras[i], settings_.world_frame(), clock_, *transforms_,
-        [this, i](const berth::Frame& frame, berth::DepthView depth_m,
+        [this, i](const std::shared_ptr<const berth::Frame>& frame, berth::DepthView depth_m,
                   const std::shared_ptr<const sensor_msgs::msg::Image>& image) {
-          explanations_->put(i, frame, image);
+          explanations_->put(i, *frame, image);
           if (is_answering()) on_frame(i, frame, depth_m, image);
         }));
   }
@@ -165,7 +165,7 @@ void LiveNode::make_explanations(const std::vector<CameraSettings>& cameras) {
       [this](std::size_t camera, const CameraExplanation& told) {
         if (!told.is_sure) return;
         inputs_[camera]->distrust(told.text.empty() ? std::nullopt
-                                                    : std::optional(told.view->mount()));
+                                                    : std::optional(told.mounted->mount()));
       });
 }
 
@@ -176,7 +176,7 @@ void LiveNode::listen() {
   watch_group_ = create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive);
   if (!settings_.urdf_path().empty()) {
     load_model([&] { return load_urdf_file(settings_.robot_settings()); });
-    // Nobody can mend a file for a node that has read it.
+    // Nobody can fix a file for a node that has read it.
     if (!live().robot) throw std::runtime_error(robot_trouble_);
   } else {
     on_robot();

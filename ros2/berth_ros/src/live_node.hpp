@@ -72,7 +72,8 @@ class LiveNode : public rclcpp_lifecycle::LifecycleNode {
   /// No callback runs any more.
   virtual void clean_outputs() = 0;
   /// A frame was observed, in its camera's thread.
-  virtual void on_frame(std::size_t camera, const berth::Frame& frame, berth::DepthView depth_m,
+  virtual void on_frame(std::size_t camera, const std::shared_ptr<const berth::Frame>& frame,
+                        berth::DepthView depth_m,
                         const std::shared_ptr<const sensor_msgs::msg::Image>& image) = 0;
   virtual void on_joints(const sensor_msgs::msg::JointState&) {}
   /// The robot is another one, or there is none any more.
@@ -174,7 +175,7 @@ class LiveNode : public rclcpp_lifecycle::LifecycleNode {
   std::optional<Transforms> transforms_;
   std::unique_ptr<ImageNode> images_;
   std::vector<std::unique_ptr<CameraInput>> inputs_;
-  /// Ends before the inputs do, which it tells.
+  /// Ends before the inputs do, which it reports.
   std::unique_ptr<CameraExplanations> explanations_;
   std::optional<StatusLog> log_;
   std::optional<Attachments> attachments_;

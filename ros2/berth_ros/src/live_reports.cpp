@@ -61,7 +61,7 @@ void LiveNode::watch() {
     const CameraReport report = inputs_[i]->report();
     const std::string name = "camera " + camera_names_[i];
     log_->tell("images of " + name, report.rate.trouble(), now_s);
-    // Without joints no image can be used: one line tells of both.
+    // Without joints no image can be used: one line reports on both.
     if (!joints.empty() && waits_for_joints(report)) continue;
     log_->tell(name, camera_trouble(i, report, robot, clock_s), now_s,
                !report.pose_trouble.empty());
@@ -102,7 +102,7 @@ std::string LiveNode::camera_trouble(std::size_t number, const CameraReport& rep
   berth::CameraResult camera;
   static_cast<berth::CameraState&>(camera) =
       berth::camera_state(report.newest.get(), now_s, robot.robot->settings().time);
-  camera.camera = report.newest->view->mount().name;
+  camera.camera = report.newest->mounted->mount().name;
   std::string trouble = without_name(berth::camera_text(camera), camera.camera);
   const std::string why = explanation(number, report);
   if (!report.newest->watch.is_trusted() && !why.empty()) return trouble + ": " + why;
@@ -114,14 +114,14 @@ std::string LiveNode::camera_trouble(std::size_t number, const CameraReport& rep
 std::string LiveNode::protection_trouble(const CameraReport& report) const {
   const std::optional<berth::SeparationSettings> separation = separation_settings();
   if (!separation || !report.newest) return "";
-  return berth::detection_trouble(*separation, *report.newest->view);
+  return berth::detection_trouble(*separation, *report.newest->mounted);
 }
 
 std::string LiveNode::explanation(std::size_t camera, const CameraReport& report) const {
   const CameraExplanation told = explanations_->newest(camera);
-  if (!told.view || !report.newest) return "";
-  const berth::CameraMount& mount = report.newest->view->mount();
-  if (!is_same_mount(told.view->mount(), mount)) return "";
+  if (!told.mounted || !report.newest) return "";
+  const berth::CameraMount& mount = report.newest->mounted->mount();
+  if (!is_same_mount(told.mounted->mount(), mount)) return "";
   return without_name(told.text, mount.name);
 }
 

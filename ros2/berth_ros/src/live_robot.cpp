@@ -91,7 +91,7 @@ void LiveNode::use(const LiveRobot& made) {
   }
   const std::vector<CameraSettings> cameras = settings_.cameras();
   for (std::size_t i = 0; i < inputs_.size(); ++i) {
-    inputs_[i]->use(made.robot, made.joints, cameras[i].view);
+    inputs_[i]->use(made.robot, made.joints, cameras[i].settings);
   }
   on_robot();
 }

@@ -61,7 +61,7 @@ MoveItAttached::MoveItAttached(rclcpp_lifecycle::LifecycleNode& node, ChangeAtta
 }
 
 void MoveItAttached::take(const moveit_msgs::msg::PlanningScene& scene) {
-  // MoveIt writes a state as a change even where it tells all of it: what is no more attached is
+  // MoveIt writes a state as a change even where it reports all of it: what is no more attached is
   // missing there, and nobody says that it was removed.
   const bool is_whole = !scene.is_diff || !scene.robot_state.joint_state.name.empty();
   std::vector<Object> objects = is_whole ? std::vector<Object>() : objects_;

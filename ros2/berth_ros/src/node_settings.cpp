@@ -131,7 +131,7 @@ void NodeSettings::require_declared(SettingNode& node, bool has_one_camera) {
 
 void NodeSettings::warn_unwatched(const SettingNode& node) const {
   for (const CameraSettings& camera : cameras()) {
-    if (camera.view.watch.is_on() || camera.is_filtered) continue;
+    if (camera.settings.watch.is_on() || camera.is_filtered) continue;
     RCLCPP_WARN(node.get_logger(),
                 "camera %s: nobody watches whether it is moved, since watch.max_displacement_m and "
                 "watch.max_seen_through are 0; %g suits most cameras, and `berth calibrate` finds "
@@ -208,10 +208,10 @@ berth::EvaluationSettings NodeSettings::scene_evaluation() const {
 void NodeSettings::declare_evaluation(SettingNode& node) {
   declare_settings(node, "evaluation", scene_evaluation(), given_);
   declare_settings(node, "time", berth::TimeSettings{}, given_);
-  berth::CameraSettings view = watched_camera();
-  if (scene_) view = scene_->cameras.front().settings;
-  visit_setting_groups(view, [&](const std::string& group, const auto& settings) {
-    declare_settings(node, group, settings, given_);
+  berth::CameraSettings settings = watched_camera();
+  if (scene_) settings = scene_->cameras.front().settings;
+  visit_setting_groups(settings, [&](const std::string& group, const auto& listed) {
+    declare_settings(node, group, listed, given_);
   });
 }
 
@@ -237,7 +237,7 @@ void NodeSettings::declare_cameras(SettingNode& node, bool has_one_camera) {
 
 void NodeSettings::declare_camera(SettingNode& node, const std::string& name, bool has_one_camera) {
   CameraSettings camera;
-  camera.view = watched_camera();
+  camera.settings = watched_camera();
   camera.name = name;
   camera.topic_prefix = has_one_camera ? "" : name + "/";
   if (scene_) {
@@ -249,7 +249,7 @@ void NodeSettings::declare_camera(SettingNode& node, const std::string& name, bo
     }
     camera.units = {found->depth_scale_m, found->depth_offset_m, found->near_m, found->far_m};
     camera.live.clock_offset_s = found->clock_offset_s;
-    camera.view = found->settings;
+    camera.settings = found->settings;
     // The intrinsics are those of camera_info.
     camera.scene_mount = berth::CameraMount{{}, found->parent_link, found->X_PC};
   }
@@ -286,7 +286,7 @@ void NodeSettings::declare_camera(SettingNode& node, const std::string& name, bo
   if (!has_one_camera) {
     declare("filtered", camera.is_filtered,
             "the images come from a self_filter_node: their robot is taken out already");
-    visit_setting_groups(camera.view, [&](const std::string& group, const auto& settings) {
+    visit_setting_groups(camera.settings, [&](const std::string& group, const auto& settings) {
       declare_own_settings(node, prefix + group, settings, given_);
     });
   }
@@ -323,15 +323,15 @@ berth::EvaluationSettings NodeSettings::evaluation_of(const GivenParameters& giv
 std::vector<CameraSettings> NodeSettings::cameras_of(const GivenParameters& given) const {
   std::vector<CameraSettings> cameras = cameras_;
   for (CameraSettings& camera : cameras) {
-    visit_setting_groups(camera.view, [&](const std::string& group, auto& settings) {
+    visit_setting_groups(camera.settings, [&](const std::string& group, auto& settings) {
       apply_given(given, group, settings);
       apply_given(given, camera.name + "." + group, settings);
     });
     // A robot that was taken out cannot tell whether it is where it should be.
     if (camera.is_filtered) {
-      camera.view.watch.max_seen_through = 0;
-      camera.view.watch.max_displacement_m = 0;
-      camera.view.watch.min_at_robot = 0;
+      camera.settings.watch.max_seen_through = 0;
+      camera.settings.watch.max_displacement_m = 0;
+      camera.settings.watch.min_at_robot = 0;
     }
   }
   return cameras;
@@ -372,8 +372,8 @@ void NodeSettings::check(const std::vector<rclcpp::Parameter>& changes) const {
     }
   }
   for (const CameraSettings& camera : cameras_of(given)) {
-    berth::validate(camera.view.self_filter);
-    visit_setting_groups(camera.view, [](const std::string& group, const auto& settings) {
+    berth::validate(camera.settings.self_filter);
+    visit_setting_groups(camera.settings, [](const std::string& group, const auto& settings) {
       visit_settings(settings, berth::SettingCheck{group});
     });
   }

@@ -39,7 +39,7 @@ struct CameraSettings {
   bool is_filtered = false;
   berth::DepthUnits units;
   berth::LiveCameraSettings live;
-  berth::CameraSettings view;
+  berth::CameraSettings settings;
   PoseSource pose_source = PoseSource::automatic;
   /// Of the scene file.
   std::optional<berth::CameraMount> scene_mount;

@@ -27,7 +27,7 @@ rcl_interfaces::msg::ParameterDescriptor described(const std::string& text) {
 double declare_rate(rclcpp_lifecycle::LifecycleNode& node, const std::string& name,
                     const std::string& what) {
   rcl_interfaces::msg::ParameterDescriptor descriptor =
-      described(what + ", so many times a second; 0: never");
+      described(what + ", times a second; 0: never");
   descriptor.floating_point_range.resize(1);
   descriptor.floating_point_range[0].to_value = 30;
   return node.declare_parameter(name + "_rate_hz", 0.0, descriptor);
@@ -207,7 +207,7 @@ std::string PlannerTopics::trouble(const std::optional<SpaceNow>& now) {
     const berth::CameraState state =
         berth::camera_state(frame.get(), now->now_s, now->robot->settings().time);
     if (berth::is_used(state.status) && state.status != berth::CameraStatus::blind) continue;
-    return "camera " + frame->view->mount().name + " is " + std::string(name_of(state.status));
+    return "camera " + frame->mounted->mount().name + " is " + std::string(name_of(state.status));
   }
   return "";
 }

@@ -103,7 +103,7 @@ void SceneMessages::add_camera(rclcpp::Node& node, const berth::OpenCamera& came
   Camera& made = cameras_.emplace_back();
   made.image = node.create_publisher<Image>(source.name + "/depth_image", qos);
   made.info = node.create_publisher<CameraInfo>(source.name + "/camera_info", qos);
-  made.camera_info = info_of(camera.view->camera());
+  made.camera_info = info_of(camera.mounted->camera());
   made.camera_info.header.frame_id = frame_of(camera);
   for (std::size_t i = 0; i < source.depth.size(); ++i) {
     made.images.push_back(

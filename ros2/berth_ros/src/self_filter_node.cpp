@@ -35,11 +35,12 @@ class SelfFilterNode : public LiveNode {
     robot_depth_.reset();
   }
 
-  void on_frame(std::size_t, const berth::Frame& frame, berth::DepthView,
+  void on_frame(std::size_t, const std::shared_ptr<const berth::Frame>& observed, berth::DepthView,
                 const std::shared_ptr<const Image>& image) override {
+    const berth::Frame& frame = *observed;
     // Without the robot's pose nobody knows which pixels are the robot's: no image is better.
     if (frame.time.status != berth::TimeStatus::ok || !frame.watch.is_trusted()) return;
-    const berth::Camera& camera = frame.view->camera();
+    const berth::Camera& camera = frame.mounted->camera();
     if (world_depth_.getNumSubscribers() > 0)
       world_depth_.publish(without_robot(frame, *image, camera));
     if (robot_mask_->get_subscription_count() > 0) robot_mask_->publish(mask_of(frame, *image));

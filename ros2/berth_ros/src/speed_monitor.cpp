@@ -46,19 +46,9 @@ const std::vector<double>& PlannedVelocity::at(double now_s, double max_age_s) {
   return velocity_;
 }
 
-SpeedMonitor::SpeedMonitor(std::shared_ptr<const berth::Robot> robot,
-                           const berth::SeparationSettings& settings, double velocity_window_s)
-    : robot_(std::move(robot)), monitor_(robot_, settings), velocity_window_s_(velocity_window_s) {}
-
-void SpeedMonitor::update(BlackBox& black_box, berth::Result& result,
-                          const berth::JointBuffer& joints, PlannedVelocity& planned, double now_s,
-                          const berth::FrameSet& frames, Separation& out) {
-  joints.velocity(velocity_window_s_, velocity_);
-  out.is_planned = planned.is_there();
-  const std::vector<double>& velocity =
-      out.is_planned ? planned.at(now_s, robot_->settings().time.max_frame_age_s) : velocity_;
-  result.separation = black_box.update(monitor_, result, velocity, now_s, frames);
+void to_message(const berth::Result& result, bool is_planned, Separation& out) {
   const berth::Separation& separation = *result.separation;
+  out.is_planned = is_planned;
   out.state = static_cast<std::uint8_t>(separation.state);
   out.speed_scale = separation.speed_scale;
   out.basis = name_of(separation.basis);

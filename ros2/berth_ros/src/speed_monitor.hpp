@@ -7,9 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "berth/robot/joint_buffer.hpp"
-#include "berth/separation/monitor.hpp"
-#include "black_box.hpp"
+#include "berth/pipeline/result.hpp"
+#include "berth/robot/robot_model.hpp"
 
 namespace berth_ros {
 
@@ -29,26 +28,8 @@ class PlannedVelocity {
   std::vector<double> velocity_;
 };
 
-/// berth::SeparationMonitor on messages. One for each robot and thread.
-class SpeedMonitor {
- public:
-  /// Throws as berth::SeparationMonitor does.
-  SpeedMonitor(std::shared_ptr<const berth::Robot> robot, const berth::SeparationSettings& settings,
-               double velocity_window_s);
-
-  /// Sets Result::separation, and what is about speeds in `out`. Velocities are those of `planned`
-  /// where any came, else those of the joints. `frames` are those that the result is about, which
-  /// `black_box` was asked for.
-  void update(BlackBox& black_box, berth::Result& result, const berth::JointBuffer& joints,
-              PlannedVelocity& planned, double now_s, const berth::FrameSet& frames,
-              berth_msgs::msg::Separation& out);
-
- private:
-  std::shared_ptr<const berth::Robot> robot_;
-  berth::SeparationMonitor monitor_;
-  double velocity_window_s_;
-  std::vector<double> velocity_;
-};
+/// What Result::separation says, which is there.
+void to_message(const berth::Result& result, bool is_planned, berth_msgs::msg::Separation& out);
 
 /// That nothing is monitored.
 void say_unmonitored(berth_msgs::msg::Separation& out);

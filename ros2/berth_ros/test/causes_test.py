@@ -14,7 +14,7 @@ from tf2_msgs.msg import TFMessage
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from living_robot import FRAME, HEIGHT, URDF, WIDTH, TwoCameras, transform  # noqa: E402
 
-QUIET_S = 10  # of one cause the log has a line in so many seconds
+QUIET_S = 10  # the log has at most one line of a cause in this time
 
 
 @pytest.mark.launch_test

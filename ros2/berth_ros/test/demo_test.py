@@ -27,7 +27,7 @@ SCENE = os.path.join(get_package_share_directory("berth_ros"), "bundled", "scene
 # Within it a result depends on the one before, and a busy computer may drop an image.
 TOLERANCE_M = 2e-6
 USUAL_TOLERANCE_M = 1e-3
-# A busy computer drops images and answers, and is late: so many are enough to compare, and so late they may be.
+# A busy computer drops images and answers, and is late: this number is enough to compare, and this late they may be.
 LEAST = 5
 MAX_FRAME_AGE_S, MAX_JOINTS_AGE_S = 0.5, 0.1
 # Nearer than this two things touch: a distance is the root of a square that single precision rounds.
@@ -216,7 +216,7 @@ class Demo(unittest.TestCase):
 
 
 def keep(images, message, most):
-    """The newest so many, by their stamps."""
+    """The newest ones, by their stamps."""
     images[stamp(message)] = message
     if len(images) > most:
         del images[min(images)]

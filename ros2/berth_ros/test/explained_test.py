@@ -114,8 +114,8 @@ class Explained(unittest.TestCase):
             if other != camera:
                 self.assertNotIn("focal", self.status(other).message)
         self.focal[camera] = 1.0
-        back_s = self.until(lambda: self.newest.status == LinkDistances.OK, 20, "mended")
-        print(f"mended: OK after {back_s:.1f} s")
+        back_s = self.until(lambda: self.newest.status == LinkDistances.OK, 20, "fixed")
+        print(f"fixed: OK after {back_s:.1f} s")
 
     def test_02_a_focal_length_that_is_wrong_by_a_tenth(self):
         for camera, true_px, factor in (("left", 250, 0.9), ("left", 250, 1.1), ("camera", 525, 1.1), ("right", 400, 1.1)):

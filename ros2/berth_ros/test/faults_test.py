@@ -1,4 +1,4 @@
-"""Each fault is said, crashes nothing, and is over once it is mended."""
+"""Each fault is said, crashes nothing, and is over once it is fixed."""
 import math
 import os
 import sys

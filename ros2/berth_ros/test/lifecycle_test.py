@@ -101,7 +101,7 @@ class Lifecycle(LivingRobot):
         return len(self.filtered) == 3
 
     def cycle(self, node, forget, lives):
-        """Down and up again, so many times; each time it has to live as before."""
+        """Down and up again, each time it has to live as before."""
         client = self.node.create_client(ChangeState, node + "/change_state")
         self.assertTrue(client.wait_for_service(10))
         self.assertTrue(self.wait_until(lives))

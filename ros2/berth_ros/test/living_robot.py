@@ -133,7 +133,7 @@ class LivingRobot(unittest.TestCase):
         """Called each 10 ms of the robot's life, after its clock went on."""
 
     def step(self, image="good", joints=True, joints_every=1, names=("turn",), position=0.1, frame_id=FRAME):
-        """A 20th of a second of the robot's life, with joint states in each tick, or in every so many."""
+        """A 20th of a second of the robot's life, with joint states in each tick, or in every Nth."""
         for tick in range(5):
             type(self).now_s += 0.01
             self.clock.publish(Clock(clock=self.time_of(self.now_s)))
@@ -154,7 +154,7 @@ class LivingRobot(unittest.TestCase):
             self.images.publish(image)
 
     def until(self, what, seconds=20.0, **step):
-        """Lives on until it is so, for so many seconds of the robot's life at most: a computer that stands still has not lived."""
+        """Lives on until it is so, for these seconds of the robot's life at most: a computer that stands still has not lived."""
         for _ in range(round(seconds / 0.05)):
             self.step(**step)
             if what():

@@ -30,7 +30,7 @@ def generate_test_description():
 
 
 class Poses(LivingRobot):
-    """The camera goes to and fro before the robot, and TF tells it at 50 Hz."""
+    """The camera swings before the robot, and TF tells it at 50 Hz."""
 
     tf_comes, base_comes, ticks, base_speed_m_s = True, True, 0, 0.0
 
@@ -64,7 +64,7 @@ class Poses(LivingRobot):
         return list(self.answers_so_far)
 
     def many_answers(self):
-        """So many that are ok, however long a busy computer takes for them, and those between them."""
+        """This number that are ok, however long a busy computer takes for them, and those between them."""
         del self.answers_so_far[:]
         self.assertTrue(self.until(lambda: len(self.ok(list(self.answers_so_far))) >= 150, seconds=60))
         answers = list(self.answers_so_far)

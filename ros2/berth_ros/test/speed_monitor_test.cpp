@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "berth/pipeline/observer.hpp"
-#include "berth/pipeline/query.hpp"
+#include "berth/record/monitor_loop.hpp"
 #include "berth/scene/open_scene.hpp"
 
 namespace berth_ros {
@@ -37,27 +37,24 @@ sensor_msgs::msg::JointState message_of(const berth::RobotModel& model,
 TEST(SpeedMonitor, LooksAlongTheRobotsWayAsTheLibraryDoes) {
   const berth::OpenScene scene = berth::open_scene(BUNDLED_SCENE);
   const berth::OpenCamera& camera = scene.cameras.front();
-  berth::Observer observer(camera.view);
-  berth::Query query(scene.robot);
-  SpeedMonitor monitor(scene.robot, lenient(), 0.02);
+  berth::Observer observer(camera.mounted);
+  berth::MonitorLoop loop(scene.robot, {}, lenient());
   berth::SeparationMonitor twin(scene.robot, lenient());
-  const berth::JointBuffer no_joints(scene.robot->model(), 2);
   PlannedVelocity planned;
-  BlackBox black_box({}, {});
   int along_the_way = 0;
   for (std::size_t k = 0; k < camera.at_exposure.size(); k += 3) {
     const auto frame = std::make_shared<berth::Frame>();
     observer.observe(camera.read_depth(k), camera.at_exposure[k], *frame);
     const double now_s = frame->stamp_s + 0.01;
     const std::vector<std::shared_ptr<const berth::Frame>> frames = {frame};
-    berth::Result result =
-        query.ask({.frames = frames, .joints = camera.at_exposure[k], .now_s = now_s});
+    loop.ask({.frames = frames, .joints = camera.at_exposure[k], .now_s = now_s});
     std::vector<double> velocity;
     scene.joints->velocity(frame->stamp_s, velocity);
     planned.take(message_of(scene.robot->model(), velocity), scene.robot->model(), now_s);
     berth_msgs::msg::Separation out;
-    monitor.update(black_box, result, no_joints, planned, now_s, query.frames(), out);
-    const berth::Separation& expected = twin.update(result, velocity, now_s, &query.frames());
+    const berth::Result& result = loop.monitor(planned.at(now_s, 1), now_s);
+    to_message(result, planned.is_there(), out);
+    const berth::Separation& expected = twin.update(result, velocity, now_s, &loop.frames());
     EXPECT_EQ(out.basis, name_of(expected.basis)) << k;
     EXPECT_EQ(out.speed_scale, expected.speed_scale) << k;
     along_the_way += out.basis == "path";

@@ -22,7 +22,7 @@ struct AttachedPart {
   Eigen::Vector3d size_m = Eigen::Vector3d::Zero();
   /// Of its surface, what no image looks at: it is padded twice there, and may reach farther still.
   double hidden_share = 0;
-  /// It was seen at so many places of the room that differ.
+  /// The number of different places of the room where it was seen.
   int places = 0;
   /// The images that show it: camera and CalibrationFrame::number.
   struct Sight {
@@ -31,8 +31,8 @@ struct AttachedPart {
     bool operator==(const Sight&) const = default;
   };
   std::vector<Sight> seen_in;
-  /// Of all readings that come and go near the robot, and that the self filter leaves, so many are
-  /// its own.
+  /// Of all readings that come and go near the robot, and that the self filter leaves, the share
+  /// that is its own.
   double explained_share = 0;
   /// Whether the user takes it for a part of the robot; nobody does by himself.
   bool is_taken = false;
@@ -49,7 +49,7 @@ struct AttachedParts {
   std::string refused;
 };
 
-/// The robot has to be seen in so many poses.
+/// The number of poses in which the robot has to be seen.
 inline constexpr std::size_t kLeastPosesForAttached = 5;
 
 /// Looks for what moves along with a link, with cameras, clocks and joints as in `found`. A place

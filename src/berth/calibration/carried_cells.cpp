@@ -7,7 +7,7 @@
 namespace berth {
 namespace {
 
-/// Cells belong to one piece where no more than so many lie between them.
+/// Cells belong to one piece where at most this number lies between them.
 constexpr int kJoined = 3;
 /// A view shows a piece where it shows this share of its cells.
 constexpr double kFairShare = 0.05;

@@ -7,7 +7,7 @@
 namespace berth {
 namespace {
 
-/// Nodes of the surface are so many cells apart: the first distance that needs few triangles.
+/// The cells between two nodes of the surface: the first distance that needs few triangles.
 constexpr std::array kSteps = {2, 3, 4, 5, 6, 8, 10, 12, 16};
 
 /// A field with each step-th node of a finer one, and the surface where it is `level`.

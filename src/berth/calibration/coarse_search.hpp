@@ -17,7 +17,7 @@ struct CoarseSearch {
   double reach_rad = 0.35;
   int tries = 300;
   int rounds = 3;
-  /// So many of the best are told.
+  /// How many of the best are returned.
   int best = 6;
 };
 

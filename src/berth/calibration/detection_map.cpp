@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kNotInView = std::numeric_limits<double>::quiet_NaN();
 constexpr int kMostDraws = 100;
-/// So many draws, none of them missed, prove as much as 100 of which one is missed.
+/// This number of draws, none missed, proves as much as 100 of which one is missed.
 constexpr int kEnoughInView = 50;
 constexpr int kLeastInView = 20;
 constexpr double kMostPlaces = 600;

@@ -57,7 +57,7 @@ struct DetectionMap {
   RobotReach reach;
   double step_m = 0;
   std::vector<Eigen::Vector3d> places_B_m;
-  /// By all cameras together: a ball is told where one of them tells it.
+  /// By all cameras together: a ball is told where one of them reports it.
   DetectedDiameters cell;
   /// By each one alone, in their order.
   std::vector<DetectedDiameters> cameras;

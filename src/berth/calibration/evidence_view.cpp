@@ -46,7 +46,7 @@ constexpr double kPixel_m = 0.003;
 constexpr double kSpread = 2.5;
 constexpr double kLeastUncertainty_m = 0.010;
 constexpr double kMostUncertainty_m = 0.025;
-/// So many pixels to each side of a point, at most, are looked at.
+/// The most pixels to each side of a point that are looked at.
 constexpr int kSamplesToASide = 3;
 /// Nearer to the camera nothing is looked at.
 constexpr double kLeastDepth_m = 0.1;
@@ -204,7 +204,7 @@ bool sees_free(const EvidenceView& view, const Eigen::Vector3d& p_B_m) {
   const std::optional<Window> window = window_at(view, p_B_m, view.uncertainty_m);
   if (!window) return false;
   const auto far_m = static_cast<float>(window->p_C_m.z() + view.uncertainty_m);
-  // No reading at the point itself tells nothing, one beside it neither yes nor no.
+  // No reading at the point itself says nothing, one beside it neither yes nor no.
   if (!(view.depth_m(window->middle.u, window->middle.v) > far_m)) return false;
   return all_of(view, *window, [&](int u, int v) { return !(view.depth_m(u, v) <= far_m); });
 }

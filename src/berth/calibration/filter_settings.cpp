@@ -26,7 +26,7 @@ constexpr double kOutlineReach_m = 0.08;
 constexpr float kSameSurface_m = 0.03F;
 /// More would drop what a finger shows at 1.5 m.
 constexpr int kMostSpeckle_px = 40;
-/// Things are drawn into so many frames.
+/// The number of frames that things are drawn into.
 constexpr std::size_t kDrawnInto = 3;
 
 double rounded_up(double length_m) { return std::ceil(length_m * 100 - 1e-6) / 100; }

@@ -75,7 +75,7 @@ class FocalLengthSearch {
     return found.score >= kLeastScore && std::abs(found.depth_error_share) <= kMostDepthError;
   }
 
-  /// The depth error tells which way to go, and what it then is, how far.
+  /// The depth error shows which way to go, and what it then is, how far.
   std::optional<OtherFocalLength> by_depth_error(const OtherFocalLength& before) {
     if (!std::isfinite(before.depth_error_share)) return std::nullopt;
     const OtherFocalLength next =

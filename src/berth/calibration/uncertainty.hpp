@@ -21,7 +21,7 @@ struct CameraDeviation {
 CameraDeviation deviation_of(const FitResult& fitted, const FitResult& even, const FitResult& odd,
                              std::size_t camera);
 
-/// Whether a fit of all joints tells each joint's zero, in the order of RobotModel::joints. What
+/// Whether a fit of all joints reports each joint's zero, in the order of RobotModel::joints. What
 /// others may take its place for (the first joint the camera's pose, the last one nothing that can
 /// be seen) is in its deviation.
 std::vector<bool> determined_joints(const FitResult& fitted);

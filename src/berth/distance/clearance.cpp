@@ -10,7 +10,7 @@ namespace {
 
 using mesh::LinkSearch;
 
-/// A search that has taken so many pieces apart is given up: what it would still decide lies within
+/// The pieces after which a search is given up: what it would still decide lies within
 /// millimetres of what is needed.
 constexpr int kMostSteps = 96;
 /// Searched on in one go, before it is seen whether a pair was found.

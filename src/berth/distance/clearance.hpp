@@ -14,7 +14,7 @@ struct ClearanceRequest {
   double needed_m = 0;
   /// Whether unknown space counts, or only what is occupied.
   bool unknown = true;
-  /// It is given up before so many pieces of the link and of space have been taken apart, if it has
+  /// It is given up before this number of pieces of link and space is taken apart, if it has
   /// not been by itself.
   int most_steps = std::numeric_limits<int>::max();
 };

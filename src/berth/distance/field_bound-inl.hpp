@@ -42,7 +42,7 @@ inline bool know_cell(const FieldGrid& grid, const LinkPatches& link, const Eige
     unknown.p_L_m[unknown.count++] = grid.corner_L_m(cell, i);
   }
   if (unknown.count == 0) return false;
-  // The grid's own roundings: those of who asks would depend on where the link is.
+  // The grid's own roundings: the caller's would depend on where the link is.
   NearestPointSearch(link, rounding_m(grid.reach_m())).find(hint, 0, unknown);
   for (int k = 0; k < unknown.count; ++k) {
     const float lower_m = unknown.distance[k].lower_m;

@@ -1,4 +1,4 @@
-// What the request before tells of the next one about the same space.
+// What the request before says about the next one about the same space.
 #pragma once
 
 #include <cstdint>

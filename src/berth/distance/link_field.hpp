@@ -18,7 +18,7 @@ struct FieldPoints {
 };
 
 /// Points side by side on a grid in the link's frame L, and the squares of their distances from its
-/// surface. Nobody knows them at first: who asks for one finds it, and it is kept for all. Any
+/// surface. None is known at first: the first request for one finds it, and it is kept for all. Any
 /// number of threads may ask at a time: what is found is the same bit for bit, whoever asks, and
 /// from where.
 class FieldGrid {

@@ -1,4 +1,4 @@
-// What the search for one link tells in the end.
+// What the search for one link reports in the end.
 #pragma once
 
 #include "berth/distance/link_search.hpp"

@@ -29,7 +29,7 @@ struct PatchLevel {
 
 /// One link's surface: patches of 16 triangles that lie side by side, 16 of these in each patch of
 /// the next level, and so on up to a single one. Patch i of a level has the children 16 i to
-/// 16 i + 15 of the level below, as far as there are so many; those of levels[0] are triangles.
+/// 16 i + 15 of the level below, as far as they exist; those of levels[0] are triangles.
 struct LinkPatches {
   static constexpr int kChildren = 16;
 

@@ -41,7 +41,8 @@ void visit_settings(Settings& s, Visitor&& visit) {
         s.tolerance_m);
   visit({"deadline_us",
          {.may_be_infinite = true},
-         "the search stops in time for a request to take so many microseconds, and tells what it "
+         "the search stops in time for a request to take this number of microseconds, and tells "
+         "what it "
          "knows by then: distance and lower bound"},
         s.deadline_us);
   visit({"min_seen_share",

@@ -72,10 +72,10 @@ CubeCorners exact_corners(CubeSearch& search, const Cube& cube, float bound_m, i
 }
 
 /// How near the link is to the corners of a cube at least, by its field: less than it is, and known
-/// sooner. All 0 where no grid tells.
+/// sooner. All 0 where no grid reports.
 struct FieldCorners {
   CubeCorners corners = {};
-  /// Of the grid; 0 where none tells.
+  /// Of the grid; 0 where none reports.
   float grid_edge_m = 0;
 };
 
@@ -236,7 +236,7 @@ std::optional<KnownCorners> look_at_corners(CubeSearch& search, const Cube& cube
     if (!is_opened) item.bound_m = std::max(item.bound_m, least_distance_m(field.corners, edge_m));
     if (!(item.bound_m < link.limit_m())) return std::nullopt;
   }
-  // A grid so much finer than the cube tells of its children nearly what its own corners do.
+  // A grid so much finer than the cube says of its children nearly what its own corners do.
   if (field.grid_edge_m > 0 && 3 * field.grid_edge_m <= edge_m) {
     out.corners = field.corners;
     if (!is_opened) out.hint = leaf_near(search, cube, out.hint);

@@ -10,23 +10,23 @@
 
 namespace berth {
 
-/// Whether a unit of a depth image can be so many metres. 1 or 1000 would put a whole room out of
-/// every range.
+/// Whether a unit of a depth image can be this length in metres. 1 or 1000 would put a whole room
+/// out of every range.
 bool is_depth_scale(double depth_scale_m);
 constexpr const char* kDepthScaleExpected = "metres per unit from 1e-6 to 0.1, such as 0.001";
 
 /// Depth in metres of a 16-bit grayscale PNG whose unit is `depth_scale_m`: its number times the
 /// unit, plus `offset_m`. The numbers 0 and 65535, depths that are not above 0 then, those from
-/// kMostReading_m on and those outside [near_m, far_m] become NaN. Throws std::runtime_error where the file is missing,
-/// empty, incomplete, damaged, of another pixel format, of another size than the camera's, or the
-/// scale is no is_depth_scale.
+/// kMostReading_m on and those outside [near_m, far_m] become NaN. Throws std::runtime_error where
+/// the file is missing, empty, incomplete, damaged, of another pixel format, of another size than
+/// the camera's, or the scale is no is_depth_scale.
 DepthImage read_depth_png(const std::filesystem::path& file, const Camera& expected_size,
                           double depth_scale_m, double near_m = 0,
                           double far_m = std::numeric_limits<double>::infinity(),
                           double offset_m = 0);
 
-/// Throws as read_depth_png does, but for damage that only decoding finds: in microseconds it tells
-/// that the file is there, of the right kind and size, and not cut off.
+/// Throws as read_depth_png does, but for damage that only decoding finds: in microseconds it
+/// reports that the file is there, of the right kind and size, and not cut off.
 void check_depth_png(const std::filesystem::path& file, const Camera& expected_size,
                      double depth_scale_m);
 

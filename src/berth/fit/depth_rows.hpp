@@ -12,7 +12,7 @@ namespace berth {
 
 /// Which readings count as the robot's.
 struct DepthRowLimits {
-  /// Every so many pixels of every so many rows.
+  /// Every Nth pixel of every Nth row.
   int stride = 1;
   /// Readings farther from the model than this, along the optical axis, are passed over.
   double cut_m = 0.03;

@@ -13,7 +13,7 @@ namespace {
 
 /// Of one reading at 1 m, across the surface; grows with the square of the depth.
 constexpr double kDepthDeviation_m = 0.005;
-/// Neighbouring readings err alike: one in so many pixels counts.
+/// Neighbouring readings err alike: one in this number of pixels counts.
 constexpr double kDepthPixelsPerRow = 100;
 /// Of an outline: pixels, and what meshes leave out.
 constexpr double kOutlineDeviation_px = 1;

@@ -87,7 +87,7 @@ class OutlineSearch {
       const int ku = u + k * way.du;
       const int kv = v + k * way.dv;
       if (!is_inside(ku, kv)) return Sensed::before;
-      // Inside the model's outline its own surface tells what is like the robot.
+      // Inside the model's outline its own surface shows what is like the robot.
       const bool has_model = k < 0 && is_robot_at(ku, kv);
       return sense(ku, kv, has_model ? robot_.depth_m(ku, kv) : z_m);
     };

@@ -12,8 +12,8 @@ struct ScoreSettings {
   /// Of the sensor's image, for outlines; 0: depth alone, which is right for a coarse search only,
   /// since a pose that is off by a degree can have smaller depth residuals than the right one.
   int outline_reach_px = 10;
-  /// Fewer pixels and places count as so many: else a pose that has all but a well-fitting corner
-  /// outside of the image would be the best.
+  /// Fewer pixels and places count as this number: else a pose that has all but a well-fitting
+  /// corner outside of the image would be the best.
   double least_pixels = 0;
   double least_places = 0;
 };

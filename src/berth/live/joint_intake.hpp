@@ -15,10 +15,10 @@ namespace berth {
 struct JointIntakeSettings {
   /// Added to a joint's positions, rad or m, by its name.
   std::map<std::string, double> offsets = {};
-  /// The positions of joints that nobody tells, rad or m, by name.
+  /// The positions of joints that nobody reports, rad or m, by name.
   std::map<std::string, double> fixed = {};
   /// A joint keeps its last position for so long while newer ones of others come: for a gripper
-  /// that tells its joints more seldom than the arm. What it moved meanwhile is not known.
+  /// that reports its joints more seldom than the arm. What it moved meanwhile is not known.
   double max_hold_s = 0;
   /// Whole samples that are kept, at least 2.
   std::size_t capacity = 500;

@@ -32,9 +32,9 @@ void validate(const LiveCameraSettings& settings) {
 
 }  // namespace
 
-LiveCamera::LiveCamera(std::shared_ptr<const MountedCamera> view, const JointIntake& joints,
+LiveCamera::LiveCamera(std::shared_ptr<const MountedCamera> mounted, const JointIntake& joints,
                        LiveCameraSettings settings, OnFrame on_frame, FindPlace find_place)
-    : view_(std::move(view)),
+    : mounted_(std::move(mounted)),
       joints_(joints),
       settings_(settings),
       on_frame_(std::move(on_frame)),
@@ -46,7 +46,7 @@ LiveCamera::LiveCamera(std::shared_ptr<const MountedCamera> view, const JointInt
 LiveCamera::~LiveCamera() = default;
 
 void LiveCamera::push(double stamp_s, DepthImage depth_m, std::shared_ptr<const void> with) {
-  require_size(view_->camera(), depth_m);
+  require_size(mounted_->camera(), depth_m);
   {
     const std::lock_guard lock(mutex_);
     if (waiting_.size() == kMostWaitingImages) drop_oldest();
@@ -128,7 +128,7 @@ std::shared_ptr<const Frame> LiveCamera::observe(Observer& observer, const Waiti
   observer.observe(image.depth_m, image.stamp_s, joints_.buffer(), *frame, settings_.clock_offset_s,
                    place_of(image));
   if (is_distrusted_) {
-    const bool is_told_only = view_->settings().watch.tell_only;
+    const bool is_told_only = mounted_->settings().watch.tell_only;
     (is_told_only ? frame->watch.is_unconfirmed : frame->watch.is_implausible) = true;
   }
   keep(image, frame, begin_s);
@@ -147,7 +147,7 @@ void LiveCamera::keep(const Waiting& image, const std::shared_ptr<const Frame>& 
 }
 
 void LiveCamera::run(const std::stop_token& stop) {
-  Observer observer(view_);
+  Observer observer(mounted_);
   while (wait_for_image(stop)) {
     const ImageTurn turn(stop);
     if (!turn.has_come()) return;
@@ -155,7 +155,7 @@ void LiveCamera::run(const std::stop_token& stop) {
     if (!image) continue;
     const std::shared_ptr<const Frame> frame = observe(observer, *image);
     // Within the turn: so a frame that is put into a LiveSpace there is made ready next.
-    if (on_frame_) on_frame_(*frame, image->depth_m, image->with);
+    if (on_frame_) on_frame_(frame, image->depth_m, image->with);
     const std::lock_guard lock(mutex_);
     spare_.push_back(std::move(image->depth_m));
   }

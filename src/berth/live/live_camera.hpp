@@ -31,7 +31,7 @@ struct LiveCameraSettings {
 };
 
 /// How many images wait at most. Of more the oldest is dropped; of several whose joints are known
-/// all but the newest are, since a newer one tells more.
+/// all but the newest are, since a newer one shows more.
 inline constexpr std::size_t kMostWaitingImages = 3;
 
 /// What became of a camera's images.
@@ -54,14 +54,14 @@ using FindPlace = std::function<std::optional<PlaceAtExposure>(double stamp_s)>;
 class LiveCamera {
  public:
   /// A frame, the image it was made of, and what push() was given with it.
-  using OnFrame =
-      std::function<void(const Frame&, DepthView depth_m, const std::shared_ptr<const void>& with)>;
+  using OnFrame = std::function<void(const std::shared_ptr<const Frame>&, DepthView depth_m,
+                                     const std::shared_ptr<const void>& with)>;
 
   /// `joints` outlives it. `on_frame` is called in the camera's thread, after newest() has the
   /// frame; it must not throw, nor wait for another thread: other images wait for it.
   /// Without `find_place` the camera stands as its mount says, and the root stands still. Throws
   /// std::invalid_argument for a setting outside of its domain.
-  LiveCamera(std::shared_ptr<const MountedCamera> view, const JointIntake& joints,
+  LiveCamera(std::shared_ptr<const MountedCamera> mounted, const JointIntake& joints,
              LiveCameraSettings settings = {}, OnFrame on_frame = {}, FindPlace find_place = {});
   /// Ends the thread; images that wait are dropped.
   ~LiveCamera();
@@ -78,11 +78,11 @@ class LiveCamera {
   void look_again();
 
   /// Whether the camera is implausible whatever its frames say, from its next frame on: somebody
-  /// found out more than one frame tells. With WatchSettings::tell_only it is unconfirmed. From any
+  /// found out more than one frame shows. With WatchSettings::tell_only it is unconfirmed. From any
   /// thread.
   void distrust(bool is_distrusted) { is_distrusted_ = is_distrusted; }
 
-  const std::shared_ptr<const MountedCamera>& view() const { return view_; }
+  const std::shared_ptr<const MountedCamera>& mounted() const { return mounted_; }
   /// Null before the first one. Constant, and kept for who holds it.
   std::shared_ptr<const Frame> newest() const;
   LiveCameraCounts counts() const;
@@ -108,7 +108,7 @@ class LiveCamera {
   bool has_joints(const Waiting& image) const;
   std::optional<PlaceAtExposure> place_of(const Waiting& image) const;
 
-  std::shared_ptr<const MountedCamera> view_;
+  std::shared_ptr<const MountedCamera> mounted_;
   const JointIntake& joints_;
   LiveCameraSettings settings_;
   OnFrame on_frame_;

@@ -20,9 +20,9 @@ struct RawDepth {
   int height_px = 0;
   /// From one row to the next.
   std::size_t row_bytes = 0;
-  /// "16UC1" (or "mono16"): whole numbers, in units of DepthUnits::scale_m, 0 and 65535 = no reading.
-  /// "32FC1": metres, where NaN, what is not above 0 and what is not below kMostReading_m are no
-  /// reading.
+  /// "16UC1" (or "mono16"): whole numbers, in units of DepthUnits::scale_m, 0 and 65535 = no
+  /// reading. "32FC1": metres, where NaN, what is not above 0 and what is not below kMostReading_m
+  /// are no reading.
   std::string_view encoding;
   bool is_bigendian = false;
 };

@@ -8,8 +8,8 @@
 
 namespace berth {
 
-/// So many pieces of work at a time, in the order in which they were asked for. Where a processor
-/// goes to and fro between two pieces, both are done when the longer one is.
+/// A fixed number of tasks at a time, in the order of their requests. Interleaving two tasks on one
+/// core delays the shorter one without helping the longer.
 class Turns {
  public:
   explicit Turns(int at_a_time) : at_a_time_(at_a_time) {}
@@ -30,7 +30,7 @@ class Turns {
 };
 
 /// While it lives, its thread may make an image ready. All of a process share the processors but
-/// one, which is left to who asks.
+/// one, which is left to requests.
 class ImageTurn {
  public:
   /// Waits for it. So who has a turn may end a thread that waits for one.

@@ -9,12 +9,12 @@
 
 namespace berth {
 
-bool begin_exposure(const std::shared_ptr<const MountedCamera>& view, DepthView depth_m,
+bool begin_exposure(const std::shared_ptr<const MountedCamera>& mounted, DepthView depth_m,
                     const JointState& at_exposure, FrameTime time, const PlaceAtExposure& place,
                     Exposure& out) {
-  require_size(view->camera(), depth_m);
+  require_size(mounted->camera(), depth_m);
   static std::atomic<std::uint64_t> exposures{0};
-  out.view = view;
+  out.mounted = mounted;
   out.number = ++exposures;
   out.stamp_s = at_exposure.stamp_s;
   out.time = time;
@@ -26,10 +26,10 @@ bool begin_exposure(const std::shared_ptr<const MountedCamera>& view, DepthView 
     out.pose.X_BL.clear();
     return false;
   }
-  forward_kinematics(view->robot()->model(), at_exposure.position, out.pose);
+  forward_kinematics(mounted->robot()->model(), at_exposure.position, out.pose);
   out.joints.position = at_exposure.position;
-  out.X_PC = place.X_PC.value_or(view->mount().X_PC);
-  out.X_BC = view->camera_pose(out.pose, out.X_PC);
+  out.X_PC = place.X_PC.value_or(mounted->mount().X_PC);
+  out.X_BC = mounted->camera_pose(out.pose, out.X_PC);
   out.X_WB = place.X_WB;
   return true;
 }

@@ -27,7 +27,7 @@ struct PlaceAtExposure {
 /// When and where one depth image was taken.
 struct Exposure {
   /// Whose image it is; null in a frame that nobody has observed.
-  std::shared_ptr<const MountedCamera> view;
+  std::shared_ptr<const MountedCamera> mounted;
   /// Another one at each exposure of this program.
   std::uint64_t number = 0;
   double stamp_s = 0;
@@ -48,7 +48,7 @@ struct Exposure {
 /// The first step of each observer: writes `out`. Whether its time is ok; if not, the joints are
 /// not looked at and the poses are unset. Throws std::invalid_argument unless the image has the
 /// camera's size, and for wrong joints.
-bool begin_exposure(const std::shared_ptr<const MountedCamera>& view, DepthView depth_m,
+bool begin_exposure(const std::shared_ptr<const MountedCamera>& mounted, DepthView depth_m,
                     const JointState& at_exposure, FrameTime time, const PlaceAtExposure& place,
                     Exposure& out);
 

@@ -11,7 +11,7 @@ namespace berth {
 
 struct FrameSpace;
 
-/// What one depth image tells, ready for any number of requests; constant while it is asked.
+/// What one depth image reports, ready for any number of requests; constant while it is asked.
 struct Frame : Exposure {
   Frame();
   ~Frame();
@@ -27,7 +27,7 @@ struct Frame : Exposure {
   /// that is covered, or failed.
   bool is_blind = false;
   /// Whether the camera knows where it can read, or has been told what it means where it does not:
-  /// else nobody tells what gives no reading, such as black clothes.
+  /// else nobody reports what gives no reading, such as black clothes.
   bool tells_unread = false;
   /// The share of the image's pixels that have no reading where the empty cell has one; where the
   /// camera does not know it, of all that have none and do not show the robot. NaN without an

@@ -11,7 +11,7 @@ namespace berth {
 
 CameraState camera_state(const Exposure& exposure, double now_s, const TimeSettings& settings) {
   CameraState state;
-  if (!exposure.view) return state;
+  if (!exposure.mounted) return state;
   state.stamp_s = exposure.stamp_s;
   state.age_s = now_s - exposure.stamp_s;
   state.time = exposure.time.status;
@@ -67,7 +67,7 @@ void FrameSet::assign(std::span<const Frame* const> frames, const TimeSettings& 
   newest_ = nullptr;
   double newest_s = -std::numeric_limits<double>::infinity();
   for (const Frame* frame : frames_) {
-    if (frame && frame->view) newest_s = std::max(newest_s, frame->stamp_s);
+    if (frame && frame->mounted) newest_s = std::max(newest_s, frame->stamp_s);
   }
   for (std::size_t k = 0; k < frames_.size(); ++k) {
     cameras_.push_back(camera_state(frames_[k], now_s.value_or(newest_s), settings));
@@ -88,9 +88,9 @@ void FrameSet::assign(std::span<const Frame* const> frames, const TimeSettings& 
     if (frame.space->has_rejected_space)
       posed_rejected_.push_back({&frame.space->rejected_space, X_BC_[k], 0});
   }
-  space_.assign(
-      posed_, aged ? &aged->space_ : nullptr,
-      newest_ ? std::span(newest_->view->robot()->model().guarded) : std::span<const GuardedBox>());
+  space_.assign(posed_, aged ? &aged->space_ : nullptr,
+                newest_ ? std::span(newest_->mounted->robot()->model().guarded)
+                        : std::span<const GuardedBox>());
   rejected_.assign(posed_rejected_);
   find_undecided_readings();
 }
@@ -105,7 +105,7 @@ void FrameSet::find_undecided_readings() {
     const Frame& frame = *frames_[used_[i]];
     if (frame.obstacles.count_of(PixelFate::flying_patch) == 0 || count < 2) continue;
     if (!find_undecided(space_.views(), i, frame.obstacles.fate, undecided_m_[i])) continue;
-    build_reading_space(frame.view->camera(), undecided_m_[i], frame.view->settings().space,
+    build_reading_space(frame.mounted->camera(), undecided_m_[i], frame.mounted->settings().space,
                         undecided_spaces_[i]);
     posed_.push_back({&undecided_spaces_[i], X_BC_[used_[i]], 0});
     undecided_places_.push_back(static_cast<int>(i));

@@ -57,8 +57,8 @@ float LinkSearches::assumed_thinner_m(const FrameSet& frames, const RobotPose& p
   for (const int k : frames.used()) {
     const Frame& frame = *frames.frames()[k];
     const Eigen::Vector3d middle_C_m = frames.X_BC(k).inverse() * middle_B_m;
-    if (!project_into_image(frame.view->camera(), middle_C_m)) continue;
-    const SelfFilterSettings& filter = frame.view->settings().self_filter;
+    if (!project_into_image(frame.mounted->camera(), middle_C_m)) continue;
+    const SelfFilterSettings& filter = frame.mounted->settings().self_filter;
     const Tolerance along_ray = tolerance_of(filter);
     const double z_m = middle_C_m.z();
     const double found_m =
@@ -166,7 +166,7 @@ void LinkSearches::tell_mean_directions(const FrameSet& frames, Result& out) {
   direction_views_.clear();
   for (const int k : frames.used()) {
     const Frame& frame = *frames.frames()[k];
-    direction_views_.push_back({frame.view->camera(), frame.obstacles.depth_m,
+    direction_views_.push_back({frame.mounted->camera(), frame.obstacles.depth_m,
                                 frame.space->reading_tiles, frames.X_BC(k)});
   }
   for (LinkResult& link : out.links) {
@@ -186,18 +186,18 @@ void LinkSearches::tell_visibility(const FrameSet& frames, const RobotPose& pose
   views_.clear();
   for (const int k : frames.used()) {
     const Frame& frame = *frames.frames()[k];
-    const MountedCamera& view = *frame.view;
-    views_.push_back(
-        {{view.camera(), frame.robot, frame.obstacles, tolerance_of(view.settings().self_filter)},
-         frame.space->seen.sensor_depth,
-         frames.X_BC(k).inverse()});
+    const MountedCamera& mounted = *frame.mounted;
+    views_.push_back({{mounted.camera(), frame.robot, frame.obstacles,
+                       tolerance_of(mounted.settings().self_filter)},
+                      frame.space->seen.sensor_depth,
+                      frames.X_BC(k).inverse()});
   }
   const DistanceSettings& settings = robot_->settings().distance;
   const SamplePoints& points = robot_->sample_points();
   const RobotModel& model = robot_->model();
   const bool tells = robot_->settings().visibility;
   const bool is_unobserved_told = std::ranges::none_of(frames.used(), [&](int k) {
-    return frames.frames()[k]->view->settings().space.unobserved.has_value();
+    return frames.frames()[k]->mounted->settings().space.unobserved.has_value();
   });
   if (tells) find_whole_robot_visibility(model, points, pose, views_, found_, visibility_);
   for (std::size_t i = 0; i < out.links.size(); ++i) {

@@ -109,9 +109,10 @@ MountedCamera::MountedCamera(std::shared_ptr<const Robot> robot, CameraMount mou
   if (region_scale > 0) region_meshes_ = build_link_meshes(robot_region(model, region_scale));
 }
 
-std::shared_ptr<const MountedCamera> with_robot(const MountedCamera& view,
+std::shared_ptr<const MountedCamera> with_robot(const MountedCamera& mounted,
                                                 std::shared_ptr<const Robot> robot) {
-  return std::make_shared<const MountedCamera>(std::move(robot), view.mount(), view.settings());
+  return std::make_shared<const MountedCamera>(std::move(robot), mounted.mount(),
+                                               mounted.settings());
 }
 
 }  // namespace berth

@@ -30,8 +30,8 @@ struct CameraSettings {
   std::map<std::string, double> link_padding_m;
   SensorSettings sensor;
   SpaceSettings space;
-  /// Whether the camera stands where it should. It only tells, since images that a program makes up
-  /// need not show the robot; settings_of_real_camera() refuses.
+  /// Whether the camera stands where it should. It only reports, since images that a program makes
+  /// up need not show the robot; settings_of_real_camera() refuses.
   WatchSettings watch = {.tell_only = true};
 };
 
@@ -83,7 +83,7 @@ class MountedCamera {
 };
 
 /// The same camera on a robot that has taken something up or put it down.
-std::shared_ptr<const MountedCamera> with_robot(const MountedCamera& view,
+std::shared_ptr<const MountedCamera> with_robot(const MountedCamera& mounted,
                                                 std::shared_ptr<const Robot> robot);
 
 }  // namespace berth

@@ -18,14 +18,14 @@ namespace berth {
 namespace {
 
 /// Where nobody gave another way, and the view's settings ask for one. `view` has to outlive it.
-MeasureDisplacement displacement_of(const MountedCamera& view, MeasureDisplacement given) {
-  if (given || !(view.settings().watch.max_displacement_m > 0)) return given;
-  return [&view](DepthView depth_m, const JointState& joints, const Pose& X_PC,
-                 const std::stop_token& stop) {
-    const RobotModel& model = view.robot()->model();
-    const FrameDisplacement displacement(model, view.robot()->meshes(), view.camera(),
-                                         *model.find_link(view.mount().parent_link), X_PC,
-                                         view.settings().watch.bias_m);
+MeasureDisplacement displacement_of(const MountedCamera& mounted, MeasureDisplacement given) {
+  if (given || !(mounted.settings().watch.max_displacement_m > 0)) return given;
+  return [&mounted](DepthView depth_m, const JointState& joints, const Pose& X_PC,
+                    const std::stop_token& stop) {
+    const RobotModel& model = mounted.robot()->model();
+    const FrameDisplacement displacement(model, mounted.robot()->meshes(), mounted.camera(),
+                                         *model.find_link(mounted.mount().parent_link), X_PC,
+                                         mounted.settings().watch.bias_m);
     return displacement.measure(depth_m, joints, stop);
   };
 }
@@ -52,11 +52,12 @@ std::int64_t count_unread(const RobotImage& robot, const ObstacleImage& obstacle
 /// Scratch memory, and what is remembered from image to image.
 struct Observer::Parts {
   Parts(std::shared_ptr<const MountedCamera> of, MeasureDisplacement measure)
-      : view(std::move(of)),
-        drawing(*view->robot(), view->camera()),
-        environment_back(view->robot()->model(), view->camera()),
-        watch(view->settings().watch, displacement_of(*view, std::move(measure))) {
-    if (view->region_meshes()) region_renderer.emplace(view->region_meshes(), view->camera());
+      : mounted(std::move(of)),
+        drawing(*mounted->robot(), mounted->camera()),
+        environment_back(mounted->robot()->model(), mounted->camera()),
+        watch(mounted->settings().watch, displacement_of(*mounted, std::move(measure))) {
+    if (mounted->region_meshes())
+      region_renderer.emplace(mounted->region_meshes(), mounted->camera());
   }
 
   void filter(DepthView depth_m, Frame& frame);
@@ -64,7 +65,7 @@ struct Observer::Parts {
   void tell_unread(Frame& frame) const;
   const SensorSettings& background_settings() const;
 
-  std::shared_ptr<const MountedCamera> view;
+  std::shared_ptr<const MountedCamera> mounted;
   RobotDrawing drawing;
   EnvironmentBack environment_back;
   /// Of the robot-shaped region, where there is one.
@@ -79,8 +80,8 @@ struct Observer::Parts {
   JointState at_exposure;
 };
 
-Observer::Observer(std::shared_ptr<const MountedCamera> view, MeasureDisplacement measure)
-    : parts_(std::make_unique<Parts>(std::move(view), std::move(measure))) {}
+Observer::Observer(std::shared_ptr<const MountedCamera> mounted, MeasureDisplacement measure)
+    : parts_(std::make_unique<Parts>(std::move(mounted), std::move(measure))) {}
 
 Observer::~Observer() = default;
 Observer::Observer(Observer&&) noexcept = default;
@@ -88,15 +89,15 @@ Observer& Observer::operator=(Observer&&) noexcept = default;
 
 void Observer::observe(DepthView depth_m, const JointState& at_exposure, Frame& frame,
                        FrameTime time, const PlaceAtExposure& place) {
-  const Camera& camera = parts_->view->camera();
-  if (!begin_exposure(parts_->view, depth_m, at_exposure, time, place, frame)) {
+  const Camera& camera = parts_->mounted->camera();
+  if (!begin_exposure(parts_->mounted, depth_m, at_exposure, time, place, frame)) {
     frame.watch = parts_->watch.pass_over();
     return clear_images(camera, frame);
   }
   parts_->drawing.draw(frame.pose, frame.X_BC, frame.robot);
   frame.watch = parts_->watch.look(depth_m, frame.robot, at_exposure, frame.X_PC);
   parts_->filter(depth_m, frame);
-  const CameraSettings& settings = parts_->view->settings();
+  const CameraSettings& settings = parts_->mounted->settings();
   const EnvironmentSurfaces environment = parts_->environment_back.at(frame.pose, frame.X_BC);
   apply_sensor_rules(camera, depth_m, frame.robot, parts_->known_place(environment.front_m),
                      settings.sensor, parts_->sensor, frame.obstacles);
@@ -105,7 +106,7 @@ void Observer::observe(DepthView depth_m, const JointState& at_exposure, Frame& 
 }
 
 KnownPlace Observer::Parts::known_place(DepthView environment_m) const {
-  const CameraSettings& settings = view->settings();
+  const CameraSettings& settings = mounted->settings();
   return {.background = &background,
           .environment_m = environment_m,
           .tolerance = tolerance_of(settings.self_filter),
@@ -113,10 +114,10 @@ KnownPlace Observer::Parts::known_place(DepthView environment_m) const {
 }
 
 void Observer::Parts::tell_unread(Frame& frame) const {
-  const Camera& camera = view->camera();
-  const NoReading no_reading = view->settings().space.no_reading;
+  const Camera& camera = mounted->camera();
+  const NoReading no_reading = mounted->settings().space.no_reading;
   const bool finds_holes =
-      no_reading == NoReading::hides || (view->settings().sensor.has_background() &&
+      no_reading == NoReading::hides || (mounted->settings().sensor.has_background() &&
                                          background.is_of(camera.width_px, camera.height_px));
   const std::int64_t unread = finds_holes ? frame.obstacles.count_of(PixelFate::hole)
                                           : count_unread(frame.robot, frame.obstacles);
@@ -126,20 +127,21 @@ void Observer::Parts::tell_unread(Frame& frame) const {
 }
 
 void Observer::Parts::filter(DepthView depth_m, Frame& frame) {
-  const SelfFilterSettings& settings = view->settings().self_filter;
+  const SelfFilterSettings& settings = mounted->settings().self_filter;
   if (region_renderer) {
     region_renderer->render(frame.pose, frame.X_BC, region);
-    self_filter(view->camera(), depth_m, frame.robot, region, settings, workspace, frame.obstacles);
+    self_filter(mounted->camera(), depth_m, frame.robot, region, settings, workspace,
+                frame.obstacles);
   } else {
-    self_filter(view->camera(), depth_m, frame.robot, settings, workspace, frame.obstacles);
+    self_filter(mounted->camera(), depth_m, frame.robot, settings, workspace, frame.obstacles);
   }
-  pose_soft_bodies(view->robot()->model(), frame.pose, frame.X_BC, soft);
-  drop_soft(view->camera(), soft, frame.obstacles);
+  pose_soft_bodies(mounted->robot()->model(), frame.pose, frame.X_BC, soft);
+  drop_soft(mounted->camera(), soft, frame.obstacles);
 }
 
 void Observer::observe(DepthView depth_m, double stamp_s, const JointBuffer& joints, Frame& frame,
                        double clock_offset_s, const std::optional<PlaceAtExposure>& place) {
-  const TimeSettings& settings = parts_->view->robot()->settings().time;
+  const TimeSettings& settings = parts_->mounted->robot()->settings().time;
   const TimeStatus stamp = parts_->clock.next(stamp_s);
   FrameTime time = joints.at(stamp_s + clock_offset_s, settings.joints, parts_->at_exposure);
   parts_->at_exposure.stamp_s = stamp_s;
@@ -154,27 +156,27 @@ void Observer::observe(DepthView depth_m, double stamp_s, const JointBuffer& joi
 void Observer::finish_watch(Frame& frame) { frame.watch = parts_->watch.wait(); }
 
 const SensorSettings& Observer::Parts::background_settings() const {
-  const SensorSettings& settings = view->settings().sensor;
+  const SensorSettings& settings = mounted->settings().sensor;
   if (settings.has_background()) return settings;
   throw std::invalid_argument(
       "sensor.background_frames: 0; expected 1 or more, to learn a background");
 }
 
 void Observer::learn_background(DepthView depth_m, const Frame& frame) {
-  require_size(parts_->view->camera(), depth_m);
+  require_size(parts_->mounted->camera(), depth_m);
   const SensorSettings& settings = parts_->background_settings();
   // Without its robot, or with the robot elsewhere, the image would give the arm for a background.
   if (frame.time.status != TimeStatus::ok || !frame.watch.is_trusted()) return;
-  parts_->background.learn(parts_->view->camera(), depth_m, frame.robot, frame.obstacles.fate,
+  parts_->background.learn(parts_->mounted->camera(), depth_m, frame.robot, frame.obstacles.fate,
                            settings);
 }
 
 DepthImage Observer::background_m() const {
-  return parts_->background.learned_m(parts_->view->camera(), parts_->background_settings());
+  return parts_->background.learned_m(parts_->mounted->camera(), parts_->background_settings());
 }
 
 void Observer::set_background(DepthView depth_m) {
-  require_size(parts_->view->camera(), depth_m);
+  require_size(parts_->mounted->camera(), depth_m);
   parts_->background.assign(depth_m, parts_->background_settings());
 }
 

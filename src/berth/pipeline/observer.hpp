@@ -15,7 +15,7 @@ class Observer {
  public:
   /// `measure` is how the view's WatchSettings::max_displacement_m is watched; without it, as
   /// FrameDisplacement does.
-  explicit Observer(std::shared_ptr<const MountedCamera> view, MeasureDisplacement measure = {});
+  explicit Observer(std::shared_ptr<const MountedCamera> mounted, MeasureDisplacement measure = {});
   ~Observer();
   Observer(Observer&&) noexcept;
   Observer& operator=(Observer&&) noexcept;
@@ -35,7 +35,7 @@ class Observer {
                double clock_offset_s = 0,
                const std::optional<PlaceAtExposure>& place = PlaceAtExposure{});
 
-  /// Waits for what the watch measures in the background, and tells it in `frame`, the last one:
+  /// Waits for what the watch measures in the background, and reports it in `frame`, the last one:
   /// for recordings, where nothing is to depend on how long it took.
   void finish_watch(Frame& frame);
 

@@ -15,11 +15,11 @@ bool is_blind(const ObstacleImage& obstacles) {
 }
 
 void prepare_space(DepthView sensor_depth_m, const EnvironmentSurfaces& environment, Frame& frame) {
-  const Camera& camera = frame.view->camera();
-  const SpaceSettings& settings = frame.view->settings().space;
+  const Camera& camera = frame.mounted->camera();
+  const SpaceSettings& settings = frame.mounted->settings().space;
   build_camera_space(camera, sensor_depth_m, frame.obstacles, environment, settings,
                      frame.space->seen);
-  if (frame.view->robot()->settings().distance.mean_direction) {
+  if (frame.mounted->robot()->settings().distance.mean_direction) {
     build_reading_tiles(camera, frame.obstacles.depth_m, frame.space->reading_tiles);
   }
   frame.space->has_rejected_space = !frame.space->rejected.pixels.empty();
@@ -32,9 +32,9 @@ void prepare_space(DepthView sensor_depth_m, const EnvironmentSurfaces& environm
 }  // namespace
 
 void prepare_frame(DepthView sensor_depth_m, const EnvironmentSurfaces& environment, Frame& frame) {
-  const EvaluationSettings& settings = frame.view->robot()->settings();
-  drop_phantoms(frame.view->camera(), sensor_depth_m,
-                frame.view->settings().sensor.phantom_radius_m, frame.space->phantoms,
+  const EvaluationSettings& settings = frame.mounted->robot()->settings();
+  drop_phantoms(frame.mounted->camera(), sensor_depth_m,
+                frame.mounted->settings().sensor.phantom_radius_m, frame.space->phantoms,
                 frame.obstacles);
   if (settings.visibility) {
     find_rejected(sensor_depth_m, frame.obstacles, frame.space->rejected);

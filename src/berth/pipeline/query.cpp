@@ -57,11 +57,11 @@ void begin_result(const Robot& robot, Result& result) {
 
 void tell_camera(const Exposure* exposure, const CameraState& state, CameraResult& out) {
   static_cast<CameraState&>(out) = state;
-  out.has_frame = exposure && exposure->view;
+  out.has_frame = exposure && exposure->mounted;
   if (!out.has_frame) return;
-  if (out.mounted != exposure->view) {
-    out.mounted = exposure->view;
-    out.camera = exposure->view->mount().name;
+  if (out.mounted != exposure->mounted) {
+    out.mounted = exposure->mounted;
+    out.camera = exposure->mounted->mount().name;
   }
   out.X_BC = exposure->X_BC;
 }

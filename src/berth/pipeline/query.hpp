@@ -49,7 +49,7 @@ class Query {
                      const std::optional<Pose>& X_WB);
   bool has_moved(const std::optional<Pose>& X_WB) const;
   bool has_changed(std::span<const Frame* const> frames) const;
-  /// Judges stamps and joints, and tells the pose that is asked about.
+  /// Judges stamps and joints, and reports the pose that is asked about.
   Timeliness find_pose(const JointState* joints, TimeStatus joints_status,
                        std::optional<double> now_s);
   void tell_cameras();
@@ -76,7 +76,7 @@ class Query {
 /// An empty result for this robot: names of its links, range, nothing known.
 void begin_result(const Robot& robot, Result& result);
 
-/// What a camera's newest frame tells of it.
+/// What a camera's newest frame reports on it.
 void tell_camera(const Exposure* exposure, const CameraState& state, CameraResult& out);
 /// What became of the pixels of its newest image.
 void tell_fates(const Frame& frame, CameraResult& out);

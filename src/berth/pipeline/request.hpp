@@ -79,9 +79,9 @@ struct Request {
   /// Where the robot's root stands in the frame of PlaceAtExposure::X_WB; none: where it stood at
   /// the newest exposure that is used. With a pose that is not finite the result is stale_pose.
   std::optional<Pose> X_WB = std::nullopt;
-  /// Joint angles that the robot may take next: Result::ahead tells their distances.
+  /// Joint angles that the robot may take next: Result::ahead reports their distances.
   std::span<const JointState> ahead = {};
-  /// Result::ahead tells the first of these poses that may be nearer than this.
+  /// Result::ahead reports the first of these poses that may be nearer than this.
   double nearer_than_m = 0;
   /// Ends the search within milliseconds once it is asked to stop, as a deadline would: a link that
   /// is not done is LinkStatus::cut_short, or its bounds are apart. For who waits for a request

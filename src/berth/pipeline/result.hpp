@@ -69,7 +69,7 @@ struct CameraResult : CameraState {
   /// Where the optical frame C was at that image's exposure, in the robot's root frame B: where
   /// that root stands in the request, if the image is used.
   Pose X_BC = unset_pose();
-  /// Frame::unread_share of that image, and whether the camera tells what gives no reading.
+  /// Frame::unread_share of that image, and whether the camera reports what gives no reading.
   double unread_share = std::numeric_limits<double>::quiet_NaN();
   bool tells_unread = false;
   /// Pixels of that image by PixelFate.
@@ -103,7 +103,7 @@ RequestTiming timing_of(std::vector<double> times_us);
 /// see.
 inline constexpr std::string_view kMethodName = "mesh";
 
-/// All that a request gives. It owns what it tells.
+/// All that a request gives. It owns what it reports.
 struct Result {
   ResultStatus status = ResultStatus::stale;
   /// Unless its status is ok, the result is stale.

@@ -8,7 +8,7 @@ namespace berth {
 void validate(const TimeSettings& settings) { visit_settings(settings, SettingCheck{"time"}); }
 
 TimeStatus FrameClock::next(double stamp_s) {
-  // A stamp that is no time tells nothing of the next one.
+  // A stamp that is no time says nothing about the next one.
   if (!std::isfinite(stamp_s)) return TimeStatus::stamp_jumped;
   const std::optional<double> last_s = std::exchange(last_s_, stamp_s);
   if (!last_s) return TimeStatus::ok;
@@ -19,7 +19,7 @@ TimeStatus FrameClock::next(double stamp_s) {
 Timeliness timeliness_of(const Exposure& frame, std::optional<double> now_s,
                          const TimeSettings& settings) {
   Timeliness time;
-  if (!frame.view) {
+  if (!frame.mounted) {
     time.status = TimeStatus::no_frame;
     return time;
   }

@@ -10,7 +10,7 @@
 
 namespace berth::mcap {
 
-/// What an index tells of a chunk. Offsets count from the chunk's first byte.
+/// What an index reports on a chunk. Offsets count from the chunk's first byte.
 struct ChunkInfo {
   std::uint64_t begin_ns = 0;
   std::uint64_t end_ns = 0;

@@ -61,7 +61,7 @@ std::string record_of(const Attachment& attachment) {
   return record;
 }
 
-/// Where the summary and what tells of its parts begin; 0: there is none.
+/// Where the summary and what reports on its parts begin; 0: there is none.
 std::string footer(std::uint64_t summary_begin, std::uint64_t offsets_begin) {
   constexpr std::uint64_t kSize = 8 + 8 + 4;
   std::string out;

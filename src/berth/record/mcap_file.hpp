@@ -65,7 +65,7 @@ class FileWriter {
 
   void index_attachments(std::uint64_t offset);
   std::string statistics() const;
-  /// Appends the group to the summary, and what tells where it is.
+  /// Appends the group to the summary, and what says where it is.
   void add_group(Opcode opcode, const std::string& records);
 
   const Head& head_;

@@ -67,8 +67,8 @@ void take_settings(const Json& json, std::string_view group, Settings& settings)
 constexpr std::string_view kCellFile = "cell.json";
 constexpr std::string_view kSchema = "berth/recording/1";
 
-Json json_of(const MountedCamera& view) {
-  const CameraMount& mount = view.mount();
+Json json_of(const MountedCamera& mounted) {
+  const CameraMount& mount = mounted.mount();
   Json json = {{"name", mount.name},
                {"parent_link", mount.parent_link},
                {"X_PC", exact(mount.X_PC)},
@@ -78,10 +78,10 @@ Json json_of(const MountedCamera& view) {
                {"fy_px", exact(mount.camera.fy_px)},
                {"cx_px", exact(mount.camera.cx_px)},
                {"cy_px", exact(mount.camera.cy_px)}};
-  visit_setting_groups(view.settings(), [&](std::string_view group, const auto& settings) {
+  visit_setting_groups(mounted.settings(), [&](std::string_view group, const auto& settings) {
     json[group] = settings_json(settings);
   });
-  json["link_padding_m"] = exact(view.settings().self_filter.link_padding_m);
+  json["link_padding_m"] = exact(mounted.settings().self_filter.link_padding_m);
   return json;
 }
 
@@ -136,7 +136,7 @@ RecordedCell cell_of(const mcap::FileReader& file, const Json& json, std::string
     evaluation.distance.deadline_us = std::numeric_limits<double>::infinity();
   }
   cell.robot = read_robot(file, evaluation);
-  for (const Json& camera : json.at("cameras")) cell.views.push_back(view_of(camera, cell.robot));
+  for (const Json& camera : json.at("cameras")) cell.cameras.push_back(view_of(camera, cell.robot));
   if (!json.at("separation").is_null()) cell.separation = separation_of(json.at("separation"));
   return cell;
 }
@@ -149,7 +149,7 @@ std::vector<mcap::Attachment> attachments_of(const RecordedCell& cell) {
   json["evaluation"] = settings_json(evaluation);
   json["time"] = settings_json(evaluation.time);
   json["cameras"] = Json::array();
-  for (const auto& view : cell.views) json["cameras"].push_back(json_of(*view));
+  for (const auto& mounted : cell.cameras) json["cameras"].push_back(json_of(*mounted));
   json["separation"] = cell.separation ? json_of(*cell.separation) : Json();
   std::vector<mcap::Attachment> out{{std::string(kCellFile), "application/json", json.dump(1)}};
   append_robot(*cell.robot, out);

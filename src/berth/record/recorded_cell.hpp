@@ -14,7 +14,7 @@ namespace berth {
 /// What a monitor was made of.
 struct RecordedCell {
   std::shared_ptr<const Robot> robot;
-  std::vector<std::shared_ptr<const MountedCamera>> views;
+  std::vector<std::shared_ptr<const MountedCamera>> cameras;
   /// None: nothing was monitored.
   std::optional<SeparationSettings> separation;
   /// The version that recorded.

@@ -95,8 +95,8 @@ mcap::Head head_of(const RecordedCell& cell) {
   add_json(kRequestChannel, "/monitor/request", "berth.Request");
   add_json(kResultChannel, "/monitor/result", "berth.Result");
   add_json(kJointsChannel, "/joint_messages", "berth.JointMessage");
-  for (std::size_t k = 0; k < cell.views.size(); ++k) {
-    const std::string topic = "/" + cell.views[k]->mount().name;
+  for (std::size_t k = 0; k < cell.cameras.size(); ++k) {
+    const std::string topic = "/" + cell.cameras[k]->mount().name;
     add_json(channel_of(k, kExposureOfCamera), topic + "/exposure", "berth.Exposure");
     head.channels.push_back({channel_of(k, kDepthOfCamera), kImageSchema, topic + "/depth", "cdr"});
     head.channels.push_back(

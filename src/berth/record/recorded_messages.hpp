@@ -1,4 +1,4 @@
-// Inside record/ only: what a recording tells, message by message.
+// Inside record/ only: what a recording holds, message by message.
 #pragma once
 
 #include <array>

@@ -30,7 +30,7 @@ Enum one_of(const Json& value, const auto& names) {
   throw std::runtime_error(fmt::format("{}; expected a name that is known", value.dump()));
 }
 
-/// Attaches the mesh, and tells under which name; null for one without triangles.
+/// Attaches the mesh, and reports under which name; null for one without triangles.
 Json append_mesh(const TriangleMesh& mesh, const std::string& of,
                  std::vector<mcap::Attachment>& out) {
   if (mesh.empty()) return Json();

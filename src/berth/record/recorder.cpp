@@ -18,7 +18,7 @@ namespace {
 
 /// Recordings begin anew so often in the ring's time.
 constexpr double kSegments = 4;
-/// A clock that jumps tells nothing of how much was recorded.
+/// A clock that jumps says nothing about how much was recorded.
 constexpr double kMostStep_s = 1;
 
 double steady_now_s() {
@@ -47,7 +47,7 @@ void copy(DepthView from, DepthImage& to) {
 
 using KeptImage = std::shared_ptr<const RecordedImage>;
 
-/// Images that nobody asks are kept up to so many of each camera.
+/// The most images of each camera that are kept without a request.
 constexpr std::size_t kMostKept = 64;
 
 /// The images of one camera that a request may still be about.
@@ -81,7 +81,7 @@ class KeptImages {
 struct Recorder::Parts {
   Parts(RecordedCell of, RecorderSettings with);
 
-  std::size_t camera_of(const MountedCamera* view) const;
+  std::size_t camera_of(const MountedCamera* mounted) const;
   void put(KeptImage image);
 
   /// In the loop's thread.
@@ -134,16 +134,16 @@ Recorder::Parts::Parts(RecordedCell of, RecorderSettings with)
     : cell(std::move(of)),
       settings(std::move(with)),
       tape(cell, settings),
-      kept(cell.views.size()),
-      backgrounds(cell.views.size()) {}
+      kept(cell.cameras.size()),
+      backgrounds(cell.cameras.size()) {}
 
-std::size_t Recorder::Parts::camera_of(const MountedCamera* view) const {
-  for (std::size_t k = 0; k < cell.views.size(); ++k) {
-    if (cell.views[k].get() == view) return k;
+std::size_t Recorder::Parts::camera_of(const MountedCamera* mounted) const {
+  for (std::size_t k = 0; k < cell.cameras.size(); ++k) {
+    if (cell.cameras[k].get() == mounted) return k;
   }
   throw std::invalid_argument(fmt::format(
       "frame: of camera {}, whose MountedCamera is none of the recorder's; expected one of those",
-      view ? view->mount().name : "none"));
+      mounted ? mounted->mount().name : "none"));
 }
 
 void Recorder::Parts::put(KeptImage image) {
@@ -164,8 +164,8 @@ void Recorder::Parts::put(KeptImage image) {
 
 bool Recorder::Parts::are_kept(const Request& request) {
   return std::ranges::all_of(request.frames.get(), [&](const Frame* frame) {
-    if (!frame || !frame->view) return true;
-    return kept[camera_of(frame->view.get())].holds(frame->number);
+    if (!frame || !frame->mounted) return true;
+    return kept[camera_of(frame->mounted.get())].holds(frame->number);
   });
 }
 
@@ -201,7 +201,7 @@ bool Recorder::Parts::open(const Query& query, const Request& request, bool begi
     return false;
   }
   for (const Frame* frame : request.frames.get()) {
-    if (frame && frame->view) kept[camera_of(frame->view.get())].drop_before(frame->number);
+    if (frame && frame->mounted) kept[camera_of(frame->mounted.get())].drop_before(frame->number);
   }
   answer = tape.spare_answer();
   answer->begins = begins;
@@ -250,7 +250,7 @@ void Recorder::Parts::fill(const Request& request, const JointState* of_joints,
   out.joints_status = joints_status;
   out.frames.clear();
   for (const Frame* frame : request.frames.get()) {
-    out.frames.push_back(frame && frame->view ? frame->number : 0);
+    out.frames.push_back(frame && frame->mounted ? frame->number : 0);
   }
   fill_space(request.frames);
   out.is_stopped = request.stop.stop_requested();
@@ -274,12 +274,12 @@ void Recorder::Parts::close() {
   const std::lock_guard lock(mutex);
   // What came since it was opened stands before it on the tape, where nobody looks any more.
   if (answer->begins) add_needed();
-  // Those that it tells of, if it is taken.
+  // Those that it reports on, if it is taken.
   const std::int64_t of_images = answer->begins ? answer->begin.lost_images : 0;
   const std::int64_t of_requests = answer->begins ? answer->begin.lost_requests : 0;
   const bool is_stop = answer->is_stop;
   if (!tape.put(std::exchange(answer, nullptr))) {
-    // The next one tells it.
+    // The next one reports it.
     has_stopped |= is_stop;
     return lose_request();
   }
@@ -288,11 +288,11 @@ void Recorder::Parts::close() {
 }
 
 Recorder::Recorder(std::shared_ptr<const Robot> robot,
-                   std::vector<std::shared_ptr<const MountedCamera>> views,
+                   std::vector<std::shared_ptr<const MountedCamera>> cameras,
                    std::optional<SeparationSettings> separation, RecorderSettings settings) {
   validate(settings);
   parts_ = std::make_unique<Parts>(
-      RecordedCell{std::move(robot), std::move(views), std::move(separation), BERTH_VERSION},
+      RecordedCell{std::move(robot), std::move(cameras), std::move(separation), BERTH_VERSION},
       std::move(settings));
 }
 
@@ -302,8 +302,8 @@ Recorder::~Recorder() {
 }
 
 void Recorder::put(const Frame& frame, DepthView depth_m) {
-  const std::size_t camera = parts_->camera_of(frame.view.get());
-  require_size(frame.view->camera(), depth_m);
+  const std::size_t camera = parts_->camera_of(frame.mounted.get());
+  require_size(frame.mounted->camera(), depth_m);
   const std::shared_ptr<RecordedImage> image = parts_->images.take();
   image->camera = camera;
   image->is_background = false;
@@ -317,9 +317,9 @@ void Recorder::put(const Frame& frame, DepthView depth_m) {
   parts_->put(image);
 }
 
-void Recorder::put_background(const MountedCamera& view, DepthView depth_m) {
-  const std::size_t camera = parts_->camera_of(&view);
-  require_size(view.camera(), depth_m);
+void Recorder::put_background(const MountedCamera& mounted, DepthView depth_m) {
+  const std::size_t camera = parts_->camera_of(&mounted);
+  require_size(mounted.camera(), depth_m);
   const std::shared_ptr<RecordedImage> image = parts_->images.take();
   image->camera = camera;
   image->is_background = true;

@@ -35,8 +35,8 @@ struct RecorderSettings {
   bool on_stop = true;
   /// How much of what follows a stop is in its recording.
   double after_stop_s = 1;
-  /// Recordings for stops; of more than that none is written. So many rings may be left by
-  /// programs that crashed; where more are, the recorder throws.
+  /// The most recordings that are written for stops, and the most rings that crashed programs may
+  /// have left: of more, the recorder throws.
   int most_files = 20;
   /// What may wait for the disk, in memory. What comes beyond that is lost, and is told.
   std::size_t most_waiting_bytes = std::size_t{256} << 20;
@@ -63,7 +63,7 @@ struct RecorderCounts {
 /// A black box: what a monitor saw and said in the last seconds, in a ring on disk. A recording has
 /// depth images, joints, all settings, the robot, requests, and results, and Replay gives these
 /// results once more from it, to the last bit. A thread of its own packs and writes; who gives it
-/// something only waits for a copy to be made, and who asks allocates nothing once it is warm.
+/// something only waits for a copy to be made, and a request allocates nothing once it is warm.
 ///
 /// It asks for you, since it has to know which joints a buffer gave, and since each quarter of the
 /// ring begins with a request that knows nothing of those before (Query::forget): that one takes as
@@ -74,7 +74,7 @@ class Recorder {
   /// monitored. All frames are of these cameras. Throws std::runtime_error where the folder cannot
   /// be written to, std::invalid_argument for a setting outside of its domain.
   Recorder(std::shared_ptr<const Robot> robot,
-           std::vector<std::shared_ptr<const MountedCamera>> views,
+           std::vector<std::shared_ptr<const MountedCamera>> cameras,
            std::optional<SeparationSettings> separation, RecorderSettings settings);
   /// As finish(), without a word.
   ~Recorder();
@@ -86,7 +86,7 @@ class Recorder {
   void put(const Frame& frame, DepthView depth_m);
   /// What a camera's observer takes for its background from now on (Observer::background_m), for
   /// those whose settings ask for one.
-  void put_background(const MountedCamera& view, DepthView depth_m);
+  void put_background(const MountedCamera& mounted, DepthView depth_m);
   /// A joint message as it came, for people: a replay has the joints of requests and images. From
   /// any thread.
   void push_joints(double stamp_s, std::span<const std::string> names,

@@ -62,7 +62,7 @@ std::optional<ReplayDifference> first_difference(const std::string& recorded,
 
 struct Replay::Parts {
   explicit Parts(const std::filesystem::path& path)
-      : file(path), cell(read_cell(file)), again(cell), exposures(cell.views.size()) {}
+      : file(path), cell(read_cell(file)), again(cell), exposures(cell.cameras.size()) {}
 
   /// Whether it completes a request.
   bool take(const mcap::Message& message);

@@ -18,11 +18,11 @@ std::optional<double> measure_nothing(DepthView, const JointState&, const Pose&,
 
 }  // namespace
 
-ReplayedCell::ReplayedCell(const RecordedCell& cell) : cell_(cell), frames_(cell.views.size()) {}
+ReplayedCell::ReplayedCell(const RecordedCell& cell) : cell_(cell), frames_(cell.cameras.size()) {}
 
 void ReplayedCell::begin(const RecordedBegin& begin) {
   observers_.clear();
-  for (const auto& view : cell_.views) observers_.emplace_back(view, measure_nothing);
+  for (const auto& mounted : cell_.cameras) observers_.emplace_back(mounted, measure_nothing);
   query_.emplace(cell_.robot, begin.camera_names);
   prepared_.reset();
   asked_.clear();

@@ -46,7 +46,7 @@ Tape::Tape(const RecordedCell& cell, const RecorderSettings& settings)
     tell(fmt::format("{}: a program that crashed, or that still runs, left it; this one's is {}",
                      first.string(), ring_->folder().string()));
   }
-  for (const auto& view : cell.views) camera_names_.push_back(view->mount().name);
+  for (const auto& mounted : cell.cameras) camera_names_.push_back(mounted->mount().name);
   thread_ = std::jthread([this] { run(); });
 }
 

@@ -16,7 +16,7 @@ HWY_BEFORE_NAMESPACE();
 namespace berth {
 namespace HWY_NAMESPACE {
 
-/// Rectangles of at most so many pixels are filled side by side.
+/// The most pixels of a rectangle that is filled side by side.
 constexpr float kSmall_pixels = 16;
 
 template <Layer layer>

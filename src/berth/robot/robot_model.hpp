@@ -71,7 +71,7 @@ struct MovableJoint {
   double max_speed = 0;
 };
 
-/// The robot as its URDF tells; constant once loaded.
+/// The robot as its URDF describes it; constant once loaded.
 struct RobotModel {
   std::string name;
   /// Parents before children; links[0] is the root, whose frame is B.

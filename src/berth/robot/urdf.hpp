@@ -24,7 +24,7 @@ struct Urdf {
   double number(const pugi::xml_node& element, const char* attribute, double otherwise = 0) const;
   Eigen::Vector3d vector(const pugi::xml_node& element, const char* attribute,
                          const Eigen::Vector3d& otherwise) const;
-  /// What <origin> in a joint or shape tells: xyz, and rpy or the quat_xyzw of URDF 1.1.
+  /// What <origin> in a joint or shape says: xyz, and rpy or the quat_xyzw of URDF 1.1.
   Pose origin_of(const pugi::xml_node& part) const;
   [[noreturn]] void fail(const pugi::xml_node& place, const std::string& what) const;
 

@@ -24,7 +24,7 @@ namespace {
 // The log has one listener for the whole process.
 std::mutex log_mutex;
 
-/// urdfdom tells its errors to the log of the process alone: this listens while it parses.
+/// urdfdom reports its errors to the log of the process alone: this listens while it parses.
 class LogListener : public console_bridge::OutputHandler {
  public:
   LogListener() : lock_(log_mutex) { console_bridge::useOutputHandler(this); }

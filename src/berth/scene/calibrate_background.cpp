@@ -74,7 +74,7 @@ SceneCameraChange& change_of(SceneChange& change, const std::string& camera) {
 OpenScene open_learning(const OpenScene& scene, const fs::path& new_file,
                         const std::function<void()>& pause, SceneChange change) {
   for (const OpenCamera& camera : scene.cameras) {
-    if (is_carried(scene, camera) || camera.view->settings().sensor.has_background()) continue;
+    if (is_carried(scene, camera) || camera.mounted->settings().sensor.has_background()) continue;
     change_of(change, camera.source.name).maps["sensor"]["background_frames"] = kAgreeing;
   }
   SceneFile learning = parse_scene(new_file, rewritten_scene(scene.file, change, new_file));
@@ -84,7 +84,7 @@ OpenScene open_learning(const OpenScene& scene, const fs::path& new_file,
 }
 
 DepthImage learn(const OpenCamera& camera, const std::function<void()>& pause) {
-  Observer observer(camera.view);
+  Observer observer(camera.mounted);
   learn_background(
       camera, {{0, camera.source.depth.size()}}, pause,
       [&](DepthView depth_m, const Frame& frame) { observer.learn_background(depth_m, frame); });
@@ -119,8 +119,8 @@ CalibratedBackgrounds calibrate_backgrounds(const OpenScene& scene, const fs::pa
       if (calibrated.known_share() == 0) {
         why = fmt::format(
             "{} of its {} images have to show a place alike, with the robot {:g} m away",
-            camera.view->settings().sensor.background_frames, camera.source.depth.size(),
-            camera.view->settings().sensor.background_clearance_m);
+            camera.mounted->settings().sensor.background_frames, camera.source.depth.size(),
+            camera.mounted->settings().sensor.background_clearance_m);
       }
     }
     if (!why.empty()) {
@@ -129,7 +129,7 @@ CalibratedBackgrounds calibrate_backgrounds(const OpenScene& scene, const fs::pa
     }
     SceneCameraChange& of_camera = change_of(change, name);
     of_camera.background = calibrated.file;
-    if (!scene.cameras[i].view->settings().sensor.has_background()) {
+    if (!scene.cameras[i].mounted->settings().sensor.has_background()) {
       of_camera.maps["sensor"]["background_frames"] = kAgreeing;
     }
     all.learned.push_back(std::move(calibrated));

@@ -19,7 +19,7 @@
 namespace berth {
 namespace {
 
-/// D is measured in so many frames: it takes a tenth of a second.
+/// The number of frames in which D is measured: it takes a tenth of a second.
 constexpr std::size_t kMostDisplacements = 10;
 
 /// Where no pose explains the images, a simple mistake may.
@@ -138,8 +138,8 @@ void tell_monitor(const OpenScene& scene, SceneCalibration& calibration) {
         1000 * kDrawnDiameters_m.back()));
   }
   for (const OpenCamera& camera : scene.cameras) {
-    told_m = std::max(told_m,
-                      detection_capability_m(camera.view->settings().space, camera.view->camera()));
+    told_m = std::max(
+        told_m, detection_capability_m(camera.mounted->settings().space, camera.mounted->camera()));
   }
   calibration.change.values[{"separation", "detection_m"}] = fmt::format("{}", told_m);
   SeparationSettings settings = *scene.separation;
@@ -171,7 +171,7 @@ SceneCalibration calibrate_scene(const OpenScene& scene, const SceneCalibrationD
   const CalibrationData& calibration_data = carrying.calibration_data();
   for (std::size_t c = 0; c < scene.cameras.size(); ++c) {
     settings.fit.pause();
-    const CameraSettings& present = scene.cameras[c].view->settings();
+    const CameraSettings& present = scene.cameras[c].mounted->settings();
     const bool corrects = settings.correct_depth && found.cameras[c].refused.empty();
     calibration.filters.push_back(
         propose_filter(calibration_data, c, found, corrects, present.self_filter, present.sensor));

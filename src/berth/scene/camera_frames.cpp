@@ -5,23 +5,23 @@
 namespace berth {
 
 CameraFrames::CameraFrames(const OpenCamera& camera, const FramePool& pool)
-    : camera_(&camera), observer_(camera.view), pool_(pool) {}
+    : camera_(&camera), observer_(camera.mounted), pool_(pool) {}
 
 void CameraFrames::begin_given_background() {
-  if (!camera_->view->settings().sensor.has_background()) return;
+  if (!camera_->mounted->settings().sensor.has_background()) return;
   if (camera_->background_m) observer_.set_background(*camera_->background_m);
 }
 
 void CameraFrames::begin_background(const std::function<void()>& before_image) {
   begin_given_background();
-  if (camera_->background_m || !camera_->view->settings().sensor.has_background()) return;
+  if (camera_->background_m || !camera_->mounted->settings().sensor.has_background()) return;
   learn_background(
       *camera_, images_to_learn_from(*camera_), before_image,
       [&](DepthView depth_m, const Frame& frame) { observer_.learn_background(depth_m, frame); });
 }
 
 std::optional<DepthImage> CameraFrames::background_m() const {
-  if (!camera_->view->settings().sensor.has_background()) return std::nullopt;
+  if (!camera_->mounted->settings().sensor.has_background()) return std::nullopt;
   return observer_.background_m();
 }
 

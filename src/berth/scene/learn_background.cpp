@@ -14,7 +14,8 @@ constexpr std::size_t kImagesForEachThatAgrees = 8;
 
 std::vector<ImageRun> images_to_learn_from(const OpenCamera& camera) {
   const std::size_t count = camera.source.depth.size();
-  const auto agreeing = static_cast<std::size_t>(camera.view->settings().sensor.background_frames);
+  const auto agreeing =
+      static_cast<std::size_t>(camera.mounted->settings().sensor.background_frames);
   const std::size_t most = std::max(kMostToLearnFrom, kImagesForEachThatAgrees * agreeing);
   if (count <= most) return {{0, count}};
   const std::size_t length = most / kRunsOfImages;
@@ -31,7 +32,7 @@ void learn_background(const OpenCamera& camera, const std::vector<ImageRun>& run
   Frame frame;
   for (const ImageRun& run : runs) {
     // A new one for each: what it knows of the image before would be of another time.
-    Observer observer(camera.view);
+    Observer observer(camera.mounted);
     for (std::size_t k = run.first; k < run.first + run.count; ++k) {
       before_image();
       const DepthImage depth_m = camera.read_depth(k);

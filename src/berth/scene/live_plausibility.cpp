@@ -13,13 +13,13 @@ namespace {
 
 OpenCamera camera_of(const LiveImages& live) {
   OpenCamera camera;
-  const CameraMount& mount = live.view->mount();
+  const CameraMount& mount = live.mounted->mount();
   camera.source.name = mount.name;
   camera.source.parent_link = mount.parent_link;
   camera.source.X_PC = mount.X_PC;
   camera.source.depth_scale_m = live.depth_scale_m;
   camera.source.depth.resize(live.images.size());
-  camera.view = live.view;
+  camera.mounted = live.mounted;
   for (const LiveImage& image : live.images) {
     camera.at_exposure.push_back(image.at_exposure);
     camera.exposure_time.emplace_back();
@@ -32,7 +32,7 @@ OpenCamera camera_of(const LiveImages& live) {
 OpenScene scene_of(const std::vector<LiveImages>& cameras) {
   OpenScene scene;
   for (const LiveImages& live : cameras) {
-    scene.robot = live.view->robot();
+    scene.robot = live.mounted->robot();
     scene.cameras.push_back(camera_of(live));
   }
   return scene;
@@ -56,7 +56,7 @@ std::size_t count_poses(const LiveImages& live) {
 
 void judge_focal_length(const LiveImages& live, const std::function<void()>& pause,
                         CameraPlausibility& camera) {
-  const bool is_asked = live.view->settings().watch.min_at_robot > 0 && !camera.is_implausible;
+  const bool is_asked = live.mounted->settings().watch.min_at_robot > 0 && !camera.is_implausible;
   if (!is_asked || !camera.readings.tells() || count_poses(live) < kLeastPosesForFocalLength) {
     return;
   }

@@ -21,17 +21,17 @@ struct LiveImage {
 
 /// Some images of one camera, one after another, and how they are believed to be.
 struct LiveImages {
-  std::shared_ptr<const MountedCamera> view;
+  std::shared_ptr<const MountedCamera> mounted;
   /// The unit of its images, for what is told.
   double depth_scale_m = 0.001;
   std::vector<LiveImage> images;
 };
 
-/// A focal length is judged where a camera has images of at least so many poses of the robot.
+/// A focal length is judged where a camera has images of at least this number of poses.
 inline constexpr std::size_t kLeastPosesForFocalLength = 5;
 
 /// The same as find_implausible() of a scene, for all cameras of one robot. More than a scene's
-/// run, it tells a focal length that is wrong by less than a quarter: where a camera's images fit
+/// run, it reports a focal length that is wrong by less than a quarter: where a camera's images fit
 /// no pose but one from which its depth would be wrong, or fit none well, and fit with another
 /// focal length, it is implausible. In the calling thread alone; takes a second or so for each
 /// camera, and some where there is another focal length. `pause` is called now and then; to stop,

@@ -130,19 +130,20 @@ void find_joints(const JointTrajectory& joints, OpenCamera& camera) {
     } else {
       camera.exposure_time[frame] =
           joints.at(source.stamps_s[frame] + source.clock_offset_s,
-                    camera.view->robot()->settings().time.joints, camera.at_exposure[frame]);
+                    camera.mounted->robot()->settings().time.joints, camera.at_exposure[frame]);
     }
     // The frame keeps its own stamp, the joints those of their clock.
     camera.at_exposure[frame].stamp_s -= source.clock_offset_s;
     any_ok |= camera.exposure_time[frame].status == TimeStatus::ok;
   }
   if (any_ok) return;
-  throw std::runtime_error(fmt::format(
-      "{}: no joint angles for any stamp of camera {}, from {} to {} s; expected "
-      "times from {} to {} s, and a row within {} s of a stamp where the robot moves "
-      "(time.max_skew_s); are both in seconds?",
-      joints.source(), source.name, source.stamps_s.front(), source.stamps_s.back(),
-      joints.first_s(), joints.last_s(), camera.view->robot()->settings().time.joints.max_skew_s));
+  throw std::runtime_error(
+      fmt::format("{}: no joint angles for any stamp of camera {}, from {} to {} s; expected "
+                  "times from {} to {} s, and a row within {} s of a stamp where the robot moves "
+                  "(time.max_skew_s); are both in seconds?",
+                  joints.source(), source.name, source.stamps_s.front(), source.stamps_s.back(),
+                  joints.first_s(), joints.last_s(),
+                  camera.mounted->robot()->settings().time.joints.max_skew_s));
 }
 
 /// Throws MissingFile where there is nothing at the path that the scene's `key` names.
@@ -198,11 +199,11 @@ OpenCamera& add_camera(const SceneFile& source, const Camera& pinhole,
   camera.source = from;
   camera.rectification = std::move(rectification);
   const CameraMount mount{pinhole, from.parent_link, from.X_PC, from.name};
-  camera.view = with_file_named(source, [&] {
+  camera.mounted = with_file_named(source, [&] {
     return std::make_shared<const MountedCamera>(scene.robot, mount, from.settings);
   });
   if (scene.separation) {
-    const std::string trouble = detection_trouble(*scene.separation, *camera.view);
+    const std::string trouble = detection_trouble(*scene.separation, *camera.mounted);
     if (!trouble.empty()) {
       scene.warnings.push_back(fmt::format("{}: {}", source.file.string(), trouble));
     }
@@ -273,8 +274,8 @@ DepthImage decode(const OpenCamera& camera, std::size_t frame, double near_m, do
 }  // namespace
 
 bool tells_unread(const OpenCamera& camera) {
-  return camera.view->settings().sensor.has_background() ||
-         camera.view->settings().space.no_reading != NoReading::unknown;
+  return camera.mounted->settings().sensor.has_background() ||
+         camera.mounted->settings().space.no_reading != NoReading::unknown;
 }
 
 DepthImage OpenCamera::read_depth(std::size_t frame) const {
@@ -334,7 +335,7 @@ OpenScene reopen_scene(const OpenScene& before, const SceneFile& changed,
   scene.separation = checked_separation(changed);
   scene.frame_count = before.frame_count;
   for (const OpenCamera& from : before.cameras) {
-    add_camera(changed, from.view->camera(), from.rectification, scene).kept_depth_m =
+    add_camera(changed, from.mounted->camera(), from.rectification, scene).kept_depth_m =
         from.kept_depth_m;
   }
   return scene;

@@ -18,7 +18,7 @@ namespace berth {
 /// A camera of a scene: its view of the robot, its images and the robot's joints in each of them.
 struct OpenCamera {
   SceneCamera source;
-  std::shared_ptr<const MountedCamera> view;
+  std::shared_ptr<const MountedCamera> mounted;
   /// The joint angles when each image was exposed.
   std::vector<JointState> at_exposure;
   /// And how they were found: all NaN where this is not ok.
@@ -32,7 +32,7 @@ struct OpenCamera {
   std::shared_ptr<const Rectification> rectification;
 
   /// The camera as the files have it, which `view` has rectified.
-  const Camera& given() const { return rectification ? rectification->given() : view->camera(); }
+  const Camera& given() const { return rectification ? rectification->given() : mounted->camera(); }
   /// In metres, rectified. Throws std::runtime_error where the image cannot be decoded.
   DepthImage read_depth(std::size_t frame) const;
   /// The same from its file, with readings that near_m and far_m leave out.
@@ -61,7 +61,7 @@ struct OpenScene {
 /// read_mesh_file does.
 std::vector<Attachment> attachments_of(const SceneFile& scene);
 
-/// Images are kept in memory up to so many bytes in all; the rest is decoded each time.
+/// Images are kept in memory up to this number of bytes in all; the rest is decoded each time.
 inline constexpr std::size_t kMostKeptBytes = std::size_t{512} << 20;
 
 /// Opens all that the scene names. Both ends of each depth image are looked at, so that one that is

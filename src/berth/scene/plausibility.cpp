@@ -183,7 +183,7 @@ Tried tried(const OpenScene& scene, RobotInImages& images, const CameraBelief& b
 }
 
 /// Whether a part that is not where it should be is there then, and the others are no worse.
-bool mends_part(const Tried& now, const Tried& then) {
+bool fixes_part(const Tried& now, const Tried& then) {
   return std::ranges::any_of(now.of_part, [&](const auto& part) {
     const RobotReadings& before = part.second;
     const RobotReadings& after = then.of_part.at(part.first);
@@ -212,7 +212,7 @@ bool explains(const Tried& now, const Tried& then) {
   const bool gains = points(then.all) - points(now.all) >= kLeastGainInPoints * counted(now.all) &&
                      now.all.behind - then.all.behind >= kLeastSeenThrough * counted(now.all);
   return (gains && then.share >= kLeastWithSmallGain) || is_close_then(now, then) ||
-         mends_part(now, then);
+         fixes_part(now, then);
 }
 
 /// Those that explain where the robot is, the best first.
@@ -306,7 +306,7 @@ std::string counted_text(const RobotReadings& readings, std::size_t frames) {
 }  // namespace
 
 CameraPlausibility find_implausible(const OpenScene& scene, std::size_t number) {
-  const double least = scene.cameras[number].view->settings().watch.min_at_robot;
+  const double least = scene.cameras[number].mounted->settings().watch.min_at_robot;
   CameraPlausibility camera;
   camera.camera = scene.cameras[number].source.name;
   if (least == 0) return camera;

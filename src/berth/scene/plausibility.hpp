@@ -14,8 +14,8 @@ struct CameraPlausibility {
   std::string camera;
   /// Nothing may be concluded from its images.
   bool is_implausible = false;
-  /// Something hides the robot in all images that were looked at: nothing tells whether it is where
-  /// it should be. No mistake.
+  /// Something hides the robot in all images that were looked at: nothing reports whether it is
+  /// where it should be. No mistake.
   bool is_hidden = false;
   /// What was counted in the images that were looked at, and how many these are.
   RobotReadings readings;

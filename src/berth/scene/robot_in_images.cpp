@@ -56,15 +56,15 @@ RobotInImages::RobotInImages(const OpenScene& scene, std::size_t camera)
       frames_(frames_to_look_at(scene.cameras[camera], kMostFrames)) {
   const OpenCamera& source = scene.cameras[camera];
   given_.images_of = camera;
-  given_.mount = source.view->mount();
+  given_.mount = source.mounted->mount();
   for (const std::size_t k : frames_) given_.positions.push_back(source.at_exposure[k].position);
 }
 
 const DepthImage& RobotInImages::depth_m(std::size_t camera, std::size_t frame) {
   const auto [place, is_new] = depth_m_.try_emplace({camera, frame});
   const OpenCamera& from = scene_.cameras[camera];
-  const Camera& size = this->camera().view->camera();
-  const Camera& own = from.view->camera();
+  const Camera& size = this->camera().mounted->camera();
+  const Camera& own = from.mounted->camera();
   const bool is_there = frame < from.source.depth.size() && own.width_px == size.width_px &&
                         own.height_px == size.height_px;
   if (is_new && is_there) {
@@ -82,24 +82,24 @@ RobotReadings RobotInImages::readings(const CameraBelief& belief) {
 }
 
 RobotReadings RobotInImages::readings(const CameraBelief& belief, std::size_t i) {
-  const MountedCamera view(scene_.robot, belief.mount);
+  const MountedCamera mounted(scene_.robot, belief.mount);
   RobotRenderer renderer(scene_.robot->meshes(), belief.mount.camera);
-  if (!believe(belief, view, renderer, i)) return {};
-  return read_robot(changed_m_, robot_, camera().view->settings().watch.bias_m);
+  if (!believe(belief, mounted, renderer, i)) return {};
+  return read_robot(changed_m_, robot_, camera().mounted->settings().watch.bias_m);
 }
 
 std::vector<RobotReadings> RobotInImages::readings_of_links(const CameraBelief& belief) {
-  const MountedCamera view(scene_.robot, belief.mount);
+  const MountedCamera mounted(scene_.robot, belief.mount);
   RobotRenderer renderer(scene_.robot->meshes(), belief.mount.camera);
   std::vector<RobotReadings> of_link(scene_.robot->model().evaluated_links.size());
   for (std::size_t i = 0; i < frames_.size(); ++i) {
-    if (!believe(belief, view, renderer, i)) continue;
-    read_links(changed_m_, robot_, camera().view->settings().watch.bias_m, of_link);
+    if (!believe(belief, mounted, renderer, i)) continue;
+    read_links(changed_m_, robot_, camera().mounted->settings().watch.bias_m, of_link);
   }
   return of_link;
 }
 
-bool RobotInImages::believe(const CameraBelief& belief, const MountedCamera& view,
+bool RobotInImages::believe(const CameraBelief& belief, const MountedCamera& mounted,
                             RobotRenderer& renderer, std::size_t i) {
   const DepthImage& read_m = depth_m(belief.images_of, frames_[i]);
   if (read_m.pixels().empty()) return false;
@@ -109,7 +109,7 @@ bool RobotInImages::believe(const CameraBelief& belief, const MountedCamera& vie
   if (belief.is_along_ray) turn_to_axis(belief.mount.camera, changed_m_);
   if (belief.is_mirrored) mirror(changed_m_);
   forward_kinematics(scene_.robot->model(), belief.positions[i], pose_);
-  renderer.render(pose_, view.camera_pose(pose_), robot_);
+  renderer.render(pose_, mounted.camera_pose(pose_), robot_);
   return true;
 }
 

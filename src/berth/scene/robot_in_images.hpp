@@ -60,7 +60,7 @@ class RobotInImages {
  private:
   /// Draws the robot in frames()[i] and makes of the image what is believed of it; false where
   /// there is none.
-  bool believe(const CameraBelief& belief, const MountedCamera& view, RobotRenderer& renderer,
+  bool believe(const CameraBelief& belief, const MountedCamera& mounted, RobotRenderer& renderer,
                std::size_t i);
 
   const OpenScene& scene_;

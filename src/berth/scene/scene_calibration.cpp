@@ -127,7 +127,7 @@ SceneCalibrationData make_calibration_data(const OpenScene& scene) {
     warn(from, usable, material.warnings);
     auto camera = std::make_unique<CalibrationCamera>();
     camera->name = from.source.name;
-    camera->camera = from.view->camera();
+    camera->camera = from.mounted->camera();
     camera->parent = *scene.robot->model().find_link(from.source.parent_link);
     camera->X_PC = from.source.X_PC;
     camera->clock_offset_s = from.source.clock_offset_s;

@@ -17,7 +17,7 @@
 
 namespace berth {
 
-/// A camera as SCENE.yaml tells of it, with the files of its images.
+/// A camera as SCENE.yaml describes it, with the files of its images.
 struct SceneCamera {
   std::string name;
   std::filesystem::path info;

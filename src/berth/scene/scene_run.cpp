@@ -33,49 +33,48 @@ std::vector<std::string> names_of(const std::vector<OpenCamera>& cameras) {
   return names;
 }
 
+MonitorLoop make_loop(const OpenScene& scene, bool is_monitored) {
+  try {
+    return {scene.robot, names_of(scene.cameras),
+            is_monitored ? scene.separation : std::optional<SeparationSettings>()};
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(fmt::format("{}: {}", scene.file.string(), error.what()));
+  }
+}
+
 }  // namespace
 
 SceneRun::SceneRun(const OpenScene& scene, const std::function<void()>& before_image)
-    : SceneRun(scene, require_plausible(scene)) {
+    : SceneRun(scene, require_plausible(scene), true) {
   require_choice(scene);
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     if (!plausibility_[i].is_implausible) cameras_[i].begin_background(before_image);
   }
-  make_monitor();
 }
 
 SceneRun::SceneRun(const OpenScene& scene, SingleSteps)
-    : SceneRun(scene, std::vector<CameraPlausibility>(scene.cameras.size())) {
+    : SceneRun(scene, std::vector<CameraPlausibility>(scene.cameras.size()), false) {
   for (CameraFrames& camera : cameras_) {
     camera.tell_watch(nullptr);
     camera.begin_given_background();
   }
 }
 
-SceneRun::SceneRun(const OpenScene& scene, std::vector<CameraPlausibility> known)
+SceneRun::SceneRun(const OpenScene& scene, std::vector<CameraPlausibility> known, bool is_monitored)
     : scene_(scene),
       plausibility_(std::move(known)),
       steps_(scene_steps(scene)),
       kept_(scene.cameras.size()),
-      query_(scene.robot, names_of(scene.cameras)) {
+      loop_(make_loop(scene, is_monitored)) {
   std::map<std::pair<int, int>, FramePool> pools;
   for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
-    const Camera& size = scene.cameras[i].view->camera();
+    const Camera& size = scene.cameras[i].mounted->camera();
     cameras_.emplace_back(scene.cameras[i], pools[{size.width_px, size.height_px}]);
     if (plausibility_[i].is_implausible) cameras_[i].distrust();
   }
 }
 
 SceneRun::~SceneRun() = default;
-
-void SceneRun::make_monitor() {
-  if (!scene_.separation) return;
-  try {
-    monitor_.emplace(scene_.robot, *scene_.separation);
-  } catch (const std::invalid_argument& error) {
-    throw std::runtime_error(fmt::format("{}: {}", scene_.file.string(), error.what()));
-  }
-}
 
 void SceneRun::observe(std::size_t camera, std::size_t image) {
   cameras_[camera].observe(image);
@@ -95,9 +94,10 @@ bool SceneRun::next() {
 
 void SceneRun::record_with(Recorder& recorder) {
   recorder_ = &recorder;
+  loop_.record_with(recorder_);
   for (std::size_t i = 0; i < scene_.cameras.size(); ++i) {
     const std::optional<DepthImage> background = background_m(i);
-    if (background) recorder.put_background(*scene_.cameras[i].view, *background);
+    if (background) recorder.put_background(*scene_.cameras[i].mounted, *background);
   }
 }
 
@@ -124,15 +124,15 @@ void SceneRun::keep_frames() {
 
 Result SceneRun::ask(int repeat) {
   const auto ask = [this](int i) -> const Result& {
-    if (i > 0) query_.forget();
-    const Request request{.frames = kept_, .stop = stop_};
-    return recorder_ ? recorder_->ask(query_, request) : query_.ask(request);
+    if (i > 0) loop_.forget();
+    return loop_.ask({.frames = kept_, .stop = stop_});
   };
   std::optional<RequestTiming> timing;
-  Result told = ask_repeatedly(repeat, ask, timing);
+  const Result& asked = ask_repeatedly(repeat, ask, timing);
+  if (loop_.has_monitor()) scene_.joints->velocity(asked.joints_stamp_s, velocity_);
+  Result told = loop_.monitor(velocity_, step().stamp_s);
   told.timing = timing;
   tell_scene(told);
-  monitor(told);
   return told;
 }
 
@@ -144,15 +144,6 @@ void SceneRun::tell_scene(Result& result) {
     result.cameras[i].frame = static_cast<int>(*cameras_[i].number());
     result.cameras[i].self_filter = cameras_[i].frame()->obstacles.count;
   }
-}
-
-void SceneRun::monitor(Result& result) {
-  if (!monitor_) return;
-  scene_.joints->velocity(result.joints_stamp_s, velocity_);
-  const FrameSet* const frames = &query_.frames();
-  result.separation = recorder_
-                          ? recorder_->update(*monitor_, result, velocity_, result.stamp_s, frames)
-                          : monitor_->update(result, velocity_, result.stamp_s, frames);
 }
 
 }  // namespace berth

@@ -7,12 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "berth/pipeline/query.hpp"
+#include "berth/record/monitor_loop.hpp"
 #include "berth/scene/camera_frames.hpp"
 #include "berth/scene/open_scene.hpp"
 #include "berth/scene/plausibility.hpp"
 #include "berth/scene/scene_steps.hpp"
-#include "berth/separation/monitor.hpp"
 
 namespace berth {
 
@@ -89,18 +88,16 @@ class SceneRun {
   std::size_t frame_number(std::size_t camera) const { return *cameras_[camera].number(); }
   const DepthImage& sensor_depth_m(std::size_t camera) const { return cameras_[camera].depth_m(); }
   /// What the images leave of space.
-  const FrameSet& frame_set() const { return query_.frames(); }
+  const FrameSet& frame_set() const { return loop_.frames(); }
 
  private:
-  SceneRun(const OpenScene& scene, std::vector<CameraPlausibility> known);
+  SceneRun(const OpenScene& scene, std::vector<CameraPlausibility> known, bool is_monitored);
 
   const ImageStep& step() const { return steps_[step_ - 1]; }
-  void make_monitor();
   void observe(std::size_t camera, std::size_t image);
   void keep_frames();
   /// Numbers and stamp as the scene has them.
   void tell_scene(Result& result);
-  void monitor(Result& result);
 
   const OpenScene& scene_;
   std::vector<CameraPlausibility> plausibility_;
@@ -110,12 +107,10 @@ class SceneRun {
   std::size_t step_ = 0;
   std::size_t observed_ = 0;
   std::vector<std::shared_ptr<const Frame>> kept_;
-  Query query_;
+  MonitorLoop loop_;
   std::stop_token stop_;
   /// Null: nothing is recorded.
   Recorder* recorder_ = nullptr;
-  /// Where the scene asks for one.
-  std::optional<SeparationMonitor> monitor_;
   std::vector<double> velocity_;
 };
 

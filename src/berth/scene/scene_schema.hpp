@@ -5,8 +5,8 @@
 namespace berth {
 
 /// What a scene file may be, as JSON Schema (draft 2020-12), in lines: keys, types, domains,
-/// defaults and a sentence for each. It tells what one value can show. What hangs on another value
-/// or another file, such as a stamp for each image, read_scene() tells.
+/// defaults and a sentence for each. It says what one value can show. What hangs on another value
+/// or another file, such as a stamp for each image, read_scene() reports.
 std::string scene_schema();
 
 }  // namespace berth

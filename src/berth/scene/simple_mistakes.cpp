@@ -173,9 +173,9 @@ class Mistakes {
       if (c == given_.images_of) continue;
       add(fmt::format("the images were those of camera {}", name_of(c)),
           [&](CameraBelief& belief) { belief.images_of = c; });
-      if (scene_.cameras[c].view->mount().parent_link != given_.mount.parent_link) continue;
+      if (scene_.cameras[c].mounted->mount().parent_link != given_.mount.parent_link) continue;
       add_pose(fmt::format("the pose were that of camera {}", name_of(c)),
-               scene_.cameras[c].view->mount().X_PC);
+               scene_.cameras[c].mounted->mount().X_PC);
     }
     add_frame_shift(1, "the joints were those of one image later");
     add_frame_shift(-1, "the joints were those of one image earlier");

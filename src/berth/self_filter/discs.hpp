@@ -11,8 +11,8 @@
 
 namespace berth {
 
-/// A reading of z metres is on a surface if at least so many of its eight neighbours differ from it
-/// by at most joined_step_m(z). A mixed pixel is not: its neighbours lie before or behind.
+/// A reading of z metres is on a surface if at least this number of its eight neighbours differ
+/// from it by at most joined_step_m(z). A mixed pixel is not: its neighbours lie before or behind.
 inline constexpr int kLeastOnSurface = 5;
 
 /// The pixels around an outline pixel that its growth reaches, a circle or an ellipse: those with

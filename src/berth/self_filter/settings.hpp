@@ -73,7 +73,7 @@ void visit_settings(Settings& s, Visitor&& visit) {
         s.flying_patch_radius_m);
   visit({"robot_region_scale",
          {.least = 1, .has_off = true},
-         "what is not seen through the robot enlarged so many times is ignored, however near "
+         "what is not seen through the robot enlarged by this factor is ignored, however near "
          "(the thesis: 6); distances can be too large; 0 is off"},
         s.robot_region_scale);
 }

@@ -24,9 +24,9 @@ class Background {
   /// environment, and the evaluated links, grown by background_clearance_m on all sides and at all
   /// depths, do not cover it. A pixel's readings agree as long as none differs from the least of
   /// them by more than the noise; one that does begins anew. Nearer to the robot, but not within
-  /// kRobotShadow_m, a reading tells no more than that there is one. Nothing is known of a pixel
-  /// that lost its reading there in more than a quarter as many images as had one: cameras flicker at
-  /// outlines and on what is far.
+  /// kRobotShadow_m, a reading reports no more than that there is one. Nothing is known of a pixel
+  /// that lost its reading there in more than a quarter as many images as had one: cameras flicker
+  /// at outlines and on what is far.
   void learn(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,
              const Image<PixelFate>& fates, const SensorSettings& settings);
 
@@ -42,7 +42,7 @@ class Background {
   }
 
   /// The least of the readings once background_frames of them agree. Infinite where they do not,
-  /// but so many images have one there; else NaN.
+  /// but this number of images has one there; else NaN.
   float depth_m(int u, int v, const SensorSettings& settings) const {
     if (4 * lost_count_(u, v) > read_count_(u, v)) return kNoDepth;
     if (count_(u, v) >= settings.background_frames) return least_m_(u, v);

@@ -39,7 +39,7 @@ namespace berth {
 namespace HWY_NAMESPACE {
 
 /// Of the pixels from u on, those that may be alone, as bits: kept ones that are not within d in
-/// depth of so many of their eight neighbours that nobody asks for more.
+/// depth of enough of their eight neighbours, so that no search is needed.
 template <class D>
 HWY_INLINE std::uint64_t doubtful_bits(D d, const PhantomRows& rows, int u, float d_m) {
   const auto z_m = hn::LoadU(d, rows.row_m[1] + u);
@@ -128,7 +128,7 @@ void find_doubtful(const DepthImage& depth_m, float d_m, std::vector<Pixel>& out
   }
 }
 
-/// Whether so many readings, itself among them, lie within d. Most stand in the nearest rows.
+/// Whether `wanted` readings, itself among them, lie within d. Most stand in the nearest rows.
 bool has_support(DepthView sensor_depth_m, const ObstacleImage& image, Pixel p, int reach_px,
                  float d_m, int wanted) {
   const int width = sensor_depth_m.width;

@@ -20,9 +20,9 @@ struct SensorSettings {
   /// ball of this diameter would show, at most 5, is dropped as speckle (drop_phantoms);
   /// 0 turns the rule off.
   double phantom_radius_m = 0.03;
-  /// A pixel of the empty cell is known once so many images agree on it; 0 turns the rule off. What
-  /// the robot hides of it stays an obstacle, and where it was read and nothing is read now,
-  /// something is that gives no reading (find_holes()).
+  /// A pixel of the empty cell is known once this number of images agrees on it; 0 turns the rule
+  /// off. What the robot hides of it stays an obstacle, and where it was read and nothing is read
+  /// now, something is that gives no reading (find_holes()).
   int background_frames = 0;
   /// No background is learned where the robot is within this length in the image, at its depth. No
   /// setting: nobody can choose it.
@@ -48,7 +48,8 @@ void visit_settings(Settings& s, Visitor&& visit) {
          "size shows, at most 5; 0 is off"},
         s.phantom_radius_m);
   visit({"background_frames", kNotNegative,
-         "what so many images of the empty cell agree on stands where the robot hides it now, and "
+         "what this number of images of the empty cell agrees on stands where the robot hides it "
+         "now, and "
          "something is where it cannot be read any more; 0 is off"},
         s.background_frames);
 }

@@ -22,7 +22,7 @@ class BrakingPath {
   BrakingPath(std::shared_ptr<const Robot> robot, const std::vector<HullPoints>& hulls);
 
   /// Lays the poses side by side, from `now` to where the robot is after end_s at full speed.
-  /// Returns whether the motion tells its way so far.
+  /// Returns whether the motion gives its way so far.
   bool lay(const RobotPose& now, const PlannedMotion& motion, double end_s);
 
   /// When the robot is there at full speed.

@@ -12,9 +12,9 @@
 namespace berth {
 /// What lies beside a row on either side: four vectors, and as much as the greatest ring reaches.
 constexpr int kMargin = 160;
-/// Rows begin at a multiple of so many numbers, the most that a vector has.
+/// Rows begin at a multiple of this number, the longest vector's.
 constexpr int kAlign = 32;
-/// Which rings occur is known for so many pixels of a row at once.
+/// The pixels of a row for which the rings that occur are known at once.
 constexpr int kBlock_px = 64;
 
 /// What a ring's row is made of.
@@ -256,7 +256,7 @@ class Rings {
      row_at(std::size_t(3 * (greatest_ + 1))), out);
   }
 
-  /// What holds in a row: nothing is free at the image's ends.
+  /// Writes the final row; border pixels free nothing.
   void finish(int v, DepthUnits* out) {
     if (images_.is_image && (v == 0 || v + 1 == height_ || width_ < 3)) {
       std::fill_n(out, width_, DepthUnits{0});

@@ -98,7 +98,7 @@ void fill_least_of_discs(const RunRing& ring, const DiscRows& disc, int y, int b
   fill_discs(ring, disc, y, begin, end, out, TakeLeast());
 }
 
-/// The least that two neighbours, one of them the pixel itself, both have at most.
+/// max(self, min of the four neighbours).
 void fill_pairs(const DepthUnits* above, const DepthUnits* middle, const DepthUnits* below,
                 int width, DepthUnits* out) {
   for (int x = 0; x < width; x += kShorts) {
@@ -180,14 +180,14 @@ HWY_EXPORT(raise);
 
 namespace {
 
-/// From a block's middle to the nearest and the farthest pixel of the one that is so many blocks
-/// away, along an axis.
+/// From a block's middle to the nearest and the farthest pixel of the one that is this number of
+/// blocks away, along an axis.
 double nearest_px(int side_px, int blocks) {
   return blocks == 0 ? (side_px - 1) / 2.0 : side_px * blocks - (side_px - 1) / 2.0;
 }
 double farthest_px(int side_px, int blocks) { return side_px * blocks + (side_px - 1) / 2.0; }
 
-/// All blocks within so many of one.
+/// All blocks within this distance, in blocks, of one.
 DiscRows looked_at_by(const ClosingTier& tier) {
   DiscRows disc;
   disc.last_row = tier.radius_blocks;

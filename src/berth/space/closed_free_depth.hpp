@@ -22,7 +22,7 @@ struct ClosingWorkspace {
 };
 
 /// Discs that a ball covers wherever its centre lies: all blocks of side_px x side_px pixels, that
-/// begin at whole multiples of it, within so many blocks of some block.
+/// begin at whole multiples of it, within this number of blocks of some block.
 struct ClosingTier {
   int side_px;
   int radius_blocks;

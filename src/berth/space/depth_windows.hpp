@@ -41,7 +41,7 @@ struct DepthWindows {
   int height() const { return levels.empty() ? 0 : levels[0].rows; }
   DepthUnits operator()(int u, int v) const { return levels[0].row(v)[u]; }
 
-  /// The windows of which four cover a rectangle with a side of so many pixels, more than
+  /// The windows of which four cover a rectangle with a side of this number of pixels, more than
   /// kMostPixels.
   const Level& level_for(int longest_px) const {
     int n = 2;

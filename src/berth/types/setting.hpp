@@ -1,4 +1,4 @@
-// A setting is written once: in its struct, and in visit_settings() beside it, which tells its
+// A setting is written once: in its struct, and in visit_settings() beside it, which reports its
 // name, domain and one sentence. Validation, scene files, the command line and its help, and the
 // tables in the documents are made from that. The name ends in the unit (_m, _px, _s, _us).
 #pragma once

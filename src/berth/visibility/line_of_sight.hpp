@@ -37,7 +37,7 @@ Sight sight_of_space(const SeenFrame& frame, const Eigen::Vector3d& p_C_m);
 /// A point of a surface, and the pixel that shows it.
 struct SurfaceSight {
   Sight sight;
-  /// Whether the robot image shows the point: seen, but for what the sensor tells.
+  /// Whether the robot image shows the point: seen, but for what the sensor reports.
   bool is_drawn;
 };
 

@@ -11,7 +11,7 @@ namespace {
 
 /// Fewer pixels of the robot, at every second pixel of every second row, tell no pose.
 constexpr double kLeastPixels = 300;
-/// The depth's error was learnt at calibration: one frame tells less of it.
+/// The depth's error was learnt at calibration: one frame shows less of it.
 constexpr double kBiasDeviation_m = 0.002;
 constexpr double kScaleDeviation = 0.002;
 constexpr ScoreSettings kJudge{2, 0.03, 10};

@@ -57,10 +57,10 @@ inline constexpr double kMostHiddenForDisplacement = 0.4;
 /// (WatchSettings; two of three for D). A frame that says nothing is no verdict: it neither raises
 /// nor clears.
 ///
-/// It also tells, without anything that was learned, that a camera is implausible: the camera sees
-/// through nearly all of the robot. The first frame that says something decides at once, so that no
-/// answer stands on a mistake of the scene; then k of n frames do. One for each camera, used by one
-/// thread.
+/// It also reports, without anything that was learned, that a camera is implausible: the camera
+/// sees through nearly all of the robot. The first frame that says something decides at once, so
+/// that no answer stands on a mistake of the scene; then k of n frames do. One for each camera,
+/// used by one thread.
 class PoseWatch {
  public:
   /// Throws std::invalid_argument for settings outside of their domain, and where

@@ -11,7 +11,7 @@ double share(int part, int all) {
   return all > 0 ? static_cast<double>(part) / all : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Every so many rows, whole: next to each other, pixels cost less than on a grid of points, since
+/// Every Nth row, whole: next to each other, pixels cost less than on a grid of points, since
 /// memory comes in lines of 16.
 int row_step(const PixelRect& rect) {
   const std::int64_t pixels = std::int64_t{rect.u_end - rect.u_begin} * (rect.v_end - rect.v_begin);

@@ -14,7 +14,7 @@ struct WatchSettings {
   /// (RobotReadings::at_robot) speaks for an implausible camera; 0 is off. The default lies in the
   /// middle between good scenes and mistakes (figures in docs/calibration.md).
   double min_at_robot = 0.02;
-  /// Whether frames of such a camera are used all the same, with a status that tells of it: for
+  /// Whether frames of such a camera are used all the same, with a status that says so: for
   /// images that a program makes up.
   bool tell_only = false;
   /// T of a frame (RobotReadings::seen_through) above this speaks for a camera that moved; 0 is
@@ -25,8 +25,8 @@ struct WatchSettings {
   /// How far readings of the robot lie behind its surface while all is well, in the median: an
   /// error of the camera's depth, not of its place.
   double bias_m = 0;
-  /// So many of this many last frames have to agree, for a camera to count as moved by T, and to
-  /// count as back in its place.
+  /// `agreeing_frames` of the last `frames` have to agree, for a camera to count as moved by T, and
+  /// to count as back in its place.
   int agreeing_frames = 10;
   int frames = 15;
   /// D is measured in the background, at most once in this time of the frames' stamps. Two of the

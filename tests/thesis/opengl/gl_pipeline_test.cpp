@@ -22,19 +22,19 @@ class GlPipeline : public testing::GlTest {
       : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml")),
         camera_(scene_.cameras.front()) {
     // They are dropped on the CPU alone.
-    scene_.cameras.front().view = view_with({.phantom_radius_m = 0});
+    scene_.cameras.front().mounted = view_with({.phantom_radius_m = 0});
   }
 
   std::shared_ptr<const MountedCamera> view_with(const SensorSettings& sensor) const {
-    CameraSettings settings = camera_.view->settings();
+    CameraSettings settings = camera_.mounted->settings();
     settings.sensor = sensor;
-    return testing::view_with(*camera_.view, settings);
+    return testing::view_with(*camera_.mounted, settings);
   }
 
   Frame observe_on_cpu(std::size_t i) const { return observe_on_cpu(i, camera_.read_depth(i)); }
   Frame observe_on_cpu(std::size_t i, const DepthImage& depth_m) const {
     Frame frame;
-    Observer(camera_.view).observe(depth_m, camera_.at_exposure[i], frame);
+    Observer(camera_.mounted).observe(depth_m, camera_.at_exposure[i], frame);
     return frame;
   }
 
@@ -64,7 +64,7 @@ class GlPipeline : public testing::GlTest {
 };
 
 TEST_F(GlPipeline, AnswersAreThoseOfTheCpu) {
-  const auto& gl_view = camera_.view;
+  const auto& gl_view = camera_.mounted;
   GlObserver observer(gl_view);
   GlImageQuery gl_query(scene_.robot, Method::gl_exact);
   ImageQuery query(scene_.robot, Method::exact);
@@ -96,7 +96,7 @@ TEST_F(GlPipeline, AFrameOfTheCpuIsUploadedForTheRequest) {
 }
 
 TEST_F(GlPipeline, AFrameReadBackIsWhatWasAsked) {
-  const auto& gl_view = camera_.view;
+  const auto& gl_view = camera_.mounted;
   GlObserver observer(gl_view);
   GlFrame gl_frame(gl_view->camera());
   observer.observe(camera_.read_depth(5), camera_.at_exposure[5], gl_frame);
@@ -112,7 +112,7 @@ TEST_F(GlPipeline, AFrameReadBackIsWhatWasAsked) {
 }
 
 TEST_F(GlPipeline, AStaleFrameHasNoAnswerAndNoImages) {
-  const auto& gl_view = camera_.view;
+  const auto& gl_view = camera_.mounted;
   GlObserver observer(gl_view);
   GlImageQuery query(scene_.robot, Method::gl_exact);
   GlFrame gl_frame(gl_view->camera());
@@ -143,8 +143,8 @@ TEST_F(GlPipeline, AMethodOfTheOtherBackendIsRefused) {
 
 TEST_F(GlPipeline, ASensorRuleIsRefusedByName) {
   const auto refusal = [&](const SensorSettings& sensor) {
-    const auto view = view_with(sensor);
-    return error_message<std::invalid_argument>([&] { GlObserver observer(view); });
+    const auto mounted = view_with(sensor);
+    return error_message<std::invalid_argument>([&] { GlObserver observer(mounted); });
   };
   const std::string rest = ": runs on the CPU alone; expected it off on OpenGL";
   EXPECT_EQ(refusal({.speckle_px = 20}), "sensor.speckle_px" + rest);
@@ -155,10 +155,10 @@ TEST_F(GlPipeline, ASensorRuleIsRefusedByName) {
 TEST_F(GlPipeline, AWatchIsRefusedByName) {
   for (const WatchSettings& watch :
        {WatchSettings{.max_seen_through = 0.03}, WatchSettings{.max_displacement_m = 0.02}}) {
-    CameraSettings settings = camera_.view->settings();
+    CameraSettings settings = camera_.mounted->settings();
     settings.watch = watch;
-    const auto view = testing::view_with(*camera_.view, settings);
-    EXPECT_EQ(error_message<std::invalid_argument>([&] { GlObserver observer(view); }),
+    const auto mounted = testing::view_with(*camera_.mounted, settings);
+    EXPECT_EQ(error_message<std::invalid_argument>([&] { GlObserver observer(mounted); }),
               "watch: a camera is watched on the CPU alone; expected max_seen_through and "
               "max_displacement_m to be 0 on OpenGL");
   }
@@ -167,14 +167,14 @@ TEST_F(GlPipeline, AWatchIsRefusedByName) {
 TEST_F(GlPipeline, WhatIsSoftIsRefused) {
   Attachment hose{"hose", "arm_link_7", make_sphere(0.1)};
   hose.is_soft = true;
-  const auto view = with_robot(*camera_.view, attach(*camera_.view->robot(), hose));
+  const auto mounted = with_robot(*camera_.mounted, attach(*camera_.mounted->robot(), hose));
   EXPECT_EQ(
-      error_message<std::invalid_argument>([&] { GlObserver observer(view); }),
+      error_message<std::invalid_argument>([&] { GlObserver observer(mounted); }),
       "attached: what is soft is taken out on the CPU alone; expected nothing soft on OpenGL");
 }
 
 TEST_F(GlPipeline, AnImageOfAnotherSizeIsRefused) {
-  const auto& gl_view = camera_.view;
+  const auto& gl_view = camera_.mounted;
   GlObserver observer(gl_view);
   GlFrame frame(gl_view->camera());
   EXPECT_EQ(error_message<std::invalid_argument>(

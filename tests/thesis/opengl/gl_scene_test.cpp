@@ -53,19 +53,19 @@ class GlSceneTest : public testing::GlTest, public ::testing::WithParamInterface
     if (!std::filesystem::exists(file_))
       GTEST_SKIP() << "needs the recordings; BERTH_DATA names their folder";
     scene_ = open_scene(file_);
-    CameraSettings settings = camera().view->settings();
+    CameraSettings settings = camera().mounted->settings();
     // A rule for `mesh`, which is not on the GPU.
     settings.sensor.phantom_radius_m = 0;
-    scene_.cameras.front().view = testing::view_with(*camera().view, settings);
+    scene_.cameras.front().mounted = testing::view_with(*camera().mounted, settings);
   }
 
   const OpenCamera& camera() const { return scene_.cameras.front(); }
   /// One of the frames: software renders slowly.
   std::size_t frame_number() const { return camera().source.depth.size() / 2; }
   std::shared_ptr<const MountedCamera> view_filtered(const SelfFilterSettings& self_filter) const {
-    CameraSettings settings = camera().view->settings();
+    CameraSettings settings = camera().mounted->settings();
     settings.self_filter = self_filter;
-    return testing::view_with(*camera().view, settings);
+    return testing::view_with(*camera().mounted, settings);
   }
 
   std::filesystem::path file_;
@@ -73,13 +73,13 @@ class GlSceneTest : public testing::GlTest, public ::testing::WithParamInterface
 };
 
 TEST_P(GlSceneTest, FatesAreThoseOfTheCpuForTheSameRobot) {
-  const std::shared_ptr<const MountedCamera>& view = camera().view;
-  const SelfFilterSettings& settings = view->settings().self_filter;
-  GlUpload upload = upload_for(view->camera());
-  const GlTexture sensor_depth_m = depth_texture_for(view->camera());
-  GlFrame gl(view->camera());
+  const std::shared_ptr<const MountedCamera>& mounted = camera().mounted;
+  const SelfFilterSettings& settings = mounted->settings().self_filter;
+  GlUpload upload = upload_for(mounted->camera());
+  const GlTexture sensor_depth_m = depth_texture_for(mounted->camera());
+  GlFrame gl(mounted->camera());
   GlSelfFilter filter;
-  Observer observer(view);
+  Observer observer(mounted);
   Frame frame;
   ObstacleImage found;
   const std::size_t i = frame_number();
@@ -87,17 +87,18 @@ TEST_P(GlSceneTest, FatesAreThoseOfTheCpuForTheSameRobot) {
   observer.observe(depth_m, camera().at_exposure[i], frame);
   upload.send(depth_m, sensor_depth_m);
   upload.send(frame.robot, gl.images->robot);
-  filter.filter(view->camera(), sensor_depth_m, gl.images->robot, settings, gl.images->obstacles);
+  filter.filter(mounted->camera(), sensor_depth_m, gl.images->robot, settings,
+                gl.images->obstacles);
   read_back(gl.images->obstacles, found);
   EXPECT_EQ(differing_fates(found, frame.obstacles), 0) << "frame " << i;
   EXPECT_EQ(filter.count(), frame.obstacles.count) << "frame " << i;
 }
 
 TEST_P(GlSceneTest, ImagesAndDistancesAreThoseOfTheCpuButAtEdges) {
-  const std::shared_ptr<const MountedCamera>& view = camera().view;
-  GlObserver gl_observer(view);
-  GlFrame gl(view->camera());
-  Observer observer(view);
+  const std::shared_ptr<const MountedCamera>& mounted = camera().mounted;
+  GlObserver gl_observer(mounted);
+  GlFrame gl(mounted->camera());
+  Observer observer(mounted);
   Frame frame;
   RobotImage robot;
   ObstacleImage obstacles;
@@ -121,21 +122,21 @@ TEST_P(GlSceneTest, ImagesAndDistancesAreThoseOfTheCpuButAtEdges) {
   EXPECT_LE(d.edge_share(), kMostAtEdges) << "frame " << i;
   EXPECT_LE(fates, kMostFates * depth_m.width() * depth_m.height()) << "frame " << i;
 
-  const int links = view->robot()->model().link_count();
+  const int links = mounted->robot()->model().link_count();
   ImageDistanceSettings settings;
-  static_cast<DistanceSettings&>(settings) = view->robot()->settings().distance;
+  static_cast<DistanceSettings&>(settings) = mounted->robot()->settings().distance;
   searchable.build(frame.obstacles.depth_m);
-  evaluate(Method::exact, {view->camera(), frame.robot, links, searchable, settings}, workspace,
+  evaluate(Method::exact, {mounted->camera(), frame.robot, links, searchable, settings}, workspace,
            from_cpu);
   searchable.build(obstacles.depth_m);
-  evaluate(Method::exact, {view->camera(), robot, links, searchable, settings}, workspace,
+  evaluate(Method::exact, {mounted->camera(), robot, links, searchable, settings}, workspace,
            from_gpu);
   for (int link = 0; link < links; ++link) {
     EXPECT_EQ(from_gpu.links[link].status, from_cpu.links[link].status);
     if (from_cpu.links[link].status != LinkStatus::ok) continue;
     const double error_m =
         std::abs(from_gpu.links[link].distance_m - from_cpu.links[link].distance_m);
-    const double pixel_m = from_cpu.links[link].robot_point_C_m.z() / view->camera().fx_px;
+    const double pixel_m = from_cpu.links[link].robot_point_C_m.z() / mounted->camera().fx_px;
     EXPECT_LE(error_m, kDistanceError_px * pixel_m) << "frame " << i << ", link " << link + 1;
     largest_m = std::max(largest_m, error_m);
   }
@@ -143,21 +144,21 @@ TEST_P(GlSceneTest, ImagesAndDistancesAreThoseOfTheCpuButAtEdges) {
 }
 
 TEST_P(GlSceneTest, OnePassFiltersAsTheRulesForSinglePixelsDo) {
-  SelfFilterSettings settings = camera().view->settings().self_filter;
+  SelfFilterSettings settings = camera().mounted->settings().self_filter;
   settings.padding_m = 0;
   settings.link_padding_m.clear();
   settings.flying_patch_radius_m = 0;
-  const auto view = view_filtered(settings);
-  GlFrame gl(view->camera());
+  const auto mounted = view_filtered(settings);
+  GlFrame gl(mounted->camera());
   const std::size_t i = frame_number();
   const DepthImage depth_m = camera().read_depth(i);
-  GlObserver(view).observe(depth_m, camera().at_exposure[i], gl);
+  GlObserver(mounted).observe(depth_m, camera().at_exposure[i], gl);
   ObstacleImage by_rules;
   read_back(gl.images->obstacles, by_rules);
-  const GlTexture sensor_depth_m = depth_texture_for(view->camera());
-  upload_for(view->camera()).send(depth_m, sensor_depth_m);
-  const GlTexture filtered = depth_texture_for(view->camera());
-  GlRobotRenderer renderer(view->robot()->model(), view->camera());
+  const GlTexture sensor_depth_m = depth_texture_for(mounted->camera());
+  upload_for(mounted->camera()).send(depth_m, sensor_depth_m);
+  const GlTexture filtered = depth_texture_for(mounted->camera());
+  GlRobotRenderer renderer(mounted->robot()->model(), mounted->camera());
   renderer.render_and_filter(gl.pose, gl.X_BC, {}, sensor_depth_m, tolerance_of(settings),
                              gl.images->robot, filtered);
   DepthImage in_pass;
@@ -189,12 +190,12 @@ TEST_P(GlSceneTest, OnePassFiltersAsTheRulesForSinglePixelsDo) {
 }
 
 TEST_P(GlSceneTest, TheRobotShapedRegionIsThatOfTheCpuButAtEdges) {
-  SelfFilterSettings settings = camera().view->settings().self_filter;
+  SelfFilterSettings settings = camera().mounted->settings().self_filter;
   settings.robot_region_scale = 3;
-  const auto view = view_filtered(settings);
-  GlObserver gl_observer(view);
-  GlFrame gl(view->camera());
-  Observer observer(view);
+  const auto mounted = view_filtered(settings);
+  GlObserver gl_observer(mounted);
+  GlFrame gl(mounted->camera());
+  Observer observer(mounted);
   Frame frame;
   ObstacleImage obstacles;
   const std::size_t i = frame_number();

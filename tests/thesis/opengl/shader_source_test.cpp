@@ -24,7 +24,7 @@ TEST(ShaderSourceTest, GlslangValidatorAcceptsEveryShader) {
   }
   const TemporaryFolder folder;
   for (const std::string_view file : shader_files()) {
-    // glslangValidator tells the stage from name.stage.
+    // glslangValidator reports the stage from name.stage.
     const std::string stage(file.substr(file.size() - 9, 4));
     const auto path = folder.path() / ("shader." + stage);
     std::ofstream(path) << shader_source(file);

@@ -9,7 +9,7 @@
 layout(local_size_x = 256) in;
 
 uniform sampler2D obstacle_depth_m;
-uniform ivec2 step_px;       // every so many columns and rows of obstacle pixels are tried
+uniform ivec2 step_px;       // every Nth column and row of obstacle pixels is tried
 uniform float farthest_m2;   // a pair has to be closer
 uniform uint former_slices;  // of the search before; 0 in the first
 // Of each link as many as the search has slices.

@@ -1,0 +1,37 @@
+#include "berth/record/monitor_loop.hpp"
+
+#include <cassert>
+#include <utility>
+
+#include "berth/record/recorder.hpp"
+
+namespace berth {
+
+MonitorLoop::MonitorLoop(std::shared_ptr<const Robot> robot, std::vector<std::string> camera_names,
+                         const std::optional<SeparationSettings>& separation)
+    : query_(robot, std::move(camera_names)) {
+  if (separation) monitor_.emplace(std::move(robot), *separation);
+}
+
+const Result& MonitorLoop::ask(const Request& request) {
+  asked_ = recorder_ ? &recorder_->ask(query_, request) : &query_.ask(request);
+  return *asked_;
+}
+
+const Result& MonitorLoop::monitor(const PlannedMotion& motion, double now_s, bool with_frames) {
+  assert(asked_ && "a result of ask()");
+  if (!monitor_) return *asked_;
+  monitored_ = *asked_;
+  monitored_.separation = update_recorded(recorder_, *monitor_, *asked_, motion, now_s,
+                                          with_frames ? &query_.frames() : nullptr);
+  return monitored_;
+}
+
+const Separation& update_recorded(Recorder* recorder, SeparationMonitor& monitor,
+                                  const Result& result, const PlannedMotion& motion, double now_s,
+                                  const FrameSet* frames) {
+  return recorder ? recorder->update(monitor, result, motion, now_s, frames)
+                  : monitor.update(result, motion, now_s, frames);
+}
+
+}  // namespace berth
