@@ -12,7 +12,7 @@
 
 namespace berth::sim {
 
-/// What is wrong. Zeros: nothing.
+/// The errors that are drawn. Zeros: none.
 struct CalibrationErrors {
   /// The sensor reports depths that are too large by this part of them.
   double depth_share = 0;
@@ -44,7 +44,7 @@ struct DrawnCalibrationData {
   Pose X_PC_true;
   /// What calibration should add to each joint.
   std::vector<double> joint_shift;
-  /// What is believed of the joints at each frame's true time.
+  /// The joints that are believed at each frame's true time.
   std::vector<std::vector<double>> joints_at_exposure;
 };
 

@@ -8,7 +8,7 @@
 
 namespace berth::sim {
 
-/// What is carried, as boxes that overlap, in the frame L of its link.
+/// A thing that is carried, as boxes that overlap, in the frame L of its link.
 struct DrawnThing {
   struct Piece {
     Pose X_LP = Pose::Identity();

@@ -1,4 +1,4 @@
-// Who and what moves beside a robot that is calibrated, though nobody should.
+// Company: people and things that move beside a robot that is calibrated, though nobody should.
 #pragma once
 
 #include <array>

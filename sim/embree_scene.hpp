@@ -18,8 +18,9 @@ struct ReleaseEmbreeScene {
 using EmbreeDevice = std::unique_ptr<RTCDeviceTy, ReleaseEmbreeDevice>;
 using EmbreeScene = std::unique_ptr<RTCSceneTy, ReleaseEmbreeScene>;
 
-/// Who builds a scene's tree. With one thread it is the same on every machine, and so is which of
-/// two touching triangles a ray meets; but then TBB runs nothing else of the process in parallel.
+/// The threads that build a scene's tree. With one thread it is the same on every machine, and so
+/// is which of two touching triangles a ray meets; but then TBB runs nothing else of the process in
+/// parallel.
 enum class EmbreeThreads { all, one };
 
 /// Throws std::runtime_error where Embree fails, as the others here do.

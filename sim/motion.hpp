@@ -1,4 +1,4 @@
-// Who is where at which time.
+// Places of people and arms over time.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// What is too small to hide anybody does not hide: the definition as it is written down.
+// Things too small to hide anybody do not hide: the definition as it is written down.
 #pragma once
 
 #include "berth/space/settings.hpp"

@@ -13,7 +13,7 @@
 
 namespace berth::sim {
 
-/// What is wrong with an image; each 0 is off.
+/// Errors of an image; each 0 is off.
 struct SensorErrors {
   double step_m_at_1m = 0;
   double noise_m_at_1m = 0;

@@ -1,4 +1,4 @@
-// What is an obstacle once several cameras have looked, asked of one point at a time: the
+// Whether one point is an obstacle once several cameras have looked: the
 // definition of the whole robot's distances as it is written down, without anything that makes it
 // fast.
 #pragma once

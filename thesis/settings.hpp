@@ -32,7 +32,7 @@ struct ImageSettings {
   bool operator==(const ImageSettings&) const = default;
 };
 
-/// What is asked of every method. `mean_direction` is LinkDistance's, min_seen_share has no meaning
+/// Settings of every method. `mean_direction` is LinkDistance's, min_seen_share has no meaning
 /// here, and without tolerance_m `exact` goes on until it knows the least distance.
 struct ImageDistanceSettings : DistanceSettings, ImageSettings {
   bool operator==(const ImageDistanceSettings&) const = default;

@@ -10,7 +10,7 @@
 namespace berth::app {
 namespace {
 
-/// So that the robot stands out.
+/// The brightness of all else, to make the robot stand out.
 constexpr double kDimmed = 0.4;
 
 bool is_robot_at(const CalibrationPicture& picture, int u, int v) {

@@ -19,7 +19,7 @@ struct CalibrationPicture {
   DepthView residual_m;
   /// See flying_pixels_at_robot().
   ImageView<std::uint8_t> flying;
-  /// What is shown.
+  /// The part that is shown.
   PixelRect part;
 };
 

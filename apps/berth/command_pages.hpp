@@ -1,4 +1,4 @@
-// What is made of the command's options beside --help: manual pages, and what a shell completes.
+// Manual pages and a shell's completions, made of the command's options.
 #pragma once
 
 #include <filesystem>

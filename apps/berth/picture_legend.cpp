@@ -238,7 +238,7 @@ void draw_depth_scale(Legend& legend, const DepthTone& tone) {
 
 LinkRow link_row(const PictureCanvas& canvas, const LinkResult& link, double range_m,
                  const TablePlan& plan, const Font& font, double em_px) {
-  // What is seen beside "unknown 0 m" has no room here; it stands at the link's line.
+  // The distance to what is seen has no room beside "unknown 0 m"; it stands at the link's line.
   const std::string distance = short_distance_text(link, range_m);
   const bool is_number = canvas.text_width_px(distance, font) <= kNumberEm * em_px;
   if (is_number) {

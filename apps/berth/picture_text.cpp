@@ -41,7 +41,7 @@ bool is_contact(const LinkResult& link) {
 std::string distance_text(const LinkResult& link, double range_m) {
   const std::string text = short_distance_text(link, range_m);
   if (!is_unknown_contact(link)) return text;
-  // What is known to be there is told as well.
+  // A known obstacle is named as well.
   if (std::isfinite(link.occupied.distance_m))
     return fmt::format("{}, seen {:.3f} m", text, link.occupied.distance_m);
   return text + ", nothing seen within " + range_text(range_m);

@@ -57,7 +57,7 @@ void record_command(const RecordArguments& arguments) {
   Recorder recorder(scene.robot, cameras, scene.separation, settings_of(arguments, file));
   SceneRun run(scene, stop_if_interrupted);
   run.record_with(recorder);
-  // What is done is kept, whatever ends the run.
+  // The recording is kept, whatever ends the run.
   try {
     ask_all(scene, run);
   } catch (...) {

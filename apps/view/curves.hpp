@@ -11,7 +11,7 @@
 
 namespace berth::app {
 
-/// What is drawn over time of each link, and how fast the robot may go where that is monitored, of
+/// The curves of each link over time, and how fast the robot may go where that is monitored, of
 /// the last results.
 class Curves {
  public:

@@ -33,7 +33,7 @@ struct ShownStep {
   bool is_provisional = false;
 };
 
-/// What is shown now: the result, and the poses of links and cameras in the root link's frame, each
+/// The frame on show: the result, and the poses of links and cameras in the root link's frame, each
 /// as the four rows of its matrix. frames[c] is that of camera c, or null.
 PageMessage shown_message(const RobotModel& model, const Result& result,
                           const std::vector<const Frame*>& frames, const ShownStep& of = {});

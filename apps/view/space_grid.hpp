@@ -10,7 +10,7 @@
 
 namespace berth::app {
 
-/// What is known of a cell's middle.
+/// How the cameras see a cell's middle.
 enum class CellSight : std::uint8_t {
   seen,    ///< free, or on a surface that a camera measured
   hidden,  ///< behind such a surface, and no camera sees it free

@@ -39,7 +39,7 @@ class TimelineRun {
   /// Stops, and begins with this scene. Does not wait.
   void start(std::shared_ptr<const OpenScene> scene);
 
-  /// What is known of a step of the scene that was started last.
+  /// The finding at a step of the scene that was started last.
   StepFinding find(std::size_t step);
   /// The scene with the backgrounds that the run has learned of it; null where it has learned none,
   /// or has not yet.

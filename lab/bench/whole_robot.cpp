@@ -16,7 +16,7 @@
 namespace berth::lab {
 namespace {
 
-/// So that neighbours on the machine count little.
+/// The process's own time: neighbours on the machine count little.
 constexpr clockid_t kProcessorTime = CLOCK_THREAD_CPUTIME_ID;
 constexpr MeshRequest kReadings{.unknown = false};
 constexpr MeshRequest kHasty{.deadline_us = 1000};

@@ -44,7 +44,7 @@ struct AttachedTrial {
 AttachedTrial try_attached(const RobotModel& model, std::shared_ptr<const LinkMeshes> meshes,
                            sim::DrawnKind kind, int poses, int cameras, std::uint32_t seed);
 
-/// What is found of a robot that carries nothing, with company in its images. The cameras are off
+/// The finding on a robot that carries nothing, with company in its images. The cameras are off
 /// by half a centimetre and half a hundredth of a radian. Depends on its arguments alone.
 AttachedParts try_company(const RobotModel& model, std::shared_ptr<const LinkMeshes> meshes,
                           sim::DrawnCompany company, int poses, int cameras, std::uint32_t seed);

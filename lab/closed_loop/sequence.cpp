@@ -22,9 +22,9 @@ constexpr double kStep_s = 0.001;
 constexpr int kThings = 4;
 /// A link that is told nearer than this is told to touch.
 constexpr double kTouching_m = 0.001;
-/// What is farther is not in contact.
+/// From here on there is no contact.
 constexpr double kFree_m = 0.05;
-/// What is more is counted as too large.
+/// A greater excess is counted as too large.
 constexpr double kTooLarge_m = 0.02;
 
 /// Things around the arm, where it does not reach them.

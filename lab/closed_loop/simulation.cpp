@@ -193,7 +193,7 @@ class Loop {
         result_.stopped_s = time_s_ - settings_.fault_s;
       }
     }
-    // Who comes out of nowhere comes faster than the check's bounds allow for.
+    // Somebody who comes out of nowhere comes faster than the check's bounds allow for.
     if (is_anybody_there() && check_.is_due(time_s_))
       check_.add({time_s_, arm_.pose(), visitors(), fastest_m_s});
   }

@@ -27,7 +27,7 @@ struct SimulationSettings {
   double request_hz = 250;
   Fault fault = Fault::none;
   double fault_s = 0;
-  /// Who comes, and the share of the time in which somebody is there; 0: nobody ever.
+  /// The kind of visit, and the share of the time in which somebody is there; 0: nobody ever.
   sim::VisitKind kind = sim::VisitKind::reaching;
   double presence = 1;
   /// At most so long; less where the encounter is over.

@@ -1,4 +1,4 @@
-// Who decides how fast the arm may go.
+// Supervisors decide how fast the arm may go.
 #pragma once
 
 #include <algorithm>

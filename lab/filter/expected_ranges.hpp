@@ -1,4 +1,4 @@
-// What is known of the distances in a real recording.
+// The ranges in which a real recording's distances lie.
 #pragma once
 
 #include <filesystem>

@@ -171,7 +171,7 @@ class Stream {
       const Result& result = recorder_ ? recorder_->ask(query_, request) : query_.ask(request);
       const double told_s = now_s();
       if (due_s >= begin_s) take(result, asked_s, told_s, known_s);
-      // What is late does not make the next one late: its turn is left out.
+      // A late request does not make the next one late: its turn is left out.
       const double turns = std::floor((now_s() - due_s) * settings_.rate_hz) + 1;
       due_s += turns / settings_.rate_hz;
     }

@@ -1,4 +1,4 @@
-// What is measured: which errors a sensor makes, and what is done with its image.
+// A condition of a trial: which errors a sensor makes, and what is done with its image.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace berth::lab {
 
-/// What is wrong with where berth believes that the robot is.
+/// Errors of the pose at which berth believes the robot to be.
 struct PoseErrors {
   double offset_m = 0;
   double angle_rad = 0;

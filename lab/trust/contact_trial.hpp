@@ -17,7 +17,7 @@ enum class ContactImages { clean, sensor_model, structured_light };
 inline constexpr std::array<const char*, 3> kContactImageNames = {"clean", "sensor model",
                                                                   "structured light"};
 
-/// What is drawn, and how it is looked at.
+/// A drawn contact, and how it is looked at.
 struct ContactCase {
   sim::ContactSettings scene;
   ContactImages images = ContactImages::clean;

@@ -46,7 +46,7 @@ inline constexpr double kRealClearance_m = 0.06;
 std::optional<RealScene> draw_into(const RealImage& image, const TrialRobot& robot,
                                    std::uint32_t seed);
 
-/// What is done with such an image.
+/// The rules that such an image goes through.
 struct RealImageRules {
   std::string name;
   SelfFilterSettings self_filter = {};

@@ -24,7 +24,7 @@ struct Sample {
     return estimate->status == LinkStatus::none_in_range &&
            truth->seen_C.distance_m <= kTrialRange_m;
   }
-  /// What is left above the metric's own excess, in pixels.
+  /// The excess above the metric's own, in pixels.
   double over_px() const;
 };
 

@@ -14,7 +14,7 @@ namespace berth::lab {
 /// Cameras that are drawn; the estimates take the first one, the first two, and so on.
 inline constexpr int kMostTrialCameras = 4;
 
-/// What is wrong with the images of several cameras, and what is done with them.
+/// Errors of several cameras' images, and what is done with them.
 struct WholeRobotCondition {
   std::string name;
   /// The ideal one goes with clean images alone.

@@ -81,7 +81,7 @@ TEST_F(CommandRecord, AlwaysWritesTheWholeRunOnceAndReplayRefusesWhatWasDoneToIt
   }
   EXPECT_EQ(count, 101);
 
-  // What is not that file any more.
+  // Bytes that are not that file any more.
   const std::string bytes = read_file_bytes(folder_ / "all.mcap");
   write_file_bytes(folder_ / "cut.mcap", bytes.substr(0, bytes.size() / 2));
   std::string damaged = bytes;

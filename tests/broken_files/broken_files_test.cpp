@@ -1,4 +1,4 @@
-// What is broken is refused by std::exception or read, and nothing else: the fuzzers' first inputs,
+// Broken files are refused by std::exception or read, and nothing else: the fuzzers' first inputs,
 // bombs, and what the fuzzers found.
 #include <gtest/gtest.h>
 #include <sys/resource.h>

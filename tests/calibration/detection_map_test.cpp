@@ -1,4 +1,4 @@
-// What is detected, on images of which that can be reckoned.
+// The map of detection, on images of which it can be reckoned.
 #include "berth/calibration/detection_map.hpp"
 
 #include <gtest/gtest.h>

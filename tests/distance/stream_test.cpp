@@ -95,7 +95,7 @@ class Stream {
       if (random_.chance(0.1)) age_s = random_.chance(0.5) ? blind_s : 0.25;
       posed.push_back({&world_.spaces[k], world_.X_BC[k], age_s});
     }
-    // What is taken from the other one stays there until this one is assigned anew.
+    // Memory that is taken from the other one stays there until this one is assigned anew.
     const bool takes_aged = random_.chance(0.5) && !is_taken_from_;
     if (!is_taken_from_) current_ = 1 - current_;
     UnknownSpace& other = spaces_[1 - current_];

@@ -183,7 +183,7 @@ TEST_F(LiveSpaceScene, ItMayEndInTheTurnOfACamera) {
   std::atomic<bool> has_ended = false;
   LiveCamera camera(scene_.cameras[0].mounted, joints_, {.max_wait_s = 30}, [&](const auto&...) {
     space->put(0, frame);
-    // So that its thread waits for a turn.
+    // Its thread has to wait for a turn.
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     space.reset();
     has_ended = true;

@@ -1,4 +1,4 @@
-// Who makes up images need not draw the robot; who has a real camera is told when it is not there.
+// Made-up images need not show the robot; of a real camera's images a missing robot is reported.
 #include <gtest/gtest.h>
 
 #include <algorithm>

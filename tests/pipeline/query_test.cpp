@@ -157,7 +157,7 @@ TEST_F(Queries, TheNearestIsTheOneThatMovesHasADistanceAndIsLeast) {
   find_nearest(result);
   EXPECT_EQ(result.nearest, 3);
   EXPECT_EQ(result.nearest_link()->link, "3");
-  // What is known to be near a link that is not seen counts as well.
+  // A known obstacle near a link that is not seen counts as well.
   result.links[1].status = LinkStatus::not_seen;
   result.links[1].distance_m = 0;
   find_nearest(result);

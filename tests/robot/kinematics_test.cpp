@@ -7,7 +7,6 @@
 #include <random>
 
 #include "berth/robot/link_twists.hpp"
-#include "berth/robot/point_jacobian.hpp"
 #include "tests/robot/error_text.hpp"
 #include "tests/robot/robot_text.hpp"
 

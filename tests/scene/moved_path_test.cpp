@@ -1,5 +1,5 @@
 // The paths of a scene that was written anew in another folder.
-#include "berth/scene/moved_path.hpp"
+#include "berth/scene/rewrite_scene.hpp"
 
 #include <cmath>
 

@@ -154,7 +154,7 @@ TEST_F(Plausibility, ASimulationWhoseRobotStandsStillIsNotDead) {
     camera.kept_depth_m[k] = first_m;
     camera.at_exposure[k].position = camera.at_exposure[0].position;
   }
-  // So that much of the robot lies behind its surface.
+  // Much of the robot has to lie behind its surface.
   lab::move_camera(still, 0, 0.05, 0.087, 1);
   const CameraPlausibility found = find_implausible(still, 0);
   EXPECT_EQ(found.dead, "");

@@ -24,7 +24,7 @@ constexpr int kMostSpeckle_px = 60;
 constexpr int kFrames = 3;
 /// A distance to what is left of the thing may be larger by this much.
 constexpr double kBound_m = 0.005;
-/// What is nearer to the robot's visible surface than this may be a flying patch of the self
+/// A reading nearer to the robot's visible surface than this may be a flying patch of the self
 /// filter.
 constexpr double kClearance_m = 0.1;
 
@@ -144,7 +144,7 @@ class SmallObstacles : public ::testing::TestWithParam<Shape> {
     return out.links;
   }
 
-  /// What is left of the thing, by its own readings, after all rules.
+  /// The part of the thing that is left after all rules, by its own readings.
   static DepthImage left_of(const sim::DrawnScene& scene, const Thing& thing, std::uint32_t seed) {
     DepthImage depth_m = scene.depth_m;
     for (std::size_t i = 0; i < depth_m.pixels().size(); ++i) {

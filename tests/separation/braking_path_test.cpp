@@ -1,4 +1,4 @@
-// What is said of a few poses holds for all between them: held against the mesh at many more.
+// The certificate of a few poses holds for all between them: held against the mesh at many more.
 #include "berth/separation/braking_path.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What is not known counts as near, by its policy.
+// Unknown distances count as near, by their policy.
 #include "berth/separation/near_link.hpp"
 
 #include <gtest/gtest.h>

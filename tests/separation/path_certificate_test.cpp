@@ -248,7 +248,7 @@ Frame wall_frame(const std::shared_ptr<const Robot>& robot, float wall_x_m) {
   return frame;
 }
 
-/// What is asked of the box, and the greatest scale for it, between `least` and `most`.
+/// A request about the box, and the greatest scale for it, between `least` and `most`.
 struct SliderCase {
   const std::shared_ptr<const Robot>& robot;
   const SeparationSettings& settings;

@@ -1,4 +1,4 @@
-#include "berth/watch/agreement.hpp"
+#include "berth/watch/pose_watch.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 
 namespace berth {
 
-/// What is searched. `order` has room for as many entries as the link has nodes.
+/// The input of a search. `order` has room for as many entries as the link has nodes.
 struct SearchInput {
   const Metric& metric;
   const RobotTiles& robot;

@@ -7,7 +7,7 @@
 
 namespace berth {
 
-/// Who touches a buffer's memory.
+/// The side that touches a buffer's memory.
 enum class GlMemory {
   device,     ///< the GPU alone
   upload,     ///< written by this program, read by the GPU; mapped as long as it lives

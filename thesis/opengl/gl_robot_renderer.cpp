@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "berth/render/view_checks.hpp"
+#include "berth/render/robot_renderer.hpp"
 #include "thesis/opengl/gl_tolerance.hpp"
 
 namespace berth {

@@ -1,4 +1,4 @@
-// What is varied in the thesis's experiments (Hirt 3.2).
+// The parameters that are varied in the thesis's experiments (Hirt 3.2).
 #pragma once
 
 #include <array>

@@ -135,7 +135,7 @@ class DistanceNode : public LiveNode {
     question_timer_.reset();
     marker_timer_.reset();
     planners_->deactivate();
-    // Who obeys the scale must not keep the last one.
+    // A controller that obeys the scale must not keep the last one.
     const std::lock_guard lock(answer_mutex_);
     publish_answer();
   }

@@ -28,7 +28,7 @@ class ScenePlayerNode : public rclcpp::Node {
   }
 
  private:
-  /// What is published at a time: a joint sample, or an image.
+  /// A joint sample or an image that is published at a time.
   struct Event {
     double time_s;
     int camera;  // -1: a joint sample

@@ -15,7 +15,7 @@ class StatusLog {
   /// Of the steady clock that it is told by.
   static double now_s();
 
-  /// What is missing at first is told only once it has been missing for `grace_s`.
+  /// An input that is missing at first is reported only once it has been missing for `grace_s`.
   StatusLog(rclcpp::Logger logger, double now_s, double grace_s = 2)
       : logger_(std::move(logger)), begin_s_(now_s + grace_s) {}
 

@@ -87,7 +87,7 @@ int explain(const RigidGroup& group, const SolidCells& solid,
   return count;
 }
 
-/// What is known of a surface to the views' uncertainty lies half of that farther out, as a rule.
+/// A surface that is known to the views' uncertainty lies half of that farther out, as a rule.
 double padding_of(const std::vector<EvidenceView>& views) {
   const double worst_m = std::ranges::max(views, {}, &EvidenceView::uncertainty_m).uncertainty_m;
   return std::max(kLeastSurfacePadding_m, worst_m / 2);

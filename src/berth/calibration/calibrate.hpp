@@ -75,7 +75,7 @@ struct CalibrationResult {
 /// A score for people: 100 % is perfect, what is below 40 % is the wrong place.
 constexpr double fit_percent(double score) { return 50 * score; }
 
-/// What is looked for.
+/// The unknowns that calibration looks for.
 struct CalibrationSettings {
   /// Whether to look for the joints' zeros as well. Few frames are overfitted so.
   bool joint_zeros = false;

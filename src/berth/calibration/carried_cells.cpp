@@ -11,7 +11,7 @@ namespace {
 constexpr int kJoined = 3;
 /// A view shows a piece where it shows this share of its cells.
 constexpr double kFairShare = 0.05;
-/// What is smaller may be noise: a cube of 3 cm has as many on its surface.
+/// Smaller pieces may be noise: a cube of 3 cm has as many on its surface.
 constexpr std::size_t kLeastCells = 200;
 /// Places of a piece that lie nearer to each other are one.
 constexpr double kOtherPlace_m = 0.04;

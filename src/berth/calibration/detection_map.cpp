@@ -9,8 +9,8 @@
 #include <optional>
 
 #include "berth/calibration/drawn_ball.hpp"
-#include "berth/calibration/drawn_image_filter.hpp"
-#include "berth/calibration/repeatable_random.hpp"
+#include "berth/calibration/robot_reach.hpp"
+#include "berth/calibration/swallowed.hpp"
 
 namespace berth {
 namespace {

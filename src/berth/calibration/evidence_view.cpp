@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 
-#include "berth/calibration/found_estimate.hpp"
 #include "berth/fit/frame_drawer.hpp"
 #include "berth/fit/robot_pixels.hpp"
 #include "berth/self_filter/drop_soft.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "berth/calibration/found_estimate.hpp"
+#include "berth/calibration/evidence_view.hpp"
 #include "berth/calibration/swallowed.hpp"
 #include "berth/fit/frame_drawer.hpp"
 #include "berth/fit/outline_rows.hpp"

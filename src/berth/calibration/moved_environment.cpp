@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "berth/calibration/found_estimate.hpp"
+#include "berth/calibration/evidence_view.hpp"
 #include "berth/fit/frame_drawer.hpp"
 
 namespace berth {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "berth/calibration/repeatable_random.hpp"
 #include "berth/robot/kinematics.hpp"
 #include "berth/robot/robot_model.hpp"
 

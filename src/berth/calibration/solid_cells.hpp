@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "berth/calibration/cell_grid.hpp"
+#include "berth/calibration/carried_cells.hpp"
 
 namespace berth {
 

@@ -18,7 +18,7 @@ constexpr double kRodLength_m = 0.30;
 constexpr double kFingerLength_m = 0.07;
 /// From the robot, and between two things, in the image.
 constexpr double kRoom_m = 0.15;
-/// What is behind has to be farther away than that.
+/// The surface behind has to be farther away than that.
 constexpr double kFreeBehind_m = 0.10;
 constexpr double kKeptShare = 0.5;
 constexpr double kPlacesShare = 0.9;
@@ -200,6 +200,18 @@ double least_rod_gap_m(const std::vector<FilteredCamera>& views) {
     if (count.is_enough()) return gap_m;
   }
   return kSwallowed;
+}
+
+const ObstacleImage& DrawnImageFilter::run(const FilteredCamera& camera, DepthView depth_m) {
+  SelfFilterSettings settings = *camera.self_filter;
+  settings.robot_region_scale = 0;
+  self_filter(*camera.camera, depth_m, *camera.robot, settings, workspace_, out_);
+  if (camera.soft) drop_soft(*camera.camera, *camera.soft, out_);
+  SensorSettings sensor = *camera.sensor;
+  sensor.background_frames = 0;
+  apply_sensor_rules(*camera.camera, depth_m, *camera.robot, {}, sensor, sensor_workspace_, out_);
+  drop_phantoms(*camera.camera, depth_m, sensor.phantom_radius_m, phantoms_, out_);
+  return out_;
 }
 
 }  // namespace berth

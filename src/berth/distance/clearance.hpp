@@ -8,7 +8,7 @@
 
 namespace berth {
 
-/// What is asked of find_clearance().
+/// The arguments of find_clearance().
 struct ClearanceRequest {
   /// Nothing may be nearer to the link than this.
   double needed_m = 0;

@@ -19,8 +19,8 @@ struct Item {
   std::uint32_t way = 0;
 };
 
-/// What is still to be searched, the least bound first. Vector code of all instruction sets uses
-/// it, so that nothing here is a template.
+/// Items that are still to be searched, the least bound first. Vector code of all instruction sets
+/// uses it, so that nothing here is a template.
 class ItemHeap {
  public:
   void clear() { items_.clear(); }

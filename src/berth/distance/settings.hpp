@@ -11,7 +11,7 @@ namespace berth {
 /// grows with the third power. No depth camera sees so far.
 inline constexpr Domain kRange{.is_open = true, .most = 50};
 
-/// What is asked of every way to find distances.
+/// Settings of every way to find distances.
 struct DistanceSettings {
   /// L: a distance above it is no answer. For images half the side of the region of surveillance
   /// (Hirt 2.2.3).
@@ -54,7 +54,7 @@ void visit_settings(Settings& s, Visitor&& visit) {
 /// Throws std::invalid_argument that names key, value and what was expected.
 void validate(const DistanceSettings& settings);
 
-/// What is asked of mesh_distances().
+/// The arguments of mesh_distances().
 struct MeshRequest {
   /// L: a distance above it is no answer.
   double range_m = 1.0;

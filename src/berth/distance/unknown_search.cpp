@@ -217,7 +217,7 @@ int leaf_near(const CubeSearch& search, const Cube& cube, int hint) {
   return centre.distance[0].triangle / LinkPatches::kChildren;
 }
 
-/// What is known of a cube's corners, and a leaf that is near to them.
+/// Bounds at a cube's corners, and a leaf that is near to them.
 struct KnownCorners {
   CubeCorners corners;
   int hint = 0;

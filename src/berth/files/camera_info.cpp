@@ -13,7 +13,7 @@
 namespace berth {
 namespace {
 
-// So that an image's pixels can be counted in an int.
+// An image's pixels can be counted in an int.
 constexpr int kLargestSize_px = 32768;
 
 int read_size(const YamlValue& value) {

@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "berth/types/camera.hpp"
-#include "berth/types/lens.hpp"
 
 namespace berth {
 

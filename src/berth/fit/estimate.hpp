@@ -1,4 +1,4 @@
-// What is fitted: of each camera and, shared by all, of the joints.
+// The unknowns of the fit: of each camera and, shared by all, of the joints.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +8,7 @@
 
 namespace berth {
 
-/// What is believed of one camera. A reading z shows a surface at depth_offset_m +
+/// The belief about one camera. A reading z shows a surface at depth_offset_m +
 /// depth_scale z.
 struct CameraEstimate {
   Pose X_PC = unset_pose();

@@ -128,7 +128,7 @@ class Fit {
 
   void add_priors(Equations& sum) const {
     const auto add_prior = [&](Eigen::Index unknown, double moved, double deviation) {
-      // What is not asked for is held where it is.
+      // An unknown that is not fitted is held where it is.
       const double weight = 1 / std::pow(deviation > 0 ? deviation : 1e-9, 2);
       sum.information(unknown, unknown) += weight;
       sum.gradient(unknown) += weight * moved;

@@ -7,10 +7,20 @@
 #include <utility>
 #include <vector>
 
-#include "berth/fit/image_level.hpp"
+#include "berth/fit/calibration_data.hpp"
 #include "berth/fit/posed_robot.hpp"
 
 namespace berth {
+
+/// A camera's frames with each `step`-th pixel of each `step`-th row.
+struct ImageLevel {
+  int step = 1;
+  Camera camera;
+  /// One for each frame.
+  std::vector<DepthImage> depth_m;
+};
+
+ImageLevel make_level(const CalibrationCamera& camera, int step);
 
 /// Which frames of each camera take part.
 enum class FrameChoice { all, even, odd };

@@ -8,7 +8,7 @@
 namespace berth {
 namespace {
 
-/// What is nearer behind the robot than this may be its own surface.
+/// A reading nearer behind the robot than this may be its own surface.
 constexpr float kLeastBackground_m = 0.06F;
 /// Half of the window in which the outline's direction is measured.
 constexpr int kWindow_px = 3;

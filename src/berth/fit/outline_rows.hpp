@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "berth/fit/depth_rows.hpp"
 #include "berth/fit/estimate.hpp"
-#include "berth/fit/fit_row.hpp"
 #include "berth/types/image.hpp"
 #include "berth/types/robot_image.hpp"
 

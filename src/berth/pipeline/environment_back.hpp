@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "berth/pipeline/still_links.hpp"
+#include "berth/pipeline/robot_drawing.hpp"
 #include "berth/render/robot_renderer.hpp"
 #include "berth/space/camera_space.hpp"
 #include "berth/types/camera.hpp"

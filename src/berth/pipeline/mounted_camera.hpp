@@ -23,7 +23,7 @@ struct CameraMount {
   std::string name = "camera";
 };
 
-/// What is known of one camera's images.
+/// Settings of one camera's images.
 struct CameraSettings {
   SelfFilterSettings self_filter;
   /// Padding of single links by name, instead of self_filter.padding_m.

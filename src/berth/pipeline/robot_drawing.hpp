@@ -1,13 +1,44 @@
 // Inside pipeline/ only: the robot's image at each exposure.
 #pragma once
 
+#include <vector>
+
 #include "berth/pipeline/robot.hpp"
-#include "berth/pipeline/still_links.hpp"
 #include "berth/render/robot_renderer.hpp"
+#include "berth/robot/kinematics.hpp"
+#include "berth/robot/robot_model.hpp"
 #include "berth/types/camera.hpp"
 #include "berth/types/robot_image.hpp"
 
 namespace berth {
+
+/// Tells whether links stand still before a camera, so that they need not be drawn again.
+class StillLinks {
+ public:
+  /// Links of which no point has moved by more than this in the camera's frame stand still: a
+  /// reading is not known to a hundred times as much.
+  static constexpr double kStill_m = 1e-5;
+
+  StillLinks(const RobotModel& model, DrawnLinks drawn);
+
+  /// Whether there is nothing that could be drawn.
+  bool is_empty() const { return links_.empty(); }
+
+  /// Whether they stand where they stood at the last drawn_at().
+  bool stand_at(const RobotPose& pose, const Pose& X_BC) const;
+  void drawn_at(const RobotPose& pose, const Pose& X_BC);
+
+ private:
+  struct Drawn {
+    std::size_t link;
+    /// From its frame's origin.
+    double reach_m;
+    /// When it was drawn.
+    Pose X_CL;
+  };
+  std::vector<Drawn> links_;
+  bool has_drawn_ = false;
+};
 
 /// Renders a robot into one camera, and not again while it stands still.
 class RobotDrawing {

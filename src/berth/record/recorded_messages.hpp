@@ -42,7 +42,7 @@ std::uint64_t time_ns(double time_s);
 struct RecordedBegin {
   /// Query::camera_names().
   std::vector<std::string> camera_names;
-  /// What is missing since the request before, since the disk was too slow.
+  /// Images that are missing since the request before, because the disk was too slow.
   std::int64_t lost_images = 0;
   std::int64_t lost_requests = 0;
 };

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "berth/files/error.hpp"
-#include "berth/record/numbered_name.hpp"
+#include "berth/record/ring.hpp"
 
 namespace berth {
 namespace {

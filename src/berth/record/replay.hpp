@@ -52,7 +52,8 @@ class Replay {
   const std::optional<ReplayDifference>& difference() const;
   /// The difference as a sentence, with what explains it where that is known; empty: none.
   std::string text() const;
-  /// What is missing between this request and the one before, since the disk was too slow.
+  /// Images that are missing between this request and the one before, because the disk was too
+  /// slow.
   std::int64_t lost_images() const;
   std::int64_t lost_requests() const;
 

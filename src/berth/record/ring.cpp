@@ -8,14 +8,13 @@
 
 #include "berth/files/error.hpp"
 #include "berth/record/mcap_file.hpp"
-#include "berth/record/numbered_name.hpp"
 
 namespace berth {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// What is packed together: an image or a few.
+/// Bytes that are packed together: an image or a few.
 constexpr std::size_t kChunkBytes = std::size_t{2} << 20;
 /// A crash takes what was added in this time.
 constexpr std::chrono::milliseconds kMostUnwritten{200};

@@ -1,6 +1,7 @@
 // Inside record/ only: the last seconds on disk.
 #pragma once
 
+#include <fmt/format.h>
 #include <chrono>
 #include <cstdint>
 #include <deque>
@@ -14,6 +15,14 @@
 #include "berth/record/mcap_chunk.hpp"
 
 namespace berth {
+
+/// FILE.mcap, FILE_2.mcap, ...: the i-th, from 1 on.
+inline std::filesystem::path numbered(const std::filesystem::path& file, int i) {
+  if (i == 1) return file;
+  std::filesystem::path other = file;
+  return other.replace_filename(
+      fmt::format("{}_{}{}", file.stem().string(), i, file.extension().string()));
+}
 
 /// An MCAP file without an index. It can be read while it is written, and as far as it was written
 /// when the program ended. It goes with the object.

@@ -44,7 +44,7 @@ struct RecordedAnswer {
   bool is_stop = false;
 };
 
-/// Who gives it something never waits for the disk, and once its memory is warm, an answer is taken
+/// A caller never waits for the disk, and once its memory is warm, an answer is taken
 /// without an allocation.
 class Tape {
  public:

@@ -8,7 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "berth/render/triangle_block.hpp"
 #include "berth/render/triangle_planes.hpp"
 #include "berth/types/camera.hpp"
 #include "berth/types/image.hpp"

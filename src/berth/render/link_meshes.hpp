@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "berth/render/robot_renderer.hpp"
-#include "berth/render/triangle_block.hpp"
+#include "berth/render/triangle_planes.hpp"
 #include "berth/robot/robot_model.hpp"
 
 namespace berth {

@@ -4,10 +4,16 @@
 #include <Eigen/Geometry>
 #include <array>
 
-#include "berth/render/triangle_block.hpp"
 #include "berth/types/image.hpp"
 
 namespace berth {
+
+/// As many triangles as the widest vector has lanes, so that their corners load without gathers.
+struct TriangleBlock {
+  static constexpr int kTriangles = 16;
+  /// By corner, axis and triangle; m, in the link's frame L.
+  alignas(64) float corner_L_m[3][3][kTriangles];
+};
 
 /// How far outside of a triangle a pixel centre still belongs to it. The corners are rounded by up
 /// to 1e-3 px, once here and once there where neighbours go different ways: without tolerance, a

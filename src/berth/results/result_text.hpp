@@ -16,7 +16,7 @@ std::string result_table(const Result& result);
 /// (0.42 s)" or "stale: the joints are 0.310 s old".
 std::string status_text(const Result& result);
 
-/// What is wrong with one camera, such as "camera left is too_old (0.42 s)"; empty where nothing
+/// The trouble of one camera, such as "camera left is too_old (0.42 s)"; empty where nothing
 /// is.
 std::string camera_text(const CameraResult& camera);
 

@@ -30,7 +30,7 @@ struct SceneCalibration {
   CalibrationResult found;
   /// One for each camera, as below.
   std::vector<FilterProposal> filters;
-  /// What is normal for the camera, so that it is noticed when it is bumped.
+  /// The normal readings of the camera, by which a bump is noticed.
   std::vector<WatchSettings> watches;
   /// What makes the result worse than it could be, in sentences.
   std::vector<std::string> warnings;

@@ -115,7 +115,7 @@ std::string no_reading_text(const ReadingRange& range, const SceneCamera& camera
       number, 100 * share, range.farthest_m);
 }
 
-/// What is wrong with its images; empty where nothing is.
+/// The fault of its images; empty where there is none.
 std::string dead_text(RobotInImages& images, const ReadingRange& range,
                       const RobotReadings& robot) {
   const SceneCamera& camera = images.camera().source;

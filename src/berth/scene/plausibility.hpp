@@ -22,7 +22,7 @@ struct CameraPlausibility {
   std::size_t frames = 0;
   /// The links that most of the readings at their pixels lie behind, as if they were not there.
   std::vector<std::string> seen_through;
-  /// What is wrong, where the images alone tell: such as "all its readings are the same". Empty
+  /// The fault, where the images alone show it: such as "all its readings are the same". Empty
   /// where they do not.
   std::string dead;
   /// What explains it, as SimpleMistake::as_if; two with " or " between where they do so alike;
@@ -59,7 +59,7 @@ CameraPlausibility find_implausible(const OpenScene& scene, std::size_t camera);
 /// scene, though nobody knows what.
 inline constexpr double kWellPlaced = 0.85;
 
-/// What is doubtful in images that are used: a share below kWellPlaced, links that are not there.
+/// The doubts about images that are used: a share below kWellPlaced, links that are not there.
 /// Empty where nothing is.
 std::string doubt_of(const CameraPlausibility& camera);
 

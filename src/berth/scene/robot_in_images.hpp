@@ -10,7 +10,7 @@
 
 namespace berth {
 
-/// What is believed of one camera's images, as far as simple mistakes get it wrong.
+/// The belief about one camera's images, as far as simple mistakes get it wrong.
 struct CameraBelief {
   /// Whose images they are: the number of a camera of the scene.
   std::size_t images_of = 0;

@@ -10,8 +10,8 @@
 
 #include "berth/pipeline/request.hpp"
 #include "berth/scene/former_settings.hpp"
-#include "berth/scene/setting_groups.hpp"
 #include "berth/scene/setting_schema.hpp"
+#include "berth/scene/settings_text.hpp"
 
 namespace berth {
 namespace {

@@ -10,8 +10,6 @@
 #include <type_traits>
 #include <vector>
 
-#include "berth/scene/setting_groups.hpp"
-
 namespace berth {
 namespace {
 

@@ -39,7 +39,7 @@ struct FlyingPatchWorkspace {
   Neighbourhood neighbourhood;
   /// What the robot's own readings lead to: where a piece begins that hangs on it.
   std::vector<Pixel> seam;
-  /// What is known of each pixel; 0 everywhere between two images.
+  /// The state of each pixel; 0 everywhere between two images.
   Image<std::uint8_t> state;
   /// The obstacles of which something is known, piece by piece.
   std::vector<Pixel> walked;

@@ -267,7 +267,7 @@ SurfaceTolerance measured_surface_tolerance(const Camera& camera, DepthView sens
       const float model_m = robot.depth_m(u, v);
       const double off_m = sensor_depth_m(u, v) - model_m;
       const double grown = surface_growth(model_m);
-      // What is farther off is another thing, and no error.
+      // A farther reading is another thing, and no error.
       if (!(std::abs(off_m) <= kFarthest_m * grown)) continue;
       const int reach_px = static_cast<int>(kInside_m * focal_px / model_m) + 1;
       if (!is_inside_surface(robot, {u, v}, reach_px, kInside_m)) continue;

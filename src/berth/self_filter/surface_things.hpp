@@ -10,7 +10,7 @@
 namespace berth {
 
 struct SurfaceThingsWorkspace {
-  /// What is known of each pixel; 0 everywhere between two images.
+  /// The state of each pixel; 0 everywhere between two images.
   Image<std::uint8_t> state;
   /// Readings that stand off the model, then those of them that make a patch.
   std::vector<Pixel> candidates;

@@ -2,14 +2,31 @@
 
 #include <limits>
 
+#include "berth/self_filter/tolerance.hpp"
 #include "berth/sensor/beside_robot.hpp"
-#include "berth/sensor/known_place.hpp"
 #include "berth/sensor/settings.hpp"
 #include "berth/types/camera.hpp"
+#include "berth/types/image.hpp"
 #include "berth/types/obstacle_image.hpp"
 #include "berth/types/robot_image.hpp"
 
 namespace berth {
+
+class Background;
+
+/// Knowledge of one camera's surroundings, beside its image.
+struct KnownPlace {
+  /// The empty cell; null: nobody has learned it.
+  const Background* background = nullptr;
+  /// Environment's surface at each pixel that would show it if there were no robot; NaN elsewhere.
+  /// Without environment of no size.
+  DepthView environment_m = {};
+  /// Of environment's surface.
+  Tolerance tolerance = {};
+  /// Whether each pixel has a reading while nothing keeps the light from the camera: wherever there
+  /// is none, something may be (NoReading::hides).
+  bool always_reads = false;
+};
 
 /// What a camera that does not move sees of the empty cell: per pixel the depth of what stands
 /// there, environment or anything else, learned from images in which the robot was elsewhere, and

@@ -13,7 +13,7 @@ const Image<PixelFate>& find_beside_robot(const Camera& camera, DepthView depth_
   settings.surface_tolerance_m = 0;
   settings.flying_patch_radius_m = 0;
   workspace.links = robot;
-  // What is before environment is to be found, so it must not cover anything.
+  // Things before environment are to be found, so it must not cover anything.
   take_out_environment(workspace.links);
   self_filter(camera, depth_m, workspace.links, settings, workspace.filter, workspace.left);
   return workspace.left.fate;

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "berth/sensor/background.hpp"
 #include "berth/sensor/beside_robot.hpp"
-#include "berth/sensor/known_place.hpp"
 #include "berth/sensor/settings.hpp"
 #include "berth/types/camera.hpp"
 #include "berth/types/obstacle_image.hpp"

@@ -36,7 +36,7 @@ class LensRays {
   std::optional<Eigen::Vector2d> straight(const Eigen::Vector2d& point) const {
     Eigen::Vector2d radial = point;
     std::optional<Eigen::Vector2d> ray;
-    // What is not radial is small: each turn leaves a hundredth of the error.
+    // The part that is not radial is small: each turn leaves a hundredth of the error.
     for (int turn = 0; turn < 8; ++turn) {
       ray = straight_radial(radial);
       if (!ray) return ray;

@@ -7,7 +7,6 @@
 
 #include "berth/types/camera.hpp"
 #include "berth/types/image.hpp"
-#include "berth/types/lens.hpp"
 
 namespace berth {
 

@@ -6,7 +6,7 @@
 
 namespace berth {
 
-/// What is known of the sensor's faults. Every rule but `phantom_radius_m` is off by default. Only
+/// Rules for the sensor's faults. Every rule but `phantom_radius_m` is off by default. Only
 /// that and `speckle_px` ever drop anything; the background adds obstacles.
 struct SensorSettings {
   /// Two readings of one surface at z m differ by no more than noise_m max(1, z^2).

@@ -9,7 +9,7 @@
 namespace berth {
 
 struct SpeckleWorkspace {
-  /// What is known of each pixel.
+  /// The state of each pixel.
   Image<std::uint8_t> state;
   /// Pixels of the blob that is being walked.
   std::vector<Pixel> blob;

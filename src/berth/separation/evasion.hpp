@@ -8,7 +8,7 @@
 
 #include "berth/pipeline/result.hpp"
 #include "berth/pipeline/robot.hpp"
-#include "berth/robot/point_jacobian.hpp"
+#include "berth/robot/kinematics.hpp"
 #include "berth/types/setting.hpp"
 
 namespace berth {

@@ -3,21 +3,53 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <vector>
 
 #include "berth/pipeline/frame_set.hpp"
 #include "berth/pipeline/mounted_camera.hpp"
-#include "berth/separation/camera_uncertainty.hpp"
 #include "berth/separation/detection.hpp"
 #include "berth/separation/link_speed.hpp"
 #include "berth/separation/near_link.hpp"
 #include "berth/separation/path_certificate.hpp"
 #include "berth/separation/protective_distance.hpp"
-#include "berth/separation/scale_rise.hpp"
 
 namespace berth {
+
+/// How fast a scale of the robot's speed may rise. It falls at once.
+class ScaleRise {
+ public:
+  ScaleRise() = default;
+  /// As one that has come so far.
+  ScaleRise(bool is_first, double scale, double last_s)
+      : is_first_(is_first), scale_(scale), last_s_(last_s) {}
+
+  /// The greatest scale at now_s, if it gains `per_s` of a second in each. The first time it may be
+  /// anything, since nobody knows how fast the robot is; where the clock was set back, no more than
+  /// before.
+  double most(double now_s, double per_s) {
+    const double passed_s = now_s - last_s_;
+    last_s_ = now_s;
+    if (is_first_) return 1;
+    if (!(passed_s > 0)) return scale_;
+    const double risen = scale_ + passed_s * per_s;
+    return risen < 1 ? risen : 1;
+  }
+  void take(double scale) {
+    scale_ = scale;
+    is_first_ = false;
+  }
+  bool is_first() const { return is_first_; }
+  double scale() const { return scale_; }
+  double last_s() const { return last_s_; }
+
+ private:
+  bool is_first_ = true;
+  double scale_ = 0;
+  double last_s_ = -std::numeric_limits<double>::infinity();
+};
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -73,7 +105,7 @@ bool is_healthy(const Result& result) {
   });
 }
 
-/// What is kept from update to update, and the steps of one.
+/// The memory from update to update, and the steps of one.
 struct SeparationMonitor::Parts {
   Parts(std::shared_ptr<const Robot> of, SeparationSettings with);
 

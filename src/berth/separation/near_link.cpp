@@ -1,5 +1,6 @@
 #include "berth/separation/near_link.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace berth {
@@ -72,6 +73,14 @@ NearLink near_link(const SeparationSettings& settings, const LinkResult& link, d
         with_unknown(near, settings.not_seen, settings.assumed_range_m, SeparationReason::not_seen);
   }
   return near;
+}
+
+double camera_uncertainty_m(const CameraSettings& settings, LinkId link, double depth_m) {
+  const SelfFilterSettings& filter = settings.self_filter;
+  const double z_m = std::max(0.0, depth_m);
+  const double tolerance_m = filter.tolerance_m + filter.tolerance_per_m2 * z_m * z_m;
+  return std::max(tolerance_m, filter.padding_of(link)) +
+         settings.sensor.noise_m * std::max(1.0, z_m * z_m);
 }
 
 }  // namespace berth

@@ -146,7 +146,7 @@ PathCertificate::PieceNeed PathCertificate::need_in(std::size_t i, int piece) co
   if (piece == 0 || !settings_.stopping.empty()) {
     return {needed_at(piece + 1) + bend_m, needed_at(piece + 1) + bend_m};
   }
-  // What is needed grows with the root of the way, which lies above the line between two nodes by
+  // The need grows with the root of the way, which lies above the line between two nodes by
   // a quarter of (root q - root p)^2 / (root q + root p), until it is the most.
   const double growth_m = rising_m_[after] - rising_m_[before];
   const double roots_m = rising_m_[after] + rising_m_[before] - 2 * rising_m_[0];

@@ -25,7 +25,7 @@ struct PathLink {
   double assumed_m = 0;
 };
 
-/// What is asked.
+/// The arguments of the certificate.
 struct PathRequest {
   const RobotPose& pose;
   const PlannedMotion& motion;
@@ -130,7 +130,7 @@ class PathCertificate {
   /// By link and both nodes; negative where not known yet.
   std::vector<double> moved_m_;
   std::vector<double> added_m_;
-  /// What is needed grows with the way, up to the most.
+  /// The need grows with the way, up to the most.
   std::array<double, BrakingPath::kNodes> rising_m_ = {};
   double most_needed_m_ = 0;
   bool is_straight_ = true;

@@ -30,7 +30,7 @@ struct ProtectiveTerms {
   double reaction_time_s = 0;
   /// Z_d.
   double camera_uncertainty_m = 0;
-  /// What is smaller may hide from the cameras by their settings
+  /// Anything smaller may hide from the cameras by their settings
   /// (SpaceSettings::detection_capability_m).
   double least_detection_m = 0;
   /// At this speed the robot need not brake any more: a contact is tolerable.

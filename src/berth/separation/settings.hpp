@@ -9,7 +9,7 @@
 
 namespace berth {
 
-/// What is done where it is not known how near something is.
+/// The policy where it is not known how near something is.
 enum class UnknownPolicy {
   stop,          ///< the robot stops
   assume_range,  ///< something is assumed to stand there: at the distance of what is rejected or

@@ -1,4 +1,4 @@
-// What is left of free space after something may have moved.
+// Free space that is left after something may have moved.
 #pragma once
 
 #include <array>

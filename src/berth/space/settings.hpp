@@ -24,7 +24,7 @@ constexpr std::string_view name_of(NoReading meaning) {
 }
 constexpr const auto& all_of(NoReading) { return kNoReadings; }
 
-/// What is said of space that is in no camera's image.
+/// The status of space that is in no camera's image.
 enum class Unobserved : std::uint8_t {
   ignore,   ///< nothing stands there, for a cell that nobody can enter unseen
   unknown,  ///< something may stand there, as behind what a camera sees

@@ -77,8 +77,8 @@ class UnknownSpace {
   /// Another one after each assign(), and no other object's.
   std::uint64_t serial_number() const { return serial_number_; }
 
-  /// Who hides this point, if it is hidden: farther than H of its pixel in some view, and before
-  /// environment's front there, and seen free by no other one (D5); or in no image and no
+  /// The view that hides this point, if it is hidden: farther than H of its pixel in some view, and
+  /// before environment's front there, and seen free by no other one (D5); or in no image and no
   /// guarded box, if SpaceSettings::unobserved says that this is unknown.
   std::optional<HidingPixel> hiding_pixel(const Eigen::Vector3d& p_B) const;
 

@@ -9,7 +9,7 @@
 
 namespace berth {
 
-/// What is known of whether a camera stands where it should (PoseWatch).
+/// Whether a camera stands where it should, as far as that is known (PoseWatch).
 struct CameraWatch {
   /// Whether anybody looks whether it was bumped.
   bool is_on = false;

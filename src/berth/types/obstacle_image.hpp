@@ -61,7 +61,7 @@ struct ObstacleImage {
   Image<PixelFate> fate;
   /// Pixels of each PixelFate; they add up to the image's size.
   std::array<std::int64_t, kPixelFateCount> count{};
-  /// What is thinner, and lies on the surface, is in no image: an assumption.
+  /// A thinner thing that lies on the surface is in no image: an assumption.
   SurfaceTolerance surface_tolerance;
 
   std::int64_t count_of(PixelFate f) const { return count[static_cast<std::size_t>(f)]; }

@@ -47,7 +47,7 @@ constexpr std::string_view name_of(TimeStatus status) {
   return kTimeStatusNames[static_cast<std::size_t>(status)];
 }
 
-/// What is known of a frame's time before anybody asks it.
+/// A frame's time as it is known before any request.
 struct FrameTime {
   TimeStatus status = TimeStatus::ok;
   /// From the exposure to the nearest joint sample; NaN where there is none.

@@ -1,4 +1,4 @@
-// What is varied.
+// The parameters that are varied.
 #include "thesis/study/parameter_sets.hpp"
 
 #include <gtest/gtest.h>
