@@ -44,15 +44,20 @@ def where():
     return f"{commit}, {processor}"
 
 
+def short(value):
+    """Two digits, or all before the point."""
+    return f"{value:.0f}" if value >= 10 else f"{value:.2g}"
+
+
 def ms(us):
-    return f"{us / 1000:.2g}"
+    return short(us / 1000)
 
 
 def readme_block(place, three, exact_ms):
     return f"""- **How fast** ({place}, one core for requests, one for images): three cameras ({BUNDLED}; 8 links) give
-  {three['answers_per_s']:.0f} answers a second, {100 * three['ok_share']:.0f} % of them `ok`, 99 % within {ms(three['ask_us']['p99'])} ms, with bounds {1000 * three['gap_m']['p50']:.1g} mm apart in the median;
+  {three['answers_per_s']:.0f} answers a second, {100 * three['ok_share']:.0f} % of them `ok`, 99 % within {ms(three['ask_us']['p99'])} ms, with bounds {short(1000 * three['gap_m']['p50'])} mm apart in the median;
   {three['exposure_to_answer_ms']['p50']:.0f} ms from an exposure to an answer that knows of it. `--deadline-us` cuts a request, and gives what is certain by then.
-  The closest pairs of one image alone (`berth evaluate`) take {exact_ms:.2g} ms in the median of random scenes. [All figures](lab/bench/RESULTS.md).
+  The closest pairs of one image alone (`berth evaluate`) take {short(exact_ms)} ms in the median of random scenes. [All figures](lab/bench/RESULTS.md).
 """
 
 
@@ -62,7 +67,7 @@ def results_block(place, rows):
              "| bounds apart, mm: median / 99 % |", "| --- | ---: | ---: | ---: | ---: | ---: | ---: |"]
     for name, row in rows.items():
         ask, image, exposure, gap = row["ask_us"], row["image_ms"], row["exposure_to_answer_ms"], row["gap_m"]
-        pair = lambda values, factor=1: " / ".join("-" if values[p] is None else f"{factor * values[p]:.2g}" for p in ("p50", "p99"))
+        pair = lambda values, factor=1: " / ".join("-" if values[p] is None else short(factor * values[p]) for p in ("p50", "p99"))
         asked = " / ".join(ms(ask[p]) for p in ("p50", "p99", "p999", "max"))
         lines.append(f"| {name} | {row['answers_per_s']:.0f} | {100 * row['ok_share']:.0f} % | {asked} | {pair(image)} | {pair(exposure)} | {pair(gap, 1000)} |")
     return "\n".join(lines) + "\n"
