@@ -73,7 +73,8 @@ class Moved(unittest.TestCase):
 
     @classmethod
     def on_info(cls, info):
-        info.k[0], info.k[4] = cls.focal * info.k[0], cls.focal * info.k[4]
+        # Of rectified images P counts.
+        info.p[0], info.p[5] = cls.focal * info.p[0], cls.focal * info.p[5]
         cls.infos.publish(info)
 
     @classmethod
