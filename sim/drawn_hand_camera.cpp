@@ -16,7 +16,7 @@ constexpr int kLook_px = 64;
 constexpr double kLeastMovingShare = 0.02;
 constexpr double kMostSeenShare = 0.5;
 constexpr float kNearest_m = 0.08F;
-/// The share of the poses.
+/// The least share of the poses.
 constexpr double kLeastPosesShare = 0.6;
 
 bool is_turned_by_itself(const Joint& joint) {

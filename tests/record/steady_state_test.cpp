@@ -2,6 +2,7 @@
 #include <chrono>
 #include <thread>
 
+#include "berth/record/monitor_loop.hpp"
 #include "tests/record/one_camera_loop.hpp"
 #include "tests/support/allocation_count.hpp"
 
@@ -43,6 +44,22 @@ TEST_F(RecorderSteadyState, AsksWithoutAnAllocationOnceItIsWarm) {
   black_box->finish();
   EXPECT_EQ(black_box->counts().lost_requests, 0);
   EXPECT_EQ(replay(file()).different, 0);
+}
+
+TEST_F(RecorderSteadyState, ALoopMonitorsWithoutAnAllocationOnceItIsWarm) {
+  MonitorLoop loop(scene_.robot, {}, scene_.separation);
+  const std::vector<double> velocity(scene_.robot->model().joints.size(), 0.0);
+  observe();
+  const std::vector<std::shared_ptr<const Frame>> frames{frame_};
+  std::size_t last = 1;
+  for (int k = 0; k < 10; ++k) {
+    const Request request{.frames = frames, .now_s = now_s_};
+    const std::size_t before = allocation_count_of_this_thread();
+    loop.ask(request);
+    EXPECT_TRUE(loop.monitor(velocity, now_s_).separation);
+    last = allocation_count_of_this_thread() - before;
+  }
+  EXPECT_EQ(last, 0U);
 }
 
 }  // namespace

@@ -21,7 +21,10 @@ const Result& MonitorLoop::ask(const Request& request) {
 const Result& MonitorLoop::monitor(const PlannedMotion& motion, double now_s, bool with_frames) {
   assert(asked_ && "a result of ask()");
   if (!monitor_) return *asked_;
+  // The query's result has no separation: a plain copy would free the memory of the one before.
+  std::optional<Separation> before = std::move(monitored_.separation);
   monitored_ = *asked_;
+  monitored_.separation = std::move(before);
   monitored_.separation = update_recorded(recorder_, *monitor_, *asked_, motion, now_s,
                                           with_frames ? &query_.frames() : nullptr);
   return monitored_;

@@ -85,8 +85,8 @@ Json json_of(const MountedCamera& mounted) {
   return json;
 }
 
-std::shared_ptr<const MountedCamera> view_of(const Json& json,
-                                             const std::shared_ptr<const Robot>& robot) {
+std::shared_ptr<const MountedCamera> mounted_of(const Json& json,
+                                                const std::shared_ptr<const Robot>& robot) {
   CameraMount mount;
   mount.name = json.at("name").get<std::string>();
   mount.parent_link = json.at("parent_link").get<std::string>();
@@ -136,7 +136,8 @@ RecordedCell cell_of(const mcap::FileReader& file, const Json& json, std::string
     evaluation.distance.deadline_us = std::numeric_limits<double>::infinity();
   }
   cell.robot = read_robot(file, evaluation);
-  for (const Json& camera : json.at("cameras")) cell.cameras.push_back(view_of(camera, cell.robot));
+  for (const Json& camera : json.at("cameras"))
+    cell.cameras.push_back(mounted_of(camera, cell.robot));
   if (!json.at("separation").is_null()) cell.separation = separation_of(json.at("separation"));
   return cell;
 }
