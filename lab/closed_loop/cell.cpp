@@ -79,7 +79,7 @@ std::shared_ptr<const Robot> cell_robot(std::optional<double> deadline_us) {
   return std::make_shared<const Robot>(cell_model(), settings);
 }
 
-std::vector<std::shared_ptr<const MountedCamera>> cell_views(
+std::vector<std::shared_ptr<const MountedCamera>> mounted_cell_cameras(
     const std::shared_ptr<const Robot>& robot, const std::vector<int>& cameras,
     double detection_m) {
   const std::vector<CellCamera> all = cell_cameras();

@@ -58,7 +58,7 @@ std::shared_ptr<const Robot> cell_robot(std::optional<double> deadline_us = {});
 /// Of these cameras, by their place in cell_cameras(). Settings are the defaults, but for d, and
 /// for speckle: these cameras mix pixels at outlines. So what shows less than 40 % of a ball of d
 /// 2.2 m away is dropped.
-std::vector<std::shared_ptr<const MountedCamera>> cell_views(
+std::vector<std::shared_ptr<const MountedCamera>> mounted_cell_cameras(
     const std::shared_ptr<const Robot>& robot, const std::vector<int>& cameras, double detection_m);
 
 }  // namespace berth::lab

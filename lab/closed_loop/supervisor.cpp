@@ -16,7 +16,7 @@ MonitorSupervisor::MonitorSupervisor(std::vector<int> cameras, const SeparationS
       frames_(cameras_.size()),
       loop_(robot_, {}, settings),
       shown_(shown) {
-  for (const auto& mounted : cell_views(robot_, cameras_, settings.detection_m.value())) {
+  for (const auto& mounted : mounted_cell_cameras(robot_, cameras_, settings.detection_m.value())) {
     observers_.push_back(std::make_unique<Observer>(mounted));
   }
 }

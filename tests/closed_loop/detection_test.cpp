@@ -28,7 +28,7 @@ class DrawnThings {
                              : sim::make_ellipsoid(Eigen::Vector3d::Constant(radius_m_), 16)},
         sensors_(model_, meshes_, 7),
         clearance_(model_, meshes_) {
-    for (const auto& mounted : cell_views(cell_robot(), {0, 1, 2}, diameter_m)) {
+    for (const auto& mounted : mounted_cell_cameras(cell_robot(), {0, 1, 2}, diameter_m)) {
       observers_.push_back(std::make_unique<Observer>(mounted));
     }
   }
@@ -153,7 +153,7 @@ TEST(UndetectedBalls, MuchSmallerBallsAreNotTold) {
 /// What calibration's map says of the same cameras, by ten poses of the arm.
 DetectionMap map_of_cell() {
   std::vector<DetectionCamera> cameras;
-  for (const auto& mounted : cell_views(cell_robot(), {0, 1, 2}, kCellDetection_m)) {
+  for (const auto& mounted : mounted_cell_cameras(cell_robot(), {0, 1, 2}, kCellDetection_m)) {
     cameras.push_back(
         {mounted->camera(), mounted->settings().self_filter, mounted->settings().sensor, {}});
   }

@@ -8,7 +8,7 @@
 #include "berth/scene/open_scene.hpp"
 #include "tests/pipeline/frame_query.hpp"
 #include "tests/support/error_message.hpp"
-#include "tests/support/view_with.hpp"
+#include "tests/support/mounted_with.hpp"
 
 namespace berth {
 namespace {
@@ -173,7 +173,7 @@ TEST_F(MovedCamera, NothingIsLearnedFromIt) {
     const auto mounted = view_of(turn_rad);
     CameraSettings settings = mounted->settings();
     settings.sensor.background_frames = 1;
-    Observer observer(testing::view_with(*mounted, settings));
+    Observer observer(testing::mounted_with(*mounted, settings));
     Frame frame;
     observer.observe(depth_m_, camera_.at_exposure[kFrame], frame);
     observer.learn_background(depth_m_, frame);

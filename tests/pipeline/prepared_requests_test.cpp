@@ -45,8 +45,8 @@ TEST_F(PreparedScene, LookAheadIsThatOfItsFrames) {
 TEST_F(PreparedScene, VisibilityAndWhatWasRejectedAreThoseOfItsFrames) {
   EvaluationSettings settings = robot()->settings();
   settings.visibility = true;
-  const auto mounted = testing::view_with(*scene_.cameras[0].mounted, settings,
-                                          scene_.cameras[0].mounted->settings());
+  const auto mounted = testing::mounted_with(*scene_.cameras[0].mounted, settings,
+                                             scene_.cameras[0].mounted->settings());
   SharedFrames frames(1);
   int rejected = 0;
   Query query(mounted->robot()), plain(mounted->robot());
@@ -90,7 +90,7 @@ TEST_F(PreparedScene, OneThatIsSearchedOnIsAskedAsBefore) {
 TEST_F(PreparedScene, WithoutTimeARequestTellsWhatWasFoundBeforehand) {
   EvaluationSettings settings = robot()->settings();
   settings.distance.deadline_us = 0;
-  const auto mounted = testing::view_with(*cameras_[0], settings, CameraSettings{});
+  const auto mounted = testing::mounted_with(*cameras_[0], settings, CameraSettings{});
   const auto frame = std::make_shared<Frame>();
   Observer(mounted).observe(scene_.cameras[0].read_depth(3), joints(3), *frame);
   const auto space = std::make_shared<PreparedSpace>(mounted->robot(), 1);

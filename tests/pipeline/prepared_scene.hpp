@@ -16,7 +16,7 @@
 #include "berth/scene/open_scene.hpp"
 #include "tests/pipeline/flying_pixels.hpp"
 #include "tests/support/error_message.hpp"
-#include "tests/support/view_with.hpp"
+#include "tests/support/mounted_with.hpp"
 
 namespace berth {
 
@@ -70,7 +70,7 @@ class PreparedScene : public ::testing::Test {
   PreparedScene() : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/scene.yaml")) {
     const CameraSettings plain;
     for (const OpenCamera& camera : scene_.cameras) {
-      cameras_.push_back(testing::view_with(*camera.mounted, plain));
+      cameras_.push_back(testing::mounted_with(*camera.mounted, plain));
     }
   }
 

@@ -10,7 +10,7 @@
 #include "berth/scene/open_scene.hpp"
 #include "tests/pipeline/frame_query.hpp"
 #include "tests/support/error_message.hpp"
-#include "tests/support/view_with.hpp"
+#include "tests/support/mounted_with.hpp"
 
 namespace berth {
 namespace {

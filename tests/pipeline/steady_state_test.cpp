@@ -9,7 +9,7 @@
 #include "berth/scene/open_scene.hpp"
 #include "tests/pipeline/flying_pixels.hpp"
 #include "tests/support/allocation_count.hpp"
-#include "tests/support/view_with.hpp"
+#include "tests/support/mounted_with.hpp"
 
 namespace berth {
 namespace {
@@ -22,7 +22,7 @@ TEST(SteadyState, TheWholeWayAllocatesNothingOnceItHasSeenTheImages) {
   const std::size_t numbers[] = {3, 17, 30};
   CameraSettings with_region = camera.mounted->settings();
   with_region.self_filter.robot_region_scale = 3;
-  const auto region_view = testing::view_with(*camera.mounted, with_region);
+  const auto region_view = testing::mounted_with(*camera.mounted, with_region);
   for (const int threads : {1, 2}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     Observer observer(camera.mounted);

@@ -8,7 +8,7 @@
 #include "berth/pipeline/observer.hpp"
 #include "berth/scene/open_scene.hpp"
 #include "tests/pipeline/frame_query.hpp"
-#include "tests/support/view_with.hpp"
+#include "tests/support/mounted_with.hpp"
 
 namespace berth {
 namespace {
@@ -29,7 +29,7 @@ class RunningRobot : public ::testing::Test {
       : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml")),
         camera_(scene_.cameras.front()),
         depth_m_(camera_.read_depth(3)),
-        mounted_(testing::view_with(*camera_.mounted, EvaluationSettings(), {})),
+        mounted_(testing::mounted_with(*camera_.mounted, EvaluationSettings(), {})),
         names_(joint_names(mounted_->robot()->model())) {
     push_until(10.5);
   }

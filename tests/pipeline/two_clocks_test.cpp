@@ -6,7 +6,7 @@
 #include "berth/pipeline/observer.hpp"
 #include "berth/scene/open_scene.hpp"
 #include "tests/pipeline/frame_query.hpp"
-#include "tests/support/view_with.hpp"
+#include "tests/support/mounted_with.hpp"
 
 namespace berth {
 namespace {
@@ -93,7 +93,7 @@ TEST_F(TwoClocks, ABackgroundIsLearnedOnlyWhereItIsAskedForAndFromImagesOfTheCam
 
   CameraSettings settings;
   settings.sensor.background_frames = 1;
-  Observer observer(testing::view_with(*camera_.mounted, settings));
+  Observer observer(testing::mounted_with(*camera_.mounted, settings));
   EXPECT_THROW(observer.learn_background(DepthImage(10, 10, 1.0F), frame), std::invalid_argument);
   Frame learned;
   observer.observe(depth_m, camera_.at_exposure[0], learned);

@@ -10,7 +10,7 @@
 #include "berth/scene/open_scene.hpp"
 #include "tests/pipeline/frame_query.hpp"
 #include "tests/support/error_message.hpp"
-#include "tests/support/view_with.hpp"
+#include "tests/support/mounted_with.hpp"
 
 namespace berth {
 namespace {
@@ -20,7 +20,7 @@ class WholeRobot : public ::testing::Test {
   WholeRobot()
       : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml")),
         camera_(scene_.cameras.front()),
-        mounted_(testing::view_with(*camera_.mounted, EvaluationSettings{}, {})) {}
+        mounted_(testing::mounted_with(*camera_.mounted, EvaluationSettings{}, {})) {}
 
   void observe(std::size_t i, Frame& frame) const {
     Observer(mounted_).observe(camera_.read_depth(i), camera_.at_exposure[i], frame);
@@ -194,7 +194,7 @@ TEST_F(WholeRobot, ALinkNearMuchThatIsInNoImageIsNotCalledFree) {
     evaluation.distance.range_m = 3;
     CameraSettings settings;
     settings.space.unobserved = unobserved;
-    const auto mounted = testing::view_with(*camera_.mounted, evaluation, settings);
+    const auto mounted = testing::mounted_with(*camera_.mounted, evaluation, settings);
     Frame frame;
     Observer observer(mounted);
     observer.observe(camera_.read_depth(17), camera_.at_exposure[17], frame);

@@ -6,7 +6,7 @@
 #include "berth/scene/open_scene.hpp"
 #include "lab/filter/expected_ranges.hpp"
 #include "tests/support/data_folder.hpp"
-#include "tests/support/view_with.hpp"
+#include "tests/support/mounted_with.hpp"
 #include "thesis/image_query.hpp"
 
 namespace berth {
@@ -62,7 +62,7 @@ std::shared_ptr<const MountedCamera> with_rules(const OpenCamera& camera,
                                                 const SensorSettings& rules) {
   CameraSettings settings = camera.mounted->settings();
   settings.sensor = rules;
-  return testing::view_with(*camera.mounted, settings);
+  return testing::mounted_with(*camera.mounted, settings);
 }
 
 TEST_P(ImageRecording, SpeckleAndBackgroundMakeNoDistanceLarger) {

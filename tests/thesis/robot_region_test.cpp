@@ -4,7 +4,7 @@
 #include "berth/pipeline/observer.hpp"
 #include "berth/render/robot_renderer.hpp"
 #include "berth/scene/open_scene.hpp"
-#include "tests/support/view_with.hpp"
+#include "tests/support/mounted_with.hpp"
 #include "thesis/image_query.hpp"
 
 namespace berth {
@@ -17,12 +17,12 @@ class RobotRegion : public ::testing::Test {
         camera_(scene_.cameras.front()) {}
 
   /// The bundled scene with a region.
-  std::shared_ptr<const MountedCamera> view_with(double scale) const {
+  std::shared_ptr<const MountedCamera> mounted_with(double scale) const {
     CameraSettings settings = camera_.mounted->settings();
     settings.self_filter.robot_region_scale = scale;
     // It looks at what the region left.
     settings.sensor.phantom_radius_m = 0;
-    return testing::view_with(*camera_.mounted, settings);
+    return testing::mounted_with(*camera_.mounted, settings);
   }
 
   Frame observe(const std::shared_ptr<const MountedCamera>& mounted, std::size_t i) const {
@@ -39,8 +39,8 @@ class RobotRegion : public ::testing::Test {
 };
 
 TEST_F(RobotRegion, IgnoresOnlyWhatIsNotSeenThroughIt) {
-  const auto mounted = view_with(3);
-  const Frame all = observe(view_with(0), 19);
+  const auto mounted = mounted_with(3);
+  const Frame all = observe(mounted_with(0), 19);
   const Frame some = observe(mounted, 19);
   RobotPose pose;
   forward_kinematics(mounted->robot()->model(), camera_.at_exposure[19].position, pose);
@@ -57,7 +57,7 @@ TEST_F(RobotRegion, IgnoresOnlyWhatIsNotSeenThroughIt) {
 }
 
 TEST_F(RobotRegion, NeverMakesADistanceSmaller) {
-  const auto mounted = view_with(2);
+  const auto mounted = mounted_with(2);
   const Frame all = observe(camera_.mounted, 19);
   const Frame some = observe(mounted, 19);
   ImageQuery everything(camera_.mounted->robot(), Method::exact);

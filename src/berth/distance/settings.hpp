@@ -42,8 +42,7 @@ void visit_settings(Settings& s, Visitor&& visit) {
   visit({"deadline_us",
          {.may_be_infinite = true},
          "the search stops in time for a request to take this number of microseconds, and tells "
-         "what it "
-         "knows by then: distance and lower bound"},
+         "what it knows by then: distance and lower bound"},
         s.deadline_us);
   visit({"min_seen_share",
          {.most = 1},

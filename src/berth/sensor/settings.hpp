@@ -49,8 +49,7 @@ void visit_settings(Settings& s, Visitor&& visit) {
         s.phantom_radius_m);
   visit({"background_frames", kNotNegative,
          "what this number of images of the empty cell agrees on stands where the robot hides it "
-         "now, and "
-         "something is where it cannot be read any more; 0 is off"},
+         "now, and something is where it cannot be read any more; 0 is off"},
         s.background_frames);
 }
 

@@ -4,7 +4,7 @@
 #include "berth/scene/open_scene.hpp"
 #include "tests/support/error_message.hpp"
 #include "tests/support/gl_test.hpp"
-#include "tests/support/view_with.hpp"
+#include "tests/support/mounted_with.hpp"
 #include "thesis/image_method.hpp"
 #include "thesis/image_query.hpp"
 #include "thesis/opengl/gl_image_query.hpp"
@@ -22,13 +22,13 @@ class GlPipeline : public testing::GlTest {
       : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml")),
         camera_(scene_.cameras.front()) {
     // They are dropped on the CPU alone.
-    scene_.cameras.front().mounted = view_with({.phantom_radius_m = 0});
+    scene_.cameras.front().mounted = mounted_with({.phantom_radius_m = 0});
   }
 
-  std::shared_ptr<const MountedCamera> view_with(const SensorSettings& sensor) const {
+  std::shared_ptr<const MountedCamera> mounted_with(const SensorSettings& sensor) const {
     CameraSettings settings = camera_.mounted->settings();
     settings.sensor = sensor;
-    return testing::view_with(*camera_.mounted, settings);
+    return testing::mounted_with(*camera_.mounted, settings);
   }
 
   Frame observe_on_cpu(std::size_t i) const { return observe_on_cpu(i, camera_.read_depth(i)); }
@@ -143,7 +143,7 @@ TEST_F(GlPipeline, AMethodOfTheOtherBackendIsRefused) {
 
 TEST_F(GlPipeline, ASensorRuleIsRefusedByName) {
   const auto refusal = [&](const SensorSettings& sensor) {
-    const auto mounted = view_with(sensor);
+    const auto mounted = mounted_with(sensor);
     return error_message<std::invalid_argument>([&] { GlObserver observer(mounted); });
   };
   const std::string rest = ": runs on the CPU alone; expected it off on OpenGL";
@@ -157,7 +157,7 @@ TEST_F(GlPipeline, AWatchIsRefusedByName) {
        {WatchSettings{.max_seen_through = 0.03}, WatchSettings{.max_displacement_m = 0.02}}) {
     CameraSettings settings = camera_.mounted->settings();
     settings.watch = watch;
-    const auto mounted = testing::view_with(*camera_.mounted, settings);
+    const auto mounted = testing::mounted_with(*camera_.mounted, settings);
     EXPECT_EQ(error_message<std::invalid_argument>([&] { GlObserver observer(mounted); }),
               "watch: a camera is watched on the CPU alone; expected max_seen_through and "
               "max_displacement_m to be 0 on OpenGL");

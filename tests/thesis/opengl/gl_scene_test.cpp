@@ -9,7 +9,7 @@
 #include "berth/self_filter/self_filter.hpp"
 #include "tests/support/data_folder.hpp"
 #include "tests/support/gl_test.hpp"
-#include "tests/support/view_with.hpp"
+#include "tests/support/mounted_with.hpp"
 #include "tests/thesis/opengl/robot_difference.hpp"
 #include "thesis/evaluate.hpp"
 #include "thesis/opengl/gl_evaluate.hpp"
@@ -56,7 +56,7 @@ class GlSceneTest : public testing::GlTest, public ::testing::WithParamInterface
     CameraSettings settings = camera().mounted->settings();
     // A rule for `mesh`, which is not on the GPU.
     settings.sensor.phantom_radius_m = 0;
-    scene_.cameras.front().mounted = testing::view_with(*camera().mounted, settings);
+    scene_.cameras.front().mounted = testing::mounted_with(*camera().mounted, settings);
   }
 
   const OpenCamera& camera() const { return scene_.cameras.front(); }
@@ -65,7 +65,7 @@ class GlSceneTest : public testing::GlTest, public ::testing::WithParamInterface
   std::shared_ptr<const MountedCamera> view_filtered(const SelfFilterSettings& self_filter) const {
     CameraSettings settings = camera().mounted->settings();
     settings.self_filter = self_filter;
-    return testing::view_with(*camera().mounted, settings);
+    return testing::mounted_with(*camera().mounted, settings);
   }
 
   std::filesystem::path file_;
