@@ -171,6 +171,12 @@ void add_evaluate_options(CLI::App& command, EvaluateArguments& arguments) {
       ->check(require_positive_finite)
       ->excludes(scene)
       ->type_name("M");
+  command
+      .add_option("--robot-region-scale", arguments.robot_region_scale,
+                  "With a scene: what is not seen through the robot enlarged by this factor is "
+                  "ignored, however near (the thesis: 6); 0 is off (default: 0)")
+      ->check(CLI::IsMember({0.0}) | CLI::Range(1.0, 1000.0))
+      ->type_name("X");
   command.add_option("--repeat", arguments.repeat, "Evaluate so often, and tell the times")
       ->check(CLI::Range(1, 1000000000))
       ->type_name("N");
@@ -180,6 +186,9 @@ void add_evaluate_options(CLI::App& command, EvaluateArguments& arguments) {
   add_output(command, arguments);
   command.callback([&command, &arguments] {
     if (!arguments.scene.empty()) return;
+    if (arguments.robot_region_scale != 0) {
+      throw CLI::ValidationError("--robot-region-scale", "needs a scene");
+    }
     if (arguments.where.backend == Backend::opengl) {
       throw CLI::ValidationError("--backend", "opengl needs a scene");
     }

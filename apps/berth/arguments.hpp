@@ -81,6 +81,8 @@ struct EvaluateArguments : CommonArguments {
   std::filesystem::path link_ids;
   std::filesystem::path obstacle_depth;
   double depth_scale_m = 0.001;
+  /// SelfFilterSettings::robot_region_scale of the scene's cameras.
+  double robot_region_scale = 0;
   int repeat = 0;
 };
 

@@ -134,6 +134,9 @@ void evaluate_scene(const EvaluateArguments& arguments) {
   settings = arguments.evaluation.over(settings, arguments.method);
   file.evaluation.distance = settings;
   file.evaluation.visibility = false;
+  for (SceneCamera& camera : file.cameras) {
+    camera.settings.self_filter.robot_region_scale = arguments.robot_region_scale;
+  }
   const OpenScene scene = open_with_progress(file, "check images", open_scene);
   Output output(arguments);
   keep_what_is_done(arguments, output, [&] {

@@ -37,6 +37,21 @@ TEST(Methods, EachOptionOfLatticeChangesTheSearch) {
   EXPECT_GT(pairs_with({"--shrinking", "none"}), without);
 }
 
+TEST(Methods, TheRobotShapedRegionIgnoresWhatIsNotSeenThroughIt) {
+  const CommandScene scene;
+  const auto ignored = [&](const Words& more) {
+    return scene.json(evaluate_with(more)).at(0)["cameras"][0]["self_filter"]["outside_region"];
+  };
+  EXPECT_EQ(ignored({}), 0);
+  const int near = ignored({"--robot-region-scale", "3"});
+  const int nearer = ignored({"--robot-region-scale", "1.5"});
+  EXPECT_GT(near, 0);
+  EXPECT_GT(nearer, near);
+  EXPECT_EQ(scene.berth(evaluate_with({"--robot-region-scale", "0.5"})).exit_status, 2);
+  EXPECT_NE(scene.berth({"evaluate", "--robot-region-scale", "3"}).err.find("needs a scene"),
+            std::string::npos);
+}
+
 TEST(Methods, OptionsAreRefusedForAMethodThatDoesNotHaveThem) {
   struct Wrong {
     std::string method;

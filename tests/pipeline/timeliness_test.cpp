@@ -203,7 +203,6 @@ TEST(TimeSettings, LimitsBelowZeroAndNaNAreRefused) {
     EXPECT_NO_THROW(validate(settings));
   };
   refused([](TimeSettings& s, double v) { s.joints.max_skew_s = v; });
-  refused([](TimeSettings& s, double v) { s.joints.max_extrapolation_s = v; });
   refused([](TimeSettings& s, double v) { s.max_frame_age_s = v; });
   refused([](TimeSettings& s, double v) { s.max_joints_age_s = v; });
 }

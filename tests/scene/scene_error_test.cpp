@@ -177,8 +177,8 @@ TEST(SceneErrors, RefusesABadValueAndSaysWhere) {
        "joints: j\ntime: {max_skew: 1}",
        {"scene.yaml:9: time.max_skew: unknown key; expected max_skew_s"}},
       {&S::end,
-       "joints: j\nsensor: {noise: 1}",
-       {"scene.yaml:9: sensor.noise: unknown key; expected noise_m (the nearest)"}},
+       "joints: j\nsensor: {speckle: 1}",
+       {"scene.yaml:9: sensor.speckle: unknown key; expected speckle_px (the nearest)"}},
       {&S::end,
        "joints: j\nsensor: {holes: obstacle}",
        {"scene.yaml:9: sensor.holes: obstacle; expected space.no_reading: hides in its place, or a "
@@ -224,7 +224,7 @@ TEST(SceneErrors, TellsTheBeginningOfALongTextAlone) {
 TEST(SceneErrors, RefusesEveryNegativeNumberOfTheSelfFilter) {
   for (const std::string key :
        {"tolerance_m", "tolerance_per_m2", "padding_m", "surface_tolerance_m",
-        "flying_patch_radius_m", "robot_region_scale"}) {
+        "flying_patch_radius_m"}) {
     for (const std::string value : {"-0.01", ".nan", "wide"}) {
       const SceneText scene =
           with(&SceneText::end, "joints: j\nself_filter: {" + key + ": " + value + "}");
@@ -241,7 +241,9 @@ TEST(SceneErrors, RefusesEveryLengthAndCountOfTheSensorThatIsNone) {
     expect_parts(error_message([&] { read_text(scene); }),
                  {"scene.yaml:9: sensor." + key + ": " + value + "; expected"});
   };
-  for (const std::string value : {"-0.01", ".nan", "wide"}) expect_refused("noise_m", value);
+  for (const std::string value : {"-0.01", ".nan", "wide"}) {
+    expect_refused("phantom_radius_m", value);
+  }
   for (const std::string key : {"speckle_px", "background_frames"}) {
     for (const std::string value : {"-1", "1.5", "many"}) expect_refused(key, value);
   }

@@ -46,13 +46,11 @@ self_filter:
   link_padding_m: {link_3: 0.05, link_4: 0}
   surface_tolerance_m: 0.07
   flying_patch_radius_m: 0.08
-  robot_region_scale: 6.5
 sensor:
-  noise_m: 0.011
   speckle_px: 12
   background_frames: 15
 evaluation: {range_m: 0.5, mean_direction: off, visibility: false}
-time: {max_skew_s: 0.01, max_extrapolation_s: 0.02}
+time: {max_skew_s: 0.01}
 )");
   const SceneFile scene = read_scene(file);
   EXPECT_EQ(scene.file, file);
@@ -87,16 +85,13 @@ time: {max_skew_s: 0.01, max_extrapolation_s: 0.02}
             (std::map<std::string, double>{{"link_3", 0.05}, {"link_4", 0}}));
   EXPECT_EQ(filter.surface_tolerance_m, 0.07);
   EXPECT_EQ(filter.flying_patch_radius_m, 0.08);
-  EXPECT_EQ(filter.robot_region_scale, 6.5);
   const SensorSettings& sensor = scene.cameras[0].settings.sensor;
-  EXPECT_EQ(sensor.noise_m, 0.011);
   EXPECT_EQ(sensor.speckle_px, 12);
   EXPECT_EQ(sensor.background_frames, 15);
   EXPECT_EQ(scene.evaluation.distance.range_m, 0.5);
   EXPECT_EQ(scene.evaluation.distance.mean_direction, false);
   EXPECT_EQ(scene.evaluation.visibility, false);
   EXPECT_EQ(scene.evaluation.time.joints.max_skew_s, 0.01);
-  EXPECT_EQ(scene.evaluation.time.joints.max_extrapolation_s, 0.02);
 }
 
 TEST(Scene, LeavesDefaultsToThoseWhoOwnThem) {
@@ -112,7 +107,6 @@ TEST(Scene, LeavesDefaultsToThoseWhoOwnThem) {
   const EvaluationSettings evaluation;
   EXPECT_EQ(scene.cameras[0].settings.self_filter.tolerance_m, usual.self_filter.tolerance_m);
   EXPECT_TRUE(scene.cameras[0].settings.link_padding_m.empty());
-  EXPECT_EQ(scene.cameras[0].settings.sensor.noise_m, usual.sensor.noise_m);
   EXPECT_EQ(scene.cameras[0].settings.sensor.speckle_px, usual.sensor.speckle_px);
   EXPECT_EQ(scene.evaluation.distance.range_m, evaluation.distance.range_m);
   EXPECT_EQ(scene.evaluation.distance.mean_direction, evaluation.distance.mean_direction);

@@ -41,7 +41,7 @@ TEST(SeparationInScenes, HasEveryKeyAndTheTable) {
   const SeparationSettings settings = read_separation_of(
       "{human_speed_m_s: 2, reaction_time_s: 0.2, deceleration_m_s2: 3, acceleration_m_s2: 4, "
       "intrusion_m: 0.1, detection_m: 0.03, camera_uncertainty_m: 0.05, robot_uncertainty_m: 0.02, "
-      "contact_speed_m_s: 0.25, least_seen: 0.3, "
+      "contact_speed_m_s: 0.25, "
       "not_seen: assume_range, camera: ignore, no_reading: assume_range, rejected: stop, unknown: "
       "ignore, "
       "assumed_range_m: 0.5, stopping: [{speed_m_s: 0.5, time_s: 0.2, distance_m: 0.05}, "

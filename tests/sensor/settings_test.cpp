@@ -29,10 +29,9 @@ TEST(SensorSettings, DefaultsAreValid) { EXPECT_NO_THROW(validate(SensorSettings
 TEST(SensorSettings, EachKeyOutsideItsDomainIsNamed) {
   using Settings = SensorSettings;
   const std::pair<const char*, std::function<void(Settings&)>> cases[] = {
-      {"sensor.noise_m: -0.1; expected", [](Settings& s) { s.noise_m = -0.1; }},
       {"sensor.speckle_px: -1; expected", [](Settings& s) { s.speckle_px = -1; }},
-      {"sensor.noise_m: inf; expected",
-       [](Settings& s) { s.noise_m = std::numeric_limits<double>::infinity(); }},
+      {"sensor.phantom_radius_m: inf; expected",
+       [](Settings& s) { s.phantom_radius_m = std::numeric_limits<double>::infinity(); }},
       {"sensor.background_frames: -2; expected", [](Settings& s) { s.background_frames = -2; }},
   };
   for (const auto& [expected, spoil] : cases) {

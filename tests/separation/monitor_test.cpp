@@ -385,10 +385,10 @@ TEST_F(Monitor, NeedsARobotWhoseResultsTellWhatIsSeen) {
 
 TEST_F(Monitor, RefusesBadSettings) {
   SeparationSettings settings;
-  settings.least_seen = 2;
+  settings.reaction_time_s = -2;
   EXPECT_EQ(
       error_message<std::invalid_argument>([&] { SeparationMonitor(scene_.robot, settings); }),
-      "separation.least_seen: 2; expected a finite number from 0 to 1");
+      "separation.reaction_time_s: -2; expected a finite number of at least 0");
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ struct JointTimeLimits {
   /// From the time asked for to the nearest sample: farther away, a straight line between two
   /// samples is a guess.
   double max_skew_s = 0.02;
-  /// Beyond the first or the last sample.
+  /// Beyond the first or the last sample. No setting: no recording gained by more.
   double max_extrapolation_s = 0;
 
   bool operator==(const JointTimeLimits&) const = default;
@@ -26,9 +26,6 @@ void visit_settings(Settings& s, Visitor&& visit) {
   constexpr Domain kSeconds{.may_be_infinite = true};
   visit({"max_skew_s", kSeconds, "how far the nearest sample of the joints may lie from an image"},
         s.max_skew_s);
-  visit({"max_extrapolation_s", kSeconds,
-         "how far an image may lie before the first or after the last sample of the joints"},
-        s.max_extrapolation_s);
 }
 
 /// No limit but that nothing is extrapolated.

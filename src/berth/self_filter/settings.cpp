@@ -10,6 +10,7 @@ namespace berth {
 void validate(const SelfFilterSettings& settings) {
   const SettingCheck check{"self_filter"};
   visit_settings(settings, check);
+  check({"robot_region_scale", {.least = 1, .has_off = true}, ""}, settings.robot_region_scale);
   for (const double padding_m : settings.link_padding_m) {
     if (!std::isnan(padding_m)) check({"link_padding_m", kNotNegative, ""}, padding_m);
   }

@@ -40,7 +40,8 @@ struct SelfFilterSettings {
   /// robot enlarged this many times (robot_region) are **ignored**, however near they are in space;
   /// the thesis's picture uses 6. It is uneven: wide around thick links, narrow around thin ones,
   /// where an obstacle that is ignored makes a distance too large. At other joint angles than those
-  /// of the exposure it stays where it was. 0 turns it off, else it is at least 1.
+  /// of the exposure it stays where it was. 0 turns it off, else it is at least 1. No setting:
+  /// `berth evaluate` has it as an option.
   double robot_region_scale = 0;
 
   double padding_of(LinkId id) const {
@@ -71,11 +72,6 @@ void visit_settings(Settings& s, Visitor&& visit) {
          "a piece that touches the robot's own readings and stays within this distance of the "
          "robot is unknown unless its rim shows that it is a thing; 0 is off"},
         s.flying_patch_radius_m);
-  visit({"robot_region_scale",
-         {.least = 1, .has_off = true},
-         "what is not seen through the robot enlarged by this factor is ignored, however near "
-         "(the thesis: 6); distances can be too large; 0 is off"},
-        s.robot_region_scale);
 }
 
 /// Throws std::invalid_argument that names key, value and what was expected.

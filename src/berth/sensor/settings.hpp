@@ -9,7 +9,8 @@ namespace berth {
 /// Rules for the sensor's faults. Every rule but `phantom_radius_m` is off by default. Only
 /// that and `speckle_px` ever drop anything; the background adds obstacles.
 struct SensorSettings {
-  /// Two readings of one surface at z m differ by no more than noise_m max(1, z^2).
+  /// Two readings of one surface at z m differ by no more than noise_m max(1, z^2). No setting:
+  /// nobody can choose it.
   double noise_m = 0.02;
   /// Blobs of fewer pixels are dropped; 0 and 1 turn the rule off. A blob is joined by steps
   /// between neighbours (8) as those of one surface (joined.hpp). What is lost
@@ -37,10 +38,6 @@ struct SensorSettings {
 /// The list of these settings.
 template <SettingsOf<SensorSettings> Settings, class Visitor>
 void visit_settings(Settings& s, Visitor&& visit) {
-  visit({"noise_m", kNotNegative,
-         "two readings of one surface at z differ by up to this times "
-         "max(1, z²)"},
-        s.noise_m);
   visit({"speckle_px", kNotNegative, "blobs of fewer pixels are dropped; 0 and 1 are off"},
         s.speckle_px);
   visit({"phantom_radius_m", kNotNegative,

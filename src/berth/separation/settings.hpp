@@ -67,7 +67,8 @@ struct SeparationSettings {
   /// contact at this speed tolerable; 0: it has to stand. It stands all the same where a camera or
   /// the joints are not in order, a link is not seen, or it holds something sharp.
   double contact_speed_m_s = 0;
-  /// A link is not seen enough where a smaller share of its surface is seen.
+  /// A link is not seen enough where a smaller share of its surface is seen. No setting: nobody
+  /// can choose it.
   double least_seen = 0.25;
   /// The policies, by what is not known.
   UnknownPolicy not_seen = UnknownPolicy::stop;
@@ -112,9 +113,7 @@ void visit_settings(Settings& s, Visitor&& visit) {
   visit({"contact_speed_m_s", kNotNegative,
          "the robot need not be slower than this; 0: it has to stand"},
         s.contact_speed_m_s);
-  visit({"least_seen", {.most = 1}, "a link of which a smaller share is seen is not seen enough"},
-        s.least_seen);
-  visit({"not_seen", {}, "what to do where a link is not seen enough"}, s.not_seen);
+  visit({"not_seen", {}, "what to do where less than a quarter of a link is seen"}, s.not_seen);
   visit({"camera", {}, "what to do where a camera is not used, or covered"}, s.camera);
   visit(
       {"no_reading",

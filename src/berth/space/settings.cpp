@@ -15,6 +15,10 @@ double detection_capability_m(const SpaceSettings& settings, const Camera& camer
   return std::max(kLeast_m, std::round(100 * told_m) / 100);
 }
 
-void validate(const SpaceSettings& settings) { visit_settings(settings, SettingCheck{"space"}); }
+void validate(const SpaceSettings& settings) {
+  const SettingCheck check{"space"};
+  visit_settings(settings, check);
+  check({"obstacle_speed_m_s", kNotNegative, ""}, settings.obstacle_speed_m_s);
+}
 
 }  // namespace berth

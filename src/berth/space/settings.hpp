@@ -55,7 +55,8 @@ struct SpaceSettings {
   /// from a camera does not hide: a pixel without a reading, a cable; 0 turns that off. None: what
   /// suits the camera (detection_capability_m()).
   std::optional<double> detection_capability_m = std::nullopt;
-  /// v: how fast something may have come into space that an older frame saw free.
+  /// v: how fast something may have come into space that an older frame saw free. No setting: the
+  /// monitor counts human_speed_m_s times the frames' age besides.
   double obstacle_speed_m_s = 1.6;
 };
 
@@ -76,9 +77,6 @@ void visit_settings(Settings& s, Visitor&& visit) {
          "pixels without a reading, and thin things, hide nothing where no ball of this diameter "
          "fits behind them; 0 is off; none: 0.04, or what a coarse camera tells 3 m away"},
         s.detection_capability_m);
-  visit({"obstacle_speed_m_s", kNotNegative,
-         "how fast something may have come into space that an older image saw free"},
-        s.obstacle_speed_m_s);
 }
 
 /// The diameter d of the least ball that this camera has to tell, by these settings. Where they say
