@@ -55,10 +55,9 @@ Finding stamps_of(const OpenScene& scene, const OpenCamera& camera) {
   if (stamps_s.empty()) {
     found.verdict = Verdict::advice;
     found.text = fmt::format("none: image k belongs to row k of the joints, for {} images", images);
-    found.next = fmt::format(
-        "Write stamps for camera {}: without them nobody can tell whether image and joints are of "
-        "one time.",
-        camera.source.name);
+    found.next =
+        fmt::format("Write stamps for camera {}: they show which joints belong to an image.",
+                    camera.source.name);
     return found;
   }
   found.text =
@@ -78,9 +77,37 @@ Finding stamps_of(const OpenScene& scene, const OpenCamera& camera) {
 
 std::string calibrate_text(const OpenScene& scene) {
   return fmt::format(
-      "With images of the moving arm: berth calibrate {} --out calibrated.yaml; it finds where the "
-      "cameras are, keeps what they read of the empty cell, and turns the watch on",
+      "Record images of the moving arm, then: berth calibrate {} --out calibrated.yaml. It "
+      "measures "
+      "the cameras' poses, learns where the empty cell gives no reading, and turns the watch on.",
       scene.file.string());
+}
+
+std::string farthest_link_text(const RobotModel& model) {
+  const auto reach_m = [](const Link& link) {
+    float most_m = 0;
+    for (const Eigen::Vector3f& p_L_m : link.mesh_L.vertices_m)
+      most_m = std::max(most_m, p_L_m.norm());
+    return most_m;
+  };
+  const Link& link = *std::ranges::max_element(model.links, {}, reach_m);
+  return fmt::format("link {} reaches {:.2g} m from its origin", link.name, reach_m(link));
+}
+
+/// What to do about a camera that is implausible.
+std::string next_for(const OpenScene& scene, const CameraPlausibility& camera) {
+  if (!camera.dead.empty()) {
+    return fmt::format("Record the images of camera {} again, then run berth doctor again.",
+                       camera.camera);
+  }
+  if (!camera.cause.empty()) {
+    return fmt::format("Correct {}, then run berth doctor again: probably {}.", camera.place,
+                       camera.cause);
+  }
+  return fmt::format(
+      "Check the size of the robot's meshes ({}), and the pose of camera {}. If the pose is within "
+      "20 cm and 15 degrees: berth calibrate {} --out calibrated.yaml",
+      farthest_link_text(scene.robot->model()), camera.camera, scene.file.string());
 }
 
 Finding pose_of(const OpenScene& scene, const CameraPlausibility& camera) {
@@ -88,27 +115,24 @@ Finding pose_of(const OpenScene& scene, const CameraPlausibility& camera) {
   if (camera.is_implausible) {
     found.verdict = Verdict::wrong;
     found.text = text_without_name(camera);
-    found.next =
-        camera.dead.empty() && camera.as_if.empty()
-            ? fmt::format(
-                  "Measure the pose of camera {} again, to within 20 cm and 15 degrees, "
-                  "then: berth calibrate {} --out calibrated.yaml",
-                  camera.camera, scene.file.string())
-            : fmt::format("Correct what is said of camera {}, then run berth doctor again.",
-                          camera.camera);
+    found.next = next_for(scene, camera);
     return found;
   }
   if (camera.is_hidden || !camera.readings.tells()) {
     found.verdict = Verdict::advice;
     found.text = camera.is_hidden
                      ? text_without_name(camera)
-                     : fmt::format("too little of the robot is seen in its images to tell ({})",
-                                   camera.frames);
-    found.next = fmt::format("Record images in which camera {} sees the robot.", camera.camera);
+                     : "its images show too little of the robot: its pose, depth_scale and the "
+                       "joints are not checked";
+    found.next = fmt::format(
+        "Check pose and depth_scale of camera {} by hand, such as at a wall whose distance you "
+        "know, or record images in which it sees the robot.",
+        camera.camera);
     return found;
   }
-  found.text = fmt::format("{:.0f} % of the robot's readings in {} images lie at its surface",
-                           100 * camera.readings.at_robot(), camera.frames);
+  found.text = fmt::format(
+      "{:.0f} % of the readings where the robot should be lie at its surface (images: {})",
+      100 * camera.readings.at_robot(), camera.frames);
   const std::string doubt = doubt_of(camera);
   if (doubt.empty()) return found;
   found.verdict = Verdict::advice;
@@ -173,23 +197,24 @@ std::vector<Finding> findings_of(const OpenScene& scene, const Seen& seen) {
   std::vector<Finding> all;
   for (const auto& [what, count] : seen.trouble) {
     all.push_back({Verdict::wrong, "results",
-                   fmt::format("{} in {} of {}", what, count, seen.results),
+                   fmt::format("{} in {} of {} results", what, count, seen.results),
                    next_for(scene, seen, what)});
   }
   for (const auto& [link, count] : seen.not_seen) {
     if (percent_of(count, seen.results) < 100 * (1 - kOftenSeen)) continue;
     all.push_back(
         {Verdict::advice, "results",
-         fmt::format("link {} is seen by no camera in {} of {}", link, count, seen.results),
-         "Move a camera, or add one, so that it sees link " + link + "."});
+         fmt::format("no camera sees link {} in {} of {} results", link, count, seen.results),
+         "Move or add a camera that sees link " + link + "."});
   }
   for (const auto& [link, count] : seen.not_observed) {
     if (percent_of(count, seen.results) < 100 * (1 - kOftenSeen)) continue;
-    all.push_back({Verdict::advice, "results",
-                   fmt::format("most of the space around link {} is in no image in {} of {}", link,
-                               count, seen.results),
-                   "Turn a camera to what is around link " + link +
-                       ", add one, or write space.unobserved: unknown or ignore."});
+    all.push_back(
+        {Verdict::advice, "results",
+         fmt::format("no image shows most of the space around link {} in {} of {} results", link,
+                     count, seen.results),
+         "Turn or add a camera that sees the space around link " + link +
+             ", or write space.unobserved: unknown or ignore."});
   }
   if (percent_of(seen.stops, seen.results) > 100 * kMostStops) {
     all.push_back({Verdict::advice, "separation",
@@ -199,7 +224,7 @@ std::vector<Finding> findings_of(const OpenScene& scene, const Seen& seen) {
   }
   if (all.empty()) {
     all.push_back(
-        {.about = "results", .text = fmt::format("{}, none without a camera", seen.results)});
+        {.about = "results", .text = fmt::format("{}, each with all its cameras", seen.results)});
   }
   return all;
 }
@@ -238,14 +263,15 @@ std::vector<Finding> check_unread(const OpenScene& scene) {
   std::vector<Finding> all;
   for (const OpenCamera& camera : scene.cameras) {
     Finding found{.about = about_camera("no reading", camera),
-                  .text = "what gives none, such as black clothes, is unknown space"};
+                  .text = "a person in black, who gives none, is unknown space"};
     if (camera.mounted->settings().space.no_reading == NoReading::free) {
-      found.text = "what gives none, such as black clothes, is taken for free (space.no_reading)";
+      found.text =
+          "a person in black, who gives none, is taken for free space (space.no_reading: free)";
     } else if (!tells_unread(camera)) {
       found.verdict = Verdict::advice;
-      found.text = "what gives none, such as black clothes, is no obstacle";
-      found.next = fmt::format("{}; or, for what gives no reading, write space.no_reading: hides",
-                               calibrate_text(scene));
+      found.text =
+          "berth can miss a person in black, who gives none: what gives no reading is no obstacle";
+      found.next = calibrate_text(scene);
     }
     all.push_back(found);
   }
@@ -301,23 +327,23 @@ Finding check_views(const OpenScene& scene) {
   const auto worst = std::ranges::max_element(outside) - outside.begin();
   const int count = std::accumulate(outside.begin(), outside.end(), 0);
   Finding found{.about = "in no image",
-                .text = fmt::format("{:.0f} % of the ball in which the robot moves",
+                .text = fmt::format("{:.0f} % of the ball that the robot can reach",
                                     percent_of(count, kPoints))};
   if (count <= kMostOutside * kPoints) return found;
   const Eigen::Vector3d place_B_m = sum_B_m[worst] / outside[worst];
   found.verdict = Verdict::advice;
-  found.text += fmt::format(", most around ({:.1f}, {:.1f}, {:.1f}) m", place_B_m.x(),
-                            place_B_m.y(), place_B_m.z());
+  found.text += fmt::format(", most around ({:.1f}, {:.1f}, {:.1f}) m in {}", place_B_m.x(),
+                            place_B_m.y(), place_B_m.z(), model.links.front().name);
   found.next =
-      "Turn a camera to that place, or add one; or write space.unobserved: unknown, and name the "
-      "links whose boxes nobody can be in (robot.guarded_links).";
+      "Turn or add a camera that sees that place; or write space.unobserved: unknown, with links "
+      "for closed boxes, such as a fenced machine, in robot.guarded_links.";
   return found;
 }
 
 Finding check_separation(const OpenScene& scene) {
   Finding found{.about = "separation"};
   if (!scene.separation) {
-    found.text = "not asked for";
+    found.text = "the scene has none: nothing is monitored";
   } else if (!scene.separation->intrusion_m && !scene.separation->detection_m) {
     found.verdict = Verdict::advice;
     found.text =

@@ -66,14 +66,15 @@ Finding detection_of(const OpenScene& scene, const OpenCamera& camera,
                      const FilterProposal& filter) {
   Finding found{.about = "detection, camera " + camera.source.name};
   for (const SmallestObstacle& one : filter.smallest) {
-    found.text +=
-        fmt::format("{}at {:.1f} m a rod of {} and a fingertip of {}",
-                    found.text.empty() ? "with settings that fit it shows " : ", ", one.depth_m,
-                    width_text(one.rod_width_m), width_text(one.finger_width_m));
+    found.text += fmt::format(
+        "{}at {:.1f} m a rod of {} and a fingertip of {}",
+        found.text.empty() ? "with the settings that berth calibrate would write, it detects "
+                           : ", ",
+        one.depth_m, width_text(one.rod_width_m), width_text(one.finger_width_m));
   }
   if (filter.smallest.empty()) found.text = "no image has room to measure it";
   found.text += fmt::format(
-      "; pixels without a reading hide nothing below {:.0f} mm",
+      "; a thing of {:.0f} mm or more is not lost among pixels without a reading",
       1000 * detection_capability_m(camera.mounted->settings().space, camera.mounted->camera()));
   // Endless where it promises nothing.
   const double promised_m =
@@ -86,7 +87,8 @@ Finding detection_of(const OpenScene& scene, const OpenCamera& camera,
   } else if (filter.largest_leftover_px >= kLeastPiece_px) {
     found.verdict = Verdict::advice;
     found.text += fmt::format(
-        "; they leave {} pixels close to the robot as an obstacle, {} of them in one piece",
+        "; these settings leave {} pixels close to the robot as an obstacle, {} of them in one "
+        "piece",
         filter.leftover_px, filter.largest_leftover_px);
     found.next = fmt::format(
         "Look whether something stands close to the robot: berth run {} --picture pictures. If "
@@ -184,8 +186,9 @@ std::vector<Finding> check_time(const OpenScene& scene, const Pause& pause) {
   }
   Finding requests{.about = "time"};
   requests.text = fmt::format(
-      "{:.2f} ms for a request by method mesh; images take {:.0f} % of this machine's time",
-      ask_ms(scene, frames, pause), 100 * busy);
+      "{:.2f} ms for a request; {}", ask_ms(scene, frames, pause),
+      busy > 0 ? fmt::format("images take {:.0f} % of this machine's time", 100 * busy)
+               : "without stamps it is not known how much of this machine's time images take");
   if (busy > kMostOfTime) {
     requests.verdict = Verdict::wrong;
     requests.next =

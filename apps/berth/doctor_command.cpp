@@ -34,7 +34,10 @@ class Doctor {
   /// Runs a check. What it throws is a finding as well, after which nothing more is looked at.
   template <class Check>
   void look(const char* about, const Check& check) {
-    if (wrong_ > 0) return;
+    if (wrong_ > 0) {
+      ++left_out_;
+      return;
+    }
     ProgressBar progress(fmt::format("look at {}", about), 0);
     try {
       const auto found = check([&progress] {
@@ -45,7 +48,10 @@ class Doctor {
       for (const Finding& one : found) take(one);
     } catch (const std::runtime_error& error) {
       progress.clear();
-      take({Verdict::wrong, about, error.what(), "Correct this, then run berth doctor again."});
+      const std::string text = error.what();
+      take({Verdict::wrong, about, text,
+            fmt::format("Correct {}, then run berth doctor again.",
+                        text.substr(0, text.find(':')))});
     }
   }
 
@@ -56,10 +62,13 @@ class Doctor {
     fmt::print("\nWhat to do next:\n");
     for (std::size_t i = 0; i < next.size(); ++i) fmt::print("{}. {}\n", i + 1, next[i]);
   }
-  int wrong() const { return wrong_; }
+  bool is_wrong() const { return wrong_ > 0; }
+  int left_out() const { return left_out_; }
 
  private:
   int wrong_ = 0;
+  /// Checks that were not run, since one before them found something wrong.
+  int left_out_ = 0;
   /// What to do next: where something is wrong, and then where something could be better.
   std::vector<std::string> fix_, improve_;
 };
@@ -74,8 +83,10 @@ void doctor_command(const DoctorArguments& arguments) {
     scene = open_scene(read_scene(arguments.scene), pause);
     Findings found{check_images(*scene, pause)};
     for (const std::string& warning : scene->warnings) {
-      found.push_back({Verdict::advice, "scene", warning,
-                       "Look at the advice on the scene: correct what is not meant so."});
+      found.push_back(
+          {Verdict::advice, "scene", warning,
+           "Read the lines \"advice  scene\": where one is not what you want, change the "
+           "file that it names."});
     }
     return found;
   });
@@ -89,10 +100,11 @@ void doctor_command(const DoctorArguments& arguments) {
   doctor.look("separation", [&](const Pause&) { return Findings{check_separation(*scene)}; });
   doctor.look("time", [&](const Pause& pause) { return check_time(*scene, pause); });
   doctor.say_next(arguments.scene.string());
-  if (doctor.wrong() > 0) {
-    throw std::runtime_error(
-        fmt::format("{}: wrong in {} of the checks; standard output says what to do",
-                    arguments.scene.string(), doctor.wrong()));
+  if (doctor.is_wrong()) {
+    throw std::runtime_error(fmt::format(
+        "{}: a check found it wrong, and {} after it were not run; standard output says "
+        "what to do",
+        arguments.scene.string(), doctor.left_out()));
   }
 }
 

@@ -29,19 +29,19 @@ struct Count {
   double most_at_robot = 0;
 };
 
-bool is_named(const CameraPlausibility& found, const std::string& as_if) {
-  return !as_if.empty() && (found.as_if.find(as_if) != std::string::npos ||
-                            found.dead.find(as_if) != std::string::npos);
+bool is_named(const CameraPlausibility& found, const std::string& cause) {
+  return !cause.empty() && (found.cause.find(cause) != std::string::npos ||
+                            found.dead.find(cause) != std::string::npos);
 }
 
-void look(const OpenScene& scene, std::size_t camera, const std::string& as_if, bool says,
+void look(const OpenScene& scene, std::size_t camera, const std::string& cause, bool says,
           Count& count) {
   const CameraPlausibility found = find_implausible(scene, camera);
   ++count.tried;
   count.found += found.is_implausible;
-  count.named += is_named(found, as_if);
-  count.named_wrong += !(found.as_if + found.dead).empty() && !is_named(found, as_if);
-  if (says && (found.is_implausible || !as_if.empty())) {
+  count.named += is_named(found, cause);
+  count.named_wrong += !(found.cause + found.dead).empty() && !is_named(found, cause);
+  if (says && (found.is_implausible || !cause.empty())) {
     fmt::print(stderr, "  {}\n", text_of(found));
   }
   RobotInImages images(scene, camera);
@@ -88,7 +88,7 @@ void print_scene(const OpenScene& scene, int draws, bool says) {
     for (std::size_t c = 0; c < scene.cameras.size(); ++c) {
       OpenScene wrong = scene;
       mistake.make(wrong, c);
-      look(wrong, c, mistake.as_if, says, count);
+      look(wrong, c, mistake.cause, says, count);
     }
     print_row(mistake.name, count);
   }

@@ -113,7 +113,7 @@ using Mistakes = std::vector<MadeMistake>;
 
 void add_depths(const OpenScene& scene, Mistakes& all) {
   const std::string right =
-      fmt::format("depth_scale were {:.6g}", scene.cameras.front().source.depth_scale_m);
+      fmt::format("depth_scale is {:.6g}", scene.cameras.front().source.depth_scale_m);
   all.push_back({"`depth_scale` 0.01", right, scaled_depth(10)});
   all.push_back({"`depth_scale` 0.0001", right, scaled_depth(0.1F)});
   all.push_back({"millimetres in a float image", right, scaled_depth(1000)});
@@ -129,10 +129,10 @@ void add_cameras(Mistakes& all) {
   }
   for (const double factor : {0.8, 0.88, 1.12, 1.25}) {
     const bool is_slight = factor == 0.88 || factor == 1.12;
-    all.push_back({fmt::format("`fx` alone times {}", factor), "fx were",
+    all.push_back({fmt::format("`fx` alone times {}", factor), "fx is",
                    other_mount([factor](CameraMount& mount) { mount.camera.fx_px *= factor; }),
                    is_slight});
-    all.push_back({fmt::format("`fy` alone times {}", factor), "fy were",
+    all.push_back({fmt::format("`fy` alone times {}", factor), "fy is",
                    other_mount([factor](CameraMount& mount) { mount.camera.fy_px *= factor; }),
                    is_slight});
   }
@@ -153,7 +153,7 @@ void add_poses(Mistakes& all) {
   const Q body_optical((Eigen::Matrix3d() << 0, 0, 1, -1, 0, 0, 0, -1, 0).finished());
   all.push_back({"`xyz` in millimetres", "millimetres",
                  other_mount([](CameraMount& mount) { mount.X_PC.translation() *= 1000; })});
-  all.push_back({"`rpy` in degrees", "rpy were in degrees", rpy_in_degrees});
+  all.push_back({"`rpy` in degrees", "rpy is in degrees", rpy_in_degrees});
   all.push_back({"pose mirrored in y", "mirrored in y", other_mount([](CameraMount& mount) {
                    const Eigen::DiagonalMatrix<double, 3> mirror(1, -1, 1);
                    mount.X_PC.linear() = mirror * mount.X_PC.linear() * mirror;
@@ -167,7 +167,7 @@ void add_poses(Mistakes& all) {
                  })});
   all.push_back({"pose the other way round", "in the camera's frame",
                  other_mount([](CameraMount& mount) { mount.X_PC = mount.X_PC.inverse(); })});
-  all.push_back({"quaternion conjugated", "rotation were the other way round",
+  all.push_back({"quaternion conjugated", "rotation is inverted",
                  other_rotation([](const Q& q) { return q.conjugate(); })});
   all.push_back({"quaternion w, x, y, z", "w, x, y, z",
                  other_rotation([](const Q& q) { return Q(q.z(), q.w(), q.x(), q.y()); })});
@@ -176,7 +176,7 @@ void add_poses(Mistakes& all) {
 }
 
 void add_images(const OpenScene& scene, Mistakes& all) {
-  all.push_back({"images mirrored", "images were mirrored", each_image([](DepthImage& image) {
+  all.push_back({"images mirrored", "images are mirrored", each_image([](DepthImage& image) {
                    for (int v = 0; v < image.height(); ++v) {
                      std::reverse(image.row(v), image.row(v) + image.width());
                    }
@@ -198,10 +198,10 @@ void add_joints(const OpenScene& scene, Mistakes& all) {
       if ((*types)[j].type != JointType::prismatic) position[j] /= kDegree_rad;
     }
   };
-  all.push_back({"joints in degrees", "joints were in degrees", each_position(degrees)});
+  all.push_back({"joints in degrees", "joints are in degrees", each_position(degrees)});
   all.push_back({"joints 2 and 3 swapped", fmt::format("{} and {}", joints[1].name, joints[2].name),
                  each_position([](auto& position) { std::swap(position[1], position[2]); })});
-  all.push_back({"joints in reverse order", "order were the other way round",
+  all.push_back({"joints in reverse order", "order is reversed",
                  each_position([](auto& position) { std::ranges::reverse(position); })});
   for (std::size_t j = 0; j < joints.size(); ++j) {
     if (joints[j].type == JointType::prismatic) continue;

@@ -13,7 +13,7 @@ namespace berth::lab {
 struct MadeMistake {
   std::string name;
   /// What has to stand in the explanation; empty where nothing simple explains it.
-  std::string as_if;
+  std::string cause;
   std::function<void(OpenScene&, std::size_t camera)> make;
   /// It may leave the robot where it is, as the last joint's sign does with a round flange.
   bool is_slight = false;

@@ -138,7 +138,9 @@ class Mount:
                 and np.linalg.norm(turn - np.eye(3)) <= SAME_RAD * 2 ** 0.5)
 
     def __str__(self):
-        return f"{self.topic}: in {self.parent}, {np.round(self.pose[:3], 4).tolist()}"
+        # Without it, -0.0 stands among the numbers.
+        xyz, turn = np.round(self.pose[:3, 3], 4) + 0.0, np.round(self.pose[:3, :3], 4) + 0.0
+        return f"{self.topic}, in {self.parent}: xyz {xyz.tolist()}, rotation {turn.tolist()}"
 
 
 def keep_transforms(bag, topic, message):
@@ -184,8 +186,9 @@ def only_mount(bag, name, frame):
     if not np.isfinite(mount.pose).all():
         raise ValueError(f"camera {name}: TF has frame {frame} ({mount}), which is no pose; expected finite numbers")
     if len(bag.transforms[frame]) > 1:
-        raise ValueError(f"camera {name}: TF has two transforms of frame {frame}: {mount}; {bag.transforms[frame][1]}; "
-                         f"expected one that stays: record without the other, or with the camera on a link of the robot")
+        raise ValueError(f"camera {name}: TF has two transforms of frame {frame} that differ: {mount}; "
+                         f"{bag.transforms[frame][1]}; expected one: stop the node that publishes the wrong one, and "
+                         f"record again")
     return mount
 
 
@@ -399,9 +402,9 @@ def way_of(name, joint, times, positions, first_ns):
     if jumps.size:
         i = jumps[0]
         raise ValueError(f"joint {name}: jumps from {positions[i]:.6g} at {first_ns * 1e-9 + times[i]:.3f} s by {steps[i]:.6g} "
-                         f"{joint.unit} in {apart[i]:.3g} s, and {jumps.size - 1} times more; expected at most "
-                         f"{joint.most_speed:g} {joint.unit}/s, and not there and back at once: two publishers may tell it, "
-                         f"or a driver that tells 0 at first")
+                         f"{joint.unit} in {apart[i]:.3g} s, the first of {jumps.size} jumps; expected at most "
+                         f"{joint.most_speed:g} {joint.unit}/s, and not there and back at once: perhaps two nodes publish "
+                         f"it, or a driver sends 0 at first")
     kept = np.flatnonzero(np.diff(times, prepend=-np.inf) > 0)
     return times[kept], (positions[0] + np.concatenate([[0], np.cumsum(steps)]))[kept]
 
@@ -454,8 +457,8 @@ def write_scene(bag, options, write_png):
     text = f"# Made from {os.path.basename(os.path.normpath(options.bag))}.\n"
     (out / "scene.yaml").write_text(text + yaml.safe_dump(scene, sort_keys=False, default_flow_style=None))
     out.rename(options.out)
-    return "\n".join([f"{options.out}/scene.yaml: {len(headers)} images of {len(cameras)} cameras, "
-                      f"{len(rows)} joint samples", *bag.notes])
+    return "\n".join([f"{options.out}/scene.yaml: images: {len(headers)}, cameras: {len(cameras)}, "
+                      f"joint samples: {len(rows)}", *bag.notes])
 
 
 def camera_entry(bag, options, name, links, first_ns):

@@ -132,7 +132,7 @@ INSTANTIATE_TEST_SUITE_P(
                    std::string text = camera_info_text();
                    s.write("camera_info.yaml", text.replace(text.find("64"), 2, "640"));
                  },
-                 {"depth/000000.png", "64 x 48", "expected the camera's 640 x 48"}}),
+                 {"depth/000000.png", "64 x 48", "expected 640 x 48"}}),
     name_of_case);
 
 INSTANTIATE_TEST_SUITE_P(

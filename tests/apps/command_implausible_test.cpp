@@ -10,7 +10,7 @@ TEST(CommandImplausible, AWrongScaleIsRefusedAndNamed) {
   CommandScene scene;
   scene.lines.more_camera = "depth_scale: 0.01";
   const std::vector<std::string> told = {"scene.yaml", "camera front", "0 % lie at its surface",
-                                         "expected", "depth_scale were 0.001"};
+                                         "expected", "depth_scale is 0.001"};
   expect_refused(scene, {"run", "scene.yaml", "--out", "result.txt"}, told);
   expect_refused(scene, {"filter", "scene.yaml", "--out", "filtered"}, told);
 }
@@ -25,7 +25,7 @@ TEST(CommandImplausible, OneOfTwoCamerasIsSaidAndTheOtherAnswers) {
   EXPECT_NE(outcome.err.find("camera wrong: the robot is not where it should be"),
             std::string::npos)
       << outcome.err;
-  EXPECT_NE(outcome.err.find("depth_scale were 0.001"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("depth_scale is 0.001"), std::string::npos) << outcome.err;
   EXPECT_EQ(outcome.err.find("camera front: "), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.out.find("wrong (implausible"), std::string::npos) << outcome.out;
 }

@@ -22,7 +22,8 @@ TEST(Recording, ACameraThatReadsAThirdOfItsPixelsIsOk) {
   EXPECT_EQ(outcome.exit_status, 0) << outcome.err;
   // It names the method of an older berth, and nothing else is said.
   EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-  EXPECT_NE(outcome.err.find("method is no setting any more"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("evaluation.method is no setting any more"), std::string::npos)
+      << outcome.err;
   std::istringstream lines(outcome.out);
   int frames = 0;
   for (std::string line; std::getline(lines, line); ++frames) {

@@ -116,7 +116,7 @@ TEST(CameraInfo, OfRectifiedImagesPCounts) {
 TEST(CameraInfo, WhoeverHasDistortionSaysWhetherTheImagesAreRectified) {
   const std::string bent = replaced(replaced(kMessage, "- 0.0", "- 0.1"), "---\n", kP);
   expect_parts(error_message([&] { info_of(bent); }),
-               {"info.yaml:10: d", "0.1; expected all zeros; or say rectified: true"});
+               {"info.yaml:10: d", "0.1; expected all zeros, or rectified: true for this camera"});
   expect_p(info_of(bent, true).camera);
   EXPECT_FALSE(info_of(bent, true).lens);
   const CameraInfo raw = info_of(bent, false);

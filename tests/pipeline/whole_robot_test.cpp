@@ -296,8 +296,8 @@ TEST_F(WholeRobot, AThingInMillimetresIsRefused) {
       error_message<std::invalid_argument>([&] {
         attach(*mounted_->robot(), {"gripper", hand, make_box({60, 40, 120})});
       }),
-      "attached \"gripper\": reaches 70 m from its origin; expected at most 20 m, and lengths "
-      "in metres: in millimetres they are a thousand times as large");
+      "attached \"gripper\": reaches 70 m from its origin; expected at most 20 m. If its lengths "
+      "are in millimetres, write them in metres");
   EXPECT_NO_THROW(attach(*mounted_->robot(), {"beam", hand, make_box({0.1, 0.1, 12})}));
 }
 

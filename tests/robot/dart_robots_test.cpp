@@ -30,7 +30,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Broken{"invalid_mesh", "invalid_mesh.stl"},
                     Broken{"missing_mesh", "this_file_does_not_exist.stl"},
                     Broken{"missing_package", "package://missing_package/foo.stl"},
-                    Broken{"primitive_geometry", "<geometry> holds 3 shapes; expected one"},
+                    Broken{"primitive_geometry", "holds 3 shapes; expected one"},
                     Broken{"testWorld", "the root is <world>; expected <robot>"}),
     [](const auto& test) { return test.param.file; });
 

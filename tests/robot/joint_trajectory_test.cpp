@@ -155,8 +155,8 @@ TEST(JointTrajectory, AJointThatJumpsIsTold) {
 TEST(JointTrajectory, APositionBeyondTheLimitsIsTold) {
   const std::vector<std::string> doubts = doubts_of({{0, {0, 0, 0, 35}}, {9, {0, -2.2, 0, 35}}});
   ASSERT_EQ(doubts.size(), 2U);
-  expect_parts(doubts[0], {"joint turn is at -2.2 rad, at 9 s; its URDF says -2 to 2"});
-  expect_parts(doubts[1], {"joint lift is at 35 m, at 0 s; its URDF says 0 to 0.04"});
+  expect_parts(doubts[0], {"joint turn is at -2.2 rad, at 9 s; its limits are -2 to 2"});
+  expect_parts(doubts[1], {"joint lift is at 35 m, at 0 s; its limits are 0 to 0.04"});
 }
 
 }  // namespace

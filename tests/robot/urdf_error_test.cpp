@@ -55,7 +55,14 @@ TEST(UrdfError, NoLink) { expect_refused(robot_xml(""), {"not a valid URDF", "li
 
 TEST(UrdfError, TwoRoots) {
   expect_refused(robot_xml(box_link_xml("one") + box_link_xml("two")),
-                 {"not a valid URDF", "one", "two"});
+                 {"robot.urdf:", "links one, two have no parent", "expected one root"});
+}
+
+TEST(UrdfError, AJointThatTurnsHasLimits) {
+  std::string xml = pair_xml("revolute");
+  const std::size_t limit = xml.find("<limit");
+  xml.erase(limit, xml.find('>', limit) + 1 - limit);
+  expect_refused(xml, {"joint \"elbow\": is revolute and has no <limit>; expected <limit"});
 }
 
 TEST(UrdfError, NoRootSinceTheLinksFormACycle) {
@@ -177,16 +184,18 @@ TEST(UrdfError, PrimitivesWithNumbersThatAreNone) {
 TEST(UrdfError, ShapeOfUnknownKind) {
   expect_refused(shape_robot_xml(R"(<cone radius="1" length="1"/>)"),
                  {"<cone> is a shape of unknown kind; expected mesh, box, cylinder"});
-  expect_refused(robot_xml(link_xml("base", "<visual/>")), {"<geometry> holds 0 shapes"});
+  expect_refused(robot_xml(link_xml("base", "<visual/>")),
+                 {"<geometry> of a <visual> holds 0 shapes"});
 }
 
 TEST(UrdfError, SeveralShapesInOneGeometryOfWhichOnlyOneWouldBeTaken) {
   for (const std::string kind : {"visual", "collision"}) {
-    expect_refused(robot_xml(box_link_xml("base") +
-                             link_xml("two", shape_xml(R"(<box size="1 1 1"/><sphere radius="1"/>)",
-                                                       "", kind)) +
-                             joint_xml("j", "fixed", "base", "two")),
-                   {":4: link \"two\": <geometry> holds 2 shapes; expected one"});
+    expect_refused(
+        robot_xml(
+            box_link_xml("base") +
+            link_xml("two", shape_xml(R"(<box size="1 1 1"/><sphere radius="1"/>)", "", kind)) +
+            joint_xml("j", "fixed", "base", "two")),
+        {":4: link \"two\": <geometry> of a <" + kind + "> holds 2 shapes; expected one"});
   }
 }
 

@@ -21,20 +21,21 @@ SceneFile scene_with(const std::string& settings) {
 TEST(FormerSettings, ThoseThatEndedAreToldAndHaveNoEffect) {
   const SceneFile scene = scene_with(
       "separation: {hold_s: 0.3, release_m: 0.05, directed_speed: true, intrusion_m: 0.2}\n");
-  EXPECT_EQ(scene.warnings,
-            (std::vector<std::string>{
-                "scene.yaml:5: hold_s is no setting any more, and has no effect",
-                "scene.yaml:5: release_m is no setting any more, and has no effect",
-                "scene.yaml:5: directed_speed is no setting any more, and has no effect"}));
+  EXPECT_EQ(
+      scene.warnings,
+      (std::vector<std::string>{
+          "scene.yaml:5: separation.hold_s is no setting any more, and has no effect",
+          "scene.yaml:5: separation.release_m is no setting any more, and has no effect",
+          "scene.yaml:5: separation.directed_speed is no setting any more, and has no effect"}));
 }
 
 TEST(FormerSettings, MethodsOnImagesAreToldWithWhatHasThemNow) {
   EXPECT_EQ(scene_with("evaluation: {method: exact, range_m: 2, step_x: 3}\n").warnings,
             (std::vector<std::string>{
-                "scene.yaml:5: method is no setting any more, and has no effect; berth evaluate "
-                "SCENE.yaml --method compares images",
-                "scene.yaml:5: step_x is no setting any more, and has no effect; berth evaluate "
-                "compares images, and has it as an option"}));
+                "scene.yaml:5: evaluation.method is no setting any more, and has no effect; delete "
+                "it; berth evaluate SCENE.yaml --method compares images",
+                "scene.yaml:5: evaluation.step_x is no setting any more, and has no effect; berth "
+                "evaluate compares images, and has it as an option"}));
 }
 
 TEST(FormerSettings, EachGroupMayNameThoseThatEnded) {
@@ -47,16 +48,17 @@ TEST(FormerSettings, EachGroupMayNameThoseThatEnded) {
                                (group == "separation" ? ", intrusion_m: 0.2}\n" : "}\n");
       const auto warnings = scene_with(text).warnings;
       ASSERT_EQ(warnings.size(), 1) << text;
-      EXPECT_EQ(warnings[0].find("scene.yaml:5: " + std::string(key) + " is no setting"), 0)
+      EXPECT_EQ(
+          warnings[0].find("scene.yaml:5: " + group + "." + std::string(key) + " is no setting"), 0)
           << warnings[0];
     }
   }
 }
 
 TEST(FormerSettings, HolesThatWereObstaclesAreRefusedWithWhatToDoInstead) {
-  EXPECT_EQ(
-      scene_with("sensor: {holes: free}\n").warnings,
-      std::vector<std::string>{"scene.yaml:5: holes is no setting any more, and has no effect"});
+  EXPECT_EQ(scene_with("sensor: {holes: free}\n").warnings,
+            std::vector<std::string>{
+                "scene.yaml:5: sensor.holes is no setting any more, and has no effect"});
   const std::string message = error_message([] { scene_with("sensor: {holes: obstacle}\n"); });
   EXPECT_NE(message.find("scene.yaml:5: sensor.holes: obstacle; expected space.no_reading: hides"),
             std::string::npos)

@@ -58,13 +58,13 @@ TEST(LivePlausibility, AFocalLengthThatIsATenthOffIsTold) {
       const CameraPlausibility found = find_implausible({with_focal_length(live, factor)})[0];
       EXPECT_TRUE(found.is_implausible) << found.camera << ", " << factor;
       const std::string text = text_of(found);
-      const std::string fitted = "with a focal length of ", tried = "the focal length were ";
+      const std::string fitted = "with a focal length of ", tried = "the focal length is about ";
       const std::size_t at = text.find(fitted);
       if (at == std::string::npos) {
         // In steps, without a fit.
-        const std::size_t as_if = text.find(tried);
-        ASSERT_NE(as_if, std::string::npos) << text;
-        EXPECT_NEAR(std::stod(text.substr(as_if + tried.size())), right_px, 0.03 * right_px)
+        const std::size_t cause = text.find(tried);
+        ASSERT_NE(cause, std::string::npos) << text;
+        EXPECT_NEAR(std::stod(text.substr(cause + tried.size())), right_px, 0.03 * right_px)
             << text;
         continue;
       }
@@ -92,7 +92,7 @@ TEST(LivePlausibility, ASimpleMistakeIsNamedAndContradictedByOtherCameras) {
   }
   const std::vector<CameraPlausibility> found = find_implausible(cameras);
   EXPECT_EQ(text_of(found[0]), "");
-  expect_parts(text_of(found[1]), {"camera left", "depth_scale were 0.0001"});
+  expect_parts(text_of(found[1]), {"camera left", "depth_scale is 0.0001"});
 }
 
 TEST(LivePlausibility, PauseEndsIt) {

@@ -60,13 +60,13 @@ TEST_F(Plausibility, EachMistakeIsFoundAndNamed) {
   std::size_t c = 0;
   for (const lab::MadeMistake& mistake : lab::mistakes_in(right())) {
     // Slight ones move too little of this arm.
-    if (mistake.as_if.empty() || mistake.is_slight) continue;
+    if (mistake.cause.empty() || mistake.is_slight) continue;
     c = (c + 1) % right().cameras.size();
     OpenScene wrong = right();
     mistake.make(wrong, c);
     const CameraPlausibility found = find_implausible(wrong, c);
     EXPECT_TRUE(found.is_implausible) << mistake.name << ", camera " << found.camera;
-    expect_parts(text_of(found), {"camera " + found.camera, "expected", mistake.as_if});
+    expect_parts(text_of(found), {"camera " + found.camera, "expected", mistake.cause});
   }
 }
 
@@ -250,7 +250,7 @@ TEST_F(Plausibility, WhereAllCamerasAreImplausibleThereIsNoRun) {
   for (SceneCamera& camera : file.cameras) camera.depth_scale_m = 0.01;
   const OpenScene scene = open_scene(file);
   expect_parts(error_message([&] { SceneRun run(scene); }),
-               {"scene.yaml: camera camera", "0 % lie at its surface", "depth_scale were 0.001",
+               {"scene.yaml: camera camera", "0 % lie at its surface", "depth_scale is 0.001",
                 "camera left", "camera right"});
 }
 
@@ -270,14 +270,14 @@ TEST_F(Plausibility, JointsInDegreesAreNoSingleCamerasMistake) {
   hide_all(scene.cameras[1]);
   EXPECT_FALSE(find_implausible(scene, 1).is_implausible);
   const std::string message = error_message([&] { SceneRun run(scene); });
-  expect_parts(message, {"scene.yaml: camera camera", "the joints were in degrees"});
+  expect_parts(message, {"scene.yaml: camera camera", "the joints are in degrees"});
   EXPECT_EQ(message.find("camera left"), std::string::npos) << message;
 }
 
 TEST_F(Plausibility, ACameraThatFitsContradictsAMistakeInTheJoints) {
   const OpenScene scene = in_degrees(right(), std::array<std::size_t, 1>{2});
   const std::vector<CameraPlausibility> cameras = find_implausible(scene);
-  EXPECT_EQ(cameras[2].as_if, "the joints were in degrees");
+  EXPECT_EQ(cameras[2].cause, "the joints are in degrees");
   EXPECT_TRUE(cameras[2].in_joints.empty());
   const SceneRun run(scene);
   EXPECT_TRUE(run.plausibility()[2].is_implausible);
@@ -331,7 +331,7 @@ TEST_F(Plausibility, AHigherLimitRefusesAPoseThatIsOff) {
   lab::move_camera(scene, 0, 0.05, 0.087, 1);
   const CameraPlausibility found = find_implausible(scene, 0);
   EXPECT_TRUE(found.is_implausible);
-  expect_parts(text_of(found), {"No mistake that berth tries"});
+  expect_parts(text_of(found), {"None of the mistakes that berth tries"});
 }
 
 TEST_F(Plausibility, ReadingsOutsideOfTheCamerasLimitsAreLookedAt) {
@@ -340,7 +340,7 @@ TEST_F(Plausibility, ReadingsOutsideOfTheCamerasLimitsAreLookedAt) {
   file.cameras[0].far_m = 4;
   const CameraPlausibility found = find_implausible(open_scene(file), 0);
   EXPECT_TRUE(found.is_implausible);
-  EXPECT_EQ(found.as_if, "depth_scale were 0.001, not 0.01");
+  EXPECT_EQ(found.cause, "depth_scale is 0.001, not 0.01");
 }
 
 }  // namespace

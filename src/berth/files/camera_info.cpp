@@ -67,14 +67,14 @@ std::optional<Lens> find_lens(const YamlMap& info, const std::optional<YamlValue
                      coefficients ? *coefficients : info.at("distortion_coefficients"));
   }
   constexpr const char* kChoice =
-      "; or say rectified: true where the images are rectified, and rectified: false where they "
-      "are as the lens made them: berth rectifies them then";
+      "rectified: true for this camera in the scene if its images are rectified, or rectified: "
+      "false if they are as the lens made them (berth rectifies them then)";
   if (model && bends_without_coefficients(plain_name(*model))) {
-    model->fail(fmt::format("the model of an image that is rectified{}", kChoice));
+    model->fail(kChoice);
   }
   if (!coefficients) return {};
   for (const YamlValue& coefficient : coefficients->list()) {
-    if (coefficient.number() != 0) coefficient.fail(fmt::format("all zeros{}", kChoice));
+    if (coefficient.number() != 0) coefficient.fail(fmt::format("all zeros, or {}", kChoice));
   }
   return {};
 }

@@ -86,6 +86,12 @@ JointTable::Row read_row(const FilePlace& place, const std::vector<std::string>&
 
 }  // namespace
 
+std::string time_expected(double time) {
+  return fmt::format("seconds; this looks like {}", time > 1e17   ? "nanoseconds"
+                                                    : time > 1e14 ? "microseconds"
+                                                                  : "milliseconds");
+}
+
 JointTable read_joints_csv(const std::filesystem::path& file) {
   const std::string text = read_file_bytes(file);
   if (text.find('\0') != std::string::npos) {
@@ -98,7 +104,8 @@ JointTable read_joints_csv(const std::filesystem::path& file) {
     const FilePlace place{file, static_cast<int>(i) + 1, ""};
     JointTable::Row row = read_row(place, table.names, lines[i]);
     if (row.time_s > kLastTime_s) {
-      throw_bad_file({file, place.line, "time"}, fmt::format("{}", row.time_s), kTimeExpected);
+      throw_bad_file({file, place.line, "time"}, fmt::format("{}", row.time_s),
+                     time_expected(row.time_s));
     }
     if (!table.rows.empty() && row.time_s <= table.rows.back().time_s) {
       throw_bad_file({file, place.line, "time"}, fmt::format("{}", row.time_s),

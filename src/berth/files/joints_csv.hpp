@@ -8,8 +8,8 @@ namespace berth {
 
 /// Seconds since 1970 have ten digits before the point; what has more is milliseconds or less.
 inline constexpr double kLastTime_s = 1e11;
-/// For messages.
-inline constexpr const char* kTimeExpected = "seconds; this looks like milliseconds or nanoseconds";
+/// What was expected of a time above kLastTime_s, for messages.
+std::string time_expected(double time);
 
 /// Joint positions over time, in the file's own order of joints; rad, or m for prismatic joints.
 struct JointTable {

@@ -71,9 +71,9 @@ void check_header(const spng_ihdr& header, const std::filesystem::path& file,
   }
   if (header.width != static_cast<std::uint32_t>(expected_size.width_px) ||
       header.height != static_cast<std::uint32_t>(expected_size.height_px)) {
-    throw_bad_file(
-        {file}, fmt::format("{} x {} pixels", header.width, header.height),
-        fmt::format("the camera's {} x {}", expected_size.width_px, expected_size.height_px));
+    throw_bad_file({file}, fmt::format("{} x {} pixels", header.width, header.height),
+                   fmt::format("{} x {}, as the camera_info says", expected_size.width_px,
+                               expected_size.height_px));
   }
 }
 
@@ -88,7 +88,7 @@ void require_png(const std::filesystem::path& file, std::string_view bytes) {
   const auto other =
       std::ranges::find_if(kOthers, [&](const auto& one) { return bytes.starts_with(one.first); });
   throw_bad_file({file}, other == kOthers.end() ? "is no PNG file" : other->second,
-                 "a 16-bit PNG file, such as berth.io.write_depth makes of a NumPy array");
+                 "a 16-bit PNG file; Python's berth.io.write_depth makes one of an array");
 }
 
 /// The bytes have to outlive what is read next.

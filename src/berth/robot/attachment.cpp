@@ -30,13 +30,15 @@ std::size_t find_evaluated(const RobotModel& model, const Attachment& attachment
 RobotModel with_attachment(const RobotModel& model, const Attachment& attachment) {
   const std::size_t parent = find_evaluated(model, attachment);
   if (attachment.mesh_A.empty()) fail(attachment, "the mesh has no triangles; expected some");
+  float reach_m = 0;
   for (const Eigen::Vector3f& p_A_m : attachment.mesh_A.vertices_m) {
-    const double reach_m = p_A_m.cast<double>().norm();
-    if (reach_m <= kFarthestPart_m) continue;
-    fail(attachment,
-         fmt::format("reaches {:g} m from its origin; expected at most {:g} m, and lengths "
-                     "in metres: in millimetres they are a thousand times as large",
-                     reach_m, kFarthestPart_m));
+    // Also NaN is too far.
+    if (!(p_A_m.norm() <= reach_m)) reach_m = p_A_m.norm();
+  }
+  if (!(reach_m <= kFarthestPart_m)) {
+    fail(attachment, fmt::format("reaches {:g} m from its origin; expected at most {:g} m. If its "
+                                 "lengths are in millimetres, write them in metres",
+                                 reach_m, kFarthestPart_m));
   }
   if (!attachment.X_LA.matrix().allFinite()) {
     fail(attachment, "the pose X_LA is not set; expected finite numbers");

@@ -25,9 +25,10 @@ std::vector<std::size_t> columns_of(const RobotModel& model, const std::string& 
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) {
       throw std::runtime_error(
-          fmt::format("{}: joint \"{}\" of robot \"{}\" is missing; expected a column, or an "
-                      "entry in the scene's fixed_joints, for each of {}; the columns are {}",
-                      source, name, model.name, fmt::join(known, ", "), fmt::join(names, ", ")));
+          fmt::format("{}: joint \"{}\" of robot \"{}\" is missing; expected a column of this name "
+                      "(the columns are {}), or, if it never moves, an entry in the scene's "
+                      "fixed_joints",
+                      source, name, model.name, fmt::join(names, ", ")));
     }
     columns.push_back(found - names.begin());
   }
@@ -105,7 +106,7 @@ std::string JointTrajectory::jump_of(const MovableJoint& joint, std::size_t i) c
     if (std::abs(way) < least_jump(joint) || std::abs(way) / time_s <= fastest(joint)) continue;
     return fmt::format(
         "{}: joint {} jumps from {:.4g} to {:.4g} {} within {:.4g} s, at {:.4g} s; expected {:.4g} "
-        "{}/s at most. Do two publishers tell it?",
+        "{}/s at most. Do two nodes publish it?",
         source_, joint.name, a.position[i], b.position[i], unit_of(joint), time_s, b.stamp_s,
         fastest(joint), unit_of(joint));
   }
@@ -115,8 +116,8 @@ std::string JointTrajectory::jump_of(const MovableJoint& joint, std::size_t i) c
 std::vector<std::string> JointTrajectory::doubts(const RobotModel& model) const {
   std::vector<std::string> all;
   if (!unused_.empty()) {
-    all.push_back(fmt::format("{}: not used: {}; robot {} has no such joint that moves", source_,
-                              fmt::join(unused_, ", "), model.name));
+    all.push_back(fmt::format("{}: not used: {}; robot {} has no movable joint of that name",
+                              source_, fmt::join(unused_, ", "), model.name));
   }
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const MovableJoint& joint = model.joints[i];
@@ -129,7 +130,7 @@ std::vector<std::string> JointTrajectory::doubts(const RobotModel& model) const 
     const auto outside = std::ranges::find_if(states_, is_outside);
     if (outside == states_.end()) continue;
     all.push_back(
-        fmt::format("{}: joint {} is at {:.4g} {}, at {:.4g} s; its URDF says {:.4g} to {:.4g}",
+        fmt::format("{}: joint {} is at {:.4g} {}, at {:.4g} s; its limits are {:.4g} to {:.4g}",
                     source_, joint.name, outside->position[i], unit_of(joint), outside->stamp_s,
                     joint.lower, joint.upper));
   }

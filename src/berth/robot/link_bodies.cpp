@@ -35,10 +35,10 @@ class ShapeReader {
   void append(const pugi::xml_node& shape, TriangleMesh& mesh_L) {
     const auto solids = shape.select_nodes("geometry/*");
     if (solids.size() != 1) {
-      urdf_.fail(
-          shape.child("geometry") ? shape.child("geometry") : shape,
-          fmt::format("<geometry> holds {} shapes; expected one box, cylinder, sphere or mesh",
-                      solids.size()));
+      urdf_.fail(shape.child("geometry") ? shape.child("geometry") : shape,
+                 fmt::format("<geometry> of a <{}> holds {} shapes; expected one box, cylinder, "
+                             "sphere, capsule or mesh",
+                             shape.name(), solids.size()));
     }
     const pugi::xml_node solid = solids.first().node();
     const Eigen::Affine3d X(urdf_.origin_of(shape));
@@ -113,8 +113,10 @@ class Bodies {
       for (const pugi::xml_node& shape : body_of(link.name)) reader.append(shape, link.mesh_L);
     }
     leave_out_hulls();
-    warn("see-through visual shapes are taken for helpers, such as zones, and left out", helpers_,
-         "an alpha of 1 makes them bodies");
+    warn(
+        "see-through visual shapes (alpha below 0.75) are left out as zones, and are no part of "
+        "the robot",
+        helpers_, "if one is a real part, set its alpha to 1");
     warn("links without a visual shape are taken with their collision shape", unseen_,
          "ignore_links leaves them out");
     warn("collision shapes alone, around other links, are left out", hulls_,

@@ -78,6 +78,33 @@ std::string skeleton_of(const Urdf& urdf) {
   return text.str();
 }
 
+/// What urdfdom refuses in other words: it names neither line nor remedy.
+void require_limits(const Urdf& urdf) {
+  for (const pugi::xml_node& joint : urdf.robot().children("joint")) {
+    const std::string_view type = joint.attribute("type").value();
+    if ((type != "revolute" && type != "prismatic") || joint.child("limit")) continue;
+    urdf.fail(joint, fmt::format("is {} and has no <limit>; expected <limit lower=\"\" upper=\"\" "
+                                 "effort=\"\" velocity=\"\"/>, or the type continuous",
+                                 type));
+  }
+}
+
+void require_one_root(const Urdf& urdf) {
+  std::set<std::string_view> children, roots;
+  for (const pugi::xml_node& joint : urdf.robot().children("joint"))
+    children.insert(joint.child("child").attribute("link").value());
+  for (const pugi::xml_node& link : urdf.robot().children("link")) {
+    if (const char* name = link.attribute("name").value(); !children.contains(name))
+      roots.insert(name);
+  }
+  if (roots.size() < 2) return;
+  urdf.fail(
+      urdf.robot(),
+      fmt::format("the links {} have no parent; expected one root: join them by fixed joints, "
+                  "or leave out what is not needed",
+                  fmt::join(roots, ", ")));
+}
+
 urdf::ModelInterfaceSharedPtr parse(const std::filesystem::path& path, const std::string& text) {
   LogListener log;
   urdf::ModelInterfaceSharedPtr model;
@@ -218,6 +245,8 @@ void number_joints(const Urdf& urdf, const urdf::ModelInterface& tree, RobotMode
 }  // namespace
 
 RobotModel read_tree(const Urdf& urdf) {
+  require_limits(urdf);
+  require_one_root(urdf);
   const urdf::ModelInterfaceSharedPtr tree = parse(urdf.path, skeleton_of(urdf));
   require_one_parent_each(urdf.path, *tree);
   require_all_reached(urdf.path, *tree);

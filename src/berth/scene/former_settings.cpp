@@ -19,7 +19,7 @@ constexpr std::string_view kConstant = "it is a constant now, as nobody could ch
 constexpr std::string_view kOfImages = "berth evaluate compares images, and has it as an option";
 
 constexpr std::array kEnded = std::to_array<Ended>({
-    {"evaluation", "method", "berth evaluate SCENE.yaml --method compares images"},
+    {"evaluation", "method", "delete it; berth evaluate SCENE.yaml --method compares images"},
     {"evaluation", "region", kOfImages},
     {"evaluation", "depth_interval", kOfImages},
     {"evaluation", "search_pattern", kOfImages},
@@ -65,8 +65,8 @@ void tell_group(std::string_view name, const YamlValue& group, std::vector<std::
   for (const auto& [key, value] : group.entries()) {
     for (const Ended& ended : kEnded) {
       if (ended.group != name || ended.key != key) continue;
-      told.push_back(fmt::format("{}:{}: {} is no setting any more, and has no effect{}{}",
-                                 value.place().file.string(), value.place().line, key,
+      told.push_back(fmt::format("{}:{}: {}.{} is no setting any more, and has no effect{}{}",
+                                 value.place().file.string(), value.place().line, name, key,
                                  ended.instead.empty() ? "" : "; ", ended.instead));
     }
   }

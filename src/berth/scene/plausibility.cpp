@@ -258,8 +258,9 @@ void explain(const OpenScene& scene, RobotInImages& images, const Tried& now,
   for (std::size_t i = 0; i < std::min<std::size_t>(all.size(), 2); ++i) {
     if (points(all[i].all) < points(all[0].all) - kAlike * counted(all[0].all)) break;
     const SimpleMistake& mistake = *all[i].mistake;
-    camera.as_if += (i == 0 ? "" : " or ") + mistake.as_if;
-    if (mistake.is_of_joints) camera.in_joints.push_back(mistake.as_if);
+    camera.cause += (i == 0 ? "" : " or ") + mistake.cause;
+    if (i == 0) camera.place = mistake.place;
+    if (mistake.is_of_joints) camera.in_joints.push_back(mistake.cause);
   }
 }
 
@@ -280,7 +281,7 @@ bool contradicts(const OpenScene& scene, std::size_t number,
   RobotInImages images(scene, number);
   const double share_now = share_at_robot(images.readings(images.given()), kLeastJudgedPixels);
   return std::ranges::all_of(simple_mistakes(scene, images), [&](const SimpleMistake& mistake) {
-    if (std::ranges::find(in_joints, mistake.as_if) == in_joints.end()) return true;
+    if (std::ranges::find(in_joints, mistake.cause) == in_joints.end()) return true;
     const RobotReadings then = images.readings(mistake.corrected);
     return share_at_robot(then, kLeastJudgedPixels) < share_now - kLeastGain;
   });
@@ -293,12 +294,12 @@ std::string images_text(std::size_t count) {
 std::string counted_text(const RobotReadings& readings, std::size_t frames) {
   const int seen = with_reading(readings);
   if (seen == 0)
-    return fmt::format("in {} no pixel that should show the robot has a reading",
+    return fmt::format("In {} no pixel that should show the robot has a reading",
                        images_text(frames));
   const auto percent = [seen](int count) { return 100.0 * count / seen; };
   return fmt::format(
-      "of the robot's readings in {} {:.0f} % lie at its surface, {:.0f} % behind it, {:.0f} % in "
-      "front of it",
+      "Of the readings where it should be, in {}, {:.0f} % lie at its surface, {:.0f} % behind it, "
+      "{:.0f} % in front of it",
       images_text(frames), percent(readings.at_surface), percent(readings.behind),
       percent(readings.before + readings.hidden));
 }
@@ -320,8 +321,8 @@ CameraPlausibility find_implausible(const OpenScene& scene, std::size_t number) 
   camera.dead = dead_text(images, range, camera.readings);
   camera.seen_through = links_seen_through(scene.robot->model(), now);
   if (camera.dead.empty()) explain(scene, images, now, camera);
-  if (camera.dead.empty() && camera.as_if.empty()) camera.dead = limits_text(range);
-  camera.is_implausible = !camera.dead.empty() || !camera.as_if.empty() ||
+  if (camera.dead.empty() && camera.cause.empty()) camera.dead = limits_text(range);
+  camera.is_implausible = !camera.dead.empty() || !camera.cause.empty() ||
                           (camera.readings.tells() && camera.readings.at_robot() < least);
   camera.is_hidden = !camera.is_implausible && camera.readings.is_hidden();
   return camera;
@@ -357,20 +358,29 @@ std::vector<CameraPlausibility> require_plausible(const OpenScene& scene) {
 std::string text_without_name(const CameraPlausibility& camera) {
   if (camera.is_hidden) {
     return fmt::format(
-        "the robot is hidden: {:.0f} % of its readings in {} lie in front of it; nothing tells "
-        "whether it is where it should be",
+        "the robot is hidden: {:.0f} % of the readings where it should be, in {}, lie in front of "
+        "it, so berth cannot check where it is",
         100 * camera.readings.hidden_share(), images_text(camera.frames));
   }
   if (!camera.is_implausible) return {};
   if (!camera.fits_otherwise.empty()) return camera.fits_otherwise;
+  const std::string counted = counted_text(camera.readings, camera.frames);
+  if (!camera.dead.empty()) {
+    return fmt::format("the camera is dead: {}. {}; expected most at its surface", camera.dead,
+                       counted);
+  }
+  if (camera.cause.empty()) {
+    return fmt::format(
+        "the robot is not where it should be. {}; expected most at its surface. None of the "
+        "mistakes that berth tries explains it",
+        counted);
+  }
   std::string text = fmt::format(
-      "the robot is not where it should be: {}; expected most of its readings at its surface",
-      counted_text(camera.readings, camera.frames));
-  if (!camera.dead.empty()) return text + fmt::format(". The camera is dead: {}", camera.dead);
-  if (camera.as_if.empty()) return text + ". No mistake that berth tries explains it";
-  text += fmt::format(". {:.0f} % would, as if {}", 100 * camera.share_then, camera.as_if);
-  if (camera.as_if.find(" or ") == std::string::npos) return text;
-  return text + ". The images do not tell which of these it is";
+      "the robot is not where it should be: probably {}. {}; expected most at its surface: with "
+      "that corrected {:.0f} % do",
+      camera.cause, counted, 100 * camera.share_then);
+  if (camera.cause.find(" or ") == std::string::npos) return text + ". Correct " + camera.place;
+  return text + ". The images do not say which of these it is";
 }
 
 std::string doubt_of(const CameraPlausibility& camera) {
@@ -378,7 +388,8 @@ std::string doubt_of(const CameraPlausibility& camera) {
   std::string text;
   if (camera.readings.at_robot() < kWellPlaced) {
     text = fmt::format(
-        "{:.0f} % of the robot's readings in {} lie at its surface; expected {:.0f} % at least",
+        "{:.0f} % of the readings where the robot should be, in {}, lie at its surface; expected "
+        "{:.0f} % at least",
         100 * camera.readings.at_robot(), images_text(camera.frames), 100 * kWellPlaced);
   }
   if (camera.seen_through.empty()) return text;

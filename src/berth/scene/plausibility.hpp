@@ -25,10 +25,12 @@ struct CameraPlausibility {
   /// The fault, where the images alone show it: such as "all its readings are the same". Empty
   /// where they do not.
   std::string dead;
-  /// What explains it, as SimpleMistake::as_if; two with " or " between where they do so alike;
+  /// What explains it, as SimpleMistake::cause; two with " or " between where they do so alike;
   /// empty where nothing does.
-  std::string as_if;
-  /// The SimpleMistake::as_if of those that explain it, are mistakes in the joints, and are
+  std::string cause;
+  /// SimpleMistake::place of the first of them.
+  std::string place;
+  /// The SimpleMistake::cause of those that explain it, are mistakes in the joints, and are
   /// contradicted by no other camera: where there are any, no camera's image may be used.
   std::vector<std::string> in_joints;
   /// The share of the robot's readings that would lie at its surface then.

@@ -63,7 +63,7 @@ std::vector<double> read_stamps(const YamlValue& value, std::size_t image_count)
                fmt::format("one for each of the {} images", image_count));
   }
   for (std::size_t i = 0; i < stamps_s.size(); ++i) {
-    if (stamps_s[i] > kLastTime_s) value.list()[i].fail(kTimeExpected);
+    if (stamps_s[i] > kLastTime_s) value.list()[i].fail(time_expected(stamps_s[i]));
   }
   for (std::size_t i = 1; i < stamps_s.size(); ++i) {
     if (stamps_s[i] <= stamps_s[i - 1]) {

@@ -31,30 +31,44 @@ class Mistakes {
     return std::move(found_);
   }
   std::vector<SimpleMistake> all() {
+    const std::string in_scene =
+        "camera " + camera_.source.name +
+        (scene_.file.empty() ? std::string() : " in " + scene_.file.string());
     add_depths();
-    add_swapped_bytes();
+    place_new(in_scene);
     add_optical();
     add_positions();
     add_rotations();
     add_turned_bases();
+    place_new(in_scene);
+    add_swapped_bytes();
     add_images();
+    place_new(fmt::format("the images of camera {}", camera_.source.name));
     const std::size_t of_camera = found_.size();
     add_joint_units();
     add_joint_orders();
     add_single_joints();
+    place_new(scene_.joints ? scene_.joints->source() : "the joints");
     for (std::size_t i = of_camera; i < found_.size(); ++i) found_[i].is_of_joints = true;
     return std::move(found_);
   }
 
  private:
+  /// Of those that have no place yet.
+  void place_new(const std::string& place) {
+    for (SimpleMistake& mistake : found_) {
+      if (mistake.place.empty()) mistake.place = place;
+    }
+  }
+
   template <class Change>
-  void add(std::string as_if, const Change& change) {
+  void add(std::string cause, const Change& change) {
     CameraBelief corrected = given_;
     change(corrected);
-    found_.push_back({std::move(as_if), std::move(corrected)});
+    found_.push_back({.cause = std::move(cause), .corrected = std::move(corrected)});
   }
-  void add_pose(std::string as_if, const Pose& X_PC) {
-    add(std::move(as_if), [&](CameraBelief& belief) { belief.mount.X_PC = X_PC; });
+  void add_pose(std::string cause, const Pose& X_PC) {
+    add(std::move(cause), [&](CameraBelief& belief) { belief.mount.X_PC = X_PC; });
   }
 
   void add_depths() {
@@ -64,11 +78,11 @@ class Mistakes {
     }
   }
   void add_swapped_bytes() {
-    add("the two bytes of each number stood the other way round",
+    add("the two bytes of each pixel are swapped",
         [](CameraBelief& belief) { belief.is_swapped = true; });
   }
   void add_depth(double factor) {
-    add(fmt::format("depth_scale were {:.6g}, not {:.6g}", factor * camera_.source.depth_scale_m,
+    add(fmt::format("depth_scale is {:.6g}, not {:.6g}", factor * camera_.source.depth_scale_m,
                     camera_.source.depth_scale_m),
         [&](CameraBelief& belief) { belief.depth_factor = factor; });
   }
@@ -79,25 +93,27 @@ class Mistakes {
     for (double f = kLeastFocalFactor; f <= kGreatestFocalFactor; f *= kFocalStep) {
       for (const double factor : {f, 1 / f}) {
         const std::string fx =
-            fmt::format("fx were {:.6g} px, not {:.6g}", factor * camera.fx_px, camera.fx_px);
+            fmt::format("fx is about {:.0f} px, not {:.6g}", factor * camera.fx_px, camera.fx_px);
         const std::string fy =
-            fmt::format("fy were {:.6g} px, not {:.6g}", factor * camera.fy_px, camera.fy_px);
-        add_focal_length(fmt::format("the focal length were {:.6g} px, not {:.6g}",
+            fmt::format("fy is about {:.0f} px, not {:.6g}", factor * camera.fy_px, camera.fy_px);
+        add_focal_length(fmt::format("the focal length is about {:.0f} px, not {:.6g}",
                                      factor * camera.fx_px, camera.fx_px),
                          factor, factor);
         add_focal_length(fx, factor, 1);
         add_focal_length(fy, 1, factor);
       }
     }
-    add("cx and cy were swapped", [](CameraBelief& belief) {
+    add("cx and cy are swapped", [](CameraBelief& belief) {
       std::swap(belief.mount.camera.cx_px, belief.mount.camera.cy_px);
     });
+    found_.back().place = camera_.source.info.string();
   }
-  void add_focal_length(const std::string& as_if, double x, double y) {
-    add(as_if, [&](CameraBelief& belief) {
+  void add_focal_length(const std::string& cause, double x, double y) {
+    add(cause, [&](CameraBelief& belief) {
       belief.mount.camera.fx_px *= x;
       belief.mount.camera.fy_px *= y;
     });
+    found_.back().place = camera_.source.info.string();
     found_.back().least_share = kLeastWithFocalLength;
   }
 
@@ -112,42 +128,43 @@ class Mistakes {
 
   void add_positions() {
     const Eigen::Vector3d xyz_m = given_.mount.X_PC.translation();
-    add_pose("the pose's xyz were in millimetres", with_place(xyz_m / 1000));
+    add_pose("the pose's xyz is in millimetres", with_place(xyz_m / 1000));
     for (int axis = 0; axis < 3; ++axis) {
       Eigen::Vector3d other_m = xyz_m;
       other_m[axis] = -other_m[axis];
-      add_pose(fmt::format("the pose's {} had the other sign", "xyz"[axis]), with_place(other_m));
+      add_pose(fmt::format("the pose's {} has the wrong sign", "xyz"[axis]), with_place(other_m));
     }
-    add_pose("the pose's x and y were swapped", with_place({xyz_m.y(), xyz_m.x(), xyz_m.z()}));
-    add_pose("the pose's y and z were swapped", with_place({xyz_m.x(), xyz_m.z(), xyz_m.y()}));
+    add_pose("the pose's x and y are swapped", with_place({xyz_m.y(), xyz_m.x(), xyz_m.z()}));
+    add_pose("the pose's y and z are swapped", with_place({xyz_m.x(), xyz_m.z(), xyz_m.y()}));
   }
 
   void add_rotations() {
     const Pose& X_PC = given_.mount.X_PC;
     const Eigen::Quaterniond q(X_PC.linear());
     if (camera_.source.rpy_rad) {
-      add_pose("the pose's rpy were in degrees",
+      add_pose("the pose's rpy is in degrees",
                with_rotation(rotation_of_rpy(kDegree_rad * *camera_.source.rpy_rad)));
     }
-    add_pose("the pose were that of the robot in the camera's frame", X_PC.inverse());
-    add_pose("the pose's rotation were the other way round", with_rotation(q.conjugate()));
-    add_pose("the quaternion's order were w, x, y, z",
+    add_pose("the pose is that of the robot in the camera's frame", X_PC.inverse());
+    add_pose("the pose's rotation is inverted", with_rotation(q.conjugate()));
+    add_pose("the quaternion's order is w, x, y, z",
              with_rotation(Eigen::Quaterniond(q.x(), q.y(), q.z(), q.w())));
     // Axes of the optical frame in one with x forward, y left, z up.
     const Eigen::Quaterniond X_body_optical(
         (Eigen::Matrix3d() << 0, 0, 1, -1, 0, 0, 0, -1, 0).finished());
-    add_pose("the pose were that of a frame with x forward, not of the optical frame",
+    add_pose("the pose is that of a frame with x forward, not of the optical frame (z forward)",
              with_rotation(q * X_body_optical));
-    add_pose("the pose were turned from x forward to the optical frame twice",
+    add_pose("the pose is turned from x forward to the optical frame twice",
              with_rotation(q * X_body_optical.conjugate()));
-    add_pose("the camera stood on its head", with_rotation(q * Eigen::Quaterniond(0, 0, 0, 1)));
+    add_pose("the image is turned by 180 degrees against the pose",
+             with_rotation(q * Eigen::Quaterniond(0, 0, 0, 1)));
     for (int axis = 0; axis < 2; ++axis) {
       Eigen::Matrix3d mirror = Eigen::Matrix3d::Identity();
       mirror(axis, axis) = -1;
       const Eigen::Matrix3d turn = mirror * X_PC.linear() * mirror;
       Pose mirrored = with_rotation(Eigen::Quaterniond(turn));
       mirrored.translation() = mirror * X_PC.translation();
-      add_pose(fmt::format("the pose were mirrored in {}", "xy"[axis]), mirrored);
+      add_pose(fmt::format("the pose is mirrored in {}", "xy"[axis]), mirrored);
     }
   }
 
@@ -161,31 +178,31 @@ class Mistakes {
     const Pose& X_BP = pose.X_BL[parent];
     for (const int degrees : {180, 90, -90}) {
       const Pose turn(Eigen::AngleAxisd(degrees * kDegree_rad, Eigen::Vector3d::UnitZ()));
-      add_pose(fmt::format("the pose were in a base that is turned by {} degrees about z", degrees),
+      add_pose(fmt::format("the pose is in a base that is turned by {} degrees about z", degrees),
                X_BP.inverse() * turn * X_BP * given_.mount.X_PC);
     }
   }
 
   void add_images() {
-    add("the images were mirrored from left to right",
+    add("the images are mirrored from left to right",
         [](CameraBelief& belief) { belief.is_mirrored = true; });
     for (std::size_t c = 0; c < scene_.cameras.size(); ++c) {
       if (c == given_.images_of) continue;
-      add(fmt::format("the images were those of camera {}", name_of(c)),
+      add(fmt::format("the images are those of camera {}", name_of(c)),
           [&](CameraBelief& belief) { belief.images_of = c; });
       if (scene_.cameras[c].mounted->mount().parent_link != given_.mount.parent_link) continue;
-      add_pose(fmt::format("the pose were that of camera {}", name_of(c)),
+      add_pose(fmt::format("the pose is that of camera {}", name_of(c)),
                scene_.cameras[c].mounted->mount().X_PC);
     }
-    add_frame_shift(1, "the joints were those of one image later");
-    add_frame_shift(-1, "the joints were those of one image earlier");
+    add_frame_shift(1, "the joints are those of one image later");
+    add_frame_shift(-1, "the joints are those of one image earlier");
   }
   std::string name_of(std::size_t camera) const { return scene_.cameras[camera].source.name; }
 
-  void add_frame_shift(int shift, const char* as_if) {
+  void add_frame_shift(int shift, const char* cause) {
     const auto last = static_cast<int>(camera_.at_exposure.size()) - 1;
     if (last < 1) return;
-    add(as_if, [&](CameraBelief& belief) {
+    add(cause, [&](CameraBelief& belief) {
       for (std::size_t i = 0; i < belief.positions.size(); ++i) {
         const int k = std::clamp(static_cast<int>(images_.frames()[i]) + shift, 0, last);
         if (camera_.exposure_time[k].status != TimeStatus::ok) continue;
@@ -205,21 +222,21 @@ class Mistakes {
         }
       };
     };
-    add("the joints were in degrees", scaled(kDegree_rad));
-    add("the joints had been turned from degrees to radians twice", scaled(1 / kDegree_rad));
+    add("the joints are in degrees", scaled(kDegree_rad));
+    add("the joints are turned from degrees to radians twice", scaled(1 / kDegree_rad));
   }
 
   void add_joint_orders() {
     const auto& joints = scene_.robot->model().joints;
     for (std::size_t j = 0; j + 1 < joints.size(); ++j) {
-      add(fmt::format("joints {} and {} were swapped", joints[j].name, joints[j + 1].name),
+      add(fmt::format("joints {} and {} are swapped", joints[j].name, joints[j + 1].name),
           [&](CameraBelief& belief) {
             for (std::vector<double>& position : belief.positions) {
               std::swap(position[j], position[j + 1]);
             }
           });
     }
-    add("the joints' order were the other way round", [](CameraBelief& belief) {
+    add("the joints' order is reversed", [](CameraBelief& belief) {
       for (std::vector<double>& position : belief.positions) std::ranges::reverse(position);
     });
   }
@@ -232,16 +249,16 @@ class Mistakes {
           for (auto& position : belief.positions) position[j] = factor * position[j] + more;
         });
       };
-      add_one("had the other sign", -1, 0);
+      add_one("has the wrong sign", -1, 0);
       if (joints[j].type == JointType::prismatic) {
-        add_one("were in millimetres", 0.001, 0);
+        add_one("is in millimetres", 0.001, 0);
         continue;
       }
       // Of a single joint that is said already.
-      if (joints.size() > 1) add_one("were in degrees", kDegree_rad, 0);
-      add_one("had its zero 180 degrees away", 1, std::numbers::pi);
-      add_one("had its zero 90 degrees away", 1, std::numbers::pi / 2);
-      add_one("had its zero -90 degrees away", 1, -std::numbers::pi / 2);
+      if (joints.size() > 1) add_one("is in degrees", kDegree_rad, 0);
+      add_one("has its zero 180 degrees away", 1, std::numbers::pi);
+      add_one("has its zero 90 degrees away", 1, std::numbers::pi / 2);
+      add_one("has its zero -90 degrees away", 1, -std::numbers::pi / 2);
     }
   }
 
@@ -260,8 +277,10 @@ std::vector<SimpleMistake> simple_mistakes(const OpenScene& scene, const RobotIn
 
 SimpleMistake depth_along_ray(const RobotInImages& images) {
   SimpleMistake mistake{
-      "the images held distances along the ray, not along the camera's axis (depth_is: ray)",
-      images.given()};
+      .cause =
+          "the images hold distances along the ray, not along the camera's axis (depth_is: ray)",
+      .place = fmt::format("camera {} in the scene", images.camera().source.name),
+      .corrected = images.given()};
   mistake.corrected.is_along_ray = true;
   return mistake;
 }

@@ -9,9 +9,11 @@ namespace berth {
 
 /// One simple mistake in a scene, and what the scene would say without it.
 struct SimpleMistake {
-  /// Goes on after "as if ", such as "depth_scale were 0.001".
-  std::string as_if;
-  CameraBelief corrected;
+  /// Goes on after "probably ", such as "depth_scale is 0.001, not 0.01".
+  std::string cause;
+  /// Where to correct it: a file, or a camera of the scene.
+  std::string place = {};
+  CameraBelief corrected = {};
   /// It explains where the robot is if this share of its readings lies at its surface then, those
   /// that hide it left out.
   double least_share = 0.6;

@@ -411,7 +411,7 @@ test("a camera in the wrong place is told with its cause", async () => {
   writeFileSync(file, wrong);
   const other = await startBerth(["view", "one_camera.yaml", "--port", "0"], folder);
   const page = await open(other.url);
-  await until(page, () => /depth_scale were 0.001/.test(document.getElementById("trouble").textContent));
+  await until(page, () => /depth_scale is 0.001/.test(document.getElementById("trouble").textContent));
   await page.close();
   assert.equal(await other.end(), 0);
 });

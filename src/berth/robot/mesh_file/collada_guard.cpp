@@ -177,7 +177,9 @@ class Guard {
   pugi::xml_node named_by(const pugi::xml_node& reference, const char* kind) const {
     const std::string_view url = reference.attribute("url").value();
     const auto all = by_id_.find(fmt::format("{}#{}", kind, url.substr(url.starts_with('#'))));
-    if (all == by_id_.end()) fail(reference, fmt::format("\"{}\"; expected a {}'s id", url, kind));
+    if (all == by_id_.end()) {
+      fail(reference, fmt::format("\"{}\" is not in the file; expected the id of a {}", url, kind));
+    }
     if (all->second.size() == 1) return all->second[0];
     fail(all->second[1],
          fmt::format("a second one has the id of \"{}\"; expected ids that differ", url));
