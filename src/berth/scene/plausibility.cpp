@@ -182,13 +182,16 @@ Tried tried(const OpenScene& scene, RobotInImages& images, const CameraBelief& b
   return found;
 }
 
-/// Whether a part that is not where it should be is there then, and the others are no worse.
+/// Whether a part that is not where it should be is there then, and the others are no worse. Where
+/// that leaves many of all readings elsewhere, the camera's pose is off, and no joint is; readings
+/// in front of the part may be somebody.
 bool fixes_part(const Tried& now, const Tried& then) {
+  if (then.share < kLeastWithSmallGain) return false;
   return std::ranges::any_of(now.of_part, [&](const auto& part) {
     const RobotReadings& before = part.second;
     const RobotReadings& after = then.of_part.at(part.first);
     const int least_gain = counted(before) / 2;
-    return counted(before) >= kLeastJudgedPixels &&
+    return counted(before) >= kLeastJudgedPixels && before.behind > before.before &&
            share_at_robot(before, kLeastJudgedPixels) < kLeastOfPart &&
            share_at_robot(after, kLeastSeen * counted(before)) >= kLeastOfMendedPart &&
            points(after) - points(before) >= least_gain &&
