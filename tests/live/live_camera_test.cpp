@@ -18,9 +18,9 @@ class Live : public ::testing::Test {
   Live() : scene_(open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml")) {}
 
   void start(const LiveCameraSettings& settings, LiveCamera::OnFrame on_frame = {},
-             FindPlace find_place = {}) {
-    camera_.emplace(source().mounted, joints_, settings, std::move(on_frame),
-                    std::move(find_place));
+             FindPlace find_place = {}, const CameraWatch& before = {}) {
+    camera_.emplace(source().mounted, joints_, settings, std::move(on_frame), std::move(find_place),
+                    before);
   }
   const OpenCamera& source() const { return scene_.cameras.front(); }
   double stamp_s(std::size_t i) const { return source().source.stamps_s[i]; }
@@ -103,7 +103,15 @@ TEST_F(Live, AnImageWhosePlaceDoesNotBecomeKnownSaysSo) {
   EXPECT_EQ(camera_->counts().stale, 1);
 }
 
-TEST_F(Live, OfImagesThatWaitTheOldestAreDropped) {
+TEST_F(Live, ImagesThatComeFasterThanTheirJointsAreObservedAllTheSame) {
+  start({.max_wait_s = kPatient_s});
+  for (std::size_t i = 0; i < kMostWaitingImages + 2; ++i) push(i);
+  push_joints_until(stamp_s(0) + 0.01);
+  ASSERT_TRUE(observed(1));
+  EXPECT_EQ(camera_->newest()->stamp_s, stamp_s(0));
+}
+
+TEST_F(Live, OfImagesThatWaitThoseBeforeTheNewestAreDropped) {
   start({.max_wait_s = kPatient_s});
   for (std::size_t i = 0; i < kMostWaitingImages + 2; ++i) push(i);
   EXPECT_EQ(camera_->counts().dropped, 2);
@@ -175,6 +183,30 @@ TEST_F(Live, ADistrustedCameraIsImplausibleUntilItIsTrusted) {
   EXPECT_TRUE(is_implausible(2));
   camera_->distrust(false);
   EXPECT_FALSE(is_implausible(3));
+}
+
+TEST_F(Live, WhatACameraWasFoundToBeHoldsForTheOneMadeAnew) {
+  start({}, {}, {}, {.is_implausible = true});
+  push_joints_until(stamp_s(3));
+  push(2);
+  ASSERT_TRUE(observed(1));
+  EXPECT_TRUE(camera_->newest()->watch.is_implausible);
+}
+
+TEST_F(Live, AnImageThatAnExceptionEndsIsCountedAndTheNextGoesOn) {
+  std::atomic<bool> throws = true;
+  start({}, [&](const auto&, DepthView, const auto&) {
+    if (throws) throw std::runtime_error("no place for it");
+  });
+  push_joints_until(stamp_s(4));
+  push(2);
+  ASSERT_TRUE(comes_true([&] { return camera_->counts().failed == 1; }));
+  EXPECT_EQ(camera_->counts().failure, "no place for it");
+  throws = false;
+  push(3);
+  ASSERT_TRUE(observed(2));
+  EXPECT_EQ(camera_->counts().failure, "");
+  EXPECT_EQ(camera_->newest()->stamp_s, stamp_s(3));
 }
 
 TEST_F(Live, FramesAreKeptForWhoHoldsThemAndUsedAgainAfterwards) {

@@ -122,6 +122,9 @@ TEST_F(RunningRobot, StaleJointsGiveNoAnswerAndPlannedOnesDo) {
   EXPECT_TRUE(all_ok(query_.ask(frame_, buffer_, 10.51)));
   expect_withheld(query_.ask(frame_, buffer_, 10.53), TimeStatus::stale_joints,
                   mounted_->robot()->model().link_count());
+  EXPECT_TRUE(all_ok(query_.ask(frame_, buffer_, 10.47))) << "between two ticks of a slow clock";
+  expect_withheld(query_.ask(frame_, buffer_, 10.45), TimeStatus::stale_joints,
+                  mounted_->robot()->model().link_count());
   const JointState planned{10.9, camera_.at_exposure[3].position};
   const Result& answer = query_.ask(frame_, planned, 10.45);
   EXPECT_NEAR(answer.time.joints_age_s, -0.45, 1e-9);

@@ -1,6 +1,8 @@
 // A loop asks, monitors and records as its parts do by themselves.
 #include "berth/record/monitor_loop.hpp"
 
+#include <cmath>
+
 #include "berth/pipeline/observer.hpp"
 #include "berth/results/result_json.hpp"
 #include "tests/record/recorded_scene.hpp"
@@ -36,6 +38,28 @@ TEST_F(MonitorLoopTest, ItSaysWhatQueryAndMonitorSay) {
         monitor.update(expected, velocity, now_s, k == 3 ? nullptr : &query.frames());
     EXPECT_EQ(result_json(result), result_json(expected)) << k;
   }
+}
+
+TEST_F(MonitorLoopTest, AfterAStopOfSomebodyElseTheScaleRisesFromZero) {
+  SeparationSettings settings = some_separation();
+  settings.unknown = settings.camera = UnknownPolicy::ignore;
+  MonitorLoop loop(scene_.robot, {}, settings);
+  // The robot alone, before a wall that is far away.
+  DepthImage depth_m = observed(0)[0]->robot.depth_m;
+  for (float& z_m : depth_m.pixels()) z_m = std::isnan(z_m) ? 6 : z_m;
+  const auto frame = std::make_shared<Frame>();
+  observer_.observe(depth_m, scene_.cameras[0].at_exposure[0], *frame);
+  const std::vector<std::shared_ptr<const Frame>> frames{frame};
+  const std::vector<double> velocity(scene_.robot->model().joints.size(), 0.5);
+  const auto scale_at = [&](double now_s) {
+    loop.ask({.frames = frames});
+    return loop.monitor(velocity, now_s).separation->speed_scale;
+  };
+  ASSERT_EQ(scale_at(10), 1) << "nobody knows how fast the robot is at first";
+  loop.stopped(10.01);
+  const double risen = scale_at(10.11);
+  EXPECT_GT(risen, 0);
+  EXPECT_LT(risen, 0.9);
 }
 
 TEST_F(MonitorLoopTest, WithoutSettingsNothingIsMonitored) {

@@ -20,8 +20,9 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// this share.
 class Watched {
  public:
-  explicit Watched(const WatchSettings& settings, MeasureDisplacement measure = {})
-      : watch(settings, std::move(measure)) {}
+  explicit Watched(const WatchSettings& settings, MeasureDisplacement measure = {},
+                   const CameraWatch& before = {})
+      : watch(settings, std::move(measure), before) {}
 
   const CameraWatch& look(double seen_through, double hidden = 0) {
     const auto pixels = static_cast<double>(depth_m_.pixels().size());
@@ -61,6 +62,26 @@ TEST(PoseWatch, HasMovedOnceKOfNFramesSayItAndIsBackOnceKDoNot) {
   EXPECT_TRUE(camera.look(0.05).has_moved);
   EXPECT_TRUE(camera.look(0.05).has_moved);
   EXPECT_FALSE(camera.look(0.05).has_moved);
+}
+
+TEST(PoseWatch, OneThatBeginsWithAMovedCameraGoesByItUntilKOfNFramesDoNot) {
+  const CameraWatch moved{.is_on = true, .has_moved = true, .seen_through = 0.2};
+  Watched camera(kBySeenThrough, {}, moved);
+  EXPECT_TRUE(camera.look_at_nothing().has_moved);
+  EXPECT_TRUE(camera.watch.pass_over().has_moved);
+  EXPECT_TRUE(camera.look(0.05).has_moved);
+  EXPECT_TRUE(camera.look(0.05).has_moved);
+  EXPECT_FALSE(camera.look(0.05).has_moved);
+  EXPECT_FALSE(Watched({}, {}, moved).look(0.2).has_moved) << "nobody looks any more";
+}
+
+TEST(PoseWatch, OneThatBeginsWithAnImplausibleCameraNeedsMoreThanOneFrame) {
+  const WatchSettings settings{.min_at_robot = 0.1, .agreeing_frames = 3, .frames = 4};
+  Watched camera(settings, {}, {.is_implausible = true});
+  EXPECT_TRUE(camera.look_at_nothing().is_implausible);
+  EXPECT_TRUE(camera.look(0).is_implausible);
+  EXPECT_TRUE(camera.look(0).is_implausible);
+  EXPECT_FALSE(camera.look(0).is_implausible);
 }
 
 TEST(PoseWatch, ARobotThatIsNotThereIsImplausibleFromTheFirstFrameOn) {

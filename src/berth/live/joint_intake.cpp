@@ -61,6 +61,7 @@ JointIntake::JointIntake(const RobotModel& model, JointIntakeSettings settings)
 
 void JointIntake::restart() {
   series_.assign(names_.size(), {});
+  behind_ = {};
   buffer_.clear();
   emitted_s_ = kNever;
 }
@@ -76,11 +77,7 @@ TimeStatus JointIntake::push(double stamp_s, std::span<const std::string> names,
   const std::lock_guard lock(mutex_);
   find_told(names, positions);
   if (told_.empty() && !nobody_tells_) return TimeStatus::missing_joint;
-  const bool was_set_back = std::any_of(told_.begin(), told_.end(), [&](const Told& told) {
-    const Series& series = series_[told.joint];
-    return !series.is_empty() && stamp_s < series.stamp_s.back() - kClockSetBack_s;
-  });
-  if (was_set_back) {
+  if (is_set_back(stamp_s)) {
     restart();
     ++restarts_;
   }
@@ -90,6 +87,15 @@ TimeStatus JointIntake::push(double stamp_s, std::span<const std::string> names,
   if (!any_new) return TimeStatus::stamp_went_back;
   emit_whole_samples();
   return TimeStatus::ok;
+}
+
+bool JointIntake::is_set_back(double stamp_s) {
+  bool is_back = nobody_tells_ && behind_.is_set_back(buffer_.newest_stamp_s() - stamp_s);
+  for (const Told& told : told_) {
+    Series& series = series_[told.joint];
+    if (!series.is_empty()) is_back |= series.behind.is_set_back(series.stamp_s.back() - stamp_s);
+  }
+  return is_back;
 }
 
 void JointIntake::find_told(std::span<const std::string> names, std::span<const double> positions) {

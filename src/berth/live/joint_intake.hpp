@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "berth/live/behind_newest.hpp"
 #include "berth/robot/joint_buffer.hpp"
 #include "berth/robot/joints_at_time.hpp"
 
@@ -37,9 +38,9 @@ class JointIntake {
   /// Takes one message; positions in rad or m, one for each name, in any order. Names that are no
   /// joints of the robot are passed over. Statuses:
   /// missing_joint where no joint of the robot is left, stamp_jumped for a stamp that is not
-  /// finite, stamp_went_back for one that is not above the last of any of these joints. One that
-  /// lies more than kClockSetBack_s before it is no late message but a clock that was set back (a
-  /// bag that begins again): all that was known is forgotten, and the message is taken.
+  /// finite, stamp_went_back for one that is not above the last of any of these joints. A row of
+  /// those (BehindNewest) is no late message but a clock that was set back (a bag that begins
+  /// again): all that was known is forgotten, and the row's last message is taken.
   /// Throws std::invalid_argument that names the joint, and takes nothing, for a position that is
   /// not finite or that no robot has: more than a kBeyondLimit outside of the URDF's limits, or
   /// more than kMostPosition; and where names and positions are not equally many.
@@ -54,7 +55,6 @@ class JointIntake {
   /// How often the clock was set back.
   int restarts() const;
 
-  static constexpr double kClockSetBack_s = 1;
   /// A whole turn in rad, and 1 m: the limits of some URDFs are narrower than those of the robot,
   /// by a turn at most. What lies beyond is in degrees or mm, or nonsense.
   static constexpr double kBeyondLimit_rad = 6.3;
@@ -67,6 +67,7 @@ class JointIntake {
   struct Series {
     std::vector<double> stamp_s;
     std::vector<double> position;
+    BehindNewest behind;
     bool is_empty() const { return stamp_s.empty(); }
   };
 
@@ -79,6 +80,7 @@ class JointIntake {
   void find_told(std::span<const std::string> names, std::span<const double> positions);
   void require_possible(std::size_t joint, double position) const;
   bool append(std::size_t joint, double stamp_s, double position);
+  bool is_set_back(double stamp_s);
   void restart();
   std::size_t slowest() const;
   void emit_whole_samples();
@@ -98,6 +100,8 @@ class JointIntake {
   /// All joints are fixed, or there are none: any message's stamp makes a sample.
   bool nobody_tells_ = false;
   std::vector<Series> series_;
+  /// Of messages where nobody tells a joint.
+  BehindNewest behind_;
   std::vector<Told> told_;
   std::vector<double> stamps_s_;
   std::vector<double> whole_;

@@ -33,12 +33,14 @@ void validate(const LiveCameraSettings& settings) {
 }  // namespace
 
 LiveCamera::LiveCamera(std::shared_ptr<const MountedCamera> mounted, const JointIntake& joints,
-                       LiveCameraSettings settings, OnFrame on_frame, FindPlace find_place)
+                       LiveCameraSettings settings, OnFrame on_frame, FindPlace find_place,
+                       const CameraWatch& before)
     : mounted_(std::move(mounted)),
       joints_(joints),
       settings_(settings),
       on_frame_(std::move(on_frame)),
-      find_place_(std::move(find_place)) {
+      find_place_(std::move(find_place)),
+      before_(before) {
   validate(settings_);
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
@@ -49,7 +51,7 @@ void LiveCamera::push(double stamp_s, DepthImage depth_m, std::shared_ptr<const 
   require_size(mounted_->camera(), depth_m);
   {
     const std::lock_guard lock(mutex_);
-    if (waiting_.size() == kMostWaitingImages) drop_oldest();
+    if (waiting_.size() == kMostWaitingImages) drop(waiting_.end() - 1);
     waiting_.push_back({stamp_s, std::move(depth_m), std::move(with), steady_now_s()});
   }
   changed_.notify_one();
@@ -110,15 +112,15 @@ std::optional<LiveCamera::Waiting> LiveCamera::take_newest() {
   const std::lock_guard lock(mutex_);
   // Of three that wait the first one may have been dropped, and the others still wait for joints.
   if (waiting_.empty() || !is_ready(waiting_.front())) return std::nullopt;
-  while (waiting_.size() > 1 && is_ready(waiting_[1])) drop_oldest();
+  while (waiting_.size() > 1 && is_ready(waiting_[1])) drop(waiting_.begin());
   Waiting image = std::move(waiting_.front());
   waiting_.pop_front();
   return image;
 }
 
-void LiveCamera::drop_oldest() {
-  spare_.push_back(std::move(waiting_.front().depth_m));
-  waiting_.pop_front();
+void LiveCamera::drop(std::deque<Waiting>::iterator image) {
+  spare_.push_back(std::move(image->depth_m));
+  waiting_.erase(image);
   ++counts_.dropped;
 }
 
@@ -144,18 +146,29 @@ void LiveCamera::keep(const Waiting& image, const std::shared_ptr<const Frame>& 
   counts_.last_wait_s = begin_s - image.since_s;
   counts_.longest_wait_s = std::max(counts_.longest_wait_s, counts_.last_wait_s);
   counts_.last_observe_s = steady_now_s() - begin_s;
+  counts_.failure.clear();
+}
+
+void LiveCamera::take(Observer& observer, const Waiting& image) {
+  try {
+    const std::shared_ptr<const Frame> frame = observe(observer, image);
+    // Within the turn: so a frame that is put into a LiveSpace there is made ready next.
+    if (on_frame_) on_frame_(frame, image.depth_m, image.with);
+  } catch (const std::exception& error) {
+    const std::lock_guard lock(mutex_);
+    ++counts_.failed;
+    counts_.failure = error.what();
+  }
 }
 
 void LiveCamera::run(const std::stop_token& stop) {
-  Observer observer(mounted_);
+  Observer observer(mounted_, {}, before_);
   while (wait_for_image(stop)) {
     const ImageTurn turn(stop);
     if (!turn.has_come()) return;
     std::optional<Waiting> image = take_newest();
     if (!image) continue;
-    const std::shared_ptr<const Frame> frame = observe(observer, *image);
-    // Within the turn: so a frame that is put into a LiveSpace there is made ready next.
-    if (on_frame_) on_frame_(frame, image->depth_m, image->with);
+    take(observer, *image);
     const std::lock_guard lock(mutex_);
     spare_.push_back(std::move(image->depth_m));
   }

@@ -8,6 +8,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -30,8 +31,9 @@ struct LiveCameraSettings {
   double max_wait_s = 0.1;
 };
 
-/// How many images wait at most. Of more the oldest is dropped; of several whose joints are known
-/// all but the newest are, since a newer one shows more.
+/// How many images wait at most. Of more the one before the newest is dropped: the oldest is the
+/// first whose joints come. Of several whose joints are known all but the newest are, since a newer
+/// one shows more.
 inline constexpr std::size_t kMostWaitingImages = 3;
 
 /// What became of a camera's images.
@@ -42,6 +44,9 @@ struct LiveCameraCounts {
   double last_wait_s = 0;    ///< of the newest image, for its joints and for a processor
   double longest_wait_s = 0;
   double last_observe_s = 0;  ///< how long it took to observe the newest image
+  std::int64_t failed = 0;    ///< that an exception ended, so that there is no frame of them
+  /// Of the last one that failed; empty where the newest image was observed.
+  std::string failure;
 };
 
 /// Where a camera and the robot's root were at an exposure, for those that move otherwise than by
@@ -58,11 +63,14 @@ class LiveCamera {
                                      const std::shared_ptr<const void>& with)>;
 
   /// `joints` outlives it. `on_frame` is called in the camera's thread, after newest() has the
-  /// frame; it must not throw, nor wait for another thread: other images wait for it.
-  /// Without `find_place` the camera stands as its mount says, and the root stands still. Throws
-  /// std::invalid_argument for a setting outside of its domain.
+  /// frame; it must not wait for another thread: other images wait for it. What it or the
+  /// observation throws is counted (LiveCameraCounts::failed), and the next image goes on.
+  /// Without `find_place` the camera stands as its mount says, and the root stands still. `before`
+  /// is what the camera was found to be, such as by the LiveCamera of it before, as for PoseWatch.
+  /// Throws std::invalid_argument for a setting outside of its domain.
   LiveCamera(std::shared_ptr<const MountedCamera> mounted, const JointIntake& joints,
-             LiveCameraSettings settings = {}, OnFrame on_frame = {}, FindPlace find_place = {});
+             LiveCameraSettings settings = {}, OnFrame on_frame = {}, FindPlace find_place = {},
+             const CameraWatch& before = {});
   /// Ends the thread; images that wait are dropped.
   ~LiveCamera();
   LiveCamera(const LiveCamera&) = delete;
@@ -100,7 +108,9 @@ class LiveCamera {
   bool wait_for_image(const std::stop_token& stop);
   /// The newest image that is ready.
   std::optional<Waiting> take_newest();
-  void drop_oldest();
+  void drop(std::deque<Waiting>::iterator image);
+  /// Observes it, and hands it over.
+  void take(Observer& observer, const Waiting& image);
   std::shared_ptr<const Frame> observe(Observer& observer, const Waiting& image);
   void keep(const Waiting& image, const std::shared_ptr<const Frame>& frame, double begin_s);
   /// Whether the joints after its exposure are there, or it has waited long enough.
@@ -113,6 +123,7 @@ class LiveCamera {
   LiveCameraSettings settings_;
   OnFrame on_frame_;
   FindPlace find_place_;
+  CameraWatch before_;
   std::atomic<bool> is_distrusted_ = false;
   FramePool pool_;
   mutable std::mutex mutex_;

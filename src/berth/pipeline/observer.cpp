@@ -51,11 +51,12 @@ std::int64_t count_unread(const RobotImage& robot, const ObstacleImage& obstacle
 
 /// Scratch memory, and what is remembered from image to image.
 struct Observer::Parts {
-  Parts(std::shared_ptr<const MountedCamera> of, MeasureDisplacement measure)
+  Parts(std::shared_ptr<const MountedCamera> of, MeasureDisplacement measure,
+        const CameraWatch& before)
       : mounted(std::move(of)),
         drawing(*mounted->robot(), mounted->camera()),
         environment_back(mounted->robot()->model(), mounted->camera()),
-        watch(mounted->settings().watch, displacement_of(*mounted, std::move(measure))) {
+        watch(mounted->settings().watch, displacement_of(*mounted, std::move(measure)), before) {
     if (mounted->region_meshes())
       region_renderer.emplace(mounted->region_meshes(), mounted->camera());
   }
@@ -80,8 +81,9 @@ struct Observer::Parts {
   JointState at_exposure;
 };
 
-Observer::Observer(std::shared_ptr<const MountedCamera> mounted, MeasureDisplacement measure)
-    : parts_(std::make_unique<Parts>(std::move(mounted), std::move(measure))) {}
+Observer::Observer(std::shared_ptr<const MountedCamera> mounted, MeasureDisplacement measure,
+                   const CameraWatch& before)
+    : parts_(std::make_unique<Parts>(std::move(mounted), std::move(measure), before)) {}
 
 Observer::~Observer() = default;
 Observer::Observer(Observer&&) noexcept = default;

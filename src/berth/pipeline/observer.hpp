@@ -14,8 +14,10 @@ namespace berth {
 class Observer {
  public:
   /// `measure` is how the view's WatchSettings::max_displacement_m is watched; without it, as
-  /// FrameDisplacement does.
-  explicit Observer(std::shared_ptr<const MountedCamera> mounted, MeasureDisplacement measure = {});
+  /// FrameDisplacement does. `before` is what the camera was found to be by another observer, as
+  /// for PoseWatch.
+  explicit Observer(std::shared_ptr<const MountedCamera> mounted, MeasureDisplacement measure = {},
+                    const CameraWatch& before = {});
   ~Observer();
   Observer(Observer&&) noexcept;
   Observer& operator=(Observer&&) noexcept;

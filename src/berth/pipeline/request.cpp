@@ -21,6 +21,8 @@ const JointState* RequestedJoints::read(std::optional<double> now_s, JointState&
         "now_s: none; expected the time of the request, since joints are a buffer");
   }
   status = buffer_->newest(newest);
+  const bool is_ahead = newest.stamp_s > *now_s + kMostJointsAhead_s;
+  if (status == TimeStatus::ok && is_ahead) status = TimeStatus::stale_joints;
   return &newest;
 }
 

@@ -17,6 +17,11 @@ namespace berth {
 /// How many cameras a request may have.
 inline constexpr std::size_t kMostCameras = 8;
 
+/// How far a buffer's newest joints may lie after the request: a simulation's clock may tick 40
+/// times a second, and its joints come between. Farther ahead they are of another clock, or of one
+/// that was set back, and nobody knows how old they are.
+inline constexpr double kMostJointsAhead_s = 0.04;
+
 /// The newest frame of each camera, or null where a camera has given none yet. It refers to them.
 class NewestFrames {
  public:
@@ -59,8 +64,8 @@ class RequestedJoints {
   RequestedJoints(const JointState& state, TimeStatus status) : state_(&state), status_(status) {}
 
   /// Those that a request at `now_s` is about: null for those of the exposure. A buffer's newest
-  /// are written to `newest`, with how they stand in `status`. Throws std::invalid_argument for a
-  /// buffer without a time.
+  /// are written to `newest`, with how they stand in `status`: stale_joints where they lie more
+  /// than kMostJointsAhead_s after it. Throws std::invalid_argument for a buffer without a time.
   const JointState* read(std::optional<double> now_s, JointState& newest, TimeStatus& status) const;
 
  private:

@@ -21,8 +21,8 @@ struct TimeSettings {
   /// From the exposure to the request. The default suits 30 Hz: time for the transfer, for the
   /// next frame, and for one that is lost.
   double max_frame_age_s = 0.15;
-  /// From the joints' stamp to the request. Joints ahead of it, where the robot is about to go,
-  /// have a negative age and are within any limit.
+  /// From the joints' stamp to the request. Joints that a request names itself may lie ahead of it,
+  /// where the robot is about to go; for a buffer's see kMostJointsAhead_s.
   double max_joints_age_s = 0.02;
 
   bool operator==(const TimeSettings&) const = default;

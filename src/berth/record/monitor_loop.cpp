@@ -30,6 +30,10 @@ const Result& MonitorLoop::monitor(const PlannedMotion& motion, double now_s, bo
   return monitored_;
 }
 
+void MonitorLoop::stopped(double now_s) {
+  if (monitor_) monitor_->recall({.is_first = false, .scale = 0, .last_s = now_s});
+}
+
 const Separation& update_recorded(Recorder* recorder, SeparationMonitor& monitor,
                                   const Result& result, const PlannedMotion& motion, double now_s,
                                   const FrameSet* frames) {

@@ -35,6 +35,10 @@ class MonitorLoop {
   /// call.
   const Result& monitor(const PlannedMotion& motion, double now_s, bool with_frames = true);
 
+  /// Somebody else stopped the robot at this time: the scale rises from 0, as fast as the robot
+  /// gains speed.
+  void stopped(double now_s);
+
   bool has_monitor() const { return monitor_.has_value(); }
   /// As in Query.
   void forget() { query_.forget(); }

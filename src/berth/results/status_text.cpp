@@ -33,6 +33,9 @@ std::string stale_text(const Timeliness& time) {
     case TimeStatus::stale_frame:
       return fmt::format("the newest image is {:.3f} s old", time.frame_age_s);
     case TimeStatus::stale_joints:
+      if (time.joints_age_s < 0) {
+        return fmt::format("the joint states lie {:.3f} s in the future", -time.joints_age_s);
+      }
       return fmt::format("the joint states are {:.3f} s old", time.joints_age_s);
     case TimeStatus::no_frame:
       return "no camera has given an image yet";

@@ -28,18 +28,36 @@ const WatchSettings& checked(const WatchSettings& settings) {
 
 }  // namespace
 
-PoseWatch::PoseWatch(const WatchSettings& settings, MeasureDisplacement measure)
+PoseWatch::PoseWatch(const WatchSettings& settings, MeasureDisplacement measure,
+                     const CameraWatch& before)
     : settings_(checked(settings)),
       by_seen_through_(settings.agreeing_frames, settings.frames),
       by_displacement_(kAgreeingChecks, kChecks),
       by_place_(settings.agreeing_frames, settings.frames) {
   state_.is_on = settings.is_on();
+  begin_with(before);
   if (settings.max_displacement_m == 0) return;
   if (!measure) {
     throw_bad_setting("watch", "max_displacement_m", settings.max_displacement_m,
                       "0, since nothing measures it");
   }
   check_.emplace(std::move(measure));
+}
+
+void PoseWatch::begin_with(const CameraWatch& before) {
+  const bool has_D = settings_.max_displacement_m > 0, has_T = settings_.max_seen_through > 0;
+  if (before.has_moved && state_.is_on) {
+    // Where the last D does not say so, T did, or else D's two of three have to take it back.
+    const bool by_D = has_D && (before.displacement_m > settings_.max_displacement_m || !has_T);
+    by_displacement_.begin(by_D);
+    by_seen_through_.begin(has_T && (!by_D || before.seen_through > settings_.max_seen_through));
+    state_.has_moved = true;
+  }
+  if (settings_.min_at_robot > 0 && (before.is_implausible || before.is_unconfirmed)) {
+    by_place_.begin(true);
+    has_place_verdict_ = true;
+    tell_place();
+  }
 }
 
 const CameraWatch& PoseWatch::look(DepthView depth_m, const RobotImage& robot,
@@ -73,6 +91,10 @@ void PoseWatch::judge_place(const RobotReadings& readings) {
   } else {
     by_place_.begin(verdict);
   }
+  tell_place();
+}
+
+void PoseWatch::tell_place() {
   state_.is_implausible = by_place_.state() && !settings_.tell_only;
   state_.is_unconfirmed = by_place_.state() && settings_.tell_only;
 }

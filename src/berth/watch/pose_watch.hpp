@@ -96,8 +96,10 @@ class PoseWatch {
  public:
   /// Throws std::invalid_argument for settings outside of their domain, and where
   /// max_displacement_m is set and nothing measures D. The thread that measures is there only where
-  /// both are given.
-  explicit PoseWatch(const WatchSettings& settings, MeasureDisplacement measure = {});
+  /// both are given. A camera that another watch of it left as `before` is what it was found to be,
+  /// moved or implausible, until as many verdicts say otherwise as after any other frame.
+  explicit PoseWatch(const WatchSettings& settings, MeasureDisplacement measure = {},
+                     const CameraWatch& before = {});
 
   /// Judges one frame: the camera's image, the robot as it should be seen in it, the joints at its
   /// exposure. Takes D of an earlier frame where it is there, and begins with this frame's where it
@@ -114,7 +116,9 @@ class PoseWatch {
   const CameraWatch& wait();
 
  private:
+  void begin_with(const CameraWatch& before);
   void judge_place(const RobotReadings& readings);
+  void tell_place();
   void take_displacement();
   bool is_due(double stamp_s) const;
 
