@@ -26,28 +26,6 @@ double size_m(const shape_msgs::msg::SolidPrimitive& shape, std::size_t i) {
                               std::to_string(size) + "; expected metres above 0");
 }
 
-/// A service's request or an action's goal, which have the same fields.
-template <class Told>
-berth::Attachment told_by(const Told& request) {
-  const bool has_shape = request.shape.type != 0;
-  const bool has_mesh = !request.mesh.triangles.empty();
-  const bool has_resource = !request.mesh_resource.empty();
-  if (has_shape + has_mesh + has_resource != 1) {
-    throw std::invalid_argument("expected one of shape, mesh and mesh_resource; " +
-                                std::to_string(has_shape + has_mesh + has_resource) + " are given");
-  }
-  if (request.name.empty()) throw std::invalid_argument("name: empty; expected a name");
-  berth::Attachment attachment;
-  attachment.name = request.name;
-  attachment.link = request.link;
-  attachment.is_link = request.is_link;
-  attachment.X_LA = pose_of(request.pose);
-  attachment.mesh_A = has_shape  ? mesh_of(request.shape)
-                      : has_mesh ? mesh_of(request.mesh)
-                                 : berth::read_mesh_file(mesh_file_of(request.mesh_resource));
-  return attachment;
-}
-
 template <class Response, class Act>
 void answer(Response& response, Act&& act) {
   try {
@@ -115,11 +93,23 @@ berth::Pose pose_of(const geometry_msgs::msg::Pose& pose) {
 }
 
 berth::Attachment attachment_of(const berth_msgs::srv::Attach::Request& request) {
-  return told_by(request);
-}
-
-berth::Attachment attachment_of(const berth_msgs::action::Attach::Goal& goal) {
-  return told_by(goal);
+  const bool has_shape = request.shape.type != 0;
+  const bool has_mesh = !request.mesh.triangles.empty();
+  const bool has_resource = !request.mesh_resource.empty();
+  if (has_shape + has_mesh + has_resource != 1) {
+    throw std::invalid_argument("expected one of shape, mesh and mesh_resource; " +
+                                std::to_string(has_shape + has_mesh + has_resource) + " are given");
+  }
+  if (request.name.empty()) throw std::invalid_argument("name: empty; expected a name");
+  berth::Attachment attachment;
+  attachment.name = request.name;
+  attachment.link = request.link;
+  attachment.is_link = request.is_link;
+  attachment.X_LA = pose_of(request.pose);
+  attachment.mesh_A = has_shape  ? mesh_of(request.shape)
+                      : has_mesh ? mesh_of(request.mesh)
+                                 : berth::read_mesh_file(mesh_file_of(request.mesh_resource));
+  return attachment;
 }
 
 AttachmentList Attached::all() const {

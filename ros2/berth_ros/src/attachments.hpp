@@ -1,7 +1,6 @@
 // What the robot has taken up, as services tell it.
 #pragma once
 
-#include <berth_msgs/action/attach.hpp>
 #include <berth_msgs/srv/attach.hpp>
 #include <berth_msgs/srv/detach.hpp>
 #include <functional>
@@ -23,9 +22,8 @@ berth::TriangleMesh mesh_of(const shape_msgs::msg::Mesh& mesh);
 /// Throws std::invalid_argument for a pose whose numbers are not finite or are no rotation.
 berth::Pose pose_of(const geometry_msgs::msg::Pose& pose);
 
-/// Throw std::exception that names what was wrong.
+/// Throws std::exception that names what was wrong.
 berth::Attachment attachment_of(const berth_msgs::srv::Attach::Request& request);
-berth::Attachment attachment_of(const berth_msgs::action::Attach::Goal& goal);
 
 using AttachmentList = std::vector<berth::Attachment>;
 

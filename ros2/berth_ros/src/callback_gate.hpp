@@ -1,8 +1,11 @@
-// How what a node's configuration made is ended while callbacks use it.
+// How callbacks use what a node's configuration made, while it may be ended, and what they throw.
 #pragma once
 
+#include <exception>
+#include <functional>
 #include <mutex>
 #include <shared_mutex>
+#include <string>
 
 namespace berth_ros {
 
@@ -15,6 +18,10 @@ namespace berth_ros {
 /// and nobody holds it while they end.
 class CallbackGate {
  public:
+  /// Gets what a callback threw, in its thread.
+  using OnError = std::function<void(const std::string&)>;
+  explicit CallbackGate(OnError on_error) : on_error_(std::move(on_error)) {}
+
   /// Held by who makes a configuration: callbacks wait until all is made. To be let go before
   /// close().
   std::unique_lock<std::shared_mutex> hold() { return std::unique_lock(mutex_); }
@@ -27,6 +34,18 @@ class CallbackGate {
     return lock;
   }
 
+  /// Calls it within, unless the gate is closed. No exception gets out.
+  template <class Call>
+  void run(const Call& call) {
+    const auto pass = enter();
+    if (!pass) return;
+    try {
+      call();
+    } catch (const std::exception& error) {
+      on_error_(error.what());
+    }
+  }
+
   /// Waits until no callback is within; from then on none comes in. Not to be called in a callback
   /// that has passed it.
   void close() {
@@ -35,6 +54,7 @@ class CallbackGate {
   }
 
  private:
+  OnError on_error_;
   std::shared_mutex mutex_;
   bool is_open_ = true;
 };

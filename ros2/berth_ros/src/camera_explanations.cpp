@@ -103,10 +103,23 @@ void CameraExplanations::run() {
     while (true) {
       collect();
       const double begin_s = busy_s();
-      look();
+      try {
+        look();
+      } catch (const std::exception& error) {
+        tell_failure(error.what());
+      }
       rest(busy_s() - begin_s);
     }
   } catch (const Stopped&) {
+  }
+}
+
+void CameraExplanations::tell_failure(const std::string& what) {
+  const std::lock_guard lock(mutex_);
+  for (std::size_t c = 0; c < cameras_.size(); ++c) {
+    if (cameras_[c].newest.is_sure) continue;
+    cameras_[c].newest.mounted = cameras_[c].kept.mounted;
+    cameras_[c].newest.text = "camera " + settings_[c].name + " could not be looked at: " + what;
   }
 }
 

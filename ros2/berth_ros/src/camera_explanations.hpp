@@ -86,6 +86,7 @@ class CameraExplanations {
   bool has_moved(const std::vector<double>& positions) const;
   bool is_any(bool Camera::*what) const;
   void look();
+  void tell_failure(const std::string& what);
   /// None where nothing is to be told of it.
   std::optional<CameraExplanation> take(std::size_t camera, const berth::CameraPlausibility& found,
                                         std::int64_t forgotten);

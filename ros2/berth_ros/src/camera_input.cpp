@@ -74,7 +74,7 @@ CameraInput::CameraInput(rclcpp_lifecycle::LifecycleNode& node,
   info_ = node.create_subscription<sensor_msgs::msg::CameraInfo>(
       settings_.topic_prefix + "camera_info", qos,
       [this, gate](const sensor_msgs::msg::CameraInfo::ConstSharedPtr& info) {
-        if (const auto pass = gate->enter()) on_info(info);
+        gate->run([&] { on_info(info); });
       },
       options);
   options.callback_group = image_group_;
@@ -100,7 +100,16 @@ void CameraInput::use(std::shared_ptr<const berth::Robot> robot,
 
 std::unique_ptr<berth::LiveCamera> CameraInput::take_live() {
   const std::lock_guard lock(live_mutex_);
+  const auto frame = live_ ? live_->newest() : nullptr;
+  if (frame) found_mount_ = frame->mounted->mount(), found_ = frame->watch;
   return std::move(live_);
+}
+
+berth::CameraWatch CameraInput::found(const berth::CameraMount& mount) const {
+  if (!found_mount_) return {};
+  berth::CameraMount before = *found_mount_;
+  if (moves_) before.X_PC = mount.X_PC;
+  return is_same_mount(before, mount) ? found_ : berth::CameraWatch();
 }
 
 void CameraInput::distrust(const std::optional<berth::CameraMount>& mount) {
@@ -133,6 +142,7 @@ CameraReport CameraInput::report() const {
   if (live_) {
     report.counts = live_->counts();
     report.newest = live_->newest();
+    if (report.trouble.empty()) report.trouble = report.counts.failure;
   }
   report.refused = refused_;
   report.mounts = mounts_;
@@ -167,7 +177,7 @@ void CameraInput::take_info(const sensor_msgs::msg::CameraInfo& info) {
     mount_.reset();
     info_trouble_.clear();
     trouble_ = "no image yet";
-  } catch (const std::invalid_argument& error) {
+  } catch (const std::exception& error) {
     camera_.reset();
     info_trouble_ = error.what();
     refuse(info_trouble_);
@@ -185,7 +195,7 @@ void CameraInput::require_frame_id(const ImageMessage& image) {
 
 void CameraInput::find_mount(const ImageMessage& image) {
   std::string why = "the image has no frame_id; expected the camera's optical frame";
-  if (settings_.pose_source != PoseSource::scene && !takes_scene_pose_) {
+  if (settings_.pose_source != PoseSource::scene) {
     berth::CameraMount mount;
     mount.parent_link = transforms_.link_above(robot_->model(), image.header.frame_id);
     std::optional<ToldPose> told;
@@ -195,13 +205,17 @@ void CameraInput::find_mount(const ImageMessage& image) {
     if (told) {
       mount.X_PC = told->X_PF;
       // What moves is placed image by image.
-      const bool is_same = mount_ && mount_->parent_link == mount.parent_link &&
+      const bool is_same = mount_ && !takes_scene_pose_ &&
+                           mount_->parent_link == mount.parent_link &&
                            (!told->is_static || is_same_place(mount_->X_PC, mount.X_PC));
+      is_known_to_tf_ = true;
+      takes_scene_pose_ = false;
+      moves_ = !told->is_static;
       if (!is_same) mount_at(mount);
       return;
     }
   }
-  if (settings_.pose_source != PoseSource::tf && settings_.scene_mount) {
+  if (settings_.pose_source != PoseSource::tf && settings_.scene_mount && !is_known_to_tf_) {
     takes_scene_pose_ = true;
     if (!mount_) mount_at(*settings_.scene_mount);
     return;
@@ -230,7 +244,7 @@ void CameraInput::make_live(const ImageMessage& image) {
                              berth::DepthView depth_m, const std::shared_ptr<const void>& with) {
         on_frame_(frame, depth_m, std::static_pointer_cast<const ImageMessage>(with));
       },
-      [this, source](double stamp_s) { return place_at(source, stamp_s); });
+      [this, source](double stamp_s) { return place_at(source, stamp_s); }, found(mount));
   live->distrust(is_distrusted(mount));
   const std::lock_guard lock(live_mutex_);
   live_ = std::move(live);
@@ -277,11 +291,12 @@ void CameraInput::take_image(const std::shared_ptr<const ImageMessage>& image) {
     return;
   }
   try {
-    rate_.add(rclcpp::Time(image->header.stamp).seconds());
+    const double stamp_s = clock_.seconds(image->header.stamp);
+    rate_.add(stamp_s);
     make_ready(*image);
     berth::DepthImage depth_m = live_->spare_image();
     berth::read_raw_depth(raw_of(*image), *camera_, settings_.units, depth_m);
-    live_->push(clock_.seconds(image->header.stamp), std::move(depth_m), image);
+    live_->push(stamp_s, std::move(depth_m), image);
     trouble_.clear();
   } catch (const std::exception& error) {
     refuse(error.what());

@@ -95,6 +95,7 @@ class CameraInput {
   void make_live(const ImageMessage& image);
   std::unique_ptr<berth::LiveCamera> take_live();
   std::optional<berth::PlaceAtExposure> place_at(const PlaceSource& source, double stamp_s) const;
+  berth::CameraWatch found(const berth::CameraMount& mount) const;
   bool is_distrusted(const berth::CameraMount& mount) const {
     return distrusted_ && is_same_mount(*distrusted_, mount);
   }
@@ -115,7 +116,13 @@ class CameraInput {
   std::shared_ptr<const ImageMessage> early_image_;
   std::optional<berth::CameraMount> mount_;
   std::optional<berth::CameraMount> distrusted_;
+  /// What the camera of this mount was found to be: for the same one, made anew.
+  std::optional<berth::CameraMount> found_mount_;
+  berth::CameraWatch found_;
   bool takes_scene_pose_ = false;
+  /// TF places the camera image by image.
+  bool moves_ = false;
+  bool is_known_to_tf_ = false;
   std::string info_trouble_ = "no camera_info yet";
   std::string trouble_ = info_trouble_;
   std::int64_t refused_ = 0;

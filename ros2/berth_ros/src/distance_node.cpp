@@ -1,13 +1,12 @@
 // Distances of a running robot: cameras and joint states in, berth_msgs/LinkDistances out.
 #include <atomic>
 #include <berth_msgs/msg/link_distances.hpp>
-#include <berth_msgs/msg/separation.hpp>
 #include <chrono>
 #include <rclcpp_components/register_node_macro.hpp>
-#include <std_msgs/msg/float64.hpp>
 #include <std_srvs/srv/trigger.hpp>
 #include <visualization_msgs/msg/marker_array.hpp>
 
+#include "answer_topics.hpp"
 #include "berth/live/live_space.hpp"
 #include "berth/record/monitor_loop.hpp"
 #include "berth/results/result_text.hpp"
@@ -23,6 +22,10 @@
 
 namespace berth_ros {
 namespace {
+
+/// Shorter than AnswerTopics::kDeadline by more than a watch's period.
+constexpr double kMostSilence_s = 0.08;
+constexpr double kWatchPeriod_s = 0.01;
 
 rcl_interfaces::msg::ParameterDescriptor rate(const std::string& text, double most) {
   rcl_interfaces::msg::ParameterDescriptor descriptor;
@@ -64,11 +67,13 @@ class DistanceNode : public LiveNode {
  public:
   explicit DistanceNode(const rclcpp::NodeOptions& options)
       : LiveNode("distance_node", options, false) {
-    diagnostics_.add("questions", [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
+    add_report("questions", [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
       report_questions(status);
     });
     question_hz_ = declare_parameter("question_rate_hz", 100.0,
-                                     rate("questions a second; 0: one for each joint state", 1000));
+                                     rate("questions a second; 0: one for each joint state. With "
+                                          "a monitor never less than 12.5",
+                                          1000));
     marker_hz_ = declare_parameter("marker_rate_hz", 10.0, rate("markers a second; 0: none", 100));
     velocity_window_s_ = declare_parameter(
         "velocity_window_s", 0.02,
@@ -76,10 +81,19 @@ class DistanceNode : public LiveNode {
                   "planned_joint_states come"));
     declare_recording();
     planners_.emplace(*this, clock_, [this] { return space_now(); });
+    if (planners_->is_on()) {
+      add_report("topics for planners",
+                 [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
+                   const std::string lost = planners_->lost();
+                   using diagnostic_msgs::msg::DiagnosticStatus;
+                   if (lost.empty()) return status.summary(DiagnosticStatus::OK, "published");
+                   status.summary(DiagnosticStatus::ERROR, "the map before is kept: " + lost);
+                 });
+    }
     begin();
   }
   /// Cameras' threads and callbacks use what is below.
-  ~DistanceNode() override { stop(); }
+  ~DistanceNode() override { end(); }
 
  private:
   using LinkDistances = berth_msgs::msg::LinkDistances;
@@ -109,81 +123,80 @@ class DistanceNode : public LiveNode {
   }
 
   void configure_outputs() override {
-    const rclcpp::QoS qos = rclcpp::QoS(10);
-    distances_ = create_publisher<LinkDistances>("distances", qos);
-    at_exposure_ = create_publisher<LinkDistances>("distances_at_exposure", qos);
-    separation_ = create_publisher<berth_msgs::msg::Separation>("separation", qos);
-    speed_scale_ = create_publisher<std_msgs::msg::Float64>("speed_scale", qos);
-    markers_ = create_publisher<visualization_msgs::msg::MarkerArray>("markers", qos);
+    answers_.configure();
+    at_exposure_ = create_publisher<LinkDistances>("distances_at_exposure", 10);
+    markers_ = create_publisher<visualization_msgs::msg::MarkerArray>("markers", 10);
     group_ = create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive);
+    watchdog_group_ = create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive);
     rclcpp::SubscriptionOptions with_group;
     with_group.callback_group = group_;
     planned_subscription_ = create_subscription<sensor_msgs::msg::JointState>(
         "planned_joint_states", rclcpp::SensorDataQoS().keep_last(1),
         [this, gate = gate()](const sensor_msgs::msg::JointState& message) {
-          if (const auto pass = gate->enter()) on_plan(message);
+          gate->run([&] { on_plan(message); });
         },
         with_group);
     planners_->configure(gate());
   }
   void activate_outputs() override {
-    if (question_hz_ > 0) question_timer_ = timer(question_hz_, [this] { ask(); });
-    if (marker_hz_ > 0) marker_timer_ = timer(marker_hz_, [this] { show(); });
+    answers_.begin();
+    if (question_hz_ > 0) question_timer_ = timer(1 / question_hz_, group_, [this] { ask(); });
+    watchdog_ = timer(kWatchPeriod_s, watchdog_group_, [this] { end_silence(); });
+    if (marker_hz_ > 0) marker_timer_ = timer(1 / marker_hz_, group_, [this] { show(); });
     planners_->activate();
   }
   void deactivate_outputs() override {
     question_timer_.reset();
+    watchdog_.reset();
     marker_timer_.reset();
     planners_->deactivate();
-    // A controller that obeys the scale must not keep the last one.
-    const std::lock_guard lock(answer_mutex_);
-    publish_answer();
+    answers_.end("the node is not active", separation_settings().has_value());
   }
   void clean_outputs() override {
     planners_->clean();
     planned_subscription_.reset();
+    planned_ = {};
     keep_space(nullptr);
     black_box_->use(nullptr, {}, 0);
-    distances_.reset();
+    answers_.clean();
     at_exposure_.reset();
-    separation_.reset();
-    speed_scale_.reset();
     markers_.reset();
   }
 
+  /// By the steady clock: no clock that is set back, or stands, silences the node.
   template <class Call>
-  rclcpp::TimerBase::SharedPtr timer(double hz, Call call) {
-    return rclcpp::create_timer(
-        this, get_clock(), rclcpp::Duration::from_seconds(1 / hz),
-        [gate = gate(), call] {
-          if (const auto pass = gate->enter()) call();
-        },
-        group_);
+  rclcpp::TimerBase::SharedPtr timer(double period_s, const rclcpp::CallbackGroup::SharedPtr& group,
+                                     Call call) {
+    return create_wall_timer(
+        std::chrono::duration<double>(period_s), [gate = gate(), call] { gate->run(call); }, group);
   }
 
-  void on_joints(const sensor_msgs::msg::JointState& state) override {
-    black_box_->push_joints(clock_.seconds(state.header.stamp), state.name, state.position);
+  void on_joints(double stamp_s, const sensor_msgs::msg::JointState& state) override {
+    if (std::isfinite(stamp_s)) black_box_->push_joints(stamp_s, state.name, state.position);
     if (question_hz_ == 0) ask();
   }
-  void on_robot() override {
-    const LiveRobot now = live();
+  void on_stop(const std::string& why) override {
+    answers_.stop(why, separation_settings().has_value());
+  }
+  std::function<void()> make_for(const LiveRobot& robot) override {
+    const auto separation = separation_settings();
+    std::shared_ptr<berth::MonitorLoop> loop;
     std::shared_ptr<RobotSpace> space;
-    if (now.robot) {
-      space = std::make_shared<RobotSpace>(now, camera_names().size());
-      const LiveFrames newest = frames(*now.robot);
-      for (std::size_t k = 0; k < newest.size(); ++k) space->live.put(k, newest[k]);
+    if (robot.robot) {
+      loop = std::make_shared<berth::MonitorLoop>(robot.robot, camera_names(), separation);
+      space = std::make_shared<RobotSpace>(robot, camera_names().size());
     }
-    exposures_.use(now.robot, camera_names());
-    keep_space(space);
-    const std::lock_guard lock(query_mutex_);
-    loop_.reset();
-    asked_space_ = space;
-    robot_ = now;
-    planned_ = {};
-    const std::optional<berth::SeparationSettings> separation = separation_settings();
-    black_box_->use(now.robot, separation, camera_names().size());
-    may_be_degraded_ = separation && separation->camera != berth::UnknownPolicy::stop;
-    if (now.robot) loop_.emplace(now.robot, camera_names(), separation);
+    return [this, robot, separation, loop, space] {
+      exposures_.use(robot.robot, camera_names());
+      keep_space(space);
+      const std::lock_guard lock(query_mutex_);
+      loop_ = loop;
+      asked_space_ = space;
+      robot_ = robot;
+      if (robot.robot) planned_.begin_anew(robot.robot->model());
+      black_box_->use(robot.robot, separation, camera_names().size());
+      may_be_degraded_ = separation && separation->camera != berth::UnknownPolicy::stop;
+    };
   }
   /// For the cameras' threads, which do not wait for questions.
   void keep_space(std::shared_ptr<RobotSpace> space) {
@@ -196,34 +209,35 @@ class DistanceNode : public LiveNode {
   }
 
   void ask() {
-    const std::lock_guard lock(answer_mutex_);
-    if (is_active()) publish_answer();
+    look_at_clock();
+    const std::lock_guard lock(query_mutex_);
+    answer_or_stop();
   }
 
-  /// One at a time, so that nothing comes after the last stop.
-  void publish_answer() {
+  /// Silence is no stop: where no joint state asks, or an answer takes long, this does.
+  void end_silence() {
+    const bool is_monitored = separation_settings().has_value();
+    if (answers_.silent_s() < kMostSilence_s || (question_hz_ > 0 && !is_monitored)) return;
+    look_at_clock();
+    const std::unique_lock lock(query_mutex_, std::try_to_lock);
+    if (lock) return answer_or_stop();
+    if (is_monitored) answers_.stop("an answer takes too long", is_monitored);
+  }
+
+  /// With the query's mutex.
+  void answer_or_stop() {
     const auto begin = std::chrono::steady_clock::now();
+    const std::int64_t stops = answers_.stops();
+    const std::string why = why_silent(robot_);
+    if (!why.empty()) return on_stop(why);
     auto message = std::make_unique<LinkDistances>();
-    bool is_monitored = false;
-    {
-      const std::lock_guard lock(query_mutex_);
-      if (loop_ && is_answering()) {
-        answer(*message);
-      } else {
-        say_nothing(*message);
-      }
-      is_monitored = separation_message_.state != berth_msgs::msg::Separation::UNMONITORED;
-      last_status_ = message->status;
-      last_text_ = separation_message_.text;
-      if (marker_hz_ > 0) last_ = *message;
+    try {
+      answer(*message);
+    } catch (const std::exception& error) {
+      on_stop(error.what());
+      throw;
     }
-    distances_->publish(std::move(message));
-    separation_->publish(separation_message_);
-    if (is_monitored) {
-      std_msgs::msg::Float64 scale;
-      scale.data = separation_message_.speed_scale;
-      speed_scale_->publish(scale);
-    }
+    answers_.say(stops, std::move(message), separation_message_);
     const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - begin;
     times_.add(took.count());
   }
@@ -260,6 +274,7 @@ class DistanceNode : public LiveNode {
       loop_->record_with(recorder);
       loop_->ask(request);
       const double now_s = *request.now_s;
+      if (answers_.was_stopped()) loop_->stopped(now_s);
       robot_.joints->buffer().velocity(velocity_window_s_, velocity_);
       result = &loop_->monitor(
           planned_.is_there() ? planned_.at(now_s, robot_.robot->settings().time.max_frame_age_s)
@@ -276,35 +291,21 @@ class DistanceNode : public LiveNode {
     const bool is_seldom =
         question_hz_ > 0 && gap_s > robot_.robot->settings().time.max_joints_age_s;
     if (!is_seldom || joints.newest(seldom_joints_) != berth::TimeStatus::ok) return joints;
+    if (seldom_joints_.stamp_s > now_s + berth::kMostJointsAhead_s) return joints;
     seldom_joints_.stamp_s = std::min(seldom_joints_.stamp_s, now_s - gap_s);
     return seldom_joints_;
   }
 
-  /// There is no robot model yet, or the node is not to answer.
-  void say_nothing(LinkDistances& message) {
-    const std::string why = is_answering() ? "there is no robot model"
-                            : is_active()  ? "the node is disabled"
-                                           : "the node is not active";
-    say_no_robot(camera_names(), now(), message);
-    // Also before the robot is known: who obeys the scale must not wait for a first one.
-    if (separation_settings()) {
-      say_stop(why, separation_message_);
-    } else {
-      say_unmonitored(separation_message_);
-      separation_message_.text = "stale: " + why;
-    }
-    to_message(message, false, separation_message_);
-  }
-
   std::optional<SpaceNow> space_now() {
     const LiveRobot now = live();
-    if (!now.robot || !is_answering()) return {};
+    if (!why_silent(now).empty()) return {};
     return SpaceNow{now.robot, frames(*now.robot), clock_.seconds(this->now())};
   }
 
   void on_plan(const sensor_msgs::msg::JointState& message) {
     const std::lock_guard lock(query_mutex_);
-    if (robot_.robot) planned_.take(message, robot_.robot->model(), clock_.seconds(this->now()));
+    if (!robot_.robot) return;
+    planned_.take(message, robot_.robot->model(), clock_.seconds(message.header.stamp));
   }
 
   void on_frame(std::size_t camera, const std::shared_ptr<const berth::Frame>& frame,
@@ -321,12 +322,7 @@ class DistanceNode : public LiveNode {
 
   void show() {
     if (markers_->get_subscription_count() == 0) return;
-    visualization_msgs::msg::MarkerArray array;
-    {
-      const std::lock_guard lock(query_mutex_);
-      array = markers_of(last_);
-    }
-    markers_->publish(array);
+    markers_->publish(markers_of(answers_.distances()));
   }
 
   /// The robot's root link, in which results tell points.
@@ -344,32 +340,24 @@ class DistanceNode : public LiveNode {
       status.add("spaces made ready", space->live.counts().prepared);
       status.add("made ready in, ms", 1e3 * space->live.counts().last_prepare_s);
     }
-    std::uint8_t result = 0;
-    std::string text;
-    {
-      const std::lock_guard lock(query_mutex_);
-      result = last_status_;
-      text = last_text_;
-    }
+    const std::uint8_t result = answers_.distances().status;
     if (result == LinkDistances::OK) return status.summary(DiagnosticStatus::OK, "answered");
     const bool has_distances = result == LinkDistances::DEGRADED;
-    status.summary(has_distances ? DiagnosticStatus::WARN : DiagnosticStatus::ERROR, text);
+    status.summary(has_distances ? DiagnosticStatus::WARN : DiagnosticStatus::ERROR,
+                   answers_.text());
   }
 
   template <class Message>
   using Publisher = typename rclcpp_lifecycle::LifecyclePublisher<Message>::SharedPtr;
-  Publisher<LinkDistances> distances_;
+  AnswerTopics answers_{*this, camera_names()};
   Publisher<LinkDistances> at_exposure_;
-  Publisher<berth_msgs::msg::Separation> separation_;
-  Publisher<std_msgs::msg::Float64> speed_scale_;
   rclcpp::Subscription<sensor_msgs::msg::JointState>::SharedPtr planned_subscription_;
   Publisher<visualization_msgs::msg::MarkerArray> markers_;
   double question_hz_ = 0;
   double marker_hz_ = 0;
-  std::mutex answer_mutex_;
   std::mutex query_mutex_;
   LiveRobot robot_;
-  std::optional<berth::MonitorLoop> loop_;
+  std::shared_ptr<berth::MonitorLoop> loop_;
   /// Of the same robot as loop_.
   std::shared_ptr<RobotSpace> asked_space_;
   mutable std::mutex space_mutex_;
@@ -377,10 +365,6 @@ class DistanceNode : public LiveNode {
   ExposureAnswers exposures_;
   /// Of a question whose joints come too seldom.
   berth::JointState seldom_joints_;
-  /// For markers, where there are any.
-  LinkDistances last_;
-  std::uint8_t last_status_ = LinkDistances::STALE;
-  std::string last_text_;
   berth_msgs::msg::Separation separation_message_;
   double velocity_window_s_ = 0;
   std::vector<double> velocity_;
@@ -392,7 +376,10 @@ class DistanceNode : public LiveNode {
   PlannedVelocity planned_;
   QuestionTimes times_;
   rclcpp::CallbackGroup::SharedPtr group_;
+  /// Not to wait for a question.
+  rclcpp::CallbackGroup::SharedPtr watchdog_group_;
   rclcpp::TimerBase::SharedPtr question_timer_;
+  rclcpp::TimerBase::SharedPtr watchdog_;
   rclcpp::TimerBase::SharedPtr marker_timer_;
 };
 

@@ -3,13 +3,18 @@
 #include <algorithm>
 #include <chrono>
 #include <lifecycle_msgs/msg/state.hpp>
+#include <limits>
 
+#include "berth/pipeline/request.hpp"
 #include "robot_description.hpp"
 
 namespace berth_ros {
 namespace {
 
 using diagnostic_updater::DiagnosticStatusWrapper;
+
+const std::string kDisabled = "the node is disabled";
+const std::string kClockStands = "the node's clock stands";
 
 /// Often enough to see what is lost for two images.
 constexpr std::chrono::milliseconds kWatchPeriod{50};
@@ -21,17 +26,30 @@ LiveNode::LiveNode(const std::string& name, const rclcpp::NodeOptions& options, 
       diagnostics_(this),
       has_one_camera_(has_one_camera),
       settings_(*this, has_one_camera),
-      gate_(std::make_shared<CallbackGate>()) {
+      life_(make_gate()),
+      gate_(make_gate()) {
   gate_->close();
   for (const CameraSettings& camera : settings_.cameras()) camera_names_.push_back(camera.name);
   diagnostics_.setHardwareID("berth");
-  diagnostics_.add("robot", [this](DiagnosticStatusWrapper& status) { report_robot(status); });
-  diagnostics_.add("joint states",
-                   [this](DiagnosticStatusWrapper& status) { report_joints(status); });
+  add_report("robot", [this](DiagnosticStatusWrapper& status) { report_robot(status); });
+  add_report("joint states", [this](DiagnosticStatusWrapper& status) { report_joints(status); });
   for (std::size_t i = 0; i < camera_names_.size(); ++i) {
-    diagnostics_.add("camera " + camera_names_[i],
-                     [this, i](DiagnosticStatusWrapper& status) { report_camera(i, status); });
+    add_report("camera " + camera_names_[i],
+               [this, i](DiagnosticStatusWrapper& status) { report_camera(i, status); });
   }
+}
+
+std::shared_ptr<CallbackGate> LiveNode::make_gate() {
+  return std::make_shared<CallbackGate>([this](const std::string& trouble) {
+    const std::lock_guard lock(mutex_);
+    callback_trouble_ = trouble;
+  });
+}
+
+void LiveNode::add_report(const std::string& name, const diagnostic_updater::TaskFunction& report) {
+  diagnostics_.add(name, [life = life_, report](DiagnosticStatusWrapper& status) {
+    life->run([&] { report(status); });
+  });
 }
 
 void LiveNode::begin() {
@@ -40,18 +58,20 @@ void LiveNode::begin() {
       "whether the node configures and activates itself; else a lifecycle manager does";
   descriptor.read_only = true;
   const bool starts_itself = declare_parameter("autostart", true, descriptor);
-  const ChangeAttached change = [this](const auto& make) { change_attached(make); };
-  attachments_.emplace(*this, change);
-  attach_actions_.emplace(*this, change, [this] { return cameras_waited_for(); });
+  attachments_.emplace(*this, [this](const auto& make) { change_attached(make); });
   follow_moveit();
   NodeSettings::require_declared(*this, has_one_camera_);
   enable_ = create_service<std_srvs::srv::SetBool>(
-      "~/set_enabled", [this](const std::shared_ptr<std_srvs::srv::SetBool::Request>& request,
-                              const std::shared_ptr<std_srvs::srv::SetBool::Response>& response) {
-        is_enabled_ = request->data;
-        response->success = true;
-        response->message = request->data ? "enabled" : "disabled: no distances, and a stop";
-        RCLCPP_INFO(get_logger(), "%s", response->message.c_str());
+      "~/set_enabled",
+      [this, life = life_](const std::shared_ptr<std_srvs::srv::SetBool::Request>& request,
+                           const std::shared_ptr<std_srvs::srv::SetBool::Response>& response) {
+        life->run([&] {
+          is_enabled_ = request->data;
+          if (!is_enabled_) on_stop(kDisabled);
+          response->success = true;
+          response->message = request->data ? "enabled" : "disabled: no distances, and a stop";
+          RCLCPP_INFO(get_logger(), "%s", response->message.c_str());
+        });
       });
   if (!starts_itself) return;
   const bool is_configured = configure().id() == lifecycle_msgs::msg::State::PRIMARY_STATE_INACTIVE;
@@ -98,8 +118,7 @@ LiveNode::CallbackReturn LiveNode::on_activate(const State& before) {
 }
 
 LiveNode::CallbackReturn LiveNode::on_deactivate(const State& before) {
-  is_active_ = false;
-  deactivate_outputs();
+  deactivate();
   LifecycleNode::on_deactivate(before);
   return CallbackReturn::SUCCESS;
 }
@@ -115,17 +134,32 @@ LiveNode::CallbackReturn LiveNode::on_shutdown(const State& before) {
   return on_cleanup(before);
 }
 
+void LiveNode::deactivate() {
+  if (is_active_.exchange(false)) deactivate_outputs();
+}
+
+void LiveNode::end() {
+  deactivate();
+  life_->close();
+  stop();
+}
+
 void LiveNode::start() {
-  const auto gate = std::make_shared<CallbackGate>();
+  const std::shared_ptr<CallbackGate> gate = make_gate();
   {
     const std::lock_guard lock(mutex_);
     gate_ = gate;
   }
   // What comes at once, as latched messages do, waits and is not lost.
   const auto hold = gate->hold();
+  // Before any stamp of a message: a double holds ns best near the first one.
+  clock_.seconds(now());
   configure_outputs();
   make_cameras();
   listen();
+  // The last moment at which something can be said, where a signal ends the program.
+  at_shutdown_ = get_node_base_interface()->get_context()->add_pre_shutdown_callback(
+      [this, gate] { gate->run([this] { deactivate(); }); });
 }
 
 std::shared_ptr<CallbackGate> LiveNode::gate() const {
@@ -145,7 +179,9 @@ void LiveNode::make_cameras() {
     joint_trouble_ = "no joint state yet";
   }
   log_.emplace(get_logger(), StatusLog::now_s());
-  transforms_.emplace(*this, gate(), [this] { look_again(); });
+  transforms_.emplace(
+      *this, gate(), [this] { look_again(); },
+      [this](const std::string& frame) { begin_anew("transforms of " + frame + " went back"); });
   make_explanations(cameras);
   images_ = std::make_unique<ImageNode>(*this, std::max<std::size_t>(2, cameras.size()));
   for (std::size_t i = 0; i < cameras.size(); ++i) {
@@ -154,7 +190,7 @@ void LiveNode::make_cameras() {
         [this, i](const std::shared_ptr<const berth::Frame>& frame, berth::DepthView depth_m,
                   const std::shared_ptr<const sensor_msgs::msg::Image>& image) {
           explanations_->put(i, *frame, image);
-          if (is_answering()) on_frame(i, frame, depth_m, image);
+          if (is_active_ && is_enabled_) on_frame(i, frame, depth_m, image);
         }));
   }
 }
@@ -179,7 +215,7 @@ void LiveNode::listen() {
     // Nobody can fix a file for a node that has read it.
     if (!live().robot) throw std::runtime_error(robot_trouble_);
   } else {
-    on_robot();
+    make_for({})();
     rclcpp::SubscriptionOptions options;
     options.callback_group = robot_group_;
     // Within a process, Humble has no transient local.
@@ -187,7 +223,7 @@ void LiveNode::listen() {
     description_subscription_ = create_subscription<std_msgs::msg::String>(
         "robot_description", rclcpp::QoS(1).transient_local().reliable(),
         [this, gate](const std_msgs::msg::String& text) {
-          if (const auto pass = gate->enter()) on_description(text);
+          gate->run([&] { on_description(text); });
         },
         options);
   }
@@ -197,16 +233,12 @@ void LiveNode::listen() {
   joint_subscription_ = create_subscription<sensor_msgs::msg::JointState>(
       "joint_states", rclcpp::SensorDataQoS().keep_last(50),
       [this, gate](const sensor_msgs::msg::JointState& state) {
-        if (const auto pass = gate->enter()) on_joint_state(state);
+        gate->run([&] { on_joint_state(state); });
       },
       options);
   take_parameters();
   watch_timer_ = create_wall_timer(
-      kWatchPeriod,
-      [this, gate] {
-        if (const auto pass = gate->enter()) watch();
-      },
-      watch_group_);
+      kWatchPeriod, [this, gate] { gate->run([this] { watch(); }); }, watch_group_);
   on_images();
   images_->spin();
 }
@@ -222,11 +254,13 @@ void LiveNode::take_parameters() {
       return result;
     }
     const std::lock_guard making(making_mutex_);
+    const GivenParameters before = settings_.given();
     try {
       settings_.check(changes);
+      if (settings_.take(changes) && model_) use(make_robot(attached_.all()));
       result.successful = true;
-      if (settings_.take(changes)) rebuild();
     } catch (const std::exception& error) {
+      settings_.put_back(before);
       result.reason = error.what();
     }
     return result;
@@ -234,6 +268,10 @@ void LiveNode::take_parameters() {
 }
 
 void LiveNode::stop() {
+  if (at_shutdown_) {
+    get_node_base_interface()->get_context()->remove_pre_shutdown_callback(*at_shutdown_);
+    at_shutdown_.reset();
+  }
   watch_timer_.reset();
   description_subscription_.reset();
   joint_subscription_.reset();
@@ -291,21 +329,51 @@ void LiveNode::look_again() {
   for (const auto& input : inputs_) input->look_again();
 }
 
+std::string LiveNode::why_silent(const LiveRobot& robot) const {
+  if (!is_active_) return "the node is not active";
+  if (!is_enabled_) return kDisabled;
+  if (!robot.robot) return "there is no robot model";
+  if (clock_watch_.stands()) return kClockStands;
+  return robot.beginnings == beginnings_ ? "" : "all begins anew";
+}
+
+void LiveNode::look_at_clock() {
+  const double back_s = clock_watch_.look(*get_clock());
+  if (back_s > 0) begin_anew("the clock was set back by " + std::to_string(back_s) + " s");
+}
+
+void LiveNode::begin_anew(const std::string& why) {
+  ++beginnings_;
+  on_stop(why);
+  RCLCPP_WARN(get_logger(), "%s: beginning anew", why.c_str());
+  const std::lock_guard making(making_mutex_);
+  transforms_->forget();
+  LiveRobot made = live();
+  if (!made.robot) return;
+  made.joints = std::make_shared<berth::JointIntake>(*model_, settings_.joint_settings());
+  made.beginnings = beginnings_;
+  use(made);
+}
+
 void LiveNode::on_joint_state(const sensor_msgs::msg::JointState& state) {
+  look_at_clock();
+  double stamp_s = std::numeric_limits<double>::quiet_NaN();
   const LiveRobot now = live();
-  if (!now.joints) return;
+  if (!now.joints) return on_joints(stamp_s, state);
   std::string trouble;
   try {
-    const int restarts = now.joints->restarts();
-    const berth::TimeStatus status =
-        now.joints->push(clock_.seconds(state.header.stamp), state.name, state.position);
-    if (status != berth::TimeStatus::ok) trouble = std::string(name_of(status));
-    if (now.joints->restarts() != restarts) {
-      RCLCPP_WARN(get_logger(), "joint states went back in time: beginning anew");
+    stamp_s = clock_.seconds(state.header.stamp);
+    const double ahead_s = stamp_s - clock_.seconds(this->now());
+    if (ahead_s > berth::kMostJointsAhead_s) {
+      throw std::invalid_argument("stamp: " + std::to_string(ahead_s) +
+                                  " s after the node's clock; expected one before it");
     }
-  } catch (const std::invalid_argument& error) {
+    const berth::TimeStatus status = now.joints->push(stamp_s, state.name, state.position);
+    if (status != berth::TimeStatus::ok) trouble = std::string(name_of(status));
+  } catch (const std::exception& error) {
     trouble = error.what();
   }
+  if (now.joints->restarts() > 0) return begin_anew("joint states went back in time");
   {
     const std::lock_guard lock(mutex_);
     ++joint_messages_;
@@ -314,7 +382,7 @@ void LiveNode::on_joint_state(const sensor_msgs::msg::JointState& state) {
     if (!trouble.empty()) ++refused_joint_messages_;
   }
   look_again();
-  on_joints(state);
+  on_joints(stamp_s, state);
 }
 
 }  // namespace berth_ros

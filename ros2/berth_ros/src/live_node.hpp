@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
-#include "attach_actions.hpp"
 #include "attachments.hpp"
 #include "callback_gate.hpp"
 #include "camera_explanations.hpp"
 #include "camera_input.hpp"
+#include "clock_watch.hpp"
 #include "image_node.hpp"
 #include "joint_rhythm.hpp"
 #include "node_settings.hpp"
@@ -37,6 +37,8 @@ using LiveFrames = std::vector<std::shared_ptr<const berth::Frame>>;
 struct LiveRobot {
   std::shared_ptr<const berth::Robot> robot;
   std::shared_ptr<berth::JointIntake> joints;
+  /// Of LiveNode::beginnings_, when this was made.
+  int beginnings = 0;
 };
 
 /// A lifecycle node: configured it listens, active it answers. With the parameter `autostart` it
@@ -58,9 +60,9 @@ class LiveNode : public rclcpp_lifecycle::LifecycleNode {
   /// To be called at the end of the constructor of who derives, once its parameters are declared:
   /// refuses those that nobody declared, and starts by itself where that is asked for.
   void begin();
-  /// Ends the cameras' threads and what calls back; to be called first by the destructor of who
-  /// derives.
-  void stop();
+  /// Says the last word, and ends the cameras' threads and what calls back; to be called first by
+  /// the destructor of who derives.
+  void end();
 
   /// Makes publishers and what else is needed; before any callback.
   virtual void configure_outputs() = 0;
@@ -75,13 +77,21 @@ class LiveNode : public rclcpp_lifecycle::LifecycleNode {
   virtual void on_frame(std::size_t camera, const std::shared_ptr<const berth::Frame>& frame,
                         berth::DepthView depth_m,
                         const std::shared_ptr<const sensor_msgs::msg::Image>& image) = 0;
-  virtual void on_joints(const sensor_msgs::msg::JointState&) {}
-  /// The robot is another one, or there is none any more.
-  virtual void on_robot() {}
+  /// Joint states came, whatever became of them; their stamp is NaN where it is no time.
+  virtual void on_joints(double, const sensor_msgs::msg::JointState&) {}
+  /// Makes what a robot needs before any camera uses it; null: there is none. What it returns is
+  /// called once all do. Throws std::exception where it cannot be, and has then changed nothing.
+  virtual std::function<void()> make_for(const LiveRobot&) {
+    return [] {};
+  }
+  /// What was said holds no more, whatever comes next.
+  virtual void on_stop(const std::string&) {}
 
-  /// Whether the node is active, and nobody has disabled it.
-  bool is_answering() const { return is_active_ && is_enabled_; }
-  bool is_active() const { return is_active_; }
+  /// Why nothing can be said of this robot: the node is not active, or disabled, there is none, no
+  /// time is known, or all is about to begin anew. Empty where it can.
+  std::string why_silent(const LiveRobot& robot) const;
+  /// Begins anew where time went back by the node's clock. To be called often, without a mutex.
+  void look_at_clock();
   LiveRobot live() const;
   /// None: nothing is monitored.
   std::optional<berth::SeparationSettings> separation_settings() const {
@@ -102,13 +112,25 @@ class LiveNode : public rclcpp_lifecycle::LifecycleNode {
   /// configure_outputs() made. Never null.
   std::shared_ptr<CallbackGate> gate() const;
 
+  /// Of the node's whole life: to be passed by each callback that no configuration makes. Closed by
+  /// end().
+  const std::shared_ptr<CallbackGate>& life() const { return life_; }
+
+  /// Adds to the diagnostics.
+  void add_report(const std::string& name, const diagnostic_updater::TaskFunction& report);
+
   StampClock clock_;
   diagnostic_updater::Updater diagnostics_;
 
  private:
   /// Throws std::exception for a bad file.
   void start();
+  void stop();
   void listen();
+  /// Says the last word.
+  void deactivate();
+  /// Joints, images, transforms and answers: nothing that came before holds any more.
+  void begin_anew(const std::string& why);
   /// Where the parameter asks for it. Throws where this build cannot.
   void follow_moveit();
   void make_cameras();
@@ -118,20 +140,20 @@ class LiveNode : public rclcpp_lifecycle::LifecycleNode {
   void take_parameters();
   void on_description(const std_msgs::msg::String& description);
   void on_joint_state(const sensor_msgs::msg::JointState& state);
+  std::shared_ptr<CallbackGate> make_gate();
   // All that makes the robot anew is called with making_mutex_.
-  /// Makes robot and cameras anew of model_ and settings_; or says in robot_trouble_ why not.
-  void rebuild();
   /// See ChangeAttached.
   void change_attached(const std::function<void(Attached&)>& change);
-  /// See AttachActions::Waiting.
-  std::vector<std::string> cameras_waited_for() const;
   /// To be called where there is a model.
   LiveRobot make_robot(const AttachmentList& attached) const;
+  /// Throws as make_for().
   void use(const LiveRobot& made);
   void load_model(const std::function<berth::RobotModel()>& load);
   /// Tells the log how all stands.
   void watch();
   std::string robot_trouble() const;
+  /// Once.
+  std::string callback_trouble();
   std::string joint_trouble(const LiveRobot& robot, double now_s) const;
   std::string camera_trouble(std::size_t camera, const CameraReport& report, const LiveRobot& robot,
                              double now_s) const;
@@ -150,6 +172,11 @@ class LiveNode : public rclcpp_lifecycle::LifecycleNode {
   bool has_one_camera_;
   NodeSettings settings_;
   std::vector<std::string> camera_names_;
+  std::shared_ptr<CallbackGate> life_;
+  ClockWatch clock_watch_;
+  /// How often all began anew, with another robot model or time. What was made before one holds no
+  /// more, from its begin on.
+  std::atomic<int> beginnings_ = 0;
   std::atomic<bool> is_active_ = false;
   std::atomic<bool> is_enabled_ = true;
 
@@ -167,6 +194,8 @@ class LiveNode : public rclcpp_lifecycle::LifecycleNode {
   std::int64_t joint_messages_ = 0;
   std::int64_t refused_joint_messages_ = 0;
   std::string joint_trouble_;
+  /// What a callback threw since the log was told last.
+  std::string callback_trouble_;
   /// The greatest age of the newest joints since the last report, as it was sampled.
   double oldest_joints_s_ = 0;
   /// Closed as long as nothing is configured. Another one for each configuration, so that a
@@ -179,7 +208,6 @@ class LiveNode : public rclcpp_lifecycle::LifecycleNode {
   std::unique_ptr<CameraExplanations> explanations_;
   std::optional<StatusLog> log_;
   std::optional<Attachments> attachments_;
-  std::optional<AttachActions> attach_actions_;
 #ifdef BERTH_ROS_MOVEIT
   std::optional<MoveItAttached> moveit_;
 #endif
@@ -196,6 +224,7 @@ class LiveNode : public rclcpp_lifecycle::LifecycleNode {
   rclcpp::Service<std_srvs::srv::SetBool>::SharedPtr enable_;
   rclcpp::TimerBase::SharedPtr watch_timer_;
   OnSetParametersCallbackHandle::SharedPtr parameters_;
+  std::optional<rclcpp::PreShutdownCallbackHandle> at_shutdown_;
 };
 
 }  // namespace berth_ros

@@ -45,8 +45,11 @@ std::string in_ms(double seconds) { return std::to_string(std::lround(1e3 * seco
 
 void LiveNode::watch() {
   const double now_s = StatusLog::now_s();
+  look_at_clock();
   const LiveRobot robot = live();
   log_->tell("robot", robot_trouble(), now_s);
+  log_->tell("clock", clock_watch_.stands() ? "stands" : "", now_s);
+  log_->tell("messages", callback_trouble(), now_s);
   // What else is missing is told once this is there.
   if (!robot.robot) return;
   const double clock_s = clock_.seconds(this->now());
@@ -68,6 +71,11 @@ void LiveNode::watch() {
     log_->tell(name + " over several images", explanation(i, report), now_s);
     log_->tell("protection by " + name, protection_trouble(report), now_s);
   }
+}
+
+std::string LiveNode::callback_trouble() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(callback_trouble_, {});
 }
 
 std::string LiveNode::robot_trouble() const {
@@ -154,7 +162,7 @@ void LiveNode::report_joints(DiagnosticStatusWrapper& status) {
   const std::string waiting_for(robot.joints->waiting_for());
   status.add("age of the newest whole sample, s", age_s);
   status.add("greatest age since the last report, s", oldest_s);
-  status.add("clock was set back", robot.joints->restarts());
+  status.add("began anew", beginnings_.load());
   if (!waiting_for.empty()) status.add("waiting for joint", waiting_for);
   const std::string trouble = joint_trouble(robot, clock_.seconds(now));
   if (!(age_s <= max_age_s + 1)) return status.summary(DiagnosticStatus::ERROR, trouble);

@@ -6,28 +6,30 @@
 namespace berth_ros {
 
 void LiveNode::load_model(const std::function<berth::RobotModel()>& load) {
-  std::string trouble;
   const std::lock_guard making(making_mutex_);
+  ++beginnings_;
+  on_stop("another robot model comes");
+  std::string trouble;
   model_.reset();
-  try {
-    model_ = load();
-  } catch (const std::exception& error) {
-    trouble = error.what();
-  }
   explanations_->forget();
   for (const auto& input : inputs_) input->distrust(std::nullopt);
   {
     const std::lock_guard lock(mutex_);
-    robot_trouble_ = trouble;
     // Joints are another robot's; nobody uses half of both.
     live_ = {};
     rhythm_ = {};
   }
-  const auto lost = model_ ? attached_.keep_those_of(*model_) : std::vector<std::string>();
-  for (const std::string& name : lost) {
-    RCLCPP_WARN(get_logger(), "detached %s: the new robot does not have its link", name.c_str());
+  try {
+    model_ = load();
+    for (const std::string& name : attached_.keep_those_of(*model_)) {
+      RCLCPP_WARN(get_logger(), "detached %s: the new robot does not have its link", name.c_str());
+    }
+    return use(make_robot(attached_.all()));
+  } catch (const std::exception& error) {
+    const std::lock_guard lock(mutex_);
+    robot_trouble_ = error.what();
   }
-  rebuild();
+  use({});
 }
 
 void LiveNode::on_description(const std_msgs::msg::String& description) {
@@ -44,6 +46,7 @@ LiveRobot LiveNode::make_robot(const AttachmentList& attached) const {
   made.robot = std::make_shared<const berth::Robot>(*model_, settings_.evaluation(), all);
   // Neither settings nor what is attached changes joints: those that came stay.
   made.joints = live().joints;
+  made.beginnings = beginnings_;
   if (!made.joints) {
     made.joints = std::make_shared<berth::JointIntake>(*model_, settings_.joint_settings());
   }
@@ -51,6 +54,7 @@ LiveRobot LiveNode::make_robot(const AttachmentList& attached) const {
 }
 
 void LiveNode::change_attached(const std::function<void(Attached&)>& change) {
+  const auto alive = life_->enter();
   const std::shared_ptr<CallbackGate> gate = this->gate();
   const auto pass = gate->enter();
   const std::lock_guard making(making_mutex_);
@@ -61,30 +65,9 @@ void LiveNode::change_attached(const std::function<void(Attached&)>& change) {
   attached_ = std::move(changed);
 }
 
-std::vector<std::string> LiveNode::cameras_waited_for() const {
-  const std::shared_ptr<CallbackGate> gate = this->gate();
-  const auto pass = gate->enter();
-  const LiveRobot now = live();
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < camera_names_.size(); ++i) {
-    const bool has_image = pass && now.robot && inputs_[i]->newest(now.robot.get());
-    if (!has_image) names.push_back(camera_names_[i]);
-  }
-  return names;
-}
-
-void LiveNode::rebuild() {
-  LiveRobot made;
-  try {
-    if (model_) made = make_robot(attached_.all());
-  } catch (const std::exception& error) {
-    const std::lock_guard lock(mutex_);
-    robot_trouble_ = error.what();
-  }
-  use(made);
-}
-
 void LiveNode::use(const LiveRobot& made) {
+  const std::function<void()> begin = make_for(made);
+  on_stop(made.robot ? "the robot is made anew" : "there is no robot model");
   {
     const std::lock_guard lock(mutex_);
     live_ = made;
@@ -93,7 +76,7 @@ void LiveNode::use(const LiveRobot& made) {
   for (std::size_t i = 0; i < inputs_.size(); ++i) {
     inputs_[i]->use(made.robot, made.joints, cameras[i].settings);
   }
-  on_robot();
+  begin();
 }
 
 }  // namespace berth_ros

@@ -277,8 +277,8 @@ void NodeSettings::declare_camera(SettingNode& node, const std::string& name, bo
   camera.is_reliable = is_reliable_of(reliability);
   std::string poses = "auto";
   declare("camera_poses", poses,
-          "where the camera's pose comes from: tf, scene, or auto: TF where it knows the camera "
-          "when its first image comes, else the scene file");
+          "where the camera's pose comes from: tf, scene, or auto: TF from when on it knows the "
+          "camera, before that the scene file");
   camera.pose_source = pose_source_of(poses);
   if (camera.pose_source == PoseSource::scene && !camera.scene_mount) {
     throw std::invalid_argument("camera_poses: scene; expected a scene file");
@@ -379,12 +379,13 @@ void NodeSettings::check(const std::vector<rclcpp::Parameter>& changes) const {
   }
 }
 
+void NodeSettings::put_back(GivenParameters given) {
+  const std::lock_guard lock(given_mutex_);
+  given_.swap(given);
+}
+
 bool NodeSettings::take(const std::vector<rclcpp::Parameter>& changes) {
-  GivenParameters changed = with(changes);
-  {
-    const std::lock_guard lock(given_mutex_);
-    given_.swap(changed);
-  }
+  put_back(with(changes));
   return std::any_of(changes.begin(), changes.end(), [&](const rclcpp::Parameter& change) {
     return is_setting(change.get_name());
   });

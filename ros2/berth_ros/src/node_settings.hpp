@@ -21,7 +21,7 @@ namespace berth_ros {
 
 /// Where a camera's pose comes from.
 enum class PoseSource {
-  automatic,  ///< TF where it knows the camera when its first image comes, else the scene file
+  automatic,  ///< TF from when on it knows the camera, before that the scene file
   tf,
   scene
 };
@@ -76,6 +76,9 @@ class NodeSettings {
   void check(const std::vector<rclcpp::Parameter>& changes) const;
   /// Whether any of them is a setting of robot or cameras, so that those have to be made anew.
   bool take(const std::vector<rclcpp::Parameter>& changes);
+  /// What was given so far, to be put back in place of what was taken since.
+  GivenParameters given() const;
+  void put_back(GivenParameters given);
 
  private:
   /// Tells what it warns of.
@@ -87,7 +90,6 @@ class NodeSettings {
   void declare_separation(SettingNode& node);
   void declare_cameras(SettingNode& node, bool has_one_camera);
   void declare_camera(SettingNode& node, const std::string& name, bool has_one_camera);
-  GivenParameters given() const;
   bool is_setting(const std::string& name) const;
   GivenParameters with(const std::vector<rclcpp::Parameter>& changes) const;
   /// The scene file's, else the defaults.

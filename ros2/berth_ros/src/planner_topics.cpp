@@ -1,5 +1,6 @@
 #include "planner_topics.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "berth/pipeline/mounted_camera.hpp"
@@ -167,12 +168,9 @@ void PlannerTopics::configure(std::shared_ptr<CallbackGate> gate) {
 void PlannerTopics::activate() {
   for (const auto& topic : topics_) {
     if (topic->rate_hz <= 0) continue;
-    topic->timer = rclcpp::create_timer(
-        &node_, node_.get_clock(), rclcpp::Duration::from_seconds(1 / topic->rate_hz),
-        [this, gate = gate_, t = topic.get()] {
-          if (const auto pass = gate->enter()) publish(*t);
-        },
-        group_);
+    topic->timer = node_.create_wall_timer(
+        std::chrono::duration<double>(1 / topic->rate_hz),
+        [this, gate = gate_, t = topic.get()] { gate->run([&] { publish(*t); }); }, group_);
   }
 }
 
@@ -184,11 +182,24 @@ void PlannerTopics::clean() {
   for (const auto& topic : topics_) topic->clean();
 }
 
+bool PlannerTopics::is_on() const {
+  return std::ranges::any_of(topics_, [](const auto& topic) { return topic->rate_hz > 0; });
+}
+
+std::string PlannerTopics::lost() const {
+  const std::lock_guard lock(mutex_);
+  return lost_;
+}
+
 void PlannerTopics::publish(const Topic& topic) {
   if (!topic.is_wanted()) return;
   const std::optional<SpaceNow> now = look_();
   const std::string lost = trouble(now);
   log_->tell("topics for planners", lost, StatusLog::now_s());
+  {
+    const std::lock_guard lock(mutex_);
+    lost_ = lost;
+  }
   if (!lost.empty()) return;
   const berth::VoxelGrid& grid =
       map_.update({now->frames, now->now_s, {}, box_B_m_, edge_m_}, now->robot->settings().time);

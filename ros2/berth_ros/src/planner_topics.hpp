@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <rclcpp_lifecycle/lifecycle_node.hpp>
 #include <std_msgs/msg/header.hpp>
@@ -40,6 +41,10 @@ class PlannerTopics {
   void deactivate();
   /// Ends the publishers.
   void clean();
+  /// Whether any topic has a rate.
+  bool is_on() const;
+  /// Why nothing was published the last time: planners keep the map before. Empty where it was.
+  std::string lost() const;
 
  private:
   struct Topic;
@@ -61,6 +66,8 @@ class PlannerTopics {
   bool hidden_is_occupied_ = false;
   std::vector<std::unique_ptr<Topic>> topics_;
   berth::SpaceMap map_;
+  mutable std::mutex mutex_;
+  std::string lost_;
   std::optional<StatusLog> log_;
   std::shared_ptr<CallbackGate> gate_;
   rclcpp::CallbackGroup::SharedPtr group_;

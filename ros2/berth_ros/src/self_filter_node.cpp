@@ -15,7 +15,7 @@ class SelfFilterNode : public LiveNode {
       : LiveNode("self_filter_node", options, true) {
     begin();
   }
-  ~SelfFilterNode() override { stop(); }
+  ~SelfFilterNode() override { end(); }
 
  private:
   using Image = sensor_msgs::msg::Image;

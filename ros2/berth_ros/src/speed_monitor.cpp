@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "berth/pipeline/request.hpp"
 #include "berth/results/result_text.hpp"
 
 namespace berth_ros {
@@ -29,8 +30,8 @@ void copy_links(const berth::Result& result, Separation& out) {
 }  // namespace
 
 void PlannedVelocity::take(const sensor_msgs::msg::JointState& message,
-                           const berth::RobotModel& model, double now_s) {
-  stamp_s_ = now_s;
+                           const berth::RobotModel& model, double stamp_s) {
+  stamp_s_ = stamp_s;
   velocity_.assign(model.joints.size(), kNaN);
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const auto found = std::find(message.name.begin(), message.name.end(), model.joints[i].name);
@@ -40,9 +41,14 @@ void PlannedVelocity::take(const sensor_msgs::msg::JointState& message,
   }
 }
 
+void PlannedVelocity::begin_anew(const berth::RobotModel& model) {
+  if (is_there()) velocity_.assign(model.joints.size(), kNaN);
+}
+
 const std::vector<double>& PlannedVelocity::at(double now_s, double max_age_s) {
   const double age_s = now_s - stamp_s_;
-  if (!(age_s >= 0 && age_s <= max_age_s)) std::fill(velocity_.begin(), velocity_.end(), kNaN);
+  if (!(age_s >= -berth::kMostJointsAhead_s && age_s <= max_age_s))
+    std::fill(velocity_.begin(), velocity_.end(), kNaN);
   return velocity_;
 }
 

@@ -15,12 +15,14 @@ namespace berth_ros {
 /// The velocities that the robot's program wants, of its last message.
 class PlannedVelocity {
  public:
-  /// Joints of the robot that the message has no velocity for are NaN.
+  /// Of a message of this time. Joints of the robot that it has no velocity for are NaN.
   void take(const sensor_msgs::msg::JointState& message, const berth::RobotModel& model,
-            double now_s);
+            double stamp_s);
+  /// The robot is another one: where any message came, the next one is waited for.
+  void begin_anew(const berth::RobotModel& model);
   /// Whether any message came.
   bool is_there() const { return !velocity_.empty(); }
-  /// All NaN where the last message is older than max_age_s.
+  /// All NaN where the last message is older than max_age_s, or lies in the future.
   const std::vector<double>& at(double now_s, double max_age_s);
 
  private:

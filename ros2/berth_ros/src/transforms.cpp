@@ -4,6 +4,8 @@
 #include <limits>
 #include <tf2_eigen/tf2_eigen.hpp>
 
+#include "stamp_clock.hpp"
+
 namespace berth_ros {
 namespace {
 
@@ -23,8 +25,11 @@ bool contains(const std::vector<std::string>& frames, const std::string& frame) 
 }  // namespace
 
 Transforms::Transforms(rclcpp_lifecycle::LifecycleNode& node,
-                       const std::shared_ptr<CallbackGate>& gate, std::function<void()> on_change)
-    : buffer_(node.get_clock()), on_change_(std::move(on_change)) {
+                       const std::shared_ptr<CallbackGate>& gate, std::function<void()> on_change,
+                       std::function<void(const std::string& frame)> on_set_back)
+    : buffer_(node.get_clock()),
+      on_change_(std::move(on_change)),
+      on_set_back_(std::move(on_set_back)) {
   rclcpp::SubscriptionOptions options;
   options.callback_group = node.create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive);
   // Within a process, Humble has no transient local.
@@ -32,32 +37,54 @@ Transforms::Transforms(rclcpp_lifecycle::LifecycleNode& node,
   using tf2_msgs::msg::TFMessage;
   moving_ = node.create_subscription<TFMessage>(
       "/tf", rclcpp::QoS(100),
-      [this, gate](const TFMessage& message) {
-        if (const auto pass = gate->enter()) take(message, false);
-      },
+      [this, gate](const TFMessage& message) { gate->run([&] { take(message, false); }); },
       options);
   static_ = node.create_subscription<TFMessage>(
       "/tf_static", rclcpp::QoS(100).transient_local(),
-      [this, gate](const TFMessage& message) {
-        if (const auto pass = gate->enter()) take(message, true);
-      },
-      options);
+      [this, gate](const TFMessage& message) { gate->run([&] { take(message, true); }); }, options);
+}
+
+void Transforms::forget() {
+  const std::lock_guard lock(mutex_);
+  buffer_.clear();
+  told_.clear();
 }
 
 void Transforms::take(const tf2_msgs::msg::TFMessage& message, bool is_static) {
-  {
-    const std::lock_guard lock(mutex_);
-    for (const auto& transform : message.transforms) {
-      if (!buffer_.setTransform(transform, "berth", is_static) || is_static) continue;
-      auto& stamps = told_[without_slash(transform.child_frame_id)];
-      const std::int64_t stamp_ns = rclcpp::Time(transform.header.stamp).nanoseconds();
-      // Late ones among the others; those of a clock that was set back after all others.
-      const auto after = std::upper_bound(stamps.begin(), stamps.end(), stamp_ns);
-      stamps.insert(after, stamp_ns);
-      if (stamps.size() > kMostStamps) stamps.pop_front();
+  std::string trouble;
+  for (const auto& transform : message.transforms) {
+    try {
+      take(transform, is_static);
+    } catch (const std::exception& error) {
+      trouble = "transform of " + transform.child_frame_id + ": " + error.what();
     }
   }
   on_change_();
+  if (!trouble.empty()) throw std::invalid_argument(trouble);
+}
+
+void Transforms::take(const geometry_msgs::msg::TransformStamped& transform, bool is_static) {
+  if (is_static) {
+    buffer_.setTransform(transform, "berth", true);
+    return;
+  }
+  const std::string frame = without_slash(transform.child_frame_id);
+  const std::int64_t stamp_ns = StampClock::nanoseconds(transform.header.stamp);
+  if (is_set_back(frame, stamp_ns)) on_set_back_(frame);
+  const std::lock_guard lock(mutex_);
+  if (!buffer_.setTransform(transform, "berth", false)) return;
+  auto& stamps_ns = told_[frame].stamps_ns;
+  // Late ones among the others.
+  stamps_ns.insert(std::upper_bound(stamps_ns.begin(), stamps_ns.end(), stamp_ns), stamp_ns);
+  if (stamps_ns.size() > kMostStamps) stamps_ns.pop_front();
+}
+
+bool Transforms::is_set_back(const std::string& frame, std::int64_t stamp_ns) {
+  const std::lock_guard lock(mutex_);
+  const auto told = told_.find(frame);
+  if (told == told_.end()) return false;
+  const auto behind_ns = static_cast<double>(told->second.stamps_ns.back() - stamp_ns);
+  return told->second.behind.is_set_back(1e-9 * behind_ns) && told->second.is_used;
 }
 
 std::vector<std::string> Transforms::ancestors(std::string frame) const {
@@ -77,7 +104,10 @@ std::vector<std::string> Transforms::moving_between(const std::string& parent,
   std::vector<std::string> moving;
   const auto add = [&](const auto& of, const auto& others) {
     for (const std::string& one : of) {
-      if (!contains(others, one) && told_.count(one) > 0) moving.push_back(one);
+      const auto told = told_.find(one);
+      if (contains(others, one) || told == told_.end()) continue;
+      told->second.is_used = true;
+      moving.push_back(one);
     }
   };
   add(above_parent, above_frame);
@@ -86,7 +116,7 @@ std::vector<std::string> Transforms::moving_between(const std::string& parent,
 }
 
 double Transforms::gap_s(const std::string& frame, const rclcpp::Time& stamp) const {
-  const auto& stamps = told_.at(frame);
+  const auto& stamps = told_.at(frame).stamps_ns;
   const std::int64_t at_ns = stamp.nanoseconds();
   const auto after = std::lower_bound(stamps.begin(), stamps.end(), at_ns);
   std::int64_t gap_ns = std::numeric_limits<std::int64_t>::max();
@@ -99,9 +129,9 @@ std::optional<ToldPose> Transforms::at(const std::string& parent, const std::str
                                        const rclcpp::Time& stamp, double max_gap_s,
                                        std::string& why) const {
   try {
+    const std::lock_guard lock(mutex_);
     const auto transform = buffer_.lookupTransform(
         parent, frame, tf2::TimePoint(std::chrono::nanoseconds(stamp.nanoseconds())));
-    const std::lock_guard lock(mutex_);
     const std::vector<std::string> moving = moving_between(parent, frame);
     for (const std::string& one : moving) {
       const double told_within_s = gap_s(one, stamp);
@@ -111,7 +141,7 @@ std::optional<ToldPose> Transforms::at(const std::string& parent, const std::str
       return std::nullopt;
     }
     return ToldPose{tf2::transformToEigen(transform), moving.empty(), stamp};
-  } catch (const tf2::TransformException& error) {
+  } catch (const std::exception& error) {
     why = "no transform from " + parent + " to " + frame + " at the exposure: " + error.what();
     return std::nullopt;
   }
@@ -120,11 +150,11 @@ std::optional<ToldPose> Transforms::at(const std::string& parent, const std::str
 std::optional<ToldPose> Transforms::newest(const std::string& parent, const std::string& frame,
                                            std::string& why) const {
   try {
-    const auto transform = buffer_.lookupTransform(parent, frame, tf2::TimePointZero);
     const std::lock_guard lock(mutex_);
+    const auto transform = buffer_.lookupTransform(parent, frame, tf2::TimePointZero);
     return ToldPose{tf2::transformToEigen(transform), moving_between(parent, frame).empty(),
                     transform.header.stamp};
-  } catch (const tf2::TransformException& error) {
+  } catch (const std::exception& error) {
     why = "no transform from " + parent + " to " + frame + ": " + error.what();
     return std::nullopt;
   }

@@ -18,6 +18,7 @@
 #include <tf2_ros/buffer.h>
 #endif
 
+#include "berth/live/behind_newest.hpp"
 #include "berth/robot/robot_model.hpp"
 #include "berth/types/camera.hpp"
 #include "callback_gate.hpp"
@@ -37,9 +38,14 @@ struct ToldPose {
 /// what moves may have been anywhere within a long one.
 class Transforms {
  public:
-  /// `on_change` is called after each message, in a callback of the node that has passed `gate`.
+  /// `on_change` is called after each message, and `on_set_back` where the time of a frame that is
+  /// used went back, in a callback of the node that has passed `gate`.
   Transforms(rclcpp_lifecycle::LifecycleNode& node, const std::shared_ptr<CallbackGate>& gate,
-             std::function<void()> on_change);
+             std::function<void()> on_change,
+             std::function<void(const std::string& frame)> on_set_back);
+
+  /// Forgets all that moves.
+  void forget();
 
   /// Where `frame` was in `parent` at a time; none where TF does not enclose that time, or a frame
   /// that moves was told at no time within max_gap_s of it. `why` then says it.
@@ -55,7 +61,18 @@ class Transforms {
   std::string link_above(const berth::RobotModel& model, const std::string& frame) const;
 
  private:
+  /// The newest stamps of a frame that moves, in ns, increasing.
+  struct Told {
+    std::deque<std::int64_t> stamps_ns;
+    berth::BehindNewest behind;
+    /// A place was asked for that depends on it.
+    bool is_used = false;
+  };
+
   void take(const tf2_msgs::msg::TFMessage& message, bool is_static);
+  void take(const geometry_msgs::msg::TransformStamped& transform, bool is_static);
+  /// Of a frame that anybody asks for.
+  bool is_set_back(const std::string& frame, std::int64_t stamp_ns);
   /// The frames between the two that move.
   std::vector<std::string> moving_between(const std::string& parent,
                                           const std::string& frame) const;
@@ -64,9 +81,9 @@ class Transforms {
 
   tf2_ros::Buffer buffer_;
   std::function<void()> on_change_;
+  std::function<void(const std::string&)> on_set_back_;
   mutable std::mutex mutex_;
-  /// The newest stamps of each frame that moves, in ns, increasing.
-  std::map<std::string, std::deque<std::int64_t>> told_;
+  mutable std::map<std::string, Told> told_;
   rclcpp::Subscription<tf2_msgs::msg::TFMessage>::SharedPtr moving_;
   rclcpp::Subscription<tf2_msgs::msg::TFMessage>::SharedPtr static_;
 };
