@@ -5,15 +5,11 @@ import sys
 import launch_testing.actions
 import numpy as np
 import pytest
-from action_msgs.msg import GoalStatus
-from berth_msgs.action import Attach as AttachAction
-from berth_msgs.action import Detach as DetachAction
 from berth_msgs.msg import LinkDistances
 from berth_msgs.srv import Attach, Detach
 from geometry_msgs.msg import Point
 from launch import LaunchDescription
 from launch_ros.actions import Node
-from rclpy.action import ActionClient
 from shape_msgs.msg import Mesh, MeshTriangle, SolidPrimitive
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
@@ -48,28 +44,11 @@ class AttachAndDetach(LivingRobot):
     def step(self, **changes):
         super().step(**{"position": 0.0, **changes})
 
-    def call(self, kind, name, request):
-        client = self.node.create_client(kind, "distance_node/" + name)
-        self.assertTrue(client.wait_for_service(10))
-        future = client.call_async(request)
-        self.assertTrue(self.until(future.done))
-        return future.result()
-
     def attach(self, **changes):
-        return self.call(Attach, "attach", post(**changes))
+        return self.call(Attach, "distance_node/attach", post(**changes))
 
     def detach(self, name="part"):
-        return self.call(Detach, "detach", Detach.Request(name=name))
-
-    def act(self, kind, name, goal, **step):
-        """Sends the goal and lives until it has ended: its status, its result, and all that was waited for."""
-        client, waited_for = ActionClient(self.node, kind, "distance_node/" + name), []
-        self.assertTrue(client.wait_for_server(10))
-        sent = client.send_goal_async(goal, lambda message: waited_for.append(list(message.feedback.waiting_for)))
-        self.assertTrue(self.until(sent.done, **step))
-        ended = sent.result().get_result_async()
-        self.assertTrue(self.until(ended.done, **step))
-        return ended.result().status, ended.result().result, waited_for
+        return self.call(Detach, "distance_node/detach", Detach.Request(name=name))
 
     def links(self):
         return [link.link for link in self.newest.links]
@@ -167,29 +146,3 @@ class AttachAndDetach(LivingRobot):
         self.assertTrue(self.attach().success)
         self.assertIn("part", self.attach().message, "attached already")
         self.assertTrue(self.detach().success)
-
-    def test_08_an_action_ends_once_answers_know_of_it(self):
-        part = post()
-        goal = AttachAction.Goal(name=part.name, link=part.link, pose=part.pose, is_link=True, shape=part.shape)
-        status, result, waited_for = self.act(AttachAction, "attach_part", goal)
-        self.assertEqual(status, GoalStatus.STATUS_SUCCEEDED, result.message)
-        self.assertTrue(all(names == ["front"] for names in waited_for))
-        self.assertTrue(self.until(lambda: "part" in self.links() and self.answers(), seconds=2))
-        self.assertGreater(self.to_occupied_m("arm"), TO_POST_M + 0.1)
-        again, result, _ = self.act(AttachAction, "attach_part", goal)
-        self.assertEqual(again, GoalStatus.STATUS_ABORTED)
-        self.assertIn("part", result.message)
-        status, result, _ = self.act(DetachAction, "detach_part", DetachAction.Goal(name="part"))
-        self.assertEqual(status, GoalStatus.STATUS_SUCCEEDED, result.message)
-        self.assertTrue(self.until(lambda: "part" not in self.links() and self.answers(), seconds=2))
-
-    def test_09_an_action_does_not_wait_for_ever_for_a_camera(self):
-        self.live_for(0.5, image=None)
-        goal = DetachAction.Goal(name="part", timeout_s=0.5)
-        status, result, _ = self.act(DetachAction, "detach_part", goal)
-        self.assertEqual((status, result.message), (GoalStatus.STATUS_ABORTED, 'name: nothing called "part" was attached by a message'))
-        self.assertTrue(self.attach().success)
-        status, result, waited_for = self.act(DetachAction, "detach_part", goal, image=None)
-        self.assertEqual((status, result.message), (GoalStatus.STATUS_ABORTED, "no image of the robot as it is now from front"))
-        self.assertIn(["front"], waited_for)
-        self.assertTrue(self.until(lambda: "part" not in self.links() and self.answers()))

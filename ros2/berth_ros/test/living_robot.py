@@ -9,7 +9,9 @@ from berth_msgs.msg import LinkDistances, Separation
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import TransformStamped
 from rcl_interfaces.msg import Log
+from rcl_interfaces.srv import SetParameters
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import CameraInfo, Image, JointState
@@ -129,13 +131,16 @@ class LivingRobot(unittest.TestCase):
             setattr(image, key, value)
         return image
 
+    def advance(self):
+        type(self).now_s += 0.01
+
     def tick(self):
         """Called each 10 ms of the robot's life, after its clock went on."""
 
     def step(self, image="good", joints=True, joints_every=1, names=("turn",), position=0.1, frame_id=FRAME):
         """A 20th of a second of the robot's life, with joint states in each tick, or in every Nth."""
         for tick in range(5):
-            type(self).now_s += 0.01
+            self.advance()
             self.clock.publish(Clock(clock=self.time_of(self.now_s)))
             self.tick()
             if joints and tick % joints_every == 0:
@@ -175,6 +180,17 @@ class LivingRobot(unittest.TestCase):
     def expect_said(self, name, *parts, **step):
         said = self.until(lambda: all(part in self.message(name) for part in parts), **step)
         self.assertTrue(said, f"{name}: {self.message(name)!r}; expected {parts}")
+
+    def call(self, kind, name, request, **step):
+        client = self.node.create_client(kind, name)
+        self.assertTrue(client.wait_for_service(10))
+        future = client.call_async(request)
+        self.assertTrue(self.until(future.done, **step))
+        return future.result()
+
+    def set_parameter(self, node, name, value):
+        parameter = Parameter(name, value=value).to_parameter_msg()
+        return self.call(SetParameters, f"{node}/set_parameters", SetParameters.Request(parameters=[parameter])).results[0]
 
     def logged(self, *parts):
         return [text for _, text in self.log if all(part in text for part in parts)]

@@ -10,10 +10,14 @@ import pytest
 import rclpy
 from ament_index_python.packages import get_package_share_directory
 from berth_msgs.msg import CameraState, LinkDistances
+from berth_msgs.srv import Attach, Detach
 from launch import LaunchDescription
 from launch_ros.actions import Node
+from rcl_interfaces.srv import SetParameters
+from rclpy.parameter import Parameter
 from rclpy.qos import qos_profile_sensor_data
 from sensor_msgs.msg import CameraInfo, Image
+from shape_msgs.msg import SolidPrimitive
 from tf2_msgs.msg import TFMessage
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -43,7 +47,7 @@ class Moved(unittest.TestCase):
     def setUpClass(cls):
         rclpy.init()
         cls.node = node = rclpy.create_node("relay")
-        cls.newest, cls.transforms = None, None
+        cls.newest, cls.transforms, cls.answers = None, None, []
         cls.off_m, cls.turned_px, cls.focal = 0.0, 0, 1.0
         cls.images = node.create_publisher(Image, f"{CAMERA}/depth_image", qos_profile_sensor_data)
         cls.infos = node.create_publisher(CameraInfo, f"{CAMERA}/camera_info", qos_profile_sensor_data)
@@ -61,6 +65,7 @@ class Moved(unittest.TestCase):
     @classmethod
     def on_distances(cls, message):
         cls.newest = message
+        cls.answers.append(message)
 
     @classmethod
     def on_image(cls, image):
@@ -87,6 +92,14 @@ class Moved(unittest.TestCase):
         for transform in cls.transforms.transforms:
             transform.transform.translation.x += cls.off_m
         cls.tf_static.publish(cls.transforms)
+
+    def call(self, kind, name, request):
+        client = self.node.create_client(kind, f"distance_node/{name}")
+        self.assertTrue(client.wait_for_service(10))
+        future = client.call_async(request)
+        while not future.done():
+            time.sleep(0.01)
+        return future.result()
 
     def seconds_until(self, what, limit_s):
         begin = time.monotonic()
@@ -131,3 +144,24 @@ class Moved(unittest.TestCase):
             self.is_noticed(f"f by a factor of {factor}")
             type(self).focal = 1.0
             self.is_well()
+
+    def test_05_what_was_found_outlives_what_is_made_anew(self):
+        self.is_well()
+        type(self).turned_px = 60
+        self.is_noticed("turned by 60 px")
+        part = Attach.Request(name="part", link=self.newest.links[-1].link, shape=SolidPrimitive(type=SolidPrimitive.SPHERE, dimensions=[0.05]))
+        part.pose.orientation.w = 1.0
+        changes = {"a part is attached": lambda: self.call(Attach, "attach", part),
+                   "it is detached": lambda: self.call(Detach, "detach", Detach.Request(name="part")),
+                   "a setting changes": lambda: self.call(SetParameters, "set_parameters", SetParameters.Request(
+                       parameters=[Parameter("evaluation.range_m", value=0.9).to_parameter_msg()])).results[0].successful}
+        for what, change in changes.items():
+            self.assertTrue(change())
+            del self.answers[:]
+            time.sleep(3)
+            ok = sum(message.status == LinkDistances.OK for message in self.answers)
+            print(f"{what}: {ok} of {len(self.answers)} answers are OK")
+            with self.subTest(what):
+                self.assertEqual(ok, 0)
+        type(self).turned_px = 0
+        self.is_well()

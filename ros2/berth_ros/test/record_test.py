@@ -38,11 +38,7 @@ def numbered(k):
 
 class Record(TwoCameras):
     def write(self):
-        client = self.node.create_client(Trigger, "distance_node/record")
-        self.assertTrue(client.wait_for_service(10))
-        future = client.call_async(Trigger.Request())
-        self.assertTrue(self.until(future.done))
-        return future.result()
+        return self.call(Trigger, "distance_node/record", Trigger.Request())
 
     def replayed(self, k):
         """Each line that the replay of the k-th recording gives; it has to be told in the log before."""

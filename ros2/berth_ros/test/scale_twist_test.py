@@ -47,5 +47,5 @@ def test_it_goes_by_the_newest_separation_and_not_by_an_old_one(node):
     node.on_separation(Separation(state=Separation.STOP, speed_scale=0.0))
     assert node.scale() == 0.0
     node.on_separation(Separation(state=Separation.REDUCED, speed_scale=0.3))
-    node.heard_at -= rclpy.duration.Duration(seconds=1)
+    node.heard_s -= 1
     assert node.scale() == 0.0

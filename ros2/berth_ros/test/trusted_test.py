@@ -11,7 +11,6 @@ from launch_ros.actions import Node
 from lifecycle_msgs.msg import Transition
 from lifecycle_msgs.srv import ChangeState
 from std_msgs.msg import String
-from std_srvs.srv import SetBool
 from tf2_msgs.msg import TFMessage
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -30,13 +29,6 @@ def generate_test_description():
 
 
 class Trusted(TwoCameras):
-    def call(self, kind, name, request):
-        client = self.node.create_client(kind, name)
-        self.assertTrue(client.wait_for_service(10))
-        future = client.call_async(request)
-        self.assertTrue(self.until(future.done))
-        return future.result()
-
     def test_01_without_a_robot_it_is_a_stop_from_the_first_second(self):
         self.assertTrue(self.until(lambda: self.scale is not None, seconds=5))
         self.assertEqual(self.scale, 0)
@@ -80,16 +72,7 @@ class Trusted(TwoCameras):
         self.expect_said("joint states", "old; time.max_joints_age_s allows 20 ms", joints=False)
         self.assertTrue(self.until(self.answers))
 
-    def test_06_disabled_it_is_a_stop(self):
-        response = self.call(SetBool, "distance_node/set_enabled", SetBool.Request(data=False))
-        self.assertTrue(response.success)
-        self.assertTrue(self.until(self.is_state(Separation.STOP)))
-        self.assertTrue(self.until(lambda: self.scale == 0 and self.newest.status == LinkDistances.STALE))
-        self.assertIn("disabled", self.separation.text)
-        self.call(SetBool, "distance_node/set_enabled", SetBool.Request(data=True))
-        self.assertTrue(self.until(self.answers))
-
-    def test_07_it_is_a_lifecycle_node(self):
+    def test_06_it_is_a_lifecycle_node(self):
         def change(transition):
             request = ChangeState.Request()
             request.transition.id = transition
