@@ -1,6 +1,7 @@
 #include "apps/berth/checkup.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -9,6 +10,7 @@
 #include <numeric>
 
 #include "berth/calibration/robot_reach.hpp"
+#include "berth/distance/known_model.hpp"
 #include "berth/results/result_text.hpp"
 #include "berth/scene/plausibility.hpp"
 #include "berth/scene/scene_run.hpp"
@@ -157,6 +159,8 @@ struct Seen {
   std::map<std::string, std::size_t> not_seen;
   std::map<std::string, std::size_t> not_observed;
   std::string a_stop;
+  /// Moved links and what they touch by their meshes, in how many results.
+  std::map<std::pair<std::string, std::string>, std::size_t> touching;
 
   void add(const Result& result) {
     ++results;
@@ -172,6 +176,10 @@ struct Seen {
       if (!link.is_moved) continue;
       if (link.status == LinkStatus::not_seen) ++not_seen[link.link];
       if (link.status == LinkStatus::not_observed) ++not_observed[link.link];
+      if (link.known.distance_m == 0) {
+        ++touching[std::minmax<std::string>(link.link,
+                                            std::string(result.known_link_of(link.known)))];
+      }
     }
     if (!result.separation || result.separation->state != SeparationState::stop) return;
     ++stops;
@@ -215,6 +223,14 @@ std::vector<Finding> findings_of(const OpenScene& scene, const Seen& seen) {
                      count, seen.results),
          "Turn or add a camera that sees the space around link " + link +
              ", or write space.unobserved: unknown or ignore."});
+  }
+  for (const auto& [links, count] : seen.touching) {
+    all.push_back({Verdict::advice, "known",
+                   fmt::format("links {} and {} touch in {} of {}", links.first, links.second,
+                               count, seen.results),
+                   fmt::format("If links {0} and {1} may touch, write robot.allowed_contacts: "
+                               "[[{0}, {1}]].",
+                               links.first, links.second)});
   }
   if (percent_of(seen.stops, seen.results) > 100 * kMostStops) {
     all.push_back({Verdict::advice, "separation",
@@ -337,6 +353,22 @@ Finding check_views(const OpenScene& scene) {
   found.next =
       "Turn or add a camera that sees that place; or write space.unobserved: unknown, with links "
       "for closed boxes, such as a fenced machine, in robot.guarded_links.";
+  return found;
+}
+
+Finding check_known(const OpenScene& scene) {
+  const RobotModel& model = scene.robot->model();
+  const KnownModel& known = scene.robot->known();
+  std::map<LeftOutReason, std::vector<std::string>> left_out;
+  for (const LeftOutPair& pair : known.left_out) {
+    left_out[pair.reason].push_back(
+        fmt::format("{} - {}", model.links[pair.link].name, model.links[pair.other].name));
+  }
+  Finding found{.about = "known",
+                .text = fmt::format("{} pairs of links are looked at", known.pairs.size())};
+  for (const auto& [reason, pairs] : left_out) {
+    found.text += fmt::format("; left out as {}: {}", name_of(reason), fmt::join(pairs, ", "));
+  }
   return found;
 }
 

@@ -44,6 +44,8 @@ Finding check_views(const OpenScene& scene);
 std::vector<Finding> check_watch(const OpenScene& scene);
 /// Results of some images: cameras that drop out, links that nobody sees, a monitor's stops.
 std::vector<Finding> check_results(const OpenScene& scene, const Pause& pause);
+/// The pairs of links that `known` leaves out, by reason.
+Finding check_known(const OpenScene& scene);
 /// The smallest things that the cameras show, and settings of the filter that would fit better.
 std::vector<Finding> check_detection(const OpenScene& scene);
 /// From one image to the next; NaN where the camera has no two stamps.

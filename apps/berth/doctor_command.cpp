@@ -94,6 +94,7 @@ void doctor_command(const DoctorArguments& arguments) {
   doctor.look("places", [&](const Pause&) { return check_poses(*scene); });
   doctor.look("no reading", [&](const Pause&) { return check_unread(*scene); });
   doctor.look("in no image", [&](const Pause&) { return Findings{check_views(*scene)}; });
+  doctor.look("known", [&](const Pause&) { return Findings{check_known(*scene)}; });
   doctor.look("results", [&](const Pause& pause) { return check_results(*scene, pause); });
   doctor.look("detection", [&](const Pause&) { return check_detection(*scene); });
   doctor.look("watch", [&](const Pause&) { return check_watch(*scene); });

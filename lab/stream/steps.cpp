@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "berth/distance/known_distances.hpp"
 #include "berth/pipeline/frame_pool.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "berth/pipeline/prepared_space.hpp"
@@ -58,7 +59,7 @@ class Steps {
     }
   }
 
-  std::vector<double> observe_ms, prepare_ms, first_us, next_us, gap_m;
+  std::vector<double> observe_ms, prepare_ms, first_us, next_us, known_us, gap_m;
 
  private:
   void joints_at(double time_s) {
@@ -90,6 +91,11 @@ class Steps {
     const double us = 1000 * asking.ms();
     if (!counts) return;
     (is_first ? first_us : next_us).push_back(us);
+    // Once more by itself, for its share in the request.
+    const Stopwatch asking_known(CLOCK_THREAD_CPUTIME_ID);
+    known_distances(robot_->known(), result.pose, {.range_m = result.range_m}, known_workspace_,
+                    known_);
+    known_us.push_back(1000 * asking_known.ms());
     for (const LinkResult& link : result.links) {
       if (link.has_distance()) gap_m.push_back(link.distance_m - link.lower_bound_m);
     }
@@ -107,6 +113,8 @@ class Steps {
   std::vector<std::shared_ptr<const Frame>> frames_;
   std::shared_ptr<const PreparedSpace> prepared_;
   JointState joints_;
+  KnownWorkspace known_workspace_;
+  std::vector<KnownPair> known_;
 };
 
 nlohmann::ordered_json times(const std::vector<double>& values) {
@@ -123,6 +131,7 @@ nlohmann::ordered_json measure_steps(const Film& film, const StreamSettings& set
   out["prepare_ms"] = times(distances.prepare_ms);
   out["first_us"] = times(distances.first_us);
   out["next_us"] = times(distances.next_us);
+  out["known_us"] = times(distances.known_us);
   Steps everything(film, settings, Told::everything);
   everything.run();
   out["next_with_all_us"] = times(everything.next_us);

@@ -59,6 +59,9 @@ class ToPython {
   py::object operator()(const CameraPlace& at) const {
     return at.place < 0 ? py::none() : py::cast(result_->cameras[at.place].camera);
   }
+  py::object operator()(const KnownLink& at) const {
+    return at.place < 0 ? py::none() : py::cast((*result_->link_names)[at.place]);
+  }
   py::object operator()(const ObstacleOf& of) const {
     return of.pair.is_known() ? py::cast(of.pair.obstacle_is) : py::none();
   }
@@ -87,7 +90,7 @@ std::string type_in_python(const T& value) {
     return "Dict[str, int]";
   } else if constexpr (std::is_same_v<T, CameraState>) {
     return type_in_python(value.status);
-  } else if constexpr (std::is_same_v<T, CameraPlace>) {
+  } else if constexpr (std::is_same_v<T, CameraPlace> || std::is_same_v<T, KnownLink>) {
     return "Optional[str]";
   } else if constexpr (std::is_same_v<T, SeparationOf>) {
     return "Separation";
@@ -167,8 +170,10 @@ struct Columns {
     constexpr int kCount = std::is_same_v<T, float>             ? 1
                            : std::is_same_v<T, Eigen::Vector3f> ? 3
                                                                 : 0;
-    if constexpr (std::is_same_v<T, SpacePair>) {
-      visit_fields(value, Columns{bound, link, std::string(field.name) + "_"});
+    if constexpr (std::is_same_v<T, SpacePair> || std::is_same_v<T, KnownPair>) {
+      const bool is_known = std::is_same_v<T, KnownPair>;
+      visit_fields(value, Columns{bound, link, std::string(field.name) + "_",
+                                  is_known ? "to what is known: " : "to what is occupied alone: "});
     } else if constexpr (kCount > 0) {
       const auto offset =
           reinterpret_cast<const char*>(&value) - reinterpret_cast<const char*>(&link);
@@ -185,8 +190,8 @@ struct Columns {
             const char* first = reinterpret_cast<const char*>(links.data()) + offset;
             return read_only(reinterpret_cast<const float*>(first), shape, strides, self);
           },
-          fmt::format("numpy.ndarray: ({}), {}{}", kCount > 1 ? "links, 3" : "links,",
-                      prefix.empty() ? "" : "to what is occupied alone: ", field.sentence)
+          fmt::format("numpy.ndarray: ({}), {}{}", kCount > 1 ? "links, 3" : "links,", of,
+                      field.sentence)
               .c_str());
     }
   }
@@ -194,6 +199,7 @@ struct Columns {
   py::class_<Part<Result>>& bound;
   const LinkResult& link;
   std::string prefix = {};
+  std::string of = {};
 };
 
 using ResultPart = Part<Result>;
@@ -223,6 +229,12 @@ LinkPart link_named(const ResultPart& result, const std::string& name) {
 std::optional<LinkPart> nearest(const ResultPart& result) {
   if (result->nearest < 0) return {};
   return link_at(result, result->nearest);
+}
+
+std::optional<LinkPart> nearest_to_all(const ResultPart& result) {
+  const LinkResult* nearest = result->nearest_to_all();
+  if (!nearest) return {};
+  return LinkPart{result.result, nearest};
 }
 
 std::vector<bool> link_is_moved(const ResultPart& result) {
@@ -265,6 +277,7 @@ void bind_result(py::module_& m) {
   // One that has all that a result may have; what `bare` has not is not in each.
   const auto full = std::make_shared<Result>();
   full->has_visibility = true;
+  full->link_names = std::make_shared<const std::vector<std::string>>();
   full->cameras.resize(1);
   full->links.resize(1);
   full->links[0].id = 1;
@@ -278,6 +291,8 @@ void bind_result(py::module_& m) {
   bind(link.visibility.surface, "SightShares", "What cameras see of a surface or a space.");
   bind(link.visibility, "LinkVisibility", "What cameras see of a link and around it.");
   bind(link.occupied, "SpacePair", "The closest points of a link and of what is near.");
+  bind(link.known, "KnownPair",
+       "The closest points of a link and of the environment, other links and other robots.");
   bind(full->separation->links.front(), "LinkSeparation", "One link's part in a separation.");
   bind(full->time, "Timeliness", "How a result stands in time.");
   bind(full->cameras.front(), "CameraResult", "One camera's part in a result.");
@@ -294,6 +309,9 @@ void bind_result(py::module_& m) {
                              "List[bool]: whether a joint moves the link")
       .def_property_readonly("nearest", &nearest,
                              "Optional[LinkResult]: the nearest link that a joint moves")
+      .def_property_readonly("nearest_to_all", &nearest_to_all,
+                             "Optional[LinkResult]: the moved link that is nearest to anything: "
+                             "occupied, unknown or known")
       .def_property_readonly(
           "ahead",
           [](const ResultPart& r) {

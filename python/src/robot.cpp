@@ -2,6 +2,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "arrays.hpp"
+#include "berth/distance/known_model.hpp"
 #include "berth/pipeline/robot.hpp"
 #include "berth/robot/joint_buffer.hpp"
 #include "berth/robot/kinematics.hpp"
@@ -37,10 +38,18 @@ std::shared_ptr<RobotModel> load(const std::filesystem::path& urdf,
                                  const std::vector<std::string>& environment_links,
                                  const std::vector<std::string>& ignore_links,
                                  const std::vector<std::string>& guarded_links,
-                                 const std::optional<std::string>& urdf_text) {
-  const RobotSettings settings{
-      urdf,          package_paths, geometry_of(geometry), environment_links, ignore_links,
-      guarded_links, urdf_text};
+                                 const std::optional<std::string>& urdf_text,
+                                 const std::vector<std::array<std::string, 2>>& allowed_contacts,
+                                 const std::optional<std::filesystem::path>& srdf) {
+  const RobotSettings settings{urdf,
+                               package_paths,
+                               geometry_of(geometry),
+                               environment_links,
+                               ignore_links,
+                               guarded_links,
+                               urdf_text,
+                               allowed_contacts,
+                               srdf.value_or(std::filesystem::path())};
   const py::gil_scoped_release release;
   return std::make_shared<RobotModel>(load_robot(settings));
 }
@@ -116,16 +125,32 @@ void bind_robot(py::module_& m) {
         py::arg("geometry") = "visual", py::arg("environment_links") = std::vector<std::string>{},
         py::arg("ignore_links") = std::vector<std::string>{},
         py::arg("guarded_links") = std::vector<std::string>{}, py::arg("urdf_text") = std::nullopt,
+        py::arg("allowed_contacts") = std::vector<std::array<std::string, 2>>{},
+        py::arg("srdf") = std::nullopt,
         "Loads a URDF and its meshes. Links in environment_links are environment: filtered out of "
         "the\n"
         "images, not evaluated. Nobody can be in the boxes of guarded_links. geometry: visual or "
-        "collision. Raises FileNotFoundError or\n"
+        "collision.\n"
+        "allowed_contacts are pairs of links that may touch, srdf names more. Raises "
+        "FileNotFoundError or\n"
         "ValueError that names file, place, value and what was expected.");
   py::class_<Robot, std::shared_ptr<Robot>>(
       m, "Robot", "A robot, and how requests about it are answered. Constant; share it.")
       .def(py::init(&make_robot), py::arg("model"),
            py::arg_v("evaluation", EvaluationSettings{}, "EvaluationSettings()"),
            py::arg_v("time", TimeSettings{}, "TimeSettings()"))
+      .def_property_readonly(
+          "left_out",
+          [](const Robot& robot) {
+            std::vector<std::tuple<std::string, std::string, std::string>> pairs;
+            const auto name = [&](std::size_t link) { return robot.model().links[link].name; };
+            for (const LeftOutPair& pair : robot.known().left_out) {
+              pairs.emplace_back(name(pair.link), name(pair.other), name_of(pair.reason));
+            }
+            return pairs;
+          },
+          "List[Tuple[str, str, str]]: pairs of links whose distance is not looked for, and why: "
+          "fixed, neighbours, always_touch, srdf or allowed")
       .def_property_readonly("model", &Robot::model, py::return_value_policy::reference_internal,
                              "RobotModel: its links and joints")
       .def_property_readonly("evaluation", &Robot::settings,

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import berth
-from conftest import SOURCE
+from conftest import BOXES, SOURCE
 
 
 @pytest.mark.parametrize("scene", ["one_camera", "scene"])
@@ -27,7 +27,8 @@ def test_arrays_have_a_row_for_each_link(step):
     result = step.result
     count = len(result)
     assert result.link_names == [link.link for link in result.links] and count == 8
-    for name in ("distance_m", "lower_bound_m", "occupied_distance_m", "occupied_lower_bound_m"):
+    for name in ("distance_m", "lower_bound_m", "occupied_distance_m", "occupied_lower_bound_m", "known_distance_m",
+                 "known_lower_bound_m"):
         assert getattr(result, name).shape == (count,) and getattr(result, name).dtype == np.float32
     for name in ("robot_point_base_m", "obstacle_point_base_m", "mean_direction_base", "occupied_obstacle_point_base_m"):
         assert getattr(result, name).shape == (count, 3) and not getattr(result, name).flags.owndata
@@ -41,6 +42,30 @@ def test_arrays_have_a_row_for_each_link(step):
     ok = np.isfinite(result.distance_m)
     lengths = np.linalg.norm(result.obstacle_point_base_m - result.robot_point_base_m, axis=1)
     np.testing.assert_allclose(lengths[ok], result.distance_m[ok], atol=1e-5)
+
+
+def test_what_is_known_needs_no_camera(step, one_camera):
+    result = step.result
+    for i, link in enumerate(result.links):
+        assert link.known.link == (None if np.isnan(result.known_distance_m[i]) else link.known.link)
+        assert link.is_moved or np.isnan(result.known_lower_bound_m[i])
+    assert result["arm_link_1"].known.link == "table"
+    assert result["arm_link_1"].known.distance_m == pytest.approx(0.11, abs=1e-3)
+    nearest = result.nearest_to_all
+    assert min(nearest.distance_m, nearest.known.distance_m) == np.nanmin([result.distance_m[1:], result.known_distance_m[1:]])
+    assert ("arm_link_5", "arm_link_7", "always_touch") in one_camera.robot.left_out
+
+
+def test_contacts_may_be_allowed(tmp_path):
+    text = BOXES.replace("</robot>", "") + """<link name="hand"><visual><geometry><sphere radius="0.1"/></geometry></visual></link>
+        <joint name="h" type="revolute"><parent link="arm"/><child link="hand"/><origin xyz="0 0.3 0"/>
+        <limit lower="-3" upper="3"/></joint></robot>"""
+    left_out = lambda **more: berth.Robot(berth.load_robot("boxes.urdf", urdf_text=text, **more)).left_out
+    assert ("hand", "base_link") not in [pair[:2] for pair in left_out()]
+    assert ("hand", "base_link", "allowed") in left_out(allowed_contacts=[("base_link", "hand")])
+    srdf = tmp_path / "boxes.srdf"
+    srdf.write_text('<robot name="boxes"><disable_collisions link1="base_link" link2="hand"/></robot>')
+    assert ("hand", "base_link", "srdf") in left_out(srdf=srdf)
 
 
 def is_told(value, line):

@@ -109,6 +109,7 @@ Result full_result() {
   result.links.resize(1);
   result.links[0].id = 1;
   result.has_visibility = true;
+  result.link_names = std::make_shared<const std::vector<std::string>>();
   result.separation.emplace().links.resize(1);
   return result;
 }
@@ -151,6 +152,7 @@ TEST(MessageFields, OfACamera) {
 
 TEST(MessageFields, OfWhatALinkAndASeparationHave) {
   expect_same_fields("SpacePair", names_of(SpacePair()), {}, {});
+  expect_same_fields("KnownPair", names_of(KnownPair()), {}, {});
   expect_same_fields("LinkVisibility", names_of(LinkVisibility()), {}, {});
   expect_same_fields("SightShares", names_of(SightShares()), {}, {});
   const Exception only_in_message[] = {{"link", "in JSON it stands in its link"}};

@@ -16,7 +16,9 @@ using MovedPath = RewrittenScene;
 
 TEST_F(MovedPath, LeadsToTheSameFilesFromAnotherFolder) {
   const std::string text =
-      "robot: {urdf: ./r.urdf, package_paths: {x: ., y: ../y/, z: /z}}\n"
+      "robot: {urdf: ./r.urdf, package_paths: {x: ., y: ../y/, z: /z}, srdf: r.srdf, others: "
+      "[{urdf: "
+      "s.urdf, package_paths: {x: .}, pose: {parent: p, xyz: [0, 0, 0], rpy: [0, 0, 0]}}]}\n"
       "cameras:\n"
       "  - {name: a, info: 'c d.yaml', depth: ../data/*.png, pose: {parent: p, xyz: [0, 0, 0], "
       "rpy: [0, 0, 0]}}\n"
@@ -25,18 +27,24 @@ TEST_F(MovedPath, LeadsToTheSameFilesFromAnotherFolder) {
   const auto rewritten_for = [&](const std::string& name) {
     return rewritten_scene(write(text), {}, folder_ / name);
   };
-  EXPECT_EQ(rewritten_for("cell/calibrated/deep/new.yaml"),
-            "robot: {urdf: ../../r.urdf, package_paths: {x: ../../, y: ../../../y/, z: /z}}\n"
-            "cameras:\n"
-            "  - {name: a, info: '../../c d.yaml', depth: ../../../data/*.png, pose: {parent: p, "
-            "xyz: [0, 0, 0], rpy: [0, 0, 0]}}\n"
-            "joints: ../../j.csv\n");
-  EXPECT_EQ(rewritten_for("new.yaml"),
-            "robot: {urdf: cell/r.urdf, package_paths: {x: cell/, y: y/, z: /z}}\n"
-            "cameras:\n"
-            "  - {name: a, info: 'cell/c d.yaml', depth: data/*.png, pose: {parent: p, xyz: [0, 0, "
-            "0], rpy: [0, 0, 0]}}\n"
-            "joints: cell/j.csv\n");
+  EXPECT_EQ(
+      rewritten_for("cell/calibrated/deep/new.yaml"),
+      "robot: {urdf: ../../r.urdf, package_paths: {x: ../../, y: ../../../y/, z: /z}, srdf: "
+      "../../r.srdf, others: [{urdf: ../../s.urdf, package_paths: {x: ../../}, pose: {parent: "
+      "p, xyz: [0, 0, 0], rpy: [0, 0, 0]}}]}\n"
+      "cameras:\n"
+      "  - {name: a, info: '../../c d.yaml', depth: ../../../data/*.png, pose: {parent: p, "
+      "xyz: [0, 0, 0], rpy: [0, 0, 0]}}\n"
+      "joints: ../../j.csv\n");
+  EXPECT_EQ(
+      rewritten_for("new.yaml"),
+      "robot: {urdf: cell/r.urdf, package_paths: {x: cell/, y: y/, z: /z}, srdf: cell/r.srdf, "
+      "others: [{urdf: cell/s.urdf, package_paths: {x: cell/}, pose: {parent: p, xyz: [0, 0, "
+      "0], rpy: [0, 0, 0]}}]}\n"
+      "cameras:\n"
+      "  - {name: a, info: 'cell/c d.yaml', depth: data/*.png, pose: {parent: p, xyz: [0, 0, "
+      "0], rpy: [0, 0, 0]}}\n"
+      "joints: cell/j.csv\n");
   EXPECT_EQ(rewritten_for("cell/new.yaml"), text);
 }
 

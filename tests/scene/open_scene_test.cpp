@@ -280,6 +280,15 @@ TEST(OpenedScene, HasWhatIsSoftAsNoLink) {
             *scene.robot->model().find_link("arm_link_7"));
 }
 
+TEST(OpenedScene, HasWhatAPartMayTouch) {
+  const std::string lines =
+      "attached: [{link: arm_link_7, name: part, sphere: 0.1, may_touch: [table]}]\n";
+  const OpenScene scene = open_with(kSevenColumns, lines);
+  EXPECT_EQ(scene.robot->attached()[0].may_touch, std::vector<std::string>{"table"});
+  ASSERT_EQ(scene.robot->model().allowed_contacts.size(), 1U);
+  EXPECT_EQ(scene.robot->model().allowed_contacts[0].other, "table");
+}
+
 TEST(ReopenedScene, RefusesWhatAnOpenedOneDoes) {
   const OpenScene before = open_scene(bundled_file());
   SceneFile changed = bundled_file();

@@ -24,6 +24,10 @@ robot:
   geometry: collision
   environment_links: [table, wall]
   ignore_links: [tool]
+  srdf: cell.srdf
+  allowed_contacts: [[hand, tray], [hand, table]]
+  others:
+    - {urdf: second.urdf, package_paths: {x: ..}, prefix: second_, pose: {parent: table, xyz: [1, 2, 3], rpy: [0, 0, 0]}}
 cameras:
   - name: left
     info: left/info.yaml
@@ -61,6 +65,15 @@ time: {max_skew_s: 0.01}
   EXPECT_EQ(scene.robot.geometry, GeometryKind::collision);
   EXPECT_EQ(scene.robot.environment_links, (std::vector<std::string>{"table", "wall"}));
   EXPECT_EQ(scene.robot.ignore_links, std::vector<std::string>{"tool"});
+  EXPECT_EQ(scene.robot.srdf, folder / "a/cell.srdf");
+  ASSERT_EQ(scene.robot.allowed_contacts.size(), 2U);
+  EXPECT_EQ(scene.robot.allowed_contacts[0], (std::array<std::string, 2>{"hand", "tray"}));
+  ASSERT_EQ(scene.robot.others.size(), 1U);
+  EXPECT_EQ(scene.robot.others[0].urdf, folder / "a/second.urdf");
+  EXPECT_EQ(scene.robot.others[0].package_paths.count("x"), 1U);
+  EXPECT_EQ(scene.robot.others[0].prefix, "second_");
+  EXPECT_EQ(scene.robot.others[0].parent, "table");
+  EXPECT_EQ(scene.robot.others[0].X_PR.translation(), Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(scene.joints, folder / "a/joints.csv");
 
   ASSERT_EQ(scene.cameras.size(), 2U);

@@ -74,7 +74,7 @@ TEST(RunStream, InStepsItTellsWhatEachOneCostsInADrawnRoom) {
   settings.in_steps = true;
   const auto out = nlohmann::ordered_json::parse(run_stream(settings));
   EXPECT_EQ(keys_of(out),
-            (std::vector<std::string>{"observe_ms", "prepare_ms", "first_us", "next_us",
+            (std::vector<std::string>{"observe_ms", "prepare_ms", "first_us", "next_us", "known_us",
                                       "next_with_all_us", "in_budget_us", "in_budget_gap_m"}));
   for (const auto& [step, values] : out.items()) {
     expect_percentiles(values, {"p50", "p95", "p99", "max"});

@@ -43,6 +43,15 @@ void copy_pair(const berth::SpacePair& pair, const berth::Result& result, Messag
   out.obstacle_pixel = {pair.obstacle_pixel.u, pair.obstacle_pixel.v};
 }
 
+void copy(const berth::KnownPair& pair, const berth::Result& result,
+          berth_msgs::msg::KnownPair& out) {
+  out.distance_m = pair.distance_m;
+  out.lower_bound_m = pair.lower_bound_m;
+  out.robot_point_base_m = point_of(pair.robot_point_B_m);
+  out.obstacle_point_base_m = point_of(pair.obstacle_point_B_m);
+  out.link = result.known_link_of(pair);
+}
+
 void copy(const berth::SightShares& shares, berth_msgs::msg::SightShares& out) {
   out.seen = shares.seen;
   out.hidden_by_obstacles = shares.hidden_by_obstacles;
@@ -67,6 +76,7 @@ void copy(const berth::LinkResult& link, const berth::Result& result, LinkDistan
   copy_pair(link, result, out);
   out.obstacle_is = constant_of(link.obstacle_is);
   copy_pair(link.occupied, result, out.occupied);
+  copy(link.known, result, out.known);
   out.assumed_thinner_m = link.assumed_thinner_m;
   out.mean_direction_base = vector_of(link.mean_direction_B);
   out.mean_count = link.mean_count;

@@ -24,6 +24,7 @@ struct Item {
 class ItemHeap {
  public:
   void clear() { items_.clear(); }
+  void reserve(std::size_t count) { items_.reserve(count); }
   bool empty() const { return items_.empty(); }
   float least_bound_m() const {
     return empty() ? std::numeric_limits<float>::infinity() : items_[0].bound_m;
@@ -42,6 +43,11 @@ class ItemHeap {
 class Front {
  public:
   void clear();
+  void reserve(std::size_t count) {
+    level_m_.reserve(count);
+    items_.reserve(count);
+    below_.reserve(count);
+  }
   bool empty() const { return items_.empty(); }
   std::size_t size() const { return items_.size(); }
   /// How far the link has moved since clear(), at most.
@@ -52,6 +58,8 @@ class Front {
   /// after one in this list stay as they are when that one is taken. Valid until the next call.
   const std::vector<std::uint32_t>& find_below(float limit_m);
   const Item& item(std::uint32_t place) const { return items_[place]; }
+  /// Of the item by now.
+  float bound_m(std::uint32_t place) const { return level_m_[place] - drift_m_; }
   /// It is known to be at least so far away.
   void raise(std::uint32_t place, float bound_m) {
     level_m_[place] = std::max(level_m_[place], level_of(bound_m));

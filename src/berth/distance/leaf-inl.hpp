@@ -198,12 +198,15 @@ template <class Expand>
 HWY_INLINE void search_best_first(LinkSearch& search, int steps, Expand expand) {
   bool has_next = false;
   Item next{};
+  // Outside, since making its items takes as long as taking one apart.
+  Fresh fresh;
   for (; steps > 0; --steps) {
     if (!has_next) {
       if (search.is_done()) return;
       next = search.items.pop();
     }
-    Fresh fresh;
+    fresh.count = 0;
+    fresh.again = false;
     expand(next, fresh);
     if (fresh.again) {
       search.items.push(next);

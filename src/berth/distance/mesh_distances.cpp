@@ -14,7 +14,11 @@ namespace berth {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using mesh::keep_front;
+using mesh::keep_pair;
+using mesh::kFinestTolerance_m;
 using mesh::LinkSearch;
+using mesh::start;
 
 struct LinkState {
   LinkSearch reading;
@@ -26,8 +30,6 @@ struct LinkState {
 };
 
 constexpr int kEndless = 1 << 30;
-/// Below it the roundings of bounds would keep a search from ending.
-constexpr float kFinestTolerance_m = 2e-5f;
 
 struct Asked {
   const UnknownSpace& space;
@@ -36,43 +38,6 @@ struct Asked {
   bool is_shadow() const { return space.is_shadow(); }
   bool is_stopped() const { return request.stop && request.stop->stop_requested(); }
 };
-
-/// The pair of the request before is a pair of this one, too. Else there is none.
-void keep_pair(LinkSearch& search) {
-  constexpr float kRounding_m = 1e-6f;
-  const double apart_m = (search.X_BL * search.robot_point_L_m - search.obstacle_point_B_m).norm();
-  search.best_m = static_cast<float>(apart_m) + kRounding_m;
-  if (search.is_known() && search.best_m < search.range_m) return;
-  search.best_m = search.range_m;
-  search.best_triangle = -1;
-  search.best_is_hidden = false;
-}
-
-/// Goes on with the front of the request before, since when the link has moved by `moved_m` at
-/// most. Returns whether there is one that reaches far enough.
-bool keep_front(float moved_m, LinkSearch& search) {
-  // It becomes finer and never coarser.
-  constexpr std::size_t kMostItems = std::size_t{1} << 14;
-  // After a jump most of it is near enough again: beginning anew takes half of the time.
-  constexpr float kMostMoved_m = 0.01f;
-  if (moved_m > kMostMoved_m) return false;
-  for (const mesh::Item& item : search.items.items()) search.front.put(item);
-  search.items.clear();
-  search.front.move(moved_m);
-  if (search.front.empty() || search.front.size() > kMostItems) return false;
-  return search.range_m <= search.front_range_m - search.front.drift_m();
-}
-
-void start(const LinkPatches& patches, const Pose& X_BL, const MeshRequest& request,
-           LinkSearch& search) {
-  ++search.request;
-  search.given_up_m = std::numeric_limits<float>::infinity();
-  search.link = &patches;
-  search.X_BL = X_BL;
-  search.range_m = static_cast<float>(request.range_m);
-  search.tolerance_m = std::max(static_cast<float>(request.tolerance_m), kFinestTolerance_m);
-  search.known_bound_m = 0;
-}
 
 /// A reading is an obstacle for `nearest` as well.
 void take_reading(const LinkSearch& reading, LinkSearch& nearest) {

@@ -142,7 +142,9 @@ PatchLevel make_level(const std::vector<Triangle>& triangles, std::size_t size) 
   return level;
 }
 
-LinkPatches make_link(const TriangleMesh& mesh) {
+}  // namespace
+
+LinkPatches build_link_patches(const TriangleMesh& mesh) {
   LinkPatches link;
   std::vector<Triangle> triangles;
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -164,13 +166,11 @@ LinkPatches make_link(const TriangleMesh& mesh) {
   return link;
 }
 
-}  // namespace
-
 std::shared_ptr<const RobotPatches> build_robot_patches(const RobotModel& model) {
   auto robot = std::make_shared<RobotPatches>();
   robot->serial_number = mesh::next_serial_number();
   for (const std::size_t index : model.evaluated_links) {
-    robot->links.push_back(make_link(model.links[index].mesh_L));
+    robot->links.push_back(build_link_patches(model.links[index].mesh_L));
     robot->links.back().link = index;
   }
   return robot;

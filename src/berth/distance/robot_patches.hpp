@@ -54,6 +54,9 @@ struct RobotPatches {
   std::uint64_t serial_number = 0;
 };
 
+/// Of a mesh in its own frame; LinkPatches::link is left to the caller.
+LinkPatches build_link_patches(const TriangleMesh& mesh);
+
 std::shared_ptr<const RobotPatches> build_robot_patches(const RobotModel& model);
 
 }  // namespace berth

@@ -104,6 +104,7 @@ void LinkSearches::ask(const FrameSet& frames, const RobotPose& pose,
 
 void LinkSearches::ask(const FrameSet& frames, const RobotPose& pose, Clock::time_point begin,
                        const std::stop_token& stop, Result& out) {
+  tell_known(pose, out);
   MeshRequest request = request_of(robot_->settings().distance);
   request.stop = &stop;
   // What follows the search takes about as long as it did the last time.
@@ -119,7 +120,14 @@ void LinkSearches::ask(const FrameSet& frames, const RobotPose& pose, Clock::tim
   after_search_us_ = std::max(us_since(searched), kForgotten * after_search_us_);
 }
 
+void LinkSearches::tell_known(const RobotPose& pose, Result& out) {
+  known_distances(robot_->known(), pose, request_of(robot_->settings().distance), known_workspace_,
+                  known_);
+  for (std::size_t i = 0; i < out.links.size(); ++i) out.links[i].known = known_[i];
+}
+
 void LinkSearches::forget() {
+  known_workspace_.forget();
   workspace_.forget();
   found_.clear();
   undecided_workspace_.forget();

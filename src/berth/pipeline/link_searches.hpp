@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "berth/distance/known_distances.hpp"
 #include "berth/distance/mean_directions.hpp"
 #include "berth/distance/mesh_distances.hpp"
 #include "berth/pipeline/frame_set.hpp"
@@ -45,6 +46,8 @@ class LinkSearches {
   void tell_distances(const FrameSet& frames, const RobotPose& pose, Result& out) const;
   /// LinkResult::assumed_thinner_m of out.links[i].
   float assumed_thinner_m(const FrameSet& frames, const RobotPose& pose, std::size_t i) const;
+  /// To what no camera has to see.
+  void tell_known(const RobotPose& pose, Result& out);
   void tell_mean_directions(const FrameSet& frames, Result& out);
   void tell_visibility(const FrameSet& frames, const RobotPose& pose, Result& out);
   void tell_rejected(const FrameSet& frames, const RobotPose& pose, Result& out);
@@ -53,6 +56,8 @@ class LinkSearches {
   std::shared_ptr<const Robot> robot_;
   /// Of each evaluated link, the middle of the box around it in its frame L.
   std::vector<Eigen::Vector3d> middles_L_m_;
+  KnownWorkspace known_workspace_;
+  std::vector<KnownPair> known_;
   MeshWorkspace workspace_;
   std::vector<WholeLinkDistance> found_;
   MeshWorkspace undecided_workspace_;

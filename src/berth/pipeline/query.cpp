@@ -80,6 +80,11 @@ Query::Query(std::shared_ptr<const Robot> robot, std::vector<std::string> camera
       searches_(std::make_unique<LinkSearches>(robot_)) {
   asked_ = set_.get();
   begin_result(*robot_, result_);
+  std::vector<std::string> names;
+  for (const Link& link : robot_->model().links) names.push_back(link.name);
+  result_.link_names = std::make_shared<const std::vector<std::string>>(std::move(names));
+  // Here, and not in the first request.
+  robot_->known();
 }
 
 Query::~Query() = default;

@@ -26,6 +26,16 @@ void find_nearest(Result& result) {
   }
 }
 
+const LinkResult* Result::nearest_to_all() const {
+  const LinkResult* found = nullptr;
+  for (const LinkResult& link : links) {
+    const float distance_m = link.distance_to_all_m();
+    if (!link.is_moved || std::isnan(distance_m)) continue;
+    if (!found || distance_m < found->distance_to_all_m()) found = &link;
+  }
+  return found;
+}
+
 void withhold(Result& result) {
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
   result.status = ResultStatus::stale;
@@ -34,6 +44,7 @@ void withhold(Result& result) {
   for (LinkResult& link : result.links) {
     static_cast<SpacePair&>(link) = {};
     link.occupied = {};
+    link.known = {};
     link.lower_bound_m = link.occupied.lower_bound_m = kNaN;
     link.status = LinkStatus::stale;
     link.assumed_thinner_m = kNaN;

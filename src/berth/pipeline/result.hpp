@@ -15,6 +15,7 @@
 #include "berth/robot/kinematics.hpp"
 #include "berth/types/camera.hpp"
 #include "berth/types/camera_status.hpp"
+#include "berth/types/known_pair.hpp"
 #include "berth/types/link_visibility.hpp"
 #include "berth/types/obstacle_image.hpp"
 #include "berth/types/result_status.hpp"
@@ -43,6 +44,9 @@ struct LinkResult : SpacePair {
   float assumed_thinner_m = std::numeric_limits<float>::quiet_NaN();
   /// The pair to what is occupied alone; its distance is never below that of the link.
   SpacePair occupied;
+  /// The pair to the environment, the robot's own other links and other robots, by their meshes:
+  /// no camera has to see them. Of links that a joint moves.
+  KnownPair known;
   /// The points of the link's own pair in the optical frame C of its camera.
   Eigen::Vector3f robot_point_C_m = unset_point();
   Eigen::Vector3f obstacle_point_C_m = unset_point();
@@ -56,6 +60,12 @@ struct LinkResult : SpacePair {
   LinkVisibility visibility;
 
   bool has_distance() const { return !std::isnan(distance_m); }
+  /// To what is occupied, unknown or known; NaN where none of them is within the range.
+  float distance_to_all_m() const { return std::fmin(distance_m, known.distance_m); }
+  /// Nothing of all that is nearer, certified; NaN where that is not known.
+  float lower_bound_to_all_m() const {
+    return known.lower_bound_m < lower_bound_m ? known.lower_bound_m : lower_bound_m;
+  }
 };
 
 /// One camera's part in a result.
@@ -123,6 +133,8 @@ struct Result {
   std::vector<CameraResult> cameras;
   /// links[i] has the id i + 1.
   std::vector<LinkResult> links;
+  /// The name of each of RobotModel::links; null without KnownPairs.
+  std::shared_ptr<const std::vector<std::string>> link_names;
   /// The place in `links` of the nearest: it has a distance, and a joint moves it. -1: there is
   /// none.
   int nearest = -1;
@@ -134,6 +146,12 @@ struct Result {
   std::optional<RequestTiming> timing;
 
   const LinkResult* nearest_link() const { return nearest < 0 ? nullptr : &links[nearest]; }
+  /// The moved link with the least distance_to_all_m(); null where none has one.
+  const LinkResult* nearest_to_all() const;
+  /// The name of the other link of a pair; empty where no pair is known.
+  std::string_view known_link_of(const KnownPair& pair) const {
+    return pair.is_known() ? std::string_view((*link_names)[pair.link]) : std::string_view();
+  }
   /// The name of the camera of a pair; empty where no pair is known.
   std::string_view camera_of(const SpacePair& pair) const {
     return pair.is_known() ? std::string_view(cameras[pair.camera].camera) : std::string_view();
@@ -160,6 +178,25 @@ struct SeparationOf {
 struct ObstacleOf {
   const SpacePair& pair;
 };
+
+/// The other link of a known pair by its place in Result::link_names, written as its name.
+struct KnownLink {
+  int place = -1;
+};
+
+/// The fields of a pair to what is known.
+template <class Visitor>
+void visit_fields(const KnownPair& p, Visitor&& visit) {
+  visit({"distance_m",
+         "the distance from the link to the nearest environment link, own link or other robot"},
+        p.distance_m);
+  visit({"lower_bound_m", "none of them is nearer than this, certified"}, p.lower_bound_m);
+  visit({"robot_point_base_m", "the link's closest point, in the robot's root frame"},
+        p.robot_point_B_m);
+  visit({"obstacle_point_base_m", "the other link's closest point, in the robot's root frame"},
+        p.obstacle_point_B_m);
+  visit({"link", "the other link"}, KnownLink{p.link});
+}
 
 /// The fields of a closest pair, but what it leads to.
 template <class Visitor>
@@ -215,6 +252,12 @@ void visit_fields(const LinkResult& l, const Result& result, Visitor&& visit) {
        "unobserved: in no image"},
       ObstacleOf{l});
   visit({"occupied", "the closest pair to surfaces that a camera measured, alone"}, l.occupied);
+  if (result.link_names) {
+    visit({"known",
+           "the closest pair to the environment, the robot's own other links and other robots, by "
+           "their meshes: no camera has to see them"},
+          l.known);
+  }
   visit({"assumed_thinner_m",
          "what lies on the link and is thinner than this is taken for it: an assumption"},
         l.assumed_thinner_m);

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <mutex>
 #include <stdexcept>
 
+#include "berth/distance/known_model.hpp"
 #include "berth/distance/robot_patches.hpp"
 #include "berth/render/robot_renderer.hpp"
 #include "berth/visibility/sample_points.hpp"
@@ -24,6 +26,11 @@ auto find_attached(std::vector<Attachment>& attached, const std::string& name) {
 
 }  // namespace
 
+struct Robot::Known {
+  std::once_flag is_found;
+  std::shared_ptr<const KnownModel> model;
+};
+
 Robot::Robot(RobotModel model, EvaluationSettings settings, std::vector<Attachment> attached)
     : bare_(std::move(model)),
       attached_(std::move(attached)),
@@ -34,6 +41,12 @@ Robot::Robot(RobotModel model, EvaluationSettings settings, std::vector<Attachme
   validate(settings_.time);
   patches_ = build_robot_patches(model_);
   sample_points_ = std::make_shared<const SamplePoints>(berth::sample_points(model_));
+  known_ = std::make_shared<Known>();
+}
+
+const KnownModel& Robot::known() const {
+  std::call_once(known_->is_found, [&] { known_->model = build_known_model(model_, patches_); });
+  return *known_->model;
 }
 
 std::shared_ptr<const Robot> attach(const Robot& robot, const Attachment& attachment) {

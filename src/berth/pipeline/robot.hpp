@@ -12,6 +12,7 @@
 namespace berth {
 
 class LinkMeshes;
+struct KnownModel;
 struct RobotPatches;
 struct SamplePoints;
 
@@ -54,6 +55,9 @@ class Robot {
   const std::shared_ptr<const RobotPatches>& patches() const { return patches_; }
   /// Where it is looked for what the cameras see of the robot.
   const SamplePoints& sample_points() const { return *sample_points_; }
+  /// Which links are looked at for each other. Found by the first call, which takes milliseconds,
+  /// or a second where links of the robot always touch.
+  const KnownModel& known() const;
 
  private:
   RobotModel bare_;
@@ -63,6 +67,8 @@ class Robot {
   std::shared_ptr<const LinkMeshes> meshes_;
   std::shared_ptr<const RobotPatches> patches_;
   std::shared_ptr<const SamplePoints> sample_points_;
+  struct Known;
+  std::shared_ptr<Known> known_;
 
   friend std::shared_ptr<const Robot> attach(const Robot& robot, const Attachment& attachment);
   friend std::shared_ptr<const Robot> detach(const Robot& robot, const std::string& name);

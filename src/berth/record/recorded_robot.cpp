@@ -113,6 +113,10 @@ RobotModel model_of(const mcap::FileReader& file, const Json& json) {
   model.mimic_joints = json.at("mimic_joints").get<std::vector<std::string>>();
   for (const Json& link : json.at("links")) append_link(file, link, model);
   if (model.evaluated_links.empty()) throw std::runtime_error("no link; expected one at least");
+  for (const Json& pair : json.value("allowed_contacts", Json::array())) {
+    model.allowed_contacts.push_back(
+        {pair.at(0).get<std::string>(), pair.at(1).get<std::string>()});
+  }
   return model;
 }
 
@@ -122,7 +126,8 @@ std::vector<Attachment> attached_of(const mcap::FileReader& file, const Json& js
     all.push_back({one.at("name").get<std::string>(), one.at("link").get<std::string>(),
                    read_mesh(file, one.at("mesh")), pose_of(one.at("X_LA")),
                    one.at("is_link").get<bool>(), one.at("is_sharp").get<bool>(),
-                   one.value("is_soft", false)});
+                   one.value("is_soft", false),
+                   one.value("may_touch", std::vector<std::string>())});
   }
   return all;
 }
@@ -132,6 +137,7 @@ std::vector<Attachment> attached_of(const mcap::FileReader& file, const Json& js
 void append_robot(const Robot& robot, std::vector<mcap::Attachment>& out) {
   const RobotModel& model = robot.bare();
   Json joints = Json::array(), links = Json::array(), attached = Json::array();
+  Json contacts = Json::array();
   for (const MovableJoint& joint : model.joints) {
     joints.push_back({{"name", joint.name},
                       {"type", name_of(joint.type)},
@@ -139,6 +145,9 @@ void append_robot(const Robot& robot, std::vector<mcap::Attachment>& out) {
                       {"upper", exact(joint.upper)}});
   }
   for (const Link& link : model.links) links.push_back(json_of(link, out));
+  for (const AllowedContact& one : model.allowed_contacts) {
+    contacts.push_back({one.link, one.other});
+  }
   for (const Attachment& one : robot.attached()) {
     attached.push_back({{"name", one.name},
                         {"link", one.link},
@@ -146,12 +155,14 @@ void append_robot(const Robot& robot, std::vector<mcap::Attachment>& out) {
                         {"is_link", one.is_link},
                         {"is_sharp", one.is_sharp},
                         {"is_soft", one.is_soft},
+                        {"may_touch", one.may_touch},
                         {"mesh", append_mesh(one.mesh_A, one.name, out)}});
   }
   const Json json = {{"name", model.name},
                      {"joints", joints},
                      {"mimic_joints", model.mimic_joints},
                      {"links", links},
+                     {"allowed_contacts", contacts},
                      {"attached", attached}};
   out.push_back({std::string(kRobotFile), "application/json", json.dump(1)});
 }

@@ -41,6 +41,9 @@ class Writer {
   Json json_of(const CameraPlace& at) const {
     return at.place < 0 ? Json() : Json(result_.cameras[at.place].camera);
   }
+  Json json_of(const KnownLink& at) const {
+    return at.place < 0 ? Json() : Json((*result_.link_names)[static_cast<std::size_t>(at.place)]);
+  }
   Json json_of(const ObstacleOf& of) const {
     return of.pair.is_known() ? Json(name_of(of.pair.obstacle_is)) : Json();
   }

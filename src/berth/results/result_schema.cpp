@@ -59,6 +59,7 @@ class Describer {
   Json schema_of(const std::string_view&) const { return schema::text(); }
   Json schema_of(const std::optional<std::string_view>&) const { return text_or_null(); }
   Json schema_of(const CameraPlace&) const { return text_or_null(); }
+  Json schema_of(const KnownLink&) const { return text_or_null(); }
   Json schema_of(const Eigen::Vector3f&) const { return or_null(list_of(schema::number(), 3)); }
   Json schema_of(const Pixel&) const { return or_null(list_of(count(), 2)); }
   Json schema_of(const ObstacleOf&) const {
@@ -132,6 +133,7 @@ Result full_result() {
   result.links.resize(1);
   result.links.front().id = 1;
   result.has_visibility = true;
+  result.link_names = std::make_shared<const std::vector<std::string>>();
   result.separation.emplace().links.resize(1);
   return result;
 }

@@ -28,6 +28,12 @@ LinkTable::Cells cells_of(const LinkResult& link, const Result& result) {
           known ? pixel_text(link.obstacle_pixel) : "-"};
 }
 
+/// Such as "0.1370 table".
+std::string known_text(const LinkResult& link, const Result& result) {
+  if (!link.known.is_known()) return "-";
+  return fmt::format("{:.4f} {}", link.known.distance_m, result.known_link_of(link.known));
+}
+
 std::string seen_text(const LinkVisibility& link) {
   return link.surface.is_known() ? fmt::format("{:.0f} %", 100 * link.surface.seen) : "-";
 }
@@ -51,6 +57,7 @@ void add_separation(const LinkSeparation& link, LinkTable::Cells& cells) {
 std::string result_table(const Result& result) {
   LinkTable::Cells heading = {"distance [m]", "nearest is", "to occupied [m]", "camera",
                               "obstacle pixel"};
+  if (result.link_names) heading.push_back("to known [m]");
   if (result.has_visibility) heading.push_back("seen");
   const bool has_any_rejected =
       std::ranges::any_of(result.links, has_rejected, &LinkResult::visibility);
@@ -60,6 +67,7 @@ std::string result_table(const Result& result) {
   for (const std::size_t i : moved_first(result)) {
     const LinkResult& link = result.links[i];
     LinkTable::Cells cells = cells_of(link, result);
+    if (result.link_names) cells.push_back(known_text(link, result));
     if (result.has_visibility) cells.push_back(seen_text(link.visibility));
     if (has_any_rejected) cells.push_back(rejected_text(link.visibility));
     if (result.separation) add_separation(result.separation->links[i], cells);

@@ -25,6 +25,18 @@ std::size_t find_evaluated(const RobotModel& model, const Attachment& attachment
                    attachment.link, model.name, fmt::join(model.evaluated_link_names(), ", ")));
 }
 
+void require_touched(const RobotModel& model, const Attachment& attachment) {
+  if (attachment.may_touch.empty()) return;
+  if (!attachment.is_link || attachment.is_soft) {
+    fail(attachment, "may_touch is for a link of its own; expected a name, and nothing soft");
+  }
+  for (const std::string& touched : attachment.may_touch) {
+    if (model.find_link(touched)) continue;
+    fail(attachment, fmt::format("may_touch: no link \"{}\" in robot \"{}\"; expected one", touched,
+                                 model.name));
+  }
+}
+
 }  // namespace
 
 RobotModel with_attachment(const RobotModel& model, const Attachment& attachment) {
@@ -43,6 +55,7 @@ RobotModel with_attachment(const RobotModel& model, const Attachment& attachment
   if (!attachment.X_LA.matrix().allFinite()) {
     fail(attachment, "the pose X_LA is not set; expected finite numbers");
   }
+  require_touched(model, attachment);
   RobotModel result = model;
   if (attachment.is_soft) {
     TriangleMesh mesh_L;
@@ -69,6 +82,9 @@ RobotModel with_attachment(const RobotModel& model, const Attachment& attachment
   link.mesh_L = attachment.mesh_A;
   result.evaluated_links.push_back(result.links.size());
   link.id = static_cast<LinkId>(result.evaluated_links.size());
+  for (const std::string& touched : attachment.may_touch) {
+    result.allowed_contacts.push_back({link.name, touched});
+  }
   result.links.push_back(std::move(link));
   return result;
 }

@@ -7,8 +7,10 @@
 
 #include "berth/files/read_file.hpp"
 #include "berth/robot/link_bodies.hpp"
+#include "berth/robot/other_robots.hpp"
 #include "berth/robot/plausible_size.hpp"
 #include "berth/robot/robot_model.hpp"
+#include "berth/robot/srdf.hpp"
 #include "berth/robot/urdf_tree.hpp"
 
 namespace berth {
@@ -98,6 +100,16 @@ void assign_roles(const RobotSettings& settings, RobotModel& model) {
                   settings.urdf.string(), fmt::join(moving, ", ")));
 }
 
+void append_allowed_contacts(const RobotSettings& settings, RobotModel& model) {
+  for (const auto& [link, other] : settings.allowed_contacts) {
+    require_links(settings, model, {link, other}, "allowed_contacts");
+    model.allowed_contacts.push_back({link, other});
+  }
+  if (settings.srdf.empty()) return;
+  const std::vector<AllowedContact> disabled = read_disabled_collisions(settings.srdf);
+  model.allowed_contacts.insert(model.allowed_contacts.end(), disabled.begin(), disabled.end());
+}
+
 }  // namespace
 
 std::vector<std::string> RobotModel::evaluated_link_names() const {
@@ -120,15 +132,22 @@ bool RobotModel::is_moved(std::size_t index) const {
   return false;
 }
 
-RobotModel load_robot(const RobotSettings& settings) {
+RobotModel load_one_robot(const RobotSettings& settings) {
   const Urdf urdf(settings.urdf,
                   settings.urdf_text ? *settings.urdf_text : read_file_bytes(settings.urdf));
   RobotModel model = read_tree(urdf);
+  load_bodies(settings, urdf, model);
+  require_no_free_part(urdf, model);
+  return model;
+}
+
+RobotModel load_robot(const RobotSettings& settings) {
+  RobotModel model = load_one_robot(settings);
+  append_other_robots(settings, model);
   require_links(settings, model, settings.environment_links, "environment_links");
   require_links(settings, model, settings.ignore_links, "ignore_links");
   require_links(settings, model, settings.guarded_links, "guarded_links");
-  load_bodies(settings, urdf, model);
-  require_no_free_part(urdf, model);
+  append_allowed_contacts(settings, model);
   assign_roles(settings, model);
   require_plausible_size(settings.urdf, model);
   if (model.evaluated_links.empty())

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -71,6 +72,14 @@ struct MovableJoint {
   double max_speed = 0;
 };
 
+/// Two links that may touch, by name: KnownPair leaves them out.
+struct AllowedContact {
+  std::string link;
+  std::string other;
+  /// Of `disable_collisions` in an SRDF, which may name links that the URDF has not.
+  bool is_of_srdf = false;
+};
+
 /// The robot as its URDF describes it; constant once loaded.
 struct RobotModel {
   std::string name;
@@ -86,6 +95,7 @@ struct RobotModel {
   std::vector<SoftBody> soft_bodies = {};
   /// The boxes around the guarded links' shapes, along the links' axes.
   std::vector<GuardedBox> guarded = {};
+  std::vector<AllowedContact> allowed_contacts = {};
   /// What was decided where a URDF or the settings leave it open; each says the file, the links or
   /// joint, what they are taken for, and how to have it otherwise.
   std::vector<std::string> warnings = {};
@@ -96,6 +106,19 @@ struct RobotModel {
   /// Whether a joint that moves lies between the root and links[index]. A link without one never
   /// moves; it is the base on its table, as a rule.
   bool is_moved(std::size_t index) const;
+};
+
+/// A second robot that stands on a link of the first one, with joints of its own. Its links and
+/// joints are the robot's own from then on.
+struct OtherRobot {
+  std::filesystem::path urdf = {};
+  std::map<std::string, std::filesystem::path> package_paths = {};
+  /// Before the names of its links and joints: no two may be the same.
+  std::string prefix = {};
+  /// A link of the first robot, or of an other one before this in the list.
+  std::string parent = {};
+  /// Its root link's pose in the frame of that link.
+  Pose X_PR = Pose::Identity();
 };
 
 /// Which robot, and what its links are to be.
@@ -115,6 +138,12 @@ struct RobotSettings {
   /// The URDF itself, where it comes from no file; `urdf` then is a name for messages, and the
   /// place that relative mesh paths begin at.
   std::optional<std::string> urdf_text = {};
+  /// Pairs of links that may touch, by name.
+  std::vector<std::array<std::string, 2>> allowed_contacts = {};
+  /// The file whose `disable_collisions` name more of them; empty: none.
+  std::filesystem::path srdf = {};
+  /// Loaded with the same `geometry`.
+  std::vector<OtherRobot> others = {};
 };
 
 /// Loads a URDF and its meshes. Evaluated are the links that have geometry and are neither
@@ -122,7 +151,7 @@ struct RobotSettings {
 /// that names the file, the link or joint, the value and what was expected: URDF missing, invalid,
 /// with a loop, without a root or with two, a floating or planar joint between links with shapes, a
 /// mesh that is missing, unreadable or empty, an unknown link in the settings, a guarded one that
-/// moves or has no shapes.
+/// moves or has no shapes, an SRDF that is none, another robot with a name that there is already.
 RobotModel load_robot(const RobotSettings& settings);
 
 }  // namespace berth

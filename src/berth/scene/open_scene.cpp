@@ -292,7 +292,8 @@ std::vector<Attachment> attachments_of(const SceneFile& scene) {
   for (const SceneAttachment& from : scene.attached) {
     const bool is_link = !from.name.empty();
     attached.push_back({is_link ? from.name : fmt::format("{} at {}", from.link, from.place),
-                        from.link, mesh_of(from), from.X_LA, is_link, from.is_sharp, from.is_soft});
+                        from.link, mesh_of(from), from.X_LA, is_link, from.is_sharp, from.is_soft,
+                        from.may_touch});
   }
   return attached;
 }

@@ -23,14 +23,17 @@ namespace fs = std::filesystem;
 constexpr double kMostPoseError = 1e-9;
 
 /// Where a scene names files and folders; "*" is any one step.
-const std::array<YamlPath, 8> kPlacesOfPaths = {{{"robot", "urdf"},
-                                                 {"robot", "package_paths", "*"},
-                                                 {"cameras", "*", "info"},
-                                                 {"cameras", "*", "depth"},
-                                                 {"cameras", "*", "depth", "*"},
-                                                 {"cameras", "*", "background"},
-                                                 {"joints"},
-                                                 {"attached", "*", "mesh"}}};
+const std::array<YamlPath, 11> kPlacesOfPaths = {{{"robot", "urdf"},
+                                                  {"robot", "package_paths", "*"},
+                                                  {"cameras", "*", "info"},
+                                                  {"cameras", "*", "depth"},
+                                                  {"cameras", "*", "depth", "*"},
+                                                  {"cameras", "*", "background"},
+                                                  {"joints"},
+                                                  {"attached", "*", "mesh"},
+                                                  {"robot", "srdf"},
+                                                  {"robot", "others", "*", "urdf"},
+                                                  {"robot", "others", "*", "package_paths", "*"}}};
 const YamlPath& kPlaceOfPattern = kPlacesOfPaths[3];
 
 bool is_place(const YamlPath& path, const YamlPath& place) {
@@ -129,6 +132,15 @@ void require_same_files(const SceneFile& found, const SceneFile& expected) {
   same("robot.urdf", found.robot.urdf, expected.robot.urdf);
   for (const auto& [name, folder] : expected.robot.package_paths) {
     same("robot.package_paths." + name, found.robot.package_paths.at(name), folder);
+  }
+  if (!expected.robot.srdf.empty()) same("robot.srdf", found.robot.srdf, expected.robot.srdf);
+  for (std::size_t i = 0; i < expected.robot.others.size(); ++i) {
+    const OtherRobot &one = found.robot.others[i], &wanted = expected.robot.others[i];
+    const std::string where = fmt::format("robot.others[{}].", i);
+    same(where + "urdf", one.urdf, wanted.urdf);
+    for (const auto& [name, folder] : wanted.package_paths) {
+      same(where + "package_paths." + name, one.package_paths.at(name), folder);
+    }
   }
   same("joints", found.joints, expected.joints);
   for (std::size_t i = 0; i < expected.attached.size(); ++i) {

@@ -15,15 +15,32 @@
 namespace berth {
 namespace {
 
+std::map<std::string, std::filesystem::path> read_package_paths(const YamlMap& map) {
+  std::map<std::string, std::filesystem::path> paths;
+  if (const auto packages = map.find("package_paths")) {
+    for (const auto& [name, folder] : packages->entries()) paths[name] = folder.path();
+  }
+  return paths;
+}
+
+OtherRobot read_other_robot(const YamlValue& value) {
+  const YamlMap map(value, {"urdf", "package_paths", "prefix", "pose"});
+  OtherRobot other;
+  other.urdf = map.at("urdf").path();
+  other.package_paths = read_package_paths(map);
+  map.read("prefix", &YamlValue::text, other.prefix);
+  const YamlMap pose(map.at("pose"), {"parent", "xyz", "quaternion_xyzw", "rpy"});
+  other.parent = pose.at("parent").text();
+  other.X_PR = read_pose(pose);
+  return other;
+}
+
 RobotSettings read_robot(const YamlValue& value) {
   const YamlMap map(value, {"urdf", "package_paths", "geometry", "environment_links",
-                            "ignore_links", "guarded_links"});
+                            "ignore_links", "guarded_links", "srdf", "allowed_contacts", "others"});
   RobotSettings robot;
   robot.urdf = map.at("urdf").path();
-  if (const auto packages = map.find("package_paths")) {
-    for (const auto& [name, folder] : packages->entries())
-      robot.package_paths[name] = folder.path();
-  }
+  robot.package_paths = read_package_paths(map);
   if (const auto geometry = map.find("geometry")) {
     const bool visual = geometry->one_of({"visual", "collision"}) == "visual";
     robot.geometry = visual ? GeometryKind::visual : GeometryKind::collision;
@@ -31,6 +48,17 @@ RobotSettings read_robot(const YamlValue& value) {
   map.read("environment_links", &YamlValue::texts, robot.environment_links);
   map.read("ignore_links", &YamlValue::texts, robot.ignore_links);
   map.read("guarded_links", &YamlValue::texts, robot.guarded_links);
+  map.read("srdf", &YamlValue::path, robot.srdf);
+  if (const auto contacts = map.find("allowed_contacts")) {
+    for (const YamlValue& pair : contacts->list()) {
+      const std::vector<std::string> links = pair.texts();
+      if (links.size() != 2) pair.fail(fmt::format("{} links", links.size()), "two links");
+      robot.allowed_contacts.push_back({links[0], links[1]});
+    }
+  }
+  if (const auto others = map.find("others")) {
+    for (const YamlValue& other : others->list()) robot.others.push_back(read_other_robot(other));
+  }
   return robot;
 }
 
@@ -52,8 +80,8 @@ std::vector<SceneCamera> read_cameras(const YamlValue& value, const CameraSettin
 }
 
 SceneAttachment read_attachment(const YamlValue& value) {
-  const YamlMap map(value,
-                    {"link", "name", "mesh", "box", "cylinder", "sphere", "pose", "sharp", "soft"});
+  const YamlMap map(value, {"link", "name", "mesh", "box", "cylinder", "sphere", "pose", "sharp",
+                            "soft", "may_touch"});
   SceneAttachment attachment;
   attachment.link = map.at("link").text();
   map.read("name", &YamlValue::text, attachment.name);
@@ -91,6 +119,7 @@ SceneAttachment read_attachment(const YamlValue& value) {
   }
   map.read("sharp", &YamlValue::boolean, attachment.is_sharp);
   map.read("soft", &YamlValue::boolean, attachment.is_soft);
+  map.read("may_touch", &YamlValue::texts, attachment.may_touch);
   attachment.place = fmt::format("{}:{}", map.place().file.string(), map.place().line);
   return attachment;
 }

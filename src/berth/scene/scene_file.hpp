@@ -61,6 +61,7 @@ struct SceneAttachment {
   Pose X_LA = Pose::Identity();
   bool is_sharp = false;
   bool is_soft = false;
+  std::vector<std::string> may_touch = {};
   /// Such as "scene.yaml:12", for messages about what the file names.
   std::string place;
 };

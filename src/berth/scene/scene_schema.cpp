@@ -75,11 +75,11 @@ Json group_schemas() {
   return groups;
 }
 
-/// Keys of a pose; `parent` is a camera's alone.
+/// Keys of a pose; a camera and another robot have a `parent`.
 Json pose_schema(bool has_parent) {
   const Json coordinate{{"type", "number"}, {"minimum", -1e5}, {"maximum", 1e5}};
   Json keys;
-  if (has_parent) keys["parent"] = told("the link that the camera is fixed to", name());
+  if (has_parent) keys["parent"] = told("the link that it is fixed to", name());
   keys["xyz"] = told("the position in that link's frame, in metres", list_of(coordinate, 3));
   keys["rpy"] =
       told("the rotation in rad: about x, then y, then z, all of them the link's own axes",
@@ -91,6 +91,15 @@ Json pose_schema(bool has_parent) {
   return pose;
 }
 
+Json other_robot_schema() {
+  return map_of(
+      {{"urdf", told("the robot's description", path())},
+       {"package_paths", told("what package://NAME/ means: NAME and its folder", map_to(path()))},
+       {"prefix", told("stands before the names of its links and joints", name())},
+       {"pose", told("where its root link is, in the link that it stands on", pose_schema(true))}},
+      {"urdf", "pose"});
+}
+
 Json robot_schema() {
   return map_of(
       {{"urdf", told("the robot's description", path())},
@@ -98,11 +107,18 @@ Json robot_schema() {
        {"geometry", told("which shapes of the URDF are the robot",
                          {{"enum", {"visual", "collision"}}, {"default", "visual"}})},
        {"environment_links",
-        told("links that are environment: removed from the images, but no distance is asked for",
+        told("links that are environment: removed from the images, and reported as known "
+             "where the robot is near",
              list_of(name()))},
        {"ignore_links", told("links that are left out altogether", list_of(name()))},
        {"guarded_links",
-        told("links whose boxes nobody can be in, left out as well", list_of(name()))}},
+        told("links whose boxes nobody can be in, left out as well", list_of(name()))},
+       {"srdf", told("an SRDF: what its disable_collisions name may touch", path())},
+       {"allowed_contacts",
+        told("pairs of links that may touch: their distance is not reported as known",
+             list_of(list_of(name(), 2)))},
+       {"others", told("more robots, which stand on a link and have joints of their own",
+                       list_of(other_robot_schema()))}},
       {"urdf"});
 }
 
@@ -153,7 +169,9 @@ Json attached_schema() {
        {"sharp", told("whether no contact is tolerable, at whatever speed",
                       {{"type", "boolean"}, {"default", false}})},
        {"soft", told("whether it bends, and the shape is where it may be",
-                     {{"type", "boolean"}, {"default", false}})}},
+                     {{"type", "boolean"}, {"default", false}})},
+       {"may_touch",
+        told("links that it may touch, such as the table that it lies on", list_of(name()))}},
       {"link"});
   part["oneOf"] = one_of({"mesh", "box", "cylinder", "sphere"});
   return part;

@@ -101,6 +101,7 @@ export class DistancesPanel {
       ["point of the link", point(link.robot_point_base_m)],
       ["point of the obstacle", point(link.obstacle_point_base_m)],
       ["to occupied", lengthText(link.occupied.distance_m)],
+      ["to known", link.known?.link ? `${lengthText(link.known.distance_m)}, ${link.known.link}` : "–"],
       ["seen of its surface", percent(link.visibility?.surface?.seen)],
       ["unseen space nearby", percent(link.visibility?.space_unknown)],
       ["rejected reading at", lengthText(link.visibility?.rejected_distance_m)],

@@ -54,6 +54,14 @@ export interface Pair {
   obstacle_point_base_m: Point | null;
 }
 
+export interface Known {
+  distance_m: number | null;
+  lower_bound_m: number | null;
+  robot_point_base_m: Point | null;
+  obstacle_point_base_m: Point | null;
+  link: string | null;
+}
+
 export interface LinkResult extends Pair {
   id: number;
   link: string;
@@ -62,6 +70,8 @@ export interface LinkResult extends Pair {
   obstacle_is: "occupied" | "unknown" | "unobserved" | null;
   /** To what a camera measured, alone. */
   occupied: Pair;
+  /** To the environment, the robot's other links and other robots; no camera has to see them. */
+  known?: Known;
   visibility?: {
     surface: { seen: number } | null;
     space_unknown: number | null;

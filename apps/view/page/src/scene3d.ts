@@ -47,6 +47,11 @@ export class Scene3d {
   private links: THREE.Mesh<THREE.BufferGeometry, THREE.MeshLambertMaterial>[] = [];
   private cameras: CameraPoints[] = [];
   private frusta: THREE.LineSegments[] = [];
+  /** Thin, to what no camera has to see. */
+  private knownLines = new THREE.LineSegments(
+    new THREE.BufferGeometry(),
+    new THREE.LineDashedMaterial({ color: 0x888888, dashSize: 0.02, gapSize: 0.01, depthTest: false }),
+  );
   private lines = new LineSegments2(
     new LineSegmentsGeometry(),
     new LineMaterial({ linewidth: 3, vertexColors: true, depthTest: false }),
@@ -77,9 +82,11 @@ export class Scene3d {
     this.controls.update();
     this.lines.renderOrder = 2;
     this.lines.frustumCulled = false;
+    this.knownLines.renderOrder = 2;
+    this.knownLines.frustumCulled = false;
     this.eye.add(this.light);
     this.world.add(new THREE.HemisphereLight(0xffffff, 0x8a8f96, 1.4), this.eye);
-    this.world.add(new THREE.AxesHelper(0.2), this.lines, this.hidden, this.unseen);
+    this.world.add(new THREE.AxesHelper(0.2), this.lines, this.knownLines, this.hidden, this.unseen);
     new ResizeObserver(() => this.resize()).observe(canvas);
     let down: [number, number] = [0, 0];
     canvas.addEventListener("pointerdown", (event) => (down = [event.clientX, event.clientY]));
@@ -151,6 +158,7 @@ export class Scene3d {
       this.frusta[i].matrix.copy(matrixOf(rows));
     });
     this.setPairs(shown.result.links);
+    this.setKnownPairs(shown.result.links);
     if (!this.hasLooked && shown.links) this.lookAtAll();
     this.draw();
   }
@@ -179,7 +187,7 @@ export class Scene3d {
     }
     this.cameras.forEach((camera, i) => (camera.points.visible = this.isDrawn(i, this.isPosed[i])));
     this.frusta.forEach((frustum, i) => (frustum.visible = layers.frusta && this.isPosed[i]));
-    this.lines.visible = layers.distances;
+    this.lines.visible = this.knownLines.visible = layers.distances;
     this.hidden.visible = layers.hidden;
     this.unseen.visible = layers.unseen;
     this.draw();
@@ -272,6 +280,16 @@ export class Scene3d {
       this.lines.geometry.setColors(colors);
     }
     this.lines.visible = ends.length > 0 && (this.layers?.distances ?? true);
+  }
+
+  private setKnownPairs(links: LinkResult[]): void {
+    const ends = links.flatMap(({ known }) => {
+      const from = known?.robot_point_base_m, to = known?.obstacle_point_base_m;
+      return from && to ? [new THREE.Vector3(...from), new THREE.Vector3(...to)] : [];
+    });
+    this.knownLines.geometry.dispose();
+    this.knownLines.geometry = new THREE.BufferGeometry().setFromPoints(ends);
+    this.knownLines.computeLineDistances();
   }
 
   private onScreen(p: THREE.Vector3): [number, number] | null {

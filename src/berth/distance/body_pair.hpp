@@ -1,0 +1,62 @@
+// Inside distance/ only: how near two links are, from request to request.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "berth/distance/known_model.hpp"
+#include "berth/distance/link_search.hpp"
+#include "berth/distance/settings.hpp"
+#include "berth/robot/kinematics.hpp"
+
+namespace berth::mesh {
+
+/// What is known of two bodies since they were looked at.
+class BodyPair {
+ public:
+  BodyPair();
+
+  /// Nothing is known.
+  void forget();
+
+  /// Looks how near `link` is to `other`, up to request.range_m, where nothing is nearer than
+  /// `known_bound_m`. Goes on from the call before, which was about the same bodies.
+  void find(const KnownBody& link, const KnownBody& other, const RobotPose& pose,
+            const MeshRequest& request, float known_bound_m);
+
+  /// Infinite where there is no pair within the range; 0 where they are inside one another.
+  float distance_m() const { return distance_m_; }
+  float lower_bound_m() const { return inside_F_m_ ? 0 : search_.lower_bound_m(); }
+  /// The points of a pair in the frame B that `pose` is of; both the same where they are inside
+  /// one another.
+  const Eigen::Vector3d& link_point_B_m() const { return link_point_B_m_; }
+  const Eigen::Vector3d& other_point_B_m() const { return other_point_B_m_; }
+
+ private:
+  void search_on(const LinkPatches& other);
+  void tell(const KnownBody& other, const Pose& X_BF);
+
+  LinkSearch search_;
+  bool has_begun_ = false;
+  /// One has a whole part within the other, at this point of the other one's frame.
+  std::optional<Eigen::Vector3d> inside_F_m_;
+  /// The surfaces are so far apart that this cannot have changed until one moved by more.
+  float room_m_ = 0;
+  float distance_m_ = 0;
+  Eigen::Vector3d link_point_B_m_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d other_point_B_m_ = Eigen::Vector3d::Zero();
+};
+
+/// Whether two bodies touch, in many poses of the same two.
+class TouchSearch {
+ public:
+  /// Whether they are nearer than 0.1 mm or inside one another.
+  bool is_touching(const KnownBody& link, const KnownBody& other, const RobotPose& pose);
+
+ private:
+  LinkSearch search_;
+  /// Leaves that touched: some of them do so again.
+  std::vector<Item> places_;
+};
+
+}  // namespace berth::mesh
