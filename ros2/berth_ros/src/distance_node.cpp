@@ -229,15 +229,18 @@ class DistanceNode : public LiveNode {
     const auto begin = std::chrono::steady_clock::now();
     const std::int64_t stops = answers_.stops();
     const std::string why = why_silent(robot_);
-    if (!why.empty()) return on_stop(why);
-    auto message = std::make_unique<LinkDistances>();
-    try {
-      answer(*message);
-    } catch (const std::exception& error) {
-      on_stop(error.what());
-      throw;
+    if (!why.empty()) {
+      on_stop(why);
+    } else {
+      auto message = std::make_unique<LinkDistances>();
+      try {
+        answer(*message);
+      } catch (const std::exception& error) {
+        on_stop(error.what());
+        throw;
+      }
+      answers_.say(stops, std::move(message), separation_message_);
     }
-    answers_.say(stops, std::move(message), separation_message_);
     const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - begin;
     times_.add(took.count());
   }

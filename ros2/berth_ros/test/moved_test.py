@@ -11,6 +11,7 @@ import rclpy
 from ament_index_python.packages import get_package_share_directory
 from berth_msgs.msg import CameraState, LinkDistances
 from berth_msgs.srv import Attach, Detach
+from diagnostic_msgs.msg import DiagnosticArray
 from launch import LaunchDescription
 from launch_ros.actions import Node
 from rcl_interfaces.srv import SetParameters
@@ -36,6 +37,9 @@ def generate_test_description():
     return LaunchDescription([
         Node(package="berth_ros", executable="distance_node", output="screen", parameters=[{
             "cameras": [CAMERA], "environment_links": ["table"], "question_rate_hz": 50.0}]),
+        # It knows a pose before TF tells one.
+        Node(package="berth_ros", executable="distance_node", name="with_scene", output="screen", parameters=[{
+            "scene": SCENE, "cameras": [CAMERA], "question_rate_hz": 1.0}], remappings=[("distances", "with_scene/distances")]),
         Node(package="berth_ros", executable="scene_player_node", output="screen", parameters=[{"scene": SCENE}],
              remappings=list(RELAYED.items())),
         launch_testing.actions.ReadyToTest(),
@@ -47,7 +51,9 @@ class Moved(unittest.TestCase):
     def setUpClass(cls):
         rclpy.init()
         cls.node = node = rclpy.create_node("relay")
-        cls.newest, cls.transforms, cls.answers = None, None, []
+        cls.newest, cls.transforms, cls.answers, cls.pose_from = None, None, [], None
+        cls.tells_transforms = False
+        node.create_subscription(DiagnosticArray, "/diagnostics", cls.on_diagnostics, 10)
         cls.off_m, cls.turned_px, cls.focal = 0.0, 0, 1.0
         cls.images = node.create_publisher(Image, f"{CAMERA}/depth_image", qos_profile_sensor_data)
         cls.infos = node.create_publisher(CameraInfo, f"{CAMERA}/camera_info", qos_profile_sensor_data)
@@ -85,7 +91,14 @@ class Moved(unittest.TestCase):
     @classmethod
     def on_transforms(cls, message):
         cls.transforms = message
-        cls.tell_transforms()
+        if cls.tells_transforms:
+            cls.tell_transforms()
+
+    @classmethod
+    def on_diagnostics(cls, message):
+        for status in message.status:
+            if status.name.startswith("with_scene: camera"):
+                cls.pose_from = {pair.key: pair.value for pair in status.values}.get("pose from", cls.pose_from)
 
     @classmethod
     def tell_transforms(cls):
@@ -118,6 +131,15 @@ class Moved(unittest.TestCase):
         noticed_s = self.seconds_until(lost, NOTICED_WITHIN_S)
         print(f"{what}: noticed after {noticed_s:.1f} s, camera status {self.newest.cameras[0].status}")
         self.assertTrue(all(np.isnan(link.distance_m) for link in self.newest.links))
+
+    def test_00_transforms_count_from_when_on_they_come(self):
+        for source in ("scene", "TF"):
+            end = time.monotonic() + 40
+            while self.pose_from != source and time.monotonic() < end:
+                time.sleep(0.1)
+            self.assertEqual(self.pose_from, source)
+            type(self).tells_transforms = True
+            self.tell_transforms()
 
     def test_01_a_camera_that_stands_still_is_well(self):
         self.is_well()
