@@ -54,6 +54,17 @@ class LiveSpaceScene : public ::testing::Test {
   JointIntake joints_{scene_.robot->model(), {}};
 };
 
+TEST_F(LiveSpaceScene, AFrameThatNothingCanBeMadeOfIsCountedAndTheNextGoesOn) {
+  LiveSpace space(robot(), 3, joints_);
+  const auto nowhere = observe(0, 3);
+  nowhere->X_BC = unset_pose();
+  space.put(0, nowhere);
+  ASSERT_TRUE(comes_true([&] { return space.counts().failed == 1; }));
+  const SharedFrame frame = observe(0, 4);
+  space.put(0, frame);
+  EXPECT_TRUE(knows(space, 0, frame));
+}
+
 TEST_F(LiveSpaceScene, TheNewestIsNeverNullAndSoonKnowsWhatWasPut) {
   LiveSpace space(robot(), 3, joints_);
   Query query(robot());

@@ -13,9 +13,18 @@ namespace {
 constexpr std::size_t kMostFrames = 100;
 /// Of one frame: at 1000 Hz, two seconds.
 constexpr std::size_t kMostStamps = 2000;
+constexpr double kFarthest_m = 1e6;
 
 std::string without_slash(const std::string& frame) {
   return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
+}
+
+/// Of TF's numbers, which may be any. Throws std::invalid_argument for what is no pose of a robot's
+/// surroundings.
+berth::Pose require_pose(const geometry_msgs::msg::TransformStamped& transform) {
+  const berth::Pose X_PF = tf2::transformToEigen(transform);
+  if (X_PF.matrix().allFinite() && X_PF.translation().norm() <= kFarthest_m) return X_PF;
+  throw std::invalid_argument("not finite, or farther away than 1000 km");
 }
 
 bool contains(const std::vector<std::string>& frames, const std::string& frame) {
@@ -140,7 +149,7 @@ std::optional<ToldPose> Transforms::at(const std::string& parent, const std::str
             " s of the exposure";
       return std::nullopt;
     }
-    return ToldPose{tf2::transformToEigen(transform), moving.empty(), stamp};
+    return ToldPose{require_pose(transform), moving.empty(), stamp};
   } catch (const std::exception& error) {
     why = "no transform from " + parent + " to " + frame + " at the exposure: " + error.what();
     return std::nullopt;
@@ -152,7 +161,7 @@ std::optional<ToldPose> Transforms::newest(const std::string& parent, const std:
   try {
     const std::lock_guard lock(mutex_);
     const auto transform = buffer_.lookupTransform(parent, frame, tf2::TimePointZero);
-    return ToldPose{tf2::transformToEigen(transform), moving_between(parent, frame).empty(),
+    return ToldPose{require_pose(transform), moving_between(parent, frame).empty(),
                     transform.header.stamp};
   } catch (const std::exception& error) {
     why = "no transform from " + parent + " to " + frame + ": " + error.what();

@@ -68,7 +68,12 @@ void LiveSpace::run(const std::stop_token& stop) {
       has_changed_ = false;
       frames = frames_;
     }
-    prepare(frames);
+    try {
+      prepare(frames);
+    } catch (const std::exception&) {
+      const std::lock_guard lock(mutex_);
+      ++counts_.failed;
+    }
   }
 }
 

@@ -18,6 +18,7 @@ struct LiveSpaceCounts {
   std::int64_t prepared = 0;  ///< how many sets of frames were made ready
   double last_prepare_s = 0;  ///< how long it took for the newest set
   double most_prepare_s = 0;
+  std::int64_t failed = 0;  ///< that an exception ended, so that the set before stays the newest
 };
 
 /// What all running cameras leave of space, made ready for requests by a thread of its own: a
