@@ -236,7 +236,7 @@ def test_what_differs_from_a_result_is_none(results):
     check = validator("result")
     # Fields that not every line has.
     free = {"pairs", "separation", "timing", "robot_point_camera_m", "obstacle_point_camera_m", "mean_direction_camera", "robot_pixel",
-            "robot_pixels", "visibility"}
+            "robot_pixels", "visibility", "known"}
     for line in (results[0], results[-1]):
         assert sum(1 for place, _ in changed(line)) > 40
         for place, wrong in changed(line):

@@ -28,9 +28,9 @@ void require_poses(const OpenScene& scene, const CalibrationResult& found) {
     const CameraCalibration& camera = found.cameras[c];
     if (camera.is_found) continue;
     const CameraPlausibility why = find_implausible(scene, c);
-    throw std::runtime_error(
-        fmt::format("{}: camera {}: {}", scene.file.string(), camera.camera,
-                    why.cause.empty() ? camera.refused : text_without_name(why)));
+    throw std::runtime_error(fmt::format(
+        "{}: camera {}: {}", scene.file.string(), camera.camera,
+        why.cause.empty() && why.dead.empty() ? camera.refused : text_without_name(why)));
   }
 }
 
