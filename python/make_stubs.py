@@ -19,6 +19,7 @@ MENDED = [
     (r"_repr_png_: ClassVar\[function\] = \.\.\.", "def _repr_png_(self) -> bytes: ..."),
     (r"os\.PathLike(?!\[)", "Union[str, os.PathLike[str]]"),
     (r"numpy\.ndarray", "numpy.typing.NDArray[Any]"),
+    (r"List\[str\[2\]\]", "List[str]"),
     (r"-> dict:", "-> Dict[str, Any]:"),
     (r"-> list:", "-> List[Dict[str, Any]]:"),
     (r"-> tuple:", "-> Tuple[numpy.typing.NDArray[Any], numpy.typing.NDArray[Any]]:"),

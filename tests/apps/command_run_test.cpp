@@ -46,13 +46,26 @@ TEST(Run, JsonHasTheKeysOfTheSchemaAndNoOthers) {
     EXPECT_EQ(frame["method"], "mesh");
     EXPECT_EQ(frame["range_m"], 2);
     for (const Json& link : frame["links"]) {
-      EXPECT_EQ(
-          keys_of(link),
-          (std::set<std::string>{"id", "link", "is_moved", "status", "distance_m", "lower_bound_m",
-                                 "robot_point_base_m", "obstacle_point_base_m", "camera",
-                                 "obstacle_pixel", "obstacle_is", "occupied", "assumed_thinner_m",
-                                 "mean_direction_base", "mean_direction_camera", "mean_count",
-                                 "robot_point_camera_m", "obstacle_point_camera_m", "visibility"}));
+      EXPECT_EQ(keys_of(link), (std::set<std::string>{"id",
+                                                      "link",
+                                                      "is_moved",
+                                                      "status",
+                                                      "distance_m",
+                                                      "lower_bound_m",
+                                                      "robot_point_base_m",
+                                                      "obstacle_point_base_m",
+                                                      "camera",
+                                                      "obstacle_pixel",
+                                                      "obstacle_is",
+                                                      "occupied",
+                                                      "known",
+                                                      "assumed_thinner_m",
+                                                      "mean_direction_base",
+                                                      "mean_direction_camera",
+                                                      "mean_count",
+                                                      "robot_point_camera_m",
+                                                      "obstacle_point_camera_m",
+                                                      "visibility"}));
     }
   }
 }

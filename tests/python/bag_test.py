@@ -172,7 +172,7 @@ def alternating(one, other, apart_s=0.01):
     ("bend", [(0.02 * k + late, position) for k in range(15) for late, position in ((0, -0.6), (0.105, 0.0))], "joint bend"),
 ])
 def test_a_joint_that_no_robot_moves_so_fast_is_refused(tmp_path, name, samples, said):
-    refused(tmp_path, said, "two publishers", joint_states=moved(name, samples))
+    refused(tmp_path, said, "two nodes publish", joint_states=moved(name, samples))
 
 
 def jittering(speed, period_s):

@@ -147,7 +147,7 @@ TEST(JointTrajectory, AJointThatJumpsIsTold) {
       {{0, {0, 1.2, 0, 0}}, {0.01, {0, 0, 0, 0}}, {0.02, {0, 1.2, 0, 0}}, {0.03, {0, 0, 0, 0}}});
   ASSERT_EQ(doubts.size(), 1U);
   expect_parts(doubts[0], {"joint turn jumps from 1.2 to 0 rad within 0.01 s, at 0.01 s",
-                           "expected 3 rad/s", "two publishers"});
+                           "expected 3 rad/s", "two nodes publish"});
   // Where the URDF has no limit.
   EXPECT_EQ(doubts_of({{0, {0, 0, 0, 0}}, {0.01, {1.2, 0, 0, 0}}}).size(), 1U);
 }

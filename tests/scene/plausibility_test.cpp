@@ -108,8 +108,8 @@ TEST_F(Plausibility, WhatIsDoubtfulIsTold) {
   lab::move_camera(off, 0, 0.05, 0.087, 1);
   const CameraPlausibility found = find_implausible(off, 0);
   EXPECT_FALSE(found.is_implausible);
-  expect_parts(text_of(found),
-               {"camera camera: ", "% of the robot's readings", "expected 85 % at least"});
+  expect_parts(text_of(found), {"camera camera: ", "% of the readings where the robot should be",
+                                "expected 85 % at least"});
 }
 
 TEST_F(Plausibility, ALinkThatIsNotThereIsTold) {
