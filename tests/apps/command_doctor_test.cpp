@@ -77,7 +77,7 @@ TEST(Doctor, AMissingImageIsNamedAndNothingMoreIsLookedAt) {
   DoctorsScene scene;
   scene.last_image = "nowhere.png";
   const Outcome outcome = scene.doctor();
-  expect_wrong(outcome, "files: ", "nowhere.png, then run berth doctor again.", "9");
+  expect_wrong(outcome, "files: ", "nowhere.png, then run berth doctor again.", "10");
   expect_text(outcome, {"nowhere.png: No such file"});
   EXPECT_EQ(outcome.out.find("stamps"), std::string::npos);
 }
@@ -87,7 +87,7 @@ TEST(Doctor, StampsOfAnotherClockAreWrong) {
   scene.first_stamp_s = 2;  // the joints end at 3.7 s
   const Outcome outcome = scene.doctor();
   expect_wrong(outcome, "stamps, camera camera: ", "1. Compare the stamps of camera camera with",
-               "8");
+               "9");
   expect_text(outcome, {"6 have no joints: these go from 0.000 to 3.700 s"});
 }
 
@@ -98,7 +98,7 @@ TEST(Doctor, APoseThatIsMeasuredInMillimetresIsExplained) {
   expect_wrong(outcome, "place, camera camera: ",
                "1. Correct camera camera in scene.yaml, then run berth "
                "doctor again: probably the pose's xyz is in millimetres.",
-               "7");
+               "8");
   EXPECT_EQ(outcome.out.find("results"), std::string::npos);
 }
 
