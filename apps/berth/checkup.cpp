@@ -12,6 +12,7 @@
 #include "berth/calibration/robot_reach.hpp"
 #include "berth/distance/known_model.hpp"
 #include "berth/results/result_text.hpp"
+#include "berth/robot/plausible_size.hpp"
 #include "berth/scene/plausibility.hpp"
 #include "berth/scene/scene_run.hpp"
 #include "berth/visibility/sample_points.hpp"
@@ -80,20 +81,15 @@ Finding stamps_of(const OpenScene& scene, const OpenCamera& camera) {
 std::string calibrate_text(const OpenScene& scene) {
   return fmt::format(
       "Record images of the moving arm, then: berth calibrate {} --out calibrated.yaml. It "
-      "measures "
-      "the cameras' poses, learns where the empty cell gives no reading, and turns the watch on.",
+      "measures the cameras' poses, learns where the empty cell gives no reading, and turns the "
+      "watch on.",
       scene.file.string());
 }
 
 std::string farthest_link_text(const RobotModel& model) {
-  const auto reach_m = [](const Link& link) {
-    float most_m = 0;
-    for (const Eigen::Vector3f& p_L_m : link.mesh_L.vertices_m)
-      most_m = std::max(most_m, p_L_m.norm());
-    return most_m;
-  };
-  const Link& link = *std::ranges::max_element(model.links, {}, reach_m);
-  return fmt::format("link {} reaches {:.2g} m from its origin", link.name, reach_m(link));
+  const auto reach = [](const Link& link) { return reach_m(link.mesh_L); };
+  const Link& link = *std::ranges::max_element(model.links, {}, reach);
+  return fmt::format("link {} reaches {:.2g} m from its origin", link.name, reach(link));
 }
 
 /// What to do about a camera that is implausible.

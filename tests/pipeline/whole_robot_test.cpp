@@ -299,6 +299,9 @@ TEST_F(WholeRobot, AThingInMillimetresIsRefused) {
       "attached \"gripper\": reaches 70 m from its origin; expected at most 20 m. If its lengths "
       "are in millimetres, write them in metres");
   EXPECT_NO_THROW(attach(*mounted_->robot(), {"beam", hand, make_box({0.1, 0.1, 12})}));
+  TriangleMesh spoilt = make_box({0.1, 0.1, 0.1});
+  spoilt.vertices_m.front().x() = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THROW(attach(*mounted_->robot(), {"spoilt", hand, spoilt}), std::invalid_argument);
 }
 
 TEST_F(WholeRobot, WhatIsSoftIsRejected) {

@@ -25,7 +25,7 @@ void AnswerTopics::begin() {
   said_ = std::chrono::steady_clock::now();
 }
 
-void AnswerTopics::say(std::int64_t stops, std::unique_ptr<LinkDistances> distances,
+void AnswerTopics::say(std::int64_t stops, std::shared_ptr<const LinkDistances> distances,
                        const Separation& separation) {
   const std::lock_guard lock(mutex_);
   if (!may_speak_ || stops != stops_) return;
@@ -48,7 +48,7 @@ void AnswerTopics::say_stop_now(const std::string& why, bool is_monitored) {
   ++stops_;
   was_stopped_ = true;
   if (!may_speak_) return;
-  auto distances = std::make_unique<LinkDistances>();
+  auto distances = std::make_shared<LinkDistances>();
   say_no_robot(camera_names_, node_.now(), *distances);
   say_unmonitored(separation_);
   separation_.text = "stale: " + why;
@@ -57,7 +57,7 @@ void AnswerTopics::say_stop_now(const std::string& why, bool is_monitored) {
   publish(std::move(distances));
 }
 
-void AnswerTopics::publish(std::unique_ptr<LinkDistances> distances) {
+void AnswerTopics::publish(std::shared_ptr<const LinkDistances> distances) {
   const bool is_monitored = separation_.state != Separation::UNMONITORED;
   // First, since who obeys it is not to wait for the others' readers. A last one is 0.
   if (is_monitored || has_scale_) {
@@ -67,8 +67,8 @@ void AnswerTopics::publish(std::unique_ptr<LinkDistances> distances) {
   }
   has_scale_ = is_monitored;
   separation_publisher_->publish(separation_);
-  last_ = *distances;
-  distances_publisher_->publish(std::move(distances));
+  last_ = std::move(distances);
+  distances_publisher_->publish(*last_);
   said_ = std::chrono::steady_clock::now();
 }
 
@@ -77,7 +77,7 @@ double AnswerTopics::silent_s() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - said_).count();
 }
 
-AnswerTopics::LinkDistances AnswerTopics::distances() const {
+std::shared_ptr<const AnswerTopics::LinkDistances> AnswerTopics::distances() const {
   const std::lock_guard lock(mutex_);
   return last_;
 }

@@ -34,7 +34,7 @@ class AnswerTopics {
   /// To be asked before an answer is begun, and told with it.
   std::int64_t stops() const { return stops_; }
   /// An answer of this many stops before: nothing is said where another one came meanwhile.
-  void say(std::int64_t stops, std::unique_ptr<LinkDistances> distances,
+  void say(std::int64_t stops, std::shared_ptr<const LinkDistances> distances,
            const Separation& separation);
   /// No distances, and a stop where speeds are monitored.
   void stop(const std::string& why, bool is_monitored);
@@ -46,7 +46,7 @@ class AnswerTopics {
   double silent_s() const;
 
   /// What was said last.
-  LinkDistances distances() const;
+  std::shared_ptr<const LinkDistances> distances() const;
   std::string text() const;
 
  private:
@@ -55,7 +55,7 @@ class AnswerTopics {
 
   // With the mutex.
   void say_stop_now(const std::string& why, bool is_monitored);
-  void publish(std::unique_ptr<LinkDistances> distances);
+  void publish(std::shared_ptr<const LinkDistances> distances);
 
   rclcpp_lifecycle::LifecycleNode& node_;
   std::vector<std::string> camera_names_;
@@ -66,7 +66,7 @@ class AnswerTopics {
   /// The scale that was heard last is not a last one.
   bool has_scale_ = false;
   std::chrono::steady_clock::time_point said_;
-  LinkDistances last_;
+  std::shared_ptr<const LinkDistances> last_ = std::make_shared<LinkDistances>();
   Separation separation_;
   Publisher<LinkDistances> distances_publisher_;
   Publisher<Separation> separation_publisher_;

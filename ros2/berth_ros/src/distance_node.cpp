@@ -232,7 +232,7 @@ class DistanceNode : public LiveNode {
     if (!why.empty()) {
       on_stop(why);
     } else {
-      auto message = std::make_unique<LinkDistances>();
+      auto message = std::make_shared<LinkDistances>();
       try {
         answer(*message);
       } catch (const std::exception& error) {
@@ -325,7 +325,7 @@ class DistanceNode : public LiveNode {
 
   void show() {
     if (markers_->get_subscription_count() == 0) return;
-    markers_->publish(markers_of(answers_.distances()));
+    markers_->publish(markers_of(*answers_.distances()));
   }
 
   /// The robot's root link, in which results tell points.
@@ -343,7 +343,7 @@ class DistanceNode : public LiveNode {
       status.add("spaces made ready", space->live.counts().prepared);
       status.add("made ready in, ms", 1e3 * space->live.counts().last_prepare_s);
     }
-    const std::uint8_t result = answers_.distances().status;
+    const std::uint8_t result = answers_.distances()->status;
     if (result == LinkDistances::OK) return status.summary(DiagnosticStatus::OK, "answered");
     const bool has_distances = result == LinkDistances::DEGRADED;
     status.summary(has_distances ? DiagnosticStatus::WARN : DiagnosticStatus::ERROR,

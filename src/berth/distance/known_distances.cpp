@@ -38,15 +38,6 @@ struct Candidate {
   std::size_t pair;
 };
 
-Eigen::Vector3d middle_of(const LinkPatches& link) {
-  const PatchLevel& top = link.levels.back();
-  return {top.centre_m[0][0], top.centre_m[1][0], top.centre_m[2][0]};
-}
-
-double radius_of(const LinkPatches& link) {
-  return std::hypot(link.levels.back().half_height_m[0], link.levels.back().radius_m[0]);
-}
-
 }  // namespace
 
 struct KnownWorkspace::State {
@@ -115,12 +106,12 @@ void KnownWorkspace::State::begin_anew() {
   }
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     pairs[p].found.forget();
-    const LinkPatches& a = *body(p, 0).patches;
-    const LinkPatches& b = *body(p, 1).patches;
+    const mesh::LinkBall a = mesh::ball_of(*body(p, 0).patches);
+    const mesh::LinkBall b = mesh::ball_of(*body(p, 1).patches);
     const Eigen::Vector3d between_m =
-        pose->X_BL[body(p, 0).link] * middle_of(a) - pose->X_BL[body(p, 1).link] * middle_of(b);
+        pose->X_BL[body(p, 0).link] * a.centre_L_m - pose->X_BL[body(p, 1).link] * b.centre_L_m;
     constexpr double kRounding_m = 1e-5;
-    pairs[p].level_m = between_m.norm() - radius_of(a) - radius_of(b) - kRounding_m;
+    pairs[p].level_m = between_m.norm() - a.radius_m - b.radius_m - kRounding_m;
   }
 }
 

@@ -24,6 +24,13 @@ struct LastRequest {
   std::vector<LastLink> links;
 };
 
+/// All points of a link lie in this ball, in the link's frame.
+struct LinkBall {
+  Eigen::Vector3d centre_L_m;
+  double radius_m;
+};
+LinkBall ball_of(const LinkPatches& link);
+
 /// No point of the link has moved by more.
 float moved_at_most_m(const LinkPatches& link, const Pose& X_BL_before, const Pose& X_BL);
 

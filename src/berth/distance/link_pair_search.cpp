@@ -218,24 +218,12 @@ HWY_INLINE float leaf_bound(const PairSearch& search, int own, int other, const 
 /// The point of a leaf's triangles that is nearest to p, but for roundings.
 HWY_INLINE Eigen::Vector3f nearest_of_leaf(const LinkPatches& link, const Motion& X, int leaf,
                                            const Eigen::Vector3f& p_m) {
-  Eigen::Vector3f nearest_m = p_m;
-  float least_m = HUGE_VALF;
+  NearestPoint nearest{p_m};
   const Vectors p{Lanes(p_m.x()), Lanes(p_m.y()), Lanes(p_m.z())};
   for (int first = 16 * leaf; first < 16 * (leaf + 1); first += kLanes) {
-    const Vectors q = nearest_in(load_triangles(link, first, X), p);
-    const Vectors v = p - q;
-    const Lanes length2 = dot(v, v);
-    const float found_m = least_lane(length2);
-    if (!(found_m < least_m)) continue;
-    least_m = found_m;
-    const int lane = __builtin_ctzll(bits_of(length2 <= Lanes(found_m)));
-    alignas(64) float x[kLanes], y[kLanes], z[kLanes];
-    store(q.x, x);
-    store(q.y, y);
-    store(q.z, z);
-    nearest_m = {x[lane], y[lane], z[lane]};
+    nearest.take(p, nearest_in(load_triangles(link, first, X), p));
   }
-  return nearest_m;
+  return nearest.point_m;
 }
 
 /// The direction between two leaves' nearest points, by going to and fro between them.

@@ -57,24 +57,12 @@ class NearestPointSearch {
 
   /// The point of a leaf's triangles that is nearest to p, but for roundings.
   Eigen::Vector3f nearest_of_leaf(int leaf, const Eigen::Vector3f& p_L_m) const {
-    Eigen::Vector3f nearest_m = p_L_m;
-    float least2_m2 = HUGE_VALF;
+    NearestPoint nearest{p_L_m};
+    const Vectors p = broadcast(p_L_m);
     for (int first = 16 * leaf; first < 16 * (leaf + 1); first += kLanes) {
-      const Vectors p = broadcast(p_L_m);
-      const Vectors q = nearest_in(load_leaf(first), p);
-      const Vectors v = p - q;
-      const Lanes length2 = dot(v, v);
-      const float m2 = least_lane(length2);
-      if (!(m2 < least2_m2)) continue;
-      least2_m2 = m2;
-      const int lane = __builtin_ctzll(bits_of(length2 <= Lanes(m2)));
-      alignas(64) float x[kLanes], y[kLanes], z[kLanes];
-      store(q.x, x);
-      store(q.y, y);
-      store(q.z, z);
-      nearest_m = {x[lane], y[lane], z[lane]};
+      nearest.take(p, nearest_in(load_leaf(first), p));
     }
-    return nearest_m;
+    return nearest.point_m;
   }
 
  private:

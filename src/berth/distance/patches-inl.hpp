@@ -136,6 +136,28 @@ HWY_INLINE Lanes reach_of(const Boxes& c, const Vectors& n) {
   return dot(c.centre, n) + c.half * (abs(n.x) + abs(n.y) + abs(n.z));
 }
 
+/// Of many points the one that is nearest to another, but for roundings.
+struct NearestPoint {
+  /// While none was taken, what it began with.
+  Eigen::Vector3f point_m;
+  float least2_m2 = HUGE_VALF;
+
+  /// The nearest of the lanes of q to p, which is the same in each lane.
+  HWY_INLINE void take(const Vectors& p, const Vectors& q) {
+    const Vectors v = p - q;
+    const Lanes length2 = dot(v, v);
+    const float m2 = least_lane(length2);
+    if (!(m2 < least2_m2)) return;
+    least2_m2 = m2;
+    const int lane = __builtin_ctzll(bits_of(length2 <= Lanes(m2)));
+    alignas(64) float x[kLanes], y[kLanes], z[kLanes];
+    store(q.x, x);
+    store(q.y, y);
+    store(q.z, z);
+    point_m = {x[lane], y[lane], z[lane]};
+  }
+};
+
 struct Direction {
   Vectors n;
   Lanes length;

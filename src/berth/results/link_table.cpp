@@ -52,11 +52,10 @@ std::string distance_text(const LinkResult& link, bool has_bounds) {
   const bool ok = link.status == LinkStatus::ok || link.has_distance();
   const std::string distance = ok ? fmt::format("{:.4f}", link.distance_m) : "-";
   // Of a link that no camera sees, or whose space none shows, the bound promises nothing.
-  const bool is_promised =
-      ok || (link.status != LinkStatus::not_seen && link.status != LinkStatus::not_observed);
-  const bool is_known = !has_bounds || std::isnan(link.lower_bound_m) || !is_promised ||
-                        (ok && link.lower_bound_m == link.distance_m);
-  if (is_known) return distance;
+  const bool is_unseen =
+      link.status == LinkStatus::not_seen || link.status == LinkStatus::not_observed;
+  const bool has_bound = has_bounds && !std::isnan(link.lower_bound_m) && (ok || !is_unseen);
+  if (!has_bound || (ok && link.lower_bound_m == link.distance_m)) return distance;
   // Cut, not rounded: a bound must not be told as more than it is.
   const double bound_m = std::floor(1e4 * link.lower_bound_m) / 1e4;
   return ok ? fmt::format("{:.4f} to {}", bound_m, distance)

@@ -5,6 +5,8 @@
 
 #include <stdexcept>
 
+#include "berth/robot/plausible_size.hpp"
+
 namespace berth {
 namespace {
 
@@ -42,15 +44,10 @@ void require_touched(const RobotModel& model, const Attachment& attachment) {
 RobotModel with_attachment(const RobotModel& model, const Attachment& attachment) {
   const std::size_t parent = find_evaluated(model, attachment);
   if (attachment.mesh_A.empty()) fail(attachment, "the mesh has no triangles; expected some");
-  float reach_m = 0;
-  for (const Eigen::Vector3f& p_A_m : attachment.mesh_A.vertices_m) {
-    // Also NaN is too far.
-    if (!(p_A_m.norm() <= reach_m)) reach_m = p_A_m.norm();
-  }
-  if (!(reach_m <= kFarthestPart_m)) {
+  if (const double reach = reach_m(attachment.mesh_A); !(reach <= kFarthestPart_m)) {
     fail(attachment, fmt::format("reaches {:g} m from its origin; expected at most {:g} m. If its "
                                  "lengths are in millimetres, write them in metres",
-                                 reach_m, kFarthestPart_m));
+                                 reach, kFarthestPart_m));
   }
   if (!attachment.X_LA.matrix().allFinite()) {
     fail(attachment, "the pose X_LA is not set; expected finite numbers");

@@ -12,17 +12,6 @@ namespace {
 constexpr double kFarthestLink_m = 100;
 constexpr double kFarthestAnything_m = 1e5;
 
-/// Infinite or NaN where any vertex is.
-double reach_m(const TriangleMesh& mesh_L) {
-  double reach = 0;
-  for (const Eigen::Vector3f& p : mesh_L.vertices_m) {
-    const double distance = p.cast<double>().norm();
-    if (!std::isfinite(distance)) return distance;
-    reach = std::max(reach, distance);
-  }
-  return reach;
-}
-
 bool has_area(const TriangleMesh& mesh_L) {
   return std::any_of(mesh_L.triangles.begin(), mesh_L.triangles.end(), [&](const auto& triangle) {
     const auto p = [&](int i) -> Eigen::Vector3d {
@@ -33,6 +22,16 @@ bool has_area(const TriangleMesh& mesh_L) {
 }
 
 }  // namespace
+
+double reach_m(const TriangleMesh& mesh) {
+  double reach = 0;
+  for (const Eigen::Vector3f& p : mesh.vertices_m) {
+    const double distance = p.cast<double>().norm();
+    if (!std::isfinite(distance)) return distance;
+    reach = std::max(reach, distance);
+  }
+  return reach;
+}
 
 void require_plausible_size(const std::filesystem::path& file, const RobotModel& model) {
   for (const Link& link : model.links) {

@@ -7,6 +7,9 @@
 
 namespace berth {
 
+/// How far a mesh reaches from its origin, in m; infinite or NaN where any vertex is.
+double reach_m(const TriangleMesh& mesh);
+
 /// Refuses what is no robot's size: a link to evaluate that reaches farther than 100 m from its
 /// origin, as one in millimetres does; environment or a joint farther than 100 km from its parent,
 /// and what is not finite. A link of points alone, which no camera sees. Throws std::runtime_error

@@ -262,9 +262,9 @@ test("where only unknown space touches, nothing says contact", async () => {
   await click(page, "#questions button:nth-child(3)");
   assert.match(await text(page, "#said"), /^arm_link_0: unknown 0 m, seen 0\.164 m\.$/);
   assert.match(await text(page, "#link-details"), /unknown 0 m, seen 0\.164 m/);
+  await until(page, () => [...document.querySelectorAll("#labels span")].some((one) => one.textContent === "unknown 0 m, seen 0.164 m"));
   await click(page, "#links tbody tr:nth-child(2)");
   assert.match(await text(page, "#link-details"), /to known0\.\d{3} m, (table|arm_link_\d)/);
-  await until(page, () => [...document.querySelectorAll("#labels span")].some((one) => one.textContent === "unknown 0 m, seen 0.164 m"));
   assert.doesNotMatch(await text(page, "body"), /contact/i);
   await page.close();
 });
