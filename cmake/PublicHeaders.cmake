@@ -7,6 +7,7 @@ set(BERTH_PUBLIC_HEADERS
   berth/types/image.hpp
   berth/types/joint_state.hpp
   berth/types/setting.hpp
+  berth/types/setting_ref.hpp
   berth/files/camera_info.hpp
   berth/files/edit_distance.hpp
   berth/files/joints_csv.hpp

@@ -118,10 +118,8 @@ Finding pose_of(const OpenScene& scene, const CameraPlausibility& camera) {
   }
   if (camera.is_hidden || !camera.readings.tells()) {
     found.verdict = Verdict::advice;
-    found.text = camera.is_hidden
-                     ? text_without_name(camera)
-                     : "its images show too little of the robot: its pose, depth_scale and the "
-                       "joints are not checked";
+    found.text = camera.is_hidden ? text_without_name(camera) : doubt_of(camera);
+    if (found.text.empty()) found.text = "not checked, since watch.min_at_robot is 0";
     found.next = fmt::format(
         "Check pose and depth_scale of camera {} by hand, such as at a wall whose distance you "
         "know, or record images in which it sees the robot.",
@@ -250,12 +248,13 @@ Finding check_images(const OpenScene& scene, const Pause& pause) {
       camera.read_depth(k);
     }
   }
-  return {.about = "files",
-          .text = fmt::format(
-              "robot {} with {} links, {} images of {} camera{}, joints from {:.3f} to {:.3f} s",
-              scene.robot->model().name, scene.robot->model().link_count(), scene.frame_count,
-              scene.cameras.size(), scene.cameras.size() == 1 ? "" : "s", scene.joints->first_s(),
-              scene.joints->last_s())};
+  return {
+      .about = "files",
+      .text = fmt::format(
+          "robot {} with {} links, {} image{} of {} camera{}, joints from {:.3f} to {:.3f} s",
+          scene.robot->model().name, scene.robot->model().link_count(), scene.frame_count,
+          scene.frame_count == 1 ? "" : "s", scene.cameras.size(),
+          scene.cameras.size() == 1 ? "" : "s", scene.joints->first_s(), scene.joints->last_s())};
 }
 
 std::vector<Finding> check_stamps(const OpenScene& scene) {

@@ -6,23 +6,13 @@
 #include <algorithm>
 #include <cctype>
 #include <stdexcept>
-#include <type_traits>
 #include <vector>
 
 #include "berth/files/number.hpp"
-#include "berth/types/setting.hpp"
+#include "berth/types/setting_ref.hpp"
 
 namespace berth::app {
 namespace {
-
-template <class T>
-struct ValueOf {
-  using Type = T;
-};
-template <class T>
-struct ValueOf<std::optional<T>> {
-  using Type = T;
-};
 
 template <class Enum>
 std::vector<std::string> names_of() {
@@ -32,36 +22,23 @@ std::vector<std::string> names_of() {
 }
 
 /// Throws std::invalid_argument with what was expected.
-template <class T>
-T parse(const Setting& setting, const std::string& text) {
-  const auto number = [&](auto value) {
-    if (value && setting.domain.holds(*value)) return *value;
-    throw std::invalid_argument(
-        fmt::format("{} is not {}", text, setting.domain.text(std::is_same_v<T, int>)));
+SettingValue parse(const SettingRef& setting, const std::string& text) {
+  const auto checked = [&](auto number) {
+    if (number && setting.domain.holds(*number)) return SettingValue(*number);
+    throw std::invalid_argument(fmt::format("{} is not {}", text, setting.expected()));
   };
-  if constexpr (std::is_same_v<T, bool>) {
-    return text == "on";
-  } else if constexpr (std::is_same_v<T, int>) {
-    return number(parse_integer(text));
-  } else if constexpr (std::is_same_v<T, double>) {
-    return number(parse_finite(text));
-  } else {
-    const auto& all = all_of(T{});
-    return *std::find_if(all.begin(), all.end(), [&](T one) { return name_of(one) == text; });
-  }
+  if (setting.kind == SettingKind::flag) return text == "on";
+  if (setting.kind == SettingKind::choice) return setting.choice(text);
+  return setting.kind == SettingKind::whole ? checked(parse_integer(text))
+                                            : checked(parse_finite(text));
 }
 
-template <class T>
-std::string default_text(const T& value) {
-  if constexpr (std::is_same_v<T, bool>) {
-    return value ? "on" : "off";
-  } else if constexpr (std::is_arithmetic_v<T>) {
-    return fmt::format("{}", value);
-  } else if constexpr (std::is_enum_v<T>) {
-    return std::string(name_of(value));
-  } else {
-    return "none";
-  }
+std::string default_text(const SettingRef& setting) {
+  if (setting.is_optional) return "none";
+  if (const auto* flag = std::get_if<bool>(&setting.value)) return *flag ? "on" : "off";
+  if (const auto* count = std::get_if<int>(&setting.value)) return fmt::format("{}", *count);
+  if (const auto* number = std::get_if<double>(&setting.value)) return fmt::format("{}", *number);
+  return std::string(std::get<std::string_view>(setting.value));
 }
 
 /// The setting's name as an option.
@@ -78,9 +55,8 @@ std::string unit_of(std::string_view name) {
   return end == "m" ? "M" : end == "px" ? "PX" : end == "us" ? "US" : "N";
 }
 
-void add_setting(CLI::App& command, const Setting& setting, std::string_view methods,
-                 const auto& value, EvaluationArguments& arguments) {
-  using T = typename ValueOf<std::remove_cvref_t<decltype(value)>>::Type;
+void add_setting(CLI::App& command, const SettingRef& setting, std::string_view methods,
+                 EvaluationArguments& arguments) {
   std::string what(setting.sentence);
   what = methods.empty() ? fmt::format("{}{}", char(std::toupper(what[0])), what.substr(1))
                          : fmt::format("{}: {}", methods, what);
@@ -89,15 +65,16 @@ void add_setting(CLI::App& command, const Setting& setting, std::string_view met
       [&arguments, name = std::string(setting.name)](const std::string& text) {
         arguments.given[name] = text;
       },
-      fmt::format("{} (default: {})", what, default_text(value)));
-  if constexpr (std::is_same_v<T, bool>) {
+      fmt::format("{} (default: {})", what, default_text(setting)));
+  if (setting.kind == SettingKind::flag) {
     option->check(CLI::IsMember({"on", "off"}));
-  } else if constexpr (std::is_enum_v<T>) {
-    option->check(CLI::IsMember(names_of<T>()));
+  } else if (setting.kind == SettingKind::choice) {
+    option->check(
+        CLI::IsMember(std::vector<std::string>(setting.choices.begin(), setting.choices.end())));
   } else {
     option->type_name(unit_of(setting.name))->check([setting](const std::string& text) {
       try {
-        parse<T>(setting, text);
+        parse(setting, text);
         return std::string();
       } catch (const std::invalid_argument& error) {
         return std::string(error.what());
@@ -123,21 +100,18 @@ void require_method(const MethodSetting& setting, Method used) {
 }
 
 /// Sets it if it was given.
-template <class T>
-void take_given(const EvaluationArguments& arguments, const Setting& setting, T& value) {
+void take_given(const EvaluationArguments& arguments, const SettingRef& setting) {
   const auto text = arguments.given.find(setting.name);
-  if (text != arguments.given.end()) {
-    value = parse<typename ValueOf<T>::Type>(setting, text->second);
-  }
+  if (text != arguments.given.end()) setting.set(parse(setting, text->second));
 }
 
 }  // namespace
 
 void add_evaluation(CLI::App& command, EvaluationArguments& arguments) {
   const DistanceSettings defaults;
-  visit_settings(defaults, [&](const Setting& setting, const auto& value) {
-    add_setting(command, setting, "", value, arguments);
-  });
+  for (const SettingRef& setting : setting_refs(defaults)) {
+    add_setting(command, setting, "", arguments);
+  }
   command
       .add_option_function<std::string>(
           "--visibility",
@@ -156,15 +130,13 @@ void add_methods(CLI::App& command, Method& method, EvaluationArguments& argumen
       ->check(CLI::IsMember(names_of<Method>()));
   const ImageDistanceSettings defaults;
   visit_settings(defaults, [&](const MethodSetting& setting, const auto& value) {
-    add_setting(command, setting, setting.methods, value, arguments);
+    add_setting(command, {setting, value}, setting.methods, arguments);
   });
 }
 
 EvaluationSettings EvaluationArguments::over(EvaluationSettings settings) const {
   settings.visibility = visibility.value_or(settings.visibility);
-  visit_settings(settings.distance, [this](const Setting& setting, auto& value) {
-    take_given(*this, setting, value);
-  });
+  for (const SettingRef& setting : setting_refs(settings.distance)) take_given(*this, setting);
   validate(settings.distance);
   return settings;
 }
@@ -173,7 +145,7 @@ ImageDistanceSettings EvaluationArguments::over(ImageDistanceSettings settings,
                                                 Method method) const {
   visit_settings(settings, [&](const MethodSetting& setting, auto& value) {
     if (given.contains(setting.name)) require_method(setting, method);
-    take_given(*this, setting, value);
+    take_given(*this, {setting, value});
   });
   validate(settings);
   return settings;

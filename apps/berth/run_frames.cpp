@@ -79,10 +79,14 @@ OpenScene open_with_progress(const SceneFile& scene, const char* doing, OpenScen
   std::size_t images = 0;
   for (const SceneCamera& camera : scene.cameras) images += camera.depth.size();
   ProgressBar progress(doing, images);
-  return open(scene, [&progress] {
+  OpenScene opened = open(scene, [&progress] {
     stop_if_interrupted();
     progress.step();
   });
+  progress.clear();
+  // Before the images are refused: the cause may be among them.
+  for (const std::string& warning : opened.warnings) fmt::print(stderr, "{}\n", warning);
+  return opened;
 }
 
 OpenScene open_scene_over(const fs::path& file, const EvaluationArguments& arguments) {
@@ -102,7 +106,6 @@ void make_folders(const OpenScene& scene, const fs::path& folder) {
 void each_frame(const OpenScene& scene, const std::vector<CameraPlausibility>& cameras,
                 const char* doing, const std::function<bool()>& next,
                 const std::function<void()>& take) {
-  for (const std::string& warning : scene.warnings) fmt::print(stderr, "{}\n", warning);
   for (const CameraPlausibility& camera : cameras) say(scene, text_of(camera));
   ProgressBar progress(doing, scene.frame_count);
   std::size_t done = 0;

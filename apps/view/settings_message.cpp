@@ -1,11 +1,11 @@
 #include "apps/view/settings_message.hpp"
 
 #include <cmath>
-#include <optional>
-#include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "berth/types/rpy.hpp"
+#include "berth/types/setting_ref.hpp"
 
 namespace berth::app {
 namespace {
@@ -23,82 +23,61 @@ std::string_view unit_of_setting(std::string_view name) {
   return "";
 }
 
-template <class T>
-struct BareType {
-  using Type = T;
-};
-template <class T>
-struct BareType<std::optional<T>> {
-  using Type = T;
-};
-
 /// Null where there is none; text where it has no end.
-template <class T>
-Json value_json(const T& value) {
-  if constexpr (requires { value.has_value(); }) {
-    return value ? value_json(*value) : Json();
-  } else if constexpr (std::is_enum_v<T>) {
-    return name_of(value);
-  } else if constexpr (std::is_floating_point_v<T>) {
-    return std::isfinite(value) ? Json(value) : Json("no limit");
-  } else {
-    return value;
-  }
+Json value_json(const SettingValue& value) {
+  if (const auto* flag = std::get_if<bool>(&value)) return *flag;
+  if (const auto* count = std::get_if<int>(&value)) return *count;
+  if (const auto* name = std::get_if<std::string_view>(&value)) return *name;
+  const auto* number = std::get_if<double>(&value);
+  if (!number) return {};
+  return std::isfinite(*number) ? Json(*number) : Json("no limit");
 }
 
-template <class T>
-Json kind_json(const Domain& domain) {
-  if constexpr (std::is_same_v<T, bool>) {
-    return {{"kind", "bool"}};
-  } else if constexpr (std::is_enum_v<T>) {
-    Json names = Json::array();
-    for (const T one : all_of(T{})) names.push_back(name_of(one));
-    return {{"kind", "choice"}, {"choices", names}};
-  } else {
-    Json json = {{"kind", std::is_integral_v<T> ? "whole" : "number"},
-                 {"least", domain.has_off ? 0 : domain.least},
-                 {"domain", domain.text(std::is_integral_v<T>)}};
-    if (std::isfinite(domain.most)) json["most"] = domain.most;
-    return json;
+Json kind_json(const SettingRef& setting) {
+  if (setting.kind == SettingKind::flag) return {{"kind", "bool"}};
+  if (setting.kind == SettingKind::choice) {
+    return {{"kind", "choice"}, {"choices", setting.choices}};
   }
+  const Domain& domain = setting.domain;
+  Json json = {{"kind", setting.kind == SettingKind::whole ? "whole" : "number"},
+               {"least", domain.has_off ? 0 : domain.least},
+               {"domain", setting.expected()}};
+  if (std::isfinite(domain.most)) json["most"] = domain.most;
+  return json;
 }
 
-/// One object for each setting of a list.
-template <class Settings>
-Json described(const Settings& settings) {
+/// One object for each setting.
+Json described(const std::vector<SettingRef>& settings) {
   Json all = Json::array();
-  visit_settings(settings, [&](const Setting& setting, const auto& value) {
-    using T = typename BareType<std::remove_cvref_t<decltype(value)>>::Type;
+  for (const SettingRef& setting : settings) {
     Json json = {{"name", setting.name},
                  {"unit", unit_of_setting(setting.name)},
                  {"sentence", setting.sentence}};
-    json.update(kind_json<T>(setting.domain));
+    json.update(kind_json(setting));
     all.push_back(std::move(json));
-  });
+  }
   return all;
 }
 
-template <class Settings>
-Json values_of(const Settings& settings) {
+Json values_of(const std::vector<SettingRef>& settings) {
   Json values = Json::array();
-  visit_settings(settings,
-                 [&](const Setting&, const auto& value) { values.push_back(value_json(value)); });
+  for (const SettingRef& setting : settings) values.push_back(value_json(setting.value));
   return values;
 }
 
 Json request_group(std::string_view name, const auto& now, const auto& original) {
   return {{"name", name},
           {"by_camera", false},
-          {"settings", described(now)},
-          {"now", Json::array({values_of(now)})},
-          {"file", Json::array({values_of(original)})}};
+          {"settings", described(setting_refs(now))},
+          {"now", Json::array({values_of(setting_refs(now))})},
+          {"file", Json::array({values_of(setting_refs(original))})}};
 }
 
 /// The values of one group of a camera's settings.
 Json camera_values(const SceneCamera& camera, std::string_view group) {
   Json values;
   visit_setting_groups(camera.settings, [&](std::string_view name, const auto& settings) {
-    if (name == group) values = values_of(settings);
+    if (name == group) values = values_of(setting_refs(settings));
   });
   return values;
 }
@@ -107,7 +86,8 @@ Json camera_groups(const ChangedScene& scene) {
   Json groups = Json::array();
   const CameraSettings& first = scene.now().cameras.front().settings;
   visit_setting_groups(first, [&](std::string_view name, const auto& settings) {
-    Json group = {{"name", name}, {"by_camera", true}, {"settings", described(settings)}};
+    Json group = {
+        {"name", name}, {"by_camera", true}, {"settings", described(setting_refs(settings))}};
     for (std::size_t c = 0; c < scene.now().cameras.size(); ++c) {
       group["now"].push_back(camera_values(scene.now().cameras[c], name));
       group["file"].push_back(camera_values(scene.original().cameras[c], name));

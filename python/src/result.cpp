@@ -5,7 +5,6 @@
 #include "berth/results/result_json.hpp"
 #include "bindings.hpp"
 #include "handles.hpp"
-#include "settings.hpp"
 
 namespace berth::python {
 namespace {
@@ -77,7 +76,7 @@ class ToPython {
 template <class T>
 std::string type_in_python(const T& value) {
   if constexpr (std::is_arithmetic_v<T>) {
-    return type_of(value);
+    return std::is_same_v<T, bool> ? "bool" : std::is_integral_v<T> ? "int" : "float";
   } else if constexpr (std::is_convertible_v<T, std::string_view>) {
     return "str";
   } else if constexpr (std::is_enum_v<T>) {

@@ -8,7 +8,6 @@
 #include "berth/robot/kinematics.hpp"
 #include "berth/robot/robot_model.hpp"
 #include "bindings.hpp"
-#include "settings.hpp"
 
 namespace berth::python {
 namespace {

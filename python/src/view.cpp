@@ -7,7 +7,6 @@
 #include "berth/pipeline/observer.hpp"
 #include "bindings.hpp"
 #include "handles.hpp"
-#include "settings.hpp"
 
 namespace berth::python {
 namespace {

@@ -1,6 +1,7 @@
 #include "camera_input.hpp"
 
-#include <algorithm>
+#include <limits>
+#include <sstream>
 #include <stdexcept>
 
 namespace berth_ros {
@@ -18,36 +19,12 @@ berth::RawDepth raw_of(const sensor_msgs::msg::Image& image) {
           image.encoding, image.is_bigendian != 0};
 }
 
-berth::Camera camera_of(const sensor_msgs::msg::CameraInfo& info, bool is_rectified) {
-  const bool is_distorted =
-      std::any_of(info.d.begin(), info.d.end(), [](double d) { return d != 0; });
-  if (is_distorted && !is_rectified) {
-    throw std::invalid_argument(
-        "camera_info has distortion; expected rectified images: remap depth_image to a rectified "
-        "topic (such as image_rect) and set the parameter rectified");
-  }
-  if (info.binning_x > 1 || info.binning_y > 1) {
-    throw std::invalid_argument("camera_info has binning; expected images of full resolution");
-  }
-  const auto& roi = info.roi;
-  if (roi.x_offset != 0 || roi.y_offset != 0 || (roi.width != 0 && roi.width != info.width) ||
-      (roi.height != 0 && roi.height != info.height)) {
-    throw std::invalid_argument("camera_info has a region of interest; expected whole images");
-  }
-  berth::Camera camera{static_cast<int>(info.width), static_cast<int>(info.height), 0, 0, 0, 0};
-  // Without distortion the images are rectified: P is theirs, K that of the images before.
-  if (info.p[0] > 0) {
-    camera.fx_px = info.p[0], camera.fy_px = info.p[5], camera.cx_px = info.p[2],
-    camera.cy_px = info.p[6];
-  } else {
-    camera.fx_px = info.k[0], camera.fy_px = info.k[4], camera.cx_px = info.k[2],
-    camera.cy_px = info.k[5];
-  }
-  if (info.width == 0 || info.height == 0 || !(camera.fx_px > 0) || !(camera.fy_px > 0)) {
-    throw std::invalid_argument(
-        "camera_info has no intrinsics; expected those of a calibrated camera");
-  }
-  return camera;
+berth::CameraInfo camera_info_of(const sensor_msgs::msg::CameraInfo& info,
+                                 std::optional<bool> is_rectified) {
+  std::ostringstream text;
+  text.precision(std::numeric_limits<double>::max_digits10);
+  to_flow_style_yaml(info, text);
+  return berth::parse_camera_info("camera_info", text.str(), is_rectified);
 }
 
 bool is_same_mount(const berth::CameraMount& a, const berth::CameraMount& b) {
@@ -168,17 +145,22 @@ void CameraInput::on_info(const std::shared_ptr<const sensor_msgs::msg::CameraIn
 void CameraInput::take_info(const sensor_msgs::msg::CameraInfo& info) {
   std::unique_ptr<berth::LiveCamera> before;
   const std::lock_guard lock(mutex_);
+  if (told_) told_->header.stamp = info.header.stamp;
+  if (told_ == info) return;
+  told_ = info;
+  camera_.reset();
+  rectification_.reset();
+  mount_.reset();
   try {
-    const berth::Camera camera = camera_of(info, settings_.is_rectified);
-    const std::string& frame_id = info.header.frame_id;
-    if (camera_ && is_same(camera, *camera_) && (frame_id.empty() || frame_id == frame_id_)) return;
-    camera_ = camera;
-    frame_id_ = frame_id;
-    mount_.reset();
+    camera_ = camera_info_of(info, settings_.is_rectified);
+    if (camera_->lens || settings_.depth_is == berth::DepthIs::along_ray) {
+      rectification_ = std::make_unique<const berth::Rectification>(camera_->camera, camera_->lens,
+                                                                    settings_.depth_is);
+    }
+    frame_id_ = info.header.frame_id;
     info_trouble_.clear();
     trouble_ = "no image yet";
   } catch (const std::exception& error) {
-    camera_.reset();
     info_trouble_ = error.what();
     refuse(info_trouble_);
   }
@@ -231,7 +213,7 @@ void CameraInput::mount_at(const berth::CameraMount& mount) {
 
 void CameraInput::make_live(const ImageMessage& image) {
   berth::CameraMount mount = *mount_;
-  mount.camera = *camera_;
+  mount.camera = rectification_ ? rectification_->camera() : camera_->camera;
   mount.name = settings_.name;
   const auto mounted =
       std::make_shared<const berth::MountedCamera>(robot_, mount, settings_.settings);
@@ -282,6 +264,12 @@ void CameraInput::on_image(const std::shared_ptr<const ImageMessage>& image) {
   before = std::move(retired_);
 }
 
+void CameraInput::read_image(const ImageMessage& image, berth::DepthImage& depth_m) {
+  berth::read_raw_depth(raw_of(image), camera_->camera, settings_.units,
+                        rectification_ ? given_m_ : depth_m);
+  if (rectification_) rectification_->apply(given_m_, depth_m);
+}
+
 void CameraInput::take_image(const std::shared_ptr<const ImageMessage>& image) {
   const std::lock_guard lock(mutex_);
   if (!camera_) {
@@ -295,7 +283,7 @@ void CameraInput::take_image(const std::shared_ptr<const ImageMessage>& image) {
     rate_.add(stamp_s);
     make_ready(*image);
     berth::DepthImage depth_m = live_->spare_image();
-    berth::read_raw_depth(raw_of(*image), *camera_, settings_.units, depth_m);
+    read_image(*image, depth_m);
     live_->push(stamp_s, std::move(depth_m), image);
     trouble_.clear();
   } catch (const std::exception& error) {

@@ -10,8 +10,10 @@
 #include <sensor_msgs/msg/image.hpp>
 #include <string>
 
+#include "berth/files/camera_info.hpp"
 #include "berth/live/live_camera.hpp"
 #include "berth/live/raw_depth.hpp"
+#include "berth/sensor/rectification.hpp"
 #include "callback_gate.hpp"
 #include "image_rate.hpp"
 #include "node_settings.hpp"
@@ -20,10 +22,10 @@
 
 namespace berth_ros {
 
-/// The pinhole camera of a camera_info: its P, or K where it has no P. Throws std::invalid_argument
-/// where it is none: without intrinsics, with distortion unless `is_rectified`, with binning or a
-/// region of interest.
-berth::Camera camera_of(const sensor_msgs::msg::CameraInfo& info, bool is_rectified);
+/// The camera of a camera_info, as berth::read_camera_info reads the same from a file. Throws
+/// std::runtime_error as that does.
+berth::CameraInfo camera_info_of(const sensor_msgs::msg::CameraInfo& info,
+                                 std::optional<bool> is_rectified);
 
 /// Whether both are the same camera in the same place.
 bool is_same_mount(const berth::CameraMount& a, const berth::CameraMount& b);
@@ -99,6 +101,7 @@ class CameraInput {
   bool is_distrusted(const berth::CameraMount& mount) const {
     return distrusted_ && is_same_mount(*distrusted_, mount);
   }
+  void read_image(const ImageMessage& image, berth::DepthImage& depth_m);
   void refuse(const std::string& why);
 
   CameraSettings settings_;
@@ -109,7 +112,14 @@ class CameraInput {
   mutable std::mutex mutex_;
   std::shared_ptr<const berth::Robot> robot_;
   std::shared_ptr<const berth::JointIntake> joints_;
-  std::optional<berth::Camera> camera_;
+  /// None where it was refused.
+  std::optional<berth::CameraInfo> camera_;
+  /// The message that `camera_`, or its refusal, is from.
+  std::optional<sensor_msgs::msg::CameraInfo> told_;
+  /// None where the images are those of a pinhole camera.
+  std::unique_ptr<const berth::Rectification> rectification_;
+  /// An image before it is rectified.
+  berth::DepthImage given_m_;
   /// Of camera_info; empty where that has none: then the first image decides.
   std::string frame_id_;
   /// The newest one that came before any camera_info.

@@ -47,9 +47,10 @@ bool is_of_ros(const std::string& name) {
 
 /// The last part of the name of each parameter that one camera has, with the camera's name before
 /// it in one node and without in the other.
-constexpr std::array<const char*, 11> kCameraKeys = {
-    "image_transport", "rectified",  "depth_scale",  "depth_offset_m", "near_m",  "far_m",
-    "clock_offset_s",  "max_wait_s", "camera_poses", "reliability",    "filtered"};
+constexpr std::array<const char*, 12> kCameraKeys = {
+    "image_transport", "rectified",  "depth_is",     "depth_scale",
+    "depth_offset_m",  "near_m",     "far_m",        "filtered",
+    "clock_offset_s",  "max_wait_s", "camera_poses", "reliability"};
 /// Of distance_node alone.
 constexpr std::array<const char*, 2> kDistanceKeys = {"cameras", "velocity_window_s"};
 
@@ -76,6 +77,27 @@ PoseSource pose_source_of(const std::string& text) {
   if (text == "tf") return PoseSource::tf;
   if (text == "scene") return PoseSource::scene;
   throw std::invalid_argument("camera_poses: \"" + text + "\"; expected one of auto, tf, scene");
+}
+
+berth::DepthIs depth_is_of(const std::string& text) {
+  if (text == "axis") return berth::DepthIs::along_axis;
+  if (text == "ray") return berth::DepthIs::along_ray;
+  throw std::invalid_argument("depth_is: \"" + text + "\"; expected axis or ray");
+}
+
+/// A bool that may be absent: camera_info does not say whether images still have its distortion.
+std::optional<bool> declare_rectified(SettingNode& node, const std::string& name,
+                                      std::optional<bool> value) {
+  ParameterDescriptor descriptor = described(
+      "true: the images are rectified: camera_info's P counts, and its distortion does not; false: "
+      "they are as the lens made them, and berth rectifies them; needed where camera_info has "
+      "distortion");
+  descriptor.dynamic_typing = true;
+  const rclcpp::ParameterValue given = node.declare_parameter(
+      name, value ? rclcpp::ParameterValue(*value) : rclcpp::ParameterValue(), descriptor);
+  if (given.get_type() == rclcpp::ParameterType::PARAMETER_NOT_SET) return {};
+  if (given.get_type() == rclcpp::ParameterType::PARAMETER_BOOL) return given.get<bool>();
+  throw std::invalid_argument(name + ": " + rclcpp::to_string(given) + "; expected true or false");
 }
 
 bool is_reliable_of(const std::string& text) {
@@ -206,12 +228,14 @@ berth::EvaluationSettings NodeSettings::scene_evaluation() const {
 }
 
 void NodeSettings::declare_evaluation(SettingNode& node) {
-  declare_settings(node, "evaluation", scene_evaluation(), given_);
-  declare_settings(node, "time", berth::TimeSettings{}, given_);
+  const berth::EvaluationSettings evaluation = scene_evaluation();
+  const berth::TimeSettings time;
+  declare_settings(node, "evaluation", setting_refs(evaluation), given_);
+  declare_settings(node, "time", setting_refs(time), given_);
   berth::CameraSettings settings = watched_camera();
   if (scene_) settings = scene_->cameras.front().settings;
   visit_setting_groups(settings, [&](const std::string& group, const auto& listed) {
-    declare_settings(node, group, listed, given_);
+    declare_settings(node, group, setting_refs(listed), given_);
   });
 }
 
@@ -248,6 +272,8 @@ void NodeSettings::declare_camera(SettingNode& node, const std::string& name, bo
                                   " has none of this name");
     }
     camera.units = {found->depth_scale_m, found->depth_offset_m, found->near_m, found->far_m};
+    camera.is_rectified = found->is_rectified;
+    camera.depth_is = found->depth_is;
     camera.live.clock_offset_s = found->clock_offset_s;
     camera.settings = found->settings;
     // The intrinsics are those of camera_info.
@@ -260,8 +286,18 @@ void NodeSettings::declare_camera(SettingNode& node, const std::string& name, bo
   };
   declare("image_transport", camera.image_transport,
           "raw, compressedDepth, or another transport that carries depth");
-  declare("rectified", camera.is_rectified,
-          "the images are rectified: camera_info's P counts, and its distortion does not");
+  camera.is_rectified = declare_rectified(node, prefix + "rectified", camera.is_rectified);
+  std::string depth_is = camera.depth_is == berth::DepthIs::along_ray ? "ray" : "axis";
+  declare(
+      "depth_is", depth_is,
+      "axis: a reading is the depth along the camera's axis; ray: the distance from the camera, "
+      "as many simulators and time-of-flight cameras give it");
+  camera.depth_is = depth_is_of(depth_is);
+  if (has_one_camera && (camera.is_rectified == false || depth_is == "ray")) {
+    throw std::invalid_argument(
+        "rectified: false or depth_is: ray; expected rectified images of depths along the axis, "
+        "since self_filter_node gives the images back as they came");
+  }
   declare("depth_scale", camera.units.scale_m, "metres per unit of 16UC1 images");
   declare("depth_offset_m", camera.units.offset_m, "added to each reading, in metres");
   declare("near_m", camera.units.near_m, "nearer readings are none");
@@ -287,7 +323,7 @@ void NodeSettings::declare_camera(SettingNode& node, const std::string& name, bo
     declare("filtered", camera.is_filtered,
             "the images come from a self_filter_node: their robot is taken out already");
     visit_setting_groups(camera.settings, [&](const std::string& group, const auto& settings) {
-      declare_own_settings(node, prefix + group, settings, given_);
+      declare_own_settings(node, prefix + group, setting_refs(settings), given_);
     });
   }
   cameras_.push_back(camera);
@@ -298,8 +334,8 @@ void NodeSettings::declare_separation(SettingNode& node) {
   given_[kMonitor] = node.declare_parameter(
       kMonitor, rclcpp::ParameterValue(has_monitor),
       described("whether to tell how fast the robot may go on (separation, speed_scale)", false));
-  declare_settings(node, "separation",
-                   has_monitor ? *scene_->separation : berth::SeparationSettings{}, given_);
+  const auto separation = has_monitor ? *scene_->separation : berth::SeparationSettings{};
+  declare_settings(node, "separation", setting_refs(separation), given_);
 }
 
 std::optional<berth::SeparationSettings> NodeSettings::separation_of(
@@ -308,15 +344,15 @@ std::optional<berth::SeparationSettings> NodeSettings::separation_of(
   if (monitor == given.end() || !monitor->second.get<bool>()) return {};
   berth::SeparationSettings settings =
       scene_ && scene_->separation ? *scene_->separation : berth::SeparationSettings{};
-  apply_given(given, "separation", settings);
+  apply_given(given, "separation", setting_refs(settings));
   return settings;
 }
 
 berth::EvaluationSettings NodeSettings::evaluation_of(const GivenParameters& given) const {
   berth::EvaluationSettings evaluation = scene_evaluation();
   evaluation.time = {};
-  apply_given(given, "evaluation", evaluation);
-  apply_given(given, "time", evaluation.time);
+  apply_given(given, "evaluation", setting_refs(evaluation));
+  apply_given(given, "time", setting_refs(evaluation.time));
   return evaluation;
 }
 
@@ -324,8 +360,8 @@ std::vector<CameraSettings> NodeSettings::cameras_of(const GivenParameters& give
   std::vector<CameraSettings> cameras = cameras_;
   for (CameraSettings& camera : cameras) {
     visit_setting_groups(camera.settings, [&](const std::string& group, auto& settings) {
-      apply_given(given, group, settings);
-      apply_given(given, camera.name + "." + group, settings);
+      apply_given(given, group, setting_refs(settings));
+      apply_given(given, camera.name + "." + group, setting_refs(settings));
     });
     // A robot that was taken out cannot tell whether it is where it should be.
     if (camera.is_filtered) {

@@ -32,8 +32,10 @@ struct CameraSettings {
   /// Before its topics' names: "" or "left/".
   std::string topic_prefix;
   std::string image_transport = "raw";
-  /// The images are rectified: camera_info's P counts, and its distortion does not.
-  bool is_rectified = false;
+  /// Whether the images are rectified, so that camera_info's P counts, or as its lens made them;
+  /// none: nobody said it.
+  std::optional<bool> is_rectified;
+  berth::DepthIs depth_is = berth::DepthIs::along_axis;
   bool is_reliable = false;
   /// Their robot is taken out already.
   bool is_filtered = false;

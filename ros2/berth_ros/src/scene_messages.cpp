@@ -33,12 +33,12 @@ std::string urdf_with_file_names(const berth::SceneFile& scene) {
   return urdf;
 }
 
-CameraInfo info_of(const berth::Camera& camera) {
+CameraInfo info_of(const berth::Camera& camera, const berth::Lens& lens) {
   CameraInfo info;
   info.width = static_cast<std::uint32_t>(camera.width_px);
   info.height = static_cast<std::uint32_t>(camera.height_px);
-  info.distortion_model = "plumb_bob";
-  info.d.assign(5, 0.0);
+  info.distortion_model = lens.is_fisheye ? "equidistant" : "rational_polynomial";
+  info.d.assign(lens.coefficients.begin(), lens.coefficients.end());
   info.k = {camera.fx_px, 0, camera.cx_px, 0, camera.fy_px, camera.cy_px, 0, 0, 1};
   info.r = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   info.p = {camera.fx_px, 0, camera.cx_px, 0, 0, camera.fy_px, camera.cy_px, 0, 0, 0, 1, 0};
@@ -103,11 +103,15 @@ void SceneMessages::add_camera(rclcpp::Node& node, const berth::OpenCamera& came
   Camera& made = cameras_.emplace_back();
   made.image = node.create_publisher<Image>(source.name + "/depth_image", qos);
   made.info = node.create_publisher<CameraInfo>(source.name + "/camera_info", qos);
-  made.camera_info = info_of(camera.mounted->camera());
+  // As the camera gave them: the node rectifies them by the same scene.
+  const auto& rectification = camera.rectification;
+  made.camera_info =
+      info_of(camera.given(),
+              rectification && rectification->lens() ? *rectification->lens() : berth::Lens());
   made.camera_info.header.frame_id = frame_of(camera);
   for (std::size_t i = 0; i < source.depth.size(); ++i) {
     made.images.push_back(
-        image_of(camera.read_depth(i), source.depth_scale_m, source.depth_offset_m));
+        image_of(camera.read_given(i), source.depth_scale_m, source.depth_offset_m));
     made.images.back().header.frame_id = frame_of(camera);
   }
   geometry_msgs::msg::TransformStamped& mount =

@@ -1,6 +1,7 @@
 // What needs no running node: settings as parameters, camera_info, stamps, messages.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "camera_input.hpp"
@@ -21,7 +22,7 @@ template <class Call>
 std::string error_of(Call&& call) {
   try {
     call();
-  } catch (const std::invalid_argument& error) {
+  } catch (const std::exception& error) {
     return error.what();
   }
   return "";
@@ -39,14 +40,12 @@ TEST(StampClock, StampsComeBackToTheNanosecond) {
 }
 
 TEST(Parameters, EachSettingComesBack) {
-  const auto there_and_back = [](auto settings) {
-    visit_settings(settings, [](const berth::Setting& setting, auto& value) {
-      auto out = value;
-      assign_parameter(std::string(setting.name), parameter_of(value), out);
-      EXPECT_EQ(out, value) << setting.name;
-      const auto descriptor = descriptor_of(setting, value);
-      EXPECT_FALSE(descriptor.description.empty()) << setting.name;
-    });
+  const auto there_and_back = [](const auto& settings) {
+    for (const berth::SettingRef& setting : setting_refs(settings)) {
+      const std::string name(setting.name);
+      EXPECT_EQ(value_from(name, parameter_of(setting), setting), setting.value) << name;
+      EXPECT_FALSE(descriptor_of(setting).description.empty()) << name;
+    }
   };
   there_and_back(berth::SelfFilterSettings{});
   there_and_back(berth::SensorSettings{});
@@ -58,9 +57,12 @@ TEST(Parameters, EachSettingComesBack) {
 }
 
 TEST(Parameters, AnUnknownNameIsRefusedWithThoseThatThereAre) {
-  berth::UnknownPolicy policy{};
-  const std::string why = error_of(
-      [&] { assign_parameter("separation.camera", rclcpp::ParameterValue("stopp"), policy); });
+  const berth::SeparationSettings settings;
+  const std::vector<berth::SettingRef> refs = setting_refs(settings);
+  const auto camera = std::find_if(refs.begin(), refs.end(),
+                                   [](const auto& setting) { return setting.name == "camera"; });
+  const std::string why =
+      error_of([&] { value_from("separation.camera", rclcpp::ParameterValue("stopp"), *camera); });
   EXPECT_NE(why.find("stopp"), std::string::npos);
   EXPECT_NE(why.find("one of stop, assume_range, ignore"), std::string::npos);
 }
@@ -69,37 +71,60 @@ sensor_msgs::msg::CameraInfo info() {
   sensor_msgs::msg::CameraInfo info;
   info.width = 640;
   info.height = 480;
-  info.k = {500, 0, 320, 0, 510, 240, 0, 0, 1};
+  info.distortion_model = "plumb_bob";
+  info.k = {500.123456789, 0, 320, 0, 510, 240, 0, 0, 1};
   info.p = {400, 0, 300, 0, 0, 410, 220, 0, 0, 0, 1, 0};
   return info;
 }
 
 TEST(CameraInfo, PCountsAndWithoutItK) {
-  for (const bool is_rectified : {false, true}) {
-    EXPECT_EQ(camera_of(info(), is_rectified).fx_px, 400);
-    EXPECT_EQ(camera_of(info(), is_rectified).cy_px, 220);
+  for (const std::optional<bool> is_rectified : {std::optional<bool>(), std::optional(true)}) {
+    EXPECT_EQ(camera_info_of(info(), is_rectified).camera.fx_px, 400);
+    EXPECT_EQ(camera_info_of(info(), is_rectified).camera.cy_px, 220);
     auto without_p = info();
     without_p.p.fill(0);
-    EXPECT_EQ(camera_of(without_p, is_rectified).fx_px, 500);
-    EXPECT_EQ(camera_of(without_p, is_rectified).cy_px, 240);
+    EXPECT_EQ(camera_info_of(without_p, is_rectified).camera.fx_px, 500.123456789);
+    EXPECT_EQ(camera_info_of(without_p, is_rectified).camera.cy_px, 240);
   }
 }
 
-TEST(CameraInfo, WhatIsNoPinholeCameraIsRefusedByName) {
-  const auto why = [](auto change, bool is_rectified = false) {
+TEST(CameraInfo, OfImagesAsTheLensMadeThemKAndTheLensCount) {
+  auto bent = info();
+  bent.d = {0.1, -0.05, 0.001, 0.002, 0.03};
+  const berth::CameraInfo camera = camera_info_of(bent, false);
+  EXPECT_EQ(camera.camera.fx_px, 500.123456789);
+  ASSERT_TRUE(camera.lens);
+  EXPECT_EQ(camera.lens->coefficients[4], 0.03);
+}
+
+TEST(CameraInfo, APartOfTheSensorsPixelsHasItsOwnIntrinsics) {
+  auto part = info();
+  part.binning_x = part.binning_y = 2;
+  part.roi.x_offset = 100;
+  part.roi.width = 320;
+  const berth::Camera camera = camera_info_of(part, {}).camera;
+  EXPECT_EQ(camera.width_px, 160);
+  EXPECT_EQ(camera.height_px, 240);
+  EXPECT_EQ(camera.fx_px, 200);
+  EXPECT_EQ(camera.cx_px, 100);
+}
+
+TEST(CameraInfo, WhatIsRefusedIsNamed) {
+  const auto why = [](auto change, std::optional<bool> is_rectified = {}) {
     auto changed = info();
     change(changed);
-    return error_of([&] { camera_of(changed, is_rectified); });
+    return error_of([&] { camera_info_of(changed, is_rectified); });
   };
   const auto distort = [](auto& i) { i.d = {0.1, 0, 0, 0, 0}; };
-  EXPECT_NE(why(distort).find("rectified"), std::string::npos);
+  EXPECT_NE(why(distort).find("camera_info:1: d[0]: 0.1"), std::string::npos) << why(distort);
+  EXPECT_NE(why(distort).find("rectified: false"), std::string::npos);
   EXPECT_EQ(why(distort, true), "");
   EXPECT_EQ(why([](auto& i) { i.d = {0, 0, 0, 0, 0}; }), "");
-  EXPECT_NE(why([](auto& i) { i.binning_x = 2; }).find("binning"), std::string::npos);
-  EXPECT_NE(why([](auto& i) { i.roi.x_offset = 2; }).find("region of interest"), std::string::npos);
-  EXPECT_NE(why([](auto& i) { i.roi.width = 100; }).find("region of interest"), std::string::npos);
-  EXPECT_NE(why([](auto& i) { i.k[0] = i.p[0] = 0; }).find("intrinsics"), std::string::npos);
-  EXPECT_NE(why([](auto& i) { i.width = 0; }).find("intrinsics"), std::string::npos);
+  EXPECT_NE(why([](auto& i) { i.roi.x_offset = 600, i.roi.width = 100; }).find("roi"),
+            std::string::npos);
+  EXPECT_NE(why([](auto& i) { i.k[0] = i.p[0] = 0; }).find("p[0]"), std::string::npos);
+  EXPECT_NE(why([](auto& i) { i.width = 0; }).find("width"), std::string::npos);
+  EXPECT_NE(why([](auto& i) { i.p[0] = std::nan(""); }).find("p[0]"), std::string::npos);
 }
 
 TEST(Places, ATenthOfAMillimetreIsTheSame) {

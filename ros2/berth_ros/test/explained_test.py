@@ -107,7 +107,7 @@ class Explained(unittest.TestCase):
             and "focal length" in self.status(camera).message, LOOKED_WITHIN_S, f"{camera}: f by a factor of {factor}")
         print(f"{camera}: f by a factor of {factor}: named after {named_s:.1f} s: {self.status(camera).message}")
         self.assertEqual(self.status(camera).level, DiagnosticStatus.ERROR)
-        told = re.search(r"focal length (?:of|were) ([\d.]+) px(?: in place of|, not) (\d+)", self.status(camera).message)
+        told = re.search(r"focal length (?:of|is about) ([\d.]+) px(?: in place of|, not) (\d+)", self.status(camera).message)
         self.assertTrue(told, self.status(camera).message)
         self.assertAlmostEqual(float(told[1]), true_px, delta=0.02 * true_px)
         self.assertAlmostEqual(int(told[2]), factor * true_px, delta=1)

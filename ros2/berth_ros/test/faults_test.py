@@ -133,7 +133,7 @@ class Faults(LivingRobot):
 
     def test_13_distortion_is_said_once_and_not_for_each_image(self):
         type(self).distortion = [0.1, 0.0, 0.0, 0.0, 0.0]
-        self.expect_said("camera front", "distortion", "rectified")
+        self.expect_said("camera front", "camera_info", "d[0]", "rectified")
         del self.log[:]
         self.live_for(5)
         lines = self.logged("camera front")

@@ -17,17 +17,31 @@ from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from living_robot import FOCAL, FRAME, HEIGHT, URDF, WIDTH, LivingRobot, transform  # noqa: E402
+from living_robot import FOCAL, FRAME, HEIGHT, URDF, WIDTH, LivingRobot, depth_m, transform  # noqa: E402
 
 HAS_COMPRESSED = "compressed_depth_image_transport" in get_packages_with_prefixes()
 
+LENS = [-0.25, 0.05, 0.0, 0.0, 0.0]
+MATRIX = [FOCAL, 0.0, 31.5, 0.0, FOCAL, 23.5, 0.0, 0.0, 1.0]
+
+
+def bent_ranges_m(image_m):
+    """What a camera with this lens gives of the same, as distances along the rays."""
+    v, u = np.mgrid[0:HEIGHT, 0:WIDTH]
+    pixels = np.stack([u, v], -1).reshape(-1, 1, 2).astype(float)
+    x, y = cv2.undistortPoints(pixels, np.reshape(MATRIX, (3, 3)), np.array(LENS)).reshape(HEIGHT, WIDTH, 2).transpose(2, 0, 1)
+    straight = [np.clip(np.rint(FOCAL * at + middle).astype(int), 0, size - 1) for at, middle, size in ((y, 23.5, HEIGHT), (x, 31.5, WIDTH))]
+    return (image_m[tuple(straight)] * np.sqrt(x * x + y * y + 1)).astype("float32")
+
+
 @pytest.mark.launch_test
 def generate_test_description():
-    cameras = ["front", "reliable", "overridden"] + ["packed"] * HAS_COMPRESSED
+    cameras = ["front", "bent", "reliable", "overridden"] + ["packed"] * HAS_COMPRESSED
     packed = {"packed.image_transport": "compressedDepth"} if HAS_COMPRESSED else {}
     return LaunchDescription([
         Node(package="berth_ros", executable="distance_node", output="screen", parameters=[{
             "use_sim_time": True, "cameras": cameras, "question_rate_hz": 50.0, "reliable.reliability": "reliable",
+            "bent.rectified": False, "bent.depth_is": "ray",
             "qos_overrides./overridden/depth_image.subscription.reliability": "reliable",
             "qos_overrides./overridden/depth_image.subscription.depth": 7, **packed}]),
         launch_testing.actions.ReadyToTest(),
@@ -83,11 +97,26 @@ class Images(LivingRobot):
             publisher = self.node.create_publisher(Image, f"{camera}/depth_image", 1)
             self.assertTrue(self.until(lambda publisher=publisher: publisher.get_subscription_count() == 1))
 
+    def test_06_a_lens_that_bends_and_depth_along_the_ray_are_read(self):
+        publisher = self.node.create_publisher(Image, "bent/depth_image", qos_profile_sensor_data)
+        infos = self.node.create_publisher(CameraInfo, "bent/camera_info", qos_profile_sensor_data)
+        info = CameraInfo(width=WIDTH, height=HEIGHT, k=MATRIX, distortion_model="plumb_bob", d=LENS)
+        info.header.frame_id = FRAME
+        ranges_m = bent_ranges_m(depth_m(obstacle=True))
+
+        def finds_the_post():
+            infos.publish(info)
+            publisher.publish(self.image(data=ranges_m.tobytes()))
+            arm = [link for link in self.newest.links if link.link == "arm"][0]
+            return arm.occupied.camera == "bent" and abs(arm.occupied.obstacle_point_base_m.x - 0.58) < 0.02
+        self.assertTrue(self.until(finds_the_post), self.message("camera bent"))
+        self.assertEqual(self.message("camera bent"), "ok")
+
     @unittest.skipUnless(HAS_COMPRESSED, "compressed_depth_image_transport is not installed")
-    def test_06_compressed_images_are_taken(self):
+    def test_07_compressed_images_are_taken(self):
         publisher = self.node.create_publisher(CompressedImage, "packed/depth_image/compressedDepth", qos_profile_sensor_data)
         infos = self.node.create_publisher(CameraInfo, "packed/camera_info", qos_profile_sensor_data)
-        info = CameraInfo(width=WIDTH, height=HEIGHT, k=[FOCAL, 0.0, 31.5, 0.0, FOCAL, 23.5, 0.0, 0.0, 1.0])
+        info = CameraInfo(width=WIDTH, height=HEIGHT, k=MATRIX)
         info.header.frame_id = FRAME
         _, png = cv2.imencode(".png", (1000 * self.depth).round().astype(np.uint16))
         # Before the PNG: how depth was quantized, which is nothing where it is in mm.

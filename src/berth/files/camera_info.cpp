@@ -67,8 +67,9 @@ std::optional<Lens> find_lens(const YamlMap& info, const std::optional<YamlValue
                      coefficients ? *coefficients : info.at("distortion_coefficients"));
   }
   constexpr const char* kChoice =
-      "rectified: true for this camera in the scene if its images are rectified, or rectified: "
-      "false if they are as the lens made them (berth rectifies them then)";
+      "rectified: true for this camera if its images are rectified, or rectified: false if they "
+      "are "
+      "as the lens made them (berth rectifies them then)";
   if (model && bends_without_coefficients(plain_name(*model))) {
     model->fail(kChoice);
   }
@@ -197,10 +198,15 @@ CameraInfo read_calibration_file(const YamlMap& info, std::optional<bool> is_rec
 
 }  // namespace
 
-CameraInfo read_camera_info(const std::filesystem::path& file, std::optional<bool> is_rectified) {
-  const YamlMap info(parse_yaml(file, without_last_separator(read_file_bytes(file))));
+CameraInfo parse_camera_info(const std::filesystem::path& name, const std::string& text,
+                             std::optional<bool> is_rectified) {
+  const YamlMap info(parse_yaml(name, text));
   return is_message(info) ? read_message(info, is_rectified)
                           : read_calibration_file(info, is_rectified);
+}
+
+CameraInfo read_camera_info(const std::filesystem::path& file, std::optional<bool> is_rectified) {
+  return parse_camera_info(file, without_last_separator(read_file_bytes(file)), is_rectified);
 }
 
 }  // namespace berth

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "berth/types/camera.hpp"
 
@@ -23,5 +24,9 @@ struct CameraInfo {
 /// key, value and what was expected; where there is distortion, and the caller said nothing, too.
 CameraInfo read_camera_info(const std::filesystem::path& file,
                             std::optional<bool> is_rectified = {});
+
+/// The same for a text that stands nowhere; messages call it `name`.
+CameraInfo parse_camera_info(const std::filesystem::path& name, const std::string& text,
+                             std::optional<bool> is_rectified);
 
 }  // namespace berth

@@ -179,10 +179,12 @@ std::vector<std::pair<std::string, YamlValue>> YamlValue::entries() const {
   return entries;
 }
 
-YamlMap::YamlMap(const YamlValue& value, const std::vector<std::string_view>& known)
+YamlMap::YamlMap(const YamlValue& value, const std::vector<std::string_view>& known,
+                 const std::vector<std::string_view>& unspoken)
     : YamlMap(value) {
   for (const auto& [key, entry] : entries_) {
-    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    if (std::ranges::find(known, key) != known.end()) continue;
+    if (std::ranges::find(unspoken, key) != unspoken.end()) continue;
     if (parse_integer(key)) entry.fail("unknown key", "a name; write 1.5 for 1,5");
     entry.fail("unknown key", fmt::format("{} (the nearest), or another of {}", nearest(key, known),
                                           fmt::join(known, ", ")));

@@ -54,8 +54,9 @@ class YamlValue {
 class YamlMap {
  public:
   explicit YamlMap(const YamlValue& value) : place_(value.place()), entries_(value.entries()) {}
-  /// Refuses every key that is not in `known`, and names the nearest one that is.
-  YamlMap(const YamlValue& value, const std::vector<std::string_view>& known);
+  /// Refuses every key that is in neither list, and names the nearest `known` one.
+  YamlMap(const YamlValue& value, const std::vector<std::string_view>& known,
+          const std::vector<std::string_view>& unspoken = {});
 
   std::optional<YamlValue> find(std::string_view key) const;
   /// Throws where the key is missing.

@@ -5,63 +5,48 @@
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
-#include <type_traits>
+#include <string>
+#include <vector>
 
 #include "berth/files/error.hpp"
 #include "berth/record/exact_json.hpp"
 #include "berth/record/recorded_robot.hpp"
-#include "berth/types/setting.hpp"
+#include "berth/types/setting_ref.hpp"
 
 namespace berth {
 namespace {
 
-template <class T>
-Json setting_json(const T& value) {
-  if constexpr (std::is_enum_v<T>) {
-    return name_of(value);
-  } else if constexpr (requires { value.has_value(); }) {
-    return value ? setting_json(*value) : Json();
-  } else if constexpr (std::is_floating_point_v<T>) {
-    return exact(value);
-  } else {
-    return value;
-  }
-}
-
-template <class Settings>
-Json settings_json(const Settings& settings) {
+Json settings_json(const std::vector<SettingRef>& settings) {
   Json out = Json::object();
-  visit_settings(settings, [&](const Setting& setting, const auto& value) {
-    out[setting.name] = setting_json(value);
-  });
+  for (const SettingRef& setting : settings) {
+    Json& value = out[setting.name];
+    if (const auto* number = std::get_if<double>(&setting.value)) value = exact(*number);
+    if (const auto* count = std::get_if<int>(&setting.value)) value = *count;
+    if (const auto* flag = std::get_if<bool>(&setting.value)) value = *flag;
+    if (const auto* name = std::get_if<std::string_view>(&setting.value)) value = *name;
+  }
   return out;
 }
 
-template <class T>
-void take_setting(const Json& json, T& value) {
-  if constexpr (std::is_enum_v<T>) {
-    value = enum_of<T>(json, all_of(T{}).size());
-  } else if constexpr (requires { value.has_value(); }) {
-    value.reset();
-    if (!json.is_null()) take_setting(json, value.emplace());
-  } else if constexpr (std::is_floating_point_v<T>) {
-    value = number_of(json);
-  } else {
-    value = json.get<T>();
-  }
+SettingValue value_of(const Json& json, const SettingRef& setting) {
+  if (setting.is_optional && json.is_null()) return {};
+  if (setting.kind == SettingKind::choice) return setting.choice(json.get<std::string>());
+  if (setting.kind == SettingKind::flag) return json.get<bool>();
+  if (setting.kind == SettingKind::whole) return json.get<int>();
+  return number_of(json);
 }
 
 /// Throws std::runtime_error with the group and the key for a setting that is missing or no value
 /// of its kind.
-template <class Settings>
-void take_settings(const Json& json, std::string_view group, Settings& settings) {
-  visit_settings(settings, [&](const Setting& setting, auto& value) {
+void take_settings(const Json& json, std::string_view group,
+                   const std::vector<SettingRef>& settings) {
+  for (const SettingRef& setting : settings) {
     try {
-      take_setting(json.at(std::string(setting.name)), value);
+      setting.set(value_of(json.at(std::string(setting.name)), setting));
     } catch (const std::exception& error) {
       throw std::runtime_error(fmt::format("{}.{}: {}", group, setting.name, error.what()));
     }
-  });
+  }
 }
 
 constexpr std::string_view kCellFile = "cell.json";
@@ -79,7 +64,7 @@ Json json_of(const MountedCamera& mounted) {
                {"cx_px", exact(mount.camera.cx_px)},
                {"cy_px", exact(mount.camera.cy_px)}};
   visit_setting_groups(mounted.settings(), [&](std::string_view group, const auto& settings) {
-    json[group] = settings_json(settings);
+    json[group] = settings_json(setting_refs(settings));
   });
   json["link_padding_m"] = exact(mounted.settings().self_filter.link_padding_m);
   return json;
@@ -96,14 +81,14 @@ std::shared_ptr<const MountedCamera> mounted_of(const Json& json,
                   number_of(json.at("cx_px")),    number_of(json.at("cy_px"))};
   CameraSettings settings;
   visit_setting_groups(settings, [&](std::string_view group, auto& one) {
-    take_settings(json.at(std::string(group)), group, one);
+    take_settings(json.at(std::string(group)), group, setting_refs(one));
   });
   settings.self_filter.link_padding_m = numbers_of(json.at("link_padding_m"));
   return std::make_shared<const MountedCamera>(robot, std::move(mount), std::move(settings));
 }
 
 Json json_of(const SeparationSettings& settings) {
-  Json json = settings_json(settings);
+  Json json = settings_json(setting_refs(settings));
   json["stopping"] = Json::array();
   for (const StoppingRow& row : settings.stopping) {
     json["stopping"].push_back({exact(row.speed_m_s), exact(row.time_s), exact(row.distance_m)});
@@ -113,7 +98,7 @@ Json json_of(const SeparationSettings& settings) {
 
 SeparationSettings separation_of(const Json& json) {
   SeparationSettings settings;
-  take_settings(json, "separation", settings);
+  take_settings(json, "separation", setting_refs(settings));
   for (const Json& row : json.at("stopping")) {
     settings.stopping.push_back({number_of(row.at(0)), number_of(row.at(1)), number_of(row.at(2))});
   }
@@ -129,8 +114,8 @@ RecordedCell cell_of(const mcap::FileReader& file, const Json& json, std::string
   RecordedCell cell;
   cell.version = version = json.at("berth").get<std::string>();
   EvaluationSettings evaluation;
-  take_settings(json.at("evaluation"), "evaluation", evaluation);
-  take_settings(json.at("time"), "time", evaluation.time);
+  take_settings(json.at("evaluation"), "evaluation", setting_refs(evaluation));
+  take_settings(json.at("time"), "time", setting_refs(evaluation.time));
   cell.had_deadline = evaluation.distance.deadline_us.has_value();
   if (cell.had_deadline) {
     evaluation.distance.deadline_us = std::numeric_limits<double>::infinity();
@@ -147,8 +132,8 @@ RecordedCell cell_of(const mcap::FileReader& file, const Json& json, std::string
 std::vector<mcap::Attachment> attachments_of(const RecordedCell& cell) {
   Json json = {{"schema", kSchema}, {"berth", cell.version}};
   const EvaluationSettings& evaluation = cell.robot->settings();
-  json["evaluation"] = settings_json(evaluation);
-  json["time"] = settings_json(evaluation.time);
+  json["evaluation"] = settings_json(setting_refs(evaluation));
+  json["time"] = settings_json(setting_refs(evaluation.time));
   json["cameras"] = Json::array();
   for (const auto& mounted : cell.cameras) json["cameras"].push_back(json_of(*mounted));
   json["separation"] = cell.separation ? json_of(*cell.separation) : Json();

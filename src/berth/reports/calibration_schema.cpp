@@ -17,7 +17,8 @@ Json three_or_null() { return schema::or_null(list_of(number(), 3)); }
 /// Some of these settings. What was found is no default.
 template <class Settings>
 Json some_of() {
-  Json settings = setting_properties(Settings());
+  const Settings defaults;
+  Json settings = setting_properties(setting_refs(defaults));
   for (auto& [name, schema] : settings.items()) schema.erase("default");
   return schema::map_of(settings, {});
 }

@@ -266,8 +266,11 @@ OpenScene open_with(const SceneFile& source,
 
 DepthImage decode(const OpenCamera& camera, std::size_t frame, double near_m, double far_m) {
   const SceneCamera& source = camera.source;
-  DepthImage given_m = read_depth_png(source.depth[frame], camera.given(), source.depth_scale_m,
-                                      near_m, far_m, source.depth_offset_m);
+  return read_depth_png(source.depth[frame], camera.given(), source.depth_scale_m, near_m, far_m,
+                        source.depth_offset_m);
+}
+
+DepthImage rectified(const OpenCamera& camera, DepthImage given_m) {
   return camera.rectification ? camera.rectification->apply(given_m) : given_m;
 }
 
@@ -280,11 +283,15 @@ bool tells_unread(const OpenCamera& camera) {
 
 DepthImage OpenCamera::read_depth(std::size_t frame) const {
   if (kept_depth_m[frame]) return *kept_depth_m[frame];
+  return rectified(*this, read_given(frame));
+}
+
+DepthImage OpenCamera::read_given(std::size_t frame) const {
   return decode(*this, frame, source.near_m, source.far_m);
 }
 
 DepthImage OpenCamera::read_all_depth(std::size_t frame) const {
-  return decode(*this, frame, 0, std::numeric_limits<double>::infinity());
+  return rectified(*this, decode(*this, frame, 0, std::numeric_limits<double>::infinity()));
 }
 
 std::vector<Attachment> attachments_of(const SceneFile& scene) {

@@ -35,6 +35,8 @@ struct OpenCamera {
   const Camera& given() const { return rectification ? rectification->given() : mounted->camera(); }
   /// In metres, rectified. Throws std::runtime_error where the image cannot be decoded.
   DepthImage read_depth(std::size_t frame) const;
+  /// The same as the camera gave it.
+  DepthImage read_given(std::size_t frame) const;
   /// The same from its file, with readings that near_m and far_m leave out.
   DepthImage read_all_depth(std::size_t frame) const;
 };

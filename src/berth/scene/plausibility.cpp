@@ -387,7 +387,11 @@ std::string text_without_name(const CameraPlausibility& camera) {
 }
 
 std::string doubt_of(const CameraPlausibility& camera) {
-  if (camera.is_implausible || !camera.readings.tells()) return {};
+  if (camera.is_implausible || camera.frames == 0) return {};
+  if (!camera.readings.tells()) {
+    return "its images show too little of the robot: its pose, depth_scale and the joints are not "
+           "checked";
+  }
   std::string text;
   if (camera.readings.at_robot() < kWellPlaced) {
     text = fmt::format(

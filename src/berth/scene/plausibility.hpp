@@ -61,8 +61,8 @@ CameraPlausibility find_implausible(const OpenScene& scene, std::size_t camera);
 /// scene, though nobody knows what.
 inline constexpr double kWellPlaced = 0.85;
 
-/// The doubts about images that are used: a share below kWellPlaced, links that are not there.
-/// Empty where nothing is.
+/// The doubts about images that are used: too little of the robot to check anything, a share below
+/// kWellPlaced, links that are not there. Empty where there is none.
 std::string doubt_of(const CameraPlausibility& camera);
 
 /// One sentence or two for people: which camera, what share, what was expected, what would explain

@@ -139,16 +139,9 @@ std::map<std::string, double> read_joint_values(const YamlMap& map, std::string_
   return values;
 }
 
-std::vector<std::string_view> with_ended(std::string_view group,
-                                         std::vector<std::string_view> others = {}) {
-  const std::vector<std::string_view> ended = ended_settings(group);
-  others.insert(others.end(), ended.begin(), ended.end());
-  return others;
-}
-
 SeparationSettings read_separation(const YamlValue& value) {
   SeparationSettings settings;
-  const YamlMap keys = read_settings(value, settings, with_ended("separation", {"stopping"}));
+  const YamlMap keys = read_settings(value, "separation", setting_refs(settings), {"stopping"});
   if (const auto stopping = keys.find("stopping")) {
     for (const YamlValue& item : stopping->list()) {
       const YamlMap row(item, {"speed_m_s", "time_s", "distance_m"});
@@ -172,8 +165,8 @@ void warn_of_what_is_not_shown(SceneFile& scene, int line) {
 
 void read_view_settings(const YamlMap& map, CameraSettings& settings) {
   if (const auto filter = map.find("self_filter")) {
-    const YamlMap keys =
-        read_settings(*filter, settings.self_filter, with_ended("self_filter", {"link_padding_m"}));
+    const YamlMap keys = read_settings(*filter, "self_filter", setting_refs(settings.self_filter),
+                                       {"link_padding_m"});
     if (const auto paddings = keys.find("link_padding_m")) {
       for (const auto& [link, padding] : paddings->entries()) {
         settings.link_padding_m[link] = padding.non_negative();
@@ -181,13 +174,13 @@ void read_view_settings(const YamlMap& map, CameraSettings& settings) {
     }
   }
   if (const auto sensor = map.find("sensor")) {
-    require_no_hole_policy(read_settings(*sensor, settings.sensor, with_ended("sensor")));
+    require_no_hole_policy(read_settings(*sensor, "sensor", setting_refs(settings.sensor)));
   }
   if (const auto space = map.find("space")) {
-    read_settings(*space, settings.space, with_ended("space"));
+    read_settings(*space, "space", setting_refs(settings.space));
   }
   if (const auto watch = map.find("watch")) {
-    read_settings(*watch, settings.watch, with_ended("watch"));
+    read_settings(*watch, "watch", setting_refs(settings.watch));
   }
 }
 
@@ -213,10 +206,10 @@ SceneFile parse_scene(const std::filesystem::path& file, const std::string& text
   scene.fixed_joints = read_joint_values(map, "fixed_joints");
   scene.evaluation.time.joints = kInRecordings;
   if (const auto evaluation = map.find("evaluation")) {
-    read_settings(*evaluation, scene.evaluation, with_ended("evaluation"));
+    read_settings(*evaluation, "evaluation", setting_refs(scene.evaluation));
   }
   if (const auto time = map.find("time")) {
-    read_settings(*time, scene.evaluation.time, with_ended("time"));
+    read_settings(*time, "time", setting_refs(scene.evaluation.time));
   }
   if (const auto separation = map.find("separation")) {
     scene.separation = read_separation(*separation);

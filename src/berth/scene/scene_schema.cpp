@@ -68,7 +68,7 @@ Json others_of(std::string_view group) {
 Json group_schemas() {
   Json groups;
   visit_scene_groups([&](std::string_view name, const auto& settings) {
-    Json properties = setting_properties(settings);
+    Json properties = setting_properties(setting_refs(settings));
     properties.update(others_of(name));
     groups[name] = map_of(properties, {});
   });

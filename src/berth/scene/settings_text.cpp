@@ -3,25 +3,16 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cmath>
-#include <optional>
 #include <stdexcept>
-#include <type_traits>
-#include <vector>
+
+#include "berth/types/setting_ref.hpp"
 
 namespace berth {
 namespace {
 
 std::string number_text(double value) {
   return std::isinf(value) ? "no limit" : fmt::format("{}", value);
-}
-
-template <class Enum>
-std::string names_text() {
-  std::vector<std::string> names;
-  for (const Enum one : all_of(Enum{})) names.push_back(fmt::format("`{}`", name_of(one)));
-  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 /// Such as "above 0", "1 to 64", "0, or 1 and more".
@@ -38,59 +29,34 @@ std::string domain_text(const Domain& domain) {
   return domain.has_off ? "0, or " + range : range;
 }
 
-template <class T>
-struct ValueText {
-  static std::string standing(const T& value) {
-    if constexpr (std::is_same_v<T, bool>) {
-      return value ? "true" : "false";
-    } else if constexpr (std::is_enum_v<T>) {
-      return fmt::format("`{}`", name_of(value));
-    } else {
-      return number_text(value);
-    }
-  }
-  static std::string possible(const Domain& domain) {
-    if constexpr (std::is_same_v<T, bool>) {
-      return "true, false";
-    } else if constexpr (std::is_enum_v<T>) {
-      return names_text<T>();
-    } else if constexpr (std::is_integral_v<T>) {
-      return "whole, " + domain_text(domain);
-    } else {
-      return domain_text(domain);
-    }
-  }
-};
+std::string standing(const SettingValue& value) {
+  if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+  if (const auto* count = std::get_if<int>(&value)) return number_text(*count);
+  if (const auto* number = std::get_if<double>(&value)) return number_text(*number);
+  if (const auto* name = std::get_if<std::string_view>(&value)) return fmt::format("`{}`", *name);
+  return "none";
+}
 
-template <class T>
-struct ValueText<std::optional<T>> {
-  static std::string standing(const std::optional<T>& value) {
-    return value ? ValueText<T>::standing(*value) : "none";
+std::string possible(const SettingRef& setting) {
+  if (setting.kind == SettingKind::flag) return "true, false";
+  if (setting.kind == SettingKind::choice) {
+    return fmt::format("`{}`", fmt::join(setting.choices, "`, `"));
   }
-  static std::string possible(const Domain& domain) { return ValueText<T>::possible(domain); }
-};
-
-/// Writes one row for each setting that it visits.
-struct TableWriter {
-  std::string& table;
-
-  template <class T>
-  void operator()(const Setting& setting, const T& value) const {
-    table += fmt::format("| `{}` | {} | {} | {} |\n", setting.name, ValueText<T>::standing(value),
-                         ValueText<T>::possible(setting.domain), setting.sentence);
-  }
-};
+  return (setting.kind == SettingKind::whole ? "whole, " : "") + domain_text(setting.domain);
+}
 
 }  // namespace
 
 std::string settings_table(std::string_view group) {
   std::string table = "| key | default | may be | what it does |\n| --- | --- | --- | --- |\n";
-  const TableWriter write{table};
   bool is_known = false;
   visit_scene_groups([&](std::string_view name, const auto& settings) {
     if (name != group) return;
     is_known = true;
-    visit_settings(settings, write);
+    for (const SettingRef& setting : setting_refs(settings)) {
+      table += fmt::format("| `{}` | {} | {} | {} |\n", setting.name, standing(setting.value),
+                           possible(setting), setting.sentence);
+    }
   });
   if (!is_known) {
     throw std::invalid_argument(fmt::format("settings group: \"{}\"; expected one of {}", group,

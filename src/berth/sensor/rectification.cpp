@@ -113,7 +113,7 @@ void visit_pixels(const Camera& camera, const Visit& visit) {
 }  // namespace
 
 Rectification::Rectification(const Camera& given, const std::optional<Lens>& lens, DepthIs depth_is)
-    : given_(given), camera_(given), depth_is_(depth_is) {
+    : given_(given), lens_(lens), camera_(given), depth_is_(depth_is) {
   const LensRays rays(lens);
   if (lens) find_camera(rays);
   find_pixels(rays);

@@ -23,6 +23,7 @@ class Rectification {
 
   /// Of the images that come.
   const Camera& given() const { return given_; }
+  const std::optional<Lens>& lens() const { return lens_; }
   /// Of the images that are made: the same focal length, and as large as the lens sees, up to four
   /// times as many pixels; beyond that with a shorter focal length.
   const Camera& camera() const { return camera_; }
@@ -37,6 +38,7 @@ class Rectification {
   void find_pixels(const class LensRays& rays);
 
   Camera given_;
+  std::optional<Lens> lens_;
   Camera camera_;
   DepthIs depth_is_;
   /// For each pixel that is made the one that it is taken from, or -1.
