@@ -102,15 +102,21 @@ class Images(LivingRobot):
         infos = self.node.create_publisher(CameraInfo, "bent/camera_info", qos_profile_sensor_data)
         info = CameraInfo(width=WIDTH, height=HEIGHT, k=MATRIX, distortion_model="plumb_bob", d=LENS)
         info.header.frame_id = FRAME
-        ranges_m = bent_ranges_m(depth_m(obstacle=True))
+        with_post_m = depth_m()
+        with_post_m[10:38, 61:] = 0.75
+        ranges_m = bent_ranges_m(with_post_m)
+
+        def post():
+            arms = [link.occupied for link in self.newest.links if link.link == "arm"] if self.newest else []
+            return arms[0] if arms and arms[0].camera == "bent" else None
 
         def finds_the_post():
             infos.publish(info)
             publisher.publish(self.image(data=ranges_m.tobytes()))
-            arm = [link for link in self.newest.links if link.link == "arm"][0]
-            return arm.occupied.camera == "bent" and abs(arm.occupied.obstacle_point_base_m.x - 0.58) < 0.02
-        self.assertTrue(self.until(finds_the_post), self.message("camera bent"))
-        self.assertEqual(self.message("camera bent"), "ok")
+            # The edge of the surface's 3 cm, within two pixels: as it came it would be at x = 0.355, and 9 cm farther away.
+            return post() and abs(post().obstacle_point_base_m.x - 0.39) < 0.02 and abs(post().obstacle_point_base_m.z + 0.22) < 0.01
+        is_read = self.until(lambda: finds_the_post() and self.message("camera bent") == "ok")
+        self.assertTrue(is_read, f"{self.message('camera bent')}: {post()}")
 
     @unittest.skipUnless(HAS_COMPRESSED, "compressed_depth_image_transport is not installed")
     def test_07_compressed_images_are_taken(self):
