@@ -43,11 +43,11 @@ BrakingPath::BrakingPath(std::shared_ptr<const Robot> robot, const std::vector<H
     for (const Eigen::Vector3f& p : hulls_[i].points_L_m) {
       chain.radius_m = std::max<double>(chain.radius_m, p.norm() + hulls_[i].slack_m);
     }
-    std::optional<std::size_t> link = model.evaluated_links[i];
-    for (; link; link = model.links[*link].parent) chain.joints.push_back({*link, 0});
+    chain.joints = joint_chain(model, model.evaluated_links[i]);
   }
   steps_.resize(kNodes * model.joints.size());
   corners_.resize(kPieces * model.joints.size());
+  slides_.resize(model.joints.size());
   poses_.resize(kNodes);
   for (RobotPose& pose : poses_) pose.X_BL.resize(model.links.size());
   way_m_.resize(kNodes);
@@ -76,11 +76,18 @@ bool BrakingPath::lay(const RobotPose& now, const PlannedMotion& motion, double 
   piece_s_ = end_s / kPieces;
   if (!find_steps(motion)) return false;
   pose_nodes(now);
+  find_slides();
   std::ranges::fill(way_m_, 0.0);
   std::ranges::fill(most_way_m_, 0.0);
   for (std::size_t i = 0; i < hulls_.size(); ++i) {
     if (!robot_->model().is_moved(robot_->model().evaluated_links[i])) continue;
-    find_reach(now, chains_[i]);
+    Chain& chain = chains_[i];
+    find_reach(robot_->model(), now, chain.radius_m, slides_, chain.joints);
+    // What is before a joint that slides moves with it (measure).
+    for (std::size_t k = 1; k < chain.joints.size(); ++k) {
+      double& reach_m = chain.joints[k].reach_m;
+      reach_m = std::max(reach_m, chain.joints[k - 1].reach_m);
+    }
     measure(i);
   }
   for (std::size_t n = 1; n < way_m_.size(); ++n) {
@@ -158,21 +165,11 @@ void BrakingPath::pose_nodes(const RobotPose& now) {
   }
 }
 
-void BrakingPath::find_reach(const RobotPose& now, Chain& chain) const {
-  const RobotModel& model = robot_->model();
-  double length_m = chain.radius_m;
-  double reach_m = 0;
-  for (ChainJoint& at : chain.joints) {
-    const Link& link = model.links[at.link];
-    const bool slides = link.joint.type == JointType::prismatic;
-    reach_m = std::max(reach_m, slides ? 1.0 : length_m);
-    at.reach_m = reach_m;
-    if (!link.parent) break;
-    length_m += (now.X_BL[at.link].translation() - now.X_BL[*link.parent].translation()).norm();
-    if (!slides) continue;
-    double most_m = 0;
-    for (int n = 0; n < kNodes; ++n) most_m = std::max(most_m, std::abs(turned(n, link.joint)));
-    length_m += most_m;
+void BrakingPath::find_slides() {
+  std::ranges::fill(slides_, 0.0);
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    double& most = slides_[i % slides_.size()];
+    most = std::max(most, std::abs(steps_[i]));
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "berth/pipeline/robot.hpp"
 #include "berth/robot/kinematics.hpp"
+#include "berth/robot/link_reach.hpp"
 #include "berth/separation/link_speed.hpp"
 #include "berth/separation/planned_motion.hpp"
 
@@ -42,13 +43,6 @@ class BrakingPath {
   }
 
  private:
-  /// A joint that moves a link, or a link before it.
-  struct ChainJoint {
-    /// The link that the joint moves.
-    std::size_t link;
-    /// A radian, or a metre, of it moves no point of the link farther.
-    double reach_m;
-  };
   struct Chain {
     double radius_m = 0;
     /// From the link itself to the root.
@@ -60,7 +54,7 @@ class BrakingPath {
   /// How far the states inside of a piece lie from the straight line.
   void find_corners(std::span<const JointState> path);
   void pose_nodes(const RobotPose& now);
-  void find_reach(const RobotPose& now, Chain& chain) const;
+  void find_slides();
   void measure(std::size_t i);
   /// Of the model's joint of this link, from the first node to this one; rad or m.
   double turned(int node, const Joint& joint) const;
@@ -74,6 +68,8 @@ class BrakingPath {
   /// By node and joint: from the first node; by piece and joint.
   std::vector<double> steps_;
   std::vector<double> corners_;
+  /// By joint: how far it goes from the first node at most.
+  std::vector<double> slides_;
   std::vector<RobotPose> poses_;
   std::vector<double> way_m_;
   std::vector<double> most_way_m_;
