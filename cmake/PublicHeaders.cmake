@@ -33,6 +33,7 @@ set(BERTH_PUBLIC_HEADERS
   berth/live/live_camera.hpp
   berth/live/live_space.hpp
   berth/live/raw_depth.hpp
+  berth/control/distance_rows.hpp
   berth/separation/detection.hpp
   berth/separation/evasion.hpp
   berth/separation/monitor.hpp

@@ -17,6 +17,7 @@
 #include "sim/random.hpp"
 #include "sim/winding_number.hpp"
 #include "tests/support/data_folder.hpp"
+#include "tests/support/known_arms.hpp"
 #include "tests/support/thinned.hpp"
 
 namespace berth::sim {
@@ -26,25 +27,7 @@ constexpr double kRange_m = 1, kTolerance_m = 1e-3;
 /// Single precision at some metres; FCL's own.
 constexpr double kRounding_m = 2e-5, kMargin_m = 1e-3;
 
-RobotSettings bundled_arm() {
-  return {.urdf = BERTH_BUNDLED_ARM "/arm.urdf",
-          .package_paths = {{"berth_arm", BERTH_BUNDLED_ARM}},
-          .environment_links = {"table"}};
-}
-
-/// The second arm beside the first one, so that they reach one another.
-RobotSettings two_arms_in_two() {
-  RobotSettings settings = bundled_arm();
-  settings.others.push_back({.urdf = settings.urdf,
-                             .package_paths = settings.package_paths,
-                             .prefix = "second_",
-                             .parent = "table",
-                             .X_PR = Pose(Eigen::Translation3d(0.6, 0.1, 0))});
-  settings.environment_links.push_back("second_table");
-  return settings;
-}
-
-/// The same in one file.
+/// As two_arms_in_two(), in one file.
 RobotSettings two_arms_in_one() {
   RobotSettings settings = bundled_arm();
   std::ostringstream text;

@@ -1,0 +1,147 @@
+#include "berth/control/distance_rows.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "berth/distance/known_model.hpp"
+#include "berth/robot/link_reach.hpp"
+#include "berth/robot/plausible_size.hpp"
+
+namespace berth {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// The points of a pair, and where the other one is fixed.
+struct PairPoints {
+  bool is_known = false;
+  double distance_m = kNaN;
+  Eigen::Vector3d link_B_m;
+  Eigen::Vector3d other_B_m;
+  /// In RobotModel::links; none for what the cameras see.
+  std::optional<std::size_t> other;
+};
+
+PairPoints points_of(const SpacePair& pair) {
+  return {pair.is_known(), pair.distance_m, pair.robot_point_B_m.cast<double>(),
+          pair.obstacle_point_B_m.cast<double>(), std::nullopt};
+}
+
+PairPoints points_of(const KnownPair& pair) {
+  return {pair.is_known(), pair.distance_m, pair.robot_point_B_m.cast<double>(),
+          pair.obstacle_point_B_m.cast<double>(), static_cast<std::size_t>(pair.link)};
+}
+
+PairPoints points_of(const LinkResult& link, RowKind kind) {
+  if (kind == RowKind::known) return points_of(link.known);
+  return points_of(kind == RowKind::nearest ? link : link.occupied);
+}
+
+/// As the robot stands with all joints at 0.
+RobotPose pose_at_zero(const RobotModel& model) {
+  RobotPose pose;
+  forward_kinematics(model, std::vector<double>(model.joints.size(), 0.0), pose);
+  return pose;
+}
+
+}  // namespace
+
+DistanceRows::DistanceRows(std::shared_ptr<const Robot> robot) : robot_(std::move(robot)) {
+  const RobotModel& model = robot_->model();
+  const auto links = static_cast<Eigen::Index>(model.evaluated_links.size());
+  const auto joints = static_cast<Eigen::Index>(model.joints.size());
+  for (LinksByJoints& gradient : gradients_) gradient.setConstant(links, joints, kNaN);
+  reach_m_.resize(links, joints);
+  known_reach_m_.resize(links, joints);
+  sum_m_.resize(joints);
+  of_link_.resize(3, joints);
+  of_other_.resize(3, joints);
+  for (const KnownBody& body : robot_->known().bodies) {
+    chains_.push_back(joint_chain(model, body.link));
+    radius_m_.push_back(berth::reach_m(model.links[body.link].mesh_L));
+  }
+  has_slides_ = std::ranges::any_of(
+      model.links, [](const Link& link) { return link.joint.type == JointType::prismatic; });
+  find_reaches(pose_at_zero(model));
+}
+
+DistanceRows::~DistanceRows() = default;
+
+void DistanceRows::update(const Result& result) {
+  const auto links = static_cast<std::size_t>(reach_m_.rows());
+  if (result.links.size() != links) {
+    throw std::invalid_argument(fmt::format("result: {} links; expected {}, those of robot \"{}\"",
+                                            result.links.size(), links, robot_->model().name));
+  }
+  for (LinksByJoints& gradient : gradients_) gradient.setConstant(kNaN);
+  if (result.pose.X_BL.empty()) return;
+  for (std::size_t i = 0; i < links; ++i) {
+    for (const RowKind kind : kRowKinds) differentiate(result, i, kind);
+  }
+  if (has_slides_) find_reaches(result.pose);
+}
+
+void DistanceRows::differentiate(const Result& result, std::size_t link, RowKind kind) {
+  const PairPoints pair = points_of(result.links[link], kind);
+  if (!pair.is_known) return;
+  auto gradient = gradients_[index(kind)].row(static_cast<Eigen::Index>(link));
+  gradient.setZero();
+  const Eigen::Vector3d way_B_m = pair.link_B_m - pair.other_B_m;
+  const double length_m = way_B_m.norm();
+  if (pair.distance_m == 0 || length_m == 0) return;
+  const RobotModel& model = robot_->model();
+  point_jacobian(model, result.pose, model.evaluated_links[link], pair.link_B_m, of_link_);
+  if (pair.other) {
+    point_jacobian(model, result.pose, *pair.other, pair.other_B_m, of_other_);
+    of_link_ -= of_other_;
+  }
+  gradient.noalias() = (way_B_m / length_m).transpose() * of_link_;
+}
+
+void DistanceRows::find_reaches(const RobotPose& pose) {
+  for (std::size_t i = 0; i < chains_.size(); ++i) {
+    find_reach(robot_->model(), pose, radius_m_[i], {}, chains_[i]);
+  }
+  for (Eigen::Index i = 0; i < reach_m_.rows(); ++i) {
+    sum_m_.setZero();
+    add_reach(static_cast<std::size_t>(i), 0, sum_m_);
+    reach_m_.row(i) = sum_m_.transpose();
+  }
+  known_reach_m_.setZero();
+  for (const auto& [a, b] : robot_->known().pairs) {
+    const std::size_t common = common_joints(a, b);
+    sum_m_.setZero();
+    add_reach(a, common, sum_m_);
+    add_reach(b, common, sum_m_);
+    for (const std::size_t body : {a, b}) {
+      if (!robot_->known().bodies[body].is_asked) continue;
+      auto row = known_reach_m_.row(static_cast<Eigen::Index>(body));
+      row = row.cwiseMax(sum_m_.transpose());
+    }
+  }
+}
+
+void DistanceRows::add_reach(std::size_t body, std::size_t common, Eigen::VectorXd& sum_m) const {
+  const std::vector<ChainJoint>& chain = chains_[body];
+  for (std::size_t k = 0; k + common < chain.size(); ++k) {
+    const Joint& joint = robot_->model().links[chain[k].link].joint;
+    if (!joint.position_index) continue;
+    sum_m[static_cast<Eigen::Index>(*joint.position_index)] +=
+        std::abs(joint.multiplier) * chain[k].reach_m;
+  }
+}
+
+std::size_t DistanceRows::common_joints(std::size_t body, std::size_t other) const {
+  const std::vector<ChainJoint>&a = chains_[body], &b = chains_[other];
+  std::size_t common = 0;
+  while (common < std::min(a.size(), b.size()) &&
+         a[a.size() - 1 - common].link == b[b.size() - 1 - common].link) {
+    ++common;
+  }
+  return common;
+}
+
+}  // namespace berth
