@@ -1,12 +1,17 @@
 // From depth images to results: several cameras, their clocks, what is not seen, look-ahead, and
 // what is attached to a link.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
+#include <utility>
 
+#include "berth/distance/known_model.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "berth/pipeline/query.hpp"
 #include "berth/robot/primitives.hpp"
+#include "berth/robot/robot_model.hpp"
 #include "berth/scene/open_scene.hpp"
 #include "tests/pipeline/frame_query.hpp"
 #include "tests/support/error_message.hpp"
@@ -290,6 +295,47 @@ TEST_F(WholeRobot, WhatIsAttachedIsPartOfItsLinkOrALinkOfItsOwn) {
 }
 
 // It would be the robot in every image, and nothing an obstacle.
+using Touching = std::set<std::pair<std::size_t, std::size_t>>;
+
+Touching touching_links(const Robot& robot) {
+  Touching links;
+  for (const LeftOutPair& pair : robot.known().left_out) {
+    if (pair.reason == LeftOutReason::always_touch) links.emplace(pair.link, pair.other);
+  }
+  return links;
+}
+
+/// Boxes on a chain: a and c always touch, d is 1 m away from c.
+RobotModel four_boxes() {
+  std::string text = "<robot name=\"boxes\">", before;
+  for (const auto& [name, x_m] : {std::pair{"a", 0.0}, {"b", 0.05}, {"c", 0.05}, {"d", 1.0}}) {
+    text += fmt::format(
+        "<link name=\"{}\"><visual><geometry><box size=\".3 .3 .3\"/></geometry></visual></link>",
+        name);
+    if (!before.empty()) {
+      text += fmt::format(
+          "<joint name=\"to_{0}\" type=\"continuous\"><parent link=\"{1}\"/><child link=\"{0}\"/>"
+          "<origin xyz=\"{2} 0 0\"/><axis xyz=\"0 0 1\"/></joint>",
+          name, before, x_m);
+    }
+    before = name;
+  }
+  return load_robot({.urdf = "boxes.urdf", .urdf_text = text + "</robot>"});
+}
+
+TEST(AttachedRobot, LinksThatAlwaysTouchAreTheSameWhateverWasAttachedBefore) {
+  const Robot bare(four_boxes());
+  const Attachment ball{"ball", "d", make_sphere(1.2)};
+  const Robot fresh(bare.bare(), bare.settings(), {ball});
+  ASSERT_EQ(touching_links(bare), (Touching{{2, 0}}));
+  ASSERT_EQ(touching_links(fresh), (Touching{{1, 3}, {2, 0}, {3, 0}}));
+  // The ball's first, and its links are not the bare robot's.
+  const auto holding = bare.with({ball});
+  EXPECT_EQ(touching_links(*holding), touching_links(fresh));
+  EXPECT_EQ(touching_links(*holding->with({})), touching_links(bare));
+  EXPECT_EQ(touching_links(*attach(bare, ball)), touching_links(fresh));
+}
+
 TEST_F(WholeRobot, AThingInMillimetresIsRefused) {
   const std::string hand = mounted_->robot()->model().evaluated_link_names().back();
   EXPECT_EQ(

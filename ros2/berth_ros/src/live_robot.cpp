@@ -43,9 +43,12 @@ LiveRobot LiveNode::make_robot(const AttachmentList& attached) const {
   AttachmentList all = scene ? berth::attachments_of(*scene) : AttachmentList();
   all.insert(all.end(), attached.begin(), attached.end());
   LiveRobot made;
-  made.robot = std::make_shared<const berth::Robot>(*model_, settings_.evaluation(), all);
+  const LiveRobot before = live();
+  made.robot = before.robot
+                   ? berth::with_settings(before.robot->with(all), settings_.evaluation())
+                   : std::make_shared<const berth::Robot>(*model_, settings_.evaluation(), all);
   // Neither settings nor what is attached changes joints: those that came stay.
-  made.joints = live().joints;
+  made.joints = before.joints;
   made.beginnings = beginnings_;
   if (!made.joints) {
     made.joints = std::make_shared<berth::JointIntake>(*model_, settings_.joint_settings());

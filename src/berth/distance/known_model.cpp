@@ -99,7 +99,8 @@ std::vector<Pair> find_always_touching(const RobotModel& model, const KnownModel
 }  // namespace
 
 std::shared_ptr<const KnownModel> build_known_model(const RobotModel& model,
-                                                    std::shared_ptr<const RobotPatches> patches) {
+                                                    std::shared_ptr<const RobotPatches> patches,
+                                                    const std::set<Pair>& touching) {
   const auto known = std::make_shared<KnownModel>();
   known->patches = std::move(patches);
   append_bodies(model, *known);
@@ -111,7 +112,9 @@ std::shared_ptr<const KnownModel> build_known_model(const RobotModel& model,
       if (!known->bodies[a].is_asked && !known->bodies[b].is_asked) continue;
       const Pair pair = known->bodies[a].is_asked ? Pair{a, b} : Pair{b, a};
       if (known->bodies[a].patches->empty() || known->bodies[b].patches->empty()) continue;
-      const auto reason = reason_of(model, known->bodies[a].link, known->bodies[b].link);
+      auto reason = reason_of(model, known->bodies[a].link, known->bodies[b].link);
+      if (!reason && touching.contains({known->bodies[pair[0]].link, known->bodies[pair[1]].link}))
+        reason = LeftOutReason::always_touch;
       reason ? leave_out(pair, *reason) : known->pairs.push_back(pair);
     }
   }

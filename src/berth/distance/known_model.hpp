@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <set>
 #include <string_view>
 #include <vector>
 
@@ -57,9 +58,11 @@ struct KnownModel {
   std::vector<LeftOutPair> left_out;
 };
 
-/// Draws poses until each remaining pair was apart in one: some milliseconds, more where links
-/// always touch. The same on each call.
-std::shared_ptr<const KnownModel> build_known_model(const RobotModel& model,
-                                                    std::shared_ptr<const RobotPatches> patches);
+/// Draws poses until each remaining pair was apart in one: some milliseconds, and half a second for
+/// two links that always touch, unless they are in `touching`, places in RobotModel::links. The
+/// same on each call.
+std::shared_ptr<const KnownModel> build_known_model(
+    const RobotModel& model, std::shared_ptr<const RobotPatches> patches,
+    const std::set<std::array<std::size_t, 2>>& touching = {});
 
 }  // namespace berth

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <mutex>
+#include <set>
 #include <stdexcept>
 
 #include "berth/distance/known_model.hpp"
@@ -26,6 +28,12 @@ auto find_attached(std::vector<Attachment>& attached, const std::string& name) {
 
 }  // namespace
 
+/// Links of the bare robot that always touch do so with more on them, too.
+struct Robot::Touching {
+  std::mutex mutex;
+  std::set<std::array<std::size_t, 2>> pairs;
+};
+
 struct Robot::Known {
   std::once_flag is_found;
   std::shared_ptr<const KnownModel> model;
@@ -42,11 +50,32 @@ Robot::Robot(RobotModel model, EvaluationSettings settings, std::vector<Attachme
   patches_ = build_robot_patches(model_);
   sample_points_ = std::make_shared<const SamplePoints>(berth::sample_points(model_));
   known_ = std::make_shared<Known>();
+  touching_ = std::make_shared<Touching>();
 }
 
 const KnownModel& Robot::known() const {
-  std::call_once(known_->is_found, [&] { known_->model = build_known_model(model_, patches_); });
+  std::call_once(known_->is_found, [&] {
+    const std::lock_guard lock(touching_->mutex);
+    known_->model = build_known_model(model_, patches_, touching_->pairs);
+    for (const LeftOutPair& pair : known_->model->left_out) {
+      const bool is_bare = has_nothing_on(pair.link) && has_nothing_on(pair.other);
+      if (pair.reason == LeftOutReason::always_touch && is_bare) {
+        touching_->pairs.insert({pair.link, pair.other});
+      }
+    }
+  });
   return *known_->model;
+}
+
+bool Robot::has_nothing_on(std::size_t link) const {
+  return link < bare_.links.size() &&
+         bare_.links[link].mesh_L.triangles.size() == model_.links[link].mesh_L.triangles.size();
+}
+
+std::shared_ptr<const Robot> Robot::with(std::vector<Attachment> attached) const {
+  const auto other = std::make_shared<Robot>(bare_, settings_, std::move(attached));
+  other->touching_ = touching_;
+  return other;
 }
 
 std::shared_ptr<const Robot> attach(const Robot& robot, const Attachment& attachment) {
@@ -56,7 +85,7 @@ std::shared_ptr<const Robot> attach(const Robot& robot, const Attachment& attach
         "attached \"{}\": it is attached already; expected another name", attachment.name));
   }
   attached.push_back(attachment);
-  return std::make_shared<const Robot>(robot.bare_, robot.settings_, std::move(attached));
+  return robot.with(std::move(attached));
 }
 
 std::shared_ptr<const Robot> detach(const Robot& robot, const std::string& name) {
@@ -67,7 +96,7 @@ std::shared_ptr<const Robot> detach(const Robot& robot, const std::string& name)
         fmt::format("attached \"{}\": nothing of this name is; expected one that is", name));
   }
   attached.erase(found);
-  return std::make_shared<const Robot>(robot.bare_, robot.settings_, std::move(attached));
+  return robot.with(std::move(attached));
 }
 
 std::shared_ptr<const Robot> with_settings(const std::shared_ptr<const Robot>& robot,

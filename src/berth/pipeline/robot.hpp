@@ -50,6 +50,8 @@ class Robot {
   /// Without what is attached.
   const RobotModel& bare() const { return bare_; }
   const std::vector<Attachment>& attached() const { return attached_; }
+  /// The same robot with this on it, and nothing else. Throws as the constructor does.
+  std::shared_ptr<const Robot> with(std::vector<Attachment> attached) const;
   const EvaluationSettings& settings() const { return settings_; }
   const std::shared_ptr<const LinkMeshes>& meshes() const { return meshes_; }
   const std::shared_ptr<const RobotPatches>& patches() const { return patches_; }
@@ -69,6 +71,11 @@ class Robot {
   std::shared_ptr<const SamplePoints> sample_points_;
   struct Known;
   std::shared_ptr<Known> known_;
+  /// Shared by all that have the same bare robot.
+  struct Touching;
+  std::shared_ptr<Touching> touching_;
+
+  bool has_nothing_on(std::size_t link) const;
 
   friend std::shared_ptr<const Robot> attach(const Robot& robot, const Attachment& attachment);
   friend std::shared_ptr<const Robot> detach(const Robot& robot, const std::string& name);

@@ -232,7 +232,7 @@ std::shared_ptr<const Robot> carrying(const std::shared_ptr<const Robot>& robot,
   if (attached.size() == kept + more.size()) return robot;
   attached.erase(attached.begin() + static_cast<std::ptrdiff_t>(kept), attached.end());
   attached.insert(attached.end(), more.begin(), more.end());
-  return std::make_shared<const Robot>(robot->bare(), robot->settings(), std::move(attached));
+  return robot->with(std::move(attached));
 }
 
 /// A scene, each of whose images was checked by `check`.
