@@ -32,6 +32,7 @@ from named_nodes import MAY_GO, NamedNodes, remaps  # noqa: E402
 
 NAME = "soaked"
 FAULT_EVERY_S = 2.0
+LOOKED_AT_S = 0.3  # before and after each
 OLDEST_S = {"image": 0.15, "joints": 0.02}  # the node's limits
 AHEAD_S = 0.04
 
@@ -120,13 +121,14 @@ class Soak(NamedNodes):
             self.assertTrue(-AHEAD_S <= age_s <= OLDEST_S[what] + 1e-6, f"{what} of {age_s} s under OK")
 
     def test_faults_one_after_another(self, process, test_args):
-        heard, begin_s, rss_kb = self.heard[NAME], time.monotonic(), []
+        heard, begin_s, due_s, rss_kb = self.heard[NAME], time.monotonic(), 0.0, []
         type(self).random, seconds, answers, ok = np.random.default_rng(1), float(test_args.get("seconds", 60)), 0, 0
         for what, make in itertools.cycle(list(self.faults())):
             self.assertTrue(self.until(heard.goes), f"before {what}: {heard}")
-            self.live_for(FAULT_EVERY_S / 2)
+            self.live_for(max(LOOKED_AT_S, due_s - time.monotonic()))
+            due_s = time.monotonic() + FAULT_EVERY_S
             make()
-            self.live_for(FAULT_EVERY_S / 2)
+            self.live_for(LOOKED_AT_S)
             said, heard.answers = heard.answers, []
             for _, message in said:
                 self.expect_sound(message)
