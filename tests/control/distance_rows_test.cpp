@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "sim/mesh_distance.hpp"
+#include "tests/control/cases.hpp"
 #include "tests/control/rows_robot.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/data_folder.hpp"
@@ -97,16 +98,6 @@ TEST(DistanceRows, GradientsOfARealRobotAndItsGripper) {
   const auto urdf = data_folder() / "robots/kinova_gen3_2f85/gen3_robotiq_2f_85.urdf";
   if (!std::filesystem::exists(urdf)) GTEST_SKIP() << "no " << urdf << "; set BERTH_DATA";
   compare_with_fcl({.urdf = urdf}, cases(10'000));
-}
-
-/// Puts what the cameras see at a point, nearest to that point of a link.
-void put(RowsRobot& robot, std::size_t i, const Eigen::Vector3d& p_L_m,
-         const Eigen::Vector3d& obstacle_B_m, SpacePair& pair) {
-  const Eigen::Vector3d p_B_m = robot.result.pose.X_BL[robot.model().evaluated_links[i]] * p_L_m;
-  pair.robot_point_B_m = p_B_m.cast<float>();
-  pair.obstacle_point_B_m = obstacle_B_m.cast<float>();
-  pair.distance_m = (pair.robot_point_B_m - pair.obstacle_point_B_m).norm();
-  pair.camera = 0;
 }
 
 TEST(DistanceRows, OfWhatTheCamerasSeeTheLinkAloneMoves) {

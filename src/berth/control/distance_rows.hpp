@@ -22,9 +22,10 @@ enum class RowKind : std::uint8_t {
 };
 inline constexpr std::array kRowKinds = {RowKind::nearest, RowKind::occupied,
                                          RowKind::known};  ///< all of them
+/// By enumerator.
+inline constexpr std::array<std::string_view, 3> kRowKindNames = {"nearest", "occupied", "known"};
 constexpr std::string_view name_of(RowKind kind) {
-  constexpr std::array<std::string_view, 3> kNames = {"nearest", "occupied", "known"};
-  return kNames[static_cast<std::size_t>(kind)];
+  return kRowKindNames[static_cast<std::size_t>(kind)];
 }
 
 /// A row for each link (Result::links), a column for each joint (RobotModel::joints).

@@ -1,0 +1,169 @@
+#include "berth/control/velocity_filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "berth/control/half_spaces.hpp"
+
+namespace berth {
+
+/// What one row says of a link.
+struct VelocityFilter::Bound {
+  FilterRow row;
+  double lower_bound_m = 0;
+  /// Its half-space; none where no pair gives a direction.
+  std::optional<Eigen::Index> half_space;
+};
+
+VelocityFilter::VelocityFilter(std::shared_ptr<const Robot> robot,
+                               const VelocityFilterSettings& settings)
+    : robot_(std::move(robot)), settings_(settings), rows_(robot_) {
+  visit_settings(settings_, SettingCheck{"velocity_filter"});
+  const auto joints = static_cast<Eigen::Index>(robot_->model().joints.size());
+  const std::size_t most_rows = kRowKinds.size() * robot_->model().evaluated_links.size();
+  spaces_ = std::make_unique<HalfSpaces>(joints, 2 * joints + static_cast<Eigen::Index>(most_rows));
+  bounds_.reserve(most_rows);
+  out_.held_by.reserve(most_rows);
+  out_.velocity.resize(static_cast<std::size_t>(joints));
+  for (auto* of_joints : {&lower_, &upper_, &before_, &planned_, &speed_, &normal_}) {
+    of_joints->setZero(joints);
+  }
+}
+
+VelocityFilter::~VelocityFilter() = default;
+
+const FilteredVelocity& VelocityFilter::update(const Result& result, const JointMotion& joints) {
+  std::ranges::fill(out_.velocity, 0.0);
+  out_.held_by.clear();
+  out_.scale = 0;
+  rows_.update(result);
+  if (result.status == ResultStatus::stale) {
+    out_.status = FilterStatus::stale;
+  } else if (!are_good(joints)) {
+    out_.status = FilterStatus::bad_joints;
+  } else if (!find_bounds(result)) {
+    out_.status = FilterStatus::contact;
+  } else {
+    find_limits(joints);
+    solve(joints);
+  }
+  return out_;
+}
+
+bool VelocityFilter::are_good(const JointMotion& joints) const {
+  return std::ranges::all_of(std::array{joints.position, joints.velocity, joints.wanted},
+                             [&](std::span<const double> all) {
+                               return all.size() == out_.velocity.size() &&
+                                      std::ranges::all_of(
+                                          all, [](double number) { return std::isfinite(number); });
+                             });
+}
+
+void VelocityFilter::find_limits(const JointMotion& joints) {
+  const double gain = settings_.max_acceleration * settings_.period_s;
+  // As fast as the room to a limit allows: not beyond it in a period, and so that it can stop.
+  const auto most = [&](double room, double max_speed) {
+    if (!(room > 0)) return 0.0;
+    const double speed =
+        std::min(room / settings_.period_s, std::sqrt(2 * settings_.max_acceleration * room));
+    return max_speed > 0 ? std::min(speed, max_speed) : speed;
+  };
+  for (std::size_t j = 0; j < out_.velocity.size(); ++j) {
+    const auto at = static_cast<Eigen::Index>(j);
+    const MovableJoint& joint = robot_->model().joints[j];
+    const double velocity = joints.velocity[j];
+    const double position = joints.position[j] + settings_.latency_s * velocity;
+    const double least = -most(position - joint.lower, joint.max_speed);
+    const double greatest = most(joint.upper - position, joint.max_speed);
+    // A limit of position or speed goes before that of the acceleration.
+    lower_[at] = std::clamp(velocity - gain, least, greatest);
+    upper_[at] = std::clamp(velocity + gain, least, greatest);
+    before_[at] = std::abs(velocity);
+    planned_[at] = std::abs(std::clamp(joints.wanted[j], least, greatest));
+  }
+}
+
+bool VelocityFilter::find_bounds(const Result& result) {
+  bounds_.clear();
+  for (const LinkResult& link : result.links) {
+    if (!link.is_moved) continue;
+    const bool is_same = link.occupied.obstacle_point_B_m == link.obstacle_point_B_m;
+    for (const RowKind kind : kRowKinds) {
+      if (kind == RowKind::occupied && (!link.occupied.is_known() || is_same)) continue;
+      const double lower_bound_m = kind == RowKind::nearest    ? link.lower_bound_m
+                                   : kind == RowKind::occupied ? link.occupied.lower_bound_m
+                                                               : link.known.lower_bound_m;
+      // Nothing is asked about this link.
+      if (std::isnan(lower_bound_m)) continue;
+      bounds_.push_back({{link.id, kind}, lower_bound_m, {}});
+      if (!(lower_bound_m > 0)) out_.held_by.push_back({link.id, kind});
+    }
+  }
+  return out_.held_by.empty();
+}
+
+double VelocityFilter::speed_m_s(const FilterRow& row, const Eigen::VectorXd& joints) const {
+  return rows_.reach_m(row.kind).row(row.link - 1).dot(joints);
+}
+
+void VelocityFilter::add_half_spaces() {
+  spaces_->clear();
+  for (Eigen::Index j = 0; j < lower_.size(); ++j) {
+    normal_.setZero();
+    normal_[j] = 1;
+    if (std::isfinite(lower_[j])) spaces_->add(normal_, lower_[j]);
+    normal_[j] = -1;
+    if (std::isfinite(upper_[j])) spaces_->add(normal_, -upper_[j]);
+  }
+  for (Bound& bound : bounds_) {
+    normal_ = rows_.gradient(bound.row.kind).row(bound.row.link - 1);
+    if (!normal_.allFinite()) continue;
+    // What the check below asks for: without it the robot would come so near that it creeps.
+    const double checked_m =
+        (settings_.period_s + settings_.latency_s) * speed_m_s(bound.row, planned_);
+    const double room_m = bound.lower_bound_m - settings_.least_distance_m - checked_m;
+    bound.half_space = spaces_->add(normal_, -settings_.approach_rate_1_s * std::max(0.0, room_m));
+  }
+}
+
+void VelocityFilter::solve(const JointMotion& joints) {
+  add_half_spaces();
+  const bool is_solved = spaces_->project(Vector(joints.wanted.data(), std::ssize(joints.wanted)));
+  for (const Bound& bound : bounds_) {
+    const bool holds =
+        bound.half_space && spaces_->weights()[*bound.half_space] > HalfSpaces::kTolerance;
+    if (holds) out_.held_by.push_back(bound.row);
+  }
+  out_.status = is_solved ? FilterStatus::ok : FilterStatus::no_solution;
+  if (is_solved) shorten();
+}
+
+void VelocityFilter::shorten() {
+  speed_ = spaces_->point().cwiseAbs();
+  const double all_s = settings_.period_s + settings_.latency_s;
+  double scale = 1;
+  const Bound* shortest = nullptr;
+  for (const Bound& bound : bounds_) {
+    const double speed_m_s = this->speed_m_s(bound.row, speed_);
+    if (!(speed_m_s > 0)) continue;
+    // What is too near already must be left, and is not to be touched meanwhile.
+    const bool is_too_near = bound.lower_bound_m < settings_.least_distance_m;
+    const double least_m = is_too_near ? bound.lower_bound_m / 2 : settings_.least_distance_m;
+    const double room_m = bound.lower_bound_m - least_m;
+    const double left_m = room_m - settings_.latency_s * this->speed_m_s(bound.row, before_);
+    // The second: else a robot that is late would stop and go.
+    const double most = std::max(
+        0.0, std::min(left_m / (settings_.period_s * speed_m_s), room_m / (all_s * speed_m_s)));
+    if (most >= scale) continue;
+    scale = most;
+    shortest = &bound;
+  }
+  out_.scale = scale;
+  Eigen::Map<Eigen::VectorXd>(out_.velocity.data(), speed_.size()) = scale * spaces_->point();
+  const bool is_new = shortest && std::ranges::none_of(out_.held_by, [&](const FilterRow& row) {
+                        return row == shortest->row;
+                      });
+  if (is_new) out_.held_by.push_back(shortest->row);
+}
+
+}  // namespace berth
