@@ -83,6 +83,22 @@ TEST_F(Holes, AreNotAtTheRobotNorInItsShadow) {
   }
 }
 
+TEST_F(Holes, AreOnALinkWhereABallFits) {
+  const auto fate_in_middle_of = [&](int lost_px) {
+    DepthImage depth_m = nothing_m_;
+    for (int v = 20; v < 30; ++v) {
+      for (int u = 20; u < 30; ++u) depth_m(u, v) = 1.0F;
+    }
+    for (int v = 22; v < 22 + lost_px; ++v) {
+      for (int u = 22; u < 22 + lost_px; ++u) depth_m(u, v) = kNoDepth;
+    }
+    return found(with_link(1), {.background = &background_}, depth_m).fate(24, 24);
+  };
+  EXPECT_EQ(fate_in_middle_of(4), PixelFate::no_reading);
+  EXPECT_EQ(fate_in_middle_of(5), PixelFate::hole);  // 4 cm at 1 m
+  EXPECT_EQ(fate_in_middle_of(8), PixelFate::no_reading) << "a link that the camera cannot read";
+}
+
 TEST_F(Holes, AreOnEnvironment) {
   const ObstacleImage image = found(with_link(kEnvironmentLink), {.background = &background_});
   EXPECT_EQ(image.fate(25, 25), PixelFate::hole);

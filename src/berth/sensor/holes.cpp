@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 
@@ -10,6 +11,9 @@
 namespace berth {
 namespace {
 
+/// Cameras lose spots of at most 2 cm on a robot that they read: a larger one is before it
+/// (docs/sensors.md).
+constexpr double kBallOnLink_m = 0.04;
 /// Any, since the robot covers all depths.
 constexpr float kLost_m = 1;
 
@@ -37,6 +41,81 @@ bool find_lost(DepthView sensor_depth_m, const RobotImage& robot, const KnownPla
   return has_any;
 }
 
+/// What is lost on the links themselves.
+class LostOnLinks {
+ public:
+  LostOnLinks(const Camera& camera, const RobotImage& robot, HolesWorkspace& workspace)
+      : ball_px_(static_cast<float>(std::min(camera.fx_px, camera.fy_px) * kBallOnLink_m / 2)),
+        robot_(robot),
+        lost_m_(workspace.lost_m),
+        read_surplus_(workspace.read_surplus) {
+    count();
+  }
+
+  void mark(ObstacleImage& out) const {
+    for_links([&](int u, int v) {
+      if (is_lost(u, v) && for_ball(u, v, [&](int x, int y) { return is_lost(x, y); })) {
+        for_ball(u, v, [&](int x, int y) {
+          out.fate(x, y) = PixelFate::hole;
+          return true;
+        });
+      }
+    });
+  }
+
+ private:
+  template <class Visit>
+  void for_links(const Visit& visit) const {
+    const PixelRect rect = clip(robot_.extent, lost_m_.width(), lost_m_.height());
+    for (int v = rect.v_begin; v < rect.v_end; ++v) {
+      for (int u = rect.u_begin; u < rect.u_end; ++u) {
+        const LinkId id = robot_.link_id(u, v);
+        if (id != kNoLink && id != kEnvironmentLink) visit(u, v);
+      }
+    }
+  }
+
+  /// A link that gives few readings anywhere is dark itself.
+  void count() {
+    read_surplus_.clear();
+    for_links([&](int u, int v) {
+      const LinkId id = robot_.link_id(u, v);
+      if (id >= read_surplus_.size()) read_surplus_.resize(id + std::size_t{1}, 0);
+      read_surplus_[id] += std::isnan(lost_m_(u, v)) ? 1 : -1;
+    });
+  }
+
+  bool is_lost(int u, int v) const {
+    const LinkId id = robot_.link_id(u, v);
+    return !std::isnan(lost_m_(u, v)) && id != kNoLink && id != kEnvironmentLink &&
+           read_surplus_[id] > 0;
+  }
+
+  /// Until it does not hold for a pixel that a ball at the link's depth covers; false beside the
+  /// image.
+  template <class Holds>
+  bool for_ball(int u, int v, const Holds& holds) const {
+    const float radius_px = std::max(kLeastBall_px, ball_px_ / robot_.depth_m(u, v));
+    const int reach_px = static_cast<int>(radius_px);
+    for (int y = -reach_px; y <= reach_px; ++y) {
+      for (int x = -reach_px; x <= reach_px; ++x) {
+        if (static_cast<float>(x * x + y * y) > radius_px * radius_px) continue;
+        const bool is_inside =
+            u + x >= 0 && v + y >= 0 && u + x < lost_m_.width() && v + y < lost_m_.height();
+        if (!is_inside || !holds(u + x, v + y)) return false;
+      }
+    }
+    return true;
+  }
+
+  static constexpr float kLeastBall_px = 2;
+
+  float ball_px_;
+  const RobotImage& robot_;
+  const DepthImage& lost_m_;
+  std::vector<int>& read_surplus_;
+};
+
 }  // namespace
 
 void find_holes(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,
@@ -50,6 +129,7 @@ void find_holes(const Camera& camera, DepthView sensor_depth_m, const RobotImage
       if (beside(u, v) == PixelFate::obstacle) out.fate(u, v) = PixelFate::hole;
     }
   });
+  LostOnLinks(camera, robot, workspace).mark(out);
 }
 
 }  // namespace berth

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "berth/sensor/background.hpp"
 #include "berth/sensor/beside_robot.hpp"
 #include "berth/sensor/settings.hpp"
@@ -14,12 +16,15 @@ struct HolesWorkspace {
   /// A depth at each pixel that may be a hole.
   DepthImage lost_m;
   BesideRobotWorkspace beside_robot;
+  /// Of each link, how many more of its pixels have a reading than are lost.
+  std::vector<int> read_surplus;
 };
 
 /// Gives the fate `hole` to pixels without a reading that the camera could read if nothing were
 /// there: the empty cell has one (KnownPlace::background), or KnownPlace::always_reads says so and
-/// the model, robot or environment, does not cover it. Not where the evaluated links are, nor
-/// within kRobotShadow_m beside them. F stays as it is.
+/// the model, robot or environment, does not cover it. Not within kRobotShadow_m beside the
+/// evaluated links. On them, only where a ball of 4 cm fits into what the links lost, and not on a
+/// link that has no reading in half of its pixels: it is dark itself. F stays as it is.
 void find_holes(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,
                 const KnownPlace& place, const SensorSettings& settings, HolesWorkspace& workspace,
                 ObstacleImage& out);
