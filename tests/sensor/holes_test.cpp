@@ -84,7 +84,7 @@ TEST_F(Holes, AreNotAtTheRobotNorInItsShadow) {
 }
 
 TEST_F(Holes, AreOnALinkWhereABallFits) {
-  const auto fate_in_middle_of = [&](int lost_px) {
+  const auto fate_in_middle_of = [&](int lost_px, const KnownPlace& place) {
     DepthImage depth_m = nothing_m_;
     for (int v = 20; v < 30; ++v) {
       for (int u = 20; u < 30; ++u) depth_m(u, v) = 1.0F;
@@ -92,11 +92,15 @@ TEST_F(Holes, AreOnALinkWhereABallFits) {
     for (int v = 22; v < 22 + lost_px; ++v) {
       for (int u = 22; u < 22 + lost_px; ++u) depth_m(u, v) = kNoDepth;
     }
-    return found(with_link(1), {.background = &background_}, depth_m).fate(24, 24);
+    return found(with_link(1), place, depth_m).fate(24, 24);
   };
-  EXPECT_EQ(fate_in_middle_of(4), PixelFate::no_reading);
-  EXPECT_EQ(fate_in_middle_of(5), PixelFate::hole);  // 4 cm at 1 m
-  EXPECT_EQ(fate_in_middle_of(8), PixelFate::no_reading) << "a link that the camera cannot read";
+  // Behind a link that never moves nobody has seen the cell.
+  for (const KnownPlace& place :
+       {KnownPlace{.background = &background_}, KnownPlace{.always_reads = true}}) {
+    EXPECT_EQ(fate_in_middle_of(4, place), PixelFate::no_reading);
+    EXPECT_EQ(fate_in_middle_of(5, place), PixelFate::hole);  // 4 cm at 1 m
+    EXPECT_EQ(fate_in_middle_of(8, place), PixelFate::no_reading) << "a link that is black";
+  }
 }
 
 TEST_F(Holes, AreOnEnvironment) {

@@ -17,7 +17,10 @@ constexpr double kBallOnLink_m = 0.04;
 /// Any, since the robot covers all depths.
 constexpr float kLost_m = 1;
 
-/// Marks the pixels without a reading that the camera could read. False: there are none.
+bool is_link(LinkId id) { return id != kNoLink && id != kEnvironmentLink; }
+
+/// Marks the pixels without a reading that the camera could read: links, too, wherever they are.
+/// False: there are none.
 bool find_lost(DepthView sensor_depth_m, const RobotImage& robot, const KnownPlace& place,
                const SensorSettings& settings, DepthImage& lost_m) {
   const Background* const background =
@@ -31,7 +34,8 @@ bool find_lost(DepthView sensor_depth_m, const RobotImage& robot, const KnownPla
     bool has_lost = false;
     for (int u = 0; u < sensor_depth_m.width; ++u) {
       if (!std::isnan(sensor_depth_m(u, v))) continue;
-      const bool is_lost = (place.always_reads && robot.link_id(u, v) == kNoLink) ||
+      const LinkId id = robot.link_id(u, v);
+      const bool is_lost = is_link(id) || (place.always_reads && id == kNoLink) ||
                            (background && !std::isnan(background->depth_m(u, v, settings)));
       if (is_lost) lost_m(u, v) = kLost_m;
       has_lost = has_lost || is_lost;
@@ -69,13 +73,12 @@ class LostOnLinks {
     const PixelRect rect = clip(robot_.extent, lost_m_.width(), lost_m_.height());
     for (int v = rect.v_begin; v < rect.v_end; ++v) {
       for (int u = rect.u_begin; u < rect.u_end; ++u) {
-        const LinkId id = robot_.link_id(u, v);
-        if (id != kNoLink && id != kEnvironmentLink) visit(u, v);
+        if (is_link(robot_.link_id(u, v))) visit(u, v);
       }
     }
   }
 
-  /// A link that gives few readings anywhere is dark itself.
+  /// A link that gives readings in less than half of its pixels is black itself.
   void count() {
     read_surplus_.clear();
     for_links([&](int u, int v) {
@@ -87,8 +90,7 @@ class LostOnLinks {
 
   bool is_lost(int u, int v) const {
     const LinkId id = robot_.link_id(u, v);
-    return !std::isnan(lost_m_(u, v)) && id != kNoLink && id != kEnvironmentLink &&
-           read_surplus_[id] > 0;
+    return !std::isnan(lost_m_(u, v)) && is_link(id) && read_surplus_[id] > 0;
   }
 
   /// Until it does not hold for a pixel that a ball at the link's depth covers; false beside the

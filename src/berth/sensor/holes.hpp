@@ -23,8 +23,9 @@ struct HolesWorkspace {
 /// Gives the fate `hole` to pixels without a reading that the camera could read if nothing were
 /// there: the empty cell has one (KnownPlace::background), or KnownPlace::always_reads says so and
 /// the model, robot or environment, does not cover it. Not within kRobotShadow_m beside the
-/// evaluated links. On them, only where a ball of 4 cm fits into what the links lost, and not on a
-/// link that has no reading in half of its pixels: it is dark itself. F stays as it is.
+/// evaluated links. On them, whatever the cell shows there, where a ball of 4 cm fits into what the
+/// links lost; not on a link without readings in half of its pixels, which is black itself. F stays
+/// as it is.
 void find_holes(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,
                 const KnownPlace& place, const SensorSettings& settings, HolesWorkspace& workspace,
                 ObstacleImage& out);
