@@ -34,8 +34,8 @@ set(BERTH_PUBLIC_HEADERS
   berth/live/live_space.hpp
   berth/live/raw_depth.hpp
   berth/control/distance_rows.hpp
+  berth/control/velocity_filter.hpp
   berth/separation/detection.hpp
-  berth/separation/evasion.hpp
   berth/separation/monitor.hpp
   berth/separation/settings.hpp
   berth/record/monitor_loop.hpp

@@ -8,9 +8,7 @@ namespace berth::lab {
 namespace {
 
 /// What the arm may do beside its path.
-constexpr double kMostAside_rad = 0.8, kFastestAside_rad_s = 1.5, kAside_rad_s2 = 8;
-/// How fast it goes back, of the way.
-constexpr double kReturn_1_s = 0.8;
+constexpr double kMostAside_rad = 0.8, kAside_rad_s2 = 8;
 
 }  // namespace
 
@@ -43,14 +41,9 @@ void MovingArm::place() {
   full_m_s_ = fastest_at(plan_.velocity_rad_s);
 }
 
-void MovingArm::give_way(double step_s, const Evasion* evasion) {
+void MovingArm::go_aside(double step_s, const std::vector<double>& velocity_rad_s) {
   for (std::size_t j = 0; j < aside_rad_.size(); ++j) {
-    double wanted = -kReturn_1_s * aside_rad_[j];
-    if (evasion) {
-      wanted =
-          std::clamp(wanted + evasion->velocity[j], -kFastestAside_rad_s * evasion->backward[j],
-                     kFastestAside_rad_s * evasion->forward[j]);
-    }
+    const double wanted = velocity_rad_s[j] - share_ * plan_.velocity_rad_s[j];
     const double change = kAside_rad_s2 * step_s;
     aside_rad_s_[j] += std::clamp(wanted - aside_rad_s_[j], -change, change);
     aside_rad_[j] =
@@ -58,10 +51,11 @@ void MovingArm::give_way(double step_s, const Evasion* evasion) {
   }
 }
 
-void MovingArm::step(double commanded_share, double step_s, const Evasion* evasion) {
+void MovingArm::step(double commanded_share, double step_s,
+                     const std::vector<double>* velocity_rad_s) {
   const double before_m_s = share_ * full_m_s_;
   phase_s_ += share_ * step_s;
-  give_way(step_s, evasion);
+  if (velocity_rad_s) go_aside(step_s, *velocity_rad_s);
   place();
   if (full_m_s_ <= 0) {
     share_ = commanded_share;
@@ -71,11 +65,11 @@ void MovingArm::step(double commanded_share, double step_s, const Evasion* evasi
     const double fastest = (before_m_s + kArmAcceleration_m_s2 * step_s) / full_m_s_;
     share_ = std::clamp(std::clamp(commanded_share, slowest, std::max(slowest, fastest)), 0.0, 1.0);
   }
-  std::vector<double> velocity_rad_s = aside_rad_s_;
-  for (std::size_t j = 0; j < velocity_rad_s.size(); ++j) {
-    velocity_rad_s[j] += share_ * plan_.velocity_rad_s[j];
+  std::vector<double> all_rad_s = aside_rad_s_;
+  for (std::size_t j = 0; j < all_rad_s.size(); ++j) {
+    all_rad_s[j] += share_ * plan_.velocity_rad_s[j];
   }
-  fastest_m_s_ = fastest_at(velocity_rad_s);
+  fastest_m_s_ = fastest_at(all_rad_s);
 }
 
 }  // namespace berth::lab

@@ -4,26 +4,26 @@
 
 #include "berth/robot/kinematics.hpp"
 #include "berth/robot/link_twists.hpp"
-#include "berth/separation/evasion.hpp"
 #include "berth/separation/link_speed.hpp"
 #include "lab/closed_loop/path.hpp"
 
 namespace berth::lab {
 
-/// The arm on its path, at a share of its full speed, and beside it where it gives way.
+/// The arm on its path, at a share of its full speed, and beside it where it is led aside.
 class MovingArm {
  public:
   /// `model` has to outlive it; `first_phase`, of a cycle.
   MovingArm(const RobotModel& model, double first_phase);
 
   /// Goes on for a while, with brake or motor towards the commanded share, 0 to 1, of the path's
-  /// speed. With an evasion it gives way as well; without one it goes back to its path.
-  void step(double commanded_share, double step_s, const Evasion* evasion = nullptr);
+  /// speed; where its joints are given velocities (rad/s), it follows those beside the path.
+  void step(double commanded_share, double step_s,
+            const std::vector<double>* velocity_rad_s = nullptr);
 
   /// Where its path is, and how fast it would go there at full speed.
   const PathPoint& plan() const { return plan_; }
   const RobotPose& pose() const { return pose_; }
-  /// Where it is, path and evasion together.
+  /// Where it is, path and what is beside it together.
   const std::vector<double>& position_rad() const { return position_rad_; }
   /// How far it has come, as a time at full speed.
   double phase_s() const { return phase_s_; }
@@ -34,7 +34,7 @@ class MovingArm {
 
  private:
   void place();
-  void give_way(double step_s, const Evasion* evasion);
+  void go_aside(double step_s, const std::vector<double>& velocity_rad_s);
   /// Of the fastest point, at these joint velocities.
   double fastest_at(const std::vector<double>& velocity_rad_s);
 
@@ -46,7 +46,7 @@ class MovingArm {
   RobotPose pose_;
   std::vector<double> position_rad_;
   std::vector<LinkTwist> twists_;
-  /// How far it has given way, and how fast it does.
+  /// How far it is beside its path, and how fast it goes there.
   std::vector<double> aside_rad_;
   std::vector<double> aside_rad_s_;
   /// Of its fastest point on the path at full speed.

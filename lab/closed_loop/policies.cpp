@@ -65,9 +65,10 @@ const std::vector<Row>& rows() {
        }},
       {{"one", "one camera, the defaults"},
        [](double hz) { return monitor({0}, cell_separation(hz)); }},
-      {{"evading", "three cameras, and the arm gives way to what comes near"},
+      {{"filter", "three cameras, and a filter that leads the arm around what is near"},
        [](double hz) -> Made {
-         return std::make_unique<EvadingSupervisor>(std::vector{0, 1, 2}, cell_separation(hz));
+         return std::make_unique<FilteringSupervisor>(std::vector{0, 1, 2}, cell_separation(hz),
+                                                      hz);
        }},
       {{"conforming", "a fixed zone as a safety scanner has to have it"},
        [](double) -> Made {

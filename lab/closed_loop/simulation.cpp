@@ -28,7 +28,7 @@ struct JointSample {
 struct Command {
   double obeyed_s;
   double scale;
-  std::optional<Evasion> evasion;
+  std::optional<std::vector<double>> velocity_rad_s;
 };
 
 double range_of(const std::vector<Pose>& X_BP) {
@@ -119,7 +119,8 @@ class Loop {
       commanded_ = commands_.front();
       commands_.pop_front();
     }
-    arm_.step(commanded_.scale, kStep_s, commanded_.evasion ? &*commanded_.evasion : nullptr);
+    arm_.step(commanded_.scale, kStep_s,
+              commanded_.velocity_rad_s ? &*commanded_.velocity_rad_s : nullptr);
     look();
   }
 
@@ -165,7 +166,7 @@ class Loop {
     const double scale =
         supervisor_.scale({time_s_, joints_, arm_.plan(), ahead_, arm_.full_m_s(), range_of(X_BP)});
     const double late = is_faulty(Fault::late_controller) ? kLateController : 1;
-    commands_.push_back({time_s_ + late * kController_s, scale, supervisor_.evasion()});
+    commands_.push_back({time_s_ + late * kController_s, scale, supervisor_.velocity_rad_s()});
     const bool is_after_fault = settings_.fault != Fault::none && time_s_ >= settings_.fault_s;
     if (is_after_fault && scale == 0 && std::isnan(result_.commanded_stop_s)) {
       result_.commanded_stop_s = time_s_ - settings_.fault_s;

@@ -54,16 +54,33 @@ double MonitorSupervisor::scale(const Situation& situation) {
   return last().speed_scale;
 }
 
-EvadingSupervisor::EvadingSupervisor(std::vector<int> cameras, const SeparationSettings& settings)
-    // It leaves its way where it gives way.
+FilteringSupervisor::FilteringSupervisor(std::vector<int> cameras,
+                                         const SeparationSettings& settings, double request_hz)
+    // It leaves its way where it is led around something.
     : MonitorSupervisor(std::move(cameras), settings, ShownBy::formula),
-      evader_(robot(), "arm_link_7", {}) {}
+      filter_(robot(), {.period_s = 1 / request_hz, .latency_s = kController_s}),
+      velocity_rad_s_(robot()->model().joints.size(), 0.0) {}
 
-double EvadingSupervisor::scale(const Situation& situation) {
+double FilteringSupervisor::scale(const Situation& situation) {
+  // How fast it goes back to its way.
+  constexpr double kReturn_1_s = 0.8;
   const double scale = MonitorSupervisor::scale(situation);
-  evasion_.reset();
-  if (result().time.status == TimeStatus::ok) evasion_ = evader_.update(result());
-  return scale;
+  wanted_rad_s_.clear();
+  if (situation.joints.newest(now_) == TimeStatus::ok) {
+    for (std::size_t j = 0; j < now_.position.size(); ++j) {
+      const double aside_rad = now_.position[j] - situation.plan.position_rad[j];
+      wanted_rad_s_.push_back(scale * (situation.plan.velocity_rad_s[j] - kReturn_1_s * aside_rad));
+    }
+  }
+  velocity_rad_s_ =
+      filter_.update(result(), {now_.position, velocity_rad_s_, wanted_rad_s_}).velocity;
+  // It goes on along its way by as much as the filter left of what was wanted.
+  double left = 0, all = 0;
+  for (std::size_t j = 0; j < wanted_rad_s_.size(); ++j) {
+    left += velocity_rad_s_[j] * wanted_rad_s_[j];
+    all += wanted_rad_s_[j] * wanted_rad_s_[j];
+  }
+  return all > 0 ? scale * std::clamp(left / all, 0.0, 1.0) : scale;
 }
 
 }  // namespace berth::lab

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "berth/control/velocity_filter.hpp"
 #include "berth/pipeline/frame_pool.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "berth/pipeline/prepared_space.hpp"
 #include "berth/record/monitor_loop.hpp"
-#include "berth/separation/evasion.hpp"
 #include "lab/closed_loop/path.hpp"
 
 namespace berth::lab {
@@ -39,8 +39,8 @@ class Supervisor {
                    const JointBuffer& joints);
   /// Of the planned velocity, 0 to 1.
   virtual double scale(const Situation& situation) = 0;
-  /// How the arm gives way, of the last request.
-  virtual std::optional<Evasion> evasion() const { return {}; }
+  /// Of each joint, after the last request; none: the arm keeps to its path.
+  virtual std::optional<std::vector<double>> velocity_rad_s() const { return {}; }
 };
 
 /// Nobody.
@@ -109,16 +109,19 @@ class MonitorSupervisor : public Supervisor {
   std::vector<double> request_us_;
 };
 
-/// berth, with an arm that gives way besides.
-class EvadingSupervisor : public MonitorSupervisor {
+/// berth, and a filter that leads the arm around what is near.
+class FilteringSupervisor : public MonitorSupervisor {
  public:
-  EvadingSupervisor(std::vector<int> cameras, const SeparationSettings& settings);
+  FilteringSupervisor(std::vector<int> cameras, const SeparationSettings& settings,
+                      double request_hz);
   double scale(const Situation& situation) override;
-  std::optional<Evasion> evasion() const override { return evasion_; }
+  std::optional<std::vector<double>> velocity_rad_s() const override { return velocity_rad_s_; }
 
  private:
-  Evader evader_;
-  std::optional<Evasion> evasion_;
+  VelocityFilter filter_;
+  JointState now_;
+  std::vector<double> wanted_rad_s_;
+  std::vector<double> velocity_rad_s_;
 };
 
 }  // namespace berth::lab

@@ -74,7 +74,7 @@ TEST_F(Filtered, ItComesNearerNoFasterThanTheRowAllowsAndGoesOnBesideIt) {
   EXPECT_LE(approach_m_s(filter, out.velocity), allowed_m_s + 1e-6);
   EXPECT_GT(approach_m_s(filter, out.velocity), 0.5 * allowed_m_s);
   ASSERT_EQ(out.held_by.size(), 1U);
-  EXPECT_EQ(out.held_by[0], (FilterRow{8, RowKind::nearest}));
+  EXPECT_EQ(out.held_by[0], (LinkRow{8, RowKind::nearest}));
   EXPECT_EQ(update(filter, away).velocity, away);
 }
 
@@ -115,7 +115,7 @@ TEST_F(Filtered, NoOtherVelocityIsNearerToTheWantedOne) {
       const Numbers other = draw(random, 7, 1);
       const Eigen::VectorXd u = v + 1e-3 * (Eigen::Map<const Eigen::VectorXd>(other.data(), 7) - v);
       if ((u - w).norm() > (v - w).norm() - 1e-6) continue;
-      const bool breaks_one = std::ranges::any_of(out.held_by, [&](const FilterRow& row) {
+      const bool breaks_one = std::ranges::any_of(out.held_by, [&](const LinkRow& row) {
         const auto gradient = filter.rows().gradient(row.kind).row(row.link - 1);
         return gradient.dot(u) < gradient.dot(v);
       });
@@ -202,7 +202,7 @@ TEST_F(Filtered, InContactItStands) {
   EXPECT_EQ(out.status, FilterStatus::contact);
   EXPECT_EQ(out.velocity, Numbers(7, 0));
   ASSERT_EQ(out.held_by.size(), 1U);
-  EXPECT_EQ(out.held_by[0], (FilterRow{8, RowKind::nearest}));
+  EXPECT_EQ(out.held_by[0], (LinkRow{8, RowKind::nearest}));
 }
 
 TEST_F(Filtered, WithoutAnAnswerOrANumberItStands) {
@@ -229,7 +229,7 @@ TEST_F(Filtered, WhereItCannotBrakeSoFastItStandsAndNamesTheRow) {
   EXPECT_EQ(out.status, FilterStatus::no_solution);
   EXPECT_EQ(out.velocity, Numbers(7, 0));
   ASSERT_FALSE(out.held_by.empty());
-  EXPECT_EQ(out.held_by[0], (FilterRow{8, RowKind::nearest}));
+  EXPECT_EQ(out.held_by[0], (LinkRow{8, RowKind::nearest}));
 }
 
 TEST_F(Filtered, KeepsTheJointsLimits) {

@@ -9,7 +9,7 @@ namespace berth {
 
 /// What one row says of a link.
 struct VelocityFilter::Bound {
-  FilterRow row;
+  LinkRow row;
   double lower_bound_m = 0;
   /// Its half-space; none where no pair gives a direction.
   std::optional<Eigen::Index> half_space;
@@ -94,7 +94,7 @@ bool VelocityFilter::find_bounds(const Result& result) {
                                    : kind == RowKind::occupied ? link.occupied.lower_bound_m
                                                                : link.known.lower_bound_m;
       // Nothing is asked about this link.
-      if (std::isnan(lower_bound_m)) continue;
+      if (kind == RowKind::known && std::isnan(lower_bound_m)) continue;
       bounds_.push_back({{link.id, kind}, lower_bound_m, {}});
       if (!(lower_bound_m > 0)) out_.held_by.push_back({link.id, kind});
     }
@@ -102,7 +102,7 @@ bool VelocityFilter::find_bounds(const Result& result) {
   return out_.held_by.empty();
 }
 
-double VelocityFilter::speed_m_s(const FilterRow& row, const Eigen::VectorXd& joints) const {
+double VelocityFilter::speed_m_s(const LinkRow& row, const Eigen::VectorXd& joints) const {
   return rows_.reach_m(row.kind).row(row.link - 1).dot(joints);
 }
 
@@ -160,7 +160,7 @@ void VelocityFilter::shorten() {
   }
   out_.scale = scale;
   Eigen::Map<Eigen::VectorXd>(out_.velocity.data(), speed_.size()) = scale * spaces_->point();
-  const bool is_new = shortest && std::ranges::none_of(out_.held_by, [&](const FilterRow& row) {
+  const bool is_new = shortest && std::ranges::none_of(out_.held_by, [&](const LinkRow& row) {
                         return row == shortest->row;
                       });
   if (is_new) out_.held_by.push_back(shortest->row);

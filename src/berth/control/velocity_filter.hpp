@@ -73,11 +73,11 @@ constexpr std::string_view name_of(FilterStatus status) {
 }
 
 /// A row of DistanceRows, by its link and kind.
-struct FilterRow {
+struct LinkRow {
   LinkId link = kNoLink;
   RowKind kind = RowKind::nearest;
 
-  bool operator==(const FilterRow&) const = default;
+  bool operator==(const LinkRow&) const = default;
 };
 
 /// What VelocityFilter gives.
@@ -88,7 +88,7 @@ struct FilteredVelocity {
   /// The share, 0 to 1, that the check without a model left of what was solved.
   double scale = 0;
   /// The rows without which the velocity would be another one; no limit of a joint is among them.
-  std::vector<FilterRow> held_by;
+  std::vector<LinkRow> held_by;
 };
 
 /// Turns the velocity that a program wants into the nearest one that keeps the links apart from all
@@ -127,7 +127,7 @@ class VelocityFilter {
   void solve(const JointMotion& joints);
   void shorten();
   /// A row's distance falls by no more with these speeds of the joints.
-  double speed_m_s(const FilterRow& row, const Eigen::VectorXd& joints) const;
+  double speed_m_s(const LinkRow& row, const Eigen::VectorXd& joints) const;
 
   std::shared_ptr<const Robot> robot_;
   VelocityFilterSettings settings_;
