@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "berth/control/velocity_filter.hpp"
 #include "berth/distance/known_distances.hpp"
 #include "berth/pipeline/frame_pool.hpp"
 #include "berth/pipeline/observer.hpp"
@@ -37,6 +38,7 @@ class Steps {
         play_{film.joints->first_s(), film.joints->last_s(), settings.speed, 0},
         robot_(robot_for(film, told)),
         query_(robot_),
+        filter_(robot_, {}),
         frame_pools_(film.cameras.size()),
         frames_(film.cameras.size()) {
     for (const FilmedCamera& camera : film.cameras) {
@@ -59,7 +61,7 @@ class Steps {
     }
   }
 
-  std::vector<double> observe_ms, prepare_ms, first_us, next_us, known_us, gap_m;
+  std::vector<double> observe_ms, prepare_ms, first_us, next_us, known_us, filter_us, gap_m;
 
  private:
   void joints_at(double time_s) {
@@ -96,6 +98,9 @@ class Steps {
     known_distances(robot_->known(), result.pose, {.range_m = result.range_m}, known_workspace_,
                     known_);
     known_us.push_back(1000 * asking_known.ms());
+    const Stopwatch filtering(CLOCK_THREAD_CPUTIME_ID);
+    filter_.update(result, {joints_.position, still_, wanted_});
+    filter_us.push_back(1000 * filtering.ms());
     for (const LinkResult& link : result.links) {
       if (link.has_distance()) gap_m.push_back(link.distance_m - link.lower_bound_m);
     }
@@ -107,6 +112,7 @@ class Steps {
   std::shared_ptr<const Robot> robot_;
   std::vector<Observer> observers_;
   Query query_;
+  VelocityFilter filter_;
   /// One for each camera, as LiveCamera has: its images have one size.
   std::vector<FramePool> frame_pools_;
   Pool<PreparedSpace> space_pool_;
@@ -115,6 +121,9 @@ class Steps {
   JointState joints_;
   KnownWorkspace known_workspace_;
   std::vector<KnownPair> known_;
+  /// All joints at once: somewhere something is in the way.
+  std::vector<double> still_ = std::vector<double>(robot_->model().joints.size(), 0.0);
+  std::vector<double> wanted_ = std::vector<double>(robot_->model().joints.size(), 0.5);
 };
 
 nlohmann::ordered_json times(const std::vector<double>& values) {
@@ -132,6 +141,7 @@ nlohmann::ordered_json measure_steps(const Film& film, const StreamSettings& set
   out["first_us"] = times(distances.first_us);
   out["next_us"] = times(distances.next_us);
   out["known_us"] = times(distances.known_us);
+  out["filter_us"] = times(distances.filter_us);
   Steps everything(film, settings, Told::everything);
   everything.run();
   out["next_with_all_us"] = times(everything.next_us);

@@ -1,5 +1,6 @@
 #include <string>
 
+#include "berth/control/velocity_filter.hpp"
 #include "berth/types/camera_status.hpp"
 #include "berth/types/obstacle_image.hpp"
 #include "berth/types/result_status.hpp"
@@ -40,6 +41,9 @@ void bind_statuses(py::module_& m) {
                               "What keeps the robot from going faster.");
   bind_enum<SeparationBasis>(m, "SeparationBasis", kSeparationBasisNames,
                              "What the scale of the speed was shown by.");
+  bind_enum<RowKind>(m, "RowKind", kRowKindNames, "Which pair of a link a row is about.");
+  bind_enum<FilterStatus>(m, "FilterStatus", kFilterStatusNames,
+                          "Why a filtered velocity is what it is.");
   bind_enum<PixelFate>(m, "PixelFate", kPixelFateNames,
                        "What became of a pixel: the numbers in Frame.fate.");
 }

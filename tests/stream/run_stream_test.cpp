@@ -73,9 +73,9 @@ TEST(RunStream, InStepsItTellsWhatEachOneCostsInADrawnRoom) {
   settings.room = {.seed = 2, .width_px = 160, .height_px = 120};
   settings.in_steps = true;
   const auto out = nlohmann::ordered_json::parse(run_stream(settings));
-  EXPECT_EQ(keys_of(out),
-            (std::vector<std::string>{"observe_ms", "prepare_ms", "first_us", "next_us", "known_us",
-                                      "next_with_all_us", "in_budget_us", "in_budget_gap_m"}));
+  EXPECT_EQ(keys_of(out), (std::vector<std::string>{
+                              "observe_ms", "prepare_ms", "first_us", "next_us", "known_us",
+                              "filter_us", "next_with_all_us", "in_budget_us", "in_budget_gap_m"}));
   for (const auto& [step, values] : out.items()) {
     expect_percentiles(values, {"p50", "p95", "p99", "max"});
     EXPECT_GT(values["max"].get<double>(), 0) << step;
