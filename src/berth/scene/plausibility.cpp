@@ -22,9 +22,9 @@ constexpr double kLeastSeen = 0.25;
 /// A part with fewer of its readings at its surface is not where it should be.
 constexpr double kLeastOfPart = 0.5;
 constexpr double kLeastOfMendedPart = 0.8;
-/// Of fewer readings another place of the part says nothing. On four recordings a wrong explanation
-/// had 168 at most, a right one 313 at least.
-constexpr int kLeastOfPart_px = 250;
+/// In one image alone: what a camera reads wrong at one pose looks like another place of the part.
+/// On four recordings a wrong explanation had 168 at most, a right one 313 at least.
+constexpr int kLeastInOneImage_px = 250;
 /// Of the robot's readings, where not kLeastGain more of them lie at its surface.
 constexpr double kLeastGainInPoints = 0.1;
 constexpr double kLeastWithSmallGain = 0.9;
@@ -157,6 +157,7 @@ struct Tried {
   /// By the number of the part's first link.
   std::map<std::size_t, RobotReadings> of_part;
   double share = 0;
+  std::size_t frames = 0;
 };
 
 int counted(const RobotReadings& readings) { return readings.judged() + readings.before; }
@@ -177,6 +178,7 @@ std::size_t part_of(const RobotModel& model, std::size_t link) {
 Tried tried(const OpenScene& scene, RobotInImages& images, const CameraBelief& belief) {
   const RobotModel& model = scene.robot->model();
   Tried found;
+  found.frames = images.frames().size();
   found.of_link = images.readings_of_links(belief);
   for (std::size_t i = 0; i < found.of_link.size(); ++i) {
     found.all += found.of_link[i];
@@ -190,11 +192,12 @@ Tried tried(const OpenScene& scene, RobotInImages& images, const CameraBelief& b
 /// in front of the part may be somebody.
 bool fixes_part(const Tried& now, const Tried& then) {
   if (then.share < kLeastWithSmallGain) return false;
+  const int least_px = now.frames > 1 ? kLeastJudgedPixels : kLeastInOneImage_px;
   return std::ranges::any_of(now.of_part, [&](const auto& part) {
     const RobotReadings& before = part.second;
     const RobotReadings& after = then.of_part.at(part.first);
     const int least_gain = counted(before) / 2;
-    return counted(before) >= kLeastOfPart_px && before.behind > before.before &&
+    return counted(before) >= least_px && before.behind > before.before &&
            share_at_robot(before, kLeastJudgedPixels) < kLeastOfPart &&
            share_at_robot(after, kLeastSeen * counted(before)) >= kLeastOfMendedPart &&
            points(after) - points(before) >= least_gain &&
