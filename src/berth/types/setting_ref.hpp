@@ -16,8 +16,10 @@ namespace berth {
 /// std::monostate where an optional setting is not set; of a choice the name.
 using SettingValue = std::variant<std::monostate, bool, int, double, std::string_view>;
 
+/// What a setting is, whether it is optional or not.
 enum class SettingKind { flag, whole, number, choice };
 
+/// Of a field of a settings struct.
 template <class T>
 SettingValue setting_value(const T& value) {
   if constexpr (std::is_enum_v<T>) {
@@ -29,6 +31,7 @@ SettingValue setting_value(const T& value) {
   }
 }
 
+/// The other way. The value is of the field's kind; else std::bad_variant_access.
 template <class T>
 void assign_setting(const SettingValue& value, T& out) {
   if constexpr (std::is_enum_v<T>) {
