@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "berth/files/setting_json.hpp"
 #include "berth/types/rpy.hpp"
 #include "berth/types/setting_ref.hpp"
 
@@ -21,16 +22,6 @@ std::string_view unit_of_setting(std::string_view name) {
     if (name.ends_with(end)) return unit;
   }
   return "";
-}
-
-/// Null where there is none; text where it has no end.
-Json value_json(const SettingValue& value) {
-  if (const auto* flag = std::get_if<bool>(&value)) return *flag;
-  if (const auto* count = std::get_if<int>(&value)) return *count;
-  if (const auto* name = std::get_if<std::string_view>(&value)) return *name;
-  const auto* number = std::get_if<double>(&value);
-  if (!number) return {};
-  return std::isfinite(*number) ? Json(*number) : Json("no limit");
 }
 
 Json kind_json(const SettingRef& setting) {
@@ -61,7 +52,11 @@ Json described(const std::vector<SettingRef>& settings) {
 
 Json values_of(const std::vector<SettingRef>& settings) {
   Json values = Json::array();
-  for (const SettingRef& setting : settings) values.push_back(value_json(setting.value));
+  for (const SettingRef& setting : settings) {
+    values.push_back(setting_json(setting.value, [](double value) {
+      return std::isfinite(value) ? Json(value) : Json("no limit");
+    }));
+  }
   return values;
 }
 

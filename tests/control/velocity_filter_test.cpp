@@ -47,6 +47,13 @@ class Filtered : public testing::Test {
     put(arm, 7, {0, 0, 0.1}, X_BL * Eigen::Vector3d(distance_m, 0, 0.1), arm.result.links[7]);
   }
 
+  /// 1 where joint 1 turns the last link towards what is in front of it, else -1.
+  double sign_towards(VelocityFilter& filter) {
+    const Numbers wanted{1, 0, 0, 0, 0, 0.5, 0};
+    update(filter, wanted);
+    return approach_m_s(filter, wanted) > 0 ? 1 : -1;
+  }
+
   RowsRobot arm{bundled_arm()};
   Numbers position = kFree;
 };
@@ -65,9 +72,7 @@ TEST_F(Filtered, WhatIsWantedStaysWhereNothingIsNear) {
 TEST_F(Filtered, ItComesNearerNoFasterThanTheRowAllowsAndGoesOnBesideIt) {
   VelocityFilter filter(arm.robot, {});
   put_in_front(0.2F);
-  const Numbers wanted{1, 0, 0, 0, 0, 0.5, 0};
-  update(filter, wanted);
-  const double sign = approach_m_s(filter, wanted) > 0 ? 1 : -1;
+  const double sign = sign_towards(filter);
   const Numbers towards{sign, 0, 0, 0, 0, 0.5, 0}, away{-sign, 0, 0, 0, 0, 0.5, 0};
   const FilteredVelocity& out = update(filter, towards);
   const double allowed_m_s = 2 * (0.2 - 0.001 - 0.05);
@@ -177,9 +182,7 @@ TEST(VelocityFilter, NothingThatStandsStillIsTouchedWhateverIsWanted) {
 TEST_F(Filtered, WhatIsTooNearMayBeLeftAndNotApproached) {
   VelocityFilter filter(arm.robot, {});
   put_in_front(0.02F);
-  const Numbers wanted{1, 0, 0, 0, 0, 0.5, 0};
-  update(filter, wanted);
-  const double sign = approach_m_s(filter, wanted) > 0 ? 1 : -1;
+  const double sign = sign_towards(filter);
   EXPECT_LE(approach_m_s(filter, update(filter, {sign, 0, 0, 0, 0, 0.5, 0}).velocity), 1e-9);
   const FilteredVelocity& out = update(filter, {-0.2 * sign, 0, 0, 0, 0, 0, 0});
   EXPECT_EQ(out.status, FilterStatus::ok);

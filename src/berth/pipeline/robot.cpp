@@ -79,7 +79,7 @@ std::shared_ptr<const Robot> Robot::with(std::vector<Attachment> attached) const
 }
 
 std::shared_ptr<const Robot> attach(const Robot& robot, const Attachment& attachment) {
-  std::vector<Attachment> attached = robot.attached_;
+  std::vector<Attachment> attached = robot.attached();
   if (find_attached(attached, attachment.name) != attached.end()) {
     throw std::invalid_argument(fmt::format(
         "attached \"{}\": it is attached already; expected another name", attachment.name));
@@ -89,7 +89,7 @@ std::shared_ptr<const Robot> attach(const Robot& robot, const Attachment& attach
 }
 
 std::shared_ptr<const Robot> detach(const Robot& robot, const std::string& name) {
-  std::vector<Attachment> attached = robot.attached_;
+  std::vector<Attachment> attached = robot.attached();
   const auto found = find_attached(attached, name);
   if (found == attached.end()) {
     throw std::invalid_argument(

@@ -77,8 +77,6 @@ class Robot {
 
   bool has_nothing_on(std::size_t link) const;
 
-  friend std::shared_ptr<const Robot> attach(const Robot& robot, const Attachment& attachment);
-  friend std::shared_ptr<const Robot> detach(const Robot& robot, const std::string& name);
   friend std::shared_ptr<const Robot> with_settings(const std::shared_ptr<const Robot>& robot,
                                                     const EvaluationSettings& settings);
 };

@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "berth/files/error.hpp"
+#include "berth/files/setting_json.hpp"
 #include "berth/record/exact_json.hpp"
 #include "berth/record/recorded_robot.hpp"
 #include "berth/types/setting_ref.hpp"
@@ -19,11 +18,7 @@ namespace {
 Json settings_json(const std::vector<SettingRef>& settings) {
   Json out = Json::object();
   for (const SettingRef& setting : settings) {
-    Json& value = out[setting.name];
-    if (const auto* number = std::get_if<double>(&setting.value)) value = exact(*number);
-    if (const auto* count = std::get_if<int>(&setting.value)) value = *count;
-    if (const auto* flag = std::get_if<bool>(&setting.value)) value = *flag;
-    if (const auto* name = std::get_if<std::string_view>(&setting.value)) value = *name;
+    out[setting.name] = setting_json(setting.value, [](double value) { return exact(value); });
   }
   return out;
 }

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string>
 
+#include "berth/files/setting_json.hpp"
+
 namespace berth {
 namespace {
 
@@ -35,17 +37,6 @@ Json value_schema(const SettingRef& setting) {
   return schema;
 }
 
-/// Null where no file can say it.
-Json value_json(const SettingValue& value) {
-  if (const auto* number = std::get_if<double>(&value)) {
-    return std::isfinite(*number) ? number_json(*number) : Json();
-  }
-  if (const auto* number = std::get_if<int>(&value)) return *number;
-  if (const auto* flag = std::get_if<bool>(&value)) return *flag;
-  if (const auto* name = std::get_if<std::string_view>(&value)) return *name;
-  return {};
-}
-
 }  // namespace
 
 Json setting_properties(const std::vector<SettingRef>& settings) {
@@ -53,9 +44,11 @@ Json setting_properties(const std::vector<SettingRef>& settings) {
   for (const SettingRef& setting : settings) {
     Json& property = properties[setting.name] =
         schema::told(std::string(setting.sentence), value_schema(setting));
-    if (Json standing = value_json(setting.value); !standing.is_null()) {
-      property["default"] = standing;
-    }
+    // No file can say that a number is infinite.
+    const Json standing = setting_json(setting.value, [](double value) {
+      return std::isfinite(value) ? number_json(value) : Json();
+    });
+    if (!standing.is_null()) property["default"] = standing;
   }
   return properties;
 }
