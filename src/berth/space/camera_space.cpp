@@ -79,8 +79,9 @@ void build_environment_ceiling(DepthView environment_front_m, UnitImage& scratch
   for (int v = 0; v < environment_front_m.height; ++v) {
     for (int u = 0; u < environment_front_m.width; ++u) {
       const float front_m = environment_front_m(u, v);
-      const int left = kEndlessUnits - units_up(front_m);
-      scratch(u, v) = std::isnan(front_m) ? DepthUnits{0} : static_cast<DepthUnits>(left);
+      scratch(u, v) = std::isnan(front_m)
+                          ? DepthUnits{0}
+                          : static_cast<DepthUnits>(kEndlessUnits - units_up(front_m));
     }
   }
   // The least of 3 x 3, and nothing in the outermost ring, as of what is free.
