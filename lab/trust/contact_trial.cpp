@@ -18,8 +18,9 @@ namespace berth::lab {
 namespace {
 
 constexpr int kBackgroundFrames = 5;
-/// Images of the empty cell; in some of them a pixel has no reading.
-constexpr int kEmptyImages = 8;
+/// Of the empty cell in each of two poses of the robot, neither that of the scene: what the robot
+/// hides later is known. In some images a pixel has no reading.
+constexpr std::uint32_t kEmptyImages = 8;
 constexpr double kTooFar_m = 0.04;
 constexpr double kFalselyNear_m = 0.05;
 
@@ -72,6 +73,22 @@ class ContactSensor {
   sim::CleanView view_;
 };
 
+void learn_cell(sim::ContactScene scene, std::size_t camera, const ContactCase& of,
+                std::uint32_t seed, Observer& observer) {
+  sim::Random random(seed);
+  Frame frame;
+  for (int pose = 0; pose < 2; ++pose) {
+    scene.joints = sim::draw_joints(random, scene.model);
+    forward_kinematics(scene.model, scene.joints.position, scene.pose);
+    const ContactSensor empty(scene, scene.views[camera], of, false);
+    for (std::uint32_t i = 0; i < kEmptyImages; ++i) {
+      const DepthImage depth_m = empty.take(seed + pose * kEmptyImages + i);
+      observer.observe(depth_m, scene.joints, frame);
+      observer.learn_background(depth_m, frame);
+    }
+  }
+}
+
 std::unique_ptr<Frame> observe(const std::shared_ptr<const Robot>& robot,
                                const sim::ContactScene& scene, std::size_t camera,
                                const ContactCase& of, std::uint32_t seed) {
@@ -83,14 +100,7 @@ std::unique_ptr<Frame> observe(const std::shared_ptr<const Robot>& robot,
                           fmt::format("camera_{}", camera)};
   Observer observer(std::make_shared<const MountedCamera>(robot, mount, settings));
   auto frame = std::make_unique<Frame>();
-  if (of.knows_cell) {
-    const ContactSensor empty(scene, view, of, false);
-    for (int i = 0; i < kEmptyImages; ++i) {
-      const DepthImage depth_m = empty.take(seed + 100 + i);
-      observer.observe(depth_m, scene.joints, *frame);
-      observer.learn_background(depth_m, *frame);
-    }
-  }
+  if (of.knows_cell) learn_cell(scene, camera, of, seed + 100, observer);
   observer.observe(ContactSensor(scene, view, of, true).take(seed), scene.joints, *frame);
   return frame;
 }

@@ -7,7 +7,8 @@
 namespace berth::python {
 namespace {
 
-py::array array_of(const LinksByJoints& numbers) {
+template <class Numbers>
+py::array array_of(const Numbers& numbers) {
   py::array_t<double> out({numbers.rows(), numbers.cols()});
   std::copy_n(numbers.data(), numbers.size(), out.mutable_data());
   return out;
@@ -58,6 +59,13 @@ void bind_rows(py::module_& m) {
           py::arg("kind"),
           "d(distance)/dq of each link's pair, (links, joints) in m/rad, or m/m where the joint\n"
           "slides. NaN where there is no pair, 0 in contact.")
+      .def(
+          "normal",
+          [](const DistanceRows& self, RowKind kind) { return array_of(self.normal_B(kind)); },
+          py::arg("kind"),
+          "From the obstacle's point of each link's pair to the link's, (links, 3), of length 1, in\n"
+          "the robot's root frame. In contact that of the last result in which they were apart; NaN\n"
+          "where there is no pair, or none was apart before.")
       .def(
           "reach_m",
           [](const DistanceRows& self, RowKind kind) { return array_of(self.reach_m(kind)); },

@@ -139,12 +139,19 @@ TEST(DistanceRows, WithoutAPairThereIsNoneAndInContactItIs0) {
   rows.update(robot.result);
   EXPECT_TRUE(rows.gradient(RowKind::nearest).row(7).array().isFinite().all());
   EXPECT_TRUE(rows.gradient(RowKind::nearest).row(6).array().isNaN().all());
+  const SpacePair& pair = robot.result.links[7];
+  const Eigen::Vector3d normal_B =
+      (pair.robot_point_B_m - pair.obstacle_point_B_m).normalized().cast<double>();
+  EXPECT_TRUE(rows.normal_B(RowKind::nearest).row(7).isApprox(normal_B.transpose(), 1e-6));
+  EXPECT_TRUE(rows.normal_B(RowKind::nearest).row(6).array().isNaN().all());
   robot.result.links[7].distance_m = 0;
   rows.update(robot.result);
   EXPECT_TRUE((rows.gradient(RowKind::nearest).row(7).array() == 0).all());
+  EXPECT_TRUE(rows.normal_B(RowKind::nearest).row(7).isApprox(normal_B.transpose(), 1e-6));
   withhold(robot.result);
   rows.update(robot.result);
   EXPECT_TRUE(rows.gradient(RowKind::nearest).array().isNaN().all());
+  EXPECT_TRUE(rows.normal_B(RowKind::nearest).array().isNaN().all());
 }
 
 TEST(DistanceRows, RefusesTheResultOfAnotherRobot) {

@@ -37,6 +37,7 @@ class RowsRobot {
       LinkResult& link = result.links[i];
       static_cast<SpacePair&>(link) = link.occupied = SpacePair();
       link.lower_bound_m = 1;
+      link.status = LinkStatus::none_in_range;
       link.known = pairs[i];
     }
     result.status = ResultStatus::ok;

@@ -224,6 +224,27 @@ TEST_F(Filtered, WithoutAnAnswerOrANumberItStands) {
   EXPECT_EQ(out.velocity, Numbers(7, 0));
 }
 
+TEST_F(Filtered, WhereTooLittleIsSeenItStandsUnlessToldNotTo) {
+  VelocityFilter filter(arm.robot, {}), other(arm.robot, {.stop_unseen = false});
+  arm.ask(position);
+  const Numbers wanted(7, 0.1);
+  for (const LinkStatus status : {LinkStatus::not_seen, LinkStatus::not_observed}) {
+    arm.result.links[5].status = status;
+    const FilteredVelocity& out = update(filter, wanted);
+    EXPECT_EQ(out.status, FilterStatus::unseen);
+    EXPECT_EQ(out.velocity, Numbers(7, 0));
+    EXPECT_EQ(out.held_by, std::vector{(LinkRow{6, RowKind::nearest})});
+    EXPECT_EQ(update(other, wanted).velocity, wanted);
+  }
+  // It stands where it stands.
+  arm.result.links[5].is_moved = false;
+  EXPECT_EQ(update(filter, wanted).status, FilterStatus::ok);
+  arm.result.status = ResultStatus::degraded;
+  EXPECT_EQ(update(filter, wanted).status, FilterStatus::unseen);
+  EXPECT_TRUE(filter.update(arm.result, {position, wanted, wanted}).held_by.empty());
+  EXPECT_EQ(update(other, wanted).status, FilterStatus::ok);
+}
+
 TEST_F(Filtered, WhereItCannotBrakeSoFastItStandsAndNamesTheRow) {
   VelocityFilter filter(arm.robot, {.latency_s = 0, .max_acceleration = 1});
   put_in_front(0.08F);
@@ -248,7 +269,10 @@ TEST_F(Filtered, KeepsTheJointsLimits) {
     if (k % 100 == 0) wanted = draw(random, 7, 9);
     // Nothing is near: the limits alone count.
     forward_kinematics(arm.model(), position, arm.result.pose);
-    for (LinkResult& link : arm.result.links) link.lower_bound_m = 1;
+    for (LinkResult& link : arm.result.links) {
+      link.lower_bound_m = 1;
+      link.status = LinkStatus::none_in_range;
+    }
     arm.result.status = ResultStatus::ok;
     const FilteredVelocity& out = update(filter, wanted, velocity);
     ASSERT_EQ(out.status, FilterStatus::ok);

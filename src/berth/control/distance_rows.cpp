@@ -54,6 +54,7 @@ DistanceRows::DistanceRows(std::shared_ptr<const Robot> robot) : robot_(std::mov
   const auto links = static_cast<Eigen::Index>(model.evaluated_links.size());
   const auto joints = static_cast<Eigen::Index>(model.joints.size());
   for (LinksByJoints& gradient : gradients_) gradient.setConstant(links, joints, kNaN);
+  for (LinkVectors& normals_B : normals_B_) normals_B.setConstant(links, 3, kNaN);
   reach_m_.resize(links, joints);
   known_reach_m_.resize(links, joints);
   sum_m_.resize(joints);
@@ -77,28 +78,33 @@ void DistanceRows::update(const Result& result) {
                                             result.links.size(), links, robot_->model().name));
   }
   for (LinksByJoints& gradient : gradients_) gradient.setConstant(kNaN);
-  if (result.pose.X_BL.empty()) return;
   for (std::size_t i = 0; i < links; ++i) {
     for (const RowKind kind : kRowKinds) differentiate(result, i, kind);
   }
+  if (result.pose.X_BL.empty()) return;
   if (has_slides_) find_reaches(result.pose);
 }
 
 void DistanceRows::differentiate(const Result& result, std::size_t link, RowKind kind) {
   const PairPoints pair = points_of(result.links[link], kind);
-  if (!pair.is_known) return;
+  auto normal_B = normals_B_[index(kind)].row(static_cast<Eigen::Index>(link));
+  if (!pair.is_known || result.pose.X_BL.empty()) {
+    normal_B.setConstant(kNaN);
+    return;
+  }
   auto gradient = gradients_[index(kind)].row(static_cast<Eigen::Index>(link));
   gradient.setZero();
   const Eigen::Vector3d way_B_m = pair.link_B_m - pair.other_B_m;
   const double length_m = way_B_m.norm();
   if (pair.distance_m == 0 || length_m == 0) return;
+  normal_B = way_B_m.transpose() / length_m;
   const RobotModel& model = robot_->model();
   point_jacobian(model, result.pose, model.evaluated_links[link], pair.link_B_m, of_link_);
   if (pair.other) {
     point_jacobian(model, result.pose, *pair.other, pair.other_B_m, of_other_);
     of_link_ -= of_other_;
   }
-  gradient.noalias() = (way_B_m / length_m).transpose() * of_link_;
+  gradient.noalias() = normal_B * of_link_;
 }
 
 void DistanceRows::find_reaches(const RobotPose& pose) {

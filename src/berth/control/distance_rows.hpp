@@ -30,6 +30,8 @@ constexpr std::string_view name_of(RowKind kind) {
 
 /// A row for each link (Result::links), a column for each joint (RobotModel::joints).
 using LinksByJoints = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+/// A vector for each link.
+using LinkVectors = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 /// How the distances of a result change with the joints: what an optimiser needs beside them. One
 /// for each thread; once made, nothing allocates.
@@ -46,6 +48,11 @@ class DistanceRows {
   /// NaN where there is no pair. 0 in contact: the distance gives no direction there. At a kink,
   /// where two pairs are as near, it is that of one of them.
   const LinksByJoints& gradient(RowKind kind) const { return gradients_[index(kind)]; }
+
+  /// Of length 1, from the obstacle's point of the pair to the link's, in the robot's root frame B:
+  /// where the link goes away. In contact it is that of the last result in which they were apart.
+  /// NaN where there is no pair, or none was apart before.
+  const LinkVectors& normal_B(RowKind kind) const { return normals_B_[index(kind)]; }
 
   /// What a motion can cost at most: after any step dq of the joints, however large, nothing of
   /// this kind is nearer than
@@ -67,6 +74,7 @@ class DistanceRows {
 
   std::shared_ptr<const Robot> robot_;
   std::array<LinksByJoints, kRowKinds.size()> gradients_;
+  std::array<LinkVectors, kRowKinds.size()> normals_B_;
   LinksByJoints reach_m_;
   LinksByJoints known_reach_m_;
   /// Of the bodies of KnownModel: the evaluated links come first, by their ids.

@@ -41,6 +41,8 @@ const FilteredVelocity& VelocityFilter::update(const Result& result, const Joint
     out_.status = FilterStatus::stale;
   } else if (!are_good(joints)) {
     out_.status = FilterStatus::bad_joints;
+  } else if (settings_.stop_unseen && !is_all_seen(result)) {
+    out_.status = FilterStatus::unseen;
   } else if (!find_bounds(result)) {
     out_.status = FilterStatus::contact;
   } else {
@@ -57,6 +59,16 @@ bool VelocityFilter::are_good(const JointMotion& joints) const {
                                       std::ranges::all_of(
                                           all, [](double number) { return std::isfinite(number); });
                              });
+}
+
+bool VelocityFilter::is_all_seen(const Result& result) {
+  for (const LinkResult& link : result.links) {
+    const bool is_seen = link.status == LinkStatus::ok ||
+                         link.status == LinkStatus::none_in_range ||
+                         link.status == LinkStatus::cut_short;
+    if (link.is_moved && !is_seen) out_.held_by.push_back({link.id, RowKind::nearest});
+  }
+  return out_.held_by.empty() && result.status == ResultStatus::ok;
 }
 
 void VelocityFilter::find_limits(const JointMotion& joints) {

@@ -27,6 +27,9 @@ struct VelocityFilterSettings {
   double latency_s = 0.01;
   /// Of each joint, rad/s^2 or m/s^2; no URDF has it. Infinite: it does not count.
   double max_acceleration = std::numeric_limits<double>::infinity();
+  /// Whether the robot stands while a camera is left out, or a moved link is not seen or not
+  /// observed: nothing is promised of what is near it then.
+  bool stop_unseen = true;
 };
 
 /// The list of these settings.
@@ -44,6 +47,11 @@ void visit_settings(Settings& s, Visitor&& visit) {
          {.is_open = true, .may_be_infinite = true},
          "how fast each joint's velocity may change, in rad/s^2 or m/s^2"},
         s.max_acceleration);
+  visit({"stop_unseen",
+         {},
+         "whether the robot stands while a camera is left out, or a link is not seen or not "
+         "observed"},
+        s.stop_unseen);
 }
 
 /// The joints that a velocity is asked for, in the order of RobotModel::joints; rad, rad/s, or m,
@@ -62,12 +70,13 @@ enum class FilterStatus : std::uint8_t {
   ok,           ///< it is as near to the wanted one as rows and limits allow
   stale,        ///< 0: the result is no answer
   bad_joints,   ///< 0: a number of the joints is missing or not finite
+  unseen,       ///< 0: a camera is left out, or the links in held_by are not seen or not observed
   contact,      ///< 0: something may touch already, and no direction is known that leads away
   no_solution,  ///< 0: the joints cannot brake as fast as rows ask
 };
 /// By enumerator.
-inline constexpr std::array<std::string_view, 5> kFilterStatusNames = {"ok", "stale", "bad_joints",
-                                                                       "contact", "no_solution"};
+inline constexpr std::array<std::string_view, 6> kFilterStatusNames = {
+    "ok", "stale", "bad_joints", "unseen", "contact", "no_solution"};
 constexpr std::string_view name_of(FilterStatus status) {
   return kFilterStatusNames[static_cast<std::size_t>(status)];
 }
@@ -120,6 +129,7 @@ class VelocityFilter {
   struct Bound;
 
   bool are_good(const JointMotion& joints) const;
+  bool is_all_seen(const Result& result);
   void find_limits(const JointMotion& joints);
   /// Whether nothing may touch already.
   bool find_bounds(const Result& result);

@@ -42,12 +42,30 @@ void BodyPair::forget() {
   inside_F_m_.reset();
   search_.best_triangle = -1;
   room_m_ = 0;
+  lower_bound_m_ = 0;
 }
 
 void BodyPair::search_on(const LinkPatches& other) {
   if (search_.known_bound_m >= search_.limit_m()) return;
   take_link_pair_below(other, search_);
   search_link_pair(other, kWholeSearch, search_);
+}
+
+bool BodyPair::follow(const KnownBody& link, const KnownBody& other, const RobotPose& pose,
+                      float needed_m, float tolerance_m) {
+  if (!has_begun_ || inside_F_m_) return false;
+  const Pose& X_BF = pose.X_BL[other.link];
+  const Pose X_FL = X_BF.inverse() * pose.X_BL[link.link];
+  const float moved_m = moved_at_most_m(*link.patches, search_.X_BL, X_FL);
+  lower_bound_m_ = std::max(0.0f, found_bound_m_ - moved_m);
+  if (search_.is_known()) {
+    link_point_B_m_ = X_BF * (X_FL * search_.robot_point_L_m);
+    other_point_B_m_ = X_BF * search_.obstacle_point_B_m;
+    distance_m_ = static_cast<float>((link_point_B_m_ - other_point_B_m_).norm());
+  }
+  if (lower_bound_m_ >= needed_m) return true;
+  // Nearer than the tolerance, it has to be decided whether they touch.
+  return distance_m_ > tolerance_m && distance_m_ - lower_bound_m_ <= tolerance_m;
 }
 
 void BodyPair::find(const KnownBody& link, const KnownBody& other, const RobotPose& pose,
@@ -73,6 +91,7 @@ void BodyPair::find(const KnownBody& link, const KnownBody& other, const RobotPo
   const float apart_m = search_.lower_bound_m();
   if (!(room_m_ > 0)) inside_F_m_ = find_inside(link, other, X_FL);
   room_m_ = std::max(room_m_, apart_m);
+  lower_bound_m_ = found_bound_m_ = inside_F_m_ ? 0 : apart_m;
   tell(other, X_BF);
 }
 

@@ -19,6 +19,12 @@ class BodyPair {
   /// Nothing is known.
   void forget();
 
+  /// Takes along what was found, without a search: points move with their bodies, and the bound
+  /// falls by how far the one has moved against the other since. Returns whether that says enough:
+  /// nothing is nearer than `needed_m`, or the distance is known to `tolerance_m`.
+  bool follow(const KnownBody& link, const KnownBody& other, const RobotPose& pose, float needed_m,
+              float tolerance_m);
+
   /// Looks how near `link` is to `other`, up to request.range_m, where nothing is nearer than
   /// `known_bound_m`. Goes on from the call before, which was about the same bodies.
   void find(const KnownBody& link, const KnownBody& other, const RobotPose& pose,
@@ -26,7 +32,7 @@ class BodyPair {
 
   /// Infinite where there is no pair within the range; 0 where they are inside one another.
   float distance_m() const { return distance_m_; }
-  float lower_bound_m() const { return inside_F_m_ ? 0 : search_.lower_bound_m(); }
+  float lower_bound_m() const { return lower_bound_m_; }
   /// The points of a pair in the frame B that `pose` is of; both the same where they are inside
   /// one another.
   const Eigen::Vector3d& link_point_B_m() const { return link_point_B_m_; }
@@ -42,6 +48,9 @@ class BodyPair {
   std::optional<Eigen::Vector3d> inside_F_m_;
   /// The surfaces are so far apart that this cannot have changed until one moved by more.
   float room_m_ = 0;
+  /// What the last search found that nothing is nearer than, and what is left of that.
+  float found_bound_m_ = 0;
+  float lower_bound_m_ = 0;
   float distance_m_ = 0;
   Eigen::Vector3d link_point_B_m_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d other_point_B_m_ = Eigen::Vector3d::Zero();

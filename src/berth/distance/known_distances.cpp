@@ -51,7 +51,8 @@ struct KnownWorkspace::State {
 
   void begin(const KnownModel& model);
   void begin_anew();
-  void look(std::size_t p, float range_m);
+  /// Looks no farther than range_m, and not at all where nothing is nearer than needed_m.
+  void look(std::size_t p, float needed_m, float range_m);
   void look_at_candidates();
   void tell(std::vector<KnownPair>& out);
 
@@ -115,13 +116,16 @@ void KnownWorkspace::State::begin_anew() {
   }
 }
 
-void KnownWorkspace::State::look(std::size_t p, float range_m) {
+void KnownWorkspace::State::look(std::size_t p, float needed_m, float range_m) {
   PairState& pair = pairs[p];
   if (pair.request == number) return;
   pair.request = number;
   MeshRequest up_to = request;
   up_to.range_m = std::min<double>(range_m, request.range_m);
-  pair.found.find(body(p, 0), body(p, 1), *pose, up_to, bound_m(p));
+  const auto tolerance_m = static_cast<float>(request.tolerance_m);
+  if (!pair.found.follow(body(p, 0), body(p, 1), *pose, needed_m, tolerance_m)) {
+    pair.found.find(body(p, 0), body(p, 1), *pose, up_to, bound_m(p));
+  }
   pair.level_m = std::max<double>(bound_m(p), pair.found.lower_bound_m()) + travel_m(p);
   for (const std::size_t side : {0, 1}) {
     BodyState& of = bodies[known->pairs[p][side]];
@@ -140,7 +144,7 @@ void KnownWorkspace::State::look_at_candidates() {
   }
   std::ranges::sort(candidates, {}, &Candidate::bound_m);
   for (const auto& [bound_m, p] : candidates) {
-    if (bound_m < limit_m(p)) look(p, limit_m(p) + kAhead_m);
+    if (bound_m < limit_m(p)) look(p, limit_m(p), limit_m(p) + kAhead_m);
   }
 }
 
@@ -180,7 +184,8 @@ void known_distances(const KnownModel& known, const RobotPose& pose, const MeshR
   // What was nearest before is near.
   for (std::size_t i = 0; i < state.bodies.size(); ++i) {
     if (state.bodies[i].pair != kNoPair) {
-      state.look(state.bodies[i].pair, static_cast<float>(request.range_m));
+      const auto range_m = static_cast<float>(request.range_m);
+      state.look(state.bodies[i].pair, range_m, range_m);
     }
   }
   state.look_at_candidates();
