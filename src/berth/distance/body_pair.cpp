@@ -56,16 +56,24 @@ bool BodyPair::follow(const KnownBody& link, const KnownBody& other, const Robot
   if (!has_begun_ || inside_F_m_) return false;
   const Pose& X_BF = pose.X_BL[other.link];
   const Pose X_FL = X_BF.inverse() * pose.X_BL[link.link];
-  const float moved_m = moved_at_most_m(*link.patches, search_.X_BL, X_FL);
-  lower_bound_m_ = std::max(0.0f, found_bound_m_ - moved_m);
-  if (search_.is_known()) {
-    link_point_B_m_ = X_BF * (X_FL * search_.robot_point_L_m);
-    other_point_B_m_ = X_BF * search_.obstacle_point_B_m;
-    distance_m_ = static_cast<float>((link_point_B_m_ - other_point_B_m_).norm());
-  }
-  if (lower_bound_m_ >= needed_m) return true;
+  lower_bound_m_ =
+      std::max(0.0f, known_bound_m_ - moved_at_most_m(*link.patches, known_X_FL_, X_FL));
+  if (!search_.is_known()) return lower_bound_m_ >= needed_m;
+  link_point_B_m_ = X_BF * (X_FL * search_.robot_point_L_m);
+  other_point_B_m_ = X_BF * search_.obstacle_point_B_m;
+  distance_m_ = static_cast<float>((link_point_B_m_ - other_point_B_m_).norm());
   // Nearer than the tolerance, it has to be decided whether they touch.
-  return distance_m_ > tolerance_m && distance_m_ - lower_bound_m_ <= tolerance_m;
+  const auto is_enough = [&] {
+    return lower_bound_m_ >= needed_m ||
+           (distance_m_ > tolerance_m && distance_m_ - lower_bound_m_ <= tolerance_m);
+  };
+  if (is_enough()) return true;
+  if (!(distance_m_ > tolerance_m)) return false;
+  const float apart_m = apart_at_pair_m(*other.patches, X_FL, search_);
+  if (!(apart_m > lower_bound_m_)) return false;
+  lower_bound_m_ = known_bound_m_ = apart_m;
+  known_X_FL_ = X_FL;
+  return is_enough();
 }
 
 void BodyPair::find(const KnownBody& link, const KnownBody& other, const RobotPose& pose,
@@ -79,7 +87,7 @@ void BodyPair::find(const KnownBody& link, const KnownBody& other, const RobotPo
   if (!keep_front(moved_m, search_)) start_link_pair(*other.patches, search_);
   keep_pair(search_);
   // Searched more finely than it has to be reported, it serves more requests.
-  if (search_.known_bound_m < search_.limit_m()) search_.tolerance_m /= 4;
+  if (search_.known_bound_m < search_.limit_m()) search_.tolerance_m /= 2;
   search_on(*other.patches);
   if (search_.best_m <= request.tolerance_m) {
     // Decides whether they touch.
@@ -91,7 +99,8 @@ void BodyPair::find(const KnownBody& link, const KnownBody& other, const RobotPo
   const float apart_m = search_.lower_bound_m();
   if (!(room_m_ > 0)) inside_F_m_ = find_inside(link, other, X_FL);
   room_m_ = std::max(room_m_, apart_m);
-  lower_bound_m_ = found_bound_m_ = inside_F_m_ ? 0 : apart_m;
+  lower_bound_m_ = known_bound_m_ = inside_F_m_ ? 0 : apart_m;
+  known_X_FL_ = X_FL;
   tell(other, X_BF);
 }
 

@@ -19,9 +19,11 @@ class BodyPair {
   /// Nothing is known.
   void forget();
 
-  /// Takes along what was found, without a search: points move with their bodies, and the bound
-  /// falls by how far the one has moved against the other since. Returns whether that says enough:
-  /// nothing is nearer than `needed_m`, or the distance is known to `tolerance_m`.
+  /// Takes along what was found, without a search: points move with their bodies. The bound falls
+  /// by how far the one has moved against the other since, or is that of a plane between both
+  /// across the way from point to point, which is as good as the distance while they are convex
+  /// there. Returns whether that says enough: nothing is nearer than `needed_m`, or the distance is
+  /// known to `tolerance_m`.
   bool follow(const KnownBody& link, const KnownBody& other, const RobotPose& pose, float needed_m,
               float tolerance_m);
 
@@ -48,8 +50,9 @@ class BodyPair {
   std::optional<Eigen::Vector3d> inside_F_m_;
   /// The surfaces are so far apart that this cannot have changed until one moved by more.
   float room_m_ = 0;
-  /// What the last search found that nothing is nearer than, and what is left of that.
-  float found_bound_m_ = 0;
+  /// Nothing was nearer than this with the link at this pose in the other one's frame, and is now.
+  float known_bound_m_ = 0;
+  Pose known_X_FL_ = Pose::Identity();
   float lower_bound_m_ = 0;
   float distance_m_ = 0;
   Eigen::Vector3d link_point_B_m_ = Eigen::Vector3d::Zero();

@@ -302,10 +302,50 @@ inline double reach_m(const LinkPatches& link) {
          top.half_height_m[0] + top.radius_m[0];
 }
 
+/// The least n . v of all of a link's points; only patches are taken apart that may have it.
+float least_of_link(const LinkPatches& link, const Motion& X, const Heading& n) {
+  constexpr int kMostOpen = 16 * 8;
+  struct Open {
+    float least_m;
+    int level, index;
+  };
+  Open open[kMostOpen];
+  int count = 0;
+  float least_m = HUGE_VALF;
+  open[count++] = {-HUGE_VALF, static_cast<int>(link.levels.size()) - 1, 0};
+  while (count > 0) {
+    const Open at = open[--count];
+    if (at.least_m >= least_m) continue;
+    if (at.level == 0) {
+      Lanes along(HUGE_VALF);
+      for (int first = 16 * at.index; first < 16 * (at.index + 1); first += kLanes) {
+        along = least(along, least_along(load_triangles(link, first, X), broadcast(n)));
+      }
+      least_m = std::min(least_m, least_lane(along));
+      continue;
+    }
+    const PatchLevel& level = link.levels[static_cast<std::size_t>(at.level - 1)];
+    const int begin = 16 * at.index, children = std::min(16, level.count - begin);
+    alignas(64) float bound_m[16];
+    for (int i = 0; i < children; i += kLanes) {
+      const Pieces pieces = load_pieces(level, begin + i, X);
+      store(dot(pieces.centre, broadcast(n)) - extent_along(pieces, broadcast(n)), bound_m + i);
+    }
+    const int first = count;
+    for (int i = 0; i < children; ++i) {
+      if (bound_m[i] < least_m) open[count++] = {bound_m[i], at.level - 1, begin + i};
+    }
+    // The most promising one is next.
+    std::sort(open + first, open + count,
+              [](const Open& a, const Open& b) { return a.least_m > b.least_m; });
+  }
+  return least_m;
+}
+
 /// Nothing while there is no pair; no longer than 1.
-inline Heading heading_of_best(const LinkSearch& link) {
+inline Heading heading_of_best(const LinkSearch& link, const Pose& X_FL) {
   if (!link.is_known()) return {};
-  const Eigen::Vector3d way_m = link.X_BL * link.robot_point_L_m - link.obstacle_point_B_m;
+  const Eigen::Vector3d way_m = X_FL * link.robot_point_L_m - link.obstacle_point_B_m;
   const Eigen::Vector3f n = (way_m / std::max(way_m.norm() * (1 + 1e-6), 1e-12)).cast<float>();
   return {n.x(), n.y(), n.z()};
 }
@@ -313,7 +353,15 @@ inline Heading heading_of_best(const LinkSearch& link) {
 PairSearch make_pair_search(const LinkPatches& other, LinkSearch& link) {
   const double far_m = link.X_BL.translation().norm() + reach_m(*link.link) + reach_m(other);
   return {link, other, make_frame(link.X_BL, static_cast<float>(far_m)),
-          motion_of(Pose::Identity()), heading_of_best(link)};
+          motion_of(Pose::Identity()), heading_of_best(link, link.X_BL)};
+}
+
+float apart_along(const LinkPatches& other, const Pose& X_FL, const LinkSearch& link) {
+  const Heading n = heading_of_best(link, X_FL);
+  const double far_m = X_FL.translation().norm() + reach_m(*link.link) + reach_m(other);
+  return least_of_link(*link.link, motion_of(X_FL), n) +
+         least_of_link(other, motion_of(Pose::Identity()), {-n.x, -n.y, -n.z}) -
+         rounding_m(static_cast<float>(far_m));
 }
 
 void take_pair_front(const LinkPatches& other, LinkSearch& link) {
@@ -345,6 +393,11 @@ namespace berth::mesh {
 
 HWY_EXPORT(search_pair_of_links);
 HWY_EXPORT(take_pair_front);
+HWY_EXPORT(apart_along);
+
+float apart_at_pair_m(const LinkPatches& other, const Pose& X_FL, const LinkSearch& search) {
+  return HWY_DYNAMIC_DISPATCH(apart_along)(other, X_FL, search);
+}
 
 void take_link_pair_below(const LinkPatches& other, LinkSearch& search) {
   HWY_DYNAMIC_DISPATCH(take_pair_front)(other, search);

@@ -17,6 +17,11 @@ void take_link_pair_below(const LinkPatches& other, LinkSearch& search);
 /// patches. `best_pixel` is the place of the other link's triangle.
 void search_link_pair(const LinkPatches& other, int steps, LinkSearch& search);
 
+/// By how much a plane keeps all of two links apart, with the link at X_FL in the frame of `other`:
+/// across the way from the best pair's point of the other one to that of the link. Below 0 where it
+/// does not.
+float apart_at_pair_m(const LinkPatches& other, const Pose& X_FL, const LinkSearch& search);
+
 /// The closest points of the best pair's triangles. There is one.
 ConvexPair best_pair_of(const LinkPatches& other, const LinkSearch& search);
 
