@@ -138,6 +138,12 @@ std::optional<HidingPixel> UnknownSpace::hiding_pixel(const Eigen::Vector3d& p_B
   return HidingPixel{0, {-1, -1}};
 }
 
+std::uint64_t UnknownSpace::find_block(const mesh::Cube& cube) const {
+  std::uint64_t block = mesh::find_block(views_, cube);
+  if (hides_unobserved_) block |= mesh::find_unobserved(views_, guarded_, cube);
+  return block;
+}
+
 std::uint64_t UnknownSpace::block(const mesh::Cube& cube) const {
   constexpr int kMostProbes = 32;
   const std::uint64_t key = cube.key();
@@ -150,8 +156,7 @@ std::uint64_t UnknownSpace::block(const mesh::Cube& cube) const {
     slot = &slots_[place];
     break;
   }
-  std::uint64_t block = mesh::find_block(views_, cube);
-  if (hides_unobserved_) block |= mesh::find_unobserved(views_, guarded_, cube);
+  const std::uint64_t block = find_block(cube);
   std::uint64_t expected = 0;
   if (slot == nullptr || used_count_.load(std::memory_order_relaxed) >= kMostBlocks ||
       !slot->key.compare_exchange_strong(expected, kBusy)) {

@@ -86,6 +86,9 @@ class UnknownSpace {
   /// one bit each.
   std::uint64_t block(const mesh::Cube& cube) const;
 
+  /// The same, not kept: for who asks for more of them than are kept.
+  std::uint64_t find_block(const mesh::Cube& cube) const;
+
   /// How many of them are kept.
   std::size_t kept_blocks() const;
 

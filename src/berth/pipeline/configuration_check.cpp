@@ -1,0 +1,293 @@
+#include "berth/pipeline/configuration_check.hpp"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "berth/distance/ball_check.hpp"
+#include "berth/distance/mesh_distances.hpp"
+#include "berth/pipeline/frame_set.hpp"
+#include "berth/pipeline/look_ahead.hpp"
+#include "berth/robot/kinematics.hpp"
+#include "berth/robot/plausible_size.hpp"
+#include "berth/space/serial_number.hpp"
+
+namespace berth {
+namespace {
+
+constexpr float kNotAsked = std::numeric_limits<float>::quiet_NaN();
+/// No part of a motion in which no joint moves farther is cut again, rad or m.
+constexpr float kLeastStep = 0.002f;
+
+/// All that the moved links may reach lies in this ball in B.
+struct Reach {
+  Eigen::Vector3d middle_B_m = Eigen::Vector3d::Zero();
+  double radius_m = 0;
+};
+
+/// The links from one that moves to the last that does not.
+std::vector<std::size_t> moving_chain(const RobotModel& model, std::size_t link) {
+  std::vector<std::size_t> chain;
+  for (std::optional<std::size_t> i = link; i && model.is_moved(*i); i = model.links[*i].parent) {
+    chain.push_back(*i);
+  }
+  return chain;
+}
+
+double slide_m(const RobotModel& model, const Joint& joint) {
+  if (joint.type != JointType::prismatic || !joint.position_index) return 0;
+  const MovableJoint& of = model.joints[*joint.position_index];
+  return std::abs(joint.multiplier) * std::max(std::abs(of.lower), std::abs(of.upper)) +
+         std::abs(joint.offset);
+}
+
+/// About the first joint, where all hang on the same one.
+Reach reach_of(const RobotModel& model) {
+  RobotPose pose;
+  forward_kinematics(model, std::vector<double>(model.joints.size(), 0.0), pose);
+  Reach reach;
+  std::vector<std::vector<std::size_t>> chains;
+  for (const std::size_t link : model.evaluated_links) {
+    if (model.is_moved(link)) chains.push_back(moving_chain(model, link));
+  }
+  if (chains.empty()) return reach;
+  for (const auto& chain : chains) {
+    reach.middle_B_m += pose.X_BL[chain.back()].translation() / static_cast<double>(chains.size());
+  }
+  for (const auto& chain : chains) {
+    const Joint& first = model.links[chain.back()].joint;
+    double sum_m = (pose.X_BL[chain.back()].translation() - reach.middle_B_m).norm() +
+                   slide_m(model, first) + reach_m(model.links[chain.front()].mesh_L);
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+      const Joint& joint = model.links[chain[i]].joint;
+      sum_m += joint.X_PJ.translation().norm() + slide_m(model, joint);
+    }
+    reach.radius_m = std::max(reach.radius_m, sum_m);
+  }
+  return reach;
+}
+
+/// What the exact search says of a link that one joint turns, at each of some angles: found where
+/// somebody asks for the first time, for all threads.
+class TurnedLink {
+ public:
+  TurnedLink(const RobotModel& model, const mesh::BallLink& link)
+      : link_(model.evaluated_links[link.id - 1]), positions_(model.joints.size(), 0.0) {
+    patches_.serial_number = mesh::next_serial_number();
+    patches_.links.push_back(build_link_patches(model.links[link_].mesh_L));
+    patches_.links.back().link = link_;
+    joint_ = moving_chain(model, link_).back();
+    lever_m_ = link.balls.centre_m.norm() + link.balls.radius_m;
+  }
+
+  void forget() {
+    for (std::atomic<float>& cell : cells_) cell.store(kNotAsked);
+  }
+
+  float clearance_m(const RobotModel& model, const FrameSet& frames, float angle) {
+    const double place = (angle + std::numbers::pi) / kCell_rad;
+    const auto i = std::clamp<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(place), 0, kCells - 1);
+    std::atomic<float>& cell = cells_[static_cast<std::size_t>(i)];
+    if (const float known_m = cell.load(); !std::isnan(known_m)) return known_m;
+    const double middle_rad = (static_cast<double>(i) + 0.5) * kCell_rad - std::numbers::pi;
+    const float found_m = find(model, frames, middle_rad);
+    // What a float rounds an angle to may lie in the cell beside.
+    const double most_rad = kCell_rad / 2 + 1e-5;
+    cell.store(std::max(0.0f, found_m - static_cast<float>(lever_m_ * most_rad)));
+    return cell.load();
+  }
+
+ private:
+  static constexpr std::ptrdiff_t kCells = 256;
+  static constexpr double kCell_rad = 2 * std::numbers::pi / kCells;
+
+  float find(const RobotModel& model, const FrameSet& frames, double angle) const {
+    const Joint& joint = model.links[joint_].joint;
+    std::vector<double> positions = positions_;
+    positions[*joint.position_index] = (angle - joint.offset) / joint.multiplier;
+    RobotPose pose;
+    forward_kinematics(model, positions, pose);
+    MeshWorkspace workspace;
+    std::vector<WholeLinkDistance> out;
+    const MeshRequest request{.range_m = 0.25};
+    mesh_distances(patches_, pose, frames.space(), request, workspace, out);
+    float lower_m = out.front().nearest.lower_bound_m;
+    if (!frames.undecided().views().empty()) {
+      mesh_distances(patches_, pose, frames.undecided(), request, workspace, out);
+      lower_m = std::min(lower_m, out.front().nearest.lower_bound_m);
+    }
+    return lower_m;
+  }
+
+  std::size_t link_;
+  std::size_t joint_ = 0;
+  double lever_m_ = 0;
+  std::vector<double> positions_;
+  RobotPatches patches_;
+  std::array<std::atomic<float>, kCells> cells_;
+};
+
+void require_margin(double margin_m) {
+  if (std::isfinite(margin_m) && margin_m >= 0) return;
+  throw std::invalid_argument(fmt::format(
+      "configurations: a margin is {} m; expected a finite number of at least 0", margin_m));
+}
+
+}  // namespace
+
+struct ConfigurationCheck::State {
+  mesh::BallRobot balls;
+  Reach reach;
+  FrameSet frames;
+  ClearanceField field;
+  bool is_known = false;
+  /// Of each of the balls' links; null unless one joint turns it.
+  std::vector<std::unique_ptr<TurnedLink>> turned;
+  mesh::TurnedClearance turned_clearance_m;
+};
+
+ConfigurationCheck::ConfigurationCheck(std::shared_ptr<const Robot> robot)
+    : robot_(std::move(robot)), state_(std::make_unique<State>()) {
+  State& state = *state_;
+  state.balls = mesh::build_ball_robot(robot_->model());
+  for (const mesh::BallLink& link : state.balls.links) {
+    const bool is_turned = state.balls.is_turned(link);
+    state.turned.push_back(is_turned ? std::make_unique<TurnedLink>(robot_->model(), link)
+                                     : nullptr);
+  }
+  state.turned_clearance_m = [this](std::size_t l, float angle) {
+    return state_->turned[l]->clearance_m(robot_->model(), state_->frames, angle);
+  };
+  state_->reach = reach_of(robot_->model());
+}
+
+ConfigurationCheck::~ConfigurationCheck() = default;
+
+ResultStatus ConfigurationCheck::prepare(const NewestFrames& frames, std::optional<double> now_s,
+                                         const std::optional<Pose>& X_WB) {
+  State& state = *state_;
+  const TimeSettings& time = robot_->settings().time;
+  state.is_known = false;
+  if (X_WB && !X_WB->matrix().allFinite()) return ResultStatus::stale;
+  state.frames.assign(frames.get(), time, now_s, X_WB);
+  if (state.frames.used().empty()) return ResultStatus::stale;
+  state.field.build(state.frames.space(), state.frames.undecided(), state.reach.middle_B_m,
+                    state.reach.radius_m);
+  for (const auto& turned : state.turned) {
+    if (turned) turned->forget();
+  }
+  state.is_known = true;
+  const bool are_all =
+      std::ranges::all_of(state.frames.cameras(), is_relied_on, &CameraState::status);
+  return are_all ? ResultStatus::ok : ResultStatus::degraded;
+}
+
+void ConfigurationCheck::require(std::span<const double> positions, std::size_t verdicts) const {
+  const std::size_t joints = robot_->model().joints.size();
+  if (positions.size() != joints * verdicts) {
+    throw std::invalid_argument(
+        fmt::format("configurations: {} numbers; expected {} for {} verdicts and {} joints",
+                    positions.size(), joints * verdicts, verdicts, joints));
+  }
+  const auto bad = std::ranges::find_if(positions, [](double q) { return !std::isfinite(q); });
+  if (bad == positions.end()) return;
+  const auto at = static_cast<std::size_t>(bad - positions.begin());
+  throw std::invalid_argument(fmt::format(
+      "configurations: joint \"{}\" of configuration {} is {}; expected a finite number",
+      robot_->model().joints[at % joints].name, at / joints, *bad));
+}
+
+std::vector<float> ConfigurationCheck::of_balls(const ConfigurationMargins& margins) const {
+  require_margin(margins.margin_m);
+  const RobotModel& model = robot_->model();
+  std::vector<float> of_ids(model.evaluated_links.size(), static_cast<float>(margins.margin_m));
+  const auto of = [&](const std::string& name) -> float& {
+    for (std::size_t i = 0; i < of_ids.size(); ++i) {
+      if (model.links[model.evaluated_links[i]].name == name) return of_ids[i];
+    }
+    throw std::invalid_argument(
+        fmt::format("configurations: link \"{}\" is not known; expected one of {}", name,
+                    fmt::join(model.evaluated_link_names(), ", ")));
+  };
+  for (const auto& [name, margin_m] : margins.of_links) {
+    require_margin(margin_m);
+    of(name) = static_cast<float>(margin_m);
+  }
+  for (const std::string& name : margins.without) of(name) = kNotAsked;
+  std::vector<float> of_balls;
+  for (const mesh::BallLink& link : state_->balls.links) of_balls.push_back(of_ids[link.id - 1]);
+  return of_balls;
+}
+
+void ConfigurationCheck::ask(std::span<const double> positions, const ConfigurationMargins& margins,
+                             std::span<Verdict> verdicts) const {
+  require(positions, verdicts.size());
+  const std::vector<float> of_balls = this->of_balls(margins);
+  std::ranges::fill(verdicts, Verdict::undecided);
+  if (!state_->is_known) return;
+  const mesh::BallRequest request{state_->balls, state_->field.grid(), of_balls,
+                                  state_->turned_clearance_m};
+  const std::size_t joints = robot_->model().joints.size();
+  constexpr std::size_t kAtATime = 512;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, verdicts.size(), kAtATime),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      mesh::check_configurations(
+                          request, positions.subspan(joints * range.begin(), joints * range.size()),
+                          verdicts.subspan(range.begin(), range.size()));
+                    });
+}
+
+void ConfigurationCheck::ask_motions(std::span<const double> from, std::span<const double> to,
+                                     const ConfigurationMargins& margins,
+                                     std::span<Verdict> verdicts) const {
+  require(from, verdicts.size());
+  require(to, verdicts.size());
+  const std::vector<float> of_balls = this->of_balls(margins);
+  std::ranges::fill(verdicts, Verdict::undecided);
+  if (!state_->is_known) return;
+  const mesh::BallRequest request{state_->balls, state_->field.grid(), of_balls,
+                                  state_->turned_clearance_m};
+  const std::size_t joints = robot_->model().joints.size();
+  tbb::parallel_for(std::size_t{0}, verdicts.size(), [&](std::size_t i) {
+    verdicts[i] = mesh::check_motion(request, from.subspan(joints * i, joints),
+                                     to.subspan(joints * i, joints), kLeastStep);
+  });
+}
+
+void ConfigurationCheck::resolve(std::span<const double> positions,
+                                 const ConfigurationMargins& margins,
+                                 std::span<Verdict> verdicts) const {
+  require(positions, verdicts.size());
+  const std::vector<float> of_balls = this->of_balls(margins);
+  if (!state_->is_known) return;
+  const std::size_t joints = robot_->model().joints.size();
+  std::vector<std::size_t> open;
+  std::vector<JointState> asked;
+  for (std::size_t i = 0; i < verdicts.size(); ++i) {
+    if (verdicts[i] != Verdict::undecided) continue;
+    open.push_back(i);
+    const auto first = positions.begin() + static_cast<std::ptrdiff_t>(joints * i);
+    asked.push_back({0, {first, first + static_cast<std::ptrdiff_t>(joints)}});
+  }
+  LookAhead found;
+  LookAheadSearch(robot_).ask(state_->frames, asked, 0, found);
+  for (std::size_t k = 0; k < open.size(); ++k) {
+    bool is_free = true, is_near = false;
+    for (std::size_t l = 0; l < of_balls.size(); ++l) {
+      const SpacePair& nearest = found.poses[k][state_->balls.links[l].id - 1].nearest;
+      if (std::isnan(of_balls[l])) continue;
+      is_near = is_near || nearest.distance_m <= of_balls[l];
+      is_free = is_free && nearest.lower_bound_m > of_balls[l];
+    }
+    if (is_near || is_free) verdicts[open[k]] = is_near ? Verdict::near : Verdict::free;
+  }
+}
+
+}  // namespace berth

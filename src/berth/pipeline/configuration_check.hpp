@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "berth/pipeline/request.hpp"
+#include "berth/pipeline/robot.hpp"
+#include "berth/types/result_status.hpp"
+#include "berth/types/verdict.hpp"
+
+namespace berth {
+
+/// How much room the links need.
+struct ConfigurationMargins {
+  /// Of every moved link, finite and at least 0.
+  double margin_m = 0.03;
+  /// Other margins, by the links' names.
+  std::vector<std::pair<std::string, double>> of_links = {};
+  /// These are not asked about.
+  std::vector<std::string> without = {};
+};
+
+/// Whether a robot would be free at each of very many configurations, or on motions between them,
+/// for what the cameras see now: for planners and sampling controllers. Verdicts speak of the
+/// distances that Query gives, occupied and unknown alike (D8): `free` and `near` are certified.
+/// Distances to what is known (LinkResult::known) are not among them.
+///
+/// Once prepared, any number of threads may ask; asking allocates nothing once warm.
+class ConfigurationCheck {
+ public:
+  /// Covers the links with balls: up to a tenth of a second for each moved one.
+  explicit ConfigurationCheck(std::shared_ptr<const Robot> robot);
+  ~ConfigurationCheck();
+  ConfigurationCheck(const ConfigurationCheck&) = delete;
+  ConfigurationCheck& operator=(const ConfigurationCheck&) = delete;
+
+  /// Takes up the newest frame of each camera, as Query::ask does: ages are judged at now_s, or at
+  /// the newest of their stamps; X_WB is where the root stands in the configurations. Takes some
+  /// ten milliseconds. The frames have to outlive the questions. Nobody may ask meanwhile. Returns
+  /// degraded where a camera is left out or not relied on: more may be free than with it. Where it
+  /// is stale, nothing is known, and all verdicts are `undecided`.
+  ResultStatus prepare(const NewestFrames& frames, std::optional<double> now_s = {},
+                       const std::optional<Pose>& X_WB = {});
+
+  /// One verdict for each configuration: positions in the order of RobotModel::joints, one
+  /// configuration after another. Spread over the threads that TBB has. Throws
+  /// std::invalid_argument where numbers do not fit, are not finite, or a link is not known.
+  void ask(std::span<const double> positions, const ConfigurationMargins& margins,
+           std::span<Verdict> verdicts) const;
+
+  /// The same for straight motions in joint space, from each configuration of `from` to that of
+  /// `to` at its place. A motion is near where one of its configurations is shown to be.
+  void ask_motions(std::span<const double> from, std::span<const double> to,
+                   const ConfigurationMargins& margins, std::span<Verdict> verdicts) const;
+
+  /// Has the exact search decide what is undecided, a few milliseconds each. What is still
+  /// undecided then is as near to its margin as the distances' tolerance. Links' own margins count.
+  void resolve(std::span<const double> positions, const ConfigurationMargins& margins,
+               std::span<Verdict> verdicts) const;
+
+  const Robot& robot() const { return *robot_; }
+
+ private:
+  struct State;
+  std::vector<float> of_balls(const ConfigurationMargins& margins) const;
+  void require(std::span<const double> positions, std::size_t verdicts) const;
+
+  std::shared_ptr<const Robot> robot_;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace berth

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "berth/space/unknown_space.hpp"
+
+namespace berth {
+
+/// How far each place of a ball is from what is occupied or unknown, between two bounds that hold
+/// for any place in it: made once for a set of images, then constant, for any number of threads.
+///
+/// From below: space is cut into boxes of 6.4 mm, those that may hold something of it are marked,
+/// and each node of a grid has its distance to the nearest of them. Between nodes |x|^2 - d(x)^2 is
+/// convex, so d^2 is at least what lies on the line between their d^2, less h^2 sum t (1 - t).
+/// From above: points that certainly belong to it, one for each box of 25.6 mm that has one.
+class ClearanceField {
+ public:
+  static constexpr int kBox = 3, kCell = 4;  ///< Cube::level of the boxes, and from node to node
+  static constexpr double kBox_m = 0.0064, kCell_m = 0.0256;
+  /// What is farther away counts as so far.
+  static constexpr int kRangeBoxes = 31;
+  static constexpr double kRange_m = kRangeBoxes * kBox_m;
+
+  /// Of all places no farther than reach_m from the middle; beside them nothing is known. What
+  /// `undecided` has read counts, too. Reuses its memory. Nobody may ask meanwhile.
+  void build(const UnknownSpace& space, const UnknownSpace& undecided,
+             const Eigen::Vector3d& middle_B_m, double reach_m);
+
+  /// Nothing is nearer to the place than lower_m, and something certainly is no farther than
+  /// upper_m, which is infinite where that is not known.
+  struct Bounds {
+    float lower_m = 0;
+    float upper_m = 0;
+  };
+  Bounds at(const Eigen::Vector3d& p_B_m) const;
+
+  /// What vector code reads: all of the grid.
+  struct Grid {
+    Eigen::Vector3f low_B_m;
+    std::array<int, 3> count = {};
+    /// Of each node the square of a lower bound, in boxes; x first, then y. Two numbers more
+    /// follow.
+    const std::uint16_t* squared = nullptr;
+    /// Of each cell of 25.6 mm, and of 51.2 mm: a point's place in it, in 0.1 mm, ten bits for each
+    /// coordinate, x lowest; kNoPoint where none is known.
+    std::array<const std::uint32_t*, 2> point = {};
+    std::array<std::array<int, 3>, 2> point_count = {};
+  };
+  static constexpr std::uint32_t kNoPoint = ~std::uint32_t{0};
+  Grid grid() const;
+
+ private:
+  using Cell = std::array<int, 3>;
+
+  std::size_t place(int x, int y, int z) const {
+    return (static_cast<std::size_t>(z) * count_[1] + y) * count_[0] + x;
+  }
+  mesh::Cube cube_of(int x, int y, int z) const {
+    return {kCell, first_[0] + x, first_[1] + y, first_[2] + z};
+  }
+  Cell cell_of(const Eigen::Vector3d& p_B_m) const;
+  bool has(const Cell& cell) const;
+  /// Whether a cube is so far from the middle that no place is near.
+  bool is_beyond(const Eigen::Vector3d& p_B_m, double half_m) const;
+  void find_hidden(const UnknownSpace& space, const mesh::Cube& cube);
+  void find_readings(const UnknownSpace& space);
+  void add_reading(const FreeingCamera& view, int u, int v, float depth_m,
+                   std::array<Cell, 4>& last);
+  void mark_read(const Cell& low, const Cell& high);
+  /// Whether there is a point of the cell that this one lies in: itself, rounded, if that holds.
+  template <class Holds>
+  bool take_point(const Eigen::Vector3d& p_B_m, const Holds& holds);
+  void find_boxes(const UnknownSpace& space, const UnknownSpace& undecided);
+  bool is_inside(int x, int y, int z) const;
+  void find_hidden_points(const UnknownSpace& space);
+  void merge_points();
+  void measure_columns();
+  /// Where a row along an axis, a and b beside the middle, enters a ball about it, and before where
+  /// it has left it again.
+  std::array<int, 2> in_ball(int axis, double most_m, double a_m, double b_m) const;
+  /// Of the cells with this y those along an axis that nodes may have to know of, and of a row's
+  /// nodes those between which places may lie.
+  std::array<int, 2> near_cells(int axis, int y) const;
+  std::array<int, 2> asked_nodes(int y, int z) const;
+  void measure_layer(int z);
+
+  /// The number of the first cell among all cubes.
+  std::array<int, 3> first_ = {};
+  std::array<int, 3> count_ = {};
+  Eigen::Vector3d low_B_m_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d middle_B_m_ = Eigen::Vector3d::Zero();
+  double reach_m_ = 0;
+  /// Of each cell: whether it may hold hidden space, readings; and which of its boxes do.
+  std::vector<std::uint8_t> may_;
+  std::vector<std::uint64_t> boxes_;
+  std::array<std::vector<std::uint32_t>, 2> point_;
+  std::array<int, 3> half_count_ = {};
+  /// Of each column of boxes, at the height of each layer of nodes: boxes to the nearest one.
+  std::vector<std::uint8_t> along_z_;
+  std::vector<std::uint16_t> squared_;
+};
+
+}  // namespace berth

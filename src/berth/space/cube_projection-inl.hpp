@@ -1,0 +1,168 @@
+// Cubes as a camera sees them, many at a time.
+#if defined(BERTH_MESH_CUBE_PROJECTION_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef BERTH_MESH_CUBE_PROJECTION_INL_HPP
+#undef BERTH_MESH_CUBE_PROJECTION_INL_HPP
+#else
+#define BERTH_MESH_CUBE_PROJECTION_INL_HPP
+#endif
+
+#include <limits>
+
+#include "berth/space/children-inl.hpp"
+#include "berth/space/unknown_space.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace berth::mesh {
+namespace HWY_NAMESPACE {
+
+using IntTag = hn::RebindToSigned<FloatTag>;
+using Ints = hn::Vec<IntTag>;
+
+/// What rounding may do to a pixel's coordinate.
+constexpr float kPixelError = 2e-3f;
+/// A cube that reaches nearer to the camera's plane has no rectangle.
+constexpr float kLeastDepth_m = 1e-4f;
+
+/// Some cubes as a view sees them: the depths they reach from and to, and the pixels u0 to u1 and
+/// v0 to v1, both included, that they project into, as far as these lie in the image.
+struct Projection {
+  FloatVector za, zb;
+  Ints u0, v0, u1, v1;
+  /// The most pixels beyond the first, in either direction.
+  int span;
+  /// A bit for each cube: some of these pixels are in the image, all of them are, and those of
+  /// which nothing is known, since they reach through the camera's plane.
+  std::uint64_t meets, inside, through;
+};
+
+/// Some of the image's, or a level's, numbers: each is the lower half of the 32 bits at its place.
+HWY_INLINE Ints gather(const DepthUnits* from, Ints places) {
+  const IntTag ints;
+  const auto pairs =
+      hn::GatherOffset(ints, reinterpret_cast<const std::int32_t*>(from), hn::ShiftLeft<1>(places));
+  return hn::And(pairs, hn::Set(ints, 0xFFFF));
+}
+
+/// in_metres() of many.
+HWY_INLINE Lanes metres_of(Ints units) {
+  const LaneMask is_endless =
+      hn::RebindMask(FloatTag(), hn::Eq(units, hn::Set(IntTag(), kEndlessUnits)));
+  const Lanes depth_m = Lanes(hn::ConvertTo(FloatTag(), units)) * Lanes(1 / kUnitsPerMetre);
+  return select(is_endless, Lanes(HUGE_VALF), depth_m);
+}
+
+/// The least of each cube's pixels.
+HWY_INLINE Ints least_of(const DepthWindows& windows, const Projection& cubes) {
+  const IntTag ints;
+  Ints all = hn::Set(ints, kEndlessUnits);
+  if (cubes.span < DepthWindows::kMostPixels) {
+    const DepthWindows::Level& image = windows.levels[0];
+    for (int dv = 0; dv <= cubes.span; ++dv) {
+      const Ints row = hn::Mul(hn::Min(hn::Add(cubes.v0, hn::Set(ints, dv)), cubes.v1),
+                               hn::Set(ints, image.columns));
+      for (int du = 0; du <= cubes.span; ++du) {
+        const Ints column = hn::Min(hn::Add(cubes.u0, hn::Set(ints, du)), cubes.u1);
+        all = hn::Min(all, gather(image.least.data(), hn::Add(row, column)));
+      }
+    }
+    return all;
+  }
+  const DepthWindows::Level& level = windows.level_for(cubes.span + 1);
+  const int shift = __builtin_ctz(static_cast<unsigned>(level.step_px));
+  // The first window that ends behind the last pixel, from its last pixel on.
+  const Ints to_first = hn::Set(ints, level.step_px - level.side_px);
+  const auto place = [&](Ints first, Ints last, Ints out[2]) HWY_ATTR {
+    out[0] = hn::ShiftRightSame(first, shift);
+    out[1] = hn::Max(out[0], hn::ShiftRightSame(hn::Add(last, to_first), shift));
+  };
+  Ints columns[2] = {cubes.u0, cubes.u0}, rows[2] = {cubes.v0, cubes.v0};
+  place(cubes.u0, cubes.u1, columns);
+  place(cubes.v0, cubes.v1, rows);
+  for (const Ints row : rows) {
+    const Ints begin = hn::Mul(row, hn::Set(ints, level.columns));
+    for (const Ints column : columns) {
+      all = hn::Min(all, gather(level.least.data(), hn::Add(begin, column)));
+    }
+  }
+  return all;
+}
+
+HWY_INLINE Lanes least_of_m(const DepthWindows& windows, const Projection& cubes) {
+  return metres_of(least_of(windows, cubes));
+}
+
+struct Interval {
+  Lanes lo;
+  Lanes hi;
+};
+
+/// The least and greatest of the pixels, as floats, that a direction x / z and all that is no
+/// farther from it than `reach` fall into.
+HWY_INLINE Interval pixels_of(Lanes slope, Lanes reach, double focal_px, double centre_px) {
+  const Lanes f(static_cast<float>(focal_px));
+  const Lanes c(static_cast<float>(centre_px + 0.5));
+  constexpr float kFar_px = 1e6f;
+  const Lanes lo = clamp((slope - reach) * f + c, Lanes(-kFar_px), Lanes(kFar_px));
+  const Lanes hi = clamp((slope + reach) * f + c, Lanes(-kFar_px), Lanes(kFar_px));
+  return {hn::Floor((lo - Lanes(kPixelError)).v), hn::Floor((hi + Lanes(kPixelError)).v)};
+}
+
+HWY_INLINE Projection project(const FreeingCamera& view, const CubePoints& p_B, float reach_m,
+                              float half_m) {
+  const Eigen::Matrix3f R = view.X_CB.linear().cast<float>();
+  const Eigen::Vector3f t = view.X_CB.translation().cast<float>();
+  // Four roundings of numbers up to the sum of both lengths.
+  const float error_m = 8 * std::numeric_limits<float>::epsilon() * (reach_m + t.norm());
+  const auto row = [&](int i) HWY_ATTR {
+    return mul_add(Lanes(R(i, 0)), p_B.x,
+                   mul_add(Lanes(R(i, 1)), p_B.y, mul_add(Lanes(R(i, 2)), p_B.z, Lanes(t[i]))));
+  };
+  const Lanes z = row(2);
+  const Lanes half_z(half_m * R.row(2).cwiseAbs().sum() + error_m);
+  const Lanes za = z - half_z;
+  const Lanes zb = z + half_z;
+  const LaneMask is_before = za >= Lanes(kLeastDepth_m);
+  const Lanes inv_z = Lanes(1.0f) / greatest(z, Lanes(kLeastDepth_m));
+  const Lanes inv_za = Lanes(1.0f) / greatest(za, Lanes(kLeastDepth_m));
+  // A point at d from the centre has the slope s + (d.x - s d.z) / z.
+  const auto pixels = [&](int i, double focal_px, double centre_px) HWY_ATTR {
+    const Lanes s = row(i) * inv_z;
+    Lanes reach(0.0f);
+    for (int k = 0; k < 3; ++k) reach = reach + abs(Lanes(R(i, k)) - s * Lanes(R(2, k)));
+    reach = mul_add(Lanes(half_m), reach, Lanes(error_m) * (Lanes(1.0f) + abs(s)));
+    return pixels_of(s, reach * inv_za, focal_px, centre_px);
+  };
+  const Camera& camera = view.space->camera;
+  const Interval u = pixels(0, camera.fx_px, camera.cx_px);
+  const Interval v = pixels(1, camera.fy_px, camera.cy_px);
+  const Lanes zero(0.0f);
+  const Lanes last_u(static_cast<float>(camera.width_px - 1));
+  const Lanes last_v(static_cast<float>(camera.height_px - 1));
+  const LaneMask meets =
+      both(is_before, both(both(u.hi >= zero, u.lo <= last_u), both(v.hi >= zero, v.lo <= last_v)));
+  const LaneMask inside =
+      both(meets, both(both(u.lo >= zero, u.hi <= last_u), both(v.lo >= zero, v.hi <= last_v)));
+  const Lanes u0 = clamp(u.lo, zero, last_u);
+  const Lanes v0 = clamp(v.lo, zero, last_v);
+  const Lanes u1 = clamp(u.hi, zero, last_u);
+  const Lanes v1 = clamp(v.hi, zero, last_v);
+  const IntTag ints;
+  const float span = greatest_lane(select(meets, greatest(u1 - u0, v1 - v0), zero));
+  const LaneMask is_behind_camera = zb <= zero;
+  return {za.v,
+          zb.v,
+          hn::ConvertTo(ints, u0.v),
+          hn::ConvertTo(ints, v0.v),
+          hn::ConvertTo(ints, u1.v),
+          hn::ConvertTo(ints, v1.v),
+          static_cast<int>(span),
+          bits_of(meets),
+          bits_of(inside),
+          bits_of(hn::Not(hn::Or(is_behind_camera, is_before)))};
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace berth::mesh
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,216 @@
+// Verdicts on many configurations of the bundled arm, against the exact search.
+#include "berth/pipeline/configuration_check.hpp"
+
+#include "berth/robot/primitives.hpp"
+#include "sim/random.hpp"
+#include "tests/pipeline/prepared_scene.hpp"
+#include "tests/support/thinned.hpp"
+
+namespace berth {
+namespace {
+
+using Verdicts = std::vector<Verdict>;
+using Numbers = std::vector<double>;
+
+class Configurations : public PreparedScene {
+ protected:
+  /// Half of them anywhere within the limits, half near where the arm is.
+  Numbers draw(std::size_t count, sim::Random& random) const {
+    Numbers out;
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t j = 0; j < robot()->model().joints.size(); ++j) {
+        const MovableJoint& joint = robot()->model().joints[j];
+        out.push_back(i % 2 == 0 ? random(joint.lower, joint.upper)
+                                 : joints(3).position[j] + random(-0.4, 0.4));
+      }
+    }
+    return out;
+  }
+  JointState at(const Numbers& positions, std::size_t i) const {
+    const auto first = positions.begin() + static_cast<std::ptrdiff_t>(7 * i);
+    return {0, {first, first + 7}};
+  }
+  static std::size_t count(const Verdicts& verdicts, Verdict which) {
+    return static_cast<std::size_t>(std::ranges::count(verdicts, which));
+  }
+};
+
+/// Of the moved links the least upper and lower bound.
+struct Nearest {
+  double distance_m = std::numeric_limits<double>::infinity();
+  double lower_bound_m = std::numeric_limits<double>::infinity();
+};
+
+Nearest nearest_of(const Result& result, const std::vector<std::string>& without = {}) {
+  Nearest out;
+  for (const LinkResult& link : result.links) {
+    if (!link.is_moved || std::ranges::find(without, link.link) != without.end()) continue;
+    out.distance_m = std::fmin(out.distance_m, link.distance_m);
+    out.lower_bound_m = std::fmin(out.lower_bound_m, link.lower_bound_m);
+  }
+  return out;
+}
+
+TEST_F(Configurations, VerdictsAreThoseOfTheExactSearch) {
+  constexpr std::size_t kCount = 160;
+  ConfigurationCheck check(robot());
+  Query query(robot());
+  sim::Random random(1);
+  for (const std::size_t cameras : {1U, 3U}) {
+    SharedFrames frames = observe_all(3);
+    frames.resize(cameras);
+    ASSERT_EQ(check.prepare(frames), ResultStatus::ok);
+    const Numbers positions = draw(thinned(kCount), random);
+    std::vector<Nearest> exact;
+    for (std::size_t i = 0; i < positions.size() / 7; ++i) {
+      exact.push_back(nearest_of(query.ask({.frames = frames, .joints = at(positions, i)})));
+    }
+    for (const double margin_m : {0.01, 0.03, 0.1}) {
+      Verdicts verdicts(exact.size());
+      check.ask(positions, {.margin_m = margin_m}, verdicts);
+      for (std::size_t i = 0; i < exact.size(); ++i) {
+        if (verdicts[i] == Verdict::free) {
+          EXPECT_GT(exact[i].distance_m, margin_m);
+        }
+        if (verdicts[i] == Verdict::near) {
+          EXPECT_LE(exact[i].lower_bound_m, margin_m);
+        }
+      }
+      EXPECT_LT(count(verdicts, Verdict::undecided), exact.size() / 8);
+      EXPECT_GT(count(verdicts, Verdict::near), exact.size() / 40);
+      if (margin_m < 0.05) {
+        EXPECT_GT(count(verdicts, Verdict::free), exact.size() / 2);
+      }
+      check.resolve(positions, {.margin_m = margin_m}, verdicts);
+      for (std::size_t i = 0; i < exact.size(); ++i) {
+        if (verdicts[i] == Verdict::free) {
+          EXPECT_GT(exact[i].distance_m, margin_m);
+        }
+        if (verdicts[i] == Verdict::near) {
+          EXPECT_LE(exact[i].lower_bound_m, margin_m);
+        }
+        if (verdicts[i] == Verdict::undecided) {
+          EXPECT_NEAR(exact[i].distance_m, margin_m, 2e-3);
+        }
+      }
+    }
+  }
+}
+
+TEST_F(Configurations, AMotionIsFreeWhereEachOfItsConfigurationsIs) {
+  const SharedFrames frames = observe_all(3);
+  ConfigurationCheck check(robot());
+  check.prepare(frames);
+  Query query(robot());
+  sim::Random random(2);
+  const std::size_t motions = thinned(200u);
+  const Numbers from = draw(motions, random);
+  Numbers to = from;
+  for (double& q : to) q += random(-0.3, 0.3);
+  Verdicts verdicts(motions);
+  check.ask_motions(from, to, {}, verdicts);
+  for (std::size_t i = 0; i < motions; ++i) {
+    double least_m = std::numeric_limits<double>::infinity();
+    double least_bound_m = least_m;
+    const int steps = verdicts[i] == Verdict::undecided ? -1 : 8;
+    for (int k = 0; k <= steps; ++k) {
+      JointState joints = at(from, i);
+      for (std::size_t j = 0; j < 7; ++j) {
+        joints.position[j] += (to[7 * i + j] - joints.position[j]) * k / steps;
+      }
+      const Nearest exact = nearest_of(query.ask({.frames = frames, .joints = joints}));
+      least_m = std::fmin(least_m, exact.distance_m);
+      least_bound_m = std::fmin(least_bound_m, exact.lower_bound_m);
+    }
+    if (verdicts[i] == Verdict::free) {
+      EXPECT_GT(least_m, 0.03);
+    }
+  }
+  EXPECT_GT(count(verdicts, Verdict::free), motions / 20);
+  EXPECT_GT(count(verdicts, Verdict::near), motions / 20);
+  // A motion that goes nowhere is a configuration.
+  Verdicts still(motions), alone(motions);
+  check.ask_motions(from, from, {}, still);
+  check.ask(from, {}, alone);
+  EXPECT_EQ(still, alone);
+}
+
+TEST_F(Configurations, EachLinkMayHaveAMarginOfItsOwnOrNone) {
+  const SharedFrames frames = observe_all(3);
+  ConfigurationCheck check(robot());
+  check.prepare(frames);
+  sim::Random random(3);
+  const Numbers positions = draw(400, random);
+  const auto ask = [&](const ConfigurationMargins& margins) {
+    Verdicts verdicts(400);
+    check.ask(positions, margins, verdicts);
+    return verdicts;
+  };
+  std::vector<std::string> moved;
+  for (const std::size_t link : robot()->model().evaluated_links) {
+    if (robot()->model().is_moved(link)) moved.push_back(robot()->model().links[link].name);
+  }
+  EXPECT_EQ(count(ask({.without = moved}), Verdict::free), 400U);
+  ConfigurationMargins wide{.margin_m = 0};
+  for (const std::string& name : moved) wide.of_links.emplace_back(name, 0.03);
+  EXPECT_EQ(ask(wide), ask({.margin_m = 0.03}));
+  EXPECT_GT(count(ask({.margin_m = 0.01}), Verdict::free), count(ask({}), Verdict::free));
+  const std::vector<std::string> hand{moved.end() - 2, moved.end()};
+  EXPECT_GT(count(ask({.without = hand}), Verdict::free), count(ask({}), Verdict::free));
+}
+
+TEST_F(Configurations, WithoutAFrameNothingIsDecided) {
+  ConfigurationCheck check(robot());
+  Verdicts verdicts(1, Verdict::free);
+  check.ask(joints(0).position, {}, verdicts);
+  EXPECT_EQ(verdicts[0], Verdict::undecided);
+  SharedFrames frames = observe_all(3);
+  EXPECT_EQ(check.prepare(frames), ResultStatus::ok);
+  check.ask(joints(0).position, {.margin_m = 0}, verdicts);
+  EXPECT_NE(verdicts[0], Verdict::undecided);
+  EXPECT_EQ(check.prepare(frames, frames[0]->stamp_s + 100), ResultStatus::stale);
+  check.ask(joints(0).position, {.margin_m = 0}, verdicts);
+  EXPECT_EQ(verdicts[0], Verdict::undecided);
+  frames[1] = nullptr;
+  EXPECT_EQ(check.prepare(frames), ResultStatus::degraded);
+}
+
+TEST_F(Configurations, WhatIsAttachedTakesPart) {
+  const SharedFrames frames = observe_all(3);
+  sim::Random random(4);
+  const Numbers positions = draw(300, random);
+  ConfigurationCheck bare(robot());
+  bare.prepare(frames);
+  Verdicts without(300), with(300);
+  bare.ask(positions, {}, without);
+  Attachment rod;
+  rod.name = "rod";
+  rod.link = robot()->model().links[robot()->model().evaluated_links.back()].name;
+  rod.mesh_A = make_box(Eigen::Vector3d(0.02, 0.02, 0.6));
+  const auto carrying = attach(*robot(), rod);
+  ConfigurationCheck check(carrying);
+  check.prepare(frames);
+  check.ask(positions, {}, with);
+  EXPECT_LT(count(with, Verdict::free), count(without, Verdict::free));
+}
+
+TEST_F(Configurations, BadQuestionsAreRefused) {
+  ConfigurationCheck check(robot());
+  Verdicts one(1);
+  const auto message = [&](const Numbers& positions, const ConfigurationMargins& margins) {
+    return error_message<std::invalid_argument>([&] { check.ask(positions, margins, one); });
+  };
+  EXPECT_EQ(message(Numbers(6), {}),
+            "configurations: 6 numbers; expected 7 for 1 verdicts and 7 joints");
+  Numbers bad(7);
+  bad[2] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(message(bad, {}), "configurations: joint \"" + robot()->model().joints[2].name +
+                                  "\" of configuration 0 is nan; expected a finite number");
+  EXPECT_EQ(message(Numbers(7), {.margin_m = -1}),
+            "configurations: a margin is -1 m; expected a finite number of at least 0");
+  EXPECT_TRUE(message(Numbers(7), {.without = {"tail"}})
+                  .starts_with("configurations: link \"tail\" is not known; expected one of "));
+}
+
+}  // namespace
+}  // namespace berth

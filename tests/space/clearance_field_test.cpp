@@ -1,0 +1,116 @@
+// The field's bounds against points of space, asked one by one by the definition.
+#include "berth/space/clearance_field.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/plain_distance.hpp"
+#include "tests/support/thinned.hpp"
+
+namespace berth::testing {
+namespace {
+
+constexpr double kReach_m = 0.7;
+
+/// A drawn world, its field, and points that are occupied or unknown.
+class FieldWorld {
+ public:
+  explicit FieldWorld(std::uint32_t seed)
+      : world_(draw_mesh_world(settings(seed), 900 + seed)), prepared_(world_), plain_(world_) {
+    field_.build(prepared_.space(), UnknownSpace(), Eigen::Vector3d::Zero(), kReach_m);
+  }
+  const ClearanceField& field() const { return field_; }
+  bool is_there(const Eigen::Vector3d& p_B, double slack_m = 0) const {
+    if (plain_.is_hidden(p_B)) return true;
+    for (std::size_t k = 0; k < world_.views.size(); ++k) {
+      if (plain_.is_reading(k, p_B, slack_m)) return true;
+    }
+    return false;
+  }
+
+ private:
+  static MeshWorldSettings settings(std::uint32_t seed) {
+    MeshWorldSettings settings;
+    settings.views = 1 + static_cast<int>(seed % 4);
+    settings.hides_otherwise = seed % 2 == 1;
+    return settings;
+  }
+
+  MeshWorld world_;
+  PreparedWorld prepared_;
+  PlainSpace plain_;
+  ClearanceField field_;
+};
+
+TEST(ClearanceField, NothingIsNearerThanItsLowerBound) {
+  sim::Random random(3);
+  int judged = 0;
+  double gap_m = 0;
+  for (std::uint32_t seed = 0; seed < thinned(12u); ++seed) {
+    SCOPED_TRACE(seed);
+    const FieldWorld world(seed);
+    std::vector<Eigen::Vector3d> there_m;
+    for (int i = 0; i < 60'000; ++i) {
+      const Eigen::Vector3d p_B = sim::draw_point(random, 0.8);
+      if (world.is_there(p_B)) there_m.push_back(p_B);
+    }
+    for (int i = 0; i < 400; ++i) {
+      const Eigen::Vector3d p_B = sim::draw_point(random, 0.4);
+      const float lower_m = world.field().at(p_B).lower_m;
+      double least_m = std::numeric_limits<double>::infinity();
+      for (const Eigen::Vector3d& q_B : there_m) least_m = std::min(least_m, (q_B - p_B).norm());
+      ASSERT_LE(lower_m, least_m + 1e-6) << p_B.transpose();
+      // In the ball itself, where the points above may be too sparse.
+      for (int k = 0; k < 50 && lower_m > 0; ++k) {
+        Eigen::Vector3d way = sim::draw_point(random, 1);
+        if (way.norm() > 1) way.normalize();
+        ASSERT_FALSE(world.is_there(p_B + (lower_m - 1e-6) * way)) << p_B.transpose();
+      }
+      if (least_m > 0.15) continue;
+      ++judged;
+      gap_m += least_m - lower_m;
+    }
+  }
+  ASSERT_GT(judged, 0);
+  // The points tell the distance to about two centimetres themselves.
+  EXPECT_LT(gap_m / judged, 0.04);
+}
+
+TEST(ClearanceField, ItsPointsAreOccupiedOrUnknown) {
+  for (std::uint32_t seed = 0; seed < thinned(12u); ++seed) {
+    SCOPED_TRACE(seed);
+    const FieldWorld world(seed);
+    const ClearanceField::Grid grid = world.field().grid();
+    int known = 0;
+    for (std::size_t size = 0; size < 2; ++size) {
+      const auto& count = grid.point_count[size];
+      const double edge_m = ClearanceField::kCell_m * static_cast<double>(1 << size);
+      for (int i = 0; i < count[0] * count[1] * count[2]; ++i) {
+        const std::uint32_t point = grid.point[size][i];
+        if (point == ClearanceField::kNoPoint) continue;
+        const Eigen::Vector3d cell(i % count[0], i / count[0] % count[1], i / count[0] / count[1]);
+        const Eigen::Vector3d steps(point & 1023, point >> 10 & 1023, point >> 20 & 1023);
+        const Eigen::Vector3d p_B =
+            grid.low_B_m.cast<double>() + edge_m * cell + 1e-4 * (steps.array() + 0.5).matrix();
+        ASSERT_TRUE(world.is_there(p_B, 1e-6)) << p_B.transpose();
+        // The field's upper bound is the way to such a point.
+        if (size == 0 && i % 64 == 0) {
+          EXPECT_LT(world.field().at(p_B).upper_m, 1e-6);
+        }
+        ++known;
+      }
+    }
+    EXPECT_GT(known, 100);
+  }
+}
+
+TEST(ClearanceField, BesideItNothingIsKnown) {
+  const FieldWorld world(1);
+  const ClearanceField::Bounds bounds = world.field().at({3, 0, 0});
+  EXPECT_EQ(bounds.lower_m, 0);
+  EXPECT_TRUE(std::isinf(bounds.upper_m));
+}
+
+}  // namespace
+}  // namespace berth::testing
