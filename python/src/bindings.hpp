@@ -13,6 +13,7 @@ void bind_separation(pybind11::module_& m);
 void bind_separation_result(pybind11::module_& m);
 void bind_result(pybind11::module_& m);
 void bind_control(pybind11::module_& m);
+void bind_configurations(pybind11::module_& m);
 void bind_record(pybind11::module_& m);
 void bind_query(pybind11::module_& m);
 void bind_images(pybind11::module_& m);

@@ -34,6 +34,7 @@ PYBIND11_MODULE(_berth, m) {
   berth::python::bind_separation_result(m);
   berth::python::bind_result(m);
   berth::python::bind_control(m);
+  berth::python::bind_configurations(m);
   berth::python::bind_record(m);
   berth::python::bind_query(m);
   berth::python::bind_images(m);

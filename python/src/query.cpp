@@ -14,7 +14,6 @@
 #include "recorder.hpp"
 
 namespace berth::python {
-namespace {
 
 std::vector<std::shared_ptr<const Frame>> frames_of(const py::object& frames) {
   if (py::isinstance<Frame>(frames)) return {frames.cast<std::shared_ptr<Frame>>()};
@@ -32,6 +31,8 @@ std::vector<std::shared_ptr<const Frame>> frames_of(const py::object& frames) {
   }
   return all;
 }
+
+namespace {
 
 /// How the robot goes on, as its owner.
 struct Motion {

@@ -7,6 +7,7 @@
 #include "berth/types/separation.hpp"
 #include "berth/types/space_pair.hpp"
 #include "berth/types/time_status.hpp"
+#include "berth/types/verdict.hpp"
 #include "bindings.hpp"
 
 namespace berth::python {
@@ -44,6 +45,8 @@ void bind_statuses(py::module_& m) {
   bind_enum<RowKind>(m, "RowKind", kRowKindNames, "Which pair of a link a row is about.");
   bind_enum<FilterStatus>(m, "FilterStatus", kFilterStatusNames,
                           "Why a filtered velocity is what it is.");
+  bind_enum<Verdict>(m, "Verdict", kVerdictNames,
+                     "What is known of a configuration or a motion of the robot.");
   bind_enum<PixelFate>(m, "PixelFate", kPixelFateNames,
                        "What became of a pixel: the numbers in Frame.fate.");
 }

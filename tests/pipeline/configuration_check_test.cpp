@@ -1,9 +1,11 @@
 // Verdicts on many configurations of the bundled arm, against the exact search.
 #include "berth/pipeline/configuration_check.hpp"
 
+#include "berth/distance/known_distances.hpp"
 #include "berth/robot/primitives.hpp"
 #include "sim/random.hpp"
 #include "tests/pipeline/prepared_scene.hpp"
+#include "tests/support/known_arms.hpp"
 #include "tests/support/thinned.hpp"
 
 namespace berth {
@@ -157,6 +159,93 @@ TEST_F(Configurations, EachLinkMayHaveAMarginOfItsOwnOrNone) {
   EXPECT_GT(count(ask({.margin_m = 0.01}), Verdict::free), count(ask({}), Verdict::free));
   const std::vector<std::string> hand{moved.end() - 2, moved.end()};
   EXPECT_GT(count(ask({.without = hand}), Verdict::free), count(ask({}), Verdict::free));
+}
+
+TEST_F(Configurations, TableOwnBodyAndOtherRobotsCountWhereTheyAreAskedAbout) {
+  RobotSettings settings = bundled_arm();
+  settings.others = two_arms_in_two().others;
+  settings.environment_links = two_arms_in_two().environment_links;
+  for (const RobotSettings& of : {bundled_arm(), settings}) {
+    const auto arms = std::make_shared<const Robot>(load_robot(of));
+    const std::size_t joints = arms->model().joints.size();
+    // One camera that looks away: what it sees is not asked about.
+    CameraMount mount{{64, 48, 50, 50, 31.5, 23.5}, arms->model().links.front().name};
+    mount.X_PC = Pose(Eigen::Translation3d(0, 0, 30));
+    Frame frame;
+    Observer(std::make_shared<const MountedCamera>(arms, mount, CameraSettings()))
+        .observe(DepthImage(64, 48, 2), JointState{0, Numbers(joints)}, frame);
+    ConfigurationCheck check(arms);
+    check.prepare(frame);
+    ConfigurationMargins margins{.known_margin_m = 0.02};
+    for (const std::size_t link : arms->model().evaluated_links) {
+      margins.without.push_back(arms->model().links[link].name);
+    }
+    sim::Random random(5);
+    const std::size_t count = thinned(200u);
+    Numbers positions;
+    for (std::size_t i = 0; i < count; ++i) {
+      for (const MovableJoint& joint : arms->model().joints) {
+        positions.push_back(random(joint.lower, joint.upper));
+      }
+    }
+    Verdicts verdicts(count);
+    check.ask(positions, margins, verdicts);
+    KnownWorkspace workspace;
+    std::vector<KnownPair> pairs;
+    const auto nearest_at = [&](const Numbers& position) {
+      RobotPose pose;
+      forward_kinematics(arms->model(), position, pose);
+      known_distances(arms->known(), pose, {.range_m = 1}, workspace, pairs);
+      Nearest nearest;
+      for (const KnownPair& pair : pairs) {
+        nearest.distance_m = std::fmin(nearest.distance_m, pair.distance_m);
+        nearest.lower_bound_m = std::fmin(nearest.lower_bound_m, pair.lower_bound_m);
+      }
+      return nearest;
+    };
+    const auto configuration = [&](std::size_t i) {
+      const auto first = positions.begin() + static_cast<std::ptrdiff_t>(joints * i);
+      return Numbers(first, first + static_cast<std::ptrdiff_t>(joints));
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+      const Nearest exact = nearest_at(configuration(i));
+      if (verdicts[i] == Verdict::free) {
+        EXPECT_GT(exact.distance_m, 0.02);
+      }
+      if (verdicts[i] == Verdict::near) {
+        EXPECT_LE(exact.lower_bound_m, 0.02);
+      }
+    }
+    EXPECT_GT(this->count(verdicts, Verdict::free), count / 10);
+    EXPECT_GT(this->count(verdicts, Verdict::near), count / 20);
+    EXPECT_LT(this->count(verdicts, Verdict::undecided), count / 5);
+    check.resolve(positions, margins, verdicts);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (verdicts[i] != Verdict::undecided) continue;
+      EXPECT_NEAR(nearest_at(configuration(i)).distance_m, 0.02, 2e-3);
+    }
+    // Motions from free ones.
+    Numbers from, to;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Numbers at = configuration(i);
+      for (const double q : at) {
+        from.push_back(q);
+        to.push_back(q + random(-0.2, 0.2));
+      }
+    }
+    check.ask_motions(from, to, margins, verdicts);
+    int free = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (verdicts[i] != Verdict::free) continue;
+      ++free;
+      for (int k = 0; k <= 5; ++k) {
+        Numbers at = configuration(i);
+        for (std::size_t j = 0; j < joints; ++j) at[j] += (to[joints * i + j] - at[j]) * k / 5;
+        EXPECT_GT(nearest_at(at).distance_m, 0.02);
+      }
+    }
+    EXPECT_GT(free, static_cast<int>(count / 20));
+  }
 }
 
 TEST_F(Configurations, WithoutAFrameNothingIsDecided) {

@@ -103,6 +103,7 @@ def test_the_program_tells_its_version():
 @pytest.mark.parametrize("example, arguments, said", [
     ("one_frame", ["boxes.urdf"], "arm ok "),
     ("avoid", [SOURCE / "data/bundled/scene.yaml"], "own QP"),
+    ("mppi", [SOURCE / "data/bundled/scene.yaml"], "0.0"),
     ("look_ahead", [SOURCE / "data/bundled/scene.yaml"], "first at pose"),
     ("calibrate", [SOURCE / "data/bundled/one_camera.yaml", "new.yaml"], "least distance"),
 ])

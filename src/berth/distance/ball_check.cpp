@@ -200,18 +200,26 @@ HWY_INLINE unsigned near_points(const ClearanceField::Grid& grid, const Places& 
 
 /// What pays for roundings: of a ball's centre, and of a point's.
 constexpr float kFreeRounding_m = 2e-5f, kNearRounding_m = 4e-5f;
+/// A point of a mesh stands by half of a step beside it in each direction.
+constexpr float kMeshPoint_m = 1e-4f;
 
-/// One configuration.
+/// One configuration, held against one field.
 struct Asked {
   const BallRequest& request;
+  const ClearanceField::Grid& grid;
+  /// Of each link; NaN: it is left out.
+  std::span<const float> margins_m;
+  float near_rounding_m;
   const std::vector<EightPoses>& poses;
   /// Of each frame.
   const std::vector<EightNumbers>& joints;
   int lane;
   /// How much farther than its margin each link has to be; null: no farther.
   const std::vector<EightNumbers>* moves_m;
+  /// Whether the exact search may be asked for links that one joint turns.
+  bool asks_turned;
 
-  float margin_m(std::size_t l) const { return request.margins_m[l]; }
+  float margin_m(std::size_t l) const { return margins_m[l]; }
   /// What has to be shown of it.
   float needed_m(std::size_t l) const {
     return margin_m(l) + (moves_m ? (*moves_m)[l].of[lane] : 0) + kFreeRounding_m;
@@ -219,7 +227,7 @@ struct Asked {
   /// Whether an exact search shows it, of a link that one joint turns.
   bool is_turned_free(std::size_t l) const {
     const BallLink& link = request.robot.links[l];
-    if (!request.robot.is_turned(link)) return false;
+    if (!asks_turned || !request.robot.is_turned(link)) return false;
     return request.turned_clearance_m(l, joints[link.frame].of[lane]) > needed_m(l);
   }
 };
@@ -230,22 +238,22 @@ HWY_INLINE unsigned not_free(const Asked& asked, const Motion& X, std::size_t l,
   unsigned left = 0;
   for (int i = 0; i < 8; i += kWidth) {
     const Floats radius = hn::Load(Tag(), &balls.radius_m[i]);
-    left |= not_free(asked.request.grid, moved(X, balls, i), radius, margin) << i;
+    left |= not_free(asked.grid, moved(X, balls, i), radius, margin) << i;
   }
   return left;
 }
 
 HWY_INLINE bool has_near_point(const Asked& asked, const Motion& X, std::size_t l,
                                const EightBalls& points) {
-  const float limit_m = asked.margin_m(l) - kNearRounding_m;
+  const float limit_m = asked.margin_m(l) - asked.near_rounding_m;
   if (!(limit_m > 0)) return false;
   // Small cells miss what is farther away than they are wide.
   constexpr float kWide_m = 0.04f;
   const std::size_t size = limit_m > kWide_m ? 1 : 0;
   for (int i = 0; i < 8; i += kWidth) {
     const Places places = moved(X, points, i);
-    if (near_points(asked.request.grid, places, limit_m, 0) != 0) return true;
-    if (size > 0 && near_points(asked.request.grid, places, limit_m, size) != 0) return true;
+    if (near_points(asked.grid, places, limit_m, 0) != 0) return true;
+    if (size > 0 && near_points(asked.grid, places, limit_m, size) != 0) return true;
   }
   return false;
 }
@@ -301,6 +309,115 @@ Verdict check_one(const Asked& asked) {
   return is_free ? Verdict::free : Verdict::undecided;
 }
 
+/// Whether each ball of a is farther from each ball of b than the margin: the balls of b that are
+/// not so from ball i of a.
+HWY_INLINE unsigned not_apart(const EightBalls& a_B, std::size_t i, const EightBalls& b_B,
+                              float margin_m) {
+  unsigned left = 0;
+  if (a_B.radius_m[i] < 0) return 0;
+  const Tag d;
+  for (int k = 0; k < 8; k += kWidth) {
+    const Floats x = hn::Sub(hn::Load(d, &b_B.x_m[k]), all(a_B.x_m[i]));
+    const Floats y = hn::Sub(hn::Load(d, &b_B.y_m[k]), all(a_B.y_m[i]));
+    const Floats z = hn::Sub(hn::Load(d, &b_B.z_m[k]), all(a_B.z_m[i]));
+    const Floats radius = hn::Load(d, &b_B.radius_m[k]);
+    const Floats need = hn::Add(radius, all(a_B.radius_m[i] + margin_m));
+    const auto is_apart =
+        hn::Gt(hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z))), hn::Mul(need, need));
+    left |= (kAllLanes & ~bits(hn::Or(is_apart, hn::Lt(radius, all(0.0f))))) << k;
+  }
+  return left;
+}
+
+HWY_INLINE EightBalls in_B(const Motion& X, const EightBalls& balls) {
+  EightBalls out;
+  for (int i = 0; i < 8; i += kWidth) {
+    const Places places = moved(X, balls, i);
+    hn::Store(places.x, Tag(), &out.x_m[i]);
+    hn::Store(places.y, Tag(), &out.y_m[i]);
+    hn::Store(places.z, Tag(), &out.z_m[i]);
+  }
+  out.radius_m = balls.radius_m;
+  return out;
+}
+
+/// Whether a point of a is no farther from one of b than this.
+HWY_INLINE bool have_near_points(const EightBalls& a_B, const EightBalls& b_B, float limit_m) {
+  if (!(limit_m > 0)) return false;
+  for (std::size_t i = 0; i < 8; ++i) {
+    if (not_apart(a_B, i, b_B, limit_m) != 0) return true;
+  }
+  return false;
+}
+
+/// Two links that move.
+Verdict check_pair(const Asked& asked, std::size_t a, std::size_t b) {
+  const BallLink &own = asked.request.robot.links[a], &other = asked.request.robot.links[b];
+  const float margin_m = asked.request.pairs_margin_m, near_m = margin_m - 2 * kNearRounding_m;
+  const auto moves_m = [&](std::size_t l) {
+    return asked.moves_m ? (*asked.moves_m)[l].of[asked.lane] : 0;
+  };
+  const float needed_m = margin_m + moves_m(a) + moves_m(b) + 2 * kFreeRounding_m;
+  const Motion X_a = motion_of(asked.poses[own.frame], asked.lane);
+  const Motion X_b = motion_of(asked.poses[other.frame], asked.lane);
+  const EightBalls a_B = in_B(X_a, own.balls.coarse), b_B = in_B(X_b, other.balls.coarse);
+  bool is_free = true;
+  for (std::size_t i = 0; i < 8; ++i) {
+    for (unsigned open = not_apart(a_B, i, b_B, needed_m); open != 0; open &= open - 1) {
+      const auto k = static_cast<std::size_t>(__builtin_ctz(open));
+      const EightBalls fine_a = in_B(X_a, own.balls.fine[i]),
+                       fine_b = in_B(X_b, other.balls.fine[k]);
+      for (std::size_t m = 0; m < 8; ++m) {
+        for (unsigned left = not_apart(fine_a, m, fine_b, needed_m); left != 0; left &= left - 1) {
+          is_free = false;
+          const EightBalls& points = other.balls.fine_points[k][__builtin_ctz(left)];
+          if (have_near_points(in_B(X_a, own.balls.fine_points[i][m]), in_B(X_b, points), near_m)) {
+            return Verdict::near;
+          }
+        }
+      }
+    }
+  }
+  return is_free ? Verdict::free : Verdict::undecided;
+}
+
+/// All pairs of one configuration.
+Verdict check_pairs(const Asked& asked) {
+  const BallPairs& pairs = *asked.request.pairs;
+  Verdict all_pairs = std::ranges::find(pairs.others, true) == pairs.others.end()
+                          ? Verdict::free
+                          : Verdict::undecided;
+  for (std::size_t i = 0; i < pairs.still.size(); ++i) {
+    const ClearanceField::Grid grid = pairs.still[i]->field.grid();
+    Asked still{asked.request,
+                grid,
+                asked.request.still_margins_m[i],
+                kNearRounding_m + kMeshPoint_m,
+                asked.poses,
+                asked.joints,
+                asked.lane,
+                asked.moves_m,
+                false};
+    const Verdict one = check_one(still);
+    if (one == Verdict::near) return one;
+    if (one == Verdict::undecided) all_pairs = one;
+  }
+  for (const auto& [a, b] : pairs.moved) {
+    const Verdict one = check_pair(asked, a, b);
+    if (one == Verdict::near) return one;
+    if (one == Verdict::undecided) all_pairs = one;
+  }
+  return all_pairs;
+}
+
+/// What cameras see, then the pairs.
+Verdict check_everything(const Asked& asked) {
+  const Verdict seen = check_one(asked);
+  if (seen == Verdict::near || !asked.request.pairs) return seen;
+  const Verdict pairs = check_pairs(asked);
+  return pairs == Verdict::free ? seen : pairs;
+}
+
 /// Of a thread; it grows to what its largest robot needs.
 struct Scratch {
   std::vector<EightPoses> poses;
@@ -315,6 +432,19 @@ Scratch& scratch_for(const BallRobot& robot) {
   scratch.joints.resize(robot.frames.size());
   scratch.moves_m.resize(robot.links.size());
   return scratch;
+}
+
+Asked asked_of(const BallRequest& request, const Scratch& scratch, std::size_t lane,
+               const std::vector<EightNumbers>* moves_m) {
+  return {request,
+          request.grid,
+          request.margins_m,
+          kNearRounding_m,
+          scratch.poses,
+          scratch.joints,
+          static_cast<int>(lane),
+          moves_m,
+          static_cast<bool>(request.turned_clearance_m)};
 }
 
 /// What a joint does to a frame: an angle near 0, as floats are finest there.
@@ -339,8 +469,7 @@ void check_all(const BallRequest& request, std::span<const double> positions,
     }
     place_frames(robot, scratch.joints, scratch.poses);
     for (std::size_t i = 0; i < lanes; ++i) {
-      out[first + i] =
-          check_one({request, scratch.poses, scratch.joints, static_cast<int>(i), nullptr});
+      out[first + i] = check_everything(asked_of(request, scratch, i, nullptr));
     }
   }
 }
@@ -417,8 +546,7 @@ Verdict check_line(const BallRequest& request, std::span<const double> from,
     place_frames(robot, scratch.joints, scratch.poses);
     find_moves(robot, from, to, scratch.poses, share, scratch.moves_m);
     for (std::size_t i = 0; i < lanes; ++i) {
-      const Verdict one = check_one(
-          {request, scratch.poses, scratch.joints, static_cast<int>(i), &scratch.moves_m});
+      const Verdict one = check_everything(asked_of(request, scratch, i, &scratch.moves_m));
       if (one == Verdict::near) return one;
       if (one == Verdict::free) continue;
       if (part[i].half * longest < least_step) {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <span>
 
-#include "berth/distance/ball_robot.hpp"
+#include "berth/distance/ball_pairs.hpp"
 #include "berth/space/clearance_field.hpp"
 #include "berth/types/verdict.hpp"
 
@@ -20,8 +20,14 @@ struct BallRequest {
   ClearanceField::Grid grid;
   /// Of each of BallRobot::links; NaN: it is left out.
   std::span<const float> margins_m;
-  /// Asked where nothing else is undecided: such links often stand as near as they always do.
+  /// Asked where nothing else is undecided: such links often stand as near as they always do. May
+  /// be empty.
   const TurnedClearance& turned_clearance_m;
+  /// The pairs that have to be farther apart than this, too; null: they are not asked about.
+  const BallPairs* pairs = nullptr;
+  float pairs_margin_m = 0;
+  /// Of each of BallPairs::still as margins_m.
+  std::span<const std::vector<float>> still_margins_m = {};
 };
 
 /// Joint positions one configuration after another; `out` has one verdict for each. `free` and

@@ -8,10 +8,12 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <mutex>
 #include <numbers>
 #include <stdexcept>
 
 #include "berth/distance/ball_check.hpp"
+#include "berth/distance/known_distances.hpp"
 #include "berth/distance/mesh_distances.hpp"
 #include "berth/pipeline/frame_set.hpp"
 #include "berth/pipeline/look_ahead.hpp"
@@ -151,6 +153,16 @@ struct ConfigurationCheck::State {
   /// Of each of the balls' links; null unless one joint turns it.
   std::vector<std::unique_ptr<TurnedLink>> turned;
   mesh::TurnedClearance turned_clearance_m;
+  /// Made by who asks about them first.
+  std::once_flag pairs_made;
+  mesh::BallPairs pairs;
+};
+
+/// What is handed to the check of balls.
+struct ConfigurationCheck::Asked {
+  std::vector<float> margins_m;
+  std::vector<std::vector<float>> still_margins_m;
+  mesh::BallRequest request;
 };
 
 ConfigurationCheck::ConfigurationCheck(std::shared_ptr<const Robot> robot)
@@ -226,14 +238,34 @@ std::vector<float> ConfigurationCheck::of_balls(const ConfigurationMargins& marg
   return of_balls;
 }
 
+ConfigurationCheck::Asked ConfigurationCheck::asked_of(const ConfigurationMargins& margins) const {
+  State& state = *state_;
+  Asked out{of_balls(margins), {}, {state.balls, state.field.grid(), {}, state.turned_clearance_m}};
+  out.request.margins_m = out.margins_m;
+  if (!margins.known_margin_m) return out;
+  require_margin(*margins.known_margin_m);
+  std::call_once(state.pairs_made, [&] {
+    state.pairs = mesh::build_ball_pairs(robot_->model(), robot_->known(), state.balls,
+                                         state.reach.middle_B_m, state.reach.radius_m);
+  });
+  const auto margin_m = static_cast<float>(*margins.known_margin_m);
+  for (const auto& still : state.pairs.still) {
+    std::vector<float>& of_links = out.still_margins_m.emplace_back();
+    for (const bool asks : still->asks) of_links.push_back(asks ? margin_m : kNotAsked);
+  }
+  out.request.pairs = &state.pairs;
+  out.request.pairs_margin_m = margin_m;
+  out.request.still_margins_m = out.still_margins_m;
+  return out;
+}
+
 void ConfigurationCheck::ask(std::span<const double> positions, const ConfigurationMargins& margins,
                              std::span<Verdict> verdicts) const {
   require(positions, verdicts.size());
-  const std::vector<float> of_balls = this->of_balls(margins);
+  const Asked asked = asked_of(margins);
   std::ranges::fill(verdicts, Verdict::undecided);
   if (!state_->is_known) return;
-  const mesh::BallRequest request{state_->balls, state_->field.grid(), of_balls,
-                                  state_->turned_clearance_m};
+  const mesh::BallRequest& request = asked.request;
   const std::size_t joints = robot_->model().joints.size();
   constexpr std::size_t kAtATime = 512;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, verdicts.size(), kAtATime),
@@ -249,16 +281,30 @@ void ConfigurationCheck::ask_motions(std::span<const double> from, std::span<con
                                      std::span<Verdict> verdicts) const {
   require(from, verdicts.size());
   require(to, verdicts.size());
-  const std::vector<float> of_balls = this->of_balls(margins);
+  const Asked asked = asked_of(margins);
   std::ranges::fill(verdicts, Verdict::undecided);
   if (!state_->is_known) return;
-  const mesh::BallRequest request{state_->balls, state_->field.grid(), of_balls,
-                                  state_->turned_clearance_m};
+  const mesh::BallRequest& request = asked.request;
   const std::size_t joints = robot_->model().joints.size();
   tbb::parallel_for(std::size_t{0}, verdicts.size(), [&](std::size_t i) {
     verdicts[i] = mesh::check_motion(request, from.subspan(joints * i, joints),
                                      to.subspan(joints * i, joints), kLeastStep);
   });
+}
+
+KnownPair ConfigurationCheck::find_known(const JointState& joints,
+                                         KnownWorkspace& workspace) const {
+  RobotPose pose;
+  forward_kinematics(robot_->model(), joints.position, pose);
+  std::vector<KnownPair> pairs;
+  known_distances(robot_->known(), pose, {.range_m = robot_->settings().distance.range_m},
+                  workspace, pairs);
+  KnownPair least;
+  for (const KnownPair& pair : pairs) {
+    least.distance_m = std::fmin(least.distance_m, pair.distance_m);
+    least.lower_bound_m = std::fmin(least.lower_bound_m, pair.lower_bound_m);
+  }
+  return least;
 }
 
 void ConfigurationCheck::resolve(std::span<const double> positions,
@@ -278,8 +324,15 @@ void ConfigurationCheck::resolve(std::span<const double> positions,
   }
   LookAhead found;
   LookAheadSearch(robot_).ask(state_->frames, asked, 0, found);
+  KnownWorkspace workspace;
   for (std::size_t k = 0; k < open.size(); ++k) {
     bool is_free = true, is_near = false;
+    if (margins.known_margin_m) {
+      const KnownPair nearest = find_known(asked[k], workspace);
+      is_near = nearest.distance_m <= *margins.known_margin_m;
+      // Without a pair there is no bound.
+      is_free = !(nearest.lower_bound_m <= *margins.known_margin_m);
+    }
     for (std::size_t l = 0; l < of_balls.size(); ++l) {
       const SpacePair& nearest = found.poses[k][state_->balls.links[l].id - 1].nearest;
       if (std::isnan(of_balls[l])) continue;

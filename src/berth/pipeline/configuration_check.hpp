@@ -9,10 +9,13 @@
 
 #include "berth/pipeline/request.hpp"
 #include "berth/pipeline/robot.hpp"
+#include "berth/types/known_pair.hpp"
 #include "berth/types/result_status.hpp"
 #include "berth/types/verdict.hpp"
 
 namespace berth {
+
+class KnownWorkspace;
 
 /// How much room the links need.
 struct ConfigurationMargins {
@@ -22,12 +25,15 @@ struct ConfigurationMargins {
   std::vector<std::pair<std::string, double>> of_links = {};
   /// These are not asked about.
   std::vector<std::string> without = {};
+  /// Of the pairs of LinkResult::known: to the environment, the robot's other links and other
+  /// robots. None: they are not asked about, and `free` says nothing of them.
+  std::optional<double> known_margin_m = std::nullopt;
 };
 
 /// Whether a robot would be free at each of very many configurations, or on motions between them,
 /// for what the cameras see now: for planners and sampling controllers. Verdicts speak of the
-/// distances that Query gives, occupied and unknown alike (D8): `free` and `near` are certified.
-/// Distances to what is known (LinkResult::known) are not among them.
+/// distances that Query gives, occupied and unknown alike (D8), and with known_margin_m of those to
+/// what is known: `free` and `near` are certified.
 ///
 /// Once prepared, any number of threads may ask; asking allocates nothing once warm.
 class ConfigurationCheck {
@@ -66,8 +72,12 @@ class ConfigurationCheck {
 
  private:
   struct State;
+  struct Asked;
+  Asked asked_of(const ConfigurationMargins& margins) const;
   std::vector<float> of_balls(const ConfigurationMargins& margins) const;
   void require(std::span<const double> positions, std::size_t verdicts) const;
+  /// The least of all links' distances, and of their bounds.
+  KnownPair find_known(const JointState& joints, KnownWorkspace& workspace) const;
 
   std::shared_ptr<const Robot> robot_;
   std::unique_ptr<State> state_;

@@ -99,8 +99,7 @@ bool ClearanceField::is_beyond(const Eigen::Vector3d& p_B_m, double half_m) cons
   return beside_m.matrix().norm() > reach_m_ + kRange_m;
 }
 
-void ClearanceField::build(const UnknownSpace& space, const UnknownSpace& undecided,
-                           const Eigen::Vector3d& middle_B_m, double reach_m) {
+void ClearanceField::begin(const Eigen::Vector3d& middle_B_m, double reach_m) {
   middle_B_m_ = middle_B_m;
   reach_m_ = reach_m;
   // So much beside all nodes that are asked, that what lies beyond is out of their range.
@@ -117,8 +116,14 @@ void ClearanceField::build(const UnknownSpace& space, const UnknownSpace& undeci
   may_.assign(cells, 0);
   boxes_.assign(cells, 0);
   point_[0].assign(cells, kNoPoint);
-  const Cell last{count_[0] - 1, count_[1] - 1, count_[2] - 1};
-  const mesh::Cube low = cube_of(0, 0, 0), high = cube_of(last[0], last[1], last[2]);
+  squared_.resize(cells + 2);
+}
+
+void ClearanceField::build(const UnknownSpace& space, const UnknownSpace& undecided,
+                           const Eigen::Vector3d& middle_B_m, double reach_m) {
+  begin(middle_B_m, reach_m);
+  const mesh::Cube low = cube_of(0, 0, 0);
+  const mesh::Cube high = cube_of(count_[0] - 1, count_[1] - 1, count_[2] - 1);
   constexpr int kUp = 2 * (mesh::Cube::kTopLevel - kCell);
   for (int z = low.z >> kUp; z <= high.z >> kUp; ++z) {
     for (int y = low.y >> kUp; y <= high.y >> kUp; ++y) {
@@ -131,10 +136,111 @@ void ClearanceField::build(const UnknownSpace& space, const UnknownSpace& undeci
   find_readings(undecided);
   find_boxes(space, undecided);
   find_hidden_points(space);
+  measure();
+}
+
+void ClearanceField::measure() {
   merge_points();
   measure_columns();
-  squared_.resize(cells + 2);
   tbb::parallel_for(0, count_[2], [this](int z) { measure_layer(z); });
+}
+
+void ClearanceField::build(std::span<const TriangleMesh> surfaces_B,
+                           const Eigen::Vector3d& middle_B_m, double reach_m) {
+  begin(middle_B_m, reach_m);
+  for (const TriangleMesh& mesh_B : surfaces_B) {
+    for (const auto& [a, b, c] : mesh_B.triangles) {
+      add_triangle({mesh_B.vertices_m[a].cast<double>(), mesh_B.vertices_m[b].cast<double>(),
+                    mesh_B.vertices_m[c].cast<double>()});
+    }
+  }
+  fill();
+  measure();
+  // It stays as it is: what it was made with may go.
+  std::vector<std::uint8_t>().swap(may_);
+  std::vector<std::uint64_t>().swap(boxes_);
+  std::vector<std::uint8_t>().swap(along_z_);
+}
+
+void ClearanceField::add_triangle(const std::array<Eigen::Vector3d, 3>& corners_B_m) {
+  Eigen::AlignedBox3d box_m;
+  for (const Eigen::Vector3d& corner_B_m : corners_B_m) box_m.extend(corner_B_m);
+  if (is_beyond(box_m.center(), box_m.sizes().maxCoeff() / 2)) return;
+  std::size_t longest = 0;
+  std::array<double, 3> edge_m;
+  for (std::size_t i = 0; i < 3; ++i) {
+    edge_m[i] = (corners_B_m[(i + 1) % 3] - corners_B_m[i]).norm();
+    if (edge_m[i] > edge_m[longest]) longest = i;
+  }
+  if (edge_m[longest] > kBox_m) {
+    const std::size_t next = (longest + 1) % 3;
+    std::array<Eigen::Vector3d, 3> first = corners_B_m, second = corners_B_m;
+    first[next] = second[longest] = (corners_B_m[longest] + corners_B_m[next]) / 2;
+    add_triangle(first);
+    return add_triangle(second);
+  }
+  // Meshes are floats.
+  constexpr double kRounding_m = 1e-6;
+  const Eigen::Array3d low = (box_m.min() - low_B_m_).array() - kRounding_m;
+  const Eigen::Array3d high = (box_m.max() - low_B_m_).array() + kRounding_m;
+  const Eigen::Array3i from = (low / kBox_m).floor().cast<int>(),
+                       to = (high / kBox_m).floor().cast<int>();
+  for (int z = from.z(); z <= to.z(); ++z) {
+    for (int y = from.y(); y <= to.y(); ++y) {
+      for (int x = from.x(); x <= to.x(); ++x) {
+        const Cell cell{x >> 2, y >> 2, z >> 2};
+        if (!has(cell)) continue;
+        const int bit = 16 * (z & 3) + 4 * (y & 3) + (x & 3);
+        boxes_[place(cell[0], cell[1], cell[2])] |= std::uint64_t{1} << bit;
+      }
+    }
+  }
+  const Eigen::Vector3d middle_B_m = (corners_B_m[0] + corners_B_m[1] + corners_B_m[2]) / 3;
+  take_point(middle_B_m, [](const Eigen::Vector3d&) { return true; });
+}
+
+bool ClearanceField::spread(std::size_t cell, std::uint64_t from,
+                            std::vector<std::uint64_t>& outside) const {
+  constexpr std::uint64_t kFirstX = 0x1111'1111'1111'1111u, kFirstY = 0x000F'000F'000F'000Fu;
+  constexpr std::uint64_t kLastX = kFirstX << 3, kLastY = kFirstY << 12;
+  const std::uint64_t before = outside[cell], free = ~boxes_[cell];
+  std::uint64_t now = before | (from & free);
+  for (std::uint64_t last = 0; now != last;) {
+    last = now;
+    now |= ((now & ~kLastX) << 1 | (now & ~kFirstX) >> 1 | (now & ~kLastY) << 4 |
+            (now & ~kFirstY) >> 4 | now << 16 | now >> 16) &
+           free;
+  }
+  outside[cell] = now;
+  return now != before;
+}
+
+void ClearanceField::fill() {
+  constexpr std::uint64_t kFirstX = 0x1111'1111'1111'1111u, kFirstY = 0x000F'000F'000F'000Fu,
+                          kFirstZ = 0xFFFF;
+  std::vector<std::uint64_t> outside(boxes_.size(), 0);
+  std::vector<Cell> open;
+  const auto enter = [&](const Cell& cell, std::uint64_t from) {
+    if (has(cell) && spread(place(cell[0], cell[1], cell[2]), from, outside)) open.push_back(cell);
+  };
+  for (int z = 0; z < count_[2]; ++z) {
+    for (int y = 0; y < count_[1]; ++y) {
+      const bool is_end = z == 0 || y == 0 || z == count_[2] - 1 || y == count_[1] - 1;
+      for (int x = 0; x < count_[0]; x += is_end ? 1 : count_[0] - 1) enter({x, y, z}, kAllBoxes);
+    }
+  }
+  while (!open.empty()) {
+    const auto [x, y, z] = open.back();
+    open.pop_back();
+    const std::uint64_t from = outside[place(x, y, z)];
+    enter({x + 1, y, z}, from >> 3 & kFirstX);
+    enter({x - 1, y, z}, (from & kFirstX) << 3);
+    enter({x, y + 1, z}, from >> 12 & kFirstY);
+    enter({x, y - 1, z}, (from & kFirstY) << 12);
+    enter({x, y, z + 1}, from >> 48 & kFirstZ);
+    enter({x, y, z - 1}, (from & kFirstZ) << 48);
+  }
+  for (std::size_t i = 0; i < boxes_.size(); ++i) boxes_[i] = ~outside[i];
 }
 
 void ClearanceField::find_hidden(const UnknownSpace& space, const mesh::Cube& cube) {

@@ -3,8 +3,10 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "berth/robot/triangle_mesh.hpp"
 #include "berth/space/unknown_space.hpp"
 
 namespace berth {
@@ -28,6 +30,10 @@ class ClearanceField {
   /// `undecided` has read counts, too. Reuses its memory. Nobody may ask meanwhile.
   void build(const UnknownSpace& space, const UnknownSpace& undecided,
              const Eigen::Vector3d& middle_B_m, double reach_m);
+
+  /// The same for surfaces that stand in B, and for all that they enclose.
+  void build(std::span<const TriangleMesh> surfaces_B, const Eigen::Vector3d& middle_B_m,
+             double reach_m);
 
   /// Nothing is nearer to the place than lower_m, and something certainly is no farther than
   /// upper_m, which is infinite where that is not known.
@@ -61,6 +67,13 @@ class ClearanceField {
   mesh::Cube cube_of(int x, int y, int z) const {
     return {kCell, first_[0] + x, first_[1] + y, first_[2] + z};
   }
+  void begin(const Eigen::Vector3d& middle_B_m, double reach_m);
+  void measure();
+  void add_triangle(const std::array<Eigen::Vector3d, 3>& corners_B_m);
+  /// Marks all boxes that no way leads to from outside.
+  void fill();
+  /// Which of a cell's boxes a way leads to that has come so far, from those of `from`.
+  bool spread(std::size_t cell, std::uint64_t from, std::vector<std::uint64_t>& outside) const;
   Cell cell_of(const Eigen::Vector3d& p_B_m) const;
   bool has(const Cell& cell) const;
   /// Whether a cube is so far from the middle that no place is near.
