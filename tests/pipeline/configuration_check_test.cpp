@@ -248,6 +248,25 @@ TEST_F(Configurations, TableOwnBodyAndOtherRobotsCountWhereTheyAreAskedAbout) {
   }
 }
 
+TEST_F(Configurations, ManyThreadsMayAsk) {
+  const SharedFrames frames = observe_all(3);
+  ConfigurationCheck check(robot());
+  check.prepare(frames);
+  sim::Random random(6);
+  const std::size_t count = thinned(2000u);
+  const Numbers positions = draw(count, random);
+  const ConfigurationMargins margins{.known_margin_m = 0.01};
+  std::array<Verdicts, 3> found;
+  {
+    std::vector<std::jthread> threads;
+    for (Verdicts& verdicts : found) {
+      verdicts.resize(count);
+      threads.emplace_back([&] { check.ask(positions, margins, verdicts); });
+    }
+  }
+  for (const Verdicts& verdicts : found) EXPECT_EQ(verdicts, found[0]);
+}
+
 TEST_F(Configurations, WithoutAFrameNothingIsDecided) {
   ConfigurationCheck check(robot());
   Verdicts verdicts(1, Verdict::free);
