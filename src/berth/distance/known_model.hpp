@@ -46,7 +46,7 @@ struct KnownBody {
 
 /// Which pairs of links are looked at, of one robot: constant, shared by all askers.
 struct KnownModel {
-  static constexpr int kDrawnPoses = 10'000;
+  static constexpr int kDrawnPoses = 1000;
 
   std::shared_ptr<const RobotPatches> patches;
   std::vector<LinkPatches> environment;
@@ -58,7 +58,7 @@ struct KnownModel {
   std::vector<LeftOutPair> left_out;
 };
 
-/// Draws poses until each remaining pair was apart in one: some milliseconds, and half a second for
+/// Draws poses until each remaining pair was apart in one: some milliseconds, and twenty for
 /// two links that always touch, unless they are in `touching`, places in RobotModel::links. The
 /// same on each call.
 std::shared_ptr<const KnownModel> build_known_model(
