@@ -23,6 +23,7 @@ set(BERTH_PUBLIC_HEADERS
   berth/pipeline/frame_pool.hpp
   berth/pipeline/observer.hpp
   berth/pipeline/prepared_space.hpp
+  berth/pipeline/configuration_check.hpp
   berth/pipeline/query.hpp
   berth/pipeline/request.hpp
   berth/pipeline/result.hpp

@@ -18,7 +18,7 @@ HEADER = f"# Made by python/make_stubs.py with mypy {mypy_version}."
 MENDED = [
     (r"_repr_png_: ClassVar\[function\] = \.\.\.", "def _repr_png_(self) -> bytes: ..."),
     (r"os\.PathLike(?!\[)", "Union[str, os.PathLike[str]]"),
-    (r"numpy\.ndarray", "numpy.typing.NDArray[Any]"),
+    (r"numpy\.ndarray(\[numpy\.float64\])?", "numpy.typing.NDArray[Any]"),
     (r"List\[str\[2\]\]", "List[str]"),
     (r"-> dict:", "-> Dict[str, Any]:"),
     (r"-> list:", "-> List[Dict[str, Any]]:"),

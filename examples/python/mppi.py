@@ -4,6 +4,7 @@ import time
 
 import berth
 import numpy as np
+import numpy.typing
 
 SAMPLES, STEPS, STEP_S, SPEED = 256, 20, 0.05, 1.0  # rollouts, their steps, rad/s
 scene = berth.open_scene(sys.argv[1])
@@ -14,9 +15,10 @@ check.prepare(newest)
 random = np.random.default_rng(2)
 
 
-def is_free(rows):
+def is_free(rows: np.typing.NDArray[np.float64]) -> np.typing.NDArray[np.bool_]:
     """3 cm from all that is seen or hidden, 5 mm from the table and the robot itself."""
-    return check.ask(rows, margin_m=0.03, known_margin_m=0.005) == int(berth.Verdict.free)
+    free: np.typing.NDArray[np.bool_] = check.ask(rows, margin_m=0.03, known_margin_m=0.005) == int(berth.Verdict.free)
+    return free
 
 
 position = steps[-1].joints

@@ -129,7 +129,7 @@ TEST_F(Filtered, NoOtherVelocityIsNearerToTheWantedOne) {
       EXPECT_TRUE(breaks_one);
     }
   }
-  EXPECT_GT(held, cases(20'000) / 20);
+  EXPECT_GT(held, cases(20'000) / 40);
 }
 
 /// Where two arms are after each step of drawn velocities, filtered or not.

@@ -41,11 +41,11 @@ struct EightNumbers {
 };
 
 /// The same of one configuration, for eight balls.
-struct Motion {
+struct LinkPlace {
   Floats m[12];
 };
-HWY_INLINE Motion motion_of(const EightPoses& poses, int lane) {
-  Motion out;
+HWY_INLINE LinkPlace motion_of(const EightPoses& poses, int lane) {
+  LinkPlace out;
   for (int k = 0; k < 12; ++k) out.m[k] = all(poses.m[k][lane]);
   return out;
 }
@@ -53,7 +53,7 @@ HWY_INLINE Motion motion_of(const EightPoses& poses, int lane) {
 struct Places {
   Floats x, y, z;
 };
-HWY_INLINE Places moved(const Motion& X, const EightBalls& balls, int i) {
+HWY_INLINE Places moved(const LinkPlace& X, const EightBalls& balls, int i) {
   const Tag d;
   const Floats x = hn::Load(d, &balls.x_m[i]), y = hn::Load(d, &balls.y_m[i]),
                z = hn::Load(d, &balls.z_m[i]);
@@ -232,7 +232,7 @@ struct Asked {
   }
 };
 
-HWY_INLINE unsigned not_free(const Asked& asked, const Motion& X, std::size_t l,
+HWY_INLINE unsigned not_free(const Asked& asked, const LinkPlace& X, std::size_t l,
                              const EightBalls& balls) {
   const Floats margin = all(asked.needed_m(l));
   unsigned left = 0;
@@ -243,7 +243,7 @@ HWY_INLINE unsigned not_free(const Asked& asked, const Motion& X, std::size_t l,
   return left;
 }
 
-HWY_INLINE bool has_near_point(const Asked& asked, const Motion& X, std::size_t l,
+HWY_INLINE bool has_near_point(const Asked& asked, const LinkPlace& X, std::size_t l,
                                const EightBalls& points) {
   const float limit_m = asked.margin_m(l) - asked.near_rounding_m;
   if (!(limit_m > 0)) return false;
@@ -279,7 +279,7 @@ Verdict check_one(const Asked& asked) {
   for (std::size_t l = 0; l < links.size(); ++l) {
     if (std::isnan(asked.margin_m(l))) continue;
     const LinkBalls& balls = links[l].balls;
-    const Motion X = motion_of(asked.poses[links[l].frame], asked.lane);
+    const LinkPlace X = motion_of(asked.poses[links[l].frame], asked.lane);
     for (unsigned open = not_free(asked, X, l, balls.coarse); open != 0; open &= open - 1) {
       const auto coarse = static_cast<std::size_t>(__builtin_ctz(open));
       const unsigned fine = not_free(asked, X, l, balls.fine[coarse]);
@@ -295,7 +295,7 @@ Verdict check_one(const Asked& asked) {
   if (count == 0 && !is_full) return Verdict::free;
   for (std::size_t i = 0; i < count; ++i) {
     const auto& [l, coarse, fine] = left[i];
-    const Motion X = motion_of(asked.poses[links[l].frame], asked.lane);
+    const LinkPlace X = motion_of(asked.poses[links[l].frame], asked.lane);
     for (unsigned open = fine; open != 0; open &= open - 1) {
       const EightBalls& points = links[l].balls.fine_points[coarse][__builtin_ctz(open)];
       if (has_near_point(asked, X, l, points)) return Verdict::near;
@@ -329,7 +329,7 @@ HWY_INLINE unsigned not_apart(const EightBalls& a_B, std::size_t i, const EightB
   return left;
 }
 
-HWY_INLINE EightBalls in_B(const Motion& X, const EightBalls& balls) {
+HWY_INLINE EightBalls in_B(const LinkPlace& X, const EightBalls& balls) {
   EightBalls out;
   for (int i = 0; i < 8; i += kWidth) {
     const Places places = moved(X, balls, i);
@@ -358,8 +358,8 @@ Verdict check_pair(const Asked& asked, std::size_t a, std::size_t b) {
     return asked.moves_m ? (*asked.moves_m)[l].of[asked.lane] : 0;
   };
   const float needed_m = margin_m + moves_m(a) + moves_m(b) + 2 * kFreeRounding_m;
-  const Motion X_a = motion_of(asked.poses[own.frame], asked.lane);
-  const Motion X_b = motion_of(asked.poses[other.frame], asked.lane);
+  const LinkPlace X_a = motion_of(asked.poses[own.frame], asked.lane);
+  const LinkPlace X_b = motion_of(asked.poses[other.frame], asked.lane);
   const EightBalls a_B = in_B(X_a, own.balls.coarse), b_B = in_B(X_b, other.balls.coarse);
   bool is_free = true;
   for (std::size_t i = 0; i < 8; ++i) {
