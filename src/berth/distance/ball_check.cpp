@@ -44,7 +44,7 @@ struct EightNumbers {
 struct LinkPlace {
   Floats m[12];
 };
-HWY_INLINE LinkPlace motion_of(const EightPoses& poses, int lane) {
+HWY_INLINE LinkPlace place_of(const EightPoses& poses, int lane) {
   LinkPlace out;
   for (int k = 0; k < 12; ++k) out.m[k] = all(poses.m[k][lane]);
   return out;
@@ -279,7 +279,7 @@ Verdict check_one(const Asked& asked) {
   for (std::size_t l = 0; l < links.size(); ++l) {
     if (std::isnan(asked.margin_m(l))) continue;
     const LinkBalls& balls = links[l].balls;
-    const LinkPlace X = motion_of(asked.poses[links[l].frame], asked.lane);
+    const LinkPlace X = place_of(asked.poses[links[l].frame], asked.lane);
     for (unsigned open = not_free(asked, X, l, balls.coarse); open != 0; open &= open - 1) {
       const auto coarse = static_cast<std::size_t>(__builtin_ctz(open));
       const unsigned fine = not_free(asked, X, l, balls.fine[coarse]);
@@ -295,7 +295,7 @@ Verdict check_one(const Asked& asked) {
   if (count == 0 && !is_full) return Verdict::free;
   for (std::size_t i = 0; i < count; ++i) {
     const auto& [l, coarse, fine] = left[i];
-    const LinkPlace X = motion_of(asked.poses[links[l].frame], asked.lane);
+    const LinkPlace X = place_of(asked.poses[links[l].frame], asked.lane);
     for (unsigned open = fine; open != 0; open &= open - 1) {
       const EightBalls& points = links[l].balls.fine_points[coarse][__builtin_ctz(open)];
       if (has_near_point(asked, X, l, points)) return Verdict::near;
@@ -358,8 +358,8 @@ Verdict check_pair(const Asked& asked, std::size_t a, std::size_t b) {
     return asked.moves_m ? (*asked.moves_m)[l].of[asked.lane] : 0;
   };
   const float needed_m = margin_m + moves_m(a) + moves_m(b) + 2 * kFreeRounding_m;
-  const LinkPlace X_a = motion_of(asked.poses[own.frame], asked.lane);
-  const LinkPlace X_b = motion_of(asked.poses[other.frame], asked.lane);
+  const LinkPlace X_a = place_of(asked.poses[own.frame], asked.lane);
+  const LinkPlace X_b = place_of(asked.poses[other.frame], asked.lane);
   const EightBalls a_B = in_B(X_a, own.balls.coarse), b_B = in_B(X_b, other.balls.coarse);
   bool is_free = true;
   for (std::size_t i = 0; i < 8; ++i) {

@@ -73,6 +73,9 @@ Reach reach_of(const RobotModel& model) {
     }
     reach.radius_m = std::max(reach.radius_m, sum_m);
   }
+  // A field takes memory with the third power: 0.4 GB here. Beyond it all is undecided.
+  constexpr double kMost_m = 2.5;
+  reach.radius_m = std::min(reach.radius_m, kMost_m);
   return reach;
 }
 

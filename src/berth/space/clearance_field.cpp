@@ -72,12 +72,12 @@ bool has_read(const FreeingCamera& view, const Eigen::Vector3d& p_B_m) {
 }
 
 /// Visits the boxes of a row beside a node whose next box is number `at`, with their distances from
-/// it; -1 stands for one beyond either end.
+/// it.
 template <class Take>
 void each_beside(int at, int count, const Take& take) {
   for (int d = 0; d < ClearanceField::kRangeBoxes; ++d) {
-    take(at + d < count ? at + d : -1, d);
-    take(at - 1 - d >= 0 ? at - 1 - d : -1, d);
+    if (at + d < count) take(at + d, d);
+    if (at - 1 - d >= 0) take(at - 1 - d, d);
   }
 }
 
@@ -493,7 +493,7 @@ void ClearanceField::measure_layer(int z) {
     }
     std::ranges::fill(row, kMost);
     each_beside(4 * y, height, [&](int at, int d) {
-      if (at < 0 || is_empty[at]) return;
+      if (is_empty[at]) return;
       const auto square = static_cast<std::int16_t>(d * d);
       const std::int16_t* const from = &layer[static_cast<std::size_t>(at) * width];
       for (int x = 0; x < width; ++x) {
