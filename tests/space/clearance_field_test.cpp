@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "berth/robot/primitives.hpp"
 #include "tests/support/plain_distance.hpp"
 #include "tests/support/thinned.hpp"
 
@@ -102,6 +103,40 @@ TEST(ClearanceField, ItsPointsAreOccupiedOrUnknown) {
       }
     }
     EXPECT_GT(known, 100);
+  }
+}
+
+/// At nodes and elsewhere, on all sides of boxes whose distance is known by hand.
+TEST(ClearanceField, OfBoxesIsWithinWhatItRounds) {
+  sim::Random random(4);
+  for (int n = 0; n < 20; ++n) {
+    const Eigen::Vector3d size_m(random(0.03, 0.3), random(0.03, 0.3), random(0.03, 0.3));
+    const Eigen::Vector3d middle_B_m = sim::draw_point(random, 0.2);
+    std::vector<TriangleMesh> meshes(1);
+    meshes[0].append(make_box(size_m), Eigen::Affine3d(Eigen::Translation3d(middle_B_m)));
+    ClearanceField field;
+    field.build(meshes, Eigen::Vector3d::Zero(), 0.5);
+    const Eigen::Vector3d low_B_m = field.grid().low_B_m.cast<double>();
+    for (int i = 0; i < 2000; ++i) {
+      Eigen::Vector3d p_B_m = sim::draw_point(random, 0.28);
+      const bool is_node = i % 2 == 0;
+      if (is_node) {
+        const Eigen::Array3d node = ((p_B_m - low_B_m) / ClearanceField::kCell_m).array().round();
+        p_B_m = low_B_m + ClearanceField::kCell_m * node.matrix();
+      }
+      const Eigen::Array3d beside_m = ((p_B_m - middle_B_m).array().abs() - size_m.array() / 2);
+      const double true_m = beside_m.max(0.0).matrix().norm();
+      const ClearanceField::Bounds bounds = field.at(p_B_m);
+      ASSERT_LE(bounds.lower_m, true_m + 1e-5) << p_B_m.transpose();
+      // Within it, the surface may be farther off than what counts.
+      if (true_m > 0) {
+        ASSERT_GE(bounds.upper_m, true_m - 2e-4);
+      }
+      // A box of 6.4 mm, and its diagonal.
+      if (is_node && true_m < ClearanceField::kRange_m) {
+        ASSERT_GE(bounds.lower_m, true_m - 0.0112) << p_B_m.transpose();
+      }
+    }
   }
 }
 
