@@ -323,6 +323,12 @@ TEST_F(Configurations, BadQuestionsAreRefused) {
                                   "\" of configuration 0 is nan; expected a finite number");
   EXPECT_EQ(message(Numbers(7), {.margin_m = -1}),
             "configurations: a margin is -1 m; expected a finite number of at least 0");
+  const ConfigurationMargins no_number{.known_margin_m = std::nan("")};
+  EXPECT_EQ(message(Numbers(7), no_number),
+            "configurations: a margin is nan m; expected a finite number of at least 0");
+  EXPECT_EQ(
+      error_message<std::invalid_argument>([&] { check.resolve(Numbers(7), no_number, one); }),
+      "configurations: a margin is nan m; expected a finite number of at least 0");
   EXPECT_TRUE(message(Numbers(7), {.without = {"tail"}})
                   .starts_with("configurations: link \"tail\" is not known; expected one of "));
 }

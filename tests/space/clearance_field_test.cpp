@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "berth/robot/primitives.hpp"
+#include "sim/drawn_obstacles.hpp"
 #include "tests/support/plain_distance.hpp"
 #include "tests/support/thinned.hpp"
 
@@ -136,6 +137,26 @@ TEST(ClearanceField, OfBoxesIsWithinWhatItRounds) {
       if (is_node && true_m < ClearanceField::kRange_m) {
         ASSERT_GE(bounds.lower_m, true_m - 0.0112) << p_B_m.transpose();
       }
+    }
+  }
+}
+
+/// Places that nobody asks about may lie between nodes that are asked: what they say holds, too.
+TEST(ClearanceField, AtItsRimNothingIsNearerThanItsLowerBound) {
+  sim::Random random(5);
+  constexpr double kRim_m = 0.5;
+  for (int n = 0; n < 40; ++n) {
+    const Eigen::Vector3d way = sim::draw_rotation(random) * Eigen::Vector3d::UnitX();
+    const double beyond_m = random(kRim_m + 0.15, kRim_m + 0.3);
+    std::vector<TriangleMesh> meshes(1);
+    meshes[0].append(make_sphere(0.05),
+                     Eigen::Affine3d(Eigen::Translation3d((beyond_m + 0.05) * way)));
+    ClearanceField field;
+    field.build(meshes, Eigen::Vector3d::Zero(), kRim_m);
+    for (double at_m = kRim_m - 0.05; at_m < beyond_m; at_m += 0.002) {
+      // The sphere's triangles lie within it.
+      constexpr double kTriangles_m = 0.002;
+      ASSERT_LE(field.at(at_m * way).lower_m, beyond_m - at_m + kTriangles_m) << at_m;
     }
   }
 }

@@ -221,6 +221,7 @@ void ConfigurationCheck::require(std::span<const double> positions, std::size_t 
 
 std::vector<float> ConfigurationCheck::of_balls(const ConfigurationMargins& margins) const {
   require_margin(margins.margin_m);
+  if (margins.known_margin_m) require_margin(*margins.known_margin_m);
   const RobotModel& model = robot_->model();
   std::vector<float> of_ids(model.evaluated_links.size(), static_cast<float>(margins.margin_m));
   const auto of = [&](const std::string& name) -> float& {
@@ -246,7 +247,6 @@ ConfigurationCheck::Asked ConfigurationCheck::asked_of(const ConfigurationMargin
   Asked out{of_balls(margins), {}, {state.balls, state.field.grid(), {}, state.turned_clearance_m}};
   out.request.margins_m = out.margins_m;
   if (!margins.known_margin_m) return out;
-  require_margin(*margins.known_margin_m);
   std::call_once(state.pairs_made, [&] {
     state.pairs = mesh::build_ball_pairs(robot_->model(), robot_->known(), state.balls,
                                          state.reach.middle_B_m, state.reach.radius_m);

@@ -17,6 +17,10 @@ constexpr std::uint8_t kHidden = 1, kRead = 2;
 constexpr double kStep_m = mesh::Cube::kLeastEdge_m;
 constexpr int kStepsPerCell = 1 << 2 * ClearanceField::kCell;
 constexpr std::uint64_t kAllBoxes = ~std::uint64_t{0};
+/// The boxes of a cell at its ends along an axis.
+constexpr std::uint64_t kFirstX = 0x1111'1111'1111'1111u, kLastX = kFirstX << 3;
+constexpr std::uint64_t kFirstY = 0x000F'000F'000F'000Fu, kLastY = kFirstY << 12;
+constexpr std::uint64_t kFirstZ = 0xFFFF;
 
 /// A number of up to 31 for each of a cell's 16 columns, one byte each.
 using Columns = std::array<std::uint64_t, 2>;
@@ -53,7 +57,7 @@ std::uint32_t row_of(const Columns& columns, std::size_t row) {
   return static_cast<std::uint32_t>(columns[row / 2] >> 32 * (row % 2));
 }
 
-/// A place in a cell of `cells` times kCell_m, in steps.
+/// A place in a cell of either size, in steps.
 std::uint32_t packed(const std::array<int, 3>& steps) {
   return static_cast<std::uint32_t>(steps[0] | steps[1] << 10 | steps[2] << 20);
 }
@@ -96,14 +100,13 @@ bool ClearanceField::has(const Cell& cell) const {
 
 bool ClearanceField::is_beyond(const Eigen::Vector3d& p_B_m, double half_m) const {
   const Eigen::Array3d beside_m = ((p_B_m - middle_B_m_).array().abs() - half_m).max(0.0);
-  return beside_m.matrix().norm() > reach_m_ + kRange_m;
+  return beside_m.matrix().norm() > outer_m();
 }
 
 void ClearanceField::begin(const Eigen::Vector3d& middle_B_m, double reach_m) {
   middle_B_m_ = middle_B_m;
   reach_m_ = reach_m;
-  // So much beside all nodes that are asked, that what lies beyond is out of their range.
-  const double half_m = reach_m + kRange_m + 4 * kCell_m;
+  const double half_m = outer_m();
   for (int k = 0; k < 3; ++k) {
     const double low_m = middle_B_m[k] - half_m - mesh::Cube::kCorner_m;
     // Whole cells of twice the size, too.
@@ -201,8 +204,6 @@ void ClearanceField::add_triangle(const std::array<Eigen::Vector3d, 3>& corners_
 
 bool ClearanceField::spread(std::size_t cell, std::uint64_t from,
                             std::vector<std::uint64_t>& outside) const {
-  constexpr std::uint64_t kFirstX = 0x1111'1111'1111'1111u, kFirstY = 0x000F'000F'000F'000Fu;
-  constexpr std::uint64_t kLastX = kFirstX << 3, kLastY = kFirstY << 12;
   const std::uint64_t before = outside[cell], free = ~boxes_[cell];
   std::uint64_t now = before | (from & free);
   for (std::uint64_t last = 0; now != last;) {
@@ -216,8 +217,6 @@ bool ClearanceField::spread(std::size_t cell, std::uint64_t from,
 }
 
 void ClearanceField::fill() {
-  constexpr std::uint64_t kFirstX = 0x1111'1111'1111'1111u, kFirstY = 0x000F'000F'000F'000Fu,
-                          kFirstZ = 0xFFFF;
   std::vector<std::uint64_t> outside(boxes_.size(), 0);
   std::vector<Cell> open;
   const auto enter = [&](const Cell& cell, std::uint64_t from) {
@@ -279,7 +278,7 @@ void ClearanceField::add_reading(const FreeingCamera& view, int u, int v, float 
   const double thickness_m = view.space->settings.surface_thickness_m;
   const Eigen::Vector3d ray_B = view.X_BC.linear() * point_at(camera, u, v, 1);
   const Eigen::Vector3d near_B_m = view.X_BC.translation() + depth_m * ray_B;
-  const double most_m = reach_m_ + kRange_m + thickness_m * ray_B.norm();
+  const double most_m = outer_m() + thickness_m * ray_B.norm();
   if ((near_B_m - middle_B_m_).squaredNorm() > most_m * most_m) return;
   // Two halves of the block that the pixel measured, each in a box.
   const double wide_m = (depth_m + thickness_m) / std::min(camera.fx_px, camera.fy_px);
@@ -448,7 +447,7 @@ std::array<int, 2> ClearanceField::in_ball(int axis, double most_m, double a_m, 
 
 std::array<int, 2> ClearanceField::near_cells(int axis, int y) const {
   const double y_m = low_B_m_.y() + kCell_m * (y + 0.5) - middle_B_m_.y();
-  return in_ball(axis, reach_m_ + kRange_m + 3 * kCell_m, y_m, 0);
+  return in_ball(axis, outer_m(), y_m, 0);
 }
 
 std::array<int, 2> ClearanceField::asked_nodes(int y, int z) const {

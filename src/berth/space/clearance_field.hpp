@@ -76,6 +76,9 @@ class ClearanceField {
   bool spread(std::size_t cell, std::uint64_t from, std::vector<std::uint64_t>& outside) const;
   Cell cell_of(const Eigen::Vector3d& p_B_m) const;
   bool has(const Cell& cell) const;
+  /// What lies farther from the middle is out of the range of all nodes that are asked: these are
+  /// up to three cells beyond the places.
+  double outer_m() const { return reach_m_ + kRange_m + 4 * kCell_m; }
   /// Whether a cube is so far from the middle that no place is near.
   bool is_beyond(const Eigen::Vector3d& p_B_m, double half_m) const;
   void find_hidden(const UnknownSpace& space, const mesh::Cube& cube);
