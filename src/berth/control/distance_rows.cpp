@@ -81,8 +81,7 @@ void DistanceRows::update(const Result& result) {
   for (std::size_t i = 0; i < links; ++i) {
     for (const RowKind kind : kRowKinds) differentiate(result, i, kind);
   }
-  if (result.pose.X_BL.empty()) return;
-  if (has_slides_) find_reaches(result.pose);
+  if (has_slides_ && !result.pose.X_BL.empty()) find_reaches(result.pose);
 }
 
 void DistanceRows::differentiate(const Result& result, std::size_t link, RowKind kind) {

@@ -226,9 +226,8 @@ struct Asked {
   }
   /// Whether an exact search shows it, of a link that one joint turns.
   bool is_turned_free(std::size_t l) const {
-    const BallLink& link = request.robot.links[l];
-    if (!asks_turned || !request.robot.is_turned(link)) return false;
-    return request.turned_clearance_m(l, joints[link.frame].of[lane]) > needed_m(l);
+    const std::size_t frame = request.robot.links[l].frame;
+    return request.turned_clearance_m(l, joints[frame].of[lane]) > needed_m(l);
   }
 };
 
@@ -301,11 +300,14 @@ Verdict check_one(const Asked& asked) {
       if (has_near_point(asked, X, l, points)) return Verdict::near;
     }
   }
-  const bool is_free = !is_full && std::all_of(left, left + count, [&](const Left& one) {
+  const auto is_turned = [&](const Left& one) {
     return asked.request.robot.is_turned(links[one.link]);
-  }) && std::all_of(left, left + count, [&](const Left& one) {
-    return asked.is_turned_free(one.link);
-  });
+  };
+  // The search is asked where nothing else is undecided.
+  const bool may_ask = asked.asks_turned && !is_full && std::all_of(left, left + count, is_turned);
+  const bool is_free = may_ask && std::all_of(left, left + count, [&](const Left& one) {
+                         return asked.is_turned_free(one.link);
+                       });
   return is_free ? Verdict::free : Verdict::undecided;
 }
 

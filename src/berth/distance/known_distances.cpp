@@ -120,10 +120,10 @@ void KnownWorkspace::State::look(std::size_t p, float needed_m, float range_m) {
   PairState& pair = pairs[p];
   if (pair.request == number) return;
   pair.request = number;
-  MeshRequest up_to = request;
-  up_to.range_m = std::min<double>(range_m, request.range_m);
   const auto tolerance_m = static_cast<float>(request.tolerance_m);
   if (!pair.found.follow(body(p, 0), body(p, 1), *pose, needed_m, tolerance_m)) {
+    MeshRequest up_to = request;
+    up_to.range_m = std::min<double>(range_m, request.range_m);
     pair.found.find(body(p, 0), body(p, 1), *pose, up_to, bound_m(p));
   }
   pair.level_m = std::max<double>(bound_m(p), pair.found.lower_bound_m()) + travel_m(p);
@@ -182,11 +182,9 @@ void known_distances(const KnownModel& known, const RobotPose& pose, const MeshR
   state.request = request;
   state.begin(known);
   // What was nearest before is near.
+  const auto range_m = static_cast<float>(request.range_m);
   for (std::size_t i = 0; i < state.bodies.size(); ++i) {
-    if (state.bodies[i].pair != kNoPair) {
-      const auto range_m = static_cast<float>(request.range_m);
-      state.look(state.bodies[i].pair, range_m, range_m);
-    }
+    if (state.bodies[i].pair != kNoPair) state.look(state.bodies[i].pair, range_m, range_m);
   }
   state.look_at_candidates();
   state.tell(out);

@@ -84,12 +84,12 @@ Reach reach_of(const RobotModel& model) {
 class TurnedLink {
  public:
   TurnedLink(const RobotModel& model, const mesh::BallLink& link)
-      : link_(model.evaluated_links[link.id - 1]), positions_(model.joints.size(), 0.0) {
+      : lever_m_(link.balls.centre_m.norm() + link.balls.radius_m) {
+    const std::size_t index = model.evaluated_links[link.id - 1];
     patches_.serial_number = mesh::next_serial_number();
-    patches_.links.push_back(build_link_patches(model.links[link_].mesh_L));
-    patches_.links.back().link = link_;
-    joint_ = moving_chain(model, link_).back();
-    lever_m_ = link.balls.centre_m.norm() + link.balls.radius_m;
+    patches_.links.push_back(build_link_patches(model.links[index].mesh_L));
+    patches_.links.back().link = index;
+    joint_ = &model.links[moving_chain(model, index).back()].joint;
   }
 
   void forget() {
@@ -105,8 +105,9 @@ class TurnedLink {
     const float found_m = find(model, frames, middle_rad);
     // What a float rounds an angle to may lie in the cell beside.
     const double most_rad = kCell_rad / 2 + 1e-5;
-    cell.store(std::max(0.0f, found_m - static_cast<float>(lever_m_ * most_rad)));
-    return cell.load();
+    const float clear_m = std::max(0.0f, found_m - static_cast<float>(lever_m_ * most_rad));
+    cell.store(clear_m);
+    return clear_m;
   }
 
  private:
@@ -114,9 +115,8 @@ class TurnedLink {
   static constexpr double kCell_rad = 2 * std::numbers::pi / kCells;
 
   float find(const RobotModel& model, const FrameSet& frames, double angle) const {
-    const Joint& joint = model.links[joint_].joint;
-    std::vector<double> positions = positions_;
-    positions[*joint.position_index] = (angle - joint.offset) / joint.multiplier;
+    std::vector<double> positions(model.joints.size(), 0.0);
+    positions[*joint_->position_index] = (angle - joint_->offset) / joint_->multiplier;
     RobotPose pose;
     forward_kinematics(model, positions, pose);
     MeshWorkspace workspace;
@@ -131,10 +131,8 @@ class TurnedLink {
     return lower_m;
   }
 
-  std::size_t link_;
-  std::size_t joint_ = 0;
-  double lever_m_ = 0;
-  std::vector<double> positions_;
+  const Joint* joint_;
+  double lever_m_;
   RobotPatches patches_;
   std::array<std::atomic<float>, kCells> cells_;
 };
@@ -180,7 +178,7 @@ ConfigurationCheck::ConfigurationCheck(std::shared_ptr<const Robot> robot)
   state.turned_clearance_m = [this](std::size_t l, float angle) {
     return state_->turned[l]->clearance_m(robot_->model(), state_->frames, angle);
   };
-  state_->reach = reach_of(robot_->model());
+  state.reach = reach_of(robot_->model());
 }
 
 ConfigurationCheck::~ConfigurationCheck() = default;
