@@ -19,6 +19,7 @@
 #include "berth/render/robot_renderer.hpp"
 #include "berth/robot/primitives.hpp"
 #include "lab/measure/stopwatch.hpp"
+#include "lab/stream/film.hpp"
 #include "lab/trust/trial.hpp"
 #include "sim/drawn_scene.hpp"
 
@@ -42,6 +43,8 @@ struct Options {
 /// A problem's things around the robot's root, and where its joints start and have to go.
 struct Problem {
   std::vector<sim::DrawnObstacle> things;
+  /// Of each thing.
+  std::vector<sim::MeshTree> trees;
   std::vector<double> start, goal;
 };
 
@@ -66,6 +69,7 @@ Problem read_problem(const fs::path& folder, int number, const RobotModel& model
     for (std::size_t i = 0; i < object["primitives"].size(); ++i) {
       problem.things.push_back(
           {mesh_of(object["primitives"][i]), X_BO * pose_of(object["primitive_poses"][i])});
+      problem.trees.push_back(sim::build_mesh_tree(problem.things.back().mesh_O));
     }
   }
   const YAML::Node request = YAML::LoadFile(folder / fmt::format("request{:04}.yaml", number));
@@ -162,16 +166,12 @@ class Planner {
           CameraMount{camera, robot_->model().links.front().name, X_BC,
                       fmt::format("camera_{}", number++)},
           settings);
-      DepthImage depth_m = sim::cast_obstacles(things, camera, X_BC);
       RobotPose pose;
       forward_kinematics(robot_->model(), problem.start, pose);
       RobotImage seen;
       RobotRenderer(robot_->meshes(), camera).render(pose, X_BC, seen);
-      for (std::size_t i = 0; i < depth_m.pixels().size(); ++i) {
-        const float robot_m = seen.depth_m.pixels()[i];
-        float& here_m = depth_m.pixels()[i];
-        if (!std::isnan(robot_m) && !(here_m < robot_m)) here_m = robot_m;
-      }
+      const DepthImage depth_m =
+          drawn_over(seen.depth_m, sim::cast_obstacles(things, camera, X_BC));
       auto frame = std::make_shared<Frame>();
       Observer(mounted).observe(depth_m, JointState{0, problem.start}, *frame);
       frames_.push_back(std::move(frame));
@@ -191,15 +191,14 @@ class Planner {
   bool is_touching(const Problem& problem, const std::vector<double>& positions) const {
     RobotPose pose;
     forward_kinematics(robot_->model(), positions, pose);
-    for (const sim::DrawnObstacle& thing : problem.things) {
-      const sim::MeshTree tree = sim::build_mesh_tree(thing.mesh_O);
+    for (std::size_t i = 0; i < problem.things.size(); ++i) {
       for (const std::size_t link : robot_->model().evaluated_links) {
         if (!robot_->model().is_moved(link)) continue;
         const std::string& name = robot_->model().links[link].name;
         if (std::ranges::find(options_.without, name) != options_.without.end()) continue;
         constexpr double kTouch_m = 1e-4;
-        const auto found = sim::closest_points(trial_.link_trees[link], pose.X_BL[link], tree,
-                                               thing.X_BO, kTouch_m);
+        const auto found = sim::closest_points(trial_.link_trees[link], pose.X_BL[link],
+                                               problem.trees[i], problem.things[i].X_BO, kTouch_m);
         if (std::isfinite(found.distance_m)) return true;
       }
     }
@@ -292,8 +291,7 @@ double median(std::vector<double> values) {
 void run(const Options& options) {
   ompl::msg::setLogLevel(ompl::msg::LOG_ERROR);
   ompl::RNG::setSeed(1);
-  const TrialRobot robot =
-      make_trial_robot("panda", load_robot({.urdf = options.urdf, .ignore_links = {}}));
+  const TrialRobot robot = make_trial_robot("panda", load_robot({.urdf = options.urdf}));
   fmt::print(
       "| kind | problems | start, goal free | goal near | solved | planning [ms] | the field [ms] "
       "| "

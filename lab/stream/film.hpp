@@ -37,6 +37,9 @@ Film film_of(const StreamSettings& settings);
 Film film_of_room(const std::shared_ptr<const Robot>& robot, const CameraSettings& settings,
                   const RoomSettings& room, std::size_t cameras);
 
+/// The robot where it is in front of what else an image shows.
+DepthImage drawn_over(const DepthImage& robot_m, DepthImage depth_m);
+
 /// The film's time as it plays forth and back, `speed` times as fast.
 struct Play {
   double first_s, last_s, speed, begin_s;

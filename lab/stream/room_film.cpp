@@ -43,15 +43,6 @@ Pose turned_about(const Eigen::Vector3d& middle_B_m, double angle_rad, const Pos
   return to * Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitZ()) * to.inverse() * X_BC;
 }
 
-/// The robot where it is in front of the obstacles.
-DepthImage drawn_over(const DepthImage& robot_m, DepthImage depth_m) {
-  for (std::size_t i = 0; i < depth_m.pixels().size(); ++i) {
-    const float at_m = robot_m.pixels()[i];
-    if (!std::isnan(at_m) && !(depth_m.pixels()[i] < at_m)) depth_m.pixels()[i] = at_m;
-  }
-  return depth_m;
-}
-
 FilmedCamera film_from(const Film& film, const sim::DrawnScene& drawn, const Pose& X_BC,
                        const CameraSettings& settings, double first_s) {
   FilmedCamera camera;
@@ -74,6 +65,14 @@ FilmedCamera film_from(const Film& film, const sim::DrawnScene& drawn, const Pos
 }
 
 }  // namespace
+
+DepthImage drawn_over(const DepthImage& robot_m, DepthImage depth_m) {
+  for (std::size_t i = 0; i < depth_m.pixels().size(); ++i) {
+    const float at_m = robot_m.pixels()[i];
+    if (!std::isnan(at_m) && !(depth_m.pixels()[i] < at_m)) depth_m.pixels()[i] = at_m;
+  }
+  return depth_m;
+}
 
 Film film_of_room(const std::shared_ptr<const Robot>& robot, const CameraSettings& settings,
                   const RoomSettings& room, std::size_t cameras) {
