@@ -43,6 +43,15 @@ struct Nearest {
   double lower_bound_m = std::numeric_limits<double>::infinity();
 };
 
+void expect_holds(Verdict verdict, const Nearest& exact, double margin_m) {
+  if (verdict == Verdict::free) {
+    EXPECT_GT(exact.distance_m, margin_m);
+  }
+  if (verdict == Verdict::near) {
+    EXPECT_LE(exact.lower_bound_m, margin_m);
+  }
+}
+
 Nearest nearest_of(const Result& result, const std::vector<std::string>& without = {}) {
   Nearest out;
   for (const LinkResult& link : result.links) {
@@ -71,12 +80,7 @@ TEST_F(Configurations, VerdictsAreThoseOfTheExactSearch) {
       Verdicts verdicts(exact.size());
       check.ask(positions, {.margin_m = margin_m}, verdicts);
       for (std::size_t i = 0; i < exact.size(); ++i) {
-        if (verdicts[i] == Verdict::free) {
-          EXPECT_GT(exact[i].distance_m, margin_m);
-        }
-        if (verdicts[i] == Verdict::near) {
-          EXPECT_LE(exact[i].lower_bound_m, margin_m);
-        }
+        expect_holds(verdicts[i], exact[i], margin_m);
       }
       const std::size_t many = 4000;
       Verdicts all(many);
@@ -88,12 +92,7 @@ TEST_F(Configurations, VerdictsAreThoseOfTheExactSearch) {
       }
       check.resolve(positions, {.margin_m = margin_m}, verdicts);
       for (std::size_t i = 0; i < exact.size(); ++i) {
-        if (verdicts[i] == Verdict::free) {
-          EXPECT_GT(exact[i].distance_m, margin_m);
-        }
-        if (verdicts[i] == Verdict::near) {
-          EXPECT_LE(exact[i].lower_bound_m, margin_m);
-        }
+        expect_holds(verdicts[i], exact[i], margin_m);
         if (verdicts[i] == Verdict::undecided) {
           EXPECT_NEAR(exact[i].distance_m, margin_m, 2e-3);
         }
@@ -216,12 +215,7 @@ TEST_F(Configurations, TableOwnBodyAndOtherRobotsCountWhereTheyAreAskedAbout) {
     };
     for (std::size_t i = 0; i < count; ++i) {
       const Nearest exact = nearest_at(configuration(i));
-      if (verdicts[i] == Verdict::free) {
-        EXPECT_GT(exact.distance_m, 0.02);
-      }
-      if (verdicts[i] == Verdict::near) {
-        EXPECT_LE(exact.lower_bound_m, 0.02);
-      }
+      expect_holds(verdicts[i], exact, 0.02);
     }
     EXPECT_GT(this->count(verdicts, Verdict::free), count / 10);
     EXPECT_GT(this->count(verdicts, Verdict::near), count / 20);

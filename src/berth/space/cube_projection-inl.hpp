@@ -35,62 +35,6 @@ struct Projection {
   std::uint64_t meets, inside, through;
 };
 
-/// Some of the image's, or a level's, numbers: each is the lower half of the 32 bits at its place.
-HWY_INLINE Ints gather(const DepthUnits* from, Ints places) {
-  const IntTag ints;
-  const auto pairs =
-      hn::GatherOffset(ints, reinterpret_cast<const std::int32_t*>(from), hn::ShiftLeft<1>(places));
-  return hn::And(pairs, hn::Set(ints, 0xFFFF));
-}
-
-/// in_metres() of many.
-HWY_INLINE Lanes metres_of(Ints units) {
-  const LaneMask is_endless =
-      hn::RebindMask(FloatTag(), hn::Eq(units, hn::Set(IntTag(), kEndlessUnits)));
-  const Lanes depth_m = Lanes(hn::ConvertTo(FloatTag(), units)) * Lanes(1 / kUnitsPerMetre);
-  return select(is_endless, Lanes(HUGE_VALF), depth_m);
-}
-
-/// The least of each cube's pixels.
-HWY_INLINE Ints least_of(const DepthWindows& windows, const Projection& cubes) {
-  const IntTag ints;
-  Ints all = hn::Set(ints, kEndlessUnits);
-  if (cubes.span < DepthWindows::kMostPixels) {
-    const DepthWindows::Level& image = windows.levels[0];
-    for (int dv = 0; dv <= cubes.span; ++dv) {
-      const Ints row = hn::Mul(hn::Min(hn::Add(cubes.v0, hn::Set(ints, dv)), cubes.v1),
-                               hn::Set(ints, image.columns));
-      for (int du = 0; du <= cubes.span; ++du) {
-        const Ints column = hn::Min(hn::Add(cubes.u0, hn::Set(ints, du)), cubes.u1);
-        all = hn::Min(all, gather(image.least.data(), hn::Add(row, column)));
-      }
-    }
-    return all;
-  }
-  const DepthWindows::Level& level = windows.level_for(cubes.span + 1);
-  const int shift = __builtin_ctz(static_cast<unsigned>(level.step_px));
-  // The first window that ends behind the last pixel, from its last pixel on.
-  const Ints to_first = hn::Set(ints, level.step_px - level.side_px);
-  const auto place = [&](Ints first, Ints last, Ints out[2]) HWY_ATTR {
-    out[0] = hn::ShiftRightSame(first, shift);
-    out[1] = hn::Max(out[0], hn::ShiftRightSame(hn::Add(last, to_first), shift));
-  };
-  Ints columns[2] = {cubes.u0, cubes.u0}, rows[2] = {cubes.v0, cubes.v0};
-  place(cubes.u0, cubes.u1, columns);
-  place(cubes.v0, cubes.v1, rows);
-  for (const Ints row : rows) {
-    const Ints begin = hn::Mul(row, hn::Set(ints, level.columns));
-    for (const Ints column : columns) {
-      all = hn::Min(all, gather(level.least.data(), hn::Add(begin, column)));
-    }
-  }
-  return all;
-}
-
-HWY_INLINE Lanes least_of_m(const DepthWindows& windows, const Projection& cubes) {
-  return metres_of(least_of(windows, cubes));
-}
-
 struct Interval {
   Lanes lo;
   Lanes hi;
