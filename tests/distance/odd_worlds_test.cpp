@@ -127,6 +127,32 @@ TEST(MeshOdd, ContactIsZeroWithBothPointsEqual) {
   }
 }
 
+/// Something black hangs before the wall; the known cell is kept in its place.
+TEST(MeshOdd, ALinkInWhatAHoleHides) {
+  for (const int views : {1, 2}) {
+    MeshWorld world = wall_world(Pose::Identity(), make_box({0.1, 0.1, 0.1}), at(0, 0, 0.7));
+    MeshWorldView& view = world.views[0];
+    for (int v = 8; v < 40; ++v) {
+      for (int u = 12; u < 52; ++u) {
+        view.sensor_depth_m(u, v) = kNoDepth;
+        view.obstacles.fate(u, v) = PixelFate::hole;
+        ++view.obstacles.count[static_cast<std::size_t>(PixelFate::hole)];
+      }
+    }
+    if (views == 2) world.views.push_back(world.views[0]);
+    const WholeLinkDistance link = PreparedWorld(world).ask({})[0];
+    EXPECT_EQ(link.nearest.distance_m, 0) << views;
+    EXPECT_EQ(link.nearest.obstacle_is, ObstacleKind::unknown) << views;
+    EXPECT_NEAR(link.occupied.distance_m, 0.25, 1.1e-3) << views;
+    // The first 3 cm of what is hidden are no surface either.
+    world.pose.X_BL = {at(0, 0, -0.1)};
+    const WholeLinkDistance before = PreparedWorld(world).ask({})[0];
+    EXPECT_GT(before.nearest.distance_m, 0.05) << views;
+    EXPECT_LT(before.nearest.distance_m, 0.2) << views;
+    EXPECT_EQ(before.nearest.obstacle_is, ObstacleKind::unknown) << views;
+  }
+}
+
 TEST(MeshOdd, ACameraThatLooksAway) {
   Pose X_BC = Pose::Identity();
   X_BC.linear() = Eigen::AngleAxisd(3.14159265, Eigen::Vector3d::UnitY()).toRotationMatrix();

@@ -34,9 +34,10 @@ void set_pixel_pair(const UnknownSpace& space, const LinkSearch& search, SpacePa
   }
   const ConvexPair found = triangle_pair(search, X_CL, search.best_triangle, corners_m);
   set_points(view.X_BC * found.a_m, view.X_BC * found.b_m, pair);
-  const bool is_read =
-      !std::isnan(space.views()[cell.view].space->obstacle_depth_m(cell.u, cell.v));
-  const bool is_hidden = search.best_is_hidden && (found.b_m.z() > surface_end_m || !is_read);
+  // The shadow's pixel may begin before the reading, or without one.
+  const bool is_reading =
+      space.views()[cell.view].space->obstacle_depth_m(cell.u, cell.v) == near_m;
+  const bool is_hidden = search.best_is_hidden && (found.b_m.z() > surface_end_m || !is_reading);
   pair.obstacle_is = is_hidden ? ObstacleKind::unknown : ObstacleKind::occupied;
   pair.camera = cell.view;
   pair.obstacle_pixel = {cell.u, cell.v};

@@ -101,7 +101,8 @@ void UnknownSpace::build_shadow() {
       const float reading_m = space.obstacle_depth_m(u, v);
       const DepthUnits from = space.hidden_depth(u, v);
       const float hides_m = from == kEndlessUnits ? kNoDepth : in_metres(from);
-      shadow_depth_m_(u, v) = std::isnan(reading_m) ? hides_m : reading_m;
+      // A `hole` may hide from before the reading on that is kept in its place.
+      shadow_depth_m_(u, v) = std::fmin(hides_m, reading_m);
     }
   }
   shadow_.obstacle_depth_m = shadow_depth_m_;
