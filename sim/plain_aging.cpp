@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "sim/plain_closing.hpp"
+#include "sim/plain_hiding.hpp"
 
 namespace berth::sim {
 namespace {
@@ -68,7 +69,8 @@ DepthImage held(const Holding& fine) {
 }  // namespace
 
 DepthImage plainly_aged(const Camera& camera, const DepthImage& sensor_depth_m,
-                        const DepthImage& own_m, double moved_m) {
+                        const DepthImage& own_m, const DepthImage& environment_front_m,
+                        double moved_m) {
   const int width = own_m.width(), height = own_m.height();
   const double spread_px_m = std::max(camera.fx_px, camera.fy_px) * moved_m;
   const auto counted_moved_m = static_cast<float>(plainly_counted_up(moved_m));
@@ -80,6 +82,12 @@ DepthImage plainly_aged(const Camera& camera, const DepthImage& sensor_depth_m,
     all.reach_px(u, v) = 1;
     if (!std::isnan(sensed_m) && moved_m > 0) {
       all.reach_px(u, v) += std::ceil(spread_px_m / sensed_m);
+    }
+    // Nothing comes out of a solid, and nothing is before it.
+    const double solid_m = plainly_hidden_to(environment_front_m, {u, v});
+    if (solid_m <= own_m(u, v) && sensed_m < own_m(u, v)) {
+      all.left_m(u, v) = std::max(all.left_m(u, v), static_cast<float>(solid_m));
+      all.reach_px(u, v) = 1;
     }
   });
   DepthImage out = held(all);

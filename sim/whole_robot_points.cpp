@@ -78,7 +78,7 @@ Image<double> free_depth_m(const PointView& view, const SpaceSettings& settings)
   if (view.age_s > kYoung_s) return free_m;
   const DepthImage aged_m =
       plainly_aged(view.camera, view.sensor_depth_m, own_free_depth_m(view, settings),
-                   settings.obstacle_speed_m_s * view.age_s);
+                   view.environment_front_m, settings.obstacle_speed_m_s * view.age_s);
   std::ranges::copy(aged_m.pixels(), free_m.pixels().begin());
   return free_m;
 }

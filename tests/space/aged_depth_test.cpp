@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "berth/space/camera_space.hpp"
 #include "sim/plain_aging.hpp"
 #include "sim/random.hpp"
 #include "tests/support/only_target.hpp"
@@ -24,6 +25,8 @@ struct AgedCase {
   DepthImage sensed_m;
   DepthImage own_m;
   double moved_m = 0;
+  /// Of no size where there is no environment.
+  DepthImage environment_front_m = {};
 };
 
 /// How many pixels beside it this reading holds.
@@ -60,6 +63,19 @@ AgedCase draw_case(sim::Random& random, int width, int height, double near_m, do
   return out;
 }
 
+/// A solid in some patches, before, at and behind what their pixels free.
+void draw_environment(sim::Random& random, AgedCase& out) {
+  out.environment_front_m = DepthImage(out.own_m.width(), out.own_m.height(), kNoDepth);
+  const int patch = random.whole(4, 12);
+  for (int v = 0; v < out.own_m.height(); ++v) {
+    for (int u = 0; u < out.own_m.width(); ++u) {
+      if ((u / patch + v / patch) % 3 == 0) continue;
+      const float own_m = std::isinf(out.own_m(u, v)) ? 2 : out.own_m(u, v);
+      out.environment_front_m(u, v) = static_cast<float>(own_m * random(0.8, 1.02));
+    }
+  }
+}
+
 UnitImage units_of(const DepthImage& depth_m) {
   UnitImage out(depth_m.width(), depth_m.height());
   for (std::size_t i = 0; i < out.pixels().size(); ++i) {
@@ -70,13 +86,18 @@ UnitImage units_of(const DepthImage& depth_m) {
 }
 
 void age(const AgedCase& asked, AgingWorkspace& workspace, DepthWindows& out) {
-  age_free_depth(asked.camera, units_of(asked.sensed_m), units_of(asked.own_m), asked.moved_m,
-                 workspace, out);
+  DepthCeiling solid;
+  UnitImage scratch;
+  const bool has_solid = asked.environment_front_m.width() > 0;
+  if (has_solid) build_environment_ceiling(asked.environment_front_m, scratch, solid);
+  age_free_depth(asked.camera, units_of(asked.sensed_m), units_of(asked.own_m),
+                 has_solid ? &solid.left : nullptr, asked.moved_m, workspace, out);
 }
 
 void expect_as_defined(const AgedCase& asked, AgingWorkspace& workspace) {
   const DepthImage expected_m =
-      sim::plainly_aged(asked.camera, asked.sensed_m, asked.own_m, asked.moved_m);
+      sim::plainly_aged(asked.camera, asked.sensed_m, asked.own_m, asked.environment_front_m,
+                        asked.moved_m);
   DepthWindows found;
   age(asked, workspace, found);
   ASSERT_EQ(found.width(), expected_m.width());
@@ -121,6 +142,7 @@ TEST(AgedDepth, IsThatOfTheDefinitionAtAllSizesAndReaches) {
     const double near_m = i % 4 == 0 ? 0.002 : random(0.1, 0.5);
     AgedCase asked = draw_case(random, width, height, near_m, near_m + random(0, 2));
     asked.moved_m = i % 10 == 0 ? 0 : random(0, 0.1);
+    if (i % 2 == 0) draw_environment(random, asked);
     SCOPED_TRACE("case " + std::to_string(i) + ", " + std::to_string(width) + " x " +
                  std::to_string(height));
     expect_as_defined(asked, workspace);
@@ -165,6 +187,37 @@ TEST(AgedDepth, ASurfaceRightBeforeTheCameraHoldsForTheWholeImage) {
   }
 }
 
+/// A table whose edge lies at column 32; the floor is 1 m below. What hides under it comes out at
+/// the edge, and nowhere else.
+TEST(AgedDepth, NothingComesOutOfASolidButAtItsEdge) {
+  AgingWorkspace workspace;
+  constexpr int kWidth = 64, kHeight = 48, kEdge = 32;
+  AgedCase asked{{kWidth, kHeight, 100, 100, 32, 24},
+                 DepthImage(kWidth, kHeight, 2),
+                 DepthImage(kWidth, kHeight, 1.875F),
+                 0.0625,
+                 DepthImage(kWidth, kHeight, kNoDepth)};
+  for (int v = 0; v < kHeight; ++v) {
+    for (int u = 0; u < kEdge; ++u) {
+      asked.sensed_m(u, v) = asked.environment_front_m(u, v) = 1;
+      asked.own_m(u, v) = 1.03125F;
+    }
+  }
+  expect_as_defined(asked, workspace);
+  DepthWindows found;
+  age(asked, workspace, found);
+  // ceil(100 px x 0.0625 m / 1 m), and one for the least of 3 x 3. The image's border is an edge.
+  constexpr int kReach = 7 + 1;
+  for (int v = kReach + 1; v < kHeight - kReach - 1; ++v) {
+    for (int u = kReach + 1; u < kWidth - 1; ++u) {
+      // The edge's last column, whose neighbours show no table, still holds for others.
+      const bool is_near_edge = std::abs(u - (kEdge - 1)) <= kReach;
+      const float far_m = u < kEdge ? 1 : 1.8125F;
+      EXPECT_EQ(in_metres(found(u, v)), is_near_edge ? 0.96875F : far_m) << u << " " << v;
+    }
+  }
+}
+
 TEST(AgedDepth, OnEveryInstructionSetAndWithMemoryOfAnyImageBefore) {
   on_every_target([](const char* target) {
     SCOPED_TRACE(target);
@@ -175,6 +228,7 @@ TEST(AgedDepth, OnEveryInstructionSetAndWithMemoryOfAnyImageBefore) {
       const int height = random.whole(1, 40);
       AgedCase asked = draw_case(random, width, height, random.chance(0.3) ? 0.003 : 0.2, 2);
       asked.moved_m = random(0, 0.1);
+      if (i % 2 == 0) draw_environment(random, asked);
       SCOPED_TRACE(i);
       expect_as_defined(asked, workspace);
     }

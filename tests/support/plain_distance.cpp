@@ -74,7 +74,7 @@ Image<double> plain_free_depth(const MeshWorldView& view, const SpaceSettings& s
   Image<double> free_m(view.camera.width_px, view.camera.height_px, 0);
   const DepthImage aged_m =
       sim::plainly_aged(view.camera, view.sensor_depth_m, closed_free_depth(view, settings),
-                        settings.obstacle_speed_m_s * view.age_s);
+                        view.environment_front_m, settings.obstacle_speed_m_s * view.age_s);
   std::ranges::copy(aged_m.pixels(), free_m.pixels().begin());
   return free_m;
 }

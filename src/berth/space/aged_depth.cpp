@@ -44,6 +44,18 @@ void fill_far(const RowPair& rows, DepthUnits* HWY_RESTRICT sensed, DepthUnits* 
   }
 }
 
+/// Lets what ends at a solid hold for itself alone, with the solid's front left.
+void close_solids(const DepthUnits* solid_to_end, DepthUnits moved, int width,
+                  DepthUnits* HWY_RESTRICT sensed, DepthUnits* HWY_RESTRICT own) {
+  for (int u = 0; u < width; ++u) {
+    const auto front = static_cast<DepthUnits>(kEndlessUnits - solid_to_end[u]);
+    const auto kept = static_cast<DepthUnits>(std::min(front + moved, int{kMostUnits}));
+    const bool ends = own[u] >= front && own[u] > sensed[u];
+    own[u] = ends ? std::max(own[u], kept) : own[u];
+    sensed[u] = ends ? kEndlessUnits : sensed[u];
+  }
+}
+
 /// The least of each two neighbours.
 void halve(const DepthUnits* from, int count, DepthUnits* HWY_RESTRICT out) {
   for (int i = 0; i < count; ++i) out[i] = std::min(from[2 * i], from[2 * i + 1]);
@@ -57,6 +69,7 @@ HWY_AFTER_NAMESPACE();
 namespace berth {
 
 HWY_EXPORT(fill_far);
+HWY_EXPORT(close_solids);
 HWY_EXPORT(halve);
 
 namespace {
@@ -120,11 +133,24 @@ class Aging {
 }  // namespace
 
 void age_free_depth(const Camera& camera, const UnitImage& sensor_depth, const UnitImage& own,
-                    double moved_m, AgingWorkspace& workspace, DepthWindows& out) {
+                    const DepthWindows* solid_to_end, double moved_m, AgingWorkspace& workspace,
+                    DepthWindows& out) {
   DepthWindows::Level& image = begin_depth_windows(own.width(), own.height(), out);
   if (own.pixels().empty()) return;
-  Aging(std::max(camera.fx_px, camera.fy_px) * moved_m, workspace)
-      .run(0, sensor_depth, own, units_up(moved_m), image.row(0));
+  const DepthUnits moved = units_up(moved_m);
+  Aging aging(std::max(camera.fx_px, camera.fy_px) * moved_m, workspace);
+  if (solid_to_end == nullptr) {
+    aging.run(0, sensor_depth, own, moved, image.row(0));
+    return;
+  }
+  workspace.sensor_depth = sensor_depth;
+  workspace.own = own;
+  for (int v = 0; v < own.height(); ++v) {
+    HWY_DYNAMIC_DISPATCH(close_solids)
+    (solid_to_end->levels[0].row(v), moved, own.width(), workspace.sensor_depth.row(v),
+     workspace.own.row(v));
+  }
+  aging.run(0, workspace.sensor_depth, workspace.own, moved, image.row(0));
 }
 
 }  // namespace berth

@@ -45,6 +45,9 @@ struct AgingWorkspace {
   std::vector<Part> parts;
   /// Two rows of what reaches far.
   std::array<std::vector<DepthUnits>, 2> far;
+  /// S and D1 of an image with environment in it.
+  UnitImage sensor_depth;
+  UnitImage own;
 };
 
 /// E after something may have moved by `moved_m`: each pixel has that much less left, rounded up to
@@ -58,7 +61,13 @@ struct AgingWorkspace {
 /// it, rounded up. Blocks for which that is above 25 are taken together in the same way, and so on.
 /// So it holds farther than it has to: by less than 2 blocks for a pixel alone, and by more where a
 /// block holds pixels of different reach.
+///
+/// Nothing comes out of a solid: a pixel that frees more than its reading, and that reaches the
+/// environment's front in all of 3 x 3 pixels, has at least that front left, and holds for itself
+/// alone. `solid_to_end` is kEndlessUnits less that front, 0 where one of the pixels shows no
+/// environment (DepthCeiling::left); null where there is no environment.
 void age_free_depth(const Camera& camera, const UnitImage& sensor_depth, const UnitImage& own,
-                    double moved_m, AgingWorkspace& workspace, DepthWindows& out);
+                    const DepthWindows* solid_to_end, double moved_m, AgingWorkspace& workspace,
+                    DepthWindows& out);
 
 }  // namespace berth

@@ -45,6 +45,7 @@ UnknownSpace::UnknownSpace() : slots_(kSlots), used_(kMostBlocks) {}
 void UnknownSpace::age(const PosedSpace& posed, DepthWindows& aged) {
   const CameraSpace& space = *posed.space;
   age_free_depth(space.camera, space.sensor_depth, space.own_free_depth,
+                 space.has_environment ? &space.environment_front.left : nullptr,
                  space.settings.obstacle_speed_m_s * posed.age_s, aging_, aged);
   build_depth_windows(aged);
 }
