@@ -6,7 +6,9 @@
 #include "berth/pipeline/frame_space.hpp"
 #include "berth/pipeline/mounted_camera.hpp"
 #include "berth/pipeline/observer.hpp"
+#include "berth/pipeline/query.hpp"
 #include "berth/robot/primitives.hpp"
+#include "berth/self_filter/surface_things.hpp"
 #include "berth/space/unknown_space.hpp"
 
 namespace berth {
@@ -148,6 +150,46 @@ TEST_F(UnderTheTable, SpaceIsFreeNoFartherThanBehindTheRobot) {
     if (p.z() < -0.01F) p.z() = -0.7F;
   }
   EXPECT_NEAR(freed_below_m(model), 0.3, 1e-3);
+}
+
+/// What lies on the link, or on the table below it, and is taken for that surface. The arm is
+/// between 0.5 and 0.7 m above the table.
+class AssumedThinner : public ::testing::Test {
+ protected:
+  /// Of cameras that look down from above; the first one sees the arm before the table.
+  float of_arm_m(double range_m, const std::vector<Pose>& cameras) {
+    RobotModel model = table_model(false);
+    model.links[1].joint.X_PJ = Pose(Eigen::Translation3d(0, 0, 0.6));
+    EvaluationSettings settings;
+    settings.distance.range_m = range_m;
+    const auto robot = std::make_shared<const Robot>(model, settings);
+    CameraSettings of_camera;
+    of_camera.self_filter.surface_tolerance_m = 0.012;
+    std::vector<Frame> frames(cameras.size());
+    std::vector<const Frame*> asked;
+    for (std::size_t k = 0; k < cameras.size(); ++k) {
+      const CameraMount mount{kCamera, "table", cameras[k], "camera" + std::to_string(k)};
+      Observer observer(std::make_shared<const MountedCamera>(robot, mount, of_camera));
+      const auto depth_m = static_cast<float>(cameras[k].translation().z());
+      observer.observe(DepthImage(kCamera.width_px, kCamera.height_px, depth_m), JointState{},
+                       frames[k]);
+      asked.push_back(&frames[k]);
+    }
+    return Query(robot).ask({asked}).links[0].assumed_thinner_m;
+  }
+  static double told_from_m(double z_m) { return 1.05 * 0.012 * surface_growth(z_m); }
+};
+
+TEST_F(AssumedThinner, IsThatOfTheEnvironmentWhereItIsFarther) {
+  EXPECT_NEAR(of_arm_m(1, {looking_down()}), told_from_m(1.5), 1e-5);
+  // The table is not within range.
+  EXPECT_NEAR(of_arm_m(0.3, {looking_down()}), told_from_m(0.9), 1e-5);
+}
+
+TEST_F(AssumedThinner, IsThatOfACameraThatTheRobotDoesNotStandBefore) {
+  EXPECT_NEAR(of_arm_m(1, {looking_down(), looking_down(0.6, 2)}), told_from_m(2), 1e-5);
+  // Before the arm the nearer one counts.
+  EXPECT_NEAR(of_arm_m(0.3, {looking_down(), looking_down(0.6, 2)}), told_from_m(0.9), 1e-5);
 }
 
 }  // namespace

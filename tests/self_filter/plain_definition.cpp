@@ -209,9 +209,10 @@ class PlainFilter {
     around(u, v, reach, std::max(1, reach / 6), [&](int i, int j, float model) {
       is_near |= (point(i, j, model) - point(u, v, z)).squaredNorm() < t * t;
     });
-    const float edge = std::min(robot_.depth_m(u, v) - 0.03F, z + 0.01F);
+    const float beside_m = tolerance_1m > 0.015F ? 0.02F : 0.005F;
     const int beside =
-        std::max(1, static_cast<int>(std::lround(0.02F * static_cast<float>(focal_px()) / z)));
+        std::max(1, static_cast<int>(std::lround(beside_m * static_cast<float>(focal_px()) / z)));
+    const float edge = std::min(robot_.depth_m(u, v) - 0.03F, z + 0.01F);
     bool is_beside_edge = false;
     around(u, v, beside, std::max(1, beside / 4),
            [&](int, int, float model) { is_beside_edge |= model < edge; });

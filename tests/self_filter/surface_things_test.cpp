@@ -72,9 +72,19 @@ TEST(SurfaceThings, BesideANearerPartOfTheRobotReadingsArePassedOver) {
   scene.add_link(2, {10, 10, 50, 20}, 0.9F);
   scene.see({10, 10, 50, 20}, 0.9F);
   scene.see({25, 20, 35, 22}, 0.96F);  // a depth edge that the camera smooths
-  EXPECT_EQ(filter(scene, surface_rule()).fate(30, 20), PixelFate::robot);
+  EXPECT_EQ(filter(scene, surface_rule(0.016)).fate(30, 20), PixelFate::robot);
   scene.see({25, 30, 35, 32}, 0.96F);
-  EXPECT_EQ(filter(scene, surface_rule()).fate(30, 30), PixelFate::obstacle);
+  EXPECT_EQ(filter(scene, surface_rule(0.016)).fate(30, 30), PixelFate::obstacle);
+}
+
+TEST(SurfaceThings, ACameraThatDrawsEdgesWhereTheyAreSeesThingsNearerToThem) {
+  FlatScene scene = scene_with_hand(1, 0);
+  scene.add_link(2, {10, 10, 50, 20}, 0.9F);
+  scene.see({10, 10, 50, 20}, 0.9F);
+  scene.see({25, 20, 35, 23}, 0.96F);
+  EXPECT_EQ(filter(scene, surface_rule(0.015)).fate(30, 20), PixelFate::robot);
+  EXPECT_EQ(filter(scene, surface_rule(0.015)).fate(30, 21), PixelFate::obstacle);
+  EXPECT_EQ(filter(scene, surface_rule(0.016)).fate(30, 21), PixelFate::robot);
 }
 
 float measured_m(const FlatScene& scene) {

@@ -1,6 +1,7 @@
 #include "berth/pipeline/link_searches.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "berth/pipeline/frame_space.hpp"
@@ -32,6 +33,52 @@ SpacePair in_frames(SpacePair pair, const FrameSet& frames) {
   return pair;
 }
 
+/// Whether the robot stands before this place in the image.
+bool is_behind_robot(const Frame& frame, const Eigen::Vector3d& place_C_m) {
+  constexpr double kBehind_m = 0.03;
+  const auto pixel = pixel_of(frame.mounted->camera(), place_C_m);
+  return pixel && frame.robot.depth_m(pixel->u, pixel->v) < place_C_m.z() - kBehind_m;
+}
+
+/// How thick a thing at z may be that lies on a surface and is not told, in this image.
+double untold_m(const Frame& frame, double z_m, float SurfaceTolerance::*tolerance) {
+  // A thing is found from a little more than the tolerance on, as its edges are round.
+  constexpr double kFoundFrom = 1.05;
+  const double found_m =
+      kFoundFrom * frame.obstacles.surface_tolerance.*tolerance * surface_growth(z_m);
+  const Tolerance along_ray = tolerance_of(frame.mounted->settings().self_filter);
+  // Without the rule for surfaces `found_m` is NaN.
+  return std::fmin(found_m, z_m - along_ray.least_reading_m(static_cast<float>(z_m)));
+}
+
+/// The same of the camera that looks at a link best; NaN where none does.
+double untold_on_link_m(const FrameSet& frames, const Eigen::Vector3d& middle_B_m) {
+  double least_m = std::numeric_limits<double>::quiet_NaN();
+  for (const int k : frames.used()) {
+    const Frame& frame = *frames.frames()[k];
+    const Eigen::Vector3d middle_C_m = frames.X_BC(k).inverse() * middle_B_m;
+    if (!project_into_image(frame.mounted->camera(), middle_C_m)) continue;
+    least_m = std::fmin(least_m, untold_m(frame, middle_C_m.z(), &SurfaceTolerance::links_m));
+  }
+  return least_m;
+}
+
+/// The same of a place of the environment. Where the robot hides it from all cameras, others that
+/// are near it count, and so the worst camera's.
+double untold_on_environment_m(const FrameSet& frames, const Eigen::Vector3d& place_B_m) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  double least_m = kNaN, most_m = kNaN;
+  for (const int k : frames.used()) {
+    const Frame& frame = *frames.frames()[k];
+    const Eigen::Vector3d place_C_m = frames.X_BC(k).inverse() * place_B_m;
+    if (!project_into_image(frame.mounted->camera(), place_C_m)) continue;
+    const double untold = untold_m(frame, place_C_m.z(), &SurfaceTolerance::environment_m);
+    most_m = std::fmax(most_m, untold);
+    if (!is_behind_robot(frame, place_C_m)) least_m = std::fmin(least_m, untold);
+  }
+  return std::isnan(least_m) ? most_m : least_m;
+}
+
 double us_since(LinkSearches::Clock::time_point begin) {
   return std::chrono::duration<double, std::micro>(LinkSearches::Clock::now() - begin).count();
 }
@@ -45,30 +92,28 @@ LinkSearches::LinkSearches(std::shared_ptr<const Robot> robot) : robot_(std::mov
     middles_L_m_.push_back(box_L_m.isEmpty() ? Eigen::Vector3d(Eigen::Vector3d::Zero())
                                              : box_L_m.center().cast<double>());
   }
+  for (std::size_t index = 0; index < model.links.size(); ++index) {
+    const Link& link = model.links[index];
+    if (link.role != LinkRole::environment || link.mesh_L.empty()) continue;
+    environment_.push_back(index);
+    environment_boxes_m_.push_back(link.mesh_L.bounding_box_m().cast<double>());
+  }
 }
 
 float LinkSearches::assumed_thinner_m(const FrameSet& frames, const RobotPose& pose,
                                       std::size_t i) const {
-  // A thing is found from a little more than the tolerance on, as its edges are round.
-  constexpr double kFoundFrom = 1.05;
   const Eigen::Vector3d middle_B_m =
       pose.X_BL[robot_->model().evaluated_links[i]] * middles_L_m_[i];
-  double least_m = std::numeric_limits<double>::infinity();
-  for (const int k : frames.used()) {
-    const Frame& frame = *frames.frames()[k];
-    const Eigen::Vector3d middle_C_m = frames.X_BC(k).inverse() * middle_B_m;
-    if (!project_into_image(frame.mounted->camera(), middle_C_m)) continue;
-    const SelfFilterSettings& filter = frame.mounted->settings().self_filter;
-    const Tolerance along_ray = tolerance_of(filter);
-    const double z_m = middle_C_m.z();
-    const double found_m =
-        kFoundFrom * frame.obstacles.surface_tolerance.links_m * surface_growth(z_m);
-    const double before_m = z_m - along_ray.least_reading_m(static_cast<float>(z_m));
-    // Without the rule for surfaces NaN, and the tolerance along the ray alone.
-    least_m = std::min(least_m, found_m < before_m ? found_m : before_m);
+  double most_m = untold_on_link_m(frames, middle_B_m);
+  for (std::size_t k = 0; k < environment_.size(); ++k) {
+    const Pose& X_BE = pose.X_BL[environment_[k]];
+    const Eigen::AlignedBox3d& box_m = environment_boxes_m_[k];
+    const Eigen::Vector3d middle_E_m = X_BE.inverse() * middle_B_m;
+    const Eigen::Vector3d place_E_m = middle_E_m.cwiseMax(box_m.min()).cwiseMin(box_m.max());
+    if ((place_E_m - middle_E_m).norm() > robot_->settings().distance.range_m) continue;
+    most_m = std::fmax(most_m, untold_on_environment_m(frames, X_BE * place_E_m));
   }
-  return std::isinf(least_m) ? std::numeric_limits<float>::quiet_NaN()
-                             : static_cast<float>(least_m);
+  return static_cast<float>(most_m);
 }
 
 void LinkSearches::search(const FrameSet& frames, const RobotPose& pose, const MeshRequest& request,

@@ -56,6 +56,9 @@ class LinkSearches {
   std::shared_ptr<const Robot> robot_;
   /// Of each evaluated link, the middle of the box around it in its frame L.
   std::vector<Eigen::Vector3d> middles_L_m_;
+  /// The environment's links, and the box around each in its frame.
+  std::vector<std::size_t> environment_;
+  std::vector<Eigen::AlignedBox3d> environment_boxes_m_;
   KnownWorkspace known_workspace_;
   std::vector<KnownPair> known_;
   MeshWorkspace workspace_;

@@ -38,9 +38,9 @@ struct LinkResult : SpacePair {
   /// Whether a joint moves it. The others stand where they stand, as near as they always do.
   bool is_moved = true;
   LinkStatus status = LinkStatus::stale;
-  /// What lies on the link and is thinner than this may be taken for it by every camera: an
-  /// assumption of the distances, and not told by them. Of the camera that looks at the link best;
-  /// NaN where none does.
+  /// What lies on the link, or on environment near it, and is thinner than this may be taken for
+  /// that surface by every camera: an assumption of the distances, and not told by them. Of the
+  /// camera that looks at the place best; NaN where none does.
   float assumed_thinner_m = std::numeric_limits<float>::quiet_NaN();
   /// The pair to what is occupied alone; its distance is never below that of the link.
   SpacePair occupied;
@@ -259,7 +259,8 @@ void visit_fields(const LinkResult& l, const Result& result, Visitor&& visit) {
           l.known);
   }
   visit({"assumed_thinner_m",
-         "what lies on the link and is thinner than this is taken for it: an assumption"},
+         "what lies on the link or on environment near it, and is thinner than this, is taken for "
+         "that surface: an assumption"},
         l.assumed_thinner_m);
   visit({"mean_direction_base", "the mean of the unit vectors to what is near"},
         l.mean_direction_B);

@@ -10,6 +10,9 @@ namespace {
 constexpr double kThing_m2 = 3e-4;
 constexpr float kEdgeStep_m = 0.03F;
 constexpr float kBesideEdge_m = 0.02F;
+/// A camera that reads surfaces to this tolerance draws depth edges where they are.
+constexpr float kSharp_m = 0.015F;
+constexpr float kBesideSharpEdge_m = 0.005F;
 constexpr float kBeforeEdge_m = 0.01F;
 
 /// The reading itself stands off by this share of the tolerance, as the median around it by all.
@@ -171,8 +174,8 @@ class SurfaceThings {
 
   bool is_beside_edge(Pixel p, float z_m) const {
     const float edge_m = std::min(robot_.depth_m(p.u, p.v) - kEdgeStep_m, z_m + kBeforeEdge_m);
-    const int reach_px =
-        std::max(1, static_cast<int>(std::lround(kBesideEdge_m * focal_px_ / z_m)));
+    const float beside_m = tolerance_at_1m_m(p) > kSharp_m ? kBesideEdge_m : kBesideSharpEdge_m;
+    const int reach_px = std::max(1, static_cast<int>(std::lround(beside_m * focal_px_ / z_m)));
     return any_model(p, reach_px, std::max(1, reach_px / 4),
                      [&](int, int, float model_m) { return model_m < edge_m; });
   }

@@ -41,9 +41,9 @@ inline constexpr double kMostSurfaceTolerance_m = 0.025;
 /// 3 x 3; it stands off along its ray by 0.8 of that itself) of the fate `robot` or `environment`,
 /// s is its distance to all of the model that the camera would see. It stands off where s is more
 /// than t growth(z); 3 cm^2 of them side by side (8 neighbours) are a thing.
-/// Readings within 2 cm beside a part of the model that is nearer by more than 3 cm, and not in
-/// front of that part, are passed over: depth edges between links give such patches. Adds
-/// obstacles, takes none. t is SelfFilterSettings::surface_tolerance_m; where that is not given, it
+/// Readings within 2 cm (5 mm where t is 15 mm or less) beside a part of the model that is nearer by
+/// more than 3 cm, and not in front of that part, are passed over: depth edges between links give
+/// such patches. Adds obstacles, takes none. t is SelfFilterSettings::surface_tolerance_m; where that is not given, it
 /// is measured, for links and for environment, and written to out.surface_tolerance_m.
 void find_surface_things(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,
                          const SelfFilterSettings& settings, SurfaceThingsWorkspace& workspace,
