@@ -41,7 +41,7 @@ inline constexpr float kFinestTolerance_m = 2e-5f;
 void start(const LinkPatches& patches, const Pose& X_BL, const MeshRequest& request,
            LinkSearch& search);
 
-/// A front becomes finer and never coarser: from so many items on it begins anew.
+/// A front becomes finer and never coarser: from this number of items on it begins anew.
 inline constexpr std::size_t kMostItems = std::size_t{1} << 14;
 
 /// The pair of the request before is a pair of this one, too. Else there is none.

@@ -226,7 +226,7 @@ HWY_INLINE Eigen::Vector3f nearest_of_leaf(const LinkPatches& link, const Motion
   return nearest.point_m;
 }
 
-/// The direction between two leaves' nearest points, by going to and fro between them.
+/// The direction between two leaves' nearest points, by going from one to the other and back.
 HWY_INLINE Heading find_heading(const PairSearch& search, int own, int other) {
   const PatchLevel& level = search.other.levels[0];
   const auto at = static_cast<std::size_t>(other);

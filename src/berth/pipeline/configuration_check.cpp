@@ -154,7 +154,7 @@ struct ConfigurationCheck::State {
   /// Of each of the balls' links; null unless one joint turns it.
   std::vector<std::unique_ptr<TurnedLink>> turned;
   mesh::TurnedClearance turned_clearance_m;
-  /// Made by who asks about them first.
+  /// Made by the first request that needs them.
   std::once_flag pairs_made;
   mesh::BallPairs pairs;
 };

@@ -57,8 +57,7 @@ class Robot {
   const std::shared_ptr<const RobotPatches>& patches() const { return patches_; }
   /// Where it is looked for what the cameras see of the robot.
   const SamplePoints& sample_points() const { return *sample_points_; }
-  /// Which links are looked at for each other. Found by the first call, which takes milliseconds,
-  /// or a second where links of the robot always touch.
+  /// Which links are looked at for each other. Found by the first call, which takes milliseconds.
   const KnownModel& known() const;
 
  private:

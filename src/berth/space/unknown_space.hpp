@@ -86,7 +86,7 @@ class UnknownSpace {
   /// one bit each.
   std::uint64_t block(const mesh::Cube& cube) const;
 
-  /// The same, not kept: for who asks for more of them than are kept.
+  /// The same, not kept: for a caller that asks for more of them than are kept.
   std::uint64_t find_block(const mesh::Cube& cube) const;
 
   /// How many of them are kept.
