@@ -11,6 +11,7 @@
 #include "berth/record/monitor_loop.hpp"
 #include "berth/results/result_text.hpp"
 #include "black_box.hpp"
+#include "configuration_answers.hpp"
 #include "exposure_answers.hpp"
 #include "live_node.hpp"
 #include "markers.hpp"
@@ -90,6 +91,7 @@ class DistanceNode : public LiveNode {
                    status.summary(DiagnosticStatus::ERROR, "the map before is kept: " + lost);
                  });
     }
+    offer_configurations();
     begin();
   }
   /// Cameras' threads and callbacks use what is below.
@@ -98,6 +100,7 @@ class DistanceNode : public LiveNode {
  private:
   using LinkDistances = berth_msgs::msg::LinkDistances;
   using Trigger = std_srvs::srv::Trigger;
+  using CheckConfigurations = berth_msgs::srv::CheckConfigurations;
 
   void declare_recording() {
     berth::RecorderSettings settings;
@@ -120,6 +123,19 @@ class DistanceNode : public LiveNode {
           response->message = response->success ? "the log tells the file once it is written"
                                                 : "no image was recorded yet";
         });
+  }
+
+  /// In a group of its own: a request may take seconds, and nobody waits for it.
+  void offer_configurations() {
+    check_group_ = create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive);
+    // By this function, since Humble's node takes another QoS than Jazzy's.
+    check_configurations_ = rclcpp::create_service<CheckConfigurations>(
+        get_node_base_interface(), get_node_services_interface(), "~/check_configurations",
+        [this, life = life()](const CheckConfigurations::Request::SharedPtr& request,
+                              const CheckConfigurations::Response::SharedPtr& response) {
+          life->run([&] { configurations_.answer(*request, *response); });
+        },
+        rmw_qos_profile_services_default, check_group_);
   }
 
   void configure_outputs() override {
@@ -305,6 +321,23 @@ class DistanceNode : public LiveNode {
     return SpaceNow{now.robot, frames(*now.robot), clock_.seconds(this->now())};
   }
 
+  /// Throws std::runtime_error where nothing can be said.
+  RobotNow robot_now() {
+    const std::shared_ptr<CallbackGate> gate = this->gate();
+    const auto pass = gate->enter();
+    if (!pass) throw std::runtime_error("the node is not configured");
+    const LiveRobot robot = live();
+    const std::string why = why_silent(robot);
+    if (!why.empty()) throw std::runtime_error(why);
+    RobotNow now{.robot = robot.robot, .frames = frames(*robot.robot)};
+    const berth::JointBuffer& joints = robot.joints->buffer();
+    now.joints_status = joints.newest(now.joints);
+    now.X_WB = root_at(*robot.robot, joints.newest_stamp_s());
+    // Later than any image and any joint state.
+    now.now_s = clock_.seconds(this->now());
+    return now;
+  }
+
   void on_plan(const sensor_msgs::msg::JointState& message) {
     const std::lock_guard lock(query_mutex_);
     if (!robot_.robot) return;
@@ -378,6 +411,9 @@ class DistanceNode : public LiveNode {
   std::optional<PlannerTopics> planners_;
   PlannedVelocity planned_;
   QuestionTimes times_;
+  ConfigurationAnswers configurations_{camera_names(), clock_, [this] { return robot_now(); }};
+  rclcpp::CallbackGroup::SharedPtr check_group_;
+  rclcpp::Service<CheckConfigurations>::SharedPtr check_configurations_;
   rclcpp::CallbackGroup::SharedPtr group_;
   /// Not to wait for a question.
   rclcpp::CallbackGroup::SharedPtr watchdog_group_;
