@@ -51,30 +51,20 @@ double untold_m(const Frame& frame, double z_m, float SurfaceTolerance::*toleran
   return std::fmin(found_m, z_m - along_ray.least_reading_m(static_cast<float>(z_m)));
 }
 
-/// The same of the camera that looks at a link best; NaN where none does.
-double untold_on_link_m(const FrameSet& frames, const Eigen::Vector3d& middle_B_m) {
-  double least_m = std::numeric_limits<double>::quiet_NaN();
-  for (const int k : frames.used()) {
-    const Frame& frame = *frames.frames()[k];
-    const Eigen::Vector3d middle_C_m = frames.X_BC(k).inverse() * middle_B_m;
-    if (!project_into_image(frame.mounted->camera(), middle_C_m)) continue;
-    least_m = std::fmin(least_m, untold_m(frame, middle_C_m.z(), &SurfaceTolerance::links_m));
-  }
-  return least_m;
-}
-
-/// The same of a place of the environment. Where the robot hides it from all cameras, others that
-/// are near it count, and so the worst camera's.
-double untold_on_environment_m(const FrameSet& frames, const Eigen::Vector3d& place_B_m) {
+/// The same of the camera that looks at the place best; NaN where none does. What the robot hides of
+/// a surface from all cameras stands beside what some see, and so the worst camera counts.
+double untold_m(const FrameSet& frames, const Eigen::Vector3d& place_B_m,
+                float SurfaceTolerance::*tolerance, bool may_be_hidden) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   double least_m = kNaN, most_m = kNaN;
   for (const int k : frames.used()) {
     const Frame& frame = *frames.frames()[k];
     const Eigen::Vector3d place_C_m = frames.X_BC(k).inverse() * place_B_m;
     if (!project_into_image(frame.mounted->camera(), place_C_m)) continue;
-    const double untold = untold_m(frame, place_C_m.z(), &SurfaceTolerance::environment_m);
-    most_m = std::fmax(most_m, untold);
-    if (!is_behind_robot(frame, place_C_m)) least_m = std::fmin(least_m, untold);
+    const double in_image_m = untold_m(frame, place_C_m.z(), tolerance);
+    most_m = std::fmax(most_m, in_image_m);
+    const bool is_hidden = may_be_hidden && is_behind_robot(frame, place_C_m);
+    if (!is_hidden) least_m = std::fmin(least_m, in_image_m);
   }
   return std::isnan(least_m) ? most_m : least_m;
 }
@@ -104,14 +94,16 @@ float LinkSearches::assumed_thinner_m(const FrameSet& frames, const RobotPose& p
                                       std::size_t i) const {
   const Eigen::Vector3d middle_B_m =
       pose.X_BL[robot_->model().evaluated_links[i]] * middles_L_m_[i];
-  double most_m = untold_on_link_m(frames, middle_B_m);
+  // Its middle lies behind its own surface.
+  double most_m = untold_m(frames, middle_B_m, &SurfaceTolerance::links_m, false);
   for (std::size_t k = 0; k < environment_.size(); ++k) {
     const Pose& X_BE = pose.X_BL[environment_[k]];
     const Eigen::AlignedBox3d& box_m = environment_boxes_m_[k];
     const Eigen::Vector3d middle_E_m = X_BE.inverse() * middle_B_m;
     const Eigen::Vector3d place_E_m = middle_E_m.cwiseMax(box_m.min()).cwiseMin(box_m.max());
     if ((place_E_m - middle_E_m).norm() > robot_->settings().distance.range_m) continue;
-    most_m = std::fmax(most_m, untold_on_environment_m(frames, X_BE * place_E_m));
+    most_m = std::fmax(most_m, untold_m(frames, X_BE * place_E_m,
+                                        &SurfaceTolerance::environment_m, true));
   }
   return static_cast<float>(most_m);
 }
