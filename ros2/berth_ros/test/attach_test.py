@@ -2,20 +2,17 @@
 import os
 import sys
 
-import launch_testing.actions
 import numpy as np
 import pytest
 from berth_msgs.msg import LinkDistances
 from berth_msgs.srv import Attach, Detach
 from geometry_msgs.msg import Point
-from launch import LaunchDescription
-from launch_ros.actions import Node
 from shape_msgs.msg import Mesh, MeshTriangle, SolidPrimitive
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from living_robot import FRAME, URDF, LivingRobot, depth_m, transform  # noqa: E402
+from living_robot import FRAME, URDF, LivingRobot, depth_m, launched_node, transform  # noqa: E402
 
 POST_M = (0.04, 0.4, 0.2)
 IN_ARM_M = 0.3  # from the arm's frame to the post
@@ -24,11 +21,7 @@ TO_POST_M = 0.18
 
 @pytest.mark.launch_test
 def generate_test_description():
-    return LaunchDescription([
-        Node(package="berth_ros", executable="distance_node", output="screen", parameters=[{
-            "use_sim_time": True, "cameras": ["front"], "question_rate_hz": 50.0}]),
-        launch_testing.actions.ReadyToTest(),
-    ])
+    return launched_node()
 
 
 def post(name="part", link="arm", **changes):

@@ -2,18 +2,15 @@
 import os
 import sys
 
-import launch_testing.actions
 import numpy as np
 import pytest
 from berth_msgs.srv import CheckConfigurations
-from launch import LaunchDescription
-from launch_ros.actions import Node
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from living_robot import FOCAL, FRAME, HEIGHT, URDF, WIDTH, LivingRobot, transform  # noqa: E402
+from living_robot import FOCAL, FRAME, HEIGHT, URDF, WIDTH, LivingRobot, launched_node, transform  # noqa: E402
 
 # The arm is a box of 0.1 m that slides along y.
 SLIDING = (URDF.replace('type="revolute"', 'type="prismatic"').replace('xyz="0 0 1"', 'xyz="0 1 0"').replace('"-3" upper="3"', '"-0.4" upper="0.4"')
@@ -34,11 +31,7 @@ def sliding_depth_m(arm_y=0.0):
 
 @pytest.mark.launch_test
 def generate_test_description():
-    return LaunchDescription([
-        Node(package="berth_ros", executable="distance_node", output="screen", parameters=[{
-            "use_sim_time": True, "cameras": ["front"], "question_rate_hz": 50.0}]),
-        launch_testing.actions.ReadyToTest(),
-    ])
+    return launched_node()
 
 
 class Configurations(LivingRobot):

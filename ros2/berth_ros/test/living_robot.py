@@ -3,11 +3,14 @@ import threading
 import time
 import unittest
 
+import launch_testing.actions
 import numpy as np
 import rclpy
 from berth_msgs.msg import LinkDistances, Separation
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import TransformStamped
+from launch import LaunchDescription
+from launch_ros.actions import Node
 from rcl_interfaces.msg import Log
 from rcl_interfaces.srv import SetParameters
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
@@ -28,6 +31,15 @@ URDF = f"""<robot name="two_boxes">
 </robot>"""
 FRAME = "front_optical_frame"
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+def launched_node(**parameters):
+    """distance_node alone, with the camera and the clock of this robot."""
+    return LaunchDescription([
+        Node(package="berth_ros", executable="distance_node", output="screen", parameters=[{
+            "use_sim_time": True, "cameras": ["front"], "question_rate_hz": 50.0, **parameters}]),
+        launch_testing.actions.ReadyToTest(),
+    ])
 
 
 def depth_m(camera_x=0.0, obstacle=False):

@@ -2,28 +2,21 @@
 import os
 import sys
 
-import launch_testing.actions
 import pytest
 from berth_msgs.msg import LinkDistances
 from geometry_msgs.msg import Pose
-from launch import LaunchDescription
-from launch_ros.actions import Node
 from moveit_msgs.msg import AttachedCollisionObject, PlanningScene
 from shape_msgs.msg import Plane, SolidPrimitive
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from living_robot import FRAME, URDF, LivingRobot, depth_m, transform  # noqa: E402
+from living_robot import FRAME, URDF, LivingRobot, depth_m, launched_node, transform  # noqa: E402
 
 
 @pytest.mark.launch_test
 def generate_test_description():
-    return LaunchDescription([
-        Node(package="berth_ros", executable="distance_node", output="screen", parameters=[{
-            "use_sim_time": True, "cameras": ["front"], "question_rate_hz": 50.0, "follow_moveit": True}]),
-        launch_testing.actions.ReadyToTest(),
-    ])
+    return launched_node(follow_moveit=True)
 
 
 def at(x=0.0):
