@@ -3,11 +3,10 @@
 set(BERTH_PUBLIC_HEADERS
   berth/berth.hpp
   berth/types/camera.hpp
-  berth/types/camera_status.hpp
+  berth/types/status.hpp
   berth/types/image.hpp
   berth/types/joint_state.hpp
   berth/types/setting.hpp
-  berth/types/setting_ref.hpp
   berth/files/camera_info.hpp
   berth/files/edit_distance.hpp
   berth/files/joints_csv.hpp

@@ -6,10 +6,10 @@
 #include <limits>
 #include <vector>
 
+#include "berth/types/closest_pair.hpp"
 #include "berth/types/image.hpp"
-#include "berth/types/result_status.hpp"
 #include "berth/types/robot_image.hpp"
-#include "berth/types/space_pair.hpp"
+#include "berth/types/status.hpp"
 
 namespace berth {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "berth/files/number.hpp"
-#include "berth/types/setting_ref.hpp"
+#include "berth/types/setting.hpp"
 
 namespace berth::app {
 namespace {

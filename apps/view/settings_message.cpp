@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "berth/files/setting_json.hpp"
-#include "berth/types/rpy.hpp"
-#include "berth/types/setting_ref.hpp"
+#include "berth/types/pose.hpp"
+#include "berth/types/setting.hpp"
 
 namespace berth::app {
 namespace {

@@ -14,7 +14,7 @@
 #include "berth/pipeline/frame_set.hpp"
 #include "berth/scene/former_settings.hpp"
 #include "berth/scene/settings_text.hpp"
-#include "berth/types/rpy.hpp"
+#include "berth/types/pose.hpp"
 
 namespace berth::app {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "berth/types/setting_ref.hpp"
+#include "berth/types/setting.hpp"
 
 namespace berth::python {
 

@@ -1,12 +1,10 @@
 #include <string>
 
 #include "berth/control/velocity_filter.hpp"
-#include "berth/types/camera_status.hpp"
+#include "berth/types/closest_pair.hpp"
 #include "berth/types/obstacle_image.hpp"
-#include "berth/types/result_status.hpp"
 #include "berth/types/separation.hpp"
-#include "berth/types/space_pair.hpp"
-#include "berth/types/time_status.hpp"
+#include "berth/types/status.hpp"
 #include "berth/types/verdict.hpp"
 #include "bindings.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "berth/types/space_pair.hpp"
+#include "berth/types/closest_pair.hpp"
 
 namespace berth::testing {
 

@@ -4,7 +4,7 @@
 
 #include "berth/files/file_bytes.hpp"
 #include "berth/robot/primitives.hpp"
-#include "berth/types/rpy.hpp"
+#include "berth/types/pose.hpp"
 #include "tests/support/error_message.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "berth/types/setting_ref.hpp"
+#include "berth/types/setting.hpp"
 
 namespace berth_ros {
 

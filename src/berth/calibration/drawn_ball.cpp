@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "berth/types/grown_rect.hpp"
+#include "berth/types/image.hpp"
 
 namespace berth {
 namespace {

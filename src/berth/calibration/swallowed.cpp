@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "berth/types/grown_rect.hpp"
+#include "berth/types/image.hpp"
 
 namespace berth {
 namespace {

@@ -6,7 +6,7 @@
 #include "berth/distance/known_model.hpp"
 #include "berth/distance/settings.hpp"
 #include "berth/robot/kinematics.hpp"
-#include "berth/types/known_pair.hpp"
+#include "berth/types/closest_pair.hpp"
 
 namespace berth {
 

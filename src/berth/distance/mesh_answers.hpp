@@ -2,7 +2,7 @@
 #pragma once
 
 #include "berth/distance/link_search.hpp"
-#include "berth/types/space_pair.hpp"
+#include "berth/types/closest_pair.hpp"
 
 namespace berth::mesh {
 

@@ -7,7 +7,7 @@
 #include "berth/distance/settings.hpp"
 #include "berth/robot/kinematics.hpp"
 #include "berth/space/unknown_space.hpp"
-#include "berth/types/space_pair.hpp"
+#include "berth/types/closest_pair.hpp"
 
 namespace berth {
 

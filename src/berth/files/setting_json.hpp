@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
-#include "berth/types/setting_ref.hpp"
+#include "berth/types/setting.hpp"
 
 namespace berth {
 

@@ -2,7 +2,7 @@
 
 #include "berth/pipeline/frame.hpp"
 #include "berth/pipeline/timeliness.hpp"
-#include "berth/types/camera_status.hpp"
+#include "berth/types/status.hpp"
 
 namespace berth {
 

@@ -9,8 +9,8 @@
 
 #include "berth/pipeline/request.hpp"
 #include "berth/pipeline/robot.hpp"
-#include "berth/types/known_pair.hpp"
-#include "berth/types/result_status.hpp"
+#include "berth/types/closest_pair.hpp"
+#include "berth/types/status.hpp"
 #include "berth/types/verdict.hpp"
 
 namespace berth {

@@ -6,10 +6,9 @@
 
 #include "berth/robot/kinematics.hpp"
 #include "berth/types/camera.hpp"
-#include "berth/types/camera_status.hpp"
 #include "berth/types/image.hpp"
 #include "berth/types/joint_state.hpp"
-#include "berth/types/time_status.hpp"
+#include "berth/types/status.hpp"
 
 namespace berth {
 

@@ -8,7 +8,7 @@
 #include "berth/pipeline/frame.hpp"
 #include "berth/pipeline/timeliness.hpp"
 #include "berth/space/unknown_space.hpp"
-#include "berth/types/camera_status.hpp"
+#include "berth/types/status.hpp"
 
 namespace berth {
 

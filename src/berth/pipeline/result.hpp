@@ -14,15 +14,12 @@
 
 #include "berth/robot/kinematics.hpp"
 #include "berth/types/camera.hpp"
-#include "berth/types/camera_status.hpp"
-#include "berth/types/known_pair.hpp"
+#include "berth/types/closest_pair.hpp"
 #include "berth/types/link_visibility.hpp"
 #include "berth/types/obstacle_image.hpp"
-#include "berth/types/result_status.hpp"
 #include "berth/types/separation.hpp"
 #include "berth/types/setting.hpp"
-#include "berth/types/space_pair.hpp"
-#include "berth/types/time_status.hpp"
+#include "berth/types/status.hpp"
 
 namespace berth {
 

@@ -10,7 +10,7 @@
 #include "berth/files/setting_json.hpp"
 #include "berth/record/exact_json.hpp"
 #include "berth/record/recorded_robot.hpp"
-#include "berth/types/setting_ref.hpp"
+#include "berth/types/setting.hpp"
 
 namespace berth {
 namespace {

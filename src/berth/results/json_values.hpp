@@ -7,9 +7,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "berth/types/camera_status.hpp"
 #include "berth/types/image.hpp"
 #include "berth/types/obstacle_image.hpp"
+#include "berth/types/status.hpp"
 
 namespace berth {
 

@@ -6,7 +6,7 @@
 
 #include "berth/types/joint_state.hpp"
 #include "berth/types/setting.hpp"
-#include "berth/types/time_status.hpp"
+#include "berth/types/status.hpp"
 
 namespace berth {
 

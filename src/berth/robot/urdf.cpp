@@ -7,7 +7,7 @@
 
 #include "berth/files/number.hpp"
 #include "berth/files/xml.hpp"
-#include "berth/types/rpy.hpp"
+#include "berth/types/pose.hpp"
 
 namespace berth {
 

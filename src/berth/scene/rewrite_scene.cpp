@@ -13,7 +13,7 @@
 #include "berth/files/glob.hpp"
 #include "berth/files/number.hpp"
 #include "berth/scene/scene_file.hpp"
-#include "berth/types/rpy.hpp"
+#include "berth/types/pose.hpp"
 
 namespace berth {
 namespace {

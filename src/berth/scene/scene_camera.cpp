@@ -8,7 +8,7 @@
 #include "berth/files/glob.hpp"
 #include "berth/files/joints_csv.hpp"
 #include "berth/files/png.hpp"
-#include "berth/types/rpy.hpp"
+#include "berth/types/pose.hpp"
 
 namespace berth {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "berth/files/json_schema.hpp"
-#include "berth/types/setting_ref.hpp"
+#include "berth/types/setting.hpp"
 
 namespace berth {
 

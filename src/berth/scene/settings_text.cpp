@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "berth/types/setting_ref.hpp"
+#include "berth/types/setting.hpp"
 
 namespace berth {
 namespace {

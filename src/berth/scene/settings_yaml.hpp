@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "berth/files/yaml_value.hpp"
-#include "berth/types/setting_ref.hpp"
+#include "berth/types/setting.hpp"
 
 namespace berth {
 

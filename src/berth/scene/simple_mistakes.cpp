@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "berth/robot/kinematics.hpp"
-#include "berth/types/rpy.hpp"
+#include "berth/types/pose.hpp"
 
 namespace berth {
 namespace {

@@ -1,12 +1,12 @@
 // The pinhole camera. This file is the one place that states the pixel convention.
 #pragma once
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <array>
-#include <limits>
 #include <optional>
 
 #include "berth/types/image.hpp"
+#include "berth/types/pose.hpp"
 
 namespace berth {
 
@@ -75,11 +75,5 @@ inline std::optional<Pixel> pixel_of(const Camera& camera, const Eigen::Vector3d
   const std::optional<ImagePoint> at = project_into_image(camera, p_C_m);
   return at ? std::optional(pixel_of(*at)) : std::nullopt;
 }
-
-/// X_BC: the pose of frame C in frame B.
-using Pose = Eigen::Isometry3d;
-
-/// A pose that nobody has set: NaN, so that it cannot pass for one.
-Pose unset_pose();
 
 }  // namespace berth

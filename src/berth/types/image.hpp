@@ -106,4 +106,10 @@ inline PixelRect united(const PixelRect& a, const PixelRect& b) {
           std::max(a.u_end, b.u_end), std::max(a.v_end, b.v_end)};
 }
 
+/// With this number of pixels more on each side; may reach beyond the image.
+inline PixelRect grown_by(const PixelRect& rect, int reach_px) {
+  return {rect.u_begin - reach_px, rect.v_begin - reach_px, rect.u_end + reach_px,
+          rect.v_end + reach_px};
+}
+
 }  // namespace berth

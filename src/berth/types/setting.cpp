@@ -1,6 +1,7 @@
 #include "berth/types/setting.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <stdexcept>
@@ -24,6 +25,18 @@ std::string Domain::text(bool is_whole) const {
 void throw_bad_setting(std::string_view group, std::string_view name, double value,
                        std::string_view expected) {
   throw std::invalid_argument(fmt::format("{}.{}: {}; expected {}", group, name, value, expected));
+}
+
+std::string SettingRef::expected() const {
+  if (kind == SettingKind::flag) return "true or false";
+  if (kind == SettingKind::choice) return fmt::format("one of {}", fmt::join(choices, ", "));
+  return domain.text(kind == SettingKind::whole);
+}
+
+SettingValue SettingRef::choice(std::string_view text) const {
+  const auto found = std::ranges::find(choices, text);
+  if (found != choices.end()) return *found;
+  throw std::invalid_argument(fmt::format("\"{}\"; expected {}", text, expected()));
 }
 
 }  // namespace berth

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "berth/robot/kinematics.hpp"
+#include "berth/types/closest_pair.hpp"
 #include "berth/types/link_visibility.hpp"
-#include "berth/types/space_pair.hpp"
 #include "berth/visibility/line_of_sight.hpp"
 #include "berth/visibility/sample_points.hpp"
 

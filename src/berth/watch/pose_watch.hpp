@@ -7,10 +7,10 @@
 #include <thread>
 #include <vector>
 
-#include "berth/types/camera_status.hpp"
 #include "berth/types/image.hpp"
 #include "berth/types/joint_state.hpp"
 #include "berth/types/robot_image.hpp"
+#include "berth/types/status.hpp"
 #include "berth/watch/measure_displacement.hpp"
 #include "berth/watch/seen_through.hpp"
 #include "berth/watch/watch_settings.hpp"

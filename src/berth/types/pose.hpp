@@ -1,9 +1,15 @@
-// Rotations as scene files and URDFs write them.
+// Where a frame stands in another one, and rotations as scene files and URDFs write them.
 #pragma once
 
 #include <Eigen/Geometry>
 
 namespace berth {
+
+/// X_BC: the pose of frame C in frame B.
+using Pose = Eigen::Isometry3d;
+
+/// A pose that nobody has set: NaN, so that it cannot pass for one.
+Pose unset_pose();
 
 /// About the fixed axes x, then y, then z.
 Eigen::Quaterniond rotation_of_rpy(const Eigen::Vector3d& rpy_rad);

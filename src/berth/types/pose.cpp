@@ -1,8 +1,15 @@
-#include "berth/types/rpy.hpp"
+#include "berth/types/pose.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace berth {
+
+Pose unset_pose() {
+  Pose X = Pose::Identity();
+  X.matrix().topRows<3>().setConstant(std::numeric_limits<double>::quiet_NaN());
+  return X;
+}
 
 Eigen::Quaterniond rotation_of_rpy(const Eigen::Vector3d& rpy_rad) {
   return Eigen::AngleAxisd(rpy_rad.z(), Eigen::Vector3d::UnitZ()) *
