@@ -6,7 +6,7 @@
 #include "apps/berth/commands.hpp"
 #include "apps/berth/run_frames.hpp"
 #include "apps/berth/speed_changes.hpp"
-#include "berth/files/read_file.hpp"
+#include "berth/files/file_bytes.hpp"
 #include "berth/record/recorder.hpp"
 
 namespace berth::app {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "berth/files/read_file.hpp"
+#include "berth/files/file_bytes.hpp"
 #include "berth/separation/protective_distance.hpp"
 #include "sim/bundled_camera.hpp"
 #include "sim/room.hpp"

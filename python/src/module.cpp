@@ -2,7 +2,7 @@
 // their names.
 #include <stdexcept>
 
-#include "berth/files/read_file.hpp"
+#include "berth/files/file_bytes.hpp"
 #include "bindings.hpp"
 
 namespace {

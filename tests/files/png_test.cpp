@@ -10,7 +10,6 @@
 
 #include "berth/files/depth_units.hpp"
 #include "berth/files/file_bytes.hpp"
-#include "berth/files/png_codec.hpp"
 #include "tests/support/error_message.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -3,7 +3,7 @@
 #include <limits>
 #include <numbers>
 
-#include "berth/files/read_file.hpp"
+#include "berth/files/file_bytes.hpp"
 #include "sim/random.hpp"
 #include "tests/scene/rewritten_cell.hpp"
 

@@ -7,7 +7,7 @@
 #include <cctype>
 #include <cmath>
 
-#include "berth/files/read_file.hpp"
+#include "berth/files/file_bytes.hpp"
 #include "berth/files/yaml_value.hpp"
 
 namespace berth {

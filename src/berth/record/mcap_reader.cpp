@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "berth/files/error.hpp"
-#include "berth/files/read_file.hpp"
+#include "berth/files/file_bytes.hpp"
 #include "berth/record/mcap_bytes.hpp"
 
 namespace berth::mcap {

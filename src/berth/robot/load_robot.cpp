@@ -5,7 +5,7 @@
 #include <array>
 #include <stdexcept>
 
-#include "berth/files/read_file.hpp"
+#include "berth/files/file_bytes.hpp"
 #include "berth/robot/link_bodies.hpp"
 #include "berth/robot/other_robots.hpp"
 #include "berth/robot/plausible_size.hpp"

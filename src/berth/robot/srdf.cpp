@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "berth/files/read_file.hpp"
+#include "berth/files/file_bytes.hpp"
 #include "berth/files/xml.hpp"
 
 namespace berth {

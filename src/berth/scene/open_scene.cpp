@@ -9,9 +9,9 @@
 
 #include "berth/files/camera_info.hpp"
 #include "berth/files/edit_distance.hpp"
+#include "berth/files/file_bytes.hpp"
 #include "berth/files/joints_csv.hpp"
 #include "berth/files/png.hpp"
-#include "berth/files/read_file.hpp"
 #include "berth/robot/joint_trajectory.hpp"
 #include "berth/robot/mesh_file/mesh_file.hpp"
 #include "berth/robot/primitives.hpp"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "berth/files/read_file.hpp"
+#include "berth/files/file_bytes.hpp"
 #include "berth/files/yaml_value.hpp"
 #include "berth/pipeline/request.hpp"
 #include "berth/scene/former_settings.hpp"

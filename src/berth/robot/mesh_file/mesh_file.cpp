@@ -17,7 +17,7 @@
 #include <string>
 #include <utility>
 
-#include "berth/files/read_file.hpp"
+#include "berth/files/file_bytes.hpp"
 #include "berth/robot/mesh_file/collada_guard.hpp"
 #include "berth/robot/mesh_file/obj_polygons.hpp"
 #include "berth/robot/mesh_file/stl_polygons.hpp"
