@@ -7,7 +7,7 @@
 
 #include "apps/support/interrupt.hpp"
 #include "apps/support/progress_bar.hpp"
-#include "berth/robot/robot_region.hpp"
+#include "berth/robot/surface.hpp"
 #include "lab/bench/coarse_robot.hpp"
 #include "lab/bench/stage.hpp"
 #include "lab/bench/triangle_count.hpp"

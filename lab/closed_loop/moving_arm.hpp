@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "berth/robot/kinematics.hpp"
-#include "berth/robot/link_twists.hpp"
 #include "berth/separation/link_speed.hpp"
 #include "lab/closed_loop/path.hpp"
 

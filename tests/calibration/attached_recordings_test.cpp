@@ -6,7 +6,7 @@
 
 #include "berth/calibration/attached_parts.hpp"
 #include "berth/files/file_bytes.hpp"
-#include "berth/robot/mesh_file/stl_bytes.hpp"
+#include "berth/robot/mesh_file/mesh_file.hpp"
 #include "berth/scene/scene_calibration.hpp"
 #include "berth/scene/scene_run.hpp"
 #include "tests/support/data_folder.hpp"

@@ -1,5 +1,5 @@
 // The silhouette of the enlarged robot: what the robot-shaped region of surveillance holds.
-#include "berth/robot/robot_region.hpp"
+#include "berth/robot/surface.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,6 @@
 #include <numbers>
 #include <random>
 
-#include "berth/robot/link_twists.hpp"
 #include "tests/robot/error_text.hpp"
 #include "tests/robot/robot_text.hpp"
 

@@ -10,7 +10,6 @@
 #include <cctype>
 #include <limits>
 
-#include "berth/robot/mesh_file/stl_bytes.hpp"
 #include "tests/robot/error_text.hpp"
 #include "tests/robot/mesh_writing.hpp"
 #include "tests/support/temporary_folder.hpp"

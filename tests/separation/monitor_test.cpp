@@ -9,7 +9,7 @@
 
 #include "berth/pipeline/observer.hpp"
 #include "berth/pipeline/query.hpp"
-#include "berth/robot/link_twists.hpp"
+#include "berth/robot/kinematics.hpp"
 #include "berth/scene/open_scene.hpp"
 #include "berth/separation/link_speed.hpp"
 #include "berth/separation/near_link.hpp"

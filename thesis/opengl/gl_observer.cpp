@@ -5,7 +5,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "berth/robot/robot_region.hpp"
+#include "berth/robot/surface.hpp"
 #include "thesis/opengl/gl_frame_images.hpp"
 #include "thesis/opengl/gl_robot_renderer.hpp"
 #include "thesis/opengl/gl_self_filter.hpp"

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "berth/distance/known_model.hpp"
-#include "berth/robot/link_reach.hpp"
+#include "berth/robot/kinematics.hpp"
 #include "berth/robot/plausible_size.hpp"
 
 namespace berth {

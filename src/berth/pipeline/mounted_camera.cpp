@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "berth/render/robot_renderer.hpp"
-#include "berth/robot/robot_region.hpp"
+#include "berth/robot/surface.hpp"
 
 namespace berth {
 namespace {

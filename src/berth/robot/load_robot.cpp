@@ -4,14 +4,15 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <string_view>
+#include <utility>
 
 #include "berth/files/file_bytes.hpp"
+#include "berth/files/xml.hpp"
 #include "berth/robot/link_bodies.hpp"
-#include "berth/robot/other_robots.hpp"
 #include "berth/robot/plausible_size.hpp"
 #include "berth/robot/robot_model.hpp"
-#include "berth/robot/srdf.hpp"
-#include "berth/robot/urdf_tree.hpp"
+#include "berth/robot/urdf.hpp"
 
 namespace berth {
 namespace {
@@ -54,6 +55,81 @@ void require_no_free_part(const Urdf& urdf, RobotModel& model) {
     model.warnings.push_back(
         fmt::format("{}: joint \"{}\" is {}: taken as fixed where its origin is",
                     urdf.path.string(), name, type));
+  }
+}
+
+/// Tree and shapes of the robot that the settings name, without others and roles.
+RobotModel load_one_robot(const RobotSettings& settings) {
+  const Urdf urdf(settings.urdf,
+                  settings.urdf_text ? *settings.urdf_text : read_file_bytes(settings.urdf));
+  RobotModel model = read_tree(urdf);
+  load_bodies(settings, urdf, model);
+  require_no_free_part(urdf, model);
+  return model;
+}
+
+/// The names that begin with the prefix, without it.
+std::vector<std::string> without_prefix(const std::vector<std::string>& names,
+                                        const std::string& prefix) {
+  std::vector<std::string> own;
+  for (const std::string& name : names) {
+    if (name.starts_with(prefix)) own.push_back(name.substr(prefix.size()));
+  }
+  return own;
+}
+
+RobotSettings settings_of(const OtherRobot& other, const RobotSettings& settings) {
+  RobotSettings own;
+  own.urdf = other.urdf;
+  own.package_paths = other.package_paths;
+  own.geometry = settings.geometry;
+  own.environment_links = without_prefix(settings.environment_links, other.prefix);
+  own.ignore_links = without_prefix(settings.ignore_links, other.prefix);
+  own.guarded_links = without_prefix(settings.guarded_links, other.prefix);
+  return own;
+}
+
+bool has_joint(const RobotModel& model, const std::string& name) {
+  return std::ranges::find(model.joints, name, &MovableJoint::name) != model.joints.end();
+}
+
+void append(const OtherRobot& other, RobotModel loaded, RobotModel& model) {
+  const auto fail = [&](const std::string& what) {
+    throw std::runtime_error(fmt::format("{}: others: {}", other.urdf.string(), what));
+  };
+  const auto parent = model.find_link(other.parent);
+  if (!parent)
+    fail(fmt::format("no link \"{}\" to stand on; expected one that there is", other.parent));
+  const std::size_t links = model.links.size(), joints = model.joints.size();
+  for (Link& link : loaded.links) {
+    link.name = other.prefix + link.name;
+    if (model.find_link(link.name)) {
+      fail(fmt::format("a second link \"{}\"; expected names that differ (prefix)", link.name));
+    }
+    link.joint.name = other.prefix + (link.parent ? link.joint.name : "mount");
+    if (!link.parent) link.joint.X_PJ = other.X_PR;
+    link.parent = link.parent ? links + *link.parent : *parent;
+    if (link.joint.position_index) *link.joint.position_index += joints;
+    model.links.push_back(std::move(link));
+  }
+  for (MovableJoint& joint : loaded.joints) {
+    joint.name = other.prefix + joint.name;
+    if (has_joint(model, joint.name)) {
+      fail(fmt::format("a second joint \"{}\"; expected names that differ (prefix)", joint.name));
+    }
+    model.joints.push_back(std::move(joint));
+  }
+  for (const std::string& name : loaded.mimic_joints) {
+    model.mimic_joints.push_back(other.prefix + name);
+  }
+  model.warnings.insert(model.warnings.end(), loaded.warnings.begin(), loaded.warnings.end());
+}
+
+/// Loads RobotSettings::others, roles not yet given, and appends their links and joints to the
+/// model. Throws std::runtime_error as load_robot does.
+void append_other_robots(const RobotSettings& settings, RobotModel& model) {
+  for (const OtherRobot& other : settings.others) {
+    append(other, load_one_robot(settings_of(other, settings)), model);
   }
 }
 
@@ -100,6 +176,29 @@ void assign_roles(const RobotSettings& settings, RobotModel& model) {
                   settings.urdf.string(), fmt::join(moving, ", ")));
 }
 
+/// What an SRDF's `disable_collisions` name. Throws std::runtime_error that names file, line and
+/// what was expected.
+std::vector<AllowedContact> read_disabled_collisions(const std::filesystem::path& srdf) {
+  const std::string text = read_file_bytes(srdf);
+  pugi::xml_document document;
+  parse_xml(srdf, text, "not a valid SRDF", document);
+  const pugi::xml_node robot = document.document_element();
+  const auto fail = [&](const pugi::xml_node& place, const std::string& what) {
+    throw std::runtime_error(
+        fmt::format("{}:{}: {}", srdf.string(), line_of(text, place.offset_debug()), what));
+  };
+  if (std::string_view(robot.name()) != "robot") {
+    fail(robot, fmt::format("the root is <{}>; expected <robot>", robot.name()));
+  }
+  std::vector<AllowedContact> disabled;
+  for (const pugi::xml_node& pair : robot.children("disable_collisions")) {
+    const pugi::xml_attribute a = pair.attribute("link1"), b = pair.attribute("link2");
+    if (!a || !b) fail(pair, "<disable_collisions> lacks a link; expected link1 and link2");
+    disabled.push_back({a.value(), b.value(), true});
+  }
+  return disabled;
+}
+
 void append_allowed_contacts(const RobotSettings& settings, RobotModel& model) {
   for (const auto& [link, other] : settings.allowed_contacts) {
     require_links(settings, model, {link, other}, "allowed_contacts");
@@ -130,15 +229,6 @@ bool RobotModel::is_moved(std::size_t index) const {
     if (links[*i].parent && links[*i].joint.type != JointType::fixed) return true;
   }
   return false;
-}
-
-RobotModel load_one_robot(const RobotSettings& settings) {
-  const Urdf urdf(settings.urdf,
-                  settings.urdf_text ? *settings.urdf_text : read_file_bytes(settings.urdf));
-  RobotModel model = read_tree(urdf);
-  load_bodies(settings, urdf, model);
-  require_no_free_part(urdf, model);
-  return model;
 }
 
 RobotModel load_robot(const RobotSettings& settings) {

@@ -71,4 +71,16 @@ std::vector<Eigen::Vector3f> vertex_normals(const TriangleMesh& mesh) {
   return normals;
 }
 
+RobotModel robot_region(const RobotModel& model, double scale) {
+  RobotModel region = model;
+  for (Link& link : region.links) {
+    if (link.role == LinkRole::evaluated) {
+      link.mesh_L = scaled(link.mesh_L, scale);
+    } else {
+      link.role = LinkRole::ignored;
+    }
+  }
+  return region;
+}
+
 }  // namespace berth

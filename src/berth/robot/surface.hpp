@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "berth/robot/robot_model.hpp"
 #include "berth/robot/triangle_mesh.hpp"
 
 namespace berth {
@@ -19,5 +20,11 @@ TriangleMesh scaled(const TriangleMesh& mesh, double scale);
 /// position, by their areas. Outward where the mesh is wound counterclockwise as seen from outside;
 /// 0 where the triangles cancel out.
 std::vector<Eigen::Vector3f> vertex_normals(const TriangleMesh& mesh);
+
+/// An enlarged robot, whose outline in the image is the robot-shaped region of surveillance
+/// (Hirt 3.1.1). Each evaluated link is `scale` times as large in every direction, about the centre
+/// of its own surface (surface_centre_m); it covers the link itself if that is convex. Environment
+/// is left out.
+RobotModel robot_region(const RobotModel& model, double scale);
 
 }  // namespace berth

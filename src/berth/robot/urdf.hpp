@@ -5,6 +5,7 @@
 #include <pugixml.hpp>
 #include <string>
 
+#include "berth/robot/robot_model.hpp"
 #include "berth/types/camera.hpp"
 
 namespace berth {
@@ -31,5 +32,9 @@ struct Urdf {
  private:
   Eigen::VectorXd numbers(const pugi::xml_node& element, const char* attribute, int count) const;
 };
+
+/// Links and joints without shapes and roles. Floating and planar joints are fixed ones. Throws as
+/// Urdf does where they are no tree, or a mimic chain ends at no joint that moves.
+RobotModel read_tree(const Urdf& urdf);
 
 }  // namespace berth

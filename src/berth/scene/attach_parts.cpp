@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "berth/files/file_bytes.hpp"
-#include "berth/robot/mesh_file/stl_bytes.hpp"
+#include "berth/robot/mesh_file/mesh_file.hpp"
 #include "berth/scene/scene_file.hpp"
 
 namespace berth {

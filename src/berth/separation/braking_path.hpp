@@ -6,7 +6,6 @@
 
 #include "berth/pipeline/robot.hpp"
 #include "berth/robot/kinematics.hpp"
-#include "berth/robot/link_reach.hpp"
 #include "berth/separation/link_speed.hpp"
 #include "berth/separation/planned_motion.hpp"
 

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "berth/robot/link_twists.hpp"
+#include "berth/robot/kinematics.hpp"
 #include "berth/robot/triangle_mesh.hpp"
 
 namespace berth {

@@ -18,9 +18,7 @@
 #include <utility>
 
 #include "berth/files/file_bytes.hpp"
-#include "berth/robot/mesh_file/collada_guard.hpp"
-#include "berth/robot/mesh_file/obj_polygons.hpp"
-#include "berth/robot/mesh_file/stl_polygons.hpp"
+#include "berth/robot/mesh_file/formats.hpp"
 
 namespace berth {
 namespace {

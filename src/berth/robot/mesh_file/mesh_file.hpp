@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "berth/robot/triangle_mesh.hpp"
 
@@ -13,5 +14,9 @@ namespace berth {
 /// unreadable, cut, without triangles, packed in a way that Assimp does not read, or holds a vertex
 /// that is not finite.
 TriangleMesh read_mesh_file(const std::filesystem::path& path);
+
+/// A mesh as a binary STL, which read_mesh_file() reads again: each triangle with its unit normal
+/// (0 where it has no area), in the mesh's own unit.
+std::string stl_bytes(const TriangleMesh& mesh);
 
 }  // namespace berth

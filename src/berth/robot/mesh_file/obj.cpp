@@ -1,4 +1,4 @@
-#include "berth/robot/mesh_file/obj_polygons.hpp"
+#include "berth/robot/mesh_file/formats.hpp"
 
 #include <fmt/format.h>
 

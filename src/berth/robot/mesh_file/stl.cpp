@@ -1,9 +1,8 @@
-#include "berth/robot/mesh_file/stl_polygons.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <stdexcept>
@@ -12,6 +11,8 @@
 
 #include "berth/files/number.hpp"
 #include "berth/files/xml.hpp"
+#include "berth/robot/mesh_file/formats.hpp"
+#include "berth/robot/mesh_file/mesh_file.hpp"
 
 namespace berth {
 namespace {
@@ -151,6 +152,34 @@ Polygons read_stl_polygons(const std::filesystem::path& path, const std::string&
   }
   throw std::runtime_error(fmt::format("{}: the STL holds {} bytes; expected {}", path.string(),
                                        bytes.size(), expected));
+}
+
+namespace {
+
+/// The least significant byte first, whatever the machine's order.
+void append_word(std::uint32_t word, std::string& bytes) {
+  for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(word >> shift & 0xFF);
+}
+
+void append_vector(const Eigen::Vector3f& vector, std::string& bytes) {
+  for (const float value : vector) append_word(std::bit_cast<std::uint32_t>(value), bytes);
+}
+
+}  // namespace
+
+std::string stl_bytes(const TriangleMesh& mesh) {
+  std::string bytes = "made by berth";
+  bytes.resize(kHeader - 4, ' ');
+  append_word(static_cast<std::uint32_t>(mesh.triangles.size()), bytes);
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Eigen::Vector3f& p = mesh.vertices_m[a];
+    const Eigen::Vector3f& q = mesh.vertices_m[b];
+    const Eigen::Vector3f& r = mesh.vertices_m[c];
+    append_vector((q - p).cross(r - p).normalized(), bytes);
+    for (const Eigen::Vector3f* corner : {&p, &q, &r}) append_vector(*corner, bytes);
+    bytes.append(2, '\0');
+  }
+  return bytes;
 }
 
 }  // namespace berth

@@ -1,4 +1,4 @@
-#include "berth/robot/mesh_file/collada_guard.hpp"
+#include "berth/robot/mesh_file/formats.hpp"
 
 #include <fmt/format.h>
 
