@@ -8,7 +8,7 @@
 #include "apps/berth/output.hpp"
 #include "apps/berth/run_frames.hpp"
 #include "berth/files/png.hpp"
-#include "berth/self_filter/environment.hpp"
+#include "berth/self_filter/self_filter.hpp"
 
 namespace berth::app {
 namespace {

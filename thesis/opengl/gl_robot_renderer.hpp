@@ -1,7 +1,7 @@
 #pragma once
 
 #include "berth/robot/kinematics.hpp"
-#include "berth/self_filter/tolerance.hpp"
+#include "berth/self_filter/settings.hpp"
 #include "berth/types/camera.hpp"
 #include "thesis/opengl/gl_framebuffer.hpp"
 #include "thesis/opengl/gl_images.hpp"

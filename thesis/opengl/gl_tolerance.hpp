@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "berth/self_filter/tolerance.hpp"
+#include "berth/self_filter/settings.hpp"
 
 namespace berth {
 

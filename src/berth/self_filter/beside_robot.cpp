@@ -1,4 +1,4 @@
-#include "berth/self_filter/beside_robot.hpp"
+#include "berth/self_filter/flying_patches.hpp"
 
 #include <algorithm>
 #include <bit>

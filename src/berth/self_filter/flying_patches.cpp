@@ -4,9 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "berth/self_filter/beside_robot.hpp"
 #include "berth/self_filter/joined.hpp"
-#include "berth/self_filter/tolerance.hpp"
+#include "berth/self_filter/settings.hpp"
 #include "berth/types/obstacle_image.hpp"
 #include "berth/types/robot_image.hpp"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "berth/self_filter/grown_robot.hpp"
-#include "berth/self_filter/tolerance.hpp"
+#include "berth/self_filter/settings.hpp"
 #include "berth/types/camera.hpp"
 #include "berth/types/obstacle_image.hpp"
 #include "berth/types/robot_image.hpp"
@@ -67,5 +67,10 @@ struct FlyingPatchWorkspace {
 void judge_flying_patches(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,
                           const Tolerance& tolerance, const std::vector<Pixel>& things,
                           FlyingPatchWorkspace& workspace, ObstacleImage& out);
+
+/// Appends the pixels within `pixels` that have a neighbour (8) of fate `robot`, and the fate
+/// `obstacle` or `padding`. Some may come twice.
+void append_beside_robot(const Image<PixelFate>& fate, const PixelRect& pixels,
+                         std::vector<Pixel>& found);
 
 }  // namespace berth

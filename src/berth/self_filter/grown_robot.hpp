@@ -5,7 +5,6 @@
 #include "berth/self_filter/discs.hpp"
 #include "berth/self_filter/outline.hpp"
 #include "berth/self_filter/settings.hpp"
-#include "berth/self_filter/tolerance.hpp"
 #include "berth/types/camera.hpp"
 #include "berth/types/robot_image.hpp"
 

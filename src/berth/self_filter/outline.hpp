@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "berth/self_filter/settings.hpp"
 #include "berth/self_filter/tiles.hpp"
-#include "berth/self_filter/tolerance.hpp"
 #include "berth/types/camera.hpp"
 #include "berth/types/robot_image.hpp"
 

@@ -9,7 +9,7 @@
 
 #include <cstdint>
 
-#include "berth/self_filter/tolerance.hpp"
+#include "berth/self_filter/settings.hpp"
 #include "berth/types/obstacle_image.hpp"
 #include "berth/types/robot_image.hpp"
 #include "berth/vector/lanes-inl.hpp"

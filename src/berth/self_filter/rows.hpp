@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "berth/self_filter/tolerance.hpp"
+#include "berth/self_filter/settings.hpp"
 #include "berth/types/obstacle_image.hpp"
 #include "berth/types/robot_image.hpp"
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "berth/self_filter/flying_patches.hpp"
@@ -44,5 +45,14 @@ void self_filter(const Camera& camera, DepthView sensor_depth_m, const RobotImag
 void judge_pieces(const Camera& camera, DepthView sensor_depth_m, const RobotImage& robot,
                   const SelfFilterSettings& settings, SelfFilterWorkspace& workspace,
                   ObstacleImage& out);
+
+/// Leaves the links that are evaluated; what environment hides of them stays hidden.
+inline void take_out_environment(RobotImage& robot) {
+  for (std::size_t i = 0; i < robot.link_id.pixels().size(); ++i) {
+    if (robot.link_id.pixels()[i] != kEnvironmentLink) continue;
+    robot.link_id.pixels()[i] = kNoLink;
+    robot.depth_m.pixels()[i] = kNoDepth;
+  }
+}
 
 }  // namespace berth

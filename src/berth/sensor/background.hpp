@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "berth/self_filter/tolerance.hpp"
+#include "berth/self_filter/settings.hpp"
 #include "berth/sensor/beside_robot.hpp"
 #include "berth/sensor/settings.hpp"
 #include "berth/types/camera.hpp"

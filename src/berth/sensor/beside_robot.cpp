@@ -1,6 +1,6 @@
 #include "berth/sensor/beside_robot.hpp"
 
-#include "berth/self_filter/environment.hpp"
+#include "berth/self_filter/self_filter.hpp"
 
 namespace berth {
 

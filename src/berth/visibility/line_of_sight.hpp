@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "berth/self_filter/tolerance.hpp"
+#include "berth/self_filter/settings.hpp"
 #include "berth/types/camera.hpp"
 #include "berth/types/depth_units.hpp"
 #include "berth/types/link_visibility.hpp"

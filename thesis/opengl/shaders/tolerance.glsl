@@ -1,5 +1,5 @@
 // A reading belongs to a surface unless it is nearer by more than x + y z + z z^2, as in
-// self_filter/tolerance.hpp.
+// self_filter/settings.hpp.
 uniform vec4 tolerance;
 
 float least_reading_m(float z_m) {
