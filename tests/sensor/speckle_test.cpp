@@ -1,4 +1,4 @@
-#include "berth/sensor/speckle.hpp"
+#include "berth/sensor/sensor_rules.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "berth/sensor/background.hpp"
-#include "berth/sensor/beside_robot.hpp"
 #include "berth/sensor/settings.hpp"
 #include "berth/types/camera.hpp"
 #include "berth/types/obstacle_image.hpp"
