@@ -1,5 +1,5 @@
 // Flying patches that another view frees by a rule alone stay unknown.
-#include "berth/space/undecided.hpp"
+#include "berth/space/unknown_space.hpp"
 
 #include <gtest/gtest.h>
 

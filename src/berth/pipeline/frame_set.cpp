@@ -5,7 +5,7 @@
 #include "berth/pipeline/frame_space.hpp"
 
 #include "berth/pipeline/mounted_camera.hpp"
-#include "berth/space/undecided.hpp"
+#include "berth/space/unknown_space.hpp"
 
 namespace berth {
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "berth/space/aged_rings.hpp"
 #include "berth/vector/divide_up.hpp"
 
 #ifndef BERTH_AGED_DEPTH_ROWS

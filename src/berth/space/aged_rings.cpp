@@ -1,4 +1,4 @@
-#include "berth/space/aged_rings.hpp"
+#include "berth/space/aged_depth.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -7,8 +7,7 @@
 #include <cstring>
 #include <limits>
 
-#include "berth/space/occupied_blocks.hpp"
-#include "berth/space/unknown_blocks.hpp"
+#include "berth/space/blocks.hpp"
 
 namespace berth {
 namespace {

@@ -1,4 +1,4 @@
-#include "berth/space/occupied_blocks.hpp"
+#include "berth/space/blocks.hpp"
 
 // Compiles the rest of this file once for each instruction set.
 #undef HWY_TARGET_INCLUDE

@@ -117,4 +117,10 @@ class UnknownSpace {
   mutable std::atomic<std::uint32_t> used_count_{0};
 };
 
+/// Writes the readings of view k's flying patches that another view frees, and none sees through:
+/// behind the robot and beside it a view frees what it does not see. NaN elsewhere. `fate` is that
+/// of view k. Returns whether there are any.
+bool find_undecided(std::span<const FreeingCamera> views, std::size_t k,
+                    const Image<PixelFate>& fate, DepthImage& out_m);
+
 }  // namespace berth
