@@ -1,5 +1,5 @@
 // What cameras see of many points at once, beside a plain count of one point after the other.
-#include "berth/visibility/sights.hpp"
+#include "berth/visibility/line_of_sight.hpp"
 
 #include <gtest/gtest.h>
 

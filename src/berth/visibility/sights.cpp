@@ -1,4 +1,4 @@
-#include "berth/visibility/sights.hpp"
+#include "berth/visibility/line_of_sight.hpp"
 
 #include <array>
 #include <bit>

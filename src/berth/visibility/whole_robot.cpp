@@ -1,6 +1,6 @@
 #include "berth/visibility/whole_robot.hpp"
 
-#include "berth/visibility/sights.hpp"
+#include "berth/visibility/line_of_sight.hpp"
 
 namespace berth {
 namespace {
