@@ -110,4 +110,9 @@ struct Canvas {
 /// the keys have ceilings, by what lies behind them.
 void draw_triangles(std::span<const TriangleBlock> blocks, const LinkInImage& view, Canvas& canvas);
 
+/// Writes row v of the image: within `extent` what the canvases show together, whose keys become 0
+/// again, and nothing outside, where only `before` can hold a robot. Both lie in the image.
+void show_row(std::span<Canvas> canvases, int v, const PixelRect& extent, const PixelRect& before,
+              RobotImage& image);
+
 }  // namespace berth

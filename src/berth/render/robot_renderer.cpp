@@ -17,7 +17,6 @@
 #include "berth/render/draw_triangles.hpp"
 #include "berth/render/link_meshes.hpp"
 #include "berth/render/link_rect.hpp"
-#include "berth/render/show_keys.hpp"
 
 namespace berth {
 namespace {

@@ -1,4 +1,4 @@
-#include "berth/render/show_keys.hpp"
+#include "berth/render/draw_triangles.hpp"
 
 #include <algorithm>
 #include <utility>
