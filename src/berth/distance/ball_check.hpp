@@ -4,7 +4,7 @@
 #include <functional>
 #include <span>
 
-#include "berth/distance/ball_pairs.hpp"
+#include "berth/distance/ball_robot.hpp"
 #include "berth/space/clearance_field.hpp"
 #include "berth/types/verdict.hpp"
 

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "berth/distance/last_request.hpp"
-#include "berth/distance/link_pair_search.hpp"
 
 namespace berth::mesh {
 namespace {

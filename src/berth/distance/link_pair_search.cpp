@@ -1,4 +1,4 @@
-#include "berth/distance/link_pair_search.hpp"
+#include "berth/distance/body_pair.hpp"
 
 #include <algorithm>
 #include <cmath>

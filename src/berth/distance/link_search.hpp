@@ -9,7 +9,9 @@
 #include "berth/distance/convex_pair.hpp"
 #include "berth/distance/item_heap.hpp"
 #include "berth/distance/robot_patches.hpp"
+#include "berth/space/cubes.hpp"
 #include "berth/space/unknown_space.hpp"
+#include "berth/types/closest_pair.hpp"
 
 namespace berth::mesh {
 
@@ -156,5 +158,27 @@ void take_cubes_below(LinkSearch& search);
 /// Both start with the whole link and all of space, and an empty front.
 void start_in_views(const UnknownSpace& space, LinkSearch& search);
 void start_in_cubes(LinkSearch& search);
+
+/// Marks a cube in Item::patch of which some children are gone. Item::way is the request of which
+/// an item's bound is that of its own corners, not of the cube that it is a child of.
+inline constexpr std::uint32_t kOpened = 1u << 31;
+
+/// The level from which on down a cube's corners tell more than patches do.
+inline constexpr int kGreatestByCorners = 4;
+
+/// No point that a search asks for is farther from the origins of both frames.
+inline float reach_of_cubes_m(const LinkSearch& search) {
+  const PatchLevel& top = search.link->levels.back();
+  const Eigen::Vector3d centre_L_m(top.centre_m[0][0], top.centre_m[1][0], top.centre_m[2][0]);
+  return static_cast<float>(centre_L_m.norm() + search.X_BL.translation().norm()) +
+         top.half_height_m[0] + top.radius_m[0] + search.known_range_m();
+}
+
+/// The best pair and how far it is certified; `is_shadow` where all behind a reading is hidden. The
+/// search keeps the pair's points for the next request.
+SpacePair pair_of(const UnknownSpace& space, bool is_shadow, LinkSearch& search);
+
+/// Makes a link's two answers such that they do not contradict each other.
+void reconcile(WholeLinkDistance& link);
 
 }  // namespace berth::mesh

@@ -1,4 +1,4 @@
-#include "berth/distance/mesh_answers.hpp"
+#include "berth/distance/link_search.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "berth/distance/link_search.hpp"
-#include "berth/distance/searched_cubes.hpp"
 
 // Compiles the rest of this file once for each instruction set.
 #undef HWY_TARGET_INCLUDE
