@@ -1,4 +1,4 @@
-#include "berth/fit/outline_rows.hpp"
+#include "berth/fit/fit_rows.hpp"
 
 #include <gtest/gtest.h>
 

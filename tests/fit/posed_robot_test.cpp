@@ -1,4 +1,4 @@
-#include "berth/fit/posed_robot.hpp"
+#include "berth/fit/frame_drawer.hpp"
 
 #include <gtest/gtest.h>
 

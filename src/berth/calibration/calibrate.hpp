@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "berth/fit/calibration_data.hpp"
-#include "berth/fit/residual_spread.hpp"
+#include "berth/fit/compare_estimates.hpp"
 
 namespace berth {
 

@@ -7,8 +7,8 @@
 
 #include "berth/calibration/evidence_view.hpp"
 #include "berth/calibration/swallowed.hpp"
+#include "berth/fit/fit_rows.hpp"
 #include "berth/fit/frame_drawer.hpp"
-#include "berth/fit/outline_rows.hpp"
 #include "berth/fit/robot_pixels.hpp"
 #include "berth/self_filter/self_filter.hpp"
 #include "berth/sensor/sensor_rules.hpp"

@@ -4,9 +4,16 @@
 #include <vector>
 
 #include "berth/fit/frame_drawer.hpp"
-#include "berth/fit/residual_spread.hpp"
 
 namespace berth {
+
+/// How far readings lie from the model's surface, along the optical axis, where they are the
+/// robot's (within 10 cm). NaN where there is none.
+struct ResidualSpread {
+  double median_m = 0;
+  double p90_m = 0;
+  double p99_m = 0;
+};
 
 /// How far the robot's visible points lie apart between two estimates, as each camera sees them: a
 /// mean for each camera. NaN where a camera sees no robot.

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "berth/fit/depth_rows.hpp"
-#include "berth/fit/outline_rows.hpp"
+#include "berth/fit/fit_rows.hpp"
 #include "berth/fit/robot_pixels.hpp"
 
 namespace berth {

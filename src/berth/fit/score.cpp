@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "berth/fit/outline_rows.hpp"
+#include "berth/fit/fit_rows.hpp"
 #include "berth/fit/robot_pixels.hpp"
 
 namespace berth {
