@@ -17,7 +17,7 @@ set(BERTH_PUBLIC_HEADERS
   berth/robot/package_path.hpp
   berth/robot/primitives.hpp
   berth/robot/robot_model.hpp
-  berth/pipeline/camera_state.hpp
+  berth/pipeline/timeliness.hpp
   berth/pipeline/frame.hpp
   berth/pipeline/frame_pool.hpp
   berth/pipeline/observer.hpp

@@ -3,8 +3,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include "berth/pipeline/camera_state.hpp"
 #include "berth/pipeline/mounted_camera.hpp"
+#include "berth/pipeline/timeliness.hpp"
 #include "berth/render/robot_renderer.hpp"
 #include "thesis/image_method.hpp"
 #include "thesis/image_result.hpp"

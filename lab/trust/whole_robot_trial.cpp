@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "berth/distance/mesh_distances.hpp"
-#include "berth/pipeline/environment_back.hpp"
+#include "berth/pipeline/robot_drawing.hpp"
 #include "berth/self_filter/self_filter.hpp"
 #include "berth/sensor/phantoms.hpp"
 #include "lab/trust/scene_images.hpp"

@@ -1,5 +1,5 @@
 // What a table hides below its top is not free.
-#include "berth/pipeline/environment_back.hpp"
+#include "berth/pipeline/robot_drawing.hpp"
 
 #include <gtest/gtest.h>
 

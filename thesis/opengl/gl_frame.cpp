@@ -1,8 +1,8 @@
 #include "thesis/opengl/gl_frame.hpp"
 
-#include "berth/pipeline/environment_back.hpp"
+#include "berth/pipeline/frame_space.hpp"
 #include "berth/pipeline/mounted_camera.hpp"
-#include "berth/pipeline/prepare_frame.hpp"
+#include "berth/pipeline/robot_drawing.hpp"
 #include "thesis/opengl/gl_frame_images.hpp"
 
 namespace berth {

@@ -3,8 +3,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "berth/pipeline/camera_state.hpp"
 #include "berth/pipeline/mounted_camera.hpp"
+#include "berth/pipeline/timeliness.hpp"
 #include "thesis/image_method.hpp"
 #include "thesis/image_result.hpp"
 #include "thesis/opengl/gl_evaluate.hpp"

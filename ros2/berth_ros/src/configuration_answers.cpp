@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "berth/pipeline/camera_state.hpp"
+#include "berth/pipeline/timeliness.hpp"
 #include "berth/results/result_text.hpp"
 
 namespace berth_ros {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "berth/pipeline/camera_state.hpp"
+#include "berth/pipeline/timeliness.hpp"
 #include "berth/results/result_text.hpp"
 #include "berth/separation/detection.hpp"
 #include "live_node.hpp"

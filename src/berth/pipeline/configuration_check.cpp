@@ -16,7 +16,7 @@
 #include "berth/distance/known_distances.hpp"
 #include "berth/distance/mesh_distances.hpp"
 #include "berth/pipeline/frame_set.hpp"
-#include "berth/pipeline/look_ahead.hpp"
+#include "berth/pipeline/link_searches.hpp"
 #include "berth/robot/kinematics.hpp"
 #include "berth/robot/plausible_size.hpp"
 #include "berth/space/serial_number.hpp"

@@ -2,50 +2,12 @@
 
 #include <algorithm>
 #include <cassert>
-#include "berth/pipeline/frame_space.hpp"
 
+#include "berth/pipeline/frame_space.hpp"
 #include "berth/pipeline/mounted_camera.hpp"
 #include "berth/space/unknown_space.hpp"
 
 namespace berth {
-
-CameraState camera_state(const Exposure& exposure, double now_s, const TimeSettings& settings) {
-  CameraState state;
-  if (!exposure.mounted) return state;
-  state.stamp_s = exposure.stamp_s;
-  state.age_s = now_s - exposure.stamp_s;
-  state.time = exposure.time.status;
-  state.watch = exposure.watch;
-  if (state.time == TimeStatus::stale_pose) {
-    state.status = CameraStatus::stale_pose;
-  } else if (state.time != TimeStatus::ok) {
-    state.status = CameraStatus::stale;
-  } else if (exposure.watch.is_implausible) {
-    state.status = CameraStatus::implausible;
-    state.time = TimeStatus::camera_implausible;
-  } else if (exposure.watch.has_moved) {
-    state.status = CameraStatus::moved;
-    state.time = TimeStatus::camera_moved;
-  } else if (state.age_s < -kMostClockOffset_s) {
-    state.status = CameraStatus::stale;
-    state.time = TimeStatus::frame_in_future;
-  } else if (!(state.age_s <= settings.max_frame_age_s)) {
-    state.status = CameraStatus::too_old;
-  } else {
-    state.status = exposure.watch.is_hidden        ? CameraStatus::hidden
-                   : exposure.watch.is_unconfirmed ? CameraStatus::unconfirmed
-                                                   : CameraStatus::ok;
-  }
-  return state;
-}
-
-CameraState camera_state(const Frame* frame, double now_s, const TimeSettings& settings) {
-  if (!frame) return {};
-  CameraState state = camera_state(*frame, now_s, settings);
-  if (is_used(state.status) && frame->is_blind) state.status = CameraStatus::blind;
-  return state;
-}
-
 namespace {
 
 /// In the root where it stands at X_WB now. One that did not move keeps its numbers to the bit.

@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "berth/pipeline/camera_state.hpp"
 #include "berth/pipeline/frame.hpp"
 #include "berth/pipeline/timeliness.hpp"
 #include "berth/space/unknown_space.hpp"

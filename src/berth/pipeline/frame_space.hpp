@@ -3,6 +3,7 @@
 #pragma once
 
 #include "berth/distance/mean_directions.hpp"
+#include "berth/pipeline/frame.hpp"
 #include "berth/sensor/phantoms.hpp"
 #include "berth/space/camera_space.hpp"
 #include "berth/visibility/rejected.hpp"
@@ -27,5 +28,9 @@ inline void clear_space(FrameSpace& space) {
   space.seen.obstacle_depth_m = {};
   space.has_rejected_space = false;
 }
+
+/// Makes of a frame's images what they say of space. `sensor_depth_m` is the image that
+/// frame.obstacles was made of.
+void prepare_frame(DepthView sensor_depth_m, const EnvironmentSurfaces& environment, Frame& frame);
 
 }  // namespace berth

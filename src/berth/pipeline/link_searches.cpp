@@ -1,5 +1,9 @@
 #include "berth/pipeline/link_searches.hpp"
 
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -51,8 +55,8 @@ double untold_m(const Frame& frame, double z_m, float SurfaceTolerance::*toleran
   return std::fmin(found_m, z_m - along_ray.least_reading_m(static_cast<float>(z_m)));
 }
 
-/// The same of the camera that looks at the place best; NaN where none does. What the robot hides of
-/// a surface from all cameras stands beside what some see, and so the worst camera counts.
+/// The same of the camera that looks at the place best; NaN where none does. What the robot hides
+/// of a surface from all cameras stands beside what some see, and so the worst camera counts.
 double untold_m(const FrameSet& frames, const Eigen::Vector3d& place_B_m,
                 float SurfaceTolerance::*tolerance, bool may_be_hidden) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -102,8 +106,8 @@ float LinkSearches::assumed_thinner_m(const FrameSet& frames, const RobotPose& p
     const Eigen::Vector3d middle_E_m = X_BE.inverse() * middle_B_m;
     const Eigen::Vector3d place_E_m = middle_E_m.cwiseMax(box_m.min()).cwiseMin(box_m.max());
     if ((place_E_m - middle_E_m).norm() > robot_->settings().distance.range_m) continue;
-    most_m = std::fmax(most_m, untold_m(frames, X_BE * place_E_m,
-                                        &SurfaceTolerance::environment_m, true));
+    most_m = std::fmax(most_m,
+                       untold_m(frames, X_BE * place_E_m, &SurfaceTolerance::environment_m, true));
   }
   return static_cast<float>(most_m);
 }
@@ -290,6 +294,45 @@ void LinkSearches::tell_rejected(const FrameSet& frames, const RobotPose& pose, 
     kept.visibility.rejected_distance_m = dropped.distance_m;
     kept.visibility.rejected_pixel = dropped.obstacle_pixel;
   }
+}
+
+namespace {
+
+bool is_nearer(const std::vector<WholeLinkDistance>& links, double limit_m) {
+  return std::any_of(links.begin(), links.end(), [limit_m](const WholeLinkDistance& link) {
+    return link.nearest.lower_bound_m < limit_m;
+  });
+}
+
+}  // namespace
+
+struct LookAheadSearch::Workers {
+  explicit Workers(const std::shared_ptr<const Robot>& robot)
+      : searches([robot] { return LinkSearches(robot); }) {}
+  tbb::enumerable_thread_specific<LinkSearches> searches;
+};
+
+LookAheadSearch::LookAheadSearch(std::shared_ptr<const Robot> robot)
+    : robot_(std::move(robot)), workers_(std::make_unique<Workers>(robot_)) {}
+
+LookAheadSearch::~LookAheadSearch() = default;
+
+void LookAheadSearch::ask(const FrameSet& frames, std::span<const JointState> joints,
+                          double nearer_than_m, LookAhead& out) {
+  poses_.resize(joints.size());
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    forward_kinematics(robot_->model(), joints[i].position, poses_[i]);
+  }
+  out.poses.resize(joints.size());
+  tbb::parallel_for(std::size_t{0}, out.poses.size(), [&](std::size_t i) {
+    // Else a waiting thread would begin another pose on top of this one, with its search.
+    tbb::this_task_arena::isolate(
+        [&] { workers_->searches.local().ask(frames, poses_[i], out.poses[i]); });
+  });
+  const auto first = std::find_if(out.poses.begin(), out.poses.end(), [&](const auto& links) {
+    return is_nearer(links, nearer_than_m);
+  });
+  if (first != out.poses.end()) out.first_nearer = first - out.poses.begin();
 }
 
 }  // namespace berth

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "berth/distance/known_distances.hpp"
@@ -11,6 +12,7 @@
 #include "berth/pipeline/frame_set.hpp"
 #include "berth/pipeline/result.hpp"
 #include "berth/pipeline/robot.hpp"
+#include "berth/types/joint_state.hpp"
 #include "berth/visibility/whole_robot.hpp"
 
 namespace berth {
@@ -72,6 +74,24 @@ class LinkSearches {
   std::vector<LinkVisibility> visibility_;
   /// How long what follows a search takes.
   double after_search_us_ = 0;
+};
+
+/// Side by side on the threads that TBB has.
+class LookAheadSearch {
+ public:
+  explicit LookAheadSearch(std::shared_ptr<const Robot> robot);
+  ~LookAheadSearch();
+
+  /// At least one frame is used. Throws std::invalid_argument for wrong joints.
+  void ask(const FrameSet& frames, std::span<const JointState> joints, double nearer_than_m,
+           LookAhead& out);
+
+ private:
+  struct Workers;
+
+  std::shared_ptr<const Robot> robot_;
+  std::vector<RobotPose> poses_;
+  std::unique_ptr<Workers> workers_;
 };
 
 }  // namespace berth

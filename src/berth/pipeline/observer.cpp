@@ -3,8 +3,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "berth/pipeline/environment_back.hpp"
-#include "berth/pipeline/prepare_frame.hpp"
+#include "berth/pipeline/frame_space.hpp"
 #include "berth/pipeline/robot_drawing.hpp"
 #include "berth/pipeline/timeliness.hpp"
 #include "berth/render/robot_renderer.hpp"

@@ -8,7 +8,6 @@
 
 #include "berth/pipeline/frame_set.hpp"
 #include "berth/pipeline/link_searches.hpp"
-#include "berth/pipeline/look_ahead.hpp"
 #include "berth/pipeline/mounted_camera.hpp"
 
 namespace berth {

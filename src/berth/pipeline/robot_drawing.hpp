@@ -1,12 +1,14 @@
-// Inside pipeline/ only: the robot's image at each exposure.
+// For who makes frames: the robot's image at each exposure, and the environment's.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "berth/pipeline/robot.hpp"
 #include "berth/render/robot_renderer.hpp"
 #include "berth/robot/kinematics.hpp"
 #include "berth/robot/robot_model.hpp"
+#include "berth/space/camera_space.hpp"
 #include "berth/types/camera.hpp"
 #include "berth/types/robot_image.hpp"
 
@@ -55,6 +57,27 @@ class RobotDrawing {
   /// What was rendered; only of a robot that stood still once, since it costs a copy.
   RobotImage rendered_;
   bool has_rendered_ = false;
+};
+
+/// Where the solid of the environment begins and ends along the rays of one camera.
+class EnvironmentBack {
+ public:
+  EnvironmentBack(const RobotModel& model, const Camera& camera);
+
+  /// At each pixel that would show environment if there were no robot, the depth of the surface
+  /// that is seen, and of the next one behind it, or of that one itself where there is no other;
+  /// NaN elsewhere. Without environment images of no size. Until the next call.
+  EnvironmentSurfaces at(const RobotPose& pose, const Pose& X_BC);
+
+ private:
+  void render(const RobotPose& pose, const Pose& X_BC);
+
+  /// None without environment.
+  std::optional<RobotRenderer> renderer_;
+  StillLinks still_;
+  RobotImage front_;
+  RobotImage back_;
+  std::uint64_t serial_number_ = 0;
 };
 
 }  // namespace berth

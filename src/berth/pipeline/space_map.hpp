@@ -3,8 +3,8 @@
 #include <memory>
 #include <optional>
 
-#include "berth/pipeline/camera_state.hpp"
 #include "berth/pipeline/request.hpp"
+#include "berth/pipeline/timeliness.hpp"
 #include "berth/space/voxel_grid.hpp"
 
 namespace berth {

@@ -2,9 +2,10 @@
 
 #include <optional>
 
-#include "berth/pipeline/exposure.hpp"
+#include "berth/pipeline/frame.hpp"
 #include "berth/robot/joints_at_time.hpp"
 #include "berth/types/setting.hpp"
+#include "berth/types/status.hpp"
 
 namespace berth {
 
@@ -62,5 +63,11 @@ Timeliness timeliness_of(const Exposure& frame, std::optional<double> now_s,
 /// The same for joints of another stamp.
 Timeliness timeliness_of(const Exposure& frame, double joints_stamp_s, std::optional<double> now_s,
                          const TimeSettings& settings);
+
+/// What becomes of one camera at `now_s`, but for whether it is blind.
+CameraState camera_state(const Exposure& exposure, double now_s, const TimeSettings& settings);
+
+/// The same. `frame` is its newest one, or null where it has none yet.
+CameraState camera_state(const Frame* frame, double now_s, const TimeSettings& settings);
 
 }  // namespace berth
