@@ -18,7 +18,7 @@
 #include <tf2_ros/buffer.h>
 #endif
 
-#include "berth/live/behind_newest.hpp"
+#include "berth/live/joint_intake.hpp"
 #include "berth/robot/robot_model.hpp"
 #include "berth/types/camera.hpp"
 #include "callback_gate.hpp"
