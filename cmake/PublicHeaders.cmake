@@ -35,7 +35,7 @@ set(BERTH_PUBLIC_HEADERS
   berth/live/raw_depth.hpp
   berth/control/distance_rows.hpp
   berth/control/velocity_filter.hpp
-  berth/separation/detection.hpp
+  berth/separation/protective_distance.hpp
   berth/separation/monitor.hpp
   berth/separation/settings.hpp
   berth/record/monitor_loop.hpp

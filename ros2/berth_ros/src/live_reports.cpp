@@ -4,7 +4,7 @@
 
 #include "berth/pipeline/timeliness.hpp"
 #include "berth/results/result_text.hpp"
-#include "berth/separation/detection.hpp"
+#include "berth/separation/protective_distance.hpp"
 #include "live_node.hpp"
 
 namespace berth_ros {

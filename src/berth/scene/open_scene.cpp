@@ -16,7 +16,7 @@
 #include "berth/robot/mesh_file/mesh_file.hpp"
 #include "berth/robot/primitives.hpp"
 #include "berth/robot/robot_model.hpp"
-#include "berth/separation/detection.hpp"
+#include "berth/separation/protective_distance.hpp"
 
 namespace berth {
 namespace {

@@ -10,7 +10,6 @@
 
 #include "berth/pipeline/frame_set.hpp"
 #include "berth/pipeline/mounted_camera.hpp"
-#include "berth/separation/detection.hpp"
 #include "berth/separation/link_speed.hpp"
 #include "berth/separation/near_link.hpp"
 #include "berth/separation/path_certificate.hpp"

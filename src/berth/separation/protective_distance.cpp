@@ -1,10 +1,37 @@
 #include "berth/separation/protective_distance.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace berth {
+namespace {
+
+void validate_row(const StoppingRow& row, const StoppingRow& before, std::size_t number) {
+  const auto check = [&](std::string_view name, double value, double least, bool above) {
+    const Domain domain{.least = least, .is_open = above};
+    if (domain.holds(value)) return;
+    throw_bad_setting(fmt::format("separation.stopping[{}]", number), name, value,
+                      domain.text(false));
+  };
+  check("speed_m_s", row.speed_m_s, before.speed_m_s, true);
+  check("time_s", row.time_s, before.time_s, false);
+  check("distance_m", row.distance_m, before.distance_m, false);
+}
+
+}  // namespace
+
+void validate(const SeparationSettings& settings) {
+  visit_settings(settings, SettingCheck{"separation"});
+  StoppingRow before;
+  for (std::size_t i = 0; i < settings.stopping.size(); ++i) {
+    validate_row(settings.stopping[i], before, i);
+    before = settings.stopping[i];
+  }
+}
+
 namespace {
 
 /// 2^-20 of a speed is far below what a robot can be told.
@@ -87,6 +114,33 @@ double greatest_speed_scale(const SeparationSettings& settings, const Protective
     (has_room(middle) ? enough : too_much) = middle;
   }
   return enough;
+}
+
+namespace {
+
+double told_m(const MountedCamera& camera) {
+  return detection_capability_m(camera.settings().space, camera.camera());
+}
+
+}  // namespace
+
+double least_detection_m(std::span<const CameraResult> cameras) {
+  double least_m = 0;
+  for (const CameraResult& camera : cameras) {
+    if (!camera.mounted || !is_used(camera.status)) continue;
+    least_m = std::max(least_m, told_m(*camera.mounted));
+  }
+  return least_m;
+}
+
+std::string detection_trouble(const SeparationSettings& settings, const MountedCamera& camera) {
+  if (settings.intrusion_m || !settings.detection_m) return {};
+  const double least_m = told_m(camera);
+  if (least_m <= *settings.detection_m) return {};
+  return fmt::format(
+      "separation.detection_m: {}; expected at least space.detection_capability_m of camera "
+      "\"{}\", {}: what is smaller may hide from it. C is {:.3f} m",
+      *settings.detection_m, camera.mount().name, least_m, intrusion_m(settings, least_m));
 }
 
 }  // namespace berth

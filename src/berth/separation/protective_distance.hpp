@@ -1,6 +1,11 @@
 // How far away everything has to be (ISO/TS 15066, 5.5.4).
 #pragma once
 
+#include <span>
+#include <string>
+
+#include "berth/pipeline/mounted_camera.hpp"
+#include "berth/pipeline/result.hpp"
 #include "berth/separation/settings.hpp"
 
 namespace berth {
@@ -54,5 +59,12 @@ double protective_distance_m(const SeparationSettings& settings, const Protectiv
 /// `distance_m`. 0 where not even a robot that stands still would have enough room.
 double greatest_speed_scale(const SeparationSettings& settings, const ProtectiveTerms& terms,
                             const LinkSpeed& speed, double distance_m, double most = 1);
+
+/// The greatest detection_capability_m() of the cameras in use; 0 where none is.
+double least_detection_m(std::span<const CameraResult> cameras);
+
+/// That more may hide from this camera than the monitor was told the cameras detect, and what C is
+/// for it; empty where it may not, or C does not follow from what is detected.
+std::string detection_trouble(const SeparationSettings& settings, const MountedCamera& camera);
 
 }  // namespace berth
