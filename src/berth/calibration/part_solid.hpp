@@ -2,7 +2,7 @@
 #pragma once
 
 #include "berth/calibration/carried_cells.hpp"
-#include "berth/calibration/solid_cells.hpp"
+#include "berth/calibration/closed_surface.hpp"
 
 namespace berth {
 
