@@ -9,7 +9,7 @@
 #include "apps/berth/calibration_frames.hpp"
 #include "apps/berth/calibration_page_frames.hpp"
 #include "apps/berth/html_text.hpp"
-#include "berth/reports/calibration_advice.hpp"
+#include "berth/reports/calibration_coverage.hpp"
 #include "berth/reports/calibration_words.hpp"
 
 namespace berth::app {

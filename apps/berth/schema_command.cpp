@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "apps/berth/commands.hpp"
-#include "berth/reports/calibration_schema.hpp"
+#include "berth/reports/calibration_report.hpp"
 #include "berth/scene/scene_schema.hpp"
 #include "thesis/image_output.hpp"
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "apps/view/part_pictures.hpp"
-#include "berth/reports/calibration_table.hpp"
+#include "berth/reports/calibration_report.hpp"
 #include "berth/reports/calibration_words.hpp"
 
 namespace berth::app {

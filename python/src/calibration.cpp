@@ -2,8 +2,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "arrays.hpp"
-#include "berth/reports/calibration_json.hpp"
-#include "berth/reports/calibration_table.hpp"
+#include "berth/reports/calibration_report.hpp"
 #include "berth/scene/calibrate_scene.hpp"
 #include "bindings.hpp"
 

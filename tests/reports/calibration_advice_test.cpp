@@ -1,4 +1,4 @@
-#include "berth/reports/calibration_advice.hpp"
+#include "berth/reports/calibration_coverage.hpp"
 
 #include <gtest/gtest.h>
 

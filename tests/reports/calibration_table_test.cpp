@@ -1,4 +1,4 @@
-#include "berth/reports/calibration_table.hpp"
+#include "berth/reports/calibration_report.hpp"
 
 #include <gtest/gtest.h>
 

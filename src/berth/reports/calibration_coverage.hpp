@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "berth/reports/calibration_report.hpp"
@@ -43,5 +44,10 @@ struct CalibrationCoverage {
 };
 
 CalibrationCoverage coverage_of(const CalibrationReport& report, std::size_t camera);
+
+/// What to do next for a better calibration of one camera: sentences for people, the most needed
+/// first. Empty: nothing is left to do.
+std::vector<std::string> calibration_advice(const CalibrationReport& report, std::size_t camera,
+                                            const CalibrationCoverage& coverage);
 
 }  // namespace berth

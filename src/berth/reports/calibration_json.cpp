@@ -1,4 +1,4 @@
-#include "berth/reports/calibration_json.hpp"
+#include "berth/reports/calibration_report.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -38,4 +38,19 @@ CalibrationReport report_of(const SceneCalibrationData& material,
 /// Images of all cameras that were used.
 int frames_used(const CalibrationReport& report);
 
+/// The calibration for people: of each camera how far its view moved and how sure that is,
+/// residuals before and after, clock, depth, the proposed settings and why, and what to do next.
+/// Draws the robot into all frames.
+std::string calibration_table(const CalibrationReport& report);
+
+/// The calibration as one line of JSON, schema berth/calibration/1, without a line break at its
+/// end. Metres, seconds, radians and pixels, rounded to a millionth, quaternions to a thousandth of
+/// that. What is not known is null: deviations of a pose that was refused, that of a clock that is
+/// not determined, the comparison of halves with one frame, residuals of a robot that is not seen.
+std::string calibration_json(const CalibrationReport& report);
+
+/// What calibration_json() writes, schema berth/calibration/1, as JSON Schema (draft 2020-12), in
+/// lines.
+std::string calibration_schema();
+
 }  // namespace berth

@@ -1,4 +1,4 @@
-#include "berth/reports/calibration_schema.hpp"
+#include "berth/reports/calibration_report.hpp"
 
 #include "berth/files/json_schema.hpp"
 #include "berth/scene/setting_schema.hpp"
