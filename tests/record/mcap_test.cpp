@@ -8,7 +8,7 @@
 #include "berth/files/file_bytes.hpp"
 #include "berth/record/depth_message.hpp"
 #include "berth/record/mcap_reader.hpp"
-#include "berth/record/ply.hpp"
+#include "berth/record/recorded_robot.hpp"
 #include "tests/support/error_message.hpp"
 #include "tests/support/same_bits.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -9,7 +9,7 @@
 
 #include "berth/files/error.hpp"
 #include "berth/files/file_bytes.hpp"
-#include "berth/record/mcap_bytes.hpp"
+#include "berth/record/mcap_file.hpp"
 
 namespace berth::mcap {
 namespace {

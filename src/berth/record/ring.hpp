@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "berth/record/mcap_chunk.hpp"
+#include "berth/record/mcap_file.hpp"
 
 namespace berth {
 
