@@ -9,7 +9,6 @@
 #include "berth/files/file_bytes.hpp"
 #include "berth/reports/calibration_words.hpp"
 #include "berth/scene/calibrated_robot.hpp"
-#include "berth/scene/carrying_robot_data.hpp"
 
 namespace berth::app {
 namespace {

@@ -5,7 +5,6 @@
 
 #include "apps/berth/attached_picture.hpp"
 #include "berth/scene/calibrated_robot.hpp"
-#include "berth/scene/carrying_robot_data.hpp"
 
 namespace berth::app {
 namespace {

@@ -5,7 +5,7 @@
 #include "berth/pipeline/frame.hpp"
 #include "berth/pipeline/result.hpp"
 #include "berth/scene/open_scene.hpp"
-#include "berth/scene/scene_steps.hpp"
+#include "berth/scene/scene_run.hpp"
 
 namespace berth::app {
 

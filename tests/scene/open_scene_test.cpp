@@ -7,7 +7,7 @@
 
 #include "berth/files/png.hpp"
 #include "berth/robot/primitives.hpp"
-#include "berth/scene/learn_background.hpp"
+#include "berth/scene/camera_frames.hpp"
 #include "tests/support/error_message.hpp"
 #include "tests/support/same_bits.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -1,7 +1,7 @@
 #include "berth/reports/calibration_report.hpp"
 
 #include "berth/files/json_schema.hpp"
-#include "berth/scene/setting_schema.hpp"
+#include "berth/scene/scene_schema.hpp"
 #include "berth/self_filter/settings.hpp"
 #include "berth/sensor/settings.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "berth/files/png.hpp"
 #include "berth/pipeline/observer.hpp"
-#include "berth/scene/learn_background.hpp"
+#include "berth/scene/camera_frames.hpp"
 
 namespace berth {
 namespace {

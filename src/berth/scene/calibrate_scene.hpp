@@ -7,11 +7,19 @@
 
 #include "berth/calibration/attached_parts.hpp"
 #include "berth/calibration/detection_map.hpp"
+#include "berth/calibration/filter_settings.hpp"
 #include "berth/scene/rewrite_scene.hpp"
 #include "berth/scene/scene_calibration.hpp"
 #include "berth/watch/watch_settings.hpp"
 
 namespace berth {
+
+/// What the cameras of a scene detect where they were found, with the settings that were proposed.
+/// With `corrects_depth` readings are taken as `found` corrects them.
+DetectionMap measure_detection_of(const CalibrationData& calibration_data,
+                                  const CalibrationResult& found,
+                                  const std::vector<FilterProposal>& filters, bool corrects_depth,
+                                  const std::function<void()>& pause);
 
 /// What calibration is to find, and to change.
 struct CalibrateSceneSettings {

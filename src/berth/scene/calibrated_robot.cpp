@@ -1,5 +1,6 @@
 #include "berth/scene/calibrated_robot.hpp"
 
+#include "berth/render/robot_renderer.hpp"
 #include "berth/robot/joints_at_time.hpp"
 
 namespace berth {
@@ -51,6 +52,18 @@ std::optional<JointState> CalibratedRobot::joints(std::size_t frame, Calibration
     if (offset != result_.joint_offsets.end()) joints.position[j] += offset->second;
   }
   return joints;
+}
+
+CarryingRobotData::CarryingRobotData(const CalibrationData& bare, const AttachedParts& parts,
+                                     CarriedParts which)
+    : model_(*bare.model), data_(bare) {
+  for (const AttachedPart& part : parts.parts) {
+    if (part.is_taken || which == CarriedParts::all) {
+      model_ = with_attachment(model_, attachment_of(part));
+    }
+  }
+  data_.model = &model_;
+  if (model_.links.size() > bare.model->links.size()) data_.meshes = build_link_meshes(model_);
 }
 
 }  // namespace berth

@@ -1,8 +1,10 @@
-// The robot in the images of a calibration, where the scene had it and where it was found.
+// The robot in the images of a calibration, where the scene had it and where it was found, and with
+// what it carries.
 #pragma once
 
 #include <optional>
 
+#include "berth/calibration/attached_parts.hpp"
 #include "berth/calibration/calibrate.hpp"
 #include "berth/fit/calibration_data.hpp"
 #include "berth/fit/robot_pixels.hpp"
@@ -40,6 +42,25 @@ class CalibratedRobot {
   RobotRenderer renderer_;
   RobotPose pose_;
   RobotImage image_;
+};
+
+/// Which of the parts that were found a robot carries.
+enum class CarriedParts { taken, all };
+
+/// What a calibration started from, with a robot that carries more.
+class CarryingRobotData {
+ public:
+  /// The cameras of `bare` have to outlive it.
+  CarryingRobotData(const CalibrationData& bare, const AttachedParts& parts,
+                    CarriedParts which = CarriedParts::taken);
+  CarryingRobotData(const CarryingRobotData&) = delete;
+  CarryingRobotData& operator=(const CarryingRobotData&) = delete;
+
+  const CalibrationData& calibration_data() const { return data_; }
+
+ private:
+  RobotModel model_;
+  CalibrationData data_;
 };
 
 }  // namespace berth
