@@ -86,6 +86,12 @@ void require_camera(const Camera& camera) {
 
 }  // namespace
 
+CameraSettings settings_of_real_camera() {
+  CameraSettings settings;
+  settings.watch = {};
+  return settings;
+}
+
 MountedCamera::MountedCamera(std::shared_ptr<const Robot> robot, CameraMount mount,
                              CameraSettings settings)
     : robot_(std::move(robot)),
@@ -107,6 +113,14 @@ MountedCamera::MountedCamera(std::shared_ptr<const Robot> robot, CameraMount mou
   }
   const double region_scale = settings_.self_filter.robot_region_scale;
   if (region_scale > 0) region_meshes_ = build_link_meshes(robot_region(model, region_scale));
+}
+
+Pose MountedCamera::camera_pose(const RobotPose& pose) const {
+  return camera_pose(pose, mount_.X_PC);
+}
+
+Pose MountedCamera::camera_pose(const RobotPose& pose, const Pose& X_PC) const {
+  return pose.X_BL[parent_] * X_PC;
 }
 
 std::shared_ptr<const MountedCamera> with_robot(const MountedCamera& mounted,

@@ -36,11 +36,7 @@ struct CameraSettings {
 };
 
 /// What scenes and ROS nodes begin with: an image whose robot is elsewhere is not used.
-inline CameraSettings settings_of_real_camera() {
-  CameraSettings settings;
-  settings.watch = {};
-  return settings;
-}
+CameraSettings settings_of_real_camera();
 
 /// The lists of a camera's settings, each with its name in scene files.
 template <SettingsOf<CameraSettings> Settings, class Visitor>
@@ -68,11 +64,9 @@ class MountedCamera {
   /// Those of robot_region(); null where SelfFilterSettings::robot_region_scale is 0.
   const std::shared_ptr<const LinkMeshes>& region_meshes() const { return region_meshes_; }
   /// The camera's pose X_BC in the robot's root link, with the robot in this pose.
-  Pose camera_pose(const RobotPose& pose) const { return camera_pose(pose, mount_.X_PC); }
+  Pose camera_pose(const RobotPose& pose) const;
   /// The same for a camera that has moved on its parent link.
-  Pose camera_pose(const RobotPose& pose, const Pose& X_PC) const {
-    return pose.X_BL[parent_] * X_PC;
-  }
+  Pose camera_pose(const RobotPose& pose, const Pose& X_PC) const;
 
  private:
   std::shared_ptr<const Robot> robot_;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <span>
 
 #include "berth/types/camera.hpp"
@@ -15,18 +14,16 @@ struct GuardedBox {
   Eigen::Vector3d half_m = Eigen::Vector3d::Zero();
 
   /// Whether all within `reach_m` of a point, along the axes of B, lies in it.
-  bool holds(const Eigen::Vector3d& p_B_m, double reach_m = 0) const {
-    const Eigen::Matrix3d R_GB = X_BG.linear().transpose();
-    const Eigen::Array3d off_m = (R_GB * (p_B_m - X_BG.translation())).cwiseAbs();
-    return (off_m + reach_m * R_GB.cwiseAbs().rowwise().sum().array() <= half_m.array()).all();
-  }
+  bool holds(const Eigen::Vector3d& p_B_m, double reach_m = 0) const;
 };
 
 /// Whether one of them holds all within `reach_m` of a point.
+bool is_in_one(std::span<const GuardedBox> boxes, const Eigen::Vector3d& p_B_m, double reach_m);
+
+/// The same, without a call where there is no box: loops over all of space ask.
 inline bool is_guarded(std::span<const GuardedBox> boxes, const Eigen::Vector3d& p_B_m,
                        double reach_m = 0) {
-  return std::ranges::any_of(boxes,
-                             [&](const GuardedBox& box) { return box.holds(p_B_m, reach_m); });
+  return !boxes.empty() && is_in_one(boxes, p_B_m, reach_m);
 }
 
 }  // namespace berth
