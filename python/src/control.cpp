@@ -27,12 +27,14 @@ class NamedFilter {
       : robot_(robot), filter_(robot, settings) {}
 
   Filtered update(const Part<Result>& result, const py::object& position,
-                  const py::object& velocity, const py::object& wanted) {
+                  const py::object& velocity, const py::object& wanted,
+                  const py::object& weight) {
     const auto numbers = [&](const py::object& joints) {
       return joints_of(robot_->model(), joints, 0).position;
     };
     const std::vector<double> q = numbers(position), v = numbers(velocity), w = numbers(wanted);
-    Filtered out{filter_.update(*result, {q, v, w}), {}};
+    const std::vector<double> weights = weight.is_none() ? std::vector<double>() : numbers(weight);
+    Filtered out{filter_.update(*result, {q, v, w, weights}), {}};
     for (const LinkRow& row : out.of.held_by) {
       out.held_by.emplace_back(result->links[row.link - 1].link, row.kind);
     }
@@ -55,14 +57,19 @@ void bind_rows(py::module_& m) {
           py::arg("result"), "Takes up a result of this robot; else raises ValueError.")
       .def(
           "gradient",
-          [](const DistanceRows& self, RowKind kind) { return array_of(self.gradient(kind)); },
-          py::arg("kind"),
+          [](const DistanceRows& self, RowKind kind, int candidate) {
+            return array_of(self.gradient(kind, candidate));
+          },
+          py::arg("kind"), py::arg("candidate") = 0,
           "d(distance)/dq of each link's pair, (links, joints) in m/rad, or m/m where the joint\n"
-          "slides. NaN where there is no pair, 0 in contact.")
+          "slides. NaN where there is no pair, 0 in contact. Of RowKind.nearest, candidate k is\n"
+          "LinkResult.candidates[k - 1]; 0 is the link's own pair.")
       .def(
           "normal",
-          [](const DistanceRows& self, RowKind kind) { return array_of(self.normal_B(kind)); },
-          py::arg("kind"),
+          [](const DistanceRows& self, RowKind kind, int candidate) {
+            return array_of(self.normal_B(kind, candidate));
+          },
+          py::arg("kind"), py::arg("candidate") = 0,
           "From the obstacle's point of each link's pair to the link's, (links, 3), of length 1, in\n"
           "the robot's root frame. In contact that of the last result in which they were apart; NaN\n"
           "where there is no pair, or none was apart before.")
@@ -104,10 +111,11 @@ void bind_filter(py::module_& m) {
            py::arg("robot"),
            py::arg_v("settings", VelocityFilterSettings{}, "VelocityFilterSettings()"))
       .def("update", &NamedFilter::update, py::arg("result"), py::arg("position"),
-           py::arg("velocity"), py::arg("wanted"),
+           py::arg("velocity"), py::arg("wanted"), py::arg("weight") = py::none(),
            "By name, or in the order of RobotModel.joint_names: the joints that the result is "
            "about\n"
-           "(rad, m), how fast they move until they obey, and the velocity that is wanted.");
+           "(rad, m), how fast they move until they obey, the velocity that is wanted, and how much\n"
+           "a difference from that counts, above 0; None: all alike.");
 }
 
 }  // namespace

@@ -276,6 +276,7 @@ void bind_result(py::module_& m) {
   // One that has all that a result may have; what `bare` has not is not in each.
   const auto full = std::make_shared<Result>();
   full->has_visibility = true;
+  full->has_candidates = true;
   full->link_names = std::make_shared<const std::vector<std::string>>();
   full->cameras.resize(1);
   full->links.resize(1);

@@ -39,7 +39,8 @@ std::shared_ptr<RobotModel> load(const std::filesystem::path& urdf,
                                  const std::vector<std::string>& guarded_links,
                                  const std::optional<std::string>& urdf_text,
                                  const std::vector<std::array<std::string, 2>>& allowed_contacts,
-                                 const std::optional<std::filesystem::path>& srdf) {
+                                 const std::optional<std::filesystem::path>& srdf,
+                                 const std::vector<OtherRobot>& others) {
   const RobotSettings settings{urdf,
                                package_paths,
                                geometry_of(geometry),
@@ -48,7 +49,8 @@ std::shared_ptr<RobotModel> load(const std::filesystem::path& urdf,
                                guarded_links,
                                urdf_text,
                                allowed_contacts,
-                               srdf.value_or(std::filesystem::path())};
+                               srdf.value_or(std::filesystem::path()),
+                               others};
   const py::gil_scoped_release release;
   return std::make_shared<RobotModel>(load_robot(settings));
 }
@@ -119,19 +121,32 @@ void bind_robot(py::module_& m) {
         return fmt::format("RobotModel({}, {} links, {} joints)", model.name, model.link_count(),
                            model.joints.size());
       });
+  py::class_<OtherRobot>(m, "OtherRobot",
+                         "A robot with a URDF of its own beside the first one, for load_robot().")
+      .def(py::init([](const std::filesystem::path& urdf, const std::string& prefix,
+                       const std::string& parent, const py::object& X_PR,
+                       const std::map<std::string, std::filesystem::path>& package_paths) {
+             return OtherRobot{urdf, package_paths, prefix, parent, pose_of(X_PR, "X_PR")};
+           }),
+           py::arg("urdf"), py::arg("prefix"), py::arg("parent"), py::arg("X_PR"),
+           py::arg("package_paths") = std::map<std::string, std::filesystem::path>{},
+           "prefix stands before the names of its links and joints. X_PR (4 x 4) is the pose of its "
+           "root\n"
+           "link in the frame of `parent`, a link of the first robot or of one before it.");
   m.def("load_robot", &load, py::arg("urdf"),
         py::arg("package_paths") = std::map<std::string, std::filesystem::path>{},
         py::arg("geometry") = "visual", py::arg("environment_links") = std::vector<std::string>{},
         py::arg("ignore_links") = std::vector<std::string>{},
         py::arg("guarded_links") = std::vector<std::string>{}, py::arg("urdf_text") = std::nullopt,
         py::arg("allowed_contacts") = std::vector<std::array<std::string, 2>>{},
-        py::arg("srdf") = std::nullopt,
+        py::arg("srdf") = std::nullopt, py::arg("others") = std::vector<OtherRobot>{},
         "Loads a URDF and its meshes. Links in environment_links are environment: filtered out of "
         "the\n"
         "images, not evaluated. Nobody can be in the boxes of guarded_links. geometry: visual or "
         "collision.\n"
-        "allowed_contacts are pairs of links that may touch, srdf names more. Raises "
-        "FileNotFoundError or\n"
+        "allowed_contacts are pairs of links that may touch, srdf names more; others are robots "
+        "beside it.\n"
+        "Raises FileNotFoundError or "
         "ValueError that names file, place, value and what was expected.");
   py::class_<Robot, std::shared_ptr<Robot>>(
       m, "Robot", "A robot, and how requests about it are answered. Constant; share it.")

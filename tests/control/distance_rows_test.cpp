@@ -129,6 +129,31 @@ TEST(DistanceRows, OfWhatTheCamerasSeeTheLinkAloneMoves) {
   }
 }
 
+TEST(DistanceRows, EachCandidateHasARow) {
+  RowsRobot robot(bundled_arm(), 3);
+  DistanceRows rows(robot.robot), own(robot.robot);
+  forward_kinematics(robot.model(), std::vector<double>(7, 0.3), robot.result.pose);
+  LinkResult& link = robot.result.links[5];
+  SpacePair beside;
+  put(robot, 5, {0.05, 0, 0}, {0.5, 0.5, 1}, link);
+  put(robot, 5, {-0.05, 0, 0}, {-0.5, 0.2, 1}, beside);
+  link.candidates = {beside};
+  rows.update(robot.result);
+  robot.result.links[5].candidates.clear();
+  static_cast<SpacePair&>(robot.result.links[5]) = beside;
+  own.update(robot.result);
+  EXPECT_EQ(rows.gradient(RowKind::nearest, 1).row(5), own.gradient(RowKind::nearest).row(5));
+  EXPECT_EQ(rows.normal_B(RowKind::nearest, 1).row(5), own.normal_B(RowKind::nearest).row(5));
+  EXPECT_NE(rows.gradient(RowKind::nearest).row(5), own.gradient(RowKind::nearest).row(5));
+  EXPECT_TRUE(rows.gradient(RowKind::nearest, 2).array().isNaN().all()) << "there is none";
+  const auto message = [&](RowKind kind, int candidate) {
+    return error_message<std::out_of_range>([&] { rows.gradient(kind, candidate); });
+  };
+  EXPECT_EQ(message(RowKind::nearest, 3), "candidate: 3; expected 0 to 2 for nearest");
+  EXPECT_EQ(message(RowKind::known, 1), "candidate: 1; expected 0 to 0 for known");
+  EXPECT_EQ(message(RowKind::nearest, -1), "candidate: -1; expected 0 to 2 for nearest");
+}
+
 TEST(DistanceRows, WithoutAPairThereIsNoneAndInContactItIs0) {
   RowsRobot robot(bundled_arm());
   DistanceRows rows(robot.robot);

@@ -9,11 +9,17 @@
 
 namespace berth {
 
+inline EvaluationSettings with_candidates(int candidates) {
+  EvaluationSettings settings;
+  settings.candidates = candidates;
+  return settings;
+}
+
 /// A robot with distances to what is known, and no camera.
 class RowsRobot {
  public:
-  explicit RowsRobot(const RobotSettings& settings)
-      : robot(std::make_shared<const Robot>(load_robot(settings))) {
+  explicit RowsRobot(const RobotSettings& settings, int candidates = 1)
+      : robot(std::make_shared<const Robot>(load_robot(settings), with_candidates(candidates))) {
     begin_result(*robot, result);
   }
 

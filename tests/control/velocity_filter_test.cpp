@@ -296,6 +296,95 @@ TEST_F(Filtered, KeepsTheJointsLimits) {
   EXPECT_GT(at_limit, 0);
 }
 
+/// Between two walls, each of them nearest in turn: how often joint 1 is turned back within a
+/// second. The nearest alone sends it from the one to the other.
+int turns_between_walls(int candidates) {
+  RowsRobot arm(bundled_arm(), candidates);
+  VelocityFilter filter(arm.robot, {.least_distance_m = 0.06, .approach_rate_1_s = 20});
+  Numbers position = kFree;
+  arm.ask(position);
+  const Pose& X_BL = arm.result.pose.X_BL[arm.model().evaluated_links[7]];
+  const Eigen::Vector3d left_B_m = X_BL * Eigen::Vector3d(0, 0.12, 0.1);
+  const Eigen::Vector3d right_B_m = X_BL * Eigen::Vector3d(0, -0.12, 0.1);
+  Numbers velocity(7, 0);
+  int turns = 0;
+  for (int k = 0; k < 100; ++k) {
+    arm.ask(position);
+    LinkResult& link = arm.result.links[7];
+    SpacePair other;
+    put(arm, 7, {0, 0.05, 0.1}, left_B_m, link);
+    put(arm, 7, {0, -0.05, 0.1}, right_B_m, other);
+    if (other.distance_m < link.distance_m) std::swap<SpacePair>(link, other);
+    link.candidates.clear();
+    if (candidates > 1) link.candidates.push_back(other);
+    const Numbers wanted{k % 20 < 10 ? 1.0 : -1.0, 0, 0, 0, 0, 0.3, 0};
+    const Numbers before = velocity;
+    velocity = filter.update(arm.result, {position, velocity, wanted}).velocity;
+    turns += before[0] * velocity[0] < 0;
+    go(position, velocity, 0.01);
+  }
+  return turns;
+}
+
+TEST(VelocityFilter, BetweenTwoWallsCandidatesEndTheTurningBack) {
+  EXPECT_LT(turns_between_walls(2), turns_between_walls(1));
+}
+
+TEST(VelocityFilter, ACandidateHoldsItBackAsTheNearestPairDoes) {
+  RowsRobot arm(bundled_arm(), 2);
+  VelocityFilter filter(arm.robot, {});
+  arm.ask(kFree);
+  const Pose& X_BL = arm.result.pose.X_BL[arm.model().evaluated_links[7]];
+  LinkResult& link = arm.result.links[7];
+  put(arm, 7, {0, 0.05, 0.1}, X_BL * Eigen::Vector3d(0, 0.12, 0.1), link);
+  put(arm, 7, {0, -0.05, 0.1}, X_BL * Eigen::Vector3d(0, -0.14, 0.1),
+      link.candidates.emplace_back());
+  for (const double sign : {1.0, -1.0}) {
+    const Numbers wanted{sign, 0, 0, 0, 0, 0, 0};
+    const FilteredVelocity& out = filter.update(arm.result, {kFree, Numbers(7, 0), wanted});
+    ASSERT_EQ(out.status, FilterStatus::ok);
+    const Eigen::Map<const Eigen::VectorXd> v(out.velocity.data(), 7);
+    for (const int candidate : {0, 1}) {
+      const SpacePair& pair = candidate == 0 ? link : link.candidates[0];
+      const double falls_m_s =
+          -filter.rows().gradient(RowKind::nearest, candidate).row(7).dot(v);
+      EXPECT_LE(falls_m_s, 2 * (pair.lower_bound_m - 0.05) + 1e-6);
+    }
+    ASSERT_FALSE(out.held_by.empty());
+  }
+  const Numbers towards_other{1, 0, 0, 0, 0, 0, 0}, away{-1, 0, 0, 0, 0, 0, 0};
+  std::vector<int> held;
+  for (const Numbers& wanted : {towards_other, away}) {
+    const FilteredVelocity& out = filter.update(arm.result, {kFree, Numbers(7, 0), wanted});
+    held.push_back(out.held_by.front().candidate);
+  }
+  std::ranges::sort(held);
+  EXPECT_EQ(held, (std::vector{0, 1})) << "each wall holds it on its own side";
+}
+
+TEST_F(Filtered, AJointWithMoreWeightLeavesWhatIsWantedLess) {
+  VelocityFilter filter(arm.robot, {});
+  put_in_front(0.1F);
+  const Numbers wanted{sign_towards(filter), 0, 0, 0, 0, 0, 0}, velocity(7, 0);
+  const auto left = [&](const Numbers& weight) {
+    const FilteredVelocity& out =
+        filter.update(arm.result, {position, velocity, wanted, weight});
+    EXPECT_EQ(out.status, FilterStatus::ok);
+    return std::abs(out.velocity[0] - wanted[0]);
+  };
+  const double alike = left({});
+  EXPECT_NEAR(left(Numbers(7, 3)), alike, 1e-9);
+  EXPECT_LT(left({10, 1, 1, 1, 1, 1, 1}), 0.9 * alike);
+  for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    const Numbers weight{1, 1, 1, bad, 1, 1, 1};
+    EXPECT_EQ(filter.update(arm.result, {position, velocity, wanted, weight}).status,
+              FilterStatus::bad_joints);
+  }
+  const Numbers few(6, 1);
+  EXPECT_EQ(filter.update(arm.result, {position, velocity, wanted, few}).status,
+            FilterStatus::bad_joints);
+}
+
 TEST_F(Filtered, AllocatesNothing) {
   VelocityFilter filter(arm.robot, {});
   put_in_front(0.1F);

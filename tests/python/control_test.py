@@ -3,6 +3,7 @@ import numpy as np
 import pytest
 
 import berth
+from conftest import SOURCE
 
 
 @pytest.fixture
@@ -43,6 +44,38 @@ def test_the_filter_keeps_what_its_rows_ask(asked):
         falls = -(rows.gradient(kind) @ out.velocity)[moved]
         assert (np.nan_to_num(falls) <= 2 * np.maximum(0, bound_m[moved] - 0.02) + 1e-6).all()
     assert all(name in result.link_names and isinstance(kind, berth.RowKind) for name, kind in out.held_by)
+
+
+def test_each_candidate_has_a_row_and_weights_count(one_camera):
+    step = next(iter(one_camera))
+    robot = berth.Robot(one_camera.robot.model, berth.EvaluationSettings(candidates=3))
+    view = berth.MountedCamera(robot, one_camera.views[0].mount, one_camera.views[0].settings)
+    result = berth.Query(robot).ask(berth.Observer(view).observe(step.depth_m, step.joints, stamp_s=0.0), step.joints)
+    rows = berth.DistanceRows(robot)
+    rows.update(result)
+    assert any(link.candidates for link in result)
+    for i, link in enumerate(result):
+        for k in (1, 2):
+            has_row = not np.isnan(rows.gradient(berth.RowKind.nearest, k)[i]).any()
+            assert has_row == (len(link.candidates) >= k)
+            assert not has_row or link.candidates[k - 1].distance_m >= link.distance_m - 0.002
+    with pytest.raises(IndexError, match="candidate: 3; expected 0 to 2 for nearest"):
+        rows.gradient(berth.RowKind.nearest, 3)
+    out = berth.VelocityFilter(robot).update(result, step.joints, np.zeros(7), np.zeros(7), weight=np.zeros(7))
+    assert out.status == berth.FilterStatus.bad_joints
+
+
+def test_another_robot_is_beside_the_first(one_camera):
+    arm = SOURCE / "data/bundled/arm"
+    away = np.eye(4)
+    away[0, 3] = 3
+    other = berth.OtherRobot(arm / "arm.urdf", prefix="second_", parent="table", X_PR=away, package_paths={"berth_arm": arm})
+    model = berth.load_robot(arm / "arm.urdf", {"berth_arm": arm}, environment_links=["table"], others=[other])
+    assert len(model.joint_names) == 14 and "second_arm_link_7" in model.link_names
+    assert np.allclose(model.link_poses(np.zeros(14))["second_table"][:3, 3], [3, 0, 0])
+    with pytest.raises(ValueError, match="nobody"):
+        berth.load_robot(arm / "arm.urdf", {"berth_arm": arm},
+                         others=[berth.OtherRobot(arm / "arm.urdf", prefix="b_", parent="nobody", X_PR=np.eye(4), package_paths={"berth_arm": arm})])
 
 
 def test_what_is_missing_stops_it(asked):

@@ -35,7 +35,11 @@ PairPoints points_of(const KnownPair& pair) {
           pair.obstacle_point_B_m.cast<double>(), static_cast<std::size_t>(pair.link)};
 }
 
-PairPoints points_of(const LinkResult& link, RowKind kind) {
+PairPoints points_of(const LinkResult& link, RowKind kind, int candidate) {
+  if (candidate > 0) {
+    const auto place = static_cast<std::size_t>(candidate - 1);
+    return points_of(place < link.candidates.size() ? link.candidates[place] : SpacePair());
+  }
   if (kind == RowKind::known) return points_of(link.known);
   return points_of(kind == RowKind::nearest ? link : link.occupied);
 }
@@ -53,8 +57,9 @@ DistanceRows::DistanceRows(std::shared_ptr<const Robot> robot) : robot_(std::mov
   const RobotModel& model = robot_->model();
   const auto links = static_cast<Eigen::Index>(model.evaluated_links.size());
   const auto joints = static_cast<Eigen::Index>(model.joints.size());
-  for (LinksByJoints& gradient : gradients_) gradient.setConstant(links, joints, kNaN);
-  for (LinkVectors& normals_B : normals_B_) normals_B.setConstant(links, 3, kNaN);
+  const std::size_t pairs = kRowKinds.size() + robot_->settings().candidates - 1;
+  gradients_.assign(pairs, LinksByJoints::Constant(links, joints, kNaN));
+  normals_B_.assign(pairs, LinkVectors::Constant(links, 3, kNaN));
   reach_m_.resize(links, joints);
   known_reach_m_.resize(links, joints);
   sum_m_.resize(joints);
@@ -71,6 +76,16 @@ DistanceRows::DistanceRows(std::shared_ptr<const Robot> robot) : robot_(std::mov
 
 DistanceRows::~DistanceRows() = default;
 
+std::size_t DistanceRows::index(RowKind kind, int candidate) const {
+  if (candidate == 0) return static_cast<std::size_t>(kind);
+  const int last = kind == RowKind::nearest ? robot_->settings().candidates - 1 : 0;
+  if (candidate < 0 || candidate > last) {
+    throw std::out_of_range(
+        fmt::format("candidate: {}; expected 0 to {} for {}", candidate, last, name_of(kind)));
+  }
+  return kRowKinds.size() + static_cast<std::size_t>(candidate - 1);
+}
+
 void DistanceRows::update(const Result& result) {
   const auto links = static_cast<std::size_t>(reach_m_.rows());
   if (result.links.size() != links) {
@@ -79,19 +94,23 @@ void DistanceRows::update(const Result& result) {
   }
   for (LinksByJoints& gradient : gradients_) gradient.setConstant(kNaN);
   for (std::size_t i = 0; i < links; ++i) {
-    for (const RowKind kind : kRowKinds) differentiate(result, i, kind);
+    for (const RowKind kind : kRowKinds) differentiate(result, i, kind, 0);
+    for (int candidate = 1; candidate < robot_->settings().candidates; ++candidate) {
+      differentiate(result, i, RowKind::nearest, candidate);
+    }
   }
   if (has_slides_ && !result.pose.X_BL.empty()) find_reaches(result.pose);
 }
 
-void DistanceRows::differentiate(const Result& result, std::size_t link, RowKind kind) {
-  const PairPoints pair = points_of(result.links[link], kind);
-  auto normal_B = normals_B_[index(kind)].row(static_cast<Eigen::Index>(link));
+void DistanceRows::differentiate(const Result& result, std::size_t link, RowKind kind,
+                                 int candidate) {
+  const PairPoints pair = points_of(result.links[link], kind, candidate);
+  auto normal_B = normals_B_[index(kind, candidate)].row(static_cast<Eigen::Index>(link));
   if (!pair.is_known || result.pose.X_BL.empty()) {
     normal_B.setConstant(kNaN);
     return;
   }
-  auto gradient = gradients_[index(kind)].row(static_cast<Eigen::Index>(link));
+  auto gradient = gradients_[index(kind, candidate)].row(static_cast<Eigen::Index>(link));
   gradient.setZero();
   const Eigen::Vector3d way_B_m = pair.link_B_m - pair.other_B_m;
   const double length_m = way_B_m.norm();

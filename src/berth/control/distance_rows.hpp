@@ -16,7 +16,7 @@ struct ChainJoint;
 
 /// Which pair of a link a row is about.
 enum class RowKind : std::uint8_t {
-  nearest,   ///< LinkResult itself: occupied or unknown
+  nearest,   ///< LinkResult itself and its candidates: occupied or unknown
   occupied,  ///< LinkResult::occupied
   known,     ///< LinkResult::known
 };
@@ -46,13 +46,19 @@ class DistanceRows {
   /// d(distance)/dq, in m/rad, or m/m where the joint slides: the unit vector from the obstacle's
   /// point of the pair to the link's, times how the joint moves the one point against the other.
   /// NaN where there is no pair. 0 in contact: the distance gives no direction there. At a kink,
-  /// where two pairs are as near, it is that of one of them.
-  const LinksByJoints& gradient(RowKind kind) const { return gradients_[index(kind)]; }
+  /// where two pairs are as near, it is that of one of them. Of RowKind::nearest there are as many
+  /// as EvaluationSettings::candidates says: 0 is the link's own pair, k is
+  /// LinkResult::candidates[k - 1]. Of other kinds there is 0 alone. Else std::out_of_range.
+  const LinksByJoints& gradient(RowKind kind, int candidate = 0) const {
+    return gradients_[index(kind, candidate)];
+  }
 
   /// Of length 1, from the obstacle's point of the pair to the link's, in the robot's root frame B:
   /// where the link goes away. In contact it is that of the last result in which they were apart.
   /// NaN where there is no pair, or none was apart before.
-  const LinkVectors& normal_B(RowKind kind) const { return normals_B_[index(kind)]; }
+  const LinkVectors& normal_B(RowKind kind, int candidate = 0) const {
+    return normals_B_[index(kind, candidate)];
+  }
 
   /// What a motion can cost at most: after any step dq of the joints, however large, nothing of
   /// this kind is nearer than
@@ -65,16 +71,17 @@ class DistanceRows {
   }
 
  private:
-  static std::size_t index(RowKind kind) { return static_cast<std::size_t>(kind); }
-  void differentiate(const Result& result, std::size_t link, RowKind kind);
+  /// Candidates come behind the pairs of all kinds.
+  std::size_t index(RowKind kind, int candidate) const;
+  void differentiate(const Result& result, std::size_t link, RowKind kind, int candidate);
   void find_reaches(const RobotPose& pose);
   void add_reach(std::size_t body, std::size_t common, Eigen::VectorXd& sum_m) const;
   /// How many joints at the ends of both chains are the same.
   std::size_t common_joints(std::size_t body, std::size_t other) const;
 
   std::shared_ptr<const Robot> robot_;
-  std::array<LinksByJoints, kRowKinds.size()> gradients_;
-  std::array<LinkVectors, kRowKinds.size()> normals_B_;
+  std::vector<LinksByJoints> gradients_;
+  std::vector<LinkVectors> normals_B_;
   LinksByJoints reach_m_;
   LinksByJoints known_reach_m_;
   /// Of the bodies of KnownModel: the evaluated links come first, by their ids.

@@ -20,12 +20,13 @@ VelocityFilter::VelocityFilter(std::shared_ptr<const Robot> robot,
     : robot_(std::move(robot)), settings_(settings), rows_(robot_) {
   visit_settings(settings_, SettingCheck{"velocity_filter"});
   const auto joints = static_cast<Eigen::Index>(robot_->model().joints.size());
-  const std::size_t most_rows = kRowKinds.size() * robot_->model().evaluated_links.size();
+  const std::size_t pairs = kRowKinds.size() + robot_->settings().candidates - 1;
+  const std::size_t most_rows = pairs * robot_->model().evaluated_links.size();
   spaces_ = std::make_unique<HalfSpaces>(joints, 2 * joints + static_cast<Eigen::Index>(most_rows));
   bounds_.reserve(most_rows);
   out_.held_by.reserve(most_rows);
   out_.velocity.resize(static_cast<std::size_t>(joints));
-  for (auto* of_joints : {&lower_, &upper_, &before_, &planned_, &speed_, &normal_}) {
+  for (auto* of_joints : {&lower_, &upper_, &before_, &planned_, &speed_, &normal_, &weight_, &weighted_}) {
     of_joints->setZero(joints);
   }
 }
@@ -53,12 +54,16 @@ const FilteredVelocity& VelocityFilter::update(const Result& result, const Joint
 }
 
 bool VelocityFilter::are_good(const JointMotion& joints) const {
-  return std::ranges::all_of(std::array{joints.position, joints.velocity, joints.wanted},
-                             [&](std::span<const double> all) {
-                               return all.size() == out_.velocity.size() &&
-                                      std::ranges::all_of(
-                                          all, [](double number) { return std::isfinite(number); });
-                             });
+  const auto are_finite = [&](std::span<const double> all) {
+    return all.size() == out_.velocity.size() &&
+           std::ranges::all_of(all, [](double number) { return std::isfinite(number); });
+  };
+  const bool are_weights_good =
+      joints.weight.empty() ||
+      (are_finite(joints.weight) &&
+       std::ranges::all_of(joints.weight, [](double weight) { return weight > 0; }));
+  return are_weights_good && are_finite(joints.position) && are_finite(joints.velocity) &&
+         are_finite(joints.wanted);
 }
 
 bool VelocityFilter::is_all_seen(const Result& result) {
@@ -110,6 +115,11 @@ bool VelocityFilter::find_bounds(const Result& result) {
       bounds_.push_back({{link.id, kind}, lower_bound_m, {}});
       if (!(lower_bound_m > 0)) out_.held_by.push_back({link.id, kind});
     }
+    for (std::size_t k = 0; k < link.candidates.size(); ++k) {
+      // Nothing is nearer than the link's own bound says.
+      const double lower_bound_m = std::fmax(link.candidates[k].lower_bound_m, link.lower_bound_m);
+      bounds_.push_back({{link.id, RowKind::nearest, static_cast<int>(k + 1)}, lower_bound_m, {}});
+    }
   }
   return out_.held_by.empty();
 }
@@ -123,24 +133,33 @@ void VelocityFilter::add_half_spaces() {
   for (Eigen::Index j = 0; j < lower_.size(); ++j) {
     normal_.setZero();
     normal_[j] = 1;
-    if (std::isfinite(lower_[j])) spaces_->add(normal_, lower_[j]);
+    if (std::isfinite(lower_[j])) add_half_space(lower_[j]);
     normal_[j] = -1;
-    if (std::isfinite(upper_[j])) spaces_->add(normal_, -upper_[j]);
+    if (std::isfinite(upper_[j])) add_half_space(-upper_[j]);
   }
   for (Bound& bound : bounds_) {
-    normal_ = rows_.gradient(bound.row.kind).row(bound.row.link - 1);
+    normal_ = rows_.gradient(bound.row.kind, bound.row.candidate).row(bound.row.link - 1);
     if (!normal_.allFinite()) continue;
     // What the check below asks for: without it the robot would come so near that it creeps.
     const double checked_m =
         (settings_.period_s + settings_.latency_s) * speed_m_s(bound.row, planned_);
     const double room_m = bound.lower_bound_m - settings_.least_distance_m - checked_m;
-    bound.half_space = spaces_->add(normal_, -settings_.approach_rate_1_s * std::max(0.0, room_m));
+    bound.half_space = add_half_space(-settings_.approach_rate_1_s * std::max(0.0, room_m));
   }
 }
 
+/// normal_ . v >= bound, in the space of velocities by their weights.
+Eigen::Index VelocityFilter::add_half_space(double bound) {
+  weighted_ = normal_.cwiseQuotient(weight_);
+  return spaces_->add(weighted_, bound);
+}
+
 void VelocityFilter::solve(const JointMotion& joints) {
+  if (joints.weight.empty()) weight_.setOnes();
+  if (!joints.weight.empty()) weight_ = Vector(joints.weight.data(), std::ssize(joints.weight));
   add_half_spaces();
-  const bool is_solved = spaces_->project(Vector(joints.wanted.data(), std::ssize(joints.wanted)));
+  weighted_ = Vector(joints.wanted.data(), std::ssize(joints.wanted)).cwiseProduct(weight_);
+  const bool is_solved = spaces_->project(weighted_);
   for (const Bound& bound : bounds_) {
     const bool holds =
         bound.half_space && spaces_->weights()[*bound.half_space] > HalfSpaces::kTolerance;
@@ -151,7 +170,8 @@ void VelocityFilter::solve(const JointMotion& joints) {
 }
 
 void VelocityFilter::shorten() {
-  speed_ = spaces_->point().cwiseAbs();
+  weighted_ = spaces_->point().cwiseQuotient(weight_);
+  speed_ = weighted_.cwiseAbs();
   const double all_s = settings_.period_s + settings_.latency_s;
   double scale = 1;
   const Bound* shortest = nullptr;
@@ -171,7 +191,7 @@ void VelocityFilter::shorten() {
     shortest = &bound;
   }
   out_.scale = scale;
-  Eigen::Map<Eigen::VectorXd>(out_.velocity.data(), speed_.size()) = scale * spaces_->point();
+  Eigen::Map<Eigen::VectorXd>(out_.velocity.data(), speed_.size()) = scale * weighted_;
   const bool is_new = shortest && std::ranges::none_of(out_.held_by, [&](const LinkRow& row) {
                         return row == shortest->row;
                       });

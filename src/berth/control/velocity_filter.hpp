@@ -63,13 +63,16 @@ struct JointMotion {
   std::span<const double> velocity;
   /// What the program wants.
   std::span<const double> wanted;
+  /// How much a difference from that counts, above 0: a joint with twice the weight leaves it half
+  /// as much. Empty: all alike.
+  std::span<const double> weight = {};
 };
 
 /// Why a filtered velocity is what it is.
 enum class FilterStatus : std::uint8_t {
   ok,           ///< it is as near to the wanted one as rows and limits allow
   stale,        ///< 0: the result is no answer
-  bad_joints,   ///< 0: a number of the joints is missing or not finite
+  bad_joints,   ///< 0: a number of the joints is missing or not finite, or a weight not above 0
   unseen,       ///< 0: a camera is left out, or the links in held_by are not seen or not observed
   contact,      ///< 0: something may touch already, and no direction is known that leads away
   no_solution,  ///< 0: the joints cannot brake as fast as rows ask
@@ -81,10 +84,11 @@ constexpr std::string_view name_of(FilterStatus status) {
   return kFilterStatusNames[static_cast<std::size_t>(status)];
 }
 
-/// A row of DistanceRows, by its link and kind.
+/// A row of DistanceRows, by its link, kind and candidate.
 struct LinkRow {
   LinkId link = kNoLink;
   RowKind kind = RowKind::nearest;
+  int candidate = 0;
 
   bool operator==(const LinkRow&) const = default;
 };
@@ -104,7 +108,7 @@ struct FilteredVelocity {
 /// that cameras see and the model knows. **Not a certified safety function.** One for each thread;
 /// once made, nothing allocates.
 ///
-/// It solves for the velocity v nearest to the wanted one with
+/// It solves for the velocity v nearest to the wanted one, weighted, with
 ///   gradient . v >= -approach_rate_1_s (lower bound - least_distance_m)
 /// for each row, and within the joints' limits. Then, whatever was solved, it shortens v until
 ///   lower bound - sum over joints j of |v_j| reach_m(j) period_s >= least_distance_m
@@ -129,6 +133,7 @@ class VelocityFilter {
   struct Bound;
 
   bool are_good(const JointMotion& joints) const;
+  Eigen::Index add_half_space(double bound);
   bool is_all_seen(const Result& result);
   void find_limits(const JointMotion& joints);
   /// Whether nothing may touch already.
@@ -152,6 +157,9 @@ class VelocityFilter {
   Eigen::VectorXd planned_;
   Eigen::VectorXd speed_;
   Eigen::VectorXd normal_;
+  /// JointMotion::weight, and the wanted velocity by it.
+  Eigen::VectorXd weight_;
+  Eigen::VectorXd weighted_;
   FilteredVelocity out_;
 };
 

@@ -80,6 +80,7 @@ double us_since(LinkSearches::Clock::time_point begin) {
 }  // namespace
 
 LinkSearches::LinkSearches(std::shared_ptr<const Robot> robot) : robot_(std::move(robot)) {
+  if (robot_->settings().candidates > 1) candidates_.emplace(robot_);
   const RobotModel& model = robot_->model();
   for (const std::size_t index : model.evaluated_links) {
     const Eigen::AlignedBox3f box_L_m = model.links[index].mesh_L.bounding_box_m();
@@ -152,13 +153,26 @@ void LinkSearches::ask(const FrameSet& frames, const RobotPose& pose, Clock::tim
   if (request.deadline_us) {
     request.deadline_us = std::max(0.0, *request.deadline_us - us_since(begin) - after_search_us_);
   }
+  if (candidates_) search_candidates(frames, pose, request);
   search(frames, pose, request, found_);
   const Clock::time_point searched = Clock::now();
   tell_distances(frames, pose, out);
+  if (candidates_) candidates_->tell(frames, out);
   if (robot_->settings().distance.mean_direction) tell_mean_directions(frames, out);
   tell_visibility(frames, pose, out);
   constexpr double kForgotten = 0.95;
   after_search_us_ = std::max(us_since(searched), kForgotten * after_search_us_);
+}
+
+void LinkSearches::search_candidates(const FrameSet& frames, const RobotPose& pose,
+                                     MeshRequest& request) {
+  MeshRequest of_candidates = request;
+  // Each link's own pair has the most of the time.
+  if (request.deadline_us) {
+    of_candidates.deadline_us = *request.deadline_us / 4;
+    request.deadline_us = *request.deadline_us - *of_candidates.deadline_us;
+  }
+  candidates_->search(frames, pose, of_candidates);
 }
 
 void LinkSearches::tell_known(const RobotPose& pose, Result& out) {
@@ -171,6 +185,7 @@ void LinkSearches::forget() {
   known_workspace_.forget();
   workspace_.forget();
   found_.clear();
+  if (candidates_) candidates_->forget();
   undecided_workspace_.forget();
   undecided_.clear();
   rejected_workspace_.forget();
@@ -181,12 +196,14 @@ void LinkSearches::prepare(const FrameSet& frames, const RobotPose& pose) {
   MeshRequest request = request_of(robot_->settings().distance);
   request.deadline_us.reset();
   search(frames, pose, request, found_);
+  if (candidates_) candidates_->search(frames, pose, request);
   if (robot_->settings().visibility) search_rejected(frames, pose);
 }
 
 void LinkSearches::go_on_from(const LinkSearches& prepared) {
   workspace_ = prepared.workspace_;
   found_ = prepared.found_;
+  candidates_ = prepared.candidates_;
   undecided_workspace_ = prepared.undecided_workspace_;
   undecided_ = prepared.undecided_;
   rejected_workspace_ = prepared.rejected_workspace_;

@@ -9,6 +9,7 @@
 #include "berth/distance/known_distances.hpp"
 #include "berth/distance/mean_directions.hpp"
 #include "berth/distance/mesh_distances.hpp"
+#include "berth/pipeline/candidate_search.hpp"
 #include "berth/pipeline/frame_set.hpp"
 #include "berth/pipeline/result.hpp"
 #include "berth/pipeline/robot.hpp"
@@ -45,6 +46,7 @@ class LinkSearches {
               std::vector<WholeLinkDistance>& out);
   void add_undecided(const FrameSet& frames, const RobotPose& pose, MeshRequest request,
                      std::vector<WholeLinkDistance>& out);
+  void search_candidates(const FrameSet& frames, const RobotPose& pose, MeshRequest& request);
   void tell_distances(const FrameSet& frames, const RobotPose& pose, Result& out) const;
   /// LinkResult::assumed_thinner_m of out.links[i].
   float assumed_thinner_m(const FrameSet& frames, const RobotPose& pose, std::size_t i) const;
@@ -65,6 +67,8 @@ class LinkSearches {
   std::vector<KnownPair> known_;
   MeshWorkspace workspace_;
   std::vector<WholeLinkDistance> found_;
+  /// None where each link has one pair alone.
+  std::optional<CandidateSearch> candidates_;
   MeshWorkspace undecided_workspace_;
   std::vector<WholeLinkDistance> undecided_;
   MeshWorkspace rejected_workspace_;

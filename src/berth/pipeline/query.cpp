@@ -44,6 +44,7 @@ void begin_result(const Robot& robot, Result& result) {
   const RobotModel& model = robot.model();
   result.range_m = robot.settings().distance.range_m;
   result.has_visibility = robot.settings().visibility;
+  result.has_candidates = robot.settings().candidates > 1;
   result.links.resize(model.evaluated_links.size());
   for (std::size_t i = 0; i < result.links.size(); ++i) {
     const std::size_t index = model.evaluated_links[i];

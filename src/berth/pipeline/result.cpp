@@ -45,6 +45,7 @@ void withhold(Result& result) {
     static_cast<SpacePair&>(link) = {};
     link.occupied = {};
     link.known = {};
+    link.candidates.clear();
     link.lower_bound_m = link.occupied.lower_bound_m = kNaN;
     link.status = LinkStatus::stale;
     link.assumed_thinner_m = kNaN;

@@ -44,6 +44,10 @@ struct LinkResult : SpacePair {
   /// The pair to the environment, the robot's own other links and other robots, by their meshes:
   /// no camera has to see them. Of links that a joint moves.
   KnownPair known;
+  /// Further pairs to what is occupied or unknown and within 0.5 m, nearest first: each the nearest
+  /// of an eighth of the link, and 5 cm apart on the link from its own pair and from each other. At
+  /// most EvaluationSettings::candidates less one.
+  std::vector<SpacePair> candidates;
   /// The points of the link's own pair in the optical frame C of its camera.
   Eigen::Vector3f robot_point_C_m = unset_point();
   Eigen::Vector3f obstacle_point_C_m = unset_point();
@@ -126,6 +130,8 @@ struct Result {
   double range_m = 0;
   /// Whether visibility was asked for.
   bool has_visibility = false;
+  /// Whether more than one pair of each link was asked for.
+  bool has_candidates = false;
   /// In the order of the request's frames.
   std::vector<CameraResult> cameras;
   /// links[i] has the id i + 1.
@@ -254,6 +260,11 @@ void visit_fields(const LinkResult& l, const Result& result, Visitor&& visit) {
            "the closest pair to the environment, the robot's own other links and other robots, by "
            "their meshes: no camera has to see them"},
           l.known);
+  }
+  if (result.has_candidates) {
+    visit({"candidates",
+           "further closest pairs, nearest first, at least 5 cm apart on the link, up to 0.5 m away"},
+          l.candidates);
   }
   visit({"assumed_thinner_m",
          "what lies on the link or on environment near it, and is thinner than this, is taken for "

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "berth/distance/known_model.hpp"
+#include "berth/distance/link_eighths.hpp"
 #include "berth/distance/robot_patches.hpp"
 #include "berth/render/robot_renderer.hpp"
 #include "berth/visibility/sample_points.hpp"
@@ -39,6 +40,11 @@ struct Robot::Known {
   std::shared_ptr<const KnownModel> model;
 };
 
+struct Robot::Eighths {
+  std::once_flag are_made;
+  std::shared_ptr<const RobotPatches> patches;
+};
+
 Robot::Robot(RobotModel model, EvaluationSettings settings, std::vector<Attachment> attached)
     : bare_(std::move(model)),
       attached_(std::move(attached)),
@@ -50,7 +56,13 @@ Robot::Robot(RobotModel model, EvaluationSettings settings, std::vector<Attachme
   patches_ = build_robot_patches(model_);
   sample_points_ = std::make_shared<const SamplePoints>(berth::sample_points(model_));
   known_ = std::make_shared<Known>();
+  eighths_ = std::make_shared<Eighths>();
   touching_ = std::make_shared<Touching>();
+}
+
+const RobotPatches& Robot::eighths() const {
+  std::call_once(eighths_->are_made, [&] { eighths_->patches = build_link_eighths(model_); });
+  return *eighths_->patches;
 }
 
 const KnownModel& Robot::known() const {

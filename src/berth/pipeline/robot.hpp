@@ -21,6 +21,8 @@ struct EvaluationSettings {
   DistanceSettings distance;
   /// Whether results tell what the cameras cannot know (LinkResult::visibility).
   bool visibility = true;
+  /// How many pairs of each link are told, its own and LinkResult::candidates together.
+  int candidates = 1;
   TimeSettings time;
 
   bool operator==(const EvaluationSettings&) const = default;
@@ -35,6 +37,11 @@ void visit_settings(Settings& s, Visitor&& visit) {
        {},
        "whether to tell how much of each link and of the space around its answer the cameras see"},
       s.visibility);
+  visit({"candidates",
+         {.least = 1, .most = 8},
+         "how many pairs of each link are told, at least 5 cm apart on it: what a controller needs "
+         "between two obstacles"},
+        s.candidates);
 }
 
 /// A robot and what is asked about it: constant once made, shared by all views, observers and
@@ -55,6 +62,9 @@ class Robot {
   const EvaluationSettings& settings() const { return settings_; }
   const std::shared_ptr<const LinkMeshes>& meshes() const { return meshes_; }
   const std::shared_ptr<const RobotPatches>& patches() const { return patches_; }
+  /// The links' eighths, each a link of its own. Made by the first call, which takes as long as a
+  /// robot does.
+  const RobotPatches& eighths() const;
   /// Where it is looked for what the cameras see of the robot.
   const SamplePoints& sample_points() const { return *sample_points_; }
   /// Which links are looked at for each other. Found by the first call, which takes milliseconds.
@@ -70,6 +80,8 @@ class Robot {
   std::shared_ptr<const SamplePoints> sample_points_;
   struct Known;
   std::shared_ptr<Known> known_;
+  struct Eighths;
+  std::shared_ptr<Eighths> eighths_;
   /// Shared by all that have the same bare robot.
   struct Touching;
   std::shared_ptr<Touching> touching_;

@@ -65,6 +65,11 @@ class Writer {
             {"reaction_time_s", json_value(separation.reaction_time_s)},
             {"text", separation_text(result_)}};
   }
+  Json json_of(const std::vector<SpacePair>& pairs) const {
+    Json all = Json::array();
+    for (const SpacePair& pair : pairs) all.push_back(json_of(pair));
+    return all;
+  }
   Json json_of(const std::vector<CameraResult>& cameras) const {
     Json all = Json::array();
     for (const CameraResult& camera : cameras) {

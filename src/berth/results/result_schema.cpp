@@ -99,6 +99,7 @@ class Describer {
                       {"text", schema::text()}};
     return map_of_all(fields);
   }
+  Json schema_of(const std::vector<SpacePair>&) const { return list_of(schema_of(SpacePair())); }
   Json schema_of(const std::vector<CameraResult>& cameras) const {
     Json properties;
     visit_fields(cameras.front(), Describer(least_, most_, more_of_link_, properties));
@@ -133,6 +134,7 @@ Result full_result() {
   result.links.resize(1);
   result.links.front().id = 1;
   result.has_visibility = true;
+  result.has_candidates = true;
   result.link_names = std::make_shared<const std::vector<std::string>>();
   result.separation.emplace().links.resize(1);
   return result;
