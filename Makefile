@@ -41,7 +41,6 @@ bench:
 	cmake --preset bench
 	cmake --build --preset bench
 	build/bench/lab/berth_bench --out build/bench_results $(if $(BERTH_DATA),$(recordings)) $(BENCH_OPTIONS)
-	test ! -e build/bench_results/bench.csv || lab/bench/plot.py build/bench_results/bench.csv build/bench_results/results.svg
 
 # Measures the speeds that README.md and lab/bench/RESULTS.md quote, and writes them there; best where nothing else runs.
 figures:
@@ -79,7 +78,6 @@ bench-gpu:
 	  $(if $(BERTH_DATA),$(recordings)) $(BENCH_OPTIONS)
 	build/bench/lab/berth_study --backend opengl $(gl_device) --out build/bench_gpu/study \
 	  $(if $(BERTH_DATA),$(recordings)) $(STUDY_OPTIONS)
-	lab/bench/gpu_results.py build/bench_gpu
 
 # The tests under AddressSanitizer and UBSan, then, with vector code for one lane, under ThreadSanitizer: all, or those that say so.
 sanitize: sanitize-asan sanitize-tsan

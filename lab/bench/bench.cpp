@@ -27,7 +27,7 @@ void measure_recording(const std::shared_ptr<const Recording>& recording, const 
 
 /// In files of its own, so that it can be measured anew without the rest.
 void run_whole_robot(const BenchSettings& settings, const BenchExtent& extent) {
-  Report report(settings.out_folder, "", {"whole_robot.md", "whole_robot.csv"});
+  Report report(settings.out_folder, "", "whole_robot.md");
   for (const Table& table :
        measure_whole_robot(settings.bundled_scene, extent.whole_robot_scenes)) {
     report.add(table);

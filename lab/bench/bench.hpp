@@ -16,8 +16,7 @@ struct BenchSettings {
   int whole_robot_scenes = 100;
   /// Only the tables of the whole robot.
   bool whole_robot_alone = false;
-  /// Folder for results.md and bench.csv, and whole_robot.md and whole_robot.csv; none: the tables
-  /// are only printed.
+  /// Folder for results.md and whole_robot.md; none: the tables are only printed.
   std::filesystem::path out_folder;
   /// The scene that comes with berth.
   std::filesystem::path bundled_scene;

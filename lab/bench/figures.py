@@ -33,9 +33,9 @@ def measure_exact_ms(bench):
     """The median over the random scenes of one image against one image."""
     with tempfile.TemporaryDirectory() as folder:
         output(bench, "--quick", "--out", folder)
-        lines = (Path(folder) / "bench.csv").read_text().splitlines()
-    row = next(line for line in lines if line.startswith("Random scenes,berth exact,median ms,"))
-    return float(row.rpartition(",")[2])
+        lines = (Path(folder) / "results.md").read_text().splitlines()
+    row = next(line for line in lines if line.startswith("| berth exact |"))
+    return float(row.split("|")[2])
 
 
 def where():

@@ -38,9 +38,6 @@ void run_gl_benchmarks(const BenchSettings& settings, const BenchExtent& extent)
     report.add(measure_gl_stages(*recording, extent.recorded_frames, extent.stage_rounds));
     context.check(recording->title);
   }
-  const int rounds = (context.is_software() ? 1 : 10) * extent.stage_rounds;
-  report.add(measure_gl_stages_of_100_000(settings.bundled_scene, rounds));
-  context.check("100 000 triangles");
 }
 
 }  // namespace berth::lab

@@ -8,7 +8,6 @@
 #include "apps/support/interrupt.hpp"
 #include "apps/support/progress_bar.hpp"
 #include "berth/robot/surface.hpp"
-#include "lab/bench/coarse_robot.hpp"
 #include "lab/bench/stage.hpp"
 #include "lab/bench/triangle_count.hpp"
 #include "thesis/image_result.hpp"
@@ -20,9 +19,6 @@
 
 namespace berth::lab {
 namespace {
-
-/// Of each edge: 112 000 triangles of the bundled robot.
-constexpr int kCoarseParts = 5;
 
 /// Of the lattices' obstacle pixels, in x and y.
 constexpr int kLatticeStep = 8;
@@ -50,7 +46,6 @@ class GlStages {
     for (const Method method : kGlMethods) {
       const std::string_view name = name_of(method);
       evaluate_.push_back({fmt::format("{}, read-back included", name)});
-      filter_and_evaluate_.push_back({fmt::format("render, self filter and {}", name)});
       whole_.push_back({fmt::format("depth image to result, {}", name)});
     }
   }
@@ -71,11 +66,6 @@ class GlStages {
     for (std::size_t i = 0; i < std::size(kGlMethods); ++i) {
       const auto evaluate = [&] { this->evaluate(kGlMethods[i]); };
       evaluate_[i].take(evaluate);
-      filter_and_evaluate_[i].take([&] {
-        render(joints);
-        filter();
-        evaluate();
-      });
       whole_[i].take([&] {
         observer_.observe(depth_m, joints, frame_);
         evaluate();
@@ -89,7 +79,7 @@ class GlStages {
 
   std::vector<Stage*> all() {
     std::vector<Stage*> stages = {&upload_stage_, &render_stage_, &filter_stage_};
-    for (auto* several : {&evaluate_, &filter_and_evaluate_, &whole_}) {
+    for (auto* several : {&evaluate_, &whole_}) {
       for (Stage& stage : *several) stages.push_back(&stage);
     }
     return stages;
@@ -143,12 +133,15 @@ class GlStages {
   Stage render_stage_{"render"};
   Stage filter_stage_{"self filter"};
   std::vector<Stage> evaluate_;
-  std::vector<Stage> filter_and_evaluate_;
   std::vector<Stage> whole_;
 };
 
-Table measure(const std::string& title, const Recording& recording,
-              const std::shared_ptr<const MountedCamera>& mounted, int frames, int rounds) {
+}  // namespace
+
+Table measure_gl_stages(const Recording& recording, int max_frames, int rounds) {
+  const std::string title = fmt::format("Stages on OpenGL, {}", recording.title);
+  const std::shared_ptr<const MountedCamera>& mounted = recording.camera().mounted;
+  const int frames = std::min(max_frames, recording.frame_count());
   GlStages stages(mounted, {});
   app::ProgressBar progress(title, frames);
   for (int i = 0; i < frames; ++i) {
@@ -171,24 +164,6 @@ Table measure(const std::string& title, const Recording& recording,
                   triangle_count(mounted->robot()->model()), mounted->robot()->model().link_count(),
                   frames, rounds + 1, kLatticeStep),
       stages.all());
-}
-
-}  // namespace
-
-Table measure_gl_stages(const Recording& recording, int max_frames, int rounds) {
-  return measure(fmt::format("Stages on OpenGL, {}", recording.title), recording,
-                 recording.camera().mounted, std::min(max_frames, recording.frame_count()), rounds);
-}
-
-Table measure_gl_stages_of_100_000(const std::filesystem::path& scene_file, int rounds) {
-  const auto recording = open_recording(scene_file, "bundled");
-  const OpenCamera& camera = recording->camera();
-  const auto robot =
-      std::make_shared<const Robot>(coarse_robot(read_scene(scene_file).robot, kCoarseParts),
-                                    camera.mounted->robot()->settings());
-  const auto mounted = std::make_shared<const MountedCamera>(robot, camera.mounted->mount(),
-                                                             camera.mounted->settings());
-  return measure("Stages on OpenGL, 100 000 triangles", *recording, mounted, 1, rounds);
 }
 
 }  // namespace berth::lab

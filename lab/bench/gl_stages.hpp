@@ -11,8 +11,4 @@ namespace berth::lab {
 /// the wall; times go over all runs.
 Table measure_gl_stages(const Recording& recording, int max_frames, int rounds);
 
-/// The same for the first frame of a scene with about 100 000 triangles in place of the robot's
-/// own. Throws as open_scene does.
-Table measure_gl_stages_of_100_000(const std::filesystem::path& scene_file, int rounds);
-
 }  // namespace berth::lab

@@ -32,10 +32,8 @@ void add_options(CLI::App& program, BenchSettings& settings, BackendChoice& wher
   program.add_flag("--whole-robot", settings.whole_robot_alone,
                    "Only the method mesh with several cameras");
   program
-      .add_option(
-          "--out", settings.out_folder,
-          "Folder for results.md and bench.csv, whole_robot.md and whole_robot.csv; made if "
-          "it is not there")
+      .add_option("--out", settings.out_folder,
+                  "Folder for results.md and whole_robot.md; made if it is not there")
       ->type_name("DIR");
   program
       .add_option("--scene", settings.scenes,

@@ -28,10 +28,6 @@ std::vector<Line> lines_of(const Table& table) {
   return lines;
 }
 
-std::string quoted(const std::string& text) {
-  return text.find(',') == std::string::npos ? text : fmt::format("\"{}\"", text);
-}
-
 }  // namespace
 
 std::string format_value(std::optional<double> value) {
@@ -71,18 +67,6 @@ std::string markdown_of(const Table& table) {
       text += i == 0 || i > table.columns.size() ? "| --- " : "| ---: ";
     }
     text += "|\n";
-  }
-  return text;
-}
-
-std::string csv_of(const Table& table) {
-  std::string text;
-  for (const Table::Row& row : table.rows) {
-    for (std::size_t i = 0; i < row.values.size(); ++i) {
-      if (!row.values[i]) continue;
-      text += fmt::format("{},{},{},{}\n", quoted(table.title), quoted(row.name),
-                          quoted(table.columns[i]), *row.values[i]);
-    }
   }
   return text;
 }

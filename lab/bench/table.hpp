@@ -1,4 +1,4 @@
-// What a benchmark found: for people as text and Markdown, for programs as CSV.
+// What a benchmark found: as text and Markdown.
 #pragma once
 
 #include <filesystem>
@@ -33,7 +33,5 @@ std::string format_value(std::optional<double> value);
 std::string text_of(const Table& table);
 /// Under a heading of the second level.
 std::string markdown_of(const Table& table);
-/// Lines "table,row,column,value" without a header; what was not measured has no line.
-std::string csv_of(const Table& table);
 
 }  // namespace berth::lab
