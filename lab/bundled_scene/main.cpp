@@ -2,11 +2,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <exception>
 #include <filesystem>
 #include <span>
 #include <vector>
 
+#include "apps/support/command_options.hpp"
+#include "apps/support/program.hpp"
 #include "lab/bundled_scene/output_files.hpp"
 #include "lab/bundled_scene/scene.hpp"
 #include "lab/bundled_scene/truth.hpp"
@@ -78,16 +79,7 @@ int main(int argc, char** argv) {
       "true distances");
   std::filesystem::path folder;
   app.add_option("OUT_DIR", folder, "Folder for the files; made if it is not there")->required();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  try {
-    berth::lab::make_bundled_scene(folder);
-    return 0;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "make_bundled_scene: {}\n", error.what());
-    return 1;
-  }
+  if (const auto status = berth::app::parse_command_line(app, argc, argv)) return *status;
+  return berth::app::carry_out("make_bundled_scene", 0,
+                               [&] { berth::lab::make_bundled_scene(folder); });
 }

@@ -3,10 +3,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <exception>
 #include <filesystem>
 #include <numbers>
 
+#include "apps/support/command_options.hpp"
+#include "apps/support/program.hpp"
 #include "lab/calibration/attached_table.hpp"
 #include "lab/calibration/drawn.hpp"
 #include "lab/calibration/recordings.hpp"
@@ -48,8 +49,8 @@ int main(int argc, char** argv) {
   app.add_option("--company", company_seeds,
                  "The same of robots that carry nothing, with others in their images");
   app.add_flag("--each", trials.prints_each, "Tell each drawn scene on standard error");
-  CLI11_PARSE(app, argc, argv);
-  try {
+  if (const auto status = berth::app::parse_command_line(app, argc, argv)) return *status;
+  return berth::app::carry_out("measure_calibration", 0, [&] {
     if (starts > 0) {
       const std::filesystem::directory_iterator folders(data / "recordings");
       std::vector<std::filesystem::path> recordings(begin(folders), end(folders));
@@ -63,7 +64,7 @@ int main(int argc, char** argv) {
     if (company_seeds > 0) {
       lab::measure_company(lab::load_trial_robots(data / "robots"), robot, company_seeds);
     }
-    if (trials.seeds == 0) return 0;
+    if (trials.seeds == 0) return;
     trials.drawn.errors.joint_zero = zero_deg * std::numbers::pi / 180;
     trials.joint_zeros = zero_deg > 0;
     if (is_on_hand) trials.drawn.mount = berth::sim::DrawnMount::hand;
@@ -79,9 +80,5 @@ int main(int argc, char** argv) {
         100 * trials.drawn.errors.depth_share, 1000 * trials.drawn.errors.clock_offset_s, zero_deg,
         trials.drawn.poses, robots.size() * trials.seeds);
     lab::measure_drawn(robots, trials);
-    return 0;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "measure_calibration: {}\n", error.what());
-    return 1;
-  }
+  });
 }

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <memory>
 
+#include "apps/support/command_options.hpp"
+#include "apps/support/program.hpp"
 #include "berth/calibration/drawn_ball.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "berth/robot/primitives.hpp"
@@ -207,7 +209,10 @@ void measure(const std::string& file, int draws) {
   }
 }
 
-int run(int argc, char** argv) {
+}  // namespace
+}  // namespace berth::lab
+
+int main(int argc, char** argv) {
   CLI::App app(
       "Where calibration's map says that a ball is detected: of how many other balls, and of rods "
       "as thick, a reading is left");
@@ -216,20 +221,9 @@ int run(int argc, char** argv) {
   app.add_option("scenes", files, "scene files")->required();
   app.add_option("--draws", draws, "of each thickness, balls and rods")
       ->check(CLI::Range(1, 10000));
-  CLI11_PARSE(app, argc, argv);
-  fmt::print("| scene | mm | balls left | rods left |\n| --- | ---: | ---: | ---: |\n");
-  for (const std::string& file : files) measure(file, draws);
-  return 0;
-}
-
-}  // namespace
-}  // namespace berth::lab
-
-int main(int argc, char** argv) {
-  try {
-    return berth::lab::run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "measure_detected: {}\n", error.what());
-    return 1;
-  }
+  if (const auto status = berth::app::parse_command_line(app, argc, argv)) return *status;
+  return berth::app::carry_out("measure_detected", 0, [&] {
+    fmt::print("| scene | mm | balls left | rods left |\n| --- | ---: | ---: | ---: |\n");
+    for (const std::string& file : files) berth::lab::measure(file, draws);
+  });
 }

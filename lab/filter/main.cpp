@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <exception>
 #include <filesystem>
 
+#include "apps/support/command_options.hpp"
+#include "apps/support/program.hpp"
 #include "lab/filter/count_ranges.hpp"
 #include "lab/filter/filter_grid.hpp"
 #include "lab/filter/truth_rows.hpp"
@@ -50,16 +51,12 @@ int main(int argc, char** argv) {
   app.add_option("--surface_tolerance_m", grid.surface_tolerance_m)->delimiter(',');
   app.add_option("--flying_patch_radius_m", grid.flying_patch_radius_m)->delimiter(',');
   app.add_option("--speckle_px", grid.speckle_px)->delimiter(',');
-  CLI11_PARSE(app, argc, argv);
-  try {
+  if (const auto status = berth::app::parse_command_line(app, argc, argv)) return *status;
+  return berth::app::carry_out("measure_filter", 0, [&] {
     if (has_recordings) print_recordings(grid, data / "recordings", draws);
-    if (drawn_scenes == 0 && real_tries == 0) return 0;
+    if (drawn_scenes == 0 && real_tries == 0) return;
     const auto robots = berth::lab::load_trial_robots(data / "robots");
     if (drawn_scenes > 0) berth::lab::print_drawn_truth(grid, robots, drawn_scenes);
     if (real_tries > 0) berth::lab::print_real_images(grid, robots, data / "depth", real_tries);
-    return 0;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "measure_filter: {}\n", error.what());
-    return 1;
-  }
+  });
 }

@@ -7,6 +7,7 @@
 #include <map>
 #include <tuple>
 
+#include "lab/bench/statistics.hpp"
 #include "lab/trust/sample.hpp"
 
 namespace berth::lab {
@@ -17,17 +18,13 @@ constexpr double kFar_m = 0.1;
 
 /// Lengths above 0 among `count` ones.
 struct Excess {
-  std::vector<double> sorted_m;
+  std::vector<double> above_m;
   std::size_t count;
 
-  double at(double share) const {
-    if (sorted_m.empty()) return 0;
-    const auto rank = std::ceil(share * static_cast<double>(sorted_m.size()));
-    return sorted_m[static_cast<std::size_t>(std::max(1.0, rank)) - 1];
-  }
+  double at(double share) const { return percentile(above_m, share).value_or(0); }
   std::string text() const {
     const double share =
-        count == 0 ? 0 : 100 * static_cast<double>(sorted_m.size()) / static_cast<double>(count);
+        count == 0 ? 0 : 100 * static_cast<double>(above_m.size()) / static_cast<double>(count);
     return fmt::format("{:.1f} % | {:.1f} | {:.1f} | {:.1f}", share, 1e3 * at(0.5), 1e3 * at(0.99),
                        1e3 * at(1));
   }
@@ -39,9 +36,8 @@ Excess excess_of(const std::vector<Sample>& samples, Length length_m) {
   Excess excess{{}, samples.size()};
   for (const Sample& sample : samples) {
     const double m = length_m(sample);
-    if (m > 0) excess.sorted_m.push_back(m);
+    if (m > 0) excess.above_m.push_back(m);
   }
-  std::sort(excess.sorted_m.begin(), excess.sorted_m.end());
   return excess;
 }
 

@@ -10,6 +10,8 @@
 #include <optional>
 #include <utility>
 
+#include "lab/bench/statistics.hpp"
+
 namespace berth::lab {
 namespace {
 
@@ -40,12 +42,6 @@ struct Compared {
   }
 };
 
-double at(const std::vector<double>& sorted_m, double share) {
-  if (sorted_m.empty()) return 0;
-  const double rank = std::ceil(share * static_cast<double>(sorted_m.size()));
-  return sorted_m[static_cast<std::size_t>(std::max(1.0, rank)) - 1];
-}
-
 double percent(std::size_t part, std::size_t whole) {
   return whole == 0 ? 0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
 }
@@ -59,14 +55,15 @@ std::string row(const std::string& name, const std::vector<Compared>& links) {
     zeros += link.said_m < kTrialTolerance_m && link.true_m > kFree_m;
     lost += link.is_lost();
   }
-  std::sort(over_m.begin(), over_m.end());
-  std::sort(under_m.begin(), under_m.end());
+  const auto at_mm = [](const std::vector<double>& lengths_m, double share) {
+    return 1e3 * percentile(lengths_m, share).value_or(0);
+  };
   return fmt::format(
       "| {} | {} | {:.1f} % | {:.1f} | {:.1f} | {:.1f} | {:.1f} % | {:.1f} | {:.1f} "
       "% | {} |\n",
-      name, links.size(), percent(over_m.size(), links.size()), 1e3 * at(over_m, 0.5),
-      1e3 * at(over_m, 0.99), 1e3 * at(over_m, 1), percent(under_m.size(), links.size()),
-      1e3 * at(under_m, 0.5), percent(zeros, links.size()), lost);
+      name, links.size(), percent(over_m.size(), links.size()), at_mm(over_m, 0.5),
+      at_mm(over_m, 0.99), at_mm(over_m, 1), percent(under_m.size(), links.size()),
+      at_mm(under_m, 0.5), percent(zeros, links.size()), lost);
 }
 
 /// said_m(trial, link) is empty where nothing is claimed.

@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <numbers>
 
+#include "apps/support/command_options.hpp"
+#include "apps/support/program.hpp"
 #include "berth/scene/plausibility.hpp"
 #include "berth/scene/robot_in_images.hpp"
 #include "lab/trust/trial_robots.hpp"
@@ -125,7 +127,10 @@ void print_drawn(const std::filesystem::path& robots_folder, int scenes) {
              doubted);
 }
 
-int run(int argc, char** argv) {
+}  // namespace
+}  // namespace berth::lab
+
+int main(int argc, char** argv) {
   CLI::App app{
       "Which simple mistakes in a scene are found and named, and what is found for nothing"};
   std::vector<std::string> files;
@@ -138,20 +143,11 @@ int run(int argc, char** argv) {
   app.add_option("--drawn", drawn, "how many drawn scenes without a mistake as well");
   app.add_option("--robots", robots_folder, "more robots for them, a folder each");
   app.add_flag("--say", says, "print what is said of each mistake to standard error");
-  CLI11_PARSE(app, argc, argv);
-  for (const std::string& file : files) print_scene(open_scene(file), draws, says);
-  if (drawn > 0) print_drawn(robots_folder, drawn);
-  return 0;
-}
-
-}  // namespace
-}  // namespace berth::lab
-
-int main(int argc, char** argv) {
-  try {
-    return berth::lab::run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 1;
-  }
+  if (const auto status = berth::app::parse_command_line(app, argc, argv)) return *status;
+  return berth::app::carry_out("measure_plausible", 0, [&] {
+    for (const std::string& file : files) {
+      berth::lab::print_scene(berth::open_scene(file), draws, says);
+    }
+    if (drawn > 0) berth::lab::print_drawn(robots_folder, drawn);
+  });
 }
