@@ -1,23 +1,8 @@
 #include "settings.hpp"
 
-#include <pybind11/stl.h>
-
 #include <algorithm>
-#include <type_traits>
 
 namespace berth::python {
-
-py::object object_of(const SettingValue& value) {
-  return std::visit(
-      [](const auto& one) -> py::object {
-        if constexpr (std::is_same_v<std::decay_t<decltype(one)>, std::monostate>) {
-          return py::none();
-        } else {
-          return py::cast(one);
-        }
-      },
-      value);
-}
 
 std::string type_of(const SettingRef& setting) {
   const std::string type = setting.kind == SettingKind::flag     ? "bool"
@@ -64,7 +49,7 @@ SettingValue value_from(const py::handle& value, const std::string& group,
 py::dict dict_of(const std::vector<SettingRef>& settings) {
   py::dict all;
   for (const SettingRef& setting : settings) {
-    all[py::str(std::string(setting.name))] = object_of(setting.value);
+    all[py::str(std::string(setting.name))] = py::cast(setting.value);
   }
   return all;
 }
@@ -73,7 +58,7 @@ std::string values_text(const std::vector<SettingRef>& settings) {
   std::string text;
   for (const SettingRef& setting : settings) {
     text += fmt::format("{}{}={}", text.empty() ? "" : ", ", setting.name,
-                        std::string(py::repr(object_of(setting.value))));
+                        std::string(py::repr(py::cast(setting.value))));
   }
   return text;
 }

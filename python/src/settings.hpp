@@ -14,9 +14,6 @@ namespace berth::python {
 
 namespace py = pybind11;
 
-/// An enumerator is its name, one that is not set None.
-py::object object_of(const SettingValue& value);
-
 /// The type of a setting's value, as annotations have it.
 std::string type_of(const SettingRef& setting);
 
@@ -51,7 +48,7 @@ void bind_settings(py::module_& m, const char* name, const std::string& group, c
   std::string arguments = "self";
   for (const SettingRef& setting : listed) {
     arguments += fmt::format(", {}: {} = {}", setting.name, type_of(setting),
-                             std::string(py::repr(object_of(setting.value))));
+                             std::string(py::repr(py::cast(setting.value))));
   }
   py::options options;
   options.disable_function_signatures();
@@ -71,7 +68,7 @@ void bind_settings(py::module_& m, const char* name, const std::string& group, c
         key.c_str(),
         [key, group](const Settings& own) {
           const std::vector<SettingRef> refs = setting_refs(own);
-          return object_of(setting_named(refs, group, key).value);
+          return py::cast(setting_named(refs, group, key).value);
         },
         [key, group](Settings& own, const py::object& to) { set_setting(group, key, to, own); },
         text.c_str());
