@@ -22,6 +22,15 @@ namespace fs = std::filesystem;
 
 constexpr double kMostPoseError = 1e-9;
 
+fs::path folder_of(const fs::path& file) {
+  return fs::absolute(file).lexically_normal().parent_path();
+}
+
+fs::path real_path(const fs::path& path) {
+  fs::path result = fs::weakly_canonical(fs::absolute(path).lexically_normal());
+  return result.has_filename() ? result : result.parent_path();
+}
+
 /// Where a scene names files and folders; "*" is any one step.
 const std::array<YamlPath, 11> kPlacesOfPaths = {{{"robot", "urdf"},
                                                   {"robot", "package_paths", "*"},
@@ -242,21 +251,6 @@ void write_rewritten_scene(const fs::path& scene_file, const SceneChange& change
   }
   write_file_bytes(new_file, rewritten_scene(scene_file, change, new_file));
 }
-
-namespace {
-
-namespace fs = std::filesystem;
-
-fs::path folder_of(const fs::path& file) {
-  return fs::absolute(file).lexically_normal().parent_path();
-}
-
-fs::path real_path(const fs::path& path) {
-  fs::path result = fs::weakly_canonical(fs::absolute(path).lexically_normal());
-  return result.has_filename() ? result : result.parent_path();
-}
-
-}  // namespace
 
 bool is_same_path(const fs::path& a, const fs::path& b) { return real_path(a) == real_path(b); }
 

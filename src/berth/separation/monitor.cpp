@@ -17,41 +17,21 @@
 
 namespace berth {
 
-/// How fast a scale of the robot's speed may rise. It falls at once.
-class ScaleRise {
- public:
-  ScaleRise() = default;
-  /// As one that has come so far.
-  ScaleRise(bool is_first, double scale, double last_s)
-      : is_first_(is_first), scale_(scale), last_s_(last_s) {}
-
-  /// The greatest scale at now_s, if it gains `per_s` of a second in each. The first time it may be
-  /// anything, since nobody knows how fast the robot is; where the clock was set back, no more than
-  /// before.
-  double most(double now_s, double per_s) {
-    const double passed_s = now_s - last_s_;
-    last_s_ = now_s;
-    if (is_first_) return 1;
-    if (!(passed_s > 0)) return scale_;
-    const double risen = scale_ + passed_s * per_s;
-    return risen < 1 ? risen : 1;
-  }
-  void take(double scale) {
-    scale_ = scale;
-    is_first_ = false;
-  }
-  bool is_first() const { return is_first_; }
-  double scale() const { return scale_; }
-  double last_s() const { return last_s_; }
-
- private:
-  bool is_first_ = true;
-  double scale_ = 0;
-  double last_s_ = -std::numeric_limits<double>::infinity();
-};
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// The greatest scale at now_s, if it gains `per_s` of a second in each; it falls at once. The
+/// first time it may be anything, since nobody knows how fast the robot is; where the clock was set
+/// back, no more than before.
+double most_scale(double now_s, double per_s, SeparationMemory& before) {
+  const double passed_s = now_s - before.last_s;
+  before.last_s = now_s;
+  if (before.is_first) return 1;
+  if (!(passed_s > 0)) return before.scale;
+  const double risen = before.scale + passed_s * per_s;
+  return risen < 1 ? risen : 1;
+}
 
 bool are_finite(std::span<const double> values, std::size_t count) {
   return values.size() == count &&
@@ -146,7 +126,8 @@ struct SeparationMonitor::Parts {
   UnknownPolicy of_unread = UnknownPolicy::ignore;
   /// SeparationSettings::contact_speed_m_s; 0 where no contact is to be thought of now.
   double contact_m_s = 0;
-  ScaleRise rise;
+  /// But the link, which the certificate knows.
+  SeparationMemory before;
   /// Null until somebody gives frames.
   std::unique_ptr<PathCertificate> certificate;
   Separation out;
@@ -163,15 +144,13 @@ SeparationMonitor& SeparationMonitor::operator=(SeparationMonitor&&) noexcept = 
 const SeparationSettings& SeparationMonitor::settings() const { return parts_->settings; }
 
 SeparationMemory SeparationMonitor::memory() const {
-  const PathCertificate* certificate = parts_->certificate.get();
-  return {.is_first = parts_->rise.is_first(),
-          .scale = parts_->rise.scale(),
-          .last_s = parts_->rise.last_s(),
-          .critical_link = certificate ? certificate->critical_link() : -1};
+  SeparationMemory memory = parts_->before;
+  if (parts_->certificate) memory.critical_link = parts_->certificate->critical_link();
+  return memory;
 }
 
 void SeparationMonitor::recall(const SeparationMemory& memory) {
-  parts_->rise = ScaleRise(memory.is_first, memory.scale, memory.last_s);
+  parts_->before = {memory.is_first, memory.scale, memory.last_s};
   if (memory.critical_link >= 0) parts_->make_certificate();
   if (parts_->certificate) parts_->certificate->begin_with(memory.critical_link);
 }
@@ -212,10 +191,10 @@ const Separation& SeparationMonitor::Parts::update(const Result& result,
   if (out.reason == SeparationReason::none) {
     out.speed_scale = 1;
     update_links(result);
-    most = rise.most(now_s, rise_per_s());
+    most = most_scale(now_s, rise_per_s(), before);
     if (frames && frames->newest()) look_along_path(result, motion, *frames, most);
   } else {
-    rise.most(now_s, 0);
+    most_scale(now_s, 0, before);
   }
   if (out.reason == SeparationReason::no_reading) out.camera = untold;
   decide(most);
@@ -321,7 +300,7 @@ void SeparationMonitor::Parts::look_along_path(const Result& result, const Plann
        .robot_m_s = robot_m_s,
        .contact_m_s = contact_m_s,
        .links = path_links},
-      formula, rise.scale(), most);
+      formula, before.scale, most);
   if (!(found.scale > formula)) return;
   out.basis = SeparationBasis::path;
   out.speed_scale = found.scale;
@@ -375,7 +354,8 @@ void SeparationMonitor::Parts::decide(double most) {
   const double contact = most > 0 ? std::min(contact_scale(), most) : 0;
   const bool is_contact = out.speed_scale < contact;
   out.speed_scale = std::max(out.speed_scale, contact);
-  rise.take(out.speed_scale);
+  before.scale = out.speed_scale;
+  before.is_first = false;
   if (!is_contact && out.speed_scale < kLeastScale) out.speed_scale = 0;
   out.state = is_contact             ? SeparationState::contact_speed
               : out.speed_scale >= 1 ? SeparationState::clear
