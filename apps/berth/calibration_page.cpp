@@ -4,9 +4,7 @@
 
 #include <iterator>
 
-#include "apps/berth/calibration_page_attached.hpp"
-#include "apps/berth/calibration_page_camera.hpp"
-#include "apps/berth/calibration_page_detection.hpp"
+#include "apps/berth/calibration_page_parts.hpp"
 #include "apps/berth/calibration_page_style.hpp"
 #include "apps/berth/html_text.hpp"
 #include "berth/files/file_bytes.hpp"

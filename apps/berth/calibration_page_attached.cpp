@@ -1,4 +1,4 @@
-#include "apps/berth/calibration_page_attached.hpp"
+#include "apps/berth/calibration_page_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -14,8 +14,6 @@ namespace berth::app {
 namespace {
 
 using Html = std::back_insert_iterator<std::string>;
-
-std::string css(Rgb c) { return fmt::format("#{:02x}{:02x}{:02x}", c.r, c.g, c.b); }
 
 void add_pictures(const std::filesystem::path& folder, const CalibrationReport& report,
                   const CarryingRobotData& carrying, std::size_t camera, Html out) {

@@ -1,13 +1,10 @@
-#include "apps/berth/calibration_page_camera.hpp"
+#include "apps/berth/calibration_page_parts.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <iterator>
 
-#include "apps/berth/calibration_frames.hpp"
-#include "apps/berth/calibration_page_frames.hpp"
 #include "apps/berth/html_text.hpp"
 #include "berth/reports/calibration_coverage.hpp"
 #include "berth/reports/calibration_words.hpp"

@@ -1,4 +1,4 @@
-#include "apps/berth/calibration_page_detection.hpp"
+#include "apps/berth/calibration_page_parts.hpp"
 
 #include <fmt/format.h>
 

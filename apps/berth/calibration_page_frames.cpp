@@ -1,4 +1,4 @@
-#include "apps/berth/calibration_page_frames.hpp"
+#include "apps/berth/calibration_page_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,6 @@
 
 namespace berth::app {
 namespace {
-
-std::string css(Rgb c) { return fmt::format("#{:02x}{:02x}{:02x}", c.r, c.g, c.b); }
 
 /// The colours from the one end of the scale to the other.
 std::string gradient() {

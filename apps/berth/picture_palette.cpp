@@ -1,5 +1,7 @@
 #include "apps/berth/picture_palette.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 
@@ -22,6 +24,8 @@ constexpr std::array<Rgb, 12> kLinkHues{{{0xE6, 0x9F, 0x00},
                                          {0xB8, 0xE6, 0xD0}}};
 
 }  // namespace
+
+std::string css(Rgb color) { return fmt::format("#{:02x}{:02x}{:02x}", color.r, color.g, color.b); }
 
 Rgb mix(Rgb a, Rgb b, double share) {
   const auto blend = [share](std::uint8_t x, std::uint8_t y) {

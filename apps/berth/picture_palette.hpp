@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "berth/types/obstacle_image.hpp"
 #include "berth/types/robot_image.hpp"
@@ -18,6 +19,9 @@ struct Rgb {
 
 inline constexpr Rgb kBlack{0, 0, 0};
 inline constexpr Rgb kWhite{255, 255, 255};
+
+/// Such as "#0072b2".
+std::string css(Rgb color);
 
 /// From a (share 0) to b (share 1).
 Rgb mix(Rgb a, Rgb b, double share);

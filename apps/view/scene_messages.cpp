@@ -14,10 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string hex_of(Rgb color) {
-  return fmt::format("#{:02x}{:02x}{:02x}", color.r, color.g, color.b);
-}
-
 Json links_json(const RobotModel& model) {
   Json links = Json::array();
   for (std::size_t i = 0; i < model.links.size(); ++i) {
@@ -27,7 +23,7 @@ Json links_json(const RobotModel& model) {
                      {"id", link.id},
                      {"is_evaluated", is_evaluated},
                      {"is_moved", model.is_moved(i)},
-                     {"color", is_evaluated ? hex_of(link_color(link.id)) : "#8a8a8a"}});
+                     {"color", is_evaluated ? css(link_color(link.id)) : "#8a8a8a"}});
   }
   return links;
 }
@@ -57,7 +53,7 @@ Json fates_json() {
   for (int i = 0; i < kPixelFateCount; ++i) {
     const auto fate = static_cast<PixelFate>(i);
     fates.push_back(
-        {{"name", name_of(fate)}, {"color", hex_of(fate_color(fate))}, {"is_kept", is_kept(fate)}});
+        {{"name", name_of(fate)}, {"color", css(fate_color(fate))}, {"is_kept", is_kept(fate)}});
   }
   return fates;
 }
@@ -67,7 +63,7 @@ Json misfits_json() {
   Json misfits = Json::array();
   for (const ResidualColor& stop : residual_scale()) {
     misfits.push_back(
-        {{"behind_mm", std::round(1000 * stop.residual_m)}, {"color", hex_of(stop.color)}});
+        {{"behind_mm", std::round(1000 * stop.residual_m)}, {"color", css(stop.color)}});
   }
   return misfits;
 }
