@@ -1,10 +1,9 @@
-#include <array>
 #include <nanoflann.hpp>
 
 #include "lab/bench/cameras_peer.hpp"
 #include "lab/bench/cameras_points.hpp"
 #include "lab/bench/closest_so_far.hpp"
-#include "lab/bench/subdivide.hpp"
+#include "lab/bench/coarse_robot.hpp"
 
 namespace berth::lab {
 namespace {

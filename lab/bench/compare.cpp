@@ -1,6 +1,7 @@
 #include "lab/bench/compare.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
@@ -9,7 +10,6 @@
 
 #include "apps/support/interrupt.hpp"
 #include "apps/support/progress_bar.hpp"
-#include "lab/bench/heap.hpp"
 #include "lab/bench/peer.hpp"
 #include "lab/bench/statistics.hpp"
 
@@ -42,6 +42,12 @@ void take_errors(const PeerDistances& truth_m, const PeerDistances& answer_m, Re
     record.too_far_mm = std::max(record.too_far_mm, error_mm);
     record.too_near_mm = std::max(record.too_near_mm, -error_mm);
   }
+}
+
+/// Bytes that the program has allocated and not yet freed.
+std::int64_t heap_bytes() {
+  const struct mallinfo2 info = mallinfo2();
+  return static_cast<std::int64_t>(info.uordblks + info.hblkhd);
 }
 
 /// The times, what the method certifies, and the memory that it holds afterwards.

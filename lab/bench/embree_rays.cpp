@@ -1,12 +1,10 @@
 #include "lab/bench/embree_rays.hpp"
 
-#include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <limits>
-#include <stdexcept>
 
 #include "berth/render/link_rect.hpp"
 #include "sim/embree.hpp"

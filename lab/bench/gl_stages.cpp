@@ -1,5 +1,3 @@
-#include "lab/bench/gl_stages.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,8 +6,9 @@
 #include "apps/support/interrupt.hpp"
 #include "apps/support/progress_bar.hpp"
 #include "berth/robot/surface.hpp"
+#include "lab/bench/coarse_robot.hpp"
 #include "lab/bench/stage.hpp"
-#include "lab/bench/triangle_count.hpp"
+#include "lab/bench/stages.hpp"
 #include "thesis/image_result.hpp"
 #include "thesis/opengl/gl_evaluate.hpp"
 #include "thesis/opengl/gl_frame_images.hpp"

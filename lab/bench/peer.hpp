@@ -59,7 +59,4 @@ std::unique_ptr<Peer> make_reader();
 /// upload and read-back included.
 std::vector<std::unique_ptr<Peer>> make_gl_peers();
 
-/// All of the processor but brute_force, which is the measure of the others, and the reader.
-std::vector<std::unique_ptr<Peer>> make_peers();
-
 }  // namespace berth::lab

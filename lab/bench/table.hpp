@@ -1,7 +1,6 @@
 // What a benchmark found: as text and Markdown.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>

@@ -10,7 +10,6 @@
 #include "berth/self_filter/self_filter.hpp"
 #include "lab/bench/coarse_robot.hpp"
 #include "lab/bench/statistics.hpp"
-#include "lab/bench/triangle_count.hpp"
 #include "lab/bench/whole_robot_methods.hpp"
 
 namespace berth::lab {
