@@ -196,6 +196,10 @@ class CameraReport {
 
 }  // namespace
 
+bool CameraCalibration::is_determined(std::string_view key) const {
+  return std::ranges::find(not_determined, key) == not_determined.end();
+}
+
 DepthImage corrected(const DepthImage& depth_m, const DepthError& error) {
   DepthImage out = depth_m;
   for (float& z_m : out.pixels()) z_m = static_cast<float>(error.offset_m + error.scale * z_m);

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "berth/fit/calibration_data.hpp"
@@ -54,6 +55,7 @@ struct CameraCalibration {
   /// What the frames do not tell, by its key: "pose", "clock_offset_s", "depth.offset_m",
   /// "depth.scale". It is left as it was, but for the pose.
   std::vector<std::string> not_determined;
+  bool is_determined(std::string_view key) const;
   /// Whether any pose explains the images; if none does, nothing is to be used.
   bool is_found = true;
   /// Why the pose that was found is not to be used, and the start's is told; empty: it is good.

@@ -57,13 +57,8 @@ class Advisor {
  private:
   void say(std::string_view sentence) { advice_.emplace_back(sentence); }
 
-  bool is_determined(const char* key) const {
-    const auto& keys = found_.not_determined;
-    return std::find(keys.begin(), keys.end(), key) == keys.end();
-  }
-
   bool is_sure() const {
-    return found_.frames.size() >= kEnoughFrames && is_determined("pose") &&
+    return found_.frames.size() >= kEnoughFrames && found_.is_determined("pose") &&
            found_.halves_m / 2 <= kSureEnough_m;
   }
 
@@ -227,7 +222,7 @@ class Advisor {
   }
 
   void say_clock() {
-    if (is_determined("clock_offset_s")) return;
+    if (found_.is_determined("clock_offset_s")) return;
     if (source_.has_stamps) {
       say("To find the clock's offset, take images while the arm moves.");
     } else {
@@ -238,7 +233,7 @@ class Advisor {
 
   void say_depth() {
     if (!corrects_depth_) return;
-    if (is_determined("depth.offset_m") && is_determined("depth.scale")) return;
+    if (found_.is_determined("depth.offset_m") && found_.is_determined("depth.scale")) return;
     say(fmt::format(
         "Part of the depth's error is not determined: the robot was seen from {:.2f} to "
         "{:.2f} m. Take poses with the arm nearer to the camera and farther away.",

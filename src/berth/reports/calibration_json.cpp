@@ -148,8 +148,7 @@ DescribedValue cell_detection(const DetectionMap& map) {
 
 DescribedFields pose_fields(const CameraCalibration& found) {
   const bool is_good = found.refused.empty();
-  const bool has_clock = is_good && std::ranges::find(found.not_determined, "clock_offset_s") ==
-                                        found.not_determined.end();
+  const bool has_clock = is_good && found.is_determined("clock_offset_s");
   return {
       {"xyz", "its optical frame's position in that link's frame", three(found.X_PC.translation())},
       {"quaternion_xyzw", "its rotation there, x, y, z, w with w >= 0", quaternion(found.X_PC)},

@@ -14,11 +14,6 @@ namespace {
 constexpr const char* kWidest = "3 cm";
 constexpr const char* kFarthest = "15 cm";
 
-bool is_determined(const CameraCalibration& camera, const std::string& key) {
-  return std::find(camera.not_determined.begin(), camera.not_determined.end(), key) ==
-         camera.not_determined.end();
-}
-
 std::string ms_text(double time_s) { return fmt::format("{:.1f} ms", 1e3 * time_s + 0.0); }
 
 std::string frames_text(std::size_t count) {
@@ -69,7 +64,7 @@ std::string headline(const CameraCalibration& camera) {
 std::string clock_text(const CameraCalibration& camera, const CalibrationCamera& source) {
   if (!source.has_stamps) return "not looked for: the images have no stamps";
   if (!camera.refused.empty()) return fmt::format("stays {}", ms_text(source.clock_offset_s));
-  if (!is_determined(camera, "clock_offset_s")) {
+  if (!camera.is_determined("clock_offset_s")) {
     return fmt::format("stays {}: the arm moves too little while images are taken to tell",
                        ms_text(source.clock_offset_s));
   }
@@ -89,11 +84,11 @@ std::string depth_text(const CameraCalibration& camera, double depth_m, bool cor
 
 std::vector<std::string> open_questions(const CameraCalibration& camera) {
   std::vector<std::string> sentences;
-  if (!is_determined(camera, "pose")) {
+  if (!camera.is_determined("pose")) {
     sentences.emplace_back("Not determined: the pose, to within 1 cm.");
   }
-  const bool has_offset = is_determined(camera, "depth.offset_m");
-  const bool has_scale = is_determined(camera, "depth.scale");
+  const bool has_offset = camera.is_determined("depth.offset_m");
+  const bool has_scale = camera.is_determined("depth.scale");
   if (!has_offset && !has_scale) {
     sentences.emplace_back(
         "Not determined: how much of the depth's error is an offset and how much a scale.");

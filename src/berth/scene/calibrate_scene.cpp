@@ -75,11 +75,6 @@ void require_poses(const OpenScene& scene, const CalibrationResult& found) {
   }
 }
 
-bool is_told(const CameraCalibration& camera, std::string_view key) {
-  const auto& missing = camera.not_determined;
-  return std::find(missing.begin(), missing.end(), key) == missing.end();
-}
-
 /// T and D of the frames that were used, with the camera where it was found.
 WatchSettings normal_range(const CalibrationData& calibration_data, std::size_t camera,
                            const CalibrationResult& result, const CalibrateSceneSettings& settings,
@@ -124,7 +119,7 @@ SceneCameraChange change_of(const SceneCamera& source, const CameraCalibration& 
   change.camera = source.name;
   if (found.refused.empty()) {
     change.X_PC = found.X_PC;
-    if (is_told(found, "clock_offset_s")) change.clock_offset_s = found.clock_offset_s;
+    if (found.is_determined("clock_offset_s")) change.clock_offset_s = found.clock_offset_s;
     if (correct_depth) {
       change.depth_scale_m = found.depth.scale * source.depth_scale_m;
       change.depth_offset_m = found.depth.offset_m + found.depth.scale * source.depth_offset_m;
