@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 
 #include "berth/calibration/attached_parts.hpp"
 #include "berth/robot/robot_model.hpp"

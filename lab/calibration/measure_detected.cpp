@@ -5,7 +5,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <memory>
 
 #include "apps/support/command_options.hpp"
 #include "apps/support/program.hpp"

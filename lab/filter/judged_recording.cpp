@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <numbers>
-#include <stdexcept>
 
 #include "berth/render/robot_renderer.hpp"
 #include "berth/scene/open_scene.hpp"

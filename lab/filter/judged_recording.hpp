@@ -1,7 +1,6 @@
 // A real recording, and the same with its calibration a little wrong.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -1,6 +1,5 @@
 #include "lab/stream/steps.hpp"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "berth/control/velocity_filter.hpp"

@@ -5,7 +5,6 @@
 #include <sched.h>
 #include <tbb/global_control.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <mutex>

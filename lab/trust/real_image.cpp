@@ -4,10 +4,10 @@
 
 #include "berth/files/png.hpp"
 #include "berth/render/robot_renderer.hpp"
+#include "berth/self_filter/environment.hpp"
 #include "sim/drawn_obstacles.hpp"
 #include "sim/drawn_scene.hpp"
 #include "sim/sensor_model.hpp"
-#include "thesis/evaluate.hpp"
 
 namespace berth::lab {
 namespace {
@@ -59,15 +59,6 @@ int compose(const DepthImage& scene_m, const DepthImage& robot_m, RealScene& out
   return shown;
 }
 
-/// It stands where it stands: anywhere in a real scene it would cut through things.
-void leave_out_environment(RobotImage& robot) {
-  for (std::size_t i = 0; i < robot.link_id.pixels().size(); ++i) {
-    if (robot.link_id.pixels()[i] != kEnvironmentLink) continue;
-    robot.link_id.pixels()[i] = kNoLink;
-    robot.depth_m.pixels()[i] = kNoDepth;
-  }
-}
-
 bool is_clear(const LinkDistances& distances) {
   for (const LinkDistance& link : distances.links) {
     if (link.status == LinkStatus::ok && link.distance_m < kRealClearance_m) return false;
@@ -95,7 +86,8 @@ std::optional<RealScene> draw_into(const RealImage& image, const TrialRobot& rob
   RealScene scene{&image, &robot, {}, {}, {}, {}};
   RobotRenderer(robot.meshes, image.camera)
       .render(pose, draw_camera_pose(random, image.camera, robot, pose), scene.robot_image);
-  leave_out_environment(scene.robot_image);
+  // It stands where it stands: anywhere in a real scene it would cut through things.
+  take_out_environment(scene.robot_image);
   DepthImage robot_m = scene.robot_image.depth_m;
   sim::add_noise(kRobotNoise_m_at_1m, seed + 1, robot_m);
   const int shown = compose(image.depth_m, robot_m, scene);
