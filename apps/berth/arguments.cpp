@@ -1,6 +1,5 @@
 #include "apps/berth/arguments.hpp"
 
-#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <map>

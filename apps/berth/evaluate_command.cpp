@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "apps/berth/commands.hpp"

@@ -1,10 +1,9 @@
 #include "apps/berth/flying_pixels_at_robot.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <queue>
 
-#include "berth/scene/calibrated_robot.hpp"
+#include "berth/fit/robot_pixels.hpp"
 
 namespace berth::app {
 namespace {

@@ -7,7 +7,6 @@
 #include <mutex>
 #include <stdexcept>
 #include <thread>
-#include <vector>
 
 #include "apps/berth/commands.hpp"
 #include "apps/support/interrupt.hpp"

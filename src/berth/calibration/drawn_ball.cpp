@@ -1,6 +1,5 @@
 #include "berth/calibration/drawn_ball.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "berth/types/image.hpp"

@@ -11,7 +11,6 @@
 #include "berth/fit/frame_drawer.hpp"
 #include "berth/fit/robot_pixels.hpp"
 #include "berth/self_filter/self_filter.hpp"
-#include "berth/sensor/sensor_rules.hpp"
 
 namespace berth {
 namespace {

@@ -1,7 +1,6 @@
 #include "berth/distance/convex_pair.hpp"
 
 #include <Eigen/Cholesky>
-#include <algorithm>
 #include <array>
 #include <cmath>
 

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include "berth/distance/link_search.hpp"
 

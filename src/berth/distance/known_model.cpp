@@ -1,6 +1,5 @@
 #include "berth/distance/known_model.hpp"
 
-#include <algorithm>
 #include <map>
 #include <numbers>
 #include <optional>

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 #ifndef BERTH_MEAN_DIRECTIONS_SUMS
 #define BERTH_MEAN_DIRECTIONS_SUMS

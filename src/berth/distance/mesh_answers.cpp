@@ -1,7 +1,6 @@
 #include "berth/distance/link_search.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace berth::mesh {
 namespace {

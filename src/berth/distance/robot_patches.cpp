@@ -2,7 +2,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <numeric>
 
 #include "berth/space/serial_number.hpp"
 

@@ -1,6 +1,5 @@
 #include "berth/fit/compare_estimates.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <mutex>

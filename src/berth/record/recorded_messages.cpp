@@ -1,7 +1,5 @@
 #include "berth/record/recorded_messages.hpp"
 
-#include <fmt/format.h>
-
 #include "berth/record/depth_message.hpp"
 #include "berth/record/exact_json.hpp"
 #include "berth/record/recorded_cell.hpp"

@@ -1,7 +1,6 @@
 // Inside record/ only: what a recording holds, message by message.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>

@@ -7,7 +7,6 @@
 #include <charconv>
 #include <pugixml.hpp>
 #include <stdexcept>
-#include <string_view>
 #include <vector>
 
 namespace berth {

@@ -1,7 +1,6 @@
 #include "berth/robot/soft_body.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
 #include <stdexcept>

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "berth/files/png.hpp"
 #include "berth/pipeline/observer.hpp"
