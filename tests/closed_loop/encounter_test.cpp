@@ -82,8 +82,8 @@ TEST(ClosedLoop, TheContactCheckFindsWhatFclFindsAtEachStep) {
 TEST(ClosedLoop, WithoutAMonitorSomebodyIsHit) {
   const auto nobody = make_supervisor("none", SimulationSettings().request_hz);
   double fastest_m_s = 0;
-  for (std::uint32_t seed = 0; seed < 6; ++seed) {
-    fastest_m_s = std::max(fastest_m_s, simulate(seed, *nobody, {}).contact_m_s);
+  for (std::uint32_t seed = 0; seed < 6 && fastest_m_s <= 0.2; ++seed) {
+    fastest_m_s = simulate(seed, *nobody, {}).contact_m_s;
   }
   EXPECT_GT(fastest_m_s, 0.2);
 }

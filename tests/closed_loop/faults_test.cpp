@@ -66,6 +66,8 @@ TEST(OtherFaults, ACameraThatWasBumpedIntoStopsTheArm) {
 TEST(OtherFaults, AControllerThatObeysAsLateAsSaidHitsNobody) {
   SimulationSettings settings;
   settings.fault = Fault::late_controller;
+  // Then the person is 0.9 m away, and goes.
+  settings.most_s = 7.4;
   for (const char* policy : {"path", "formula"}) {
     const EncounterResult result =
         simulate(2, *make_supervisor(policy, settings.request_hz), settings);
