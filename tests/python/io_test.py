@@ -1,4 +1,5 @@
 """Scene folders, bags without their packages, plots, and a calibration."""
+import itertools
 import json
 import os
 import subprocess
@@ -10,7 +11,7 @@ import yaml
 
 import berth
 import berth.io
-from conftest import BOXES, SOURCE
+from conftest import BOXES, SOURCE, thinned
 
 URDF = SOURCE / "data/bundled/arm/arm.urdf"
 
@@ -21,7 +22,7 @@ def record_of(scene, steps, stamps_s=(0.0, 0.1)):
 
 
 def test_a_scene_that_was_written_gives_the_same_results(tmp_path, one_camera):
-    steps = [s for i, s in enumerate(one_camera) if i < 2]
+    steps = list(itertools.islice(one_camera, 2))
     names = one_camera.robot.model.joint_names
     joints = {name: [s.joints[i] for s in steps] for i, name in enumerate(names)}
     file = berth.io.write_scene(str(tmp_path / "scene"), str(URDF), [record_of(one_camera, steps)], [0.0, 0.1], joints,
@@ -58,15 +59,10 @@ def test_a_package_that_is_missing_is_named(tmp_path, monkeypatch, bag, package)
 
 
 def test_a_calibration_data_finds_the_pose_and_writes_the_scene(tmp_path):
-    scene = yaml.safe_load((SOURCE / "data/bundled/one_camera.yaml").read_text())
-    camera = scene["cameras"][0]
-    folder = SOURCE / "data/bundled"
-    true_xyz = np.array(camera["pose"]["xyz"])
-    camera["pose"]["xyz"] = (true_xyz + [0.02, -0.01, 0.01]).tolist()
-    for owner, key in ((camera, "info"), (camera, "depth"), (scene, "joints"), (scene["robot"], "urdf")):
-        owner[key] = str(folder / owner[key])
-    scene["robot"]["package_paths"] = {name: str(folder / path) for name, path in scene["robot"].get("package_paths", {}).items()}
-    off = tmp_path / "off.yaml"
+    off = thinned(tmp_path, "one_camera.yaml", "off.yaml", 6)
+    scene = yaml.safe_load(off.read_text())
+    true_xyz = np.array(scene["cameras"][0]["pose"]["xyz"])
+    scene["cameras"][0]["pose"]["xyz"] = (true_xyz + [0.02, -0.01, 0.01]).tolist()
     off.write_text(yaml.safe_dump(scene))
     found = berth.calibrate(off)
     result = found.cameras[0]
@@ -82,7 +78,7 @@ def test_a_calibration_data_finds_the_pose_and_writes_the_scene(tmp_path):
 def test_pictures(one_camera, step):
     plot = pytest.importorskip("berth.plot")
     pytest.importorskip("matplotlib")
-    results = [s.result for i, s in enumerate(one_camera) if i < 5]
+    results = [s.result for s in itertools.islice(one_camera, 5)]
     axes = plot.distances(results)
     assert [text.get_text() for text in axes.get_legend().get_texts()] == results[0].link_names[1:]
     np.testing.assert_allclose(axes.lines[0].get_ydata(), [a.distance_m[1] for a in results])
@@ -100,16 +96,18 @@ def test_the_program_tells_its_version():
     assert subprocess.run([sys.executable, "-m", "berth", "--wrong"], capture_output=True).returncode == 2
 
 
-@pytest.mark.parametrize("example, arguments, said", [
-    ("one_frame", ["boxes.urdf"], "arm ok "),
-    ("avoid", [SOURCE / "data/bundled/scene.yaml"], "own QP"),
-    ("mppi", [SOURCE / "data/bundled/scene.yaml"], "0.0"),
-    ("look_ahead", [SOURCE / "data/bundled/scene.yaml"], "first at pose"),
-    ("calibrate", [SOURCE / "data/bundled/one_camera.yaml", "new.yaml"], "least distance"),
+@pytest.mark.parametrize("example, scene, more, said", [
+    ("one_frame", "boxes.urdf", [], "arm ok "),
+    ("avoid", "scene.yaml", [], "own QP"),
+    ("mppi", "scene.yaml", [], "0.0"),
+    ("look_ahead", "scene.yaml", [], "first at pose"),
+    ("calibrate", "one_camera.yaml", ["new.yaml"], "least distance"),
 ])
-def test_the_examples_run(tmp_path, example, arguments, said):
+def test_the_examples_run(tmp_path, example, scene, more, said):
+    if scene.endswith(".yaml"):
+        thinned(tmp_path, scene, scene, 6)
     (tmp_path / "boxes.urdf").write_text(BOXES)
-    run = subprocess.run([sys.executable, SOURCE / f"examples/python/{example}.py", *map(str, arguments)],
+    run = subprocess.run([sys.executable, SOURCE / f"examples/python/{example}.py", scene, *more],
                          capture_output=True, text=True, cwd=tmp_path)
     assert run.returncode == 0, run.stderr
     assert said in run.stdout

@@ -9,7 +9,7 @@ import subprocess
 import numpy as np
 import pytest
 import yaml
-from conftest import BOXES, SOURCE
+from conftest import BOXES, SOURCE, thinned
 from jsonschema import Draft202012Validator
 
 import berth
@@ -176,22 +176,6 @@ def test_the_reader_and_the_schema_take_the_same_values(path, refusal):
 
 
 # Results and calibrations: what berth writes is valid, and what differs from it is not.
-
-def thinned(folder, name, out, every, last_stamp_s=None, **groups):
-    """A bundled scene with fewer images, the last one of each camera with another stamp, and other settings."""
-    bundled = SOURCE / "data/bundled"
-    scene = yaml.safe_load((bundled / name).read_text())
-    scene["robot"].update(urdf=str(bundled / "arm/arm.urdf"), package_paths={"berth_arm": str(bundled / "arm")})
-    scene["joints"] = str(bundled / "joints.csv")
-    for camera in scene["cameras"]:
-        camera["info"] = str(bundled / camera["info"])
-        camera["depth"] = sorted(map(str, bundled.glob(camera["depth"])))[::every]
-        camera["stamps"] = camera["stamps"][::every]
-        if last_stamp_s:
-            camera["stamps"][-1] = last_stamp_s
-    (folder / out).write_text(yaml.safe_dump({**scene, **groups}))
-    return folder / out
-
 
 @pytest.fixture(scope="module")
 def results(tmp_path_factory):
