@@ -7,6 +7,7 @@
 #include "berth/scene/open_scene.hpp"
 #include "tests/apps/berth_program.hpp"
 #include "tests/support/carrying_cell.hpp"
+#include "tests/support/coarse_arm.hpp"
 
 namespace berth {
 namespace {
@@ -14,7 +15,8 @@ namespace {
 using testing::CarryingCell;
 using Json = nlohmann::json;
 
-const std::filesystem::path kArm = BERTH_SOURCE_DIR "/data/bundled/arm";
+const std::filesystem::path& kArm =
+    testing::coarse_arm_folder(BERTH_SOURCE_DIR "/data/bundled/arm");
 const std::string kMesh = "new.attached.arm_link_7_attached.stl";
 
 Outcome calibrated(const CarryingCell& cell, const std::vector<std::string>& more = {}) {

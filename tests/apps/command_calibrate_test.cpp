@@ -7,6 +7,7 @@
 #include "berth/files/file_bytes.hpp"
 #include "berth/scene/open_scene.hpp"
 #include "tests/apps/berth_program.hpp"
+#include "tests/support/coarse_arm.hpp"
 #include "tests/support/drawn_cell.hpp"
 
 namespace berth {
@@ -15,10 +16,11 @@ namespace {
 using testing::DrawnCell;
 using Json = nlohmann::json;
 
-const std::filesystem::path kBundled = BERTH_SOURCE_DIR "/data/bundled";
+const std::filesystem::path& kArm =
+    testing::coarse_arm_folder(BERTH_SOURCE_DIR "/data/bundled/arm");
 
 DrawnCell small_cell(int poses = 3, const testing::CellLines& lines = {}) {
-  return {kBundled / "arm", {.width_px = 320, .height_px = 240, .poses = poses}, 2, lines};
+  return {kArm, {.width_px = 320, .height_px = 240, .poses = poses}, 2, lines};
 }
 
 std::vector<std::string> all_names(const std::filesystem::path& folder) {

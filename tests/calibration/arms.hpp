@@ -6,6 +6,7 @@
 #include "berth/calibration/calibrate.hpp"
 #include "berth/render/robot_renderer.hpp"
 #include "sim/drawn_calibration_data.hpp"
+#include "tests/support/coarse_arm.hpp"
 
 namespace berth {
 
@@ -22,12 +23,21 @@ struct Arm {
   }
 };
 
+inline Arm arm_of(const std::filesystem::path& folder) {
+  return Arm({.urdf = folder / "arm.urdf",
+              .package_paths = {{"berth_arm", folder}},
+              .environment_links = {"table"}});
+}
+
 /// The one in data/bundled, loaded once.
 inline const Arm& bundled_arm() {
-  static const std::filesystem::path folder = BERTH_BUNDLED_ARM;
-  static const Arm arm({.urdf = folder / "arm.urdf",
-                        .package_paths = {{"berth_arm", folder}},
-                        .environment_links = {"table"}});
+  static const Arm arm = arm_of(BERTH_BUNDLED_ARM);
+  return arm;
+}
+
+/// The same of fewer triangles.
+inline const Arm& coarse_arm() {
+  static const Arm arm = arm_of(testing::coarse_arm_folder(BERTH_BUNDLED_ARM));
   return arm;
 }
 

@@ -8,7 +8,7 @@ namespace berth {
 namespace {
 
 lab::AttachedTrial try_arm(sim::DrawnKind kind, int poses, int cameras) {
-  return lab::try_attached(bundled_arm().model, bundled_arm().meshes, kind, poses, cameras, 1);
+  return lab::try_attached(coarse_arm().model, coarse_arm().meshes, kind, poses, cameras, 1);
 }
 
 TEST(AttachedCells, WhatIsShownIsFoundAndNothingOfTheRoom) {
@@ -38,7 +38,7 @@ TEST(AttachedCells, WhatMovesOnItsOwnBesideTheRobotIsNoPartAndIsTold) {
        {Case{sim::DrawnCompany::follower, 5, 1, 1}, Case{sim::DrawnCompany::guide, 8, 2, 1},
         Case{sim::DrawnCompany::cart, 5, 1, 1}}) {
     SCOPED_TRACE(static_cast<int>(one.company));
-    const AttachedParts found = lab::try_company(bundled_arm().model, bundled_arm().meshes,
+    const AttachedParts found = lab::try_company(coarse_arm().model, coarse_arm().meshes,
                                                  one.company, one.poses, one.cameras, one.seed);
     EXPECT_TRUE(found.parts.empty());
     EXPECT_TRUE(found.refused.ends_with(

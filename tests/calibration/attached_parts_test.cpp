@@ -55,13 +55,13 @@ Attachment tool() {
 /// The pose of the last link.
 Pose hand_at(const std::vector<double>& positions) {
   RobotPose pose;
-  forward_kinematics(bundled_arm().model, positions, pose);
-  return pose.X_BL[*bundled_arm().model.find_link("arm_link_7")];
+  forward_kinematics(coarse_arm().model, positions, pose);
+  return pose.X_BL[*coarse_arm().model.find_link("arm_link_7")];
 }
 
 AttachedParts find(const sim::CarryingRobotSettings& settings, std::uint32_t seed = 1) {
   const sim::CarryingRobot drawn =
-      sim::draw_carrying_robot(bundled_arm().model, bundled_arm().meshes, settings, seed);
+      sim::draw_carrying_robot(coarse_arm().model, coarse_arm().meshes, settings, seed);
   return find_attached_parts(drawn.calibration_data, drawn.found);
 }
 
@@ -178,7 +178,7 @@ TEST(AttachedParts, ACameraWhosePoseWasNotFoundIsNotAsked) {
   sim::CarryingRobotSettings settings = cell();
   settings.carried = {tool()};
   sim::CarryingRobot drawn =
-      sim::draw_carrying_robot(bundled_arm().model, bundled_arm().meshes, settings, 1);
+      sim::draw_carrying_robot(coarse_arm().model, coarse_arm().meshes, settings, 1);
   drawn.found.cameras[0].is_found = false;
   EXPECT_EQ(find_attached_parts(drawn.calibration_data, drawn.found).refused,
             "what the robot carries was not looked for: 0 different poses of the arm; expected 5 "
@@ -232,7 +232,7 @@ TEST(AttachedParts, ACameraWhosePoseIsOffMakesNothingMoveForAnotherOne) {
   settings.room.push_back({make_cylinder(0.25, 0.3), sim::translation(0, 0, 0.25)});
   settings.X_BC.push_back(camera_at({1.5, -1.2, 0.9}));
   sim::CarryingRobot drawn =
-      sim::draw_carrying_robot(bundled_arm().model, bundled_arm().meshes, settings, 1);
+      sim::draw_carrying_robot(coarse_arm().model, coarse_arm().meshes, settings, 1);
   drawn.found.cameras[1].X_PC.translation() += Eigen::Vector3d(0.03, -0.03, 0.02);
   EXPECT_TRUE(find_attached_parts(drawn.calibration_data, drawn.found).parts.empty());
 }

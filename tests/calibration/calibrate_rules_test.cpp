@@ -16,7 +16,7 @@ using sim::DrawnCalibrationData;
 
 /// Small images, so that it is quick.
 DrawnCalibrationData draw_small(std::uint32_t seed, int poses = 5) {
-  return bundled_arm().draw({.width_px = 320, .height_px = 240, .poses = poses}, seed);
+  return coarse_arm().draw({.width_px = 160, .height_px = 120, .poses = poses}, seed);
 }
 
 void expect_same(const CameraCalibration& a, const CameraCalibration& b) {
@@ -48,8 +48,8 @@ TEST(CalibrateRules, OneThreadFindsTheSameBits) {
 }
 
 TEST(CalibrateRules, ACameraIsFoundBesideOthersAsItIsAlone) {
-  DrawnCalibrationData left = draw_small(1);
-  DrawnCalibrationData right = draw_small(2);
+  DrawnCalibrationData left = draw_small(1, 3);
+  DrawnCalibrationData right = draw_small(2, 3);
   disturb(left, 0.05, 5 * kDegree, 1);
   disturb(right, 0.05, 5 * kDegree, 2);
   right.camera->name = "right";
@@ -115,7 +115,7 @@ TEST(CalibrateRules, ImagesOfNoiseAreRefused) {
 TEST(CalibrateRules, ImagesWithoutAReadingAreRefused) {
   DrawnCalibrationData drawn = draw_small(1, 3);
   for (CalibrationFrame& frame : drawn.camera->frames) {
-    frame.depth_m.resize(320, 240, kNoDepth);
+    frame.depth_m.resize(160, 120, kNoDepth);
   }
   expect_refused(drawn);
 }
@@ -132,13 +132,13 @@ TEST(CalibrateRules, OneFrameIsFittedButNothingChecksIt) {
 TEST(CalibrateRules, ACameraThatALinkCarriesIsFound) {
   // It looks at the arm from beside the first link that turns, and turns with it.
   DrawnCalibrationData drawn = draw_small(2);
-  const RobotModel& model = bundled_arm().model;
+  const RobotModel& model = coarse_arm().model;
   CalibrationCamera& camera = *drawn.camera;
   camera.parent = *model.find_link("arm_link_1");
   RobotPose pose;
   forward_kinematics(model, camera.frames[0].joints.position, pose);
   drawn.X_PC_true = pose.X_BL[camera.parent].inverse() * drawn.X_PC_true;
-  RobotRenderer renderer(bundled_arm().meshes, camera.camera);
+  RobotRenderer renderer(coarse_arm().meshes, camera.camera);
   RobotImage robot;
   for (CalibrationFrame& frame : camera.frames) {
     forward_kinematics(model, frame.joints.position, pose);
@@ -178,16 +178,20 @@ DepthImage room_m(const Camera& camera, const Pose& X_BC) {
   return depth_m;
 }
 
-DrawnCalibrationData draw_carried(sim::DrawnMount mount, std::uint32_t seed) {
-  return bundled_arm().draw(
-      {.width_px = 320, .height_px = 240, .poses = 5, .moves = true, .mount = mount}, seed);
+DrawnCalibrationData draw_carried(const Arm& arm, sim::DrawnMount mount, int width_px) {
+  return arm.draw({.width_px = width_px,
+                   .height_px = width_px * 3 / 4,
+                   .poses = 5,
+                   .moves = true,
+                   .mount = mount},
+                  1);
 }
 
 /// The same way, and nothing of the robot in the images.
 void empty_images(DrawnCalibrationData& drawn) {
   RobotPose pose;
   for (std::size_t k = 0; k < drawn.camera->frames.size(); ++k) {
-    forward_kinematics(bundled_arm().model, drawn.joints_at_exposure[k], pose);
+    forward_kinematics(coarse_arm().model, drawn.joints_at_exposure[k], pose);
     drawn.camera->frames[k].depth_m =
         room_m(drawn.camera->camera, pose.X_BL[drawn.camera->parent] * drawn.X_PC_true);
   }
@@ -195,7 +199,7 @@ void empty_images(DrawnCalibrationData& drawn) {
 
 TEST(CalibrateRules, ACameraOnTheHandIsFoundByTheRestOfTheArm) {
   for (const auto mount : {sim::DrawnMount::hand, sim::DrawnMount::upper_link}) {
-    DrawnCalibrationData drawn = draw_carried(mount, 1);
+    DrawnCalibrationData drawn = draw_carried(bundled_arm(), mount, 320);
     ASSERT_NE(drawn.camera->parent, 0U);
     disturb(drawn, 0.05, 5 * kDegree, 1);
     const CameraCalibration found = calibrate(drawn.calibration_data).cameras[0];
@@ -207,7 +211,7 @@ TEST(CalibrateRules, ACameraOnTheHandIsFoundByTheRestOfTheArm) {
 
 TEST(CalibrateRules, ACameraOnTheHandThatSeesNothingOfTheRobotIsRefused) {
   // Where the scene has it, the robot should be in view.
-  DrawnCalibrationData drawn = draw_carried(sim::DrawnMount::hand, 1);
+  DrawnCalibrationData drawn = draw_carried(coarse_arm(), sim::DrawnMount::hand, 160);
   empty_images(drawn);
   expect_refused(drawn);
 }

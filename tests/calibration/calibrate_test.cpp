@@ -14,6 +14,8 @@ namespace {
 
 using sim::DrawnCalibrationData;
 
+constexpr sim::DrawnCalibrationSettings kQuick{.width_px = 320, .height_px = 240};
+
 TEST(Calibrate, ThePoseComesBackFromFiveCentimetresAndDegrees) {
   std::vector<double> errors_m;
   for (std::uint32_t seed = 1; seed <= 3; ++seed) {
@@ -41,7 +43,7 @@ TEST(Calibrate, ThePoseComesBackFromFiveCentimetresAndDegrees) {
 }
 
 TEST(Calibrate, ThePoseComesBackFromTwentyCentimetresAndFifteenDegrees) {
-  DrawnCalibrationData drawn = bundled_arm().draw({}, 1);
+  DrawnCalibrationData drawn = coarse_arm().draw(kQuick, 1);
   disturb(drawn, 0.20, 15 * kDegree, 201);
   expect_found(drawn, calibrate(drawn.calibration_data));
 }
@@ -59,7 +61,7 @@ TEST(Calibrate, RealRobotsComeBackToo) {
 }
 
 TEST(Calibrate, AStartThatIsRightIsKept) {
-  DrawnCalibrationData drawn = bundled_arm().draw({}, 2);
+  DrawnCalibrationData drawn = coarse_arm().draw(kQuick, 2);
   const CalibrationResult found = calibrate(drawn.calibration_data);
   EXPECT_LT(robot_error_m(drawn, found), 0.0025);
   EXPECT_LT(found.cameras[0].moved_m, 0.0025);
@@ -88,8 +90,9 @@ TEST(Calibrate, AStartThatIsNotBetteredIsKeptAndSaysSo) {
 TEST(Calibrate, TheClocksOffsetIsFound) {
   for (const double offset_s : {0.050, -0.030}) {
     SCOPED_TRACE(offset_s);
-    DrawnCalibrationData drawn =
-        bundled_arm().draw({.moves = true, .errors = {.clock_offset_s = offset_s}}, 1);
+    DrawnCalibrationData drawn = coarse_arm().draw(
+        {.width_px = 320, .height_px = 240, .moves = true, .errors = {.clock_offset_s = offset_s}},
+        1);
     disturb(drawn, 0.03, 3 * kDegree, 400);
     const CalibrationResult found = calibrate(drawn.calibration_data);
     expect_found(drawn, found);
@@ -102,8 +105,8 @@ TEST(Calibrate, TheClocksOffsetIsFound) {
 }
 
 TEST(Calibrate, AnOffsetThatTheSceneHasIsBuiltUpon) {
-  DrawnCalibrationData drawn =
-      bundled_arm().draw({.moves = true, .errors = {.clock_offset_s = 0.045}}, 2);
+  DrawnCalibrationData drawn = coarse_arm().draw(
+      {.width_px = 320, .height_px = 240, .moves = true, .errors = {.clock_offset_s = 0.045}}, 2);
   // The stamps stay; what is believed of the joints goes with the offset.
   drawn.camera->clock_offset_s = 0.030;
   for (CalibrationFrame& frame : drawn.camera->frames) {
@@ -117,7 +120,7 @@ TEST(Calibrate, AnOffsetThatTheSceneHasIsBuiltUpon) {
 }
 
 TEST(Calibrate, AnArmThatStandsTellsNoClock) {
-  DrawnCalibrationData drawn = bundled_arm().draw({}, 3);
+  DrawnCalibrationData drawn = coarse_arm().draw(kQuick, 3);
   drawn.camera->has_stamps = true;
   drawn.camera->clock_offset_s = 0.010;
   disturb(drawn, 0.03, 3 * kDegree, 500);
@@ -131,7 +134,8 @@ TEST(Calibrate, AnArmThatStandsTellsNoClock) {
 
 TEST(Calibrate, ADepthErrorOfAPercentIsFound) {
   constexpr double kShare = 0.01;
-  DrawnCalibrationData drawn = bundled_arm().draw({.errors = {.depth_share = kShare}}, 2);
+  DrawnCalibrationData drawn =
+      coarse_arm().draw({.width_px = 320, .height_px = 240, .errors = {.depth_share = kShare}}, 2);
   disturb(drawn, 0.05, 5 * kDegree, 600);
   const CalibrationResult found = calibrate(drawn.calibration_data);
   expect_found(drawn, found);
@@ -144,7 +148,7 @@ TEST(Calibrate, ADepthErrorOfAPercentIsFound) {
 TEST(Calibrate, AWrongFocalLengthIsRefusedAndTheRightOneTold) {
   for (const double factor : {0.9, 1.1}) {
     SCOPED_TRACE(factor);
-    DrawnCalibrationData drawn = bundled_arm().draw({.width_px = 320, .height_px = 240}, 5);
+    DrawnCalibrationData drawn = coarse_arm().draw({.width_px = 160, .height_px = 120}, 5);
     disturb(drawn, 0.03, 3 * kDegree, 700);
     const double right_px = drawn.camera->camera.fx_px;
     drawn.camera->camera.fx_px *= factor;

@@ -25,10 +25,10 @@ double value_of(const std::vector<ProposedSetting>& settings, const std::string&
 class FilterProposalOf : public ::testing::Test {
  protected:
   FilterProposalOf() {
-    RobotRenderer renderer(bundled_arm().meshes, camera().camera);
+    RobotRenderer renderer(coarse_arm().meshes, camera().camera);
     for (const CalibrationFrame& frame : camera().frames) {
       RobotPose pose;
-      forward_kinematics(bundled_arm().model, frame.joints.position, pose);
+      forward_kinematics(coarse_arm().model, frame.joints.position, pose);
       renderer.render(pose, drawn_.X_PC_true, robots_.emplace_back());
     }
   }
@@ -83,8 +83,7 @@ class FilterProposalOf : public ::testing::Test {
     FAIL() << "no room";
   }
 
-  sim::DrawnCalibrationData drawn_ =
-      bundled_arm().draw({.poses = 3, .has_sensor_errors = false}, 2);
+  sim::DrawnCalibrationData drawn_ = coarse_arm().draw({.poses = 3, .has_sensor_errors = false}, 2);
   CalibrationResult found_ = true_result(drawn_);
   std::vector<RobotImage> robots_;
 };

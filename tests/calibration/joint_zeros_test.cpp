@@ -12,12 +12,13 @@ bool holds(const std::vector<std::string>& names, const std::string& name) {
 }
 
 TEST(JointZeros, ToldOnesAreRightAndTheFirstAndTheLastAreNeverTold) {
-  const std::vector<MovableJoint>& joints = bundled_arm().model.joints;
+  const std::vector<MovableJoint>& joints = coarse_arm().model.joints;
   std::size_t told = 0;
   for (const std::uint32_t seed : {1U}) {
     SCOPED_TRACE(seed);
-    sim::DrawnCalibrationData drawn =
-        bundled_arm().draw({.poses = 10, .errors = {.joint_zero = 1 * kDegree}}, seed);
+    sim::DrawnCalibrationData drawn = coarse_arm().draw(
+        {.width_px = 320, .height_px = 240, .poses = 10, .errors = {.joint_zero = 1 * kDegree}},
+        seed);
     disturb(drawn, 0.03, 3 * kDegree, seed);
     const CalibrationResult found = calibrate(drawn.calibration_data, {.joint_zeros = true});
     EXPECT_EQ(found.cameras[0].refused, "");
@@ -37,7 +38,7 @@ TEST(JointZeros, ToldOnesAreRightAndTheFirstAndTheLastAreNeverTold) {
 
 TEST(JointZeros, WhereTheyAreRightWhatIsToldIsNothing) {
   sim::DrawnCalibrationData drawn =
-      bundled_arm().draw({.width_px = 320, .height_px = 240, .poses = 10}, 3);
+      coarse_arm().draw({.width_px = 320, .height_px = 240, .poses = 10}, 3);
   const CalibrationResult found = calibrate(drawn.calibration_data, {.joint_zeros = true});
   for (const auto& [joint, offset] : found.joint_offsets) {
     EXPECT_NEAR(offset, 0, 0.3 * kDegree) << joint;
@@ -47,7 +48,7 @@ TEST(JointZeros, WhereTheyAreRightWhatIsToldIsNothing) {
 
 TEST(JointZeros, TheyAreNotLookedForUnasked) {
   const sim::DrawnCalibrationData drawn =
-      bundled_arm().draw({.width_px = 320, .height_px = 240, .poses = 3}, 1);
+      coarse_arm().draw({.width_px = 320, .height_px = 240, .poses = 3}, 1);
   const CalibrationResult found = calibrate(drawn.calibration_data);
   EXPECT_TRUE(found.joint_offsets.empty());
   EXPECT_TRUE(found.joints_not_determined.empty());

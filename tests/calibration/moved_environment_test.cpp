@@ -25,7 +25,7 @@ class MovedEnvironment : public ::testing::Test {
     }
   }
 
-  sim::DrawnCalibrationData drawn_ = bundled_arm().draw({}, 2);
+  sim::DrawnCalibrationData drawn_ = coarse_arm().draw({}, 2);
 };
 
 TEST_F(MovedEnvironment, TheArmAloneIsNoChange) { EXPECT_TRUE(look().empty()); }

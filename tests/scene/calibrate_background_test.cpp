@@ -7,6 +7,7 @@
 
 #include "berth/files/file_bytes.hpp"
 #include "berth/scene/scene_run.hpp"
+#include "tests/support/coarse_arm.hpp"
 #include "tests/support/drawn_cell.hpp"
 #include "tests/support/error_message.hpp"
 
@@ -17,7 +18,8 @@ using sim::DrawnMount;
 using testing::CellLines;
 using testing::DrawnCell;
 
-const std::string kArmFolder = BERTH_SOURCE_DIR "/data/bundled/arm";
+const std::filesystem::path& kArmFolder =
+    testing::coarse_arm_folder(BERTH_SOURCE_DIR "/data/bundled/arm");
 
 DrawnCell right_cell(CellLines lines = {}, DrawnMount mount = DrawnMount::root) {
   lines.offset_m = lines.angle_rad = 0;

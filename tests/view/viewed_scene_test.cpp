@@ -13,6 +13,7 @@
 #include "apps/view/space_grid.hpp"
 #include "berth/files/file_bytes.hpp"
 #include "tests/support/carrying_cell.hpp"
+#include "tests/support/coarse_arm.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace berth::app {
@@ -375,7 +376,7 @@ class CarryingViewedScene : public ::testing::Test {
     return names;
   }
 
-  testing::CarryingCell cell_{BERTH_SOURCE_DIR "/data/bundled/arm"};
+  testing::CarryingCell cell_{testing::coarse_arm_folder(BERTH_SOURCE_DIR "/data/bundled/arm")};
   const TemporaryFolder folder_;
   Messages messages_;
   ViewedScene viewed_{cell_ / "cell/scene.yaml", folder_.path(),

@@ -11,10 +11,10 @@ namespace {
 class FrameDisplacementOf : public ::testing::Test {
  protected:
   FrameDisplacement at(const Pose& X_PC, double bias_m = 0) const {
-    return {bundled_arm().model, bundled_arm().meshes, drawn_.camera->camera, 0, X_PC, bias_m};
+    return {coarse_arm().model, coarse_arm().meshes, drawn_.camera->camera, 0, X_PC, bias_m};
   }
 
-  sim::DrawnCalibrationData drawn_ = bundled_arm().draw({.poses = 3}, 2);
+  sim::DrawnCalibrationData drawn_ = coarse_arm().draw({.poses = 3}, 2);
 };
 
 TEST_F(FrameDisplacementOf, AtTheRightPoseItIsSmallAndTwoCentimetresOffItIsNot) {
