@@ -1,13 +1,21 @@
 // `berth run`: what it prints and writes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
 #include "berth/files/file_bytes.hpp"
+#include "tests/apps/berth_program.hpp"
 #include "tests/apps/command_scene.hpp"
+#include "tests/apps/refusal.hpp"
+#include "tests/support/data_folder.hpp"
 
 namespace berth {
 namespace {
+
+using Json = nlohmann::json;
 
 Eigen::Vector3d vector_of(const Json& numbers) {
   return {numbers.at(0).get<double>(), numbers.at(1).get<double>(), numbers.at(2).get<double>()};
@@ -222,6 +230,113 @@ TEST(Run, WorksFromAnyFolder) {
       run_berth(elsewhere / "", {"run", (scene / "scene.yaml").string(), "--format", "json"});
   EXPECT_EQ(outcome.exit_status, 0) << outcome.err;
   EXPECT_EQ(outcome.out, scene.berth({"run", "scene.yaml", "--format", "json"}).out);
+}
+
+// What a user sees of a robot that is not where it should be.
+
+TEST(CommandImplausible, AWrongScaleIsRefusedAndNamed) {
+  CommandScene scene;
+  scene.lines.more_camera = "depth_scale: 0.01";
+  const std::vector<std::string> told = {"scene.yaml", "camera front", "0 % lie at its surface",
+                                         "expected", "depth_scale is 0.001"};
+  expect_refused(scene, {"run", "scene.yaml", "--out", "result.txt"}, told);
+  expect_refused(scene, {"filter", "scene.yaml", "--out", "filtered"}, told);
+}
+
+TEST(CommandImplausible, OneOfTwoCamerasIsSaidAndTheOtherAnswers) {
+  CommandScene scene;
+  scene.lines.more_cameras =
+      "  - name: wrong\n    info: camera_info.yaml\n    pose: " + scene.lines.pose +
+      "\n    depth: " + scene.lines.depth + "\n    depth_scale: 0.0001\n";
+  const Outcome outcome = scene.berth({"run", "scene.yaml"});
+  EXPECT_EQ(outcome.exit_status, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("camera wrong: the robot is not where it should be"),
+            std::string::npos)
+      << outcome.err;
+  EXPECT_NE(outcome.err.find("depth_scale is 0.001"), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find("camera front: "), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.out.find("wrong (implausible"), std::string::npos) << outcome.out;
+}
+
+// `berth run` on a recording whose camera reads few of its pixels.
+
+/// 31 % of its pixels have a reading.
+TEST(Recording, ACameraThatReadsAThirdOfItsPixelsIsOk) {
+  const auto folder = data_folder() / "recordings/lbr_med7_zed2i_small";
+  if (!std::filesystem::exists(folder / "scene.yaml"))
+    GTEST_SKIP() << "needs the recordings; BERTH_DATA names their folder";
+  const Outcome outcome = run_berth(folder, {"run", "scene.yaml", "--format", "json"});
+  EXPECT_EQ(outcome.exit_status, 0) << outcome.err;
+  // It names the method of an older berth, and nothing else is said.
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  EXPECT_NE(outcome.err.find("evaluation.method is no setting any more"), std::string::npos)
+      << outcome.err;
+  std::istringstream lines(outcome.out);
+  int frames = 0;
+  for (std::string line; std::getline(lines, line); ++frames) {
+    EXPECT_EQ(Json::parse(line)["cameras"][0]["status"], "ok") << line;
+  }
+  EXPECT_EQ(frames, 9);
+}
+
+// `berth run` of a scene whose stamps and joints do not go together.
+
+TEST(RunTime, AFrameThatTheJointsDoNotReachHasAStatusAndNoDistance) {
+  CommandScene scene;
+  scene.lines.more_camera = "stamps: [-0.5, 1, 2.25]";
+  const std::vector<Json> frames = scene.json({"run", "scene.yaml", "--picture", "pictures"});
+  ASSERT_EQ(frames.size(), 3U);
+  for (const int i : {0, 2}) {
+    EXPECT_EQ(frames[i]["time"]["status"], "extrapolated_too_far");
+    EXPECT_EQ(frames[i]["stamp_s"], i == 0 ? -0.5 : 2.25);
+    EXPECT_EQ(frames[i]["status"], "stale");
+    EXPECT_TRUE(frames[i]["nearest"].is_null());
+    EXPECT_EQ(frames[i]["links"].size(), frames[1]["links"].size());
+    for (const Json& link : frames[i]["links"]) {
+      EXPECT_EQ(link["status"], "stale");
+      EXPECT_TRUE(link["distance_m"].is_null());
+      EXPECT_TRUE(link["robot_point_base_m"].is_null());
+    }
+  }
+  EXPECT_EQ(frames[1]["time"]["status"], "ok");
+  EXPECT_EQ(link_of(frames[1], "upper")["status"], "ok");
+  const Outcome table = scene.berth({"run", "scene.yaml"});
+  EXPECT_NE(table.out.find("frame 0, -0.500 s"), std::string::npos);
+  EXPECT_NE(table.out.find("range 2 m, no answer: extrapolated_too_far"), std::string::npos);
+  EXPECT_EQ(scene.berth({"filter", "scene.yaml", "--out", "filtered"}).exit_status, 0);
+}
+
+TEST(RunTime, TheScenesLimitsDecide) {
+  CommandScene scene;
+  scene.lines.more_camera = "stamps: [0.3, 1, 2.25]";
+  // The images do not belong to these joints.
+  const std::string unwatched = "\nwatch: {min_at_robot: 0}";
+  scene.lines.more = unwatched;
+  const auto status = [&](int frame) { return scene.run().at(frame)["time"]["status"]; };
+  EXPECT_EQ(status(0), "skewed") << "0.1 s is the default";
+  scene.lines.more = "time: {max_skew_s: 0.29}" + unwatched;
+  EXPECT_EQ(status(0), "skewed");
+  scene.lines.more = "time: {max_skew_s: 0.31}" + unwatched;
+  EXPECT_EQ(status(0), "ok");
+  EXPECT_EQ(status(2), "extrapolated_too_far");
+}
+
+TEST(Demo, RunsTheBundledSceneAndDrawsIt) {
+  if (!std::filesystem::exists(BERTH_SOURCE_DIR "/data/bundled/scene.yaml")) {
+    GTEST_SKIP() << "data/bundled is missing";
+  }
+  const TemporaryFolder folder;
+  const Outcome outcome = run_berth(folder / "", {"demo"});
+  EXPECT_EQ(outcome.exit_status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_NE(outcome.out.find("distance [m]"), std::string::npos);
+  EXPECT_NE(outcome.out.find(" ok "), std::string::npos);
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"berth_demo"});
+  EXPECT_NE(outcome.out.find((folder / "berth_demo").string()), std::string::npos);
+  for (const char* camera : {"camera", "left", "right"}) {
+    const auto picture = folder / "berth_demo" / camera / "frame_000000.png";
+    EXPECT_TRUE(read_file_bytes(picture).starts_with("\x89PNG\r\n")) << camera;
+  }
 }
 
 }  // namespace

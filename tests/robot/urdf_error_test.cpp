@@ -10,6 +10,7 @@ namespace {
 
 void expect_refused(const std::string& xml, std::initializer_list<std::string> parts,
                     const RobotSettings& settings = {}) {
+  SCOPED_TRACE(xml);
   const TemporaryFolder folder;
   expect_error([&] { load_text(folder, xml, settings); }, parts);
   expect_error([&] { load_text(folder, xml, settings); },
@@ -47,15 +48,37 @@ TEST(UrdfError, FileEmptyOrNotXmlOrCut) {
   expect_refused(std::string("<\0r\0", 4), {"zero byte; expected UTF-8, not UTF-16"});
 }
 
-TEST(UrdfError, NoRobotElement) {
+TEST(UrdfError, LinksAndJointsThatAreNoTree) {
   expect_refused("<?xml version=\"1.0\"?><model name=\"a\"/>", {"not a valid URDF", "robot"});
-}
-
-TEST(UrdfError, NoLink) { expect_refused(robot_xml(""), {"not a valid URDF", "link"}); }
-
-TEST(UrdfError, TwoRoots) {
+  expect_refused(robot_xml(""), {"not a valid URDF", "link"});
   expect_refused(robot_xml(box_link_xml("one") + box_link_xml("two")),
                  {"robot.urdf:", "links one, two have no parent", "expected one root"});
+  expect_refused(robot_xml(box_link_xml("a") + box_link_xml("b") +
+                           joint_xml("ab", "fixed", "a", "b") + joint_xml("ba", "fixed", "b", "a")),
+                 {"not a valid URDF", "root"});
+  expect_refused(
+      robot_xml(box_link_xml("base") + box_link_xml("left") + box_link_xml("right") +
+                box_link_xml("bar") + joint_xml("l", "fixed", "base", "left") +
+                joint_xml("r", "fixed", "base", "right") + joint_xml("lb", "fixed", "left", "bar") +
+                joint_xml("rb", "fixed", "right", "bar")),
+      {"\"bar\"", "\"lb\"", "\"rb\"", "loop"});
+  expect_refused(robot_xml(box_link_xml("base") + box_link_xml("a") + box_link_xml("b") +
+                           joint_xml("ab", "fixed", "a", "b") + joint_xml("ba", "fixed", "b", "a")),
+                 {"not connected", "\"base\""});
+  expect_refused(
+      robot_xml(box_link_xml("base") + box_link_xml("a") + joint_xml("aa", "fixed", "a", "a")),
+      {"\"a\""});
+  expect_refused(
+      robot_xml(box_link_xml("base") + box_link_xml("a") + joint_xml("j", "fixed", "nobody", "a")),
+      {"not a valid URDF", "nobody"});
+  expect_refused(robot_xml(box_link_xml("base") + joint_xml("j", "fixed", "base", "nobody")),
+                 {"not a valid URDF", "nobody"});
+  expect_refused(robot_xml(box_link_xml("base") + box_link_xml("base")),
+                 {"not a valid URDF", "base"});
+  expect_refused(
+      robot_xml(box_link_xml("base") + box_link_xml("a") + box_link_xml("b") +
+                joint_xml("j", "fixed", "base", "a") + joint_xml("j", "fixed", "base", "b")),
+      {"not a valid URDF", "j"});
 }
 
 TEST(UrdfError, AJointThatTurnsHasLimits) {
@@ -65,71 +88,18 @@ TEST(UrdfError, AJointThatTurnsHasLimits) {
   expect_refused(xml, {"joint \"elbow\": is revolute and has no <limit>; expected <limit"});
 }
 
-TEST(UrdfError, NoRootSinceTheLinksFormACycle) {
-  expect_refused(robot_xml(box_link_xml("a") + box_link_xml("b") +
-                           joint_xml("ab", "fixed", "a", "b") + joint_xml("ba", "fixed", "b", "a")),
-                 {"not a valid URDF", "root"});
-}
-
-TEST(UrdfError, LinkWithTwoParents) {
-  expect_refused(
-      robot_xml(box_link_xml("base") + box_link_xml("left") + box_link_xml("right") +
-                box_link_xml("bar") + joint_xml("l", "fixed", "base", "left") +
-                joint_xml("r", "fixed", "base", "right") + joint_xml("lb", "fixed", "left", "bar") +
-                joint_xml("rb", "fixed", "right", "bar")),
-      {"\"bar\"", "\"lb\"", "\"rb\"", "loop"});
-}
-
-TEST(UrdfError, CycleApartFromTheRoot) {
-  expect_refused(robot_xml(box_link_xml("base") + box_link_xml("a") + box_link_xml("b") +
-                           joint_xml("ab", "fixed", "a", "b") + joint_xml("ba", "fixed", "b", "a")),
-                 {"not connected", "\"base\""});
-}
-
-TEST(UrdfError, LinkThatIsItsOwnParent) {
-  expect_refused(
-      robot_xml(box_link_xml("base") + box_link_xml("a") + joint_xml("aa", "fixed", "a", "a")),
-      {"\"a\""});
-}
-
-TEST(UrdfError, UnknownParentOrChildLink) {
-  expect_refused(
-      robot_xml(box_link_xml("base") + box_link_xml("a") + joint_xml("j", "fixed", "nobody", "a")),
-      {"not a valid URDF", "nobody"});
-  expect_refused(robot_xml(box_link_xml("base") + joint_xml("j", "fixed", "base", "nobody")),
-                 {"not a valid URDF", "nobody"});
-}
-
-TEST(UrdfError, TwoLinksOrJointsOfOneName) {
-  expect_refused(robot_xml(box_link_xml("base") + box_link_xml("base")),
-                 {"not a valid URDF", "base"});
-  expect_refused(
-      robot_xml(box_link_xml("base") + box_link_xml("a") + box_link_xml("b") +
-                joint_xml("j", "fixed", "base", "a") + joint_xml("j", "fixed", "base", "b")),
-      {"not a valid URDF", "j"});
-}
-
-TEST(UrdfError, MimicOfAnUnknownJoint) {
+TEST(UrdfError, MimicsOfNoJointThatMoves) {
   expect_refused(pair_xml("revolute", R"(<mimic joint="nobody"/>)"),
                  {"\"elbow\"", "\"nobody\"", "expected"});
-}
-
-TEST(UrdfError, MimicOfItselfOrInALoop) {
   expect_refused(pair_xml("revolute", R"(<mimic joint="elbow"/>)"), {"\"elbow\"", "loop"});
   expect_refused(robot_xml(box_link_xml("base") + box_link_xml("a") + box_link_xml("b") +
                            joint_xml("one", "revolute", "base", "a", R"(<mimic joint="two"/>)") +
                            joint_xml("two", "revolute", "base", "b", R"(<mimic joint="one"/>)")),
                  {"\"one\"", "\"two\"", "loop"});
-}
-
-TEST(UrdfError, MimicOfAFixedJoint) {
   expect_refused(robot_xml(box_link_xml("base") + box_link_xml("a") + box_link_xml("b") +
                            joint_xml("one", "fixed", "base", "a") +
                            joint_xml("two", "revolute", "base", "b", R"(<mimic joint="one"/>)")),
                  {"\"two\"", "\"one\"", "fixed"});
-}
-
-TEST(UrdfError, MimicOfAFixedJointThatMimicsAnother) {
   expect_refused(robot_xml(box_link_xml("base") + box_link_xml("a") + box_link_xml("b") +
                            box_link_xml("c") + joint_xml("mover", "revolute", "base", "c") +
                            joint_xml("one", "fixed", "base", "a", R"(<mimic joint="mover"/>)") +
@@ -144,15 +114,12 @@ TEST(UrdfError, JointWithoutASinglePosition) {
                     "links \"base\" and \"child\"", "expected fixed, revolute"});
 }
 
-TEST(UrdfError, UnknownJointType) {
+TEST(UrdfError, JointsOfUnknownTypeOrWithoutDirection) {
   expect_refused(pair_xml("screw"), {"not a valid URDF", "elbow"});
-}
-
-TEST(UrdfError, AxisOfNoDirection) {
   expect_refused(pair_xml("revolute", R"(<axis xyz="0 0 0"/>)"), {"\"elbow\"", "axis", "0 0 0"});
 }
 
-TEST(UrdfError, NumbersThatAreNone) {
+TEST(UrdfError, NumbersThatAreNoneAndShapesWithoutExtent) {
   expect_refused(pair_xml("revolute", R"(<axis xyz="0 0 nan"/>)"), {"elbow"});
   expect_refused(pair_xml("revolute", R"(<axis xyz="0 0"/>)"), {"elbow"});
   expect_refused(pair_xml("fixed", R"(<origin xyz="0 0 inf"/>)"), {"elbow"});
@@ -160,9 +127,6 @@ TEST(UrdfError, NumbersThatAreNone) {
   expect_refused(robot_xml(link_xml(
                      "base", shape_xml(R"(<box size="1 1 1"/>)", R"(<origin xyz="nan 0 0"/>)"))),
                  {"base"});
-}
-
-TEST(UrdfError, PrimitivesWithoutExtent) {
   expect_refused(shape_robot_xml(R"(<box size="1 0 1"/>)"),
                  {"\"base\"", "size=\"1 0 1\"; expected numbers above 0"});
   expect_refused(shape_robot_xml(R"(<box size="1 1 -2"/>)"), {"\"base\"", "size=\"1 1 -2\""});
@@ -171,35 +135,15 @@ TEST(UrdfError, PrimitivesWithoutExtent) {
   expect_refused(shape_robot_xml(R"(<cylinder radius="1" length="0"/>)"),
                  {"\"base\"", "length=\"0\""});
   expect_refused(shape_robot_xml(R"(<sphere radius="0"/>)"), {"\"base\"", "radius=\"0\""});
-}
-
-TEST(UrdfError, PrimitivesWithNumbersThatAreNone) {
   expect_refused(shape_robot_xml(R"(<box size="1 nan 1"/>)"), {"base"});
   expect_refused(shape_robot_xml(R"(<box size="inf 1 1"/>)"), {"base"});
   expect_refused(shape_robot_xml(R"(<box size="1 1"/>)"), {"base"});
   expect_refused(shape_robot_xml(R"(<sphere radius="big"/>)"), {"base"});
   expect_refused(shape_robot_xml(R"(<sphere radius="1e999"/>)"), {"base"});
-}
-
-TEST(UrdfError, ShapeOfUnknownKind) {
   expect_refused(shape_robot_xml(R"(<cone radius="1" length="1"/>)"),
                  {"<cone> is a shape of unknown kind; expected mesh, box, cylinder"});
   expect_refused(robot_xml(link_xml("base", "<visual/>")),
                  {"<geometry> of a <visual> holds 0 shapes"});
-}
-
-TEST(UrdfError, SeveralShapesInOneGeometryOfWhichOnlyOneWouldBeTaken) {
-  for (const std::string kind : {"visual", "collision"}) {
-    expect_refused(
-        robot_xml(
-            box_link_xml("base") +
-            link_xml("two", shape_xml(R"(<box size="1 1 1"/><sphere radius="1"/>)", "", kind)) +
-            joint_xml("j", "fixed", "base", "two")),
-        {":4: link \"two\": <geometry> of a <" + kind + "> holds 2 shapes; expected one"});
-  }
-}
-
-TEST(UrdfError, NumbersAreRefusedWithLineElementAndValue) {
   expect_refused(pair_xml("fixed", R"(<origin xyz="0,5 0 0"/>)"),
                  {":5: joint \"elbow\": <origin> has xyz=\"0,5 0 0\"; expected 3 finite numbers"});
   expect_refused(
@@ -211,9 +155,6 @@ TEST(UrdfError, NumbersAreRefusedWithLineElementAndValue) {
                  {":3: link \"base\": <sphere> has radius=\"0,1\"; expected 1 finite number"});
   expect_refused(shape_robot_xml(R"(<mesh filename="a.stl" scale="0.001"/>)"),
                  {"<mesh> has scale=\"0.001\"; expected 3 finite numbers"});
-}
-
-TEST(UrdfError, SizesOfNoRobot) {
   expect_refused(
       shape_robot_xml(R"(<box size="500 1 1"/>)"),
       {"link \"base\": reaches 250.001 m from its origin; expected at most 100 m", "millimetres"});
@@ -225,6 +166,17 @@ TEST(UrdfError, SizesOfNoRobot) {
                 joint_xml("j", "fixed", "base", "hall")),
       {"link \"hall\": reaches 150000 m", "expected at most 100000 m"},
       {.environment_links = {"hall"}});
+}
+
+TEST(UrdfError, SeveralShapesInOneGeometryOfWhichOnlyOneWouldBeTaken) {
+  for (const std::string kind : {"visual", "collision"}) {
+    expect_refused(
+        robot_xml(
+            box_link_xml("base") +
+            link_xml("two", shape_xml(R"(<box size="1 1 1"/><sphere radius="1"/>)", "", kind)) +
+            joint_xml("j", "fixed", "base", "two")),
+        {":4: link \"two\": <geometry> of a <" + kind + "> holds 2 shapes; expected one"});
+  }
 }
 
 TEST(UrdfError, MeshOfTrianglesWithoutArea) {
@@ -282,12 +234,9 @@ TEST(UrdfError, MeshUnreadable) {
                {"robot.urdf", "\"base\"", file.string()});
 }
 
-TEST(UrdfError, MeshWithoutAName) {
+TEST(UrdfError, MeshesWithoutNameOrPackage) {
   expect_refused(shape_robot_xml(R"(<mesh filename=""/>)"), {"base"});
   expect_refused(shape_robot_xml("<mesh/>"), {"base"});
-}
-
-TEST(UrdfError, UnknownPackage) {
   expect_refused(shape_robot_xml(R"(<mesh filename="package://gone/part.stl"/>)"),
                  {"\"base\"", "package://gone/part.stl", "\"gone\"", "package_paths [other]"},
                  {.package_paths = {{"other", "/somewhere"}}});
@@ -297,25 +246,19 @@ TEST(UrdfError, UnknownPackage) {
                  {"\"base\"", "package:///part.stl", "expected package://NAME/PATH"});
 }
 
-TEST(UrdfError, UnknownLinkInTheSettings) {
+TEST(UrdfError, SettingsThatNameNoSuchLink) {
   expect_refused(pair_xml("fixed"), {"environment_links", "\"table\"", "base, child"},
                  {.environment_links = {"table"}});
   expect_refused(pair_xml("fixed"), {"ignore_links", "\"table\"", "base, child"},
                  {.ignore_links = {"table"}});
   expect_refused(pair_xml("fixed"), {"guarded_links", "\"table\"", "base, child"},
                  {.guarded_links = {"table"}});
-}
-
-TEST(UrdfError, GuardedLinksThatMoveOrHaveNoShapes) {
   expect_refused(pair_xml("continuous"), {"guarded_links: link \"child\" moves", "no joint moves"},
                  {.guarded_links = {"child"}});
   expect_refused(robot_xml(link_xml("base") + box_link_xml("child") +
                            joint_xml("joint", "fixed", "base", "child")),
                  {"guarded_links: link \"base\" has no shapes", "expected a link with shapes"},
                  {.guarded_links = {"base"}});
-}
-
-TEST(UrdfError, NothingToEvaluate) {
   expect_refused(robot_xml(link_xml("base")), {"no link with geometry"});
   expect_refused(pair_xml("fixed"), {"no link with geometry"},
                  {.environment_links = {"base"}, .ignore_links = {"child"}});

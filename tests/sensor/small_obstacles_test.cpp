@@ -14,6 +14,7 @@
 #include "sim/drawn_obstacles.hpp"
 #include "sim/drawn_scene.hpp"
 #include "sim/sensor_model.hpp"
+#include "tests/support/known_arms.hpp"
 #include "thesis/evaluate.hpp"
 
 namespace berth::testing {
@@ -176,9 +177,7 @@ class SmallObstacles : public ::testing::TestWithParam<Shape> {
     return image.depth_m;
   }
 
-  const RobotModel model_ = load_robot({.urdf = BERTH_BUNDLED_ARM "/arm.urdf",
-                                        .package_paths = {{"berth_arm", BERTH_BUNDLED_ARM}},
-                                        .environment_links = {"table"}});
+  const RobotModel model_ = load_robot(bundled_arm());
   const std::vector<sim::MeshTree> trees_ = sim::build_link_trees(model_);
 };
 

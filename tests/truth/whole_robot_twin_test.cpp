@@ -12,6 +12,7 @@
 #include "sim/drawn_obstacles.hpp"
 #include "sim/odd_views.hpp"
 #include "sim/turn_between.hpp"
+#include "tests/support/known_arms.hpp"
 #include "tests/support/thinned.hpp"
 
 namespace berth::sim {
@@ -21,9 +22,7 @@ constexpr DrawnSceneSettings kSmall{.width_px = 160, .height_px = 120};
 
 class WholeRobotTwin : public ::testing::Test {
  protected:
-  const RobotModel model_ = load_robot({.urdf = BERTH_BUNDLED_ARM "/arm.urdf",
-                                        .package_paths = {{"berth_arm", BERTH_BUNDLED_ARM}},
-                                        .environment_links = {"table"}});
+  const RobotModel model_ = load_robot(bundled_arm());
   const std::vector<MeshTree> trees_ = build_link_trees(model_);
 };
 

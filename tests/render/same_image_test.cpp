@@ -1,9 +1,13 @@
 // An image that went through other hands, and its extent.
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 #include "berth/render/robot_renderer.hpp"
 #include "berth/robot/primitives.hpp"
+#include "tests/render/crowded_robot.hpp"
 #include "tests/render/small_robot.hpp"
+#include "tests/support/only_target.hpp"
 #include "tests/support/same_bits.hpp"
 
 namespace berth {
@@ -90,6 +94,57 @@ TEST(RobotImageExtent, IsNotMuchLargerThanTheRobot) {
   EXPECT_LE(image.extent.u_end, 30.2 + 50 * 0.9 / 1.9 + 3);
   EXPECT_GE(image.extent.v_begin, 22.7 - 52 * 0.1 / 1.9 - 3);
   EXPECT_LE(image.extent.v_end, 22.7 + 52 * 0.1 / 1.9 + 3);
+}
+
+// The image does not depend on how many threads draw it, nor on who of them draws what.
+
+const Camera kThreadsCamera{203, 157, 180, 175, 99.4, 80.1};
+
+RobotImage render_with(int threads, const CrowdedRobot& robot, RobotRenderer& renderer) {
+  RobotImage image;
+  tbb::task_arena(threads).execute([&] { renderer.render(robot.pose, Pose::Identity(), image); });
+  return image;
+}
+
+TEST(RenderThreads, AnyNumberGivesTheSameImage) {
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 5);
+  const CrowdedRobot robot(1);
+  RobotRenderer renderer(build_link_meshes(robot.model), kThreadsCamera);
+  const RobotImage alone = render_with(1, robot, renderer);
+  for (int round = 0; round < 50; ++round) {
+    EXPECT_TRUE(same_bits(render_with(1 + round % 5, robot, renderer), alone)) << round;
+  }
+}
+
+TEST(RenderThreads, AtEqualDepthTheSmallerIdIsSeen) {
+  const CrowdedRobot robot(2);
+  RobotRenderer renderer(build_link_meshes(robot.model), kThreadsCamera);
+  int fifth = 0;
+  const RobotImage image = render_with(2, robot, renderer);
+  for (const LinkId id : image.link_id.pixels()) {
+    EXPECT_NE(id, 6);
+    fifth += id == 5;
+  }
+  EXPECT_GT(fifth, 100);
+}
+
+// Every instruction set that this machine has computes the same bits.
+
+const Camera kOddCamera{203, 157, 180, 175, 99.4, 80.1};
+
+TEST(InstructionSets, GiveTheSameRobotImages) {
+  for (std::uint32_t seed = 0; seed < 5; ++seed) {
+    const CrowdedRobot robot(seed);
+    RobotRenderer renderer(build_link_meshes(robot.model), kOddCamera);
+    RobotImage best;
+    renderer.render(robot.pose, Pose::Identity(), best);
+    on_every_target([&](const char* target) {
+      SCOPED_TRACE(target);
+      RobotImage image;
+      renderer.render(robot.pose, Pose::Identity(), image);
+      EXPECT_TRUE(same_bits(image, best));
+    });
+  }
 }
 
 }  // namespace

@@ -177,5 +177,93 @@ INSTANTIATE_TEST_SUITE_P(
                  {"scene.yaml", "link_padding_m", "\"uper\"", "expected one of", "upper"}}),
     name_of_case);
 
+// Places that cannot be read or written to: refused before any work is done.
+
+TEST(BadPlace, SceneThatIsMissingOrAFolder) {
+  const CommandScene scene;
+  expect_refused(scene, {"run", "none.yaml"}, {"none.yaml", "No such file", "expected"});
+  expect_refused(scene, {"run", "depth"}, {"depth: is a folder; expected a file"});
+  expect_refused(scene, {"filter", "none.yaml", "--out", "filtered"}, {"none.yaml", "expected"});
+}
+
+TEST(BadPlace, FolderForImagesIsAFile) {
+  const CommandScene scene;
+  scene.write("taken", "");
+  const std::vector<std::string> told = {"taken", "expected a folder"};
+  expect_refused(scene, {"filter", "scene.yaml", "--out", "taken"}, told);
+  expect_refused(scene, {"filter", "scene.yaml", "--out", "taken/below"}, told);
+  expect_refused(scene, {"run", "scene.yaml", "--picture", "taken"}, told);
+}
+
+TEST(BadPlace, FolderOfTheLastCameraIsAFile) {
+  CommandScene scene;
+  scene.lines.more_cameras =
+      "  - {name: again, info: camera_info.yaml, depth: [depth/000000.png], stamps: [0], pose: " +
+      scene.lines.pose + "}\n";
+  fs::create_directories(scene / "f/front");
+  scene.write("f/again", "");
+  expect_refused(scene, {"filter", "scene.yaml", "--out", "f"}, {"f/again", "expected a folder"});
+  expect_refused(scene, {"run", "scene.yaml", "--picture", "f"}, {"f/again", "expected a folder"});
+}
+
+TEST(BadPlace, ResultFileCannotBeMade) {
+  const CommandScene scene;
+  expect_refused(scene, {"run", "scene.yaml", "--picture", "p", "--out", "none/result.txt"},
+                 {"none/result.txt", "expected"});
+  expect_refused(scene, {"run", "scene.yaml", "--picture", "p", "--out", "depth"},
+                 {"depth", "expected"});
+}
+
+// `berth evaluate` refuses images that do not fit together.
+
+class BadImages : public ::testing::Test {
+ protected:
+  BadImages() { EXPECT_EQ(scene.berth({"filter", "scene.yaml", "--out", "f"}).exit_status, 0); }
+
+  void expect_refusal(const std::vector<std::string>& told) const {
+    expect_refused(scene,
+                   {"evaluate", "--camera", "camera_info.yaml", "--robot-depth",
+                    "f/robot_depth_000000.png", "--link-ids", "f/link_ids_000000.png",
+                    "--obstacle-depth", "f/obstacle_depth_000000.png", "--out", "result.txt"},
+                   told);
+  }
+
+  CommandScene scene;
+};
+
+TEST_F(BadImages, LinkIdWithoutDepth) {
+  Image<LinkId> ids = read_link_ids_png(scene / "f/link_ids_000000.png", scene_camera());
+  ASSERT_EQ(ids(3, 2), kNoLink);
+  ids(3, 2) = 1;
+  write_link_ids_png(scene / "f/link_ids_000000.png", ids);
+  expect_refusal(
+      {"f/link_ids_000000.png: pixel (3, 2): link ID 1 where f/robot_depth_000000.png has "
+       "no depth; expected a depth"});
+}
+
+TEST_F(BadImages, LinkIdThatNoLinkHas) {
+  Image<LinkId> ids = read_link_ids_png(scene / "f/link_ids_000000.png", scene_camera());
+  ids(5, 4) = 65535;
+  write_link_ids_png(scene / "f/link_ids_000000.png", ids);
+  expect_refusal({"f/link_ids_000000.png: pixel (5, 4): link ID 65535; expected 0 to 65534"});
+}
+
+TEST_F(BadImages, EachOfThemMissing) {
+  for (const std::string file : {"camera_info.yaml", "f/robot_depth_000000.png",
+                                 "f/link_ids_000000.png", "f/obstacle_depth_000000.png"}) {
+    fs::rename(scene / file, scene / "aside");
+    expect_refusal({file, "No such file", "expected"});
+    fs::rename(scene / "aside", scene / file);
+  }
+}
+
+TEST_F(BadImages, ResultFileCannotBeMade) {
+  expect_refused(scene,
+                 {"evaluate", "--camera", "camera_info.yaml", "--robot-depth",
+                  "f/robot_depth_000000.png", "--link-ids", "f/link_ids_000000.png",
+                  "--obstacle-depth", "f/obstacle_depth_000000.png", "--out", "none/result.txt"},
+                 {"none/result.txt", "expected"});
+}
+
 }  // namespace
 }  // namespace berth
