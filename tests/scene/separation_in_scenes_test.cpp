@@ -81,6 +81,7 @@ SceneFile monitored_scene() {
   for (SceneCamera& camera : scene.cameras) {
     camera.depth.resize(4);
     camera.stamps_s.resize(4);
+    camera.settings.watch.min_at_robot = 0;
   }
   scene.separation.emplace();
   scene.separation->camera = UnknownPolicy::ignore;
