@@ -2,9 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <numeric>
+#include <stdexcept>
+#include <string>
 
+#include "berth/self_filter/settings.hpp"
 #include "tests/self_filter/flat_scene.hpp"
+#include "tests/support/error_message.hpp"
 
 namespace berth {
 namespace {
@@ -266,6 +272,37 @@ TEST(SelfFilter, OnePixelAndNoPixelSeenWork) {
   EXPECT_EQ(out.fate(0, 0), PixelFate::obstacle);
   self_filter(camera, DepthImage(1, 1, kNoDepth), robot, {}, workspace, out);
   EXPECT_EQ(out.fate(0, 0), PixelFate::no_reading);
+}
+
+std::string message_for(const std::function<void(SelfFilterSettings&)>& spoil) {
+  SelfFilterSettings settings;
+  spoil(settings);
+  return error_message<std::invalid_argument>([&] { validate(settings); });
+}
+
+TEST(SelfFilterSettings, DefaultsAreValid) { EXPECT_NO_THROW(validate(SelfFilterSettings{})); }
+
+TEST(SelfFilterSettings, EachKeyOutsideItsDomainIsNamed) {
+  using Settings = SelfFilterSettings;
+  const std::pair<const char*, std::function<void(Settings&)>> cases[] = {
+      {"tolerance_m: -0.1", [](Settings& s) { s.tolerance_m = -0.1; }},
+      {"tolerance_per_m2: inf",
+       [](Settings& s) { s.tolerance_per_m2 = std::numeric_limits<double>::infinity(); }},
+      {"padding_m: nan",
+       [](Settings& s) { s.padding_m = std::numeric_limits<double>::quiet_NaN(); }},
+      {"link_padding_m: -0.5",
+       [](Settings& s) {
+         s.link_padding_m = {0.1, -0.5};
+       }},
+      {"surface_tolerance_m: -1", [](Settings& s) { s.surface_tolerance_m = -1; }},
+      {"flying_patch_radius_m: -1", [](Settings& s) { s.flying_patch_radius_m = -1; }},
+      {"robot_region_scale: 0.99", [](Settings& s) { s.robot_region_scale = 0.99; }},
+  };
+  for (const auto& [expected, spoil] : cases) {
+    EXPECT_NE(message_for(spoil).find(expected), std::string::npos)
+        << expected << " not in: " << message_for(spoil);
+    EXPECT_NE(message_for(spoil).find("expected"), std::string::npos);
+  }
 }
 
 }  // namespace

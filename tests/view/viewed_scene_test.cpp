@@ -287,41 +287,42 @@ TEST_F(ViewedSceneTest, SavesIntoItsFolder) {
   EXPECT_EQ(folder_.names(), std::vector<std::string>{"new.yaml"});
 }
 
-TEST(CalibrationOfViewedScene, IsStartedAndStopped) {
-  Messages messages;
-  const TemporaryFolder folder;
-  ViewedScene viewed(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml", folder.path(),
-                     [&](const std::string& kind, PageMessage message) {
-                       messages.take(kind, std::move(message));
-                     });
-  const auto ask = [&](const char* request, const std::string& kind) {
-    const int before = messages.count(kind);
-    viewed.receive(request);
-    return messages.after(kind, before);
-  };
-  EXPECT_EQ(ask(R"({"do": "calibration_data"})", "calibration_data")["state"], "runs");
+/// The bundled scene's first camera, with the coarse arm.
+class CalibrationOfViewedScene : public ::testing::Test {
+ protected:
+  CalibrationOfViewedScene() {
+    fs::copy(BERTH_SOURCE_DIR "/data/bundled", scene_.path(), fs::copy_options::recursive);
+    fs::copy(testing::coarse_arm_folder(BERTH_SOURCE_DIR "/data/bundled/arm"), scene_ / "arm",
+             fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+    viewed_.emplace(scene_ / "one_camera.yaml", folder_.path(),
+                    [this](const std::string& kind, PageMessage message) {
+                      messages_.take(kind, std::move(message));
+                    });
+  }
+  Json ask(const Json& request, const std::string& kind) {
+    const int before = messages_.count(kind);
+    viewed_->receive(request.dump());
+    return messages_.after(kind, before);
+  }
+
+  const TemporaryFolder scene_, folder_;
+  Messages messages_;
+  std::optional<ViewedScene> viewed_;
+};
+
+TEST_F(CalibrationOfViewedScene, IsStartedAndStopped) {
+  EXPECT_EQ(ask({{"do", "calibration_data"}}, "calibration_data")["state"], "runs");
   // It answers meanwhile.
-  EXPECT_EQ(ask(R"({"do": "show", "step": 7})", "shown")["step"], 7);
-  EXPECT_EQ(ask(R"({"do": "drop_calibration_data"})", "calibration_data")["state"], "none");
+  EXPECT_EQ(ask({{"do", "show"}, {"step", 7}}, "shown")["step"], 7);
+  EXPECT_EQ(ask({{"do", "drop_calibration_data"}}, "calibration_data")["state"], "none");
   // Nothing was found that could be taken.
-  const Json before = messages.json("settings");
-  viewed.receive(R"({"do": "take_calibration_data"})");
-  EXPECT_EQ(ask(R"({"do": "show", "step": 8})", "shown")["step"], 8);
-  EXPECT_EQ(messages.json("settings"), before);
+  const Json before = messages_.json("settings");
+  viewed_->receive(R"({"do": "take_calibration_data"})");
+  EXPECT_EQ(ask({{"do", "show"}, {"step", 8}}, "shown")["step"], 8);
+  EXPECT_EQ(messages_.json("settings"), before);
 }
 
-TEST(CalibrationOfViewedScene, IsFoundAndTaken) {
-  Messages messages;
-  const TemporaryFolder folder;
-  ViewedScene viewed(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml", folder.path(),
-                     [&](const std::string& kind, PageMessage message) {
-                       messages.take(kind, std::move(message));
-                     });
-  const auto ask = [&](const Json& request, const std::string& kind) {
-    const int before = messages.count(kind);
-    viewed.receive(request.dump());
-    return messages.after(kind, before);
-  };
+TEST_F(CalibrationOfViewedScene, IsFoundAndTaken) {
   const auto from_truth_m = [&](const Json& pose) {
     double square_m2 = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -331,19 +332,19 @@ TEST(CalibrationOfViewedScene, IsFoundAndTaken) {
     }
     return std::sqrt(square_m2);
   };
-  Json file = messages.json("settings")["poses"][0]["file"];
+  Json file = messages_.json("settings")["poses"][0]["file"];
   file["xyz_m"][0] = file["xyz_m"][0].get<double>() + 0.03;
   const Json moved =
       ask({{"do", "pose"}, {"camera", 0}, {"xyz_m", file["xyz_m"]}, {"rpy_rad", file["rpy_rad"]}},
           "settings");
   EXPECT_NEAR(from_truth_m(moved["poses"][0]), 0.03, 1e-6);
   EXPECT_EQ(ask({{"do", "calibration_data"}}, "calibration_data")["state"], "runs");
-  const Json found = messages.after("calibration_data", messages.count("calibration_data"));
+  const Json found = messages_.after("calibration_data", messages_.count("calibration_data"));
   ASSERT_EQ(found["state"], "found") << found;
   EXPECT_LT(found["cameras"][0]["after"]["median_m"], found["cameras"][0]["before"]["median_m"]);
-  const int before = messages.count("settings");
+  const int before = messages_.count("settings");
   EXPECT_EQ(ask({{"do", "take_calibration_data"}}, "calibration_data")["state"], "taken");
-  EXPECT_LT(from_truth_m(messages.after("settings", before)["poses"][0]), 0.01);
+  EXPECT_LT(from_truth_m(messages_.after("settings", before)["poses"][0]), 0.01);
 }
 
 class CarryingViewedScene : public ::testing::Test {
