@@ -4,7 +4,6 @@
 
 #include "lab/bench/compare.hpp"
 #include "lab/bench/drawn_scenes.hpp"
-#include "lab/bench/extent.hpp"
 #include "lab/bench/recorded_scenes.hpp"
 #include "lab/bench/report.hpp"
 #include "lab/bench/stages.hpp"
@@ -13,6 +12,21 @@
 
 namespace berth::lab {
 namespace {
+
+/// How much is measured.
+struct BenchExtent {
+  int random_scenes = 0;
+  int whole_robot_scenes = 0;
+  /// Of them, for the peers that take seconds.
+  int cameras_peer_scenes = 10;
+  int hard_scenes = kHardScenes;
+  int recorded_frames = 12;
+  int stage_rounds = 20;
+  RunLimits limits = {};
+};
+
+/// In less than half a minute.
+constexpr BenchExtent kQuick{2, 1, 1, 1, 1, 1, {3, 5, 50}};
 
 using Peers = std::vector<std::unique_ptr<Peer>>;
 

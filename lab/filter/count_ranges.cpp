@@ -1,11 +1,10 @@
 #include "lab/filter/count_ranges.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include "berth/self_filter/self_filter.hpp"
 #include "berth/sensor/sensor_rules.hpp"
+#include "lab/measure/each_alone.hpp"
 #include "lab/trust/trial.hpp"
 
 namespace berth::lab {
@@ -59,10 +58,7 @@ RangeCount& RangeCount::operator+=(const RangeCount& other) {
 RecordingCount count_ranges(const JudgedRecording& recording, const FilterChoice& choice) {
   const auto views = static_cast<int>(recording.views.size());
   std::vector<RecordingCount> counts(recording.views.size());
-  tbb::parallel_for(0, views, [&](int i) {
-    // Else a waiting thread would begin another view on top of this one.
-    tbb::this_task_arena::isolate([&] { counts[i] = count_view(recording.views[i], choice); });
-  });
+  each_alone(views, [&](int i) { counts[i] = count_view(recording.views[i], choice); });
   RecordingCount sum;
   for (const RecordingCount& count : counts) {
     sum.checked += count.checked;

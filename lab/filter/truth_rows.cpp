@@ -1,12 +1,11 @@
 #include "lab/filter/truth_rows.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <optional>
 
+#include "lab/measure/each_alone.hpp"
 #include "lab/trust/real_image.hpp"
 #include "lab/trust/sample.hpp"
 
@@ -37,23 +36,6 @@ std::vector<Condition> with_choices(const Condition& sensor,
     conditions.back().counts_rejected = true;
   }
   return conditions;
-}
-
-/// The scenes that berth_trust draws.
-std::vector<Trial> run_trials(const std::vector<TrialRobot>& robots,
-                              const std::vector<Condition>& conditions, int scenes) {
-  constexpr std::pair<int, int> kSizes_px[] = {{224, 172}, {320, 240}, {640, 480}};
-  std::vector<Trial> trials(scenes);
-  tbb::parallel_for(0, scenes, [&](int i) {
-    // Else a waiting thread would begin another scene on top of this one.
-    tbb::this_task_arena::isolate([&] {
-      const auto [width_px, height_px] = kSizes_px[i % 3];
-      trials[i] =
-          run_trial(robots[i / 3 % robots.size()], {.width_px = width_px, .height_px = height_px},
-                    static_cast<std::uint32_t>(i), conditions);
-    });
-  });
-  return trials;
 }
 
 /// Lengths above 0.
@@ -146,11 +128,9 @@ void print_real_images(const FilterGrid& grid, const std::vector<TrialRobot>& ro
   const std::vector<RealImage> images = load_real_images(folder);
   const std::vector<FilterChoice> choices = grid.choices();
   std::vector<std::optional<RealScene>> drawn(scenes);
-  tbb::parallel_for(0, scenes, [&](int i) {
-    tbb::this_task_arena::isolate([&] {
-      drawn[i] = draw_into(images[i % images.size()], robots[i / images.size() % robots.size()],
-                           static_cast<std::uint32_t>(i));
-    });
+  each_alone(scenes, [&](int i) {
+    drawn[i] = draw_into(images[i % images.size()], robots[i / images.size() % robots.size()],
+                         static_cast<std::uint32_t>(i));
   });
   fmt::print(
       "\n## Robots in real images, {} tries\n{}| links | farther % | median | 99 % | greatest | "
@@ -158,19 +138,17 @@ void print_real_images(const FilterGrid& grid, const std::vector<TrialRobot>& ro
       "rejected: 99 % | greatest | false 0 | lost |\n",
       scenes, grid.heading());
   std::vector<RealRow> rows(choices.size());
-  tbb::parallel_for(std::size_t{0}, choices.size(), [&](std::size_t c) {
-    tbb::this_task_arena::isolate([&] {
-      const RealImageRules rules{"", choices[c].filter, choices[c].sensor};
-      RealImageRules rejected_rules = rules;
-      rejected_rules.counts_rejected = true;
-      for (const auto& scene : drawn) {
-        if (!scene) continue;
-        const auto estimates = estimate(*scene, rules);
-        const auto rejected = estimate(*scene, rejected_rules);
-        for (std::size_t link = 0; link < estimates.size(); ++link)
-          rows[c].add(scene->ideal.links[link], estimates[link], rejected[link]);
-      }
-    });
+  each_alone(static_cast<int>(choices.size()), [&](int c) {
+    const RealImageRules rules{"", choices[c].filter, choices[c].sensor};
+    RealImageRules rejected_rules = rules;
+    rejected_rules.counts_rejected = true;
+    for (const auto& scene : drawn) {
+      if (!scene) continue;
+      const auto estimates = estimate(*scene, rules);
+      const auto rejected = estimate(*scene, rejected_rules);
+      for (std::size_t link = 0; link < estimates.size(); ++link)
+        rows[c].add(scene->ideal.links[link], estimates[link], rejected[link]);
+    }
   });
   for (std::size_t c = 0; c < choices.size(); ++c) {
     RealRow& r = rows[c];

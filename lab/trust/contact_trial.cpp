@@ -1,8 +1,6 @@
 #include "lab/trust/contact_trial.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +9,7 @@
 
 #include "berth/pipeline/observer.hpp"
 #include "berth/pipeline/query.hpp"
+#include "lab/measure/each_alone.hpp"
 #include "sim/sensor_model.hpp"
 #include "sim/structured_light.hpp"
 
@@ -159,13 +158,11 @@ std::string row(const ContactCase& of, const ContactCount& c) {
 ContactCount count(const std::vector<TrialRobot>& robots, const ContactCase& of, int first,
                    int scenes, std::string& worst) {
   std::vector<ContactTrial> trials(scenes);
-  tbb::parallel_for(0, scenes, [&](int i) {
-    tbb::this_task_arena::isolate([&] {
-      ContactCase one = of;
-      one.scene.cameras = 1 + (first + i) % 3;
-      trials[i] = run_contact_trial(robots[(first + i) / 3 % robots.size()], one,
-                                    static_cast<std::uint32_t>(first + i));
-    });
+  each_alone(scenes, [&](int i) {
+    ContactCase one = of;
+    one.scene.cameras = 1 + (first + i) % 3;
+    trials[i] = run_contact_trial(robots[(first + i) / 3 % robots.size()], one,
+                                  static_cast<std::uint32_t>(first + i));
   });
   ContactCount count;
   for (const ContactTrial& trial : trials) {
@@ -187,11 +184,9 @@ ContactCount count(const std::vector<TrialRobot>& robots, const ContactCase& of,
 std::vector<ContactTrial> run_trials(const std::vector<TrialRobot>& robots, const ContactCase& of,
                                      int first, int scenes) {
   std::vector<ContactTrial> trials(scenes);
-  tbb::parallel_for(0, scenes, [&](int i) {
-    tbb::this_task_arena::isolate([&] {
-      trials[i] = run_contact_trial(robots[(first + i) % robots.size()], of,
-                                    static_cast<std::uint32_t>(first + i));
-    });
+  each_alone(scenes, [&](int i) {
+    trials[i] = run_contact_trial(robots[(first + i) % robots.size()], of,
+                                  static_cast<std::uint32_t>(first + i));
   });
   return trials;
 }

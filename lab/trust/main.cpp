@@ -1,7 +1,5 @@
 // berth_trust: how far berth's distances are from the true ones, on random scenes.
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -12,6 +10,7 @@
 
 #include "apps/support/command_options.hpp"
 #include "apps/support/program.hpp"
+#include "lab/measure/each_alone.hpp"
 #include "lab/trust/contact_trial.hpp"
 #include "lab/trust/look.hpp"
 #include "lab/trust/real_image.hpp"
@@ -21,33 +20,6 @@
 
 namespace berth::lab {
 namespace {
-
-/// One of a scene's seeds in turn.
-constexpr std::array<std::pair<int, int>, 3> kSizes_px = {{{224, 172}, {320, 240}, {640, 480}}};
-
-sim::DrawnSceneSettings settings_of(int seed) {
-  const auto [width_px, height_px] = kSizes_px[seed % kSizes_px.size()];
-  return {.width_px = width_px, .height_px = height_px};
-}
-
-const TrialRobot& robot_of(const std::vector<TrialRobot>& robots, int seed) {
-  return robots[seed / kSizes_px.size() % robots.size()];
-}
-
-std::vector<Trial> run_trials(const std::vector<TrialRobot>& robots,
-                              const std::vector<Condition>& conditions, int scenes) {
-  std::vector<Trial> trials(scenes);
-  std::atomic<int> done = 0;
-  tbb::parallel_for(0, scenes, [&](int i) {
-    // Else a waiting thread would begin another scene on top of this one.
-    tbb::this_task_arena::isolate([&] {
-      trials[i] =
-          run_trial(robot_of(robots, i), settings_of(i), static_cast<std::uint32_t>(i), conditions);
-    });
-    if (++done % 50 == 0) fmt::print(stderr, "{} of {} scenes\n", done.load(), scenes);
-  });
-  return trials;
-}
 
 void measure_trust(const std::vector<TrialRobot>& robots, int scenes) {
   const std::vector<Condition> conditions = all_conditions();
@@ -97,14 +69,12 @@ void measure_whole_robot(const std::vector<TrialRobot>& robots, int scenes,
   const auto conditions = chosen_conditions(options);
   std::vector<WholeRobotTrial> trials(scenes);
   std::atomic<int> done = 0;
-  tbb::parallel_for(0, scenes, [&](int i) {
+  each_alone(scenes, [&](int i) {
     const int seed = options.first + i;
     const auto settings =
-        options.is_full_size ? sim::DrawnSceneSettings{.sizes_differ = false} : settings_of(seed);
-    tbb::this_task_arena::isolate([&] {
-      trials[i] = run_whole_robot_trial(robot_of(robots, seed), settings,
-                                        static_cast<std::uint32_t>(seed), conditions);
-    });
+        options.is_full_size ? sim::DrawnSceneSettings{.sizes_differ = false} : trial_scene(seed);
+    trials[i] = run_whole_robot_trial(trial_robot(robots, seed), settings,
+                                      static_cast<std::uint32_t>(seed), conditions);
     if (++done % 10 == 0) fmt::print(stderr, "{} of {} scenes\n", done.load(), scenes);
   });
   fmt::print("{} scenes, {} robots\n{}\n{}", scenes, robots.size(),
@@ -175,8 +145,9 @@ int main(int argc, char** argv) {
   return berth::app::carry_out("berth_trust", 0, [&] {
     const auto robots = berth::lab::load_trial_robots(robots_folder);
     if (look) {
-      berth::lab::look_at_scene(berth::lab::robot_of(robots, *look), berth::lab::settings_of(*look),
-                                static_cast<std::uint32_t>(*look), picture);
+      berth::lab::look_at_scene(berth::lab::trial_robot(robots, *look),
+                                berth::lab::trial_scene(*look), static_cast<std::uint32_t>(*look),
+                                picture);
     } else if (whole_robot) {
       berth::lab::measure_whole_robot(robots, scenes, whole_robot_options);
     } else if (contact) {

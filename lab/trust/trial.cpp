@@ -1,11 +1,16 @@
 #include "lab/trust/trial.hpp"
 
+#include <fmt/format.h>
+
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
 #include "berth/render/robot_renderer.hpp"
 #include "berth/self_filter/self_filter.hpp"
 #include "berth/visibility/rejected.hpp"
+#include "lab/measure/each_alone.hpp"
 #include "lab/trust/scene_images.hpp"
 #include "sim/other_metric.hpp"
 #include "thesis/evaluate.hpp"
@@ -52,6 +57,8 @@ std::vector<Estimate> with_rejected(const Camera& camera, const RobotImage& imag
 }
 
 namespace {
+
+constexpr std::array<std::pair<int, int>, 3> kSizes_px = {{{224, 172}, {320, 240}, {640, 480}}};
 
 /// Removes what shows the robot in truth.
 void remove_robot(const sim::DrawnScene& scene, DepthImage& depth_m) {
@@ -123,6 +130,27 @@ Trial run_trial(const TrialRobot& robot, const sim::DrawnSceneSettings& settings
     trial.estimates.push_back(estimate(robot, scene, condition, images));
   }
   return trial;
+}
+
+sim::DrawnSceneSettings trial_scene(int seed) {
+  const auto [width_px, height_px] = kSizes_px[seed % kSizes_px.size()];
+  return {.width_px = width_px, .height_px = height_px};
+}
+
+const TrialRobot& trial_robot(const std::vector<TrialRobot>& robots, int seed) {
+  return robots[seed / kSizes_px.size() % robots.size()];
+}
+
+std::vector<Trial> run_trials(const std::vector<TrialRobot>& robots,
+                              const std::vector<Condition>& conditions, int scenes) {
+  std::vector<Trial> trials(scenes);
+  std::atomic<int> done = 0;
+  each_alone(scenes, [&](int i) {
+    trials[i] = run_trial(trial_robot(robots, i), trial_scene(i), static_cast<std::uint32_t>(i),
+                          conditions);
+    if (++done % 50 == 0) fmt::print(stderr, "{} of {} scenes\n", done.load(), scenes);
+  });
+  return trials;
 }
 
 }  // namespace berth::lab

@@ -55,4 +55,12 @@ std::vector<Estimate> with_rejected(const Camera& camera, const RobotImage& imag
 Trial run_trial(const TrialRobot& robot, const sim::DrawnSceneSettings& settings,
                 std::uint32_t seed, const std::vector<Condition>& conditions);
 
+/// Of a seed: robots and sizes of images in turn.
+sim::DrawnSceneSettings trial_scene(int seed);
+const TrialRobot& trial_robot(const std::vector<TrialRobot>& robots, int seed);
+
+/// Those of the seeds from 0 on. Says on standard error how far it has come.
+std::vector<Trial> run_trials(const std::vector<TrialRobot>& robots,
+                              const std::vector<Condition>& conditions, int scenes);
+
 }  // namespace berth::lab
