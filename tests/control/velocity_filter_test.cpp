@@ -258,6 +258,20 @@ TEST_F(Filtered, WhereItCannotBrakeSoFastItStandsAndNamesTheRow) {
   EXPECT_EQ(out.held_by[0], (LinkRow{8, RowKind::nearest}));
 }
 
+TEST_F(Filtered, AJointOfAnotherControllerTakesNoPartInIt) {
+  VelocityFilter filter(arm.robot, {}), without(arm.robot, {}, {1, 3});
+  put_in_front(0.2F);
+  const double sign = sign_towards(filter);
+  const Numbers wanted{sign, 0, 0, 0, 0, 0.5, 0};
+  EXPECT_NE(update(filter, wanted).velocity[1], 0) << "it helps";
+  const Numbers velocity = update(without, wanted).velocity;
+  EXPECT_NEAR(velocity[1], 0, 1e-12);
+  EXPECT_NEAR(velocity[3], 0, 1e-12);
+  EXPECT_LE(approach_m_s(without, velocity), 2 * (0.2 - 0.001 - 0.05) + 1e-6);
+  EXPECT_GT(std::abs(velocity[0]), 0.05) << "the others go on";
+  EXPECT_THROW(VelocityFilter(arm.robot, {}, {7}), std::out_of_range);
+}
+
 TEST_F(Filtered, KeepsTheJointsLimits) {
   constexpr double kAcceleration = 3, kPeriod_s = 0.01;
   VelocityFilter filter(arm.robot,

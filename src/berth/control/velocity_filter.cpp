@@ -16,9 +16,14 @@ struct VelocityFilter::Bound {
 };
 
 VelocityFilter::VelocityFilter(std::shared_ptr<const Robot> robot,
-                               const VelocityFilterSettings& settings)
-    : robot_(std::move(robot)), settings_(settings), rows_(robot_) {
+                               const VelocityFilterSettings& settings,
+                               const std::vector<std::size_t>& others)
+    : robot_(std::move(robot)),
+      settings_(settings),
+      rows_(robot_),
+      is_of_others_(robot_->model().joints.size(), false) {
   visit_settings(settings_, SettingCheck{"velocity_filter"});
+  for (const std::size_t joint : others) is_of_others_.at(joint) = true;
   const auto joints = static_cast<Eigen::Index>(robot_->model().joints.size());
   const std::size_t pairs = kRowKinds.size() + robot_->settings().candidates - 1;
   const std::size_t most_rows = pairs * robot_->model().evaluated_links.size();
@@ -87,6 +92,11 @@ void VelocityFilter::find_limits(const JointMotion& joints) {
   };
   for (std::size_t j = 0; j < out_.velocity.size(); ++j) {
     const auto at = static_cast<Eigen::Index>(j);
+    before_[at] = std::abs(joints.velocity[j]);
+    if (is_of_others_[j]) {
+      lower_[at] = upper_[at] = planned_[at] = 0;
+      continue;
+    }
     const MovableJoint& joint = robot_->model().joints[j];
     const double velocity = joints.velocity[j];
     const double position = joints.position[j] + settings_.latency_s * velocity;
@@ -95,7 +105,6 @@ void VelocityFilter::find_limits(const JointMotion& joints) {
     // A limit of position or speed goes before that of the acceleration.
     lower_[at] = std::clamp(velocity - gain, least, greatest);
     upper_[at] = std::clamp(velocity + gain, least, greatest);
-    before_[at] = std::abs(velocity);
     planned_[at] = std::abs(std::clamp(joints.wanted[j], least, greatest));
   }
 }

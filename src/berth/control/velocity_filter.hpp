@@ -117,8 +117,10 @@ struct FilteredVelocity {
 /// shortened velocity, and 0, may ask for more than max_acceleration.
 class VelocityFilter {
  public:
-  /// Throws std::invalid_argument that names the setting, its value and what was expected.
-  VelocityFilter(std::shared_ptr<const Robot> robot, const VelocityFilterSettings& settings);
+  /// Throws std::invalid_argument that names the setting, its value and what was expected. Of
+  /// RobotModel::joints, `others` are those that another controller moves: they are taken to stand.
+  VelocityFilter(std::shared_ptr<const Robot> robot, const VelocityFilterSettings& settings,
+                 const std::vector<std::size_t>& others = {});
   ~VelocityFilter();
 
   /// Valid until the next update. The result is one of this robot; else std::invalid_argument.
@@ -148,6 +150,8 @@ class VelocityFilter {
   VelocityFilterSettings settings_;
   DistanceRows rows_;
   std::unique_ptr<HalfSpaces> spaces_;
+  /// Of each joint.
+  std::vector<bool> is_of_others_;
   std::vector<Bound> bounds_;
   /// Of each joint's velocity.
   Eigen::VectorXd lower_;
