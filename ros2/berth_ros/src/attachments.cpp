@@ -106,6 +106,7 @@ berth::Attachment attachment_of(const berth_msgs::srv::Attach::Request& request)
   attachment.link = request.link;
   attachment.is_link = request.is_link;
   attachment.X_LA = pose_of(request.pose);
+  attachment.may_touch = request.may_touch;
   attachment.mesh_A = has_shape  ? mesh_of(request.shape)
                       : has_mesh ? mesh_of(request.mesh)
                                  : berth::read_mesh_file(mesh_file_of(request.mesh_resource));
@@ -124,6 +125,12 @@ void Attached::detach(const std::string& name) {
   throw std::invalid_argument("name: nothing called \"" + name + "\" was attached by a message");
 }
 
+void keep_touched_of(const berth::RobotModel& model, AttachmentList& list) {
+  for (berth::Attachment& one : list) {
+    std::erase_if(one.may_touch, [&](const std::string& link) { return !model.find_link(link); });
+  }
+}
+
 std::vector<std::string> Attached::keep_those_of(const berth::RobotModel& model) {
   std::vector<std::string> lost;
   for (AttachmentList* list : {&told, &followed}) {
@@ -132,6 +139,7 @@ std::vector<std::string> Attached::keep_those_of(const berth::RobotModel& model)
       if (is_lost) lost.push_back(one.name);
       return is_lost;
     });
+    keep_touched_of(model, *list);
   }
   return lost;
 }

@@ -27,6 +27,9 @@ berth::Attachment attachment_of(const berth_msgs::srv::Attach::Request& request)
 
 using AttachmentList = std::vector<berth::Attachment>;
 
+/// Forgets links to touch that this robot does not have.
+void keep_touched_of(const berth::RobotModel& model, AttachmentList& list);
+
 /// All that is attached.
 struct Attached {
   /// By the services.
@@ -37,7 +40,8 @@ struct Attached {
   AttachmentList all() const;
   /// Throws std::invalid_argument where nothing of this name was told.
   void detach(const std::string& name);
-  /// Forgets those whose link this robot does not have, and returns their names.
+  /// Forgets those whose link this robot does not have, and returns their names; and links to
+  /// touch that it does not have.
   std::vector<std::string> keep_those_of(const berth::RobotModel& model);
 };
 

@@ -64,6 +64,8 @@ void LiveNode::change_attached(const std::function<void(Attached&)>& change) {
   if (!pass || !model_) throw std::runtime_error("there is no robot model yet");
   Attached changed = attached_;
   change(changed);
+  // MoveIt may name what is no link of this robot; who attaches by a message is told.
+  keep_touched_of(*model_, changed.followed);
   use(make_robot(changed.all()));
   attached_ = std::move(changed);
 }

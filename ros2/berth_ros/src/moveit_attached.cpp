@@ -41,6 +41,7 @@ AttachmentList attachments_of(const Object& object) {
     part.link = object.link_name;
     part.is_link = true;
     part.X_LA = X_LO * pose_of(pose);
+    part.may_touch = object.touch_links;
     part.mesh_A = mesh_of(shape);
     list.push_back(part);
   };

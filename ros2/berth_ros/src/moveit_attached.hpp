@@ -10,8 +10,8 @@
 namespace berth_ros {
 
 /// The parts of one object, each as a link of its own: called like the object where it has one
-/// shape, else NAME/0, NAME/1, ... Throws std::invalid_argument for a pose in another frame than
-/// that of its link, for a shape without a pose, and for a plane.
+/// shape, else NAME/0, NAME/1, ... They may touch its touch_links. Throws std::invalid_argument for
+/// a pose in another frame than that of its link, for a shape without a pose, and for a plane.
 AttachmentList attachments_of(const moveit_msgs::msg::AttachedCollisionObject& object);
 
 /// Follows the topic `monitored_planning_scene`.

@@ -106,7 +106,15 @@ class AttachAndDetach(LivingRobot):
         self.assertEqual(self.links(), ["base", "arm"])
         self.assertTrue(self.detach().success)
 
-    def test_07_what_is_wrong_is_named(self):
+    def test_07_what_it_may_touch_is_left_out(self):
+        for may_touch, known in (([], "base"), (["base"], "")):
+            self.assertTrue(self.attach(may_touch=may_touch).success)
+            self.assertTrue(self.until(lambda: "part" in self.links() and self.answers()))
+            self.assertEqual({link.link: link.known.link for link in self.newest.links}["part"], known)
+            self.assertTrue(self.detach().success)
+            self.assertTrue(self.until(lambda: "part" not in self.links() and self.answers()))
+
+    def test_08_what_is_wrong_is_named(self):
         cone = SolidPrimitive(type=SolidPrimitive.CONE, dimensions=[0.1, 0.1])
         flat = SolidPrimitive(type=SolidPrimitive.BOX, dimensions=[0.1, 0.0, 0.1])
         short = SolidPrimitive(type=SolidPrimitive.BOX, dimensions=[0.1])
@@ -129,6 +137,8 @@ class AttachAndDetach(LivingRobot):
             ({"pose": turned}, ("pose", "length is not 1")),
             ({"pose": nowhere}, ("pose", "not finite")),
             ({"name": "arm"}, ("arm", "a link has this name")),
+            ({"may_touch": ["table"]}, ("may_touch", "table")),
+            ({"may_touch": ["base"], "is_link": False}, ("may_touch", "link of its own")),
         ]
         for changes, parts in wrong:
             answer = self.attach(**changes)

@@ -100,7 +100,19 @@ class FollowsMoveIt(LivingRobot):
         self.tell(is_diff=False)
         self.assertTrue(self.is_with(), self.links())
 
-    def test_05_what_cannot_be_is_said_and_the_rest_is_taken(self):
+    def test_05_what_it_may_touch_is_left_out(self):
+        """touch_links may name what is no link of this robot."""
+        def to_known(names):
+            part = attached()
+            part.touch_links = names
+            self.tell(part, has_state=True)
+            self.live_for(0.5)
+            self.assertTrue(self.is_with("part"), self.links())
+            return {link.link: link.known.link for link in self.newest.links}["part"]
+        self.assertEqual(to_known([]), "base")
+        self.assertEqual(to_known(["arm", "no link", "base"]), "")
+
+    def test_06_what_cannot_be_is_said_and_the_rest_is_taken(self):
         flat = attached("flat")
         flat.object.planes = [Plane()]
         self.tell(attached("far", frame="world"), flat, attached("good"), attached("none", shapes=0), attached("lost", link="leg"),
