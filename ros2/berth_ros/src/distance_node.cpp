@@ -19,7 +19,9 @@
 #include "planner_topics.hpp"
 #include "question_times.hpp"
 #include "result_messages.hpp"
+#include "row_messages.hpp"
 #include "speed_monitor.hpp"
+#include "velocity_commands.hpp"
 
 namespace berth_ros {
 namespace {
@@ -42,6 +44,14 @@ rcl_interfaces::msg::ParameterDescriptor described(const std::string& text) {
   descriptor.description = text;
   descriptor.read_only = true;
   return descriptor;
+}
+
+/// The settings are those of a filter after each question.
+void require_period(const berth::VelocityFilterSettings& settings, double question_hz) {
+  if (question_hz == 0 || settings.period_s * question_hz > 0.999) return;
+  throw std::invalid_argument("filter.period_s: " + std::to_string(settings.period_s) +
+                              "; expected at least the time between two questions, " +
+                              std::to_string(1 / question_hz) + " s (question_rate_hz)");
 }
 
 /// What the cameras of one robot leave of space, made ready as images come.
@@ -73,7 +83,7 @@ class DistanceNode : public LiveNode {
     });
     question_hz_ = declare_parameter("question_rate_hz", 100.0,
                                      rate("questions a second; 0: one for each joint state. With "
-                                          "a monitor never less than 12.5",
+                                          "a monitor or a filter never less than 12.5",
                                           1000));
     marker_hz_ = declare_parameter("marker_rate_hz", 10.0, rate("markers a second; 0: none", 100));
     velocity_window_s_ = declare_parameter(
@@ -92,6 +102,7 @@ class DistanceNode : public LiveNode {
                  });
     }
     offer_configurations();
+    filter_velocities();
     begin();
   }
   /// Cameras' threads and callbacks use what is below.
@@ -138,6 +149,15 @@ class DistanceNode : public LiveNode {
         rmw_qos_profile_services_default, check_group_);
   }
 
+  void filter_velocities() {
+    if (!settings().filter()) return;
+    require_period(*settings().filter(), question_hz_);
+    commands_.emplace(settings().filtered_joints());
+    add_report("velocity filter", [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
+      commands_->report(status);
+    });
+  }
+
   void configure_outputs() override {
     answers_.configure();
     at_exposure_ = create_publisher<LinkDistances>("distances_at_exposure", 10);
@@ -152,6 +172,17 @@ class DistanceNode : public LiveNode {
           gate->run([&] { on_plan(message); });
         },
         with_group);
+    if (commands_) {
+      // It is not to wait for a question, and neither for the making of a robot.
+      wanted_group_ = create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive);
+      with_group.callback_group = wanted_group_;
+      wanted_subscription_ = create_subscription<VelocityCommands::Message>(
+          "wanted_velocity", rclcpp::SensorDataQoS().keep_last(1),
+          [this, gate = gate()](const VelocityCommands::Message& message) {
+            gate->run([&] { commands_->take(message); });
+          },
+          with_group);
+    }
     planners_->configure(gate());
   }
   void activate_outputs() override {
@@ -166,11 +197,13 @@ class DistanceNode : public LiveNode {
     watchdog_.reset();
     marker_timer_.reset();
     planners_->deactivate();
+    stop_commands("the node is not active");
     answers_.end("the node is not active", separation_settings().has_value());
   }
   void clean_outputs() override {
     planners_->clean();
     planned_subscription_.reset();
+    wanted_subscription_.reset();
     planned_ = {};
     keep_space(nullptr);
     black_box_->use(nullptr, {}, 0);
@@ -192,22 +225,40 @@ class DistanceNode : public LiveNode {
     if (question_hz_ == 0) ask();
   }
   void on_stop(const std::string& why) override {
+    stop_commands(why);
     answers_.stop(why, separation_settings().has_value());
   }
+  void stop_commands(const std::string& why) {
+    if (commands_) commands_->stopped(why);
+  }
+  void tell_outputs(StatusLog& log) override {
+    if (commands_) log.tell("velocity filter", commands_->trouble(), StatusLog::now_s());
+  }
+  /// Whether somebody obeys what was said last.
+  bool is_obeyed() const { return commands_ || separation_settings(); }
   std::function<void()> make_for(const LiveRobot& robot) override {
     const auto separation = separation_settings();
+    const auto filter = std::make_shared<VelocityCommands::Filter>();
+    if (commands_ && robot.robot) {
+      require_period(*settings().filter(), question_hz_);
+      *filter = commands_->make(robot.robot, *settings().filter());
+    }
     std::shared_ptr<berth::MonitorLoop> loop;
     std::shared_ptr<RobotSpace> space;
+    std::shared_ptr<berth::DistanceRows> rows;
     if (robot.robot) {
       loop = std::make_shared<berth::MonitorLoop>(robot.robot, camera_names(), separation);
       space = std::make_shared<RobotSpace>(robot, camera_names().size());
+      rows = std::make_shared<berth::DistanceRows>(robot.robot);
     }
-    return [this, robot, separation, loop, space] {
+    return [this, robot, separation, filter, loop, space, rows] {
       exposures_.use(robot.robot, camera_names());
       keep_space(space);
       const std::lock_guard lock(query_mutex_);
       loop_ = loop;
       asked_space_ = space;
+      rows_ = rows;
+      if (commands_) commands_->use(std::move(*filter));
       robot_ = robot;
       if (robot.robot) planned_.begin_anew(robot.robot->model());
       black_box_->use(robot.robot, separation, camera_names().size());
@@ -232,12 +283,11 @@ class DistanceNode : public LiveNode {
 
   /// Silence is no stop: where no joint state asks, or an answer takes long, this does.
   void end_silence() {
-    const bool is_monitored = separation_settings().has_value();
-    if (answers_.silent_s() < kMostSilence_s || (question_hz_ > 0 && !is_monitored)) return;
+    if (answers_.silent_s() < kMostSilence_s || (question_hz_ > 0 && !is_obeyed())) return;
     look_at_clock();
     const std::unique_lock lock(query_mutex_, std::try_to_lock);
     if (lock) return answer_or_stop();
-    if (is_monitored) answers_.stop("an answer takes too long", is_monitored);
+    if (is_obeyed()) on_stop("an answer takes too long");
   }
 
   /// With the query's mutex.
@@ -255,7 +305,8 @@ class DistanceNode : public LiveNode {
         on_stop(error.what());
         throw;
       }
-      answers_.say(stops, std::move(message), separation_message_);
+      answer_.distances = std::move(message);
+      answers_.say(stops, answer_);
     }
     const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - begin;
     times_.add(took.count());
@@ -276,14 +327,27 @@ class DistanceNode : public LiveNode {
     const berth::Result& result = ask_loop(request);
     to_message(result, base_frame(), now, clock_, message);
     if (result.separation) {
-      to_message(result, planned_.is_there(), separation_message_);
+      to_message(result, planned_.is_there(), answer_.separation);
     } else {
-      say_unmonitored(separation_message_);
+      say_unmonitored(answer_.separation);
       if (result.status != berth::ResultStatus::ok) {
-        separation_message_.text = berth::status_text(result);
+        answer_.separation.text = berth::status_text(result);
       }
     }
-    to_message(message, may_be_degraded_, separation_message_);
+    to_message(message, may_be_degraded_, answer_.separation);
+    steer(result, message);
+  }
+
+  /// What a controller may do after this result, and rows for one that finds it itself.
+  void steer(const berth::Result& result, const LinkDistances& message) {
+    if (commands_) {
+      robot_.joints->buffer().newest(steered_joints_);
+      commands_->allow(result, steered_joints_.position, velocity_, answer_.velocities);
+    }
+    if (!answers_.needs_rows()) return answer_.rows.reset();
+    if (!answer_.rows) answer_.rows.emplace();
+    rows_->update(result);
+    to_message(*rows_, robot_.robot->model().joints, message, *answer_.rows);
   }
 
   /// Velocities are those of the plan where any came, else those of the joints.
@@ -385,7 +449,7 @@ class DistanceNode : public LiveNode {
 
   template <class Message>
   using Publisher = typename rclcpp_lifecycle::LifecyclePublisher<Message>::SharedPtr;
-  AnswerTopics answers_{*this, camera_names()};
+  AnswerTopics answers_{*this, camera_names(), settings().command_topic()};
   Publisher<LinkDistances> at_exposure_;
   rclcpp::Subscription<sensor_msgs::msg::JointState>::SharedPtr planned_subscription_;
   Publisher<visualization_msgs::msg::MarkerArray> markers_;
@@ -401,7 +465,12 @@ class DistanceNode : public LiveNode {
   ExposureAnswers exposures_;
   /// Of a question whose joints come too seldom.
   berth::JointState seldom_joints_;
-  berth_msgs::msg::Separation separation_message_;
+  AnswerTopics::Answer answer_;
+  /// Of the same robot as loop_.
+  std::shared_ptr<berth::DistanceRows> rows_;
+  /// Where velocities are filtered.
+  std::optional<VelocityCommands> commands_;
+  berth::JointState steered_joints_;
   double velocity_window_s_ = 0;
   std::vector<double> velocity_;
   /// What the monitor does without a camera was chosen by the user.
@@ -415,6 +484,8 @@ class DistanceNode : public LiveNode {
   rclcpp::CallbackGroup::SharedPtr check_group_;
   rclcpp::Service<CheckConfigurations>::SharedPtr check_configurations_;
   rclcpp::CallbackGroup::SharedPtr group_;
+  rclcpp::CallbackGroup::SharedPtr wanted_group_;
+  rclcpp::Subscription<VelocityCommands::Message>::SharedPtr wanted_subscription_;
   /// Not to wait for a question.
   rclcpp::CallbackGroup::SharedPtr watchdog_group_;
   rclcpp::TimerBase::SharedPtr question_timer_;

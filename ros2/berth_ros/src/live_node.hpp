@@ -84,6 +84,8 @@ class LiveNode : public rclcpp_lifecycle::LifecycleNode {
   virtual std::function<void()> make_for(const LiveRobot&) {
     return [] {};
   }
+  /// To tell the log what else is lost, often.
+  virtual void tell_outputs(StatusLog&) {}
   /// What was said holds no more, whatever comes next.
   virtual void on_stop(const std::string&) {}
 
@@ -97,6 +99,7 @@ class LiveNode : public rclcpp_lifecycle::LifecycleNode {
   std::optional<berth::SeparationSettings> separation_settings() const {
     return settings_.separation();
   }
+  const NodeSettings& settings() const { return settings_; }
   /// The newest of each camera of this robot.
   LiveFrames frames(const berth::Robot& robot) const;
   /// Of the last joint samples.

@@ -71,6 +71,7 @@ void LiveNode::watch() {
     log_->tell(name + " over several images", explanation(i, report), now_s);
     log_->tell("protection by " + name, protection_trouble(report), now_s);
   }
+  tell_outputs(*log_);
 }
 
 std::string LiveNode::callback_trouble() {

@@ -19,8 +19,8 @@ ParameterDescriptor described(const std::string& text, bool is_read_only = true)
   return descriptor;
 }
 
-constexpr std::array<const char*, 7> kGroups = {"self_filter", "sensor", "space",     "watch",
-                                                "evaluation",  "time",   "separation"};
+constexpr std::array<const char*, 8> kGroups = {"self_filter", "sensor", "space",      "watch",
+                                                "evaluation",  "time",   "separation", "filter"};
 constexpr const char* kMonitor = "separation.monitor";
 
 /// All overrides NAME: number below a prefix, declared.
@@ -62,7 +62,7 @@ bool is_among(const auto& keys, const std::string& name) {
 bool is_of_other_node(const std::string& name, bool has_one_camera) {
   if (!has_one_camera) return name == "camera" || is_among(kCameraKeys, name);
   if (is_among(kDistanceKeys, name) || name.ends_with("_rate_hz")) return true;
-  for (const std::string group : {"separation.", "planner.", "record."}) {
+  for (const std::string group : {"separation.", "filter.", "planner.", "record."}) {
     if (name.rfind(group, 0) == 0) return true;
   }
   // One camera's own: the names of cameras are anybody's choice.
@@ -133,7 +133,10 @@ NodeSettings::NodeSettings(SettingNode& node, bool has_one_camera) {
       "world_frame", "",
       described("a frame of TF that stands still, for a robot whose base moves (odom, map): images "
                 "of other times are placed where the base was then; empty: the base stands still"));
-  if (!has_one_camera) declare_separation(node);
+  if (!has_one_camera) {
+    declare_separation(node);
+    declare_filter(node);
+  }
   check({});
   warn_unwatched(node);
 }
@@ -338,6 +341,29 @@ void NodeSettings::declare_separation(SettingNode& node) {
   declare_settings(node, "separation", setting_refs(separation), given_);
 }
 
+void NodeSettings::declare_filter(SettingNode& node) {
+  command_topic_ = node.declare_parameter(
+      "filter.command_topic", "",
+      described("where a controller takes its joint velocities, such as "
+                "forward_velocity_controller/commands: of those that come as wanted_velocity it "
+                "gets what keeps the robot away from what is near; empty: none are filtered"));
+  if (command_topic_.empty()) return;
+  filtered_joints_ = node.declare_parameter(
+      "filter.joints", std::vector<std::string>(),
+      described("the joints of the controller, in its order; the others are taken to stand; "
+                "empty: all, in the order of the model"));
+  const berth::VelocityFilterSettings filter;
+  declare_settings(node, "filter", setting_refs(filter), given_);
+}
+
+std::optional<berth::VelocityFilterSettings> NodeSettings::filter_of(
+    const GivenParameters& given) const {
+  if (command_topic_.empty()) return {};
+  berth::VelocityFilterSettings settings;
+  apply_given(given, "filter", setting_refs(settings));
+  return settings;
+}
+
 std::optional<berth::SeparationSettings> NodeSettings::separation_of(
     const GivenParameters& given) const {
   const auto monitor = given.find(kMonitor);
@@ -407,6 +433,7 @@ void NodeSettings::check(const std::vector<rclcpp::Parameter>& changes) const {
           "evaluation.visibility: false; expected true where separation.monitor is");
     }
   }
+  if (const auto filter = filter_of(given)) visit_settings(*filter, berth::SettingCheck{"filter"});
   for (const CameraSettings& camera : cameras_of(given)) {
     berth::validate(camera.settings.self_filter);
     visit_setting_groups(camera.settings, [](const std::string& group, const auto& settings) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "berth/control/velocity_filter.hpp"
 #include "berth/files/depth_units.hpp"
 #include "berth/live/joint_intake.hpp"
 #include "berth/live/live_camera.hpp"
@@ -68,6 +69,12 @@ class NodeSettings {
   std::vector<CameraSettings> cameras() const { return cameras_of(given()); }
   /// None: nothing is monitored.
   std::optional<berth::SeparationSettings> separation() const { return separation_of(given()); }
+  /// None: no velocities are filtered.
+  std::optional<berth::VelocityFilterSettings> filter() const { return filter_of(given()); }
+  /// Of the filtered velocities; empty: there are none.
+  const std::string& command_topic() const { return command_topic_; }
+  /// Empty: all of the model's, in its order.
+  const std::vector<std::string>& filtered_joints() const { return filtered_joints_; }
 
   /// Throws std::invalid_argument for a parameter that somebody gave and nobody declared, with the
   /// nearest name; to be called once all are declared. Those of the other node pass, since a file
@@ -90,6 +97,7 @@ class NodeSettings {
   void declare_joints(SettingNode& node);
   void declare_evaluation(SettingNode& node);
   void declare_separation(SettingNode& node);
+  void declare_filter(SettingNode& node);
   void declare_cameras(SettingNode& node, bool has_one_camera);
   void declare_camera(SettingNode& node, const std::string& name, bool has_one_camera);
   bool is_setting(const std::string& name) const;
@@ -98,11 +106,14 @@ class NodeSettings {
   berth::EvaluationSettings scene_evaluation() const;
   berth::EvaluationSettings evaluation_of(const GivenParameters& given) const;
   std::optional<berth::SeparationSettings> separation_of(const GivenParameters& given) const;
+  std::optional<berth::VelocityFilterSettings> filter_of(const GivenParameters& given) const;
   std::vector<CameraSettings> cameras_of(const GivenParameters& given) const;
 
   std::optional<berth::SceneFile> scene_;
   std::string urdf_path_;
   std::string world_frame_;
+  std::string command_topic_;
+  std::vector<std::string> filtered_joints_;
   berth::RobotSettings robot_;
   berth::JointIntakeSettings joints_;
   std::vector<CameraSettings> cameras_;

@@ -2,7 +2,6 @@
 import os
 import sys
 
-import numpy as np
 import pytest
 from berth_msgs.srv import CheckConfigurations
 from std_msgs.msg import String
@@ -10,23 +9,10 @@ from tf2_msgs.msg import TFMessage
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from living_robot import FOCAL, FRAME, HEIGHT, URDF, WIDTH, LivingRobot, launched_node, transform  # noqa: E402
+from living_robot import AT_POST_M, FRAME, SLIDING, LivingRobot, launched_node, sliding_depth_m, transform  # noqa: E402
 
-# The arm is a box of 0.1 m that slides along y.
-SLIDING = (URDF.replace('type="revolute"', 'type="prismatic"').replace('xyz="0 0 1"', 'xyz="0 1 0"').replace('"-3" upper="3"', '"-0.4" upper="0.4"')
-           .replace("0.2 0.2 0.2", "0.1 0.1 0.1"))
-FREE_M, AT_POST_M = 0.2, -0.2
+FREE_M = 0.2
 Answer = CheckConfigurations.Response
-
-
-def sliding_depth_m(arm_y=0.0):
-    """The arm before the camera, the base at its side, a post at y = -0.2 m, and a wall behind them."""
-    v, u = np.mgrid[0:HEIGHT, 0:WIDTH]
-    x, y = (u - 31.5) / FOCAL * 0.95 + 0.3, (v - 23.5) / FOCAL * 0.95
-    on_base, on_arm = (abs(y) < 0.05) & (abs(x) < 0.05), (abs(y - arm_y) < 0.05) & (abs(x - 0.3) < 0.05)
-    image = np.where(on_base | on_arm, 0.95, 1.5)
-    image[(abs(y - AT_POST_M) < 0.03) & (abs(x - 0.3) < 0.1)] = 0.95
-    return image.astype("float32")
 
 
 @pytest.mark.launch_test

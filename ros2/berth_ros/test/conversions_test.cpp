@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "berth/control/velocity_filter.hpp"
 #include "camera_input.hpp"
 #include "markers.hpp"
 #include "result_messages.hpp"
+#include "row_messages.hpp"
 #include "setting_parameters.hpp"
+#include "sliding_robot.hpp"
 #include "speed_monitor.hpp"
 #include "transforms.hpp"
 
@@ -54,6 +57,7 @@ TEST(Parameters, EachSettingComesBack) {
   there_and_back(berth::DistanceSettings{});
   there_and_back(berth::TimeSettings{});
   there_and_back(berth::SeparationSettings{});
+  there_and_back(berth::VelocityFilterSettings{});
 }
 
 TEST(Parameters, AnUnknownNameIsRefusedWithThoseThatThereAre) {
@@ -265,6 +269,38 @@ TEST(Result, OfNoRobotIsStale) {
   ASSERT_EQ(out.cameras.size(), 2U);
   EXPECT_EQ(out.cameras[1].camera, "right");
   EXPECT_EQ(out.header.stamp.sec, 103);
+}
+
+TEST(Rows, AreThoseOfTheLibraryRowByRow) {
+  SlidingRobot sliding;
+  sliding.put_near_hand(0.25F);
+  berth::DistanceRows rows(sliding.robot);
+  rows.update(sliding.result);
+  LinkDistances distances;
+  to_message(sliding.result, "base", rclcpp::Time(103, 0), StampClock(), distances);
+  berth_msgs::msg::DistanceRows out;
+  for (int again = 0; again < 2; ++again) {
+    to_message(rows, sliding.robot->model().joints, distances, out);
+    EXPECT_EQ(out.header.frame_id, "base");
+    EXPECT_EQ(out.question_stamp.sec, 103);
+    EXPECT_EQ(out.status, LinkDistances::OK);
+    EXPECT_EQ(out.joints, (std::vector<std::string>{"slide", "turn"}));
+    EXPECT_EQ(out.links, (std::vector<std::string>{"base", "arm", "hand"}));
+    for (const auto* kind : {&out.nearest, &out.occupied, &out.known}) {
+      ASSERT_EQ(kind->lower_bound_m.size(), 3U);
+      ASSERT_EQ(kind->gradient.size(), 6U);
+      ASSERT_EQ(kind->normal_base.size(), 9U);
+      ASSERT_EQ(kind->reach_m.size(), 6U);
+    }
+    EXPECT_EQ(out.nearest.lower_bound_m[2], 0.25F);
+    EXPECT_NEAR(out.nearest.gradient[4], -1, 1e-6) << "it slides towards what is near";
+    EXPECT_NEAR(out.nearest.gradient[5], 0, 1e-6) << "its middle stays where it turns";
+    EXPECT_NEAR(out.occupied.normal_base[7], -1, 1e-6);
+    EXPECT_EQ(out.nearest.reach_m[2], 1) << "a slide moves the arm by as much";
+    EXPECT_EQ(out.nearest.reach_m[3], 0) << "the arm does not turn";
+    EXPECT_TRUE(std::isnan(out.nearest.gradient[2])) << "nothing is near the arm";
+    EXPECT_TRUE(std::isnan(out.known.gradient[4]));
+  }
 }
 
 LinkDistance link(const std::string& name, std::uint8_t status, float distance_m,

@@ -29,6 +29,10 @@ URDF = f"""<robot name="two_boxes">
   <joint name="turn" type="revolute"><parent link="base"/><child link="arm"/><origin xyz="0.3 0 0"/>
     <axis xyz="0 0 1"/><limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
 </robot>"""
+# Its arm is a box of 0.1 m that slides along y.
+SLIDING = (URDF.replace('type="revolute"', 'type="prismatic"').replace('xyz="0 0 1"', 'xyz="0 1 0"').replace('"-3" upper="3"', '"-0.4" upper="0.4"')
+           .replace("0.2 0.2 0.2", "0.1 0.1 0.1"))
+AT_POST_M = -0.2
 FRAME = "front_optical_frame"
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
@@ -50,6 +54,16 @@ def depth_m(camera_x=0.0, obstacle=False):
     image = np.where(on_box, 0.9, 1.5)
     if obstacle:
         image[(abs(x - 0.6) < 0.02) & (abs(y) < 0.2)] = 0.9
+    return image.astype("float32")
+
+
+def sliding_depth_m(arm_y=0.0):
+    """Of SLIDING: the arm before the camera, the base at its side, a post at y = -0.2 m, and a wall behind them."""
+    v, u = np.mgrid[0:HEIGHT, 0:WIDTH]
+    x, y = (u - 31.5) / FOCAL * 0.95 + 0.3, (v - 23.5) / FOCAL * 0.95
+    on_base, on_arm = (abs(y) < 0.05) & (abs(x) < 0.05), (abs(y - arm_y) < 0.05) & (abs(x - 0.3) < 0.05)
+    image = np.where(on_base | on_arm, 0.95, 1.5)
+    image[(abs(y - AT_POST_M) < 0.03) & (abs(x - 0.3) < 0.1)] = 0.95
     return image.astype("float32")
 
 

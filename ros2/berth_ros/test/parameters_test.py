@@ -60,6 +60,20 @@ def test_a_bad_value_is_refused_by_name(given, said_parts):
     assert all(part in said for part in said_parts), said
 
 
+FILTERED = ["-p", "filter.command_topic:=commands"]
+
+
+def test_a_filter_has_parameters_of_its_own():
+    assert run("distance_node", *FILTERED, "-p", "filter.max_acceleration:=2.0", "-p", "filter.joints:=[turn]")[0] == 0
+    for given, said_parts in (("filter.least_distance_m:=-0.1", ["filter.least_distance_m", "-0.1"]),
+                              ("filter.period_s:=0.005", ["filter.period_s: 0.005", "expected at least", "0.01", "question_rate_hz"]),
+                              ("filter.perod_s:=0.1", ["filter.perod_s: there is no such parameter; the nearest is filter.period_s"])):
+        code, said = run("distance_node", *FILTERED, "-p", given)
+        assert code == 1 and all(part in said for part in said_parts), said
+    code, said = run("distance_node", "-p", "filter.least_distance_m:=0.1")
+    assert code == 1 and "filter.least_distance_m: there is no such parameter" in said, said
+
+
 def test_missing_files_end_the_node_and_the_launch(tmp_path):
     missing = str(tmp_path / "missing.yaml")
     assert run("distance_node", "--params-file", missing)[0] != 0
