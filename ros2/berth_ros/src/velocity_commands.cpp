@@ -34,6 +34,7 @@ std::string held_by(const berth::FilteredVelocity& allowed, const berth::Result&
 std::string trouble_of(const berth::FilteredVelocity& allowed, const berth::Result& result) {
   using berth::FilterStatus;
   if (allowed.status == FilterStatus::ok) return "";
+  if (allowed.status == FilterStatus::stale) return berth::status_text(result);
   std::string text(name_of(allowed.status));
   if (allowed.status == FilterStatus::bad_joints) {
     text += ": position or velocity of a joint is not known";
