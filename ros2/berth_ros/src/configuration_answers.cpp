@@ -75,6 +75,23 @@ std::vector<double> positions_of(const trajectory_msgs::msg::JointTrajectory& tr
   return positions;
 }
 
+/// rad or m in one motion. The search cuts it into parts: one of 1e9 rad would not end.
+constexpr double kMostMotion = 100;
+
+void require_short(const std::vector<double>& positions,
+                   const std::vector<berth::MovableJoint>& joints) {
+  for (std::size_t k = joints.size(); k < positions.size(); ++k) {
+    const double way = std::abs(positions[k] - positions[k - joints.size()]);
+    // What is not finite is refused by who asks for configurations.
+    if (!std::isfinite(way) || way <= kMostMotion) continue;
+    throw std::invalid_argument("trajectory.points[" + std::to_string(k / joints.size()) +
+                                "].positions: joint \"" + joints[k % joints.size()].name +
+                                "\" moves by " + std::to_string(way) +
+                                " from the point before; expected at most " +
+                                std::to_string(kMostMotion) + " with check_motions");
+  }
+}
+
 std::vector<std::uint8_t> bytes_of(const std::vector<Verdict>& verdicts) {
   std::vector<std::uint8_t> bytes(verdicts.size());
   std::ranges::transform(verdicts, bytes.begin(),
@@ -111,6 +128,7 @@ void ConfigurationAnswers::answer(const Request& request, Response& response) {
 void ConfigurationAnswers::find(const Request& request, Response& response) {
   const RobotNow now = look_();
   const std::vector<double> positions = positions_of(request.trajectory, now);
+  if (request.check_motions) require_short(positions, now.robot->model().joints);
   prepare(now);
   berth::ConfigurationMargins margins{.margin_m = request.margin_m, .without = request.without};
   if (!std::isnan(request.known_margin_m)) margins.known_margin_m = request.known_margin_m;

@@ -166,6 +166,11 @@ TEST_F(Answers, SayWhatIsWrongWithARequest) {
   bad.trajectory.points[1].positions[0] = std::numeric_limits<double>::quiet_NaN();
   expect_refused(bad, "of configuration 1 is nan; expected a finite number");
   bad = good;
+  bad.trajectory.points[1].positions[0] = 1e9;
+  EXPECT_TRUE(answer(bad).success);
+  bad.check_motions = true;
+  expect_refused(bad, "moves by 1000000000.");
+  bad = good;
   bad.margin_m = -1;
   expect_refused(bad, "a margin is -1 m");
   bad = good;
