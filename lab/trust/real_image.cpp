@@ -4,7 +4,7 @@
 
 #include "berth/files/png.hpp"
 #include "berth/render/robot_renderer.hpp"
-#include "berth/self_filter/environment.hpp"
+#include "berth/self_filter/self_filter.hpp"
 #include "sim/drawn_obstacles.hpp"
 #include "sim/drawn_scene.hpp"
 #include "sim/sensor_model.hpp"

@@ -109,6 +109,7 @@ Result full_result() {
   result.links.resize(1);
   result.links[0].id = 1;
   result.has_visibility = true;
+  result.has_candidates = true;
   result.link_names = std::make_shared<const std::vector<std::string>>();
   result.separation.emplace().links.resize(1);
   return result;

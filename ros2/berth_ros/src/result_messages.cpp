@@ -77,6 +77,10 @@ void copy(const berth::LinkResult& link, const berth::Result& result, LinkDistan
   out.obstacle_is = constant_of(link.obstacle_is);
   copy_pair(link.occupied, result, out.occupied);
   copy(link.known, result, out.known);
+  out.candidates.resize(link.candidates.size());
+  for (std::size_t k = 0; k < out.candidates.size(); ++k) {
+    copy_pair(link.candidates[k], result, out.candidates[k]);
+  }
   out.assumed_thinner_m = link.assumed_thinner_m;
   out.mean_direction_base = vector_of(link.mean_direction_B);
   out.mean_count = link.mean_count;

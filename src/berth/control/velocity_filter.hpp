@@ -63,8 +63,8 @@ struct JointMotion {
   std::span<const double> velocity;
   /// What the program wants.
   std::span<const double> wanted;
-  /// How much a difference from that counts, above 0: a joint with twice the weight leaves it half
-  /// as much. Empty: all alike.
+  /// How much a difference from that counts, above 0: what one row asks, a joint with twice the
+  /// weight gives a quarter of. Empty: all alike.
   std::span<const double> weight = {};
 };
 
