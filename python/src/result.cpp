@@ -49,6 +49,9 @@ class ToPython {
     for (const T& value : values) all.append((*this)(value));
     return all;
   }
+  py::object operator()(const std::vector<float>& numbers) const {
+    return py::array_t<float>(std::ssize(numbers), numbers.data());
+  }
   py::object operator()(const Eigen::Vector3f& p) const { return py::array_t<float>(3, p.data()); }
   py::object operator()(const Pixel& pixel) const {
     return pixel.u < 0 ? py::none() : py::object(py::make_tuple(pixel.u, pixel.v));
@@ -83,6 +86,8 @@ std::string type_in_python(const T& value) {
     return py::str(py::type::of<T>().attr("__name__"));
   } else if constexpr (std::is_same_v<T, Eigen::Vector3f>) {
     return "numpy.ndarray";
+  } else if constexpr (std::is_same_v<T, std::vector<float>>) {
+    return "Optional[numpy.ndarray]";
   } else if constexpr (std::is_same_v<T, Pixel>) {
     return "Optional[Tuple[int, int]]";
   } else if constexpr (std::is_same_v<T, FateCounts>) {
@@ -169,7 +174,7 @@ struct Columns {
     constexpr int kCount = std::is_same_v<T, float>             ? 1
                            : std::is_same_v<T, Eigen::Vector3f> ? 3
                                                                 : 0;
-    if constexpr (std::is_same_v<T, SpacePair> || std::is_same_v<T, KnownPair>) {
+    if constexpr (std::is_base_of_v<SpacePair, T> || std::is_same_v<T, KnownPair>) {
       const bool is_known = std::is_same_v<T, KnownPair>;
       visit_fields(value, Columns{bound, link, std::string(field.name) + "_",
                                   is_known ? "to what is known: " : "to what is occupied alone: "});
@@ -282,6 +287,8 @@ void bind_result(py::module_& m) {
   full->links.resize(1);
   full->links[0].id = 1;
   full->links[0].is_moved = true;
+  full->links[0].gradient = full->links[0].occupied.gradient = {0};
+  full->links[0].known.gradient = {0};
   full->separation.emplace().links.resize(1);
   const auto bare = std::make_shared<Result>();
   const auto bind = [&]<class T>(const T& part, const char* name, const char* what) {

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "berth/distance/link_eighths.hpp"
 #include "berth/distance/mesh_distances.hpp"
@@ -126,12 +128,70 @@ TEST_F(Candidates, NoEighthThatIsNearerIsLeftOut) {
     if (!pair.is_known() || link.candidates.empty()) continue;
     // What is nearer than the last candidate is one, or lies beside one.
     if (pair.distance_m >= link.candidates.back().distance_m - 0.002F) continue;
-    std::vector<SpacePair> told(link.candidates);
+    std::vector<SpacePair> told(link.candidates.begin(), link.candidates.end());
     told.push_back(link);
     const bool is_told = std::ranges::any_of(told, [&](const SpacePair& other) {
       return (other.robot_point_B_m - pair.robot_point_B_m).norm() < kApart_m + 0.002F;
     });
     EXPECT_TRUE(is_told) << link.link;
+  }
+}
+
+/// How fast a pair's distance grows with a joint, by moving its two points with their links.
+double slope(const RobotModel& model, const JointState& joints, std::size_t joint,
+             std::size_t link, std::optional<std::size_t> other, const Eigen::Vector3f& p_B_m,
+             const Eigen::Vector3f& q_B_m) {
+  constexpr double kStep = 1e-5;
+  RobotPose pose, moved;
+  forward_kinematics(model, joints.position, pose);
+  const auto distance_m = [&](double step) {
+    std::vector<double> position = joints.position;
+    position[joint] += step;
+    forward_kinematics(model, position, moved);
+    const auto carried = [&](std::size_t by, const Eigen::Vector3f& point_B_m) -> Eigen::Vector3d {
+      return moved.X_BL[by] * (pose.X_BL[by].inverse() * point_B_m.cast<double>());
+    };
+    const Eigen::Vector3d there = other ? carried(*other, q_B_m) : q_B_m.cast<double>();
+    return (carried(link, p_B_m) - there).norm();
+  };
+  return (distance_m(kStep) - distance_m(-kStep)) / (2 * kStep);
+}
+
+TEST_F(Candidates, EachPairTellsHowItsDistanceChangesWhereGradientsAreAskedFor) {
+  EvaluationSettings settings = robot->settings();
+  settings.gradient = true;
+  const auto told = with_settings(robot, settings);
+  const RobotModel& model = told->model();
+  const JointState joints = scene.cameras[0].at_exposure[40];
+  Query query(told);
+  const Result& result = query.ask({newest, joints});
+  int compared = 0;
+  for (const LinkResult& link : result.links) {
+    const std::size_t index = model.evaluated_links[link.id - 1];
+    const auto compare = [&](const auto& pair, std::optional<std::size_t> other) {
+      ASSERT_EQ(pair.gradient.size(), model.joints.size());
+      for (std::size_t j = 0; j < model.joints.size(); ++j) {
+        if (!pair.is_known()) {
+          EXPECT_TRUE(std::isnan(pair.gradient[j]));
+        } else if (pair.distance_m > 0) {
+          EXPECT_NEAR(pair.gradient[j],
+                      slope(model, joints, j, index, other, pair.robot_point_B_m,
+                            pair.obstacle_point_B_m),
+                      1e-3);
+          ++compared;
+        }
+      }
+    };
+    compare(static_cast<const ToldPair&>(link), std::nullopt);
+    compare(link.occupied, std::nullopt);
+    if (link.known.is_known()) compare(link.known, static_cast<std::size_t>(link.known.link));
+    for (const ToldPair& pair : link.candidates) compare(pair, std::nullopt);
+  }
+  EXPECT_GT(compared, 150);
+  const Result& late = query.ask({.frames = newest, .now_s = frames[0].stamp_s + 10});
+  for (const LinkResult& link : late.links) {
+    ASSERT_EQ(link.known.gradient.size(), model.joints.size());
+    EXPECT_TRUE(std::isnan(link.gradient[0]) && std::isnan(link.known.gradient[0]));
   }
 }
 

@@ -75,9 +75,9 @@ std::vector<double> positions_of(const trajectory_msgs::msg::JointTrajectory& tr
   return positions;
 }
 
-/// rad or m in one motion. The search cuts it into parts: one of 1e9 rad would not end.
-constexpr double kMostMotion = 100;
+constexpr double kMostMotion = berth::ConfigurationCheck::kMostMotion;
 
+/// As the check itself does, by the names of the message.
 void require_short(const std::vector<double>& positions,
                    const std::vector<berth::MovableJoint>& joints) {
   for (std::size_t k = joints.size(); k < positions.size(); ++k) {

@@ -15,30 +15,10 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// The points of a pair, and where the other one is fixed.
-struct PairPoints {
-  bool is_known = false;
-  double distance_m = kNaN;
-  Eigen::Vector3d link_B_m;
-  Eigen::Vector3d other_B_m;
-  /// In RobotModel::links; none for what the cameras see.
-  std::optional<std::size_t> other;
-};
-
-PairPoints points_of(const SpacePair& pair) {
-  return {pair.is_known(), pair.distance_m, pair.robot_point_B_m.cast<double>(),
-          pair.obstacle_point_B_m.cast<double>(), std::nullopt};
-}
-
-PairPoints points_of(const KnownPair& pair) {
-  return {pair.is_known(), pair.distance_m, pair.robot_point_B_m.cast<double>(),
-          pair.obstacle_point_B_m.cast<double>(), static_cast<std::size_t>(pair.link)};
-}
-
 PairPoints points_of(const LinkResult& link, RowKind kind, int candidate) {
   if (candidate > 0) {
     const auto place = static_cast<std::size_t>(candidate - 1);
-    return points_of(place < link.candidates.size() ? link.candidates[place] : SpacePair());
+    return place < link.candidates.size() ? points_of(link.candidates[place]) : PairPoints();
   }
   if (kind == RowKind::known) return points_of(link.known);
   return points_of(kind == RowKind::nearest ? link : link.occupied);
@@ -53,7 +33,8 @@ RobotPose pose_at_zero(const RobotModel& model) {
 
 }  // namespace
 
-DistanceRows::DistanceRows(std::shared_ptr<const Robot> robot) : robot_(std::move(robot)) {
+DistanceRows::DistanceRows(std::shared_ptr<const Robot> robot)
+    : robot_(std::move(robot)), of_pair_(robot_->model()) {
   const RobotModel& model = robot_->model();
   const auto links = static_cast<Eigen::Index>(model.evaluated_links.size());
   const auto joints = static_cast<Eigen::Index>(model.joints.size());
@@ -63,8 +44,6 @@ DistanceRows::DistanceRows(std::shared_ptr<const Robot> robot) : robot_(std::mov
   reach_m_.resize(links, joints);
   known_reach_m_.resize(links, joints);
   sum_m_.resize(joints);
-  of_link_.resize(3, joints);
-  of_other_.resize(3, joints);
   for (const KnownBody& body : robot_->known().bodies) {
     chains_.push_back(joint_chain(model, body.link));
     radius_m_.push_back(berth::reach_m(model.links[body.link].mesh_L));
@@ -111,18 +90,8 @@ void DistanceRows::differentiate(const Result& result, std::size_t link, RowKind
     return;
   }
   auto gradient = gradients_[index(kind, candidate)].row(static_cast<Eigen::Index>(link));
-  gradient.setZero();
-  const Eigen::Vector3d way_B_m = pair.link_B_m - pair.other_B_m;
-  const double length_m = way_B_m.norm();
-  if (pair.distance_m == 0 || length_m == 0) return;
-  normal_B = way_B_m.transpose() / length_m;
-  const RobotModel& model = robot_->model();
-  point_jacobian(model, result.pose, model.evaluated_links[link], pair.link_B_m, of_link_);
-  if (pair.other) {
-    point_jacobian(model, result.pose, *pair.other, pair.other_B_m, of_other_);
-    of_link_ -= of_other_;
-  }
-  gradient.noalias() = normal_B * of_link_;
+  gradient = of_pair_.find(result.pose, robot_->model().evaluated_links[link], pair);
+  if (of_pair_.normal_B() != Eigen::Vector3d::Zero()) normal_B = of_pair_.normal_B().transpose();
 }
 
 void DistanceRows::find_reaches(const RobotPose& pose) {

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "berth/pipeline/pair_gradient.hpp"
 #include "berth/pipeline/result.hpp"
 #include "berth/pipeline/robot.hpp"
 
@@ -89,8 +90,7 @@ class DistanceRows {
   std::vector<double> radius_m_;
   bool has_slides_ = false;
   Eigen::VectorXd sum_m_;
-  Eigen::Matrix3Xd of_link_;
-  Eigen::Matrix3Xd of_other_;
+  PairGradient of_pair_;
 };
 
 }  // namespace berth

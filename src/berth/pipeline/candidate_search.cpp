@@ -52,7 +52,7 @@ void CandidateSearch::tell(const FrameSet& frames, Result& out) {
     LinkResult& link = out.links[places_[i]];
     if (!pair.is_known() || link.candidates.size() == most || !is_apart(link, pair)) continue;
     pair.camera = frames.used()[pair.camera];
-    link.candidates.push_back(pair);
+    link.candidates.emplace_back() = pair;
   }
 }
 

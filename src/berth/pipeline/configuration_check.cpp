@@ -282,6 +282,13 @@ void ConfigurationCheck::ask_motions(std::span<const double> from, std::span<con
                                      std::span<Verdict> verdicts) const {
   require(from, verdicts.size());
   require(to, verdicts.size());
+  for (std::size_t k = 0; k < from.size(); ++k) {
+    if (std::abs(to[k] - from[k]) <= kMostMotion) continue;
+    const std::vector<MovableJoint>& all = robot_->model().joints;
+    throw std::invalid_argument(
+        fmt::format("configurations: joint \"{}\" of motion {} goes by {}; expected at most {}",
+                    all[k % all.size()].name, k / all.size(), to[k] - from[k], kMostMotion));
+  }
   const Asked asked = asked_of(margins);
   std::ranges::fill(verdicts, Verdict::undecided);
   if (!state_->is_known) return;

@@ -52,6 +52,8 @@ class ConfigurationCheck {
   ResultStatus prepare(const NewestFrames& frames, std::optional<double> now_s = {},
                        const std::optional<Pose>& X_WB = {});
 
+  static constexpr double kMostMotion = 100;  ///< rad or m
+
   /// One verdict for each configuration: positions in the order of RobotModel::joints, one
   /// configuration after another. Spread over the threads that TBB has. Throws
   /// std::invalid_argument where numbers do not fit, are not finite, or a link is not known.
@@ -59,7 +61,8 @@ class ConfigurationCheck {
            std::span<Verdict> verdicts) const;
 
   /// The same for straight motions in joint space, from each configuration of `from` to that of
-  /// `to` at its place. A motion is near where one of its configurations is shown to be.
+  /// `to` at its place. A motion is near where one of its configurations is shown to be. One in
+  /// which a joint goes by more than kMostMotion is refused: it is cut into parts.
   void ask_motions(std::span<const double> from, std::span<const double> to,
                    const ConfigurationMargins& margins, std::span<Verdict> verdicts) const;
 

@@ -79,7 +79,8 @@ double us_since(LinkSearches::Clock::time_point begin) {
 
 }  // namespace
 
-LinkSearches::LinkSearches(std::shared_ptr<const Robot> robot) : robot_(std::move(robot)) {
+LinkSearches::LinkSearches(std::shared_ptr<const Robot> robot)
+    : robot_(std::move(robot)), gradient_(robot_->model()) {
   if (robot_->settings().candidates > 1) candidates_.emplace(robot_);
   const RobotModel& model = robot_->model();
   for (const std::size_t index : model.evaluated_links) {
@@ -158,6 +159,7 @@ void LinkSearches::ask(const FrameSet& frames, const RobotPose& pose, Clock::tim
   const Clock::time_point searched = Clock::now();
   tell_distances(frames, pose, out);
   if (candidates_) candidates_->tell(frames, out);
+  if (robot_->settings().gradient) gradient_.tell(out);
   if (robot_->settings().distance.mean_direction) tell_mean_directions(frames, out);
   tell_visibility(frames, pose, out);
   constexpr double kForgotten = 0.95;

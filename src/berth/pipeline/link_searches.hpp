@@ -11,6 +11,7 @@
 #include "berth/distance/mesh_distances.hpp"
 #include "berth/pipeline/candidate_search.hpp"
 #include "berth/pipeline/frame_set.hpp"
+#include "berth/pipeline/pair_gradient.hpp"
 #include "berth/pipeline/result.hpp"
 #include "berth/pipeline/robot.hpp"
 #include "berth/types/joint_state.hpp"
@@ -69,6 +70,7 @@ class LinkSearches {
   std::vector<WholeLinkDistance> found_;
   /// None where each link has one pair alone.
   std::optional<CandidateSearch> candidates_;
+  PairGradient gradient_;
   MeshWorkspace undecided_workspace_;
   std::vector<WholeLinkDistance> undecided_;
   MeshWorkspace rejected_workspace_;

@@ -51,6 +51,11 @@ void begin_result(const Robot& robot, Result& result) {
     result.links[i].id = static_cast<LinkId>(i + 1);
     result.links[i].link = model.links[index].name;
     result.links[i].is_moved = model.is_moved(index);
+    const std::size_t numbers = robot.settings().gradient ? model.joints.size() : 0;
+    LinkResult& link = result.links[i];
+    for (auto* gradient : {&link.gradient, &link.occupied.gradient, &link.known.gradient}) {
+      gradient->resize(numbers);
+    }
   }
   withhold(result);
 }

@@ -43,8 +43,11 @@ void withhold(Result& result) {
   result.nearest = -1;
   for (LinkResult& link : result.links) {
     static_cast<SpacePair&>(link) = {};
-    link.occupied = {};
-    link.known = {};
+    static_cast<SpacePair&>(link.occupied) = {};
+    link.known = {.gradient = std::move(link.known.gradient)};
+    for (auto* gradient : {&link.gradient, &link.occupied.gradient, &link.known.gradient}) {
+      std::ranges::fill(*gradient, kNaN);
+    }
     link.candidates.clear();
     link.lower_bound_m = link.occupied.lower_bound_m = kNaN;
     link.status = LinkStatus::stale;

@@ -28,7 +28,7 @@ class MountedCamera;
 /// One link's part in a result. The pair to what is occupied or unknown is the link's own: its
 /// distance, points in the robot's root frame B, camera and pixel. Where no pair is known, lengths
 /// and points are NaN: never 0, never a large number, never those of the result before.
-struct LinkResult : SpacePair {
+struct LinkResult : ToldPair {
   LinkId id = kNoLink;
   /// The link's name.
   std::string link;
@@ -40,14 +40,14 @@ struct LinkResult : SpacePair {
   /// camera that looks at the place best; NaN where none does.
   float assumed_thinner_m = std::numeric_limits<float>::quiet_NaN();
   /// The pair to what is occupied alone; its distance is never below that of the link.
-  SpacePair occupied;
+  ToldPair occupied;
   /// The pair to the environment, the robot's own other links and other robots, by their meshes:
   /// no camera has to see them. Of links that a joint moves.
   KnownPair known;
   /// Further pairs to what is occupied or unknown and within 0.5 m, nearest first: each the nearest
   /// of an eighth of the link, and 5 cm apart on the link from its own pair and from each other. At
   /// most EvaluationSettings::candidates less one.
-  std::vector<SpacePair> candidates;
+  std::vector<ToldPair> candidates;
   /// The points of the link's own pair in the optical frame C of its camera.
   Eigen::Vector3f robot_point_C_m = unset_point();
   Eigen::Vector3f obstacle_point_C_m = unset_point();
@@ -187,6 +187,14 @@ struct KnownLink {
   int place = -1;
 };
 
+/// The field of a pair where gradients are asked for.
+template <class Pair, class Visitor>
+void visit_gradient(const Pair& p, Visitor&& visit) {
+  if (p.gradient.empty()) return;
+  visit({"gradient", "how the distance changes with each joint of the model, in m/rad or m/m"},
+        p.gradient);
+}
+
 /// The fields of a pair to what is known.
 template <class Visitor>
 void visit_fields(const KnownPair& p, Visitor&& visit) {
@@ -199,6 +207,7 @@ void visit_fields(const KnownPair& p, Visitor&& visit) {
   visit({"obstacle_point_base_m", "the other link's closest point, in the robot's root frame"},
         p.obstacle_point_B_m);
   visit({"link", "the other link"}, KnownLink{p.link});
+  visit_gradient(p, visit);
 }
 
 /// The fields of a closest pair, but what it leads to.
@@ -216,6 +225,12 @@ void visit_fields(const SpacePair& p, Visitor&& visit) {
         CameraPlace{p.camera});
   visit({"obstacle_pixel", "column and row of the obstacle's point in that camera's image"},
         p.obstacle_pixel);
+}
+
+template <class Visitor>
+void visit_fields(const ToldPair& p, Visitor&& visit) {
+  visit_fields(static_cast<const SpacePair&>(p), visit);
+  visit_gradient(p, visit);
 }
 
 template <class Visitor>
@@ -248,7 +263,7 @@ void visit_fields(const LinkResult& l, const Result& result, Visitor&& visit) {
   visit({"link", "the link's name"}, l.link);
   visit({"is_moved", "whether a joint moves the link"}, l.is_moved);
   visit({"status", "what is known of the link"}, l.status);
-  visit_fields(static_cast<const SpacePair&>(l), visit);
+  visit_fields(static_cast<const ToldPair&>(l), visit);
   visit(
       {"obstacle_is",
        "whether the obstacle's point is occupied, unknown: hidden, and seen free by no camera, or "

@@ -23,6 +23,8 @@ struct EvaluationSettings {
   bool visibility = true;
   /// How many pairs of each link are told, its own and LinkResult::candidates together.
   int candidates = 1;
+  /// Whether each pair tells how its distance changes with the joints (ToldPair::gradient).
+  bool gradient = false;
   TimeSettings time;
 
   bool operator==(const EvaluationSettings&) const = default;
@@ -42,6 +44,8 @@ void visit_settings(Settings& s, Visitor&& visit) {
          "how many pairs of each link are told, at least 5 cm apart on it: what a controller needs "
          "between two obstacles"},
         s.candidates);
+  visit({"gradient", {}, "whether each pair tells how its distance changes with each joint"},
+        s.gradient);
 }
 
 /// A robot and what is asked about it: constant once made, shared by all views, observers and

@@ -1,5 +1,6 @@
 #include "berth/results/result_json.hpp"
 
+#include <cmath>
 #include <concepts>
 #include <type_traits>
 
@@ -65,9 +66,16 @@ class Writer {
             {"reaction_time_s", json_value(separation.reaction_time_s)},
             {"text", separation_text(result_)}};
   }
-  Json json_of(const std::vector<SpacePair>& pairs) const {
+  Json json_of(const std::vector<ToldPair>& pairs) const {
     Json all = Json::array();
-    for (const SpacePair& pair : pairs) all.push_back(json_of(pair));
+    for (const ToldPair& pair : pairs) all.push_back(json_of(pair));
+    return all;
+  }
+  /// Null with its pair.
+  Json json_of(const std::vector<float>& gradient) const {
+    if (std::isnan(gradient.front())) return {};
+    Json all = Json::array();
+    for (const float number : gradient) all.push_back(json_value(number));
     return all;
   }
   Json json_of(const std::vector<CameraResult>& cameras) const {

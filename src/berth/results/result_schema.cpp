@@ -99,7 +99,20 @@ class Describer {
                       {"text", schema::text()}};
     return map_of_all(fields);
   }
-  Json schema_of(const std::vector<SpacePair>&) const { return list_of(schema_of(SpacePair())); }
+  Json schema_of(const ToldPair& pair) const { return pair_schema(pair); }
+  Json schema_of(const KnownPair& pair) const { return pair_schema(pair); }
+  Json schema_of(const std::vector<ToldPair>&) const {
+    return list_of(pair_schema(most_.links.front().occupied));
+  }
+  /// Its gradient is not in all results.
+  template <class Pair>
+  Json pair_schema(const Pair& pair) const {
+    Json least, most;
+    visit_fields(Pair(), Describer(least_, most_, more_of_link_, least));
+    visit_fields(pair, Describer(least_, most_, more_of_link_, most));
+    return schema::map_with(least, most);
+  }
+  Json schema_of(const std::vector<float>&) const { return or_null(list_of(schema::number())); }
   Json schema_of(const std::vector<CameraResult>& cameras) const {
     Json properties;
     visit_fields(cameras.front(), Describer(least_, most_, more_of_link_, properties));
@@ -135,6 +148,8 @@ Result full_result() {
   result.links.front().id = 1;
   result.has_visibility = true;
   result.has_candidates = true;
+  LinkResult& link = result.links.front();
+  link.gradient = link.occupied.gradient = link.known.gradient = {0};
   result.link_names = std::make_shared<const std::vector<std::string>>();
   result.separation.emplace().links.resize(1);
   return result;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <string_view>
+#include <vector>
 
 #include "berth/types/image.hpp"
 #include "berth/types/robot_image.hpp"
@@ -51,6 +52,14 @@ struct SpacePair {
   bool is_known() const { return camera >= 0; }
 };
 
+/// A pair as results tell it.
+struct ToldPair : SpacePair {
+  using SpacePair::operator=;
+  /// d(distance)/dq, one number for each joint of the model, in m/rad or m/m; NaN where no pair is
+  /// known. Empty unless EvaluationSettings::gradient asks for it.
+  std::vector<float> gradient;
+};
+
 /// The two answers for one link. `occupied.distance_m` is never below `nearest.distance_m` where
 /// both are known.
 struct WholeLinkDistance {
@@ -74,6 +83,8 @@ struct KnownPair {
   Eigen::Vector3f obstacle_point_B_m = unset_point();
   /// The other link, by its place in RobotModel::links; -1 where no pair is known.
   int link = -1;
+  /// As ToldPair::gradient; the other link may move, too.
+  std::vector<float> gradient;
 
   bool is_known() const { return link >= 0; }
 };
