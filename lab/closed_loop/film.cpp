@@ -8,6 +8,7 @@
 #include "apps/berth/picture_projection.hpp"
 #include "berth/files/file_bytes.hpp"
 #include "lab/closed_loop/cell.hpp"
+#include "lab/closed_loop/goals.hpp"
 
 namespace berth::lab {
 namespace {
@@ -15,34 +16,37 @@ namespace {
 /// Of the encounter's time.
 constexpr std::array kPictures = {0.12, 0.3, 0.42, 0.55, 0.8};
 
-class FilmedSupervisor : public MonitorSupervisor {
+template <class Filmed>
+class FilmedSupervisor : public Filmed {
  public:
-  FilmedSupervisor(double duration_s, std::filesystem::path folder)
-      : MonitorSupervisor({0, 1, 2}, cell_separation(SimulationSettings().request_hz)),
+  template <class... More>
+  FilmedSupervisor(double duration_s, std::filesystem::path folder, More... more)
+      : Filmed({0, 1, 2}, cell_separation(SimulationSettings().request_hz), more...),
         duration_s_(duration_s),
         folder_(std::move(folder)) {}
 
   void see(std::size_t which, const DepthImage& depth_m, double stamp_s,
            const JointBuffer& joints) override {
-    MonitorSupervisor::see(which, depth_m, stamp_s, joints);
+    Filmed::see(which, depth_m, stamp_s, joints);
     if (which == 0) newest_depth_m_ = depth_m;
   }
 
   double scale(const Situation& situation) override {
-    const double scale = MonitorSupervisor::scale(situation);
+    const double scale = Filmed::scale(situation);
     const bool is_time =
         taken_ < kPictures.size() && situation.now_s >= kPictures[taken_] * duration_s_;
-    if (is_time && newest(0)) draw(situation.now_s);
+    if (is_time && this->newest(0)) draw(situation.now_s);
     return scale;
   }
 
  private:
   void draw(double now_s) {
-    const Frame& frame = *newest(0);
-    const auto links = app::projected(frame.mounted->camera(), frame.X_BC, result().links);
-    app::write_picture(folder_ / fmt::format("film_{}.png", taken_),
-                       {newest_depth_m_, &frame.robot, &frame.obstacles, &links, kCellRange_m,
-                        fmt::format("{:.2f} s, speed {:.0f} %", now_s, 100 * last().speed_scale)});
+    const Frame& frame = *this->newest(0);
+    const auto links = app::projected(frame.mounted->camera(), frame.X_BC, this->result().links);
+    app::write_picture(
+        folder_ / fmt::format("film_{}.png", taken_),
+        {newest_depth_m_, &frame.robot, &frame.obstacles, &links, kCellRange_m,
+         fmt::format("{:.2f} s, speed {:.0f} %", now_s, 100 * this->last().speed_scale)});
     ++taken_;
   }
 
@@ -54,10 +58,17 @@ class FilmedSupervisor : public MonitorSupervisor {
 
 }  // namespace
 
-void film_encounter(std::uint32_t seed, const std::filesystem::path& folder) {
-  FilmedSupervisor supervisor(sim::Visit(sim::VisitKind::reaching, seed).duration_s(), folder);
+void film_encounter(std::uint32_t seed, bool has_goals, const std::filesystem::path& folder) {
+  const SimulationSettings settings;
+  const double duration_s = sim::Visit(settings.kind, seed).duration_s();
   std::vector<LoopSample> samples;
-  simulate(seed, supervisor, {}, &samples);
+  if (has_goals) {
+    FilmedSupervisor<GoalSupervisor> supervisor(duration_s, folder, settings.request_hz);
+    simulate(seed, supervisor, settings, &samples);
+  } else {
+    FilmedSupervisor<MonitorSupervisor> supervisor(duration_s, folder);
+    simulate(seed, supervisor, settings, &samples);
+  }
   std::string csv = "time_s,clearance_m,fastest_m_s,scale\n";
   for (const LoopSample& s : samples) {
     csv += fmt::format("{:.3f},{:.4f},{:.4f},{:.4f}\n", s.time_s, s.clearance_m, s.fastest_m_s,

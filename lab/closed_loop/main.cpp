@@ -73,7 +73,8 @@ void print_cost(int encounter, const SimulationSettings& simulation) {
 void run(const Options& options) {
   if (options.is_cost) return print_cost(options.first, options.simulation);
   if (!options.film.empty()) {
-    return film_encounter(static_cast<std::uint32_t>(options.first), options.film);
+    const bool has_goals = options.policies == std::vector<std::string>{"filter"};
+    return film_encounter(static_cast<std::uint32_t>(options.first), has_goals, options.film);
   }
   const std::vector<Policy> policies = chosen_policies(options);
   std::vector<std::vector<EncounterResult>> results;
@@ -127,7 +128,8 @@ int main(int argc, char** argv) {
                    "only what requests and monitor cost, in encounter --first");
   program
       .add_option("--film", options.film,
-                  "only pictures and figures of encounter --first, into this folder")
+                  "only pictures and figures of encounter --first, into this folder: of --policy "
+                  "filter, else path")
       ->check(CLI::ExistingDirectory);
   if (const auto status = app::parse_command_line(program, argc, argv)) return *status;
   options.simulation.kind = static_cast<sim::VisitKind>(

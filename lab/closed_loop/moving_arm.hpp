@@ -8,21 +8,22 @@
 
 namespace berth::lab {
 
-/// The arm on its path, at a share of its full speed, and beside it where it is led aside.
+/// The arm, on its path at a share of its full speed, or led by velocities of its joints.
 class MovingArm {
  public:
   /// `model` has to outlive it; `first_phase`, of a cycle.
   MovingArm(const RobotModel& model, double first_phase);
 
   /// Goes on for a while, with brake or motor towards the commanded share, 0 to 1, of the path's
-  /// speed; where its joints are given velocities (rad/s), it follows those beside the path.
-  void step(double commanded_share, double step_s,
-            const std::vector<double>* velocity_rad_s = nullptr);
+  /// speed.
+  void step(double commanded_share, double step_s);
+  /// The same without the path, towards these velocities of the joints. Where they are a share of
+  /// what it has, or 0, it stays on its way.
+  void lead(const std::vector<double>& velocity_rad_s, double step_s);
 
   /// Where its path is, and how fast it would go there at full speed.
   const PathPoint& plan() const { return plan_; }
   const RobotPose& pose() const { return pose_; }
-  /// Where it is, path and what is beside it together.
   const std::vector<double>& position_rad() const { return position_rad_; }
   /// How far it has come, as a time at full speed.
   double phase_s() const { return phase_s_; }
@@ -33,7 +34,6 @@ class MovingArm {
 
  private:
   void place();
-  void go_aside(double step_s, const std::vector<double>& velocity_rad_s);
   /// Of the fastest point, at these joint velocities.
   double fastest_at(const std::vector<double>& velocity_rad_s);
 
@@ -44,10 +44,9 @@ class MovingArm {
   PathPoint plan_;
   RobotPose pose_;
   std::vector<double> position_rad_;
+  std::vector<double> velocity_rad_s_;
+  std::vector<double> change_rad_s_;
   std::vector<LinkTwist> twists_;
-  /// How far it is beside its path, and how fast it goes there.
-  std::vector<double> aside_rad_;
-  std::vector<double> aside_rad_s_;
   /// Of its fastest point on the path at full speed.
   double full_m_s_ = 0;
   double fastest_m_s_ = 0;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "lab/closed_loop/cell.hpp"
+#include "lab/closed_loop/goals.hpp"
 
 namespace berth::lab {
 namespace {
@@ -65,10 +66,9 @@ const std::vector<Row>& rows() {
        }},
       {{"one", "one camera, the defaults"},
        [](double hz) { return monitor({0}, cell_separation(hz)); }},
-      {{"filter", "three cameras, and a filter that leads the arm around what is near"},
+      {{"filter", "three cameras, an arm with goals, which takes those that are free"},
        [](double hz) -> Made {
-         return std::make_unique<FilteringSupervisor>(std::vector{0, 1, 2}, cell_separation(hz),
-                                                      hz);
+         return std::make_unique<GoalSupervisor>(std::vector{0, 1, 2}, cell_separation(hz), hz);
        }},
       {{"conforming", "a fixed zone as a safety scanner has to have it"},
        [](double) -> Made {

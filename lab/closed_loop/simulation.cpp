@@ -7,6 +7,7 @@
 #include "lab/closed_loop/cell.hpp"
 #include "lab/closed_loop/cell_sensors.hpp"
 #include "sim/contact_check.hpp"
+#include "sim/known_check.hpp"
 
 namespace berth::lab {
 namespace {
@@ -56,6 +57,7 @@ class Loop {
         arm_(model_, visit_.first_phase()),
         clearance_(model_, visitors_),
         check_(clearance_),
+        known_(model_),
         sensors_(model_, visitors_, seed),
         joints_(model_, 500),
         cameras_(supervisor.cameras()),
@@ -77,10 +79,14 @@ class Loop {
     }
     check_.finish();
     result_.least_moving_m = check_.least_moving_m();
-    result_.contact_m_s = check_.contact_m_s();
-    result_.has_touched = check_.has_touched();
+    result_.least_known_m = known_.least_m();
+    result_.contact_m_s = std::max(check_.contact_m_s(), known_.contact_m_s());
+    result_.has_touched = check_.has_touched() || known_.contact_m_s() > 0;
     result_.duration_s = steps * kStep_s;
-    result_.phase_s = arm_.phase_s() - first_phase_s_;
+    const Progress progress = supervisor_.progress();
+    result_.reached = progress.reached;
+    result_.phase_s =
+        commanded_.velocity_rad_s ? progress.phase_s : arm_.phase_s() - first_phase_s_;
     result_.stopped_share = stopped_steps_ / static_cast<double>(steps);
     return result_;
   }
@@ -119,8 +125,11 @@ class Loop {
       commanded_ = commands_.front();
       commands_.pop_front();
     }
-    arm_.step(commanded_.scale, kStep_s,
-              commanded_.velocity_rad_s ? &*commanded_.velocity_rad_s : nullptr);
+    if (commanded_.velocity_rad_s) {
+      arm_.lead(*commanded_.velocity_rad_s, kStep_s);
+    } else {
+      arm_.step(commanded_.scale, kStep_s);
+    }
     look();
   }
 
@@ -194,6 +203,7 @@ class Loop {
         result_.stopped_s = time_s_ - settings_.fault_s;
       }
     }
+    if (fastest_m_s >= sim::kMoving_m_s) known_.add(arm_.pose(), fastest_m_s);
     // Somebody who comes out of nowhere comes faster than the check's bounds allow for.
     if (is_anybody_there() && check_.is_due(time_s_))
       check_.add({time_s_, arm_.pose(), visitors(), fastest_m_s});
@@ -208,6 +218,7 @@ class Loop {
   MovingArm arm_;
   sim::TrueClearance clearance_;
   sim::ContactCheck check_;
+  sim::KnownCheck known_;
   CellSensors sensors_;
   JointBuffer joints_;
   std::vector<int> cameras_;

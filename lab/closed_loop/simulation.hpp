@@ -39,9 +39,13 @@ struct EncounterResult {
   double duration_s = 0;
   /// How far the arm came, as a time at full speed.
   double phase_s = 0;
+  /// How many stations it reached, if it has any.
+  int reached = 0;
   /// Between arm and person while the arm moved; infinite where it never did.
   double least_moving_m = std::numeric_limits<double>::infinity();
-  /// Of the arm's fastest point while both met; 0 where they did not, or it stood.
+  /// The same between the arm and its table, its floor and its own links.
+  double least_known_m = std::numeric_limits<double>::infinity();
+  /// Of the arm's fastest point while it met any of these; 0 where it did not, or it stood.
   double contact_m_s = 0;
   bool has_touched = false;
   /// The share of the time in which the arm stood still.

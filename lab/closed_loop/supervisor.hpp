@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "berth/control/velocity_filter.hpp"
 #include "berth/pipeline/frame_pool.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "berth/pipeline/prepared_space.hpp"
@@ -29,6 +28,13 @@ struct Situation {
   double person_range_m;
 };
 
+/// Of an arm with goals.
+struct Progress {
+  /// What its ways take at full speed: of those that it went, and of its share of the last one.
+  double phase_s = 0;
+  int reached = 0;
+};
+
 class Supervisor {
  public:
   virtual ~Supervisor() = default;
@@ -41,6 +47,8 @@ class Supervisor {
   virtual double scale(const Situation& situation) = 0;
   /// Of each joint, after the last request; none: the arm keeps to its path.
   virtual std::optional<std::vector<double>> velocity_rad_s() const { return {}; }
+  /// Where the arm leaves its path.
+  virtual Progress progress() const { return {}; }
 };
 
 /// Nobody.
@@ -95,6 +103,12 @@ class MonitorSupervisor : public Supervisor {
   /// Null where it has none yet.
   const std::shared_ptr<const Frame>& newest(std::size_t which) const { return frames_[which]; }
 
+ protected:
+  const std::vector<std::shared_ptr<const Frame>>& newest() const { return frames_; }
+  const Result& ask(const Situation& situation);
+  /// The scale of this motion, after ask().
+  double monitor(const PlannedMotion& motion, double now_s, bool with_frames);
+
  private:
   std::shared_ptr<const Robot> robot_;
   std::vector<int> cameras_;
@@ -107,21 +121,6 @@ class MonitorSupervisor : public Supervisor {
   std::shared_ptr<const PreparedSpace> space_;
   std::vector<double> monitor_us_;
   std::vector<double> request_us_;
-};
-
-/// berth, and a filter that leads the arm around what is near.
-class FilteringSupervisor : public MonitorSupervisor {
- public:
-  FilteringSupervisor(std::vector<int> cameras, const SeparationSettings& settings,
-                      double request_hz);
-  double scale(const Situation& situation) override;
-  std::optional<std::vector<double>> velocity_rad_s() const override { return velocity_rad_s_; }
-
- private:
-  VelocityFilter filter_;
-  JointState now_;
-  std::vector<double> wanted_rad_s_;
-  std::vector<double> velocity_rad_s_;
 };
 
 }  // namespace berth::lab

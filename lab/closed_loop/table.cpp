@@ -12,6 +12,7 @@ namespace {
 std::string row(const Policy& policy, const std::vector<EncounterResult>& results) {
   int contacts = 0, touches = 0;
   double fastest_m_s = 0, duration_s = 0, phase_s = 0, stopped_s = 0;
+  double known_m = std::numeric_limits<double>::infinity();
   std::vector<double> least_m;
   for (const EncounterResult& result : results) {
     contacts += result.contact_m_s > 0;
@@ -20,13 +21,15 @@ std::string row(const Policy& policy, const std::vector<EncounterResult>& result
     duration_s += result.duration_s;
     phase_s += result.phase_s;
     stopped_s += result.stopped_share * result.duration_s;
+    known_m = std::min(known_m, result.least_known_m);
     least_m.push_back(result.least_moving_m);
   }
   std::ranges::sort(least_m);
   const auto centimetres = [](double m) { return fmt::format("{:.1f} cm", 100 * m); };
-  return fmt::format("| {} | {} | {:.2f} | {} | {} | {} | {:.1f} s | {:.0f} % |\n", policy.sentence,
-                     contacts, fastest_m_s, touches - contacts, centimetres(least_m.front()),
-                     centimetres(least_m[least_m.size() / 2]), cycle_s() * duration_s / phase_s,
+  return fmt::format("| {} | {} | {:.2f} | {} | {} | {} | {} | {:.1f} s | {:.0f} % |\n",
+                     policy.sentence, contacts, fastest_m_s, touches - contacts,
+                     centimetres(least_m.front()), centimetres(least_m[least_m.size() / 2]),
+                     centimetres(known_m), cycle_s() * duration_s / phase_s,
                      100 * stopped_s / duration_s);
 }
 
@@ -36,9 +39,9 @@ std::string encounter_table(const std::vector<Policy>& policies,
                             const std::vector<std::vector<EncounterResult>>& results) {
   std::string table =
       "| supervised by | contacts while the arm moved | its greatest speed then [m/s] | contacts "
-      "with an arm that stood | least distance while it moved | median of the least | a cycle "
-      "takes "
-      "| it stands |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n";
+      "with an arm that stood | least distance while it moved | median of the least | least to "
+      "table, floor and its own links | a cycle takes | it stands |\n"
+      "| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
   for (std::size_t i = 0; i < policies.size(); ++i) table += row(policies[i], results[i]);
   return table;
 }
@@ -46,12 +49,13 @@ std::string encounter_table(const std::vector<Policy>& policies,
 std::string encounter_csv(const std::vector<Policy>& policies,
                           const std::vector<std::vector<EncounterResult>>& results) {
   std::string csv =
-      "policy,seed,duration_s,phase_s,least_moving_m,contact_m_s,has_touched,stopped_share\n";
+      "policy,seed,duration_s,phase_s,least_moving_m,contact_m_s,has_touched,stopped_share,"
+      "least_known_m,reached\n";
   for (std::size_t i = 0; i < policies.size(); ++i) {
     for (const EncounterResult& r : results[i]) {
-      csv += fmt::format("{},{},{:.3f},{:.4f},{:.5f},{:.5f},{:d},{:.4f}\n", policies[i].name,
-                         r.seed, r.duration_s, r.phase_s, r.least_moving_m, r.contact_m_s,
-                         r.has_touched, r.stopped_share);
+      csv += fmt::format("{},{},{:.3f},{:.4f},{:.5f},{:.5f},{:d},{:.4f},{:.5f},{}\n",
+                         policies[i].name, r.seed, r.duration_s, r.phase_s, r.least_moving_m,
+                         r.contact_m_s, r.has_touched, r.stopped_share, r.least_known_m, r.reached);
     }
   }
   return csv;
