@@ -109,7 +109,7 @@ bool GoalSupervisor::begin(const Situation& situation) {
   for (const LinkResult& link : result.links) {
     if (link.is_moved) near_m_ = std::min<double>(near_m_, link.lower_bound_m);
   }
-  return result.status != ResultStatus::stale;
+  return result.status == ResultStatus::ok;
 }
 
 void GoalSupervisor::choose(double now_s) {
@@ -136,7 +136,8 @@ void GoalSupervisor::choose(double now_s) {
 
 void GoalSupervisor::look_at_ways(double now_s) {
   // Where so much room is left, nobody is near soon; less counts by its third power. While the arm
-  // is on its way, people take some of it.
+  // is on its way, people take some of it. The end counts as much as the way: it goes on from
+  // there.
   constexpr double kFree_m = 1.8, kLeast_m = 0.02, kComes_m_s = 0.2;
   constexpr int kPlaces = 4;
   looked_s_ = now_s;
@@ -162,7 +163,9 @@ void GoalSupervisor::look_at_ways(double now_s) {
     const std::size_t station = i / kPlaces;
     const double way_s = way_time_s(greatest_step(now_.position, stations_rad()[station]));
     const double left_m = room_m - kComes_m_s * way_s * (i % kPlaces + 1) / kPlaces;
-    slowness[station] += std::pow(kFree_m / std::clamp(left_m, kLeast_m, kFree_m), 3) / kPlaces;
+    const bool is_end = (i + 1) % kPlaces == 0;
+    const double share = (is_end ? 0.5 : 0.0) + 0.5 / kPlaces;
+    slowness[station] += share * std::pow(kFree_m / std::clamp(left_m, kLeast_m, kFree_m), 3);
   }
   for (std::size_t s = 0; s < slowness.size(); ++s) ease_[s] = 1 / slowness[s];
 }

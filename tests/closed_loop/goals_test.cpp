@@ -42,7 +42,7 @@ TEST(Goals, AreReachedBesideSomebodyWhoReachesInAndIsNotTouched) {
   const EncounterResult result = run(1, 4);
   EXPECT_GE(result.reached, 3);
   EXPECT_EQ(result.contact_m_s, 0);
-  EXPECT_GT(result.least_moving_m, 0.2);
+  EXPECT_GT(result.least_moving_m, 0.3);
   EXPECT_GT(result.least_known_m, 0.05);
 }
 
