@@ -125,7 +125,7 @@ TEST(DistanceRows, OfWhatTheCamerasSeeTheLinkAloneMoves) {
       ASSERT_NEAR(rows.gradient(kind)(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)),
                   (distance_m(kStep) - distance_m(-kStep)) / (2 * kStep), 1e-5);
     }
-    static_cast<SpacePair&>(link) = link.occupied = {};
+    static_cast<SpacePair&>(link) = link.occupied = SpacePair();
   }
 }
 
@@ -137,7 +137,7 @@ TEST(DistanceRows, EachCandidateHasARow) {
   SpacePair beside;
   put(robot, 5, {0.05, 0, 0}, {0.5, 0.5, 1}, link);
   put(robot, 5, {-0.05, 0, 0}, {-0.5, 0.2, 1}, beside);
-  link.candidates = {beside};
+  link.candidates.emplace_back() = beside;
   rows.update(robot.result);
   robot.result.links[5].candidates.clear();
   static_cast<SpacePair&>(robot.result.links[5]) = beside;

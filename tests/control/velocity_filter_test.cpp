@@ -330,7 +330,7 @@ int turns_between_walls(int candidates) {
     put(arm, 7, {0, -0.05, 0.1}, right_B_m, other);
     if (other.distance_m < link.distance_m) std::swap<SpacePair>(link, other);
     link.candidates.clear();
-    if (candidates > 1) link.candidates.push_back(other);
+    if (candidates > 1) link.candidates.emplace_back() = other;
     const Numbers wanted{k % 20 < 10 ? 1.0 : -1.0, 0, 0, 0, 0, 0.3, 0};
     const Numbers before = velocity;
     velocity = filter.update(arm.result, {position, velocity, wanted}).velocity;

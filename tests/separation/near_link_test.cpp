@@ -75,7 +75,7 @@ TEST(NearLink, UnknownSpaceGoesByItsPolicy) {
   expect_near(near_of(link, settings), 0, SeparationReason::unknown);
   settings.unknown = ignore;
   expect_near(near_of(link, settings), 0.799, SeparationReason::occupied);
-  link.occupied = {};
+  link.occupied = SpacePair();
   link.occupied.lower_bound_m = kRange_m;
   expect_near(near_of(link, settings), kRange_m, SeparationReason::range);
 }
