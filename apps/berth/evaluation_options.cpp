@@ -108,17 +108,10 @@ void take_given(const EvaluationArguments& arguments, const SettingRef& setting)
 }  // namespace
 
 void add_evaluation(CLI::App& command, EvaluationArguments& arguments) {
-  const DistanceSettings defaults;
+  const EvaluationSettings defaults;
   for (const SettingRef& setting : setting_refs(defaults)) {
     add_setting(command, setting, "", arguments);
   }
-  command
-      .add_option_function<std::string>(
-          "--visibility",
-          [&arguments](const std::string& value) { arguments.visibility = value == "on"; },
-          "Whether to give how much of each link and of the space around its answer the camera "
-          "sees (default: on)")
-      ->check(CLI::IsMember({"on", "off"}));
 }
 
 void add_methods(CLI::App& command, Method& method, EvaluationArguments& arguments) {
@@ -135,8 +128,7 @@ void add_methods(CLI::App& command, Method& method, EvaluationArguments& argumen
 }
 
 EvaluationSettings EvaluationArguments::over(EvaluationSettings settings) const {
-  settings.visibility = visibility.value_or(settings.visibility);
-  for (const SettingRef& setting : setting_refs(settings.distance)) take_given(*this, setting);
+  for (const SettingRef& setting : setting_refs(settings)) take_given(*this, setting);
   validate(settings.distance);
   return settings;
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <string>
 
 #include "berth/pipeline/robot.hpp"
@@ -18,8 +17,6 @@ namespace berth::app {
 /// What the command line says about the evaluation; what it does not say is left to the scene file
 /// or, without one, to the defaults.
 struct EvaluationArguments {
-  /// Of `run` alone.
-  std::optional<bool> visibility;
   /// Settings by name, as they were written.
   std::map<std::string, std::string, std::less<>> given;
 

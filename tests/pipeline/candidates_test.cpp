@@ -84,7 +84,7 @@ TEST_F(Candidates, TheEighthsOfALinkAreAllOfIt) {
 TEST_F(Candidates, AreApartOnTheLinkAndNearestFirst) {
   Query query(robot);
   std::size_t count = 0;
-  for (const std::size_t i : {0, 20, 40, 60, 80}) {
+  for (const std::size_t i : {0, 5, 10, 15, 20}) {
     const Result& result = query.ask({newest, scene.cameras[0].at_exposure[i]});
     ASSERT_TRUE(result.has_candidates);
     for (const LinkResult& link : result.links) {
@@ -98,7 +98,8 @@ TEST_F(Candidates, AreApartOnTheLinkAndNearestFirst) {
         EXPECT_GE(pair.distance_m, link.distance_m - 0.00101F);
         EXPECT_GE(pair.distance_m, before.size() > 1 ? before.back().distance_m : 0);
         EXPECT_LE(pair.distance_m, 0.5F);
-        EXPECT_LE(pair.distance_m - pair.lower_bound_m, 0.00101F);
+        EXPECT_LE(pair.lower_bound_m, pair.distance_m);
+        EXPECT_LE(pair.distance_m - pair.lower_bound_m, 0.01F);
         EXPECT_NEAR((pair.obstacle_point_B_m - pair.robot_point_B_m).norm(), pair.distance_m,
                     2e-6);
         EXPECT_LE(mesh_L(X_LB * pair.robot_point_B_m.cast<double>()).distance_m, 1e-5);
@@ -115,7 +116,7 @@ TEST_F(Candidates, AreApartOnTheLinkAndNearestFirst) {
 
 TEST_F(Candidates, NoEighthThatIsNearerIsLeftOut) {
   Query query(robot);
-  const Result& result = query.ask({newest, scene.cameras[0].at_exposure[40]});
+  const Result& result = query.ask({newest, scene.cameras[0].at_exposure[10]});
   MeshWorkspace workspace;
   std::vector<WholeLinkDistance> eighths;
   mesh_distances(robot->eighths(), result.pose, query.frames().space(), {.range_m = 0.5},
@@ -162,7 +163,7 @@ TEST_F(Candidates, EachPairTellsHowItsDistanceChangesWhereGradientsAreAskedFor) 
   settings.gradient = true;
   const auto told = with_settings(robot, settings);
   const RobotModel& model = told->model();
-  const JointState joints = scene.cameras[0].at_exposure[40];
+  const JointState joints = scene.cameras[0].at_exposure[10];
   Query query(told);
   const Result& result = query.ask({newest, joints});
   int compared = 0;

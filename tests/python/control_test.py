@@ -49,7 +49,8 @@ def test_the_filter_keeps_what_its_rows_ask(asked):
 def test_each_candidate_has_a_row_and_weights_count(one_camera):
     step = next(iter(one_camera))
     robot = berth.Robot(one_camera.robot.model, berth.EvaluationSettings(candidates=3))
-    view = berth.MountedCamera(robot, one_camera.views[0].mount, one_camera.views[0].settings)
+    seen = one_camera.views[0]
+    view = berth.MountedCamera(robot, seen.camera, seen.parent_link, seen.X_PC)
     result = berth.Query(robot).ask(berth.Observer(view).observe(step.depth_m, step.joints, stamp_s=0.0), step.joints)
     rows = berth.DistanceRows(robot)
     rows.update(result)

@@ -187,7 +187,7 @@ def results(tmp_path_factory):
     json_of = lambda *arguments: lines(*arguments, "--format", "json")
     found = json_of("run", thinned(folder, "scene.yaml", "monitored.yaml", 12, separation={"no_reading": "ignore"}))
     found += json_of("run", thinned(folder, "scene.yaml", "late.yaml", 12, last_stamp_s=9.0))
-    found += json_of("run", one, "--visibility", "on") + json_of("run", one, "--repeat", 2)
+    found += json_of("run", one, "--visibility", "on", "--candidates", 2, "--gradient", "on") + json_of("run", one, "--repeat", 2)
     found += json_of("evaluate", one)
     return found + json_of("evaluate", f"--camera={SOURCE}/data/bundled/camera_info.yaml", *images, "--repeat", 2)
 
@@ -221,7 +221,7 @@ def test_what_differs_from_a_result_is_none(results):
     check = validator("result")
     # Fields that not every line has.
     free = {"pairs", "separation", "timing", "robot_point_camera_m", "obstacle_point_camera_m", "mean_direction_camera", "robot_pixel",
-            "robot_pixels", "visibility", "known"}
+            "robot_pixels", "visibility", "known", "candidates", "gradient"}
     for line in (results[0], results[-1]):
         assert sum(1 for place, _ in changed(line)) > 40
         for place, wrong in changed(line):

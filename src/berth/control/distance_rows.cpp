@@ -15,10 +15,10 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-PairPoints points_of(const LinkResult& link, RowKind kind, int candidate) {
+PointsOfPair points_of(const LinkResult& link, RowKind kind, int candidate) {
   if (candidate > 0) {
     const auto place = static_cast<std::size_t>(candidate - 1);
-    return place < link.candidates.size() ? points_of(link.candidates[place]) : PairPoints();
+    return place < link.candidates.size() ? points_of(link.candidates[place]) : PointsOfPair();
   }
   if (kind == RowKind::known) return points_of(link.known);
   return points_of(kind == RowKind::nearest ? link : link.occupied);
@@ -83,7 +83,7 @@ void DistanceRows::update(const Result& result) {
 
 void DistanceRows::differentiate(const Result& result, std::size_t link, RowKind kind,
                                  int candidate) {
-  const PairPoints pair = points_of(result.links[link], kind, candidate);
+  const PointsOfPair pair = points_of(result.links[link], kind, candidate);
   auto normal_B = normals_B_[index(kind, candidate)].row(static_cast<Eigen::Index>(link));
   if (!pair.is_known || result.pose.X_BL.empty()) {
     normal_B.setConstant(kNaN);

@@ -6,12 +6,12 @@
 
 namespace berth {
 
-PairPoints points_of(const SpacePair& pair) {
+PointsOfPair points_of(const SpacePair& pair) {
   return {pair.is_known(), pair.distance_m, pair.robot_point_B_m.cast<double>(),
           pair.obstacle_point_B_m.cast<double>(), std::nullopt};
 }
 
-PairPoints points_of(const KnownPair& pair) {
+PointsOfPair points_of(const KnownPair& pair) {
   return {pair.is_known(), pair.distance_m, pair.robot_point_B_m.cast<double>(),
           pair.obstacle_point_B_m.cast<double>(), static_cast<std::size_t>(pair.link)};
 }
@@ -24,7 +24,7 @@ PairGradient::PairGradient(const RobotModel& model) : model_(model) {
 }
 
 const Eigen::RowVectorXd& PairGradient::find(const RobotPose& pose, std::size_t link,
-                                             const PairPoints& pair) {
+                                             const PointsOfPair& pair) {
   gradient_.setZero();
   const Eigen::Vector3d way_B_m = pair.link_B_m - pair.other_B_m;
   const double length_m = way_B_m.norm();
@@ -46,7 +46,10 @@ void PairGradient::tell(const Result& result, const LinkResult& link, Pair& pair
   if (!pair.is_known()) return;
   const std::size_t index = model_.evaluated_links[link.id - 1];
   const Eigen::RowVectorXd& gradient = find(result.pose, index, points_of(pair));
-  std::ranges::copy(gradient.cast<float>(), pair.gradient.begin());
+  // 0 and not -0, which people would ask about.
+  for (std::size_t j = 0; j < pair.gradient.size(); ++j) {
+    pair.gradient[j] = static_cast<float>(gradient[static_cast<Eigen::Index>(j)] + 0.0);
+  }
 }
 
 void PairGradient::tell(Result& out) {

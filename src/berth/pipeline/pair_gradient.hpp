@@ -9,7 +9,7 @@
 namespace berth {
 
 /// The points of a pair, in frame B, and where the other one is fixed.
-struct PairPoints {
+struct PointsOfPair {
   bool is_known = false;
   double distance_m = 0;
   Eigen::Vector3d link_B_m;
@@ -17,8 +17,8 @@ struct PairPoints {
   /// In RobotModel::links; none for what the cameras see.
   std::optional<std::size_t> other;
 };
-PairPoints points_of(const SpacePair& pair);
-PairPoints points_of(const KnownPair& pair);
+PointsOfPair points_of(const SpacePair& pair);
+PointsOfPair points_of(const KnownPair& pair);
 
 /// One for each thread; once made, nothing allocates.
 class PairGradient {
@@ -29,7 +29,7 @@ class PairGradient {
   /// d(distance)/dq of a known pair of a link (RobotModel::links), in m/rad, or m/m where the joint
   /// slides, one number for each joint: normal_B() times how the joint moves the one point against
   /// the other. 0 where they touch.
-  const Eigen::RowVectorXd& find(const RobotPose& pose, std::size_t link, const PairPoints& pair);
+  const Eigen::RowVectorXd& find(const RobotPose& pose, std::size_t link, const PointsOfPair& pair);
   /// Of the last pair: of length 1, from the other point to the link's; 0 where they touch.
   const Eigen::Vector3d& normal_B() const { return normal_B_; }
 
