@@ -27,8 +27,7 @@ class NamedFilter {
       : robot_(robot), filter_(robot, settings) {}
 
   Filtered update(const Part<Result>& result, const py::object& position,
-                  const py::object& velocity, const py::object& wanted,
-                  const py::object& weight) {
+                  const py::object& velocity, const py::object& wanted, const py::object& weight) {
     const auto numbers = [&](const py::object& joints) {
       return joints_of(robot_->model(), joints, 0).position;
     };
@@ -70,8 +69,10 @@ void bind_rows(py::module_& m) {
             return array_of(self.normal_B(kind, candidate));
           },
           py::arg("kind"), py::arg("candidate") = 0,
-          "From the obstacle's point of each link's pair to the link's, (links, 3), of length 1, in\n"
-          "the robot's root frame. In contact that of the last result in which they were apart; NaN\n"
+          "From the obstacle's point of each link's pair to the link's, (links, 3), of length 1, "
+          "in\n"
+          "the robot's root frame. In contact that of the last result in which they were apart; "
+          "NaN\n"
           "where there is no pair, or none was apart before.")
       .def(
           "reach_m",
@@ -114,7 +115,8 @@ void bind_filter(py::module_& m) {
            py::arg("velocity"), py::arg("wanted"), py::arg("weight") = py::none(),
            "By name, or in the order of RobotModel.joint_names: the joints that the result is "
            "about\n"
-           "(rad, m), how fast they move until they obey, the velocity that is wanted, and how much\n"
+           "(rad, m), how fast they move until they obey, the velocity that is wanted, and how "
+           "much\n"
            "a difference from that counts, above 0; None: all alike.");
 }
 

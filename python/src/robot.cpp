@@ -31,16 +31,13 @@ GeometryKind geometry_of(const std::string& name) {
       fmt::format("geometry: \"{}\"; expected one of visual, collision", name));
 }
 
-std::shared_ptr<RobotModel> load(const std::filesystem::path& urdf,
-                                 const std::map<std::string, std::filesystem::path>& package_paths,
-                                 const std::string& geometry,
-                                 const std::vector<std::string>& environment_links,
-                                 const std::vector<std::string>& ignore_links,
-                                 const std::vector<std::string>& guarded_links,
-                                 const std::optional<std::string>& urdf_text,
-                                 const std::vector<std::array<std::string, 2>>& allowed_contacts,
-                                 const std::optional<std::filesystem::path>& srdf,
-                                 const std::vector<OtherRobot>& others) {
+std::shared_ptr<RobotModel> load(
+    const std::filesystem::path& urdf,
+    const std::map<std::string, std::filesystem::path>& package_paths, const std::string& geometry,
+    const std::vector<std::string>& environment_links, const std::vector<std::string>& ignore_links,
+    const std::vector<std::string>& guarded_links, const std::optional<std::string>& urdf_text,
+    const std::vector<std::array<std::string, 2>>& allowed_contacts,
+    const std::optional<std::filesystem::path>& srdf, const std::vector<OtherRobot>& others) {
   const RobotSettings settings{urdf,
                                package_paths,
                                geometry_of(geometry),
@@ -123,16 +120,17 @@ void bind_robot(py::module_& m) {
       });
   py::class_<OtherRobot>(m, "OtherRobot",
                          "A robot with a URDF of its own beside the first one, for load_robot().")
-      .def(py::init([](const std::filesystem::path& urdf, const std::string& prefix,
-                       const std::string& parent, const py::object& X_PR,
-                       const std::map<std::string, std::filesystem::path>& package_paths) {
-             return OtherRobot{urdf, package_paths, prefix, parent, pose_of(X_PR, "X_PR")};
-           }),
-           py::arg("urdf"), py::arg("prefix"), py::arg("parent"), py::arg("X_PR"),
-           py::arg("package_paths") = std::map<std::string, std::filesystem::path>{},
-           "prefix stands before the names of its links and joints. X_PR (4 x 4) is the pose of its "
-           "root\n"
-           "link in the frame of `parent`, a link of the first robot or of one before it.");
+      .def(
+          py::init([](const std::filesystem::path& urdf, const std::string& prefix,
+                      const std::string& parent, const py::object& X_PR,
+                      const std::map<std::string, std::filesystem::path>& package_paths) {
+            return OtherRobot{urdf, package_paths, prefix, parent, pose_of(X_PR, "X_PR")};
+          }),
+          py::arg("urdf"), py::arg("prefix"), py::arg("parent"), py::arg("X_PR"),
+          py::arg("package_paths") = std::map<std::string, std::filesystem::path>{},
+          "prefix stands before the names of its links and joints. X_PR (4 x 4) is the pose of its "
+          "root\n"
+          "link in the frame of `parent`, a link of the first robot or of one before it.");
   m.def("load_robot", &load, py::arg("urdf"),
         py::arg("package_paths") = std::map<std::string, std::filesystem::path>{},
         py::arg("geometry") = "visual", py::arg("environment_links") = std::vector<std::string>{},

@@ -359,8 +359,7 @@ TEST(VelocityFilter, ACandidateHoldsItBackAsTheNearestPairDoes) {
     const Eigen::Map<const Eigen::VectorXd> v(out.velocity.data(), 7);
     for (const int candidate : {0, 1}) {
       const SpacePair& pair = candidate == 0 ? link : link.candidates[0];
-      const double falls_m_s =
-          -filter.rows().gradient(RowKind::nearest, candidate).row(7).dot(v);
+      const double falls_m_s = -filter.rows().gradient(RowKind::nearest, candidate).row(7).dot(v);
       EXPECT_LE(falls_m_s, 2 * (pair.lower_bound_m - 0.05) + 1e-6);
     }
     ASSERT_FALSE(out.held_by.empty());
@@ -380,8 +379,7 @@ TEST_F(Filtered, AJointWithMoreWeightLeavesWhatIsWantedLess) {
   put_in_front(0.1F);
   const Numbers wanted{sign_towards(filter), 0, 0, 0, 0, 0, 0}, velocity(7, 0);
   const auto left = [&](const Numbers& weight) {
-    const FilteredVelocity& out =
-        filter.update(arm.result, {position, velocity, wanted, weight});
+    const FilteredVelocity& out = filter.update(arm.result, {position, velocity, wanted, weight});
     EXPECT_EQ(out.status, FilterStatus::ok);
     return std::abs(out.velocity[0] - wanted[0]);
   };

@@ -100,8 +100,7 @@ TEST_F(Candidates, AreApartOnTheLinkAndNearestFirst) {
         EXPECT_LE(pair.distance_m, 0.5F);
         EXPECT_LE(pair.lower_bound_m, pair.distance_m);
         EXPECT_LE(pair.distance_m - pair.lower_bound_m, 0.01F);
-        EXPECT_NEAR((pair.obstacle_point_B_m - pair.robot_point_B_m).norm(), pair.distance_m,
-                    2e-6);
+        EXPECT_NEAR((pair.obstacle_point_B_m - pair.robot_point_B_m).norm(), pair.distance_m, 2e-6);
         EXPECT_LE(mesh_L(X_LB * pair.robot_point_B_m.cast<double>()).distance_m, 1e-5);
         for (const SpacePair& other : before) {
           EXPECT_GE((pair.robot_point_B_m - other.robot_point_B_m).norm(), kApart_m);
@@ -119,8 +118,8 @@ TEST_F(Candidates, NoEighthThatIsNearerIsLeftOut) {
   const Result& result = query.ask({newest, scene.cameras[0].at_exposure[10]});
   MeshWorkspace workspace;
   std::vector<WholeLinkDistance> eighths;
-  mesh_distances(robot->eighths(), result.pose, query.frames().space(), {.range_m = 0.5},
-                 workspace, eighths);
+  mesh_distances(robot->eighths(), result.pose, query.frames().space(), {.range_m = 0.5}, workspace,
+                 eighths);
   for (std::size_t i = 0; i < eighths.size(); ++i) {
     const SpacePair& pair = eighths[i].nearest;
     const auto& links = robot->model().evaluated_links;
@@ -139,8 +138,8 @@ TEST_F(Candidates, NoEighthThatIsNearerIsLeftOut) {
 }
 
 /// How fast a pair's distance grows with a joint, by moving its two points with their links.
-double slope(const RobotModel& model, const JointState& joints, std::size_t joint,
-             std::size_t link, std::optional<std::size_t> other, const Eigen::Vector3f& p_B_m,
+double slope(const RobotModel& model, const JointState& joints, std::size_t joint, std::size_t link,
+             std::optional<std::size_t> other, const Eigen::Vector3f& p_B_m,
              const Eigen::Vector3f& q_B_m) {
   constexpr double kStep = 1e-5;
   RobotPose pose, moved;
@@ -175,10 +174,10 @@ TEST_F(Candidates, EachPairTellsHowItsDistanceChangesWhereGradientsAreAskedFor) 
         if (!pair.is_known()) {
           EXPECT_TRUE(std::isnan(pair.gradient[j]));
         } else if (pair.distance_m > 0) {
-          EXPECT_NEAR(pair.gradient[j],
-                      slope(model, joints, j, index, other, pair.robot_point_B_m,
-                            pair.obstacle_point_B_m),
-                      1e-3);
+          EXPECT_NEAR(
+              pair.gradient[j],
+              slope(model, joints, j, index, other, pair.robot_point_B_m, pair.obstacle_point_B_m),
+              1e-3);
           ++compared;
         }
       }

@@ -320,10 +320,10 @@ TEST_F(Configurations, BadQuestionsAreRefused) {
       "configurations: a margin is nan m; expected a finite number of at least 0");
   Numbers far(7);
   far[1] = -1e9;
-  EXPECT_EQ(error_message<std::invalid_argument>(
-                [&] { check.ask_motions(Numbers(7), far, {}, one); }),
-            "configurations: joint \"" + robot()->model().joints[1].name +
-                "\" of motion 0 goes by -1000000000; expected at most 100");
+  EXPECT_EQ(
+      error_message<std::invalid_argument>([&] { check.ask_motions(Numbers(7), far, {}, one); }),
+      "configurations: joint \"" + robot()->model().joints[1].name +
+          "\" of motion 0 goes by -1000000000; expected at most 100");
   EXPECT_TRUE(message(Numbers(7), {.without = {"tail"}})
                   .starts_with("configurations: link \"tail\" is not known; expected one of "));
 }

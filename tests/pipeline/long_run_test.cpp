@@ -85,8 +85,8 @@ bool same_bits(const SpacePair& a, const SpacePair& b) {
 
 bool same_bits(const LinkResult& a, const LinkResult& b) {
   return same_bits(static_cast<const SpacePair&>(a), static_cast<const SpacePair&>(b)) &&
-         same_bits(static_cast<const SpacePair&>(a.occupied), b.occupied) && a.id == b.id && a.status == b.status &&
-         same_bits(a.robot_point_C_m, b.robot_point_C_m) &&
+         same_bits(static_cast<const SpacePair&>(a.occupied), b.occupied) && a.id == b.id &&
+         a.status == b.status && same_bits(a.robot_point_C_m, b.robot_point_C_m) &&
          same_bits(a.obstacle_point_C_m, b.obstacle_point_C_m) &&
          same_bits(a.mean_direction_B, b.mean_direction_B) && a.mean_count == b.mean_count;
 }

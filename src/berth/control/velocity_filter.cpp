@@ -31,7 +31,8 @@ VelocityFilter::VelocityFilter(std::shared_ptr<const Robot> robot,
   bounds_.reserve(most_rows);
   out_.held_by.reserve(most_rows);
   out_.velocity.resize(static_cast<std::size_t>(joints));
-  for (auto* of_joints : {&lower_, &upper_, &before_, &planned_, &speed_, &normal_, &weight_, &weighted_}) {
+  for (auto* of_joints :
+       {&lower_, &upper_, &before_, &planned_, &speed_, &normal_, &weight_, &weighted_}) {
     of_joints->setZero(joints);
   }
 }

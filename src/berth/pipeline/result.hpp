@@ -277,9 +277,10 @@ void visit_fields(const LinkResult& l, const Result& result, Visitor&& visit) {
           l.known);
   }
   if (result.has_candidates) {
-    visit({"candidates",
-           "further closest pairs, nearest first, at least 5 cm apart on the link, up to 0.5 m away"},
-          l.candidates);
+    visit(
+        {"candidates",
+         "further closest pairs, nearest first, at least 5 cm apart on the link, up to 0.5 m away"},
+        l.candidates);
   }
   visit({"assumed_thinner_m",
          "what lies on the link or on environment near it, and is thinner than this, is taken for "
