@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <tuple>
 #include <utility>
 
@@ -9,12 +10,13 @@
 #include "apps/support/data_folders.hpp"
 #include "apps/support/program.hpp"
 #include "lab/bench/bench.hpp"
-#include "lab/stream/stream.hpp"
+#include "lab/stream/configurations.hpp"
 
 namespace {
 
 using berth::BackendChoice;
 using berth::lab::BenchSettings;
+using berth::lab::ConfigurationSettings;
 using berth::lab::StreamSettings;
 
 void add_options(CLI::App& program, BenchSettings& settings, BackendChoice& where) {
@@ -44,7 +46,8 @@ void add_options(CLI::App& program, BenchSettings& settings, BackendChoice& wher
   program.footer("Example:\n  berth_bench --quick --out bench_results --scene scene.yaml");
 }
 
-void add_stream_options(CLI::App& program, StreamSettings& stream) {
+/// What is filmed, of both --stream and --configurations.
+void add_film_options(CLI::App& program, StreamSettings& stream, bool& asks_configurations) {
   CLI::Option* const scene =
       program
           .add_option(
@@ -52,10 +55,43 @@ void add_stream_options(CLI::App& program, StreamSettings& stream) {
               "Nothing but this: play the scene forth and back in real time, and ask meanwhile")
           ->type_name("SCENE.yaml");
   program
-      .add_option("--cameras", stream.cameras, "How many of the stream's cameras (default: all)")
+      .add_option_function<std::filesystem::path>(
+          "--configurations",
+          [&](const std::filesystem::path& file) {
+            stream.scene = file;
+            asks_configurations = true;
+          },
+          "Nothing but this: ask about many configurations of images of the scene")
+      ->type_name("SCENE.yaml")
+      ->excludes(scene);
+  program.add_option("--cameras", stream.cameras, "How many of the scene's cameras (default: all)")
       ->check(CLI::Range(1, 8))
+      ->type_name("N");
+  program
+      .add_option_function<std::string>(
+          "--format", [&stream](const std::string& format) { stream.as_json = format == "json"; },
+          "What these two print: text, or one JSON object (default: text)")
+      ->check(CLI::IsMember({"text", "json"}));
+  program.final_callback([&stream] {
+    if (!stream.scene.empty() || (!stream.room && !stream.as_json && stream.cameras == 0)) return;
+    throw CLI::RequiresError("--room, --cameras and --format", "--stream or --configurations");
+  });
+}
+
+void add_configuration_options(CLI::App& program, ConfigurationSettings& configurations) {
+  CLI::Option* const scene = program.get_option("--configurations");
+  program.add_option("--count", configurations.count, "How many configurations (default: 100000)")
+      ->check(CLI::Range(1, 100'000'000))
       ->type_name("N")
       ->needs(scene);
+  program.add_option("--margin", configurations.margin_m, "What is near, in m (default: 0.03)")
+      ->check(CLI::Range(0.0, 1.0))
+      ->type_name("M")
+      ->needs(scene);
+}
+
+void add_stream_options(CLI::App& program, StreamSettings& stream) {
+  CLI::Option* const scene = program.get_option("--stream");
   program.add_option("--rate", stream.rate_hz, "Requests a second of the stream (default: 1000)")
       ->check(CLI::Range(1.0, 100000.0))
       ->type_name("HZ")
@@ -69,12 +105,6 @@ void add_stream_options(CLI::App& program, StreamSettings& stream) {
                   "How many times as fast as recorded the stream is played (default: 3)")
       ->check(CLI::Range(0.01, 100.0))
       ->type_name("X")
-      ->needs(scene);
-  program
-      .add_option_function<std::string>(
-          "--format", [&stream](const std::string& format) { stream.as_json = format == "json"; },
-          "What the stream prints: text, or one JSON object (default: text)")
-      ->check(CLI::IsMember({"text", "json"}))
       ->needs(scene);
   program
       .add_option("--record", stream.record,
@@ -92,9 +122,8 @@ void add_room_options(CLI::App& program, StreamSettings& stream) {
       program
           .add_option_function<std::uint32_t>(
               "--room", [&stream](std::uint32_t seed) { stream.room = {.seed = seed}; },
-              "The stream's robot sways in a room drawn by this seed, instead of what was filmed")
-          ->type_name("SEED")
-          ->needs("--stream");
+              "The scene's robot sways in a room drawn by this seed, instead of what was filmed")
+          ->type_name("SEED");
   program
       .add_option_function<std::pair<int, int>>(
           "--image",
@@ -114,11 +143,18 @@ int main(int argc, char** argv) {
   BenchSettings settings;
   BackendChoice where;
   StreamSettings stream;
+  ConfigurationSettings configurations;
+  bool asks_configurations = false;
   add_options(program, settings, where);
+  add_film_options(program, stream, asks_configurations);
+  add_configuration_options(program, configurations);
   add_stream_options(program, stream);
   add_room_options(program, stream);
   if (const auto status = berth::app::parse_command_line(program, argc, argv)) return *status;
   return berth::app::carry_out("berth_bench", 0, [&] {
+    if (asks_configurations) {
+      return fmt::print("{}", berth::lab::run_configurations(stream, configurations));
+    }
     if (!stream.scene.empty()) return fmt::print("{}", berth::lab::run_stream(stream));
     settings.bundled_scene = berth::app::bundled_one_camera_file();
     if (where.backend == berth::Backend::opengl) settings.gl_device = where.gl_device;

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "lab/stream/configurations.hpp"
 #include "lab/stream/stream.hpp"
 #include "tests/support/error_message.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -89,6 +90,20 @@ TEST(RunStream, WhatItCannotPlayItNames) {
   expect_parts(message({.scene = "no/such/scene.yaml"}), {"no/such/scene.yaml"});
   expect_parts(message({.scene = kScene, .cameras = 4}),
                {"scene.yaml", "3 cameras", "--cameras 4"});
+}
+
+TEST(RunConfigurations, TheExactSearchAgreesInTheSceneAndInARoom) {
+  StreamSettings settings{.scene = kScene, .as_json = true};
+  for (const bool is_room : {false, true}) {
+    if (is_room) settings.room = {.seed = 3, .width_px = 160, .height_px = 120};
+    const auto json = nlohmann::json::parse(run_configurations(settings, {.count = 500}));
+    EXPECT_EQ(json["wrong"], 0);
+    EXPECT_GT(json["compared"], 100);
+    EXPECT_GT(json["free_share"], 0);
+    EXPECT_LT(json["undecided_share"], 0.5);
+    EXPECT_GT(json["configurations_per_s"], json["ahead_per_s"]);
+    EXPECT_GT(json["field_ms"], 0);
+  }
 }
 
 }  // namespace

@@ -1,0 +1,22 @@
+// Many configurations of one image, for berth_bench.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "lab/stream/stream.hpp"
+
+namespace berth::lab {
+
+struct ConfigurationSettings {
+  /// Configurations of the whole workspace.
+  std::size_t count = 100'000;
+  double margin_m = 0.03;
+};
+
+/// How quickly one core says of configurations whether they are free in images of one time of
+/// what `stream` names, how quickly Request::ahead does, and whether both agree. Returns lines or
+/// one JSON object. Throws as run_stream does.
+std::string run_configurations(const StreamSettings& stream, const ConfigurationSettings& settings);
+
+}  // namespace berth::lab
