@@ -25,7 +25,7 @@ enum class TimeStatus : std::uint8_t {
   camera_implausible,  ///< the robot is not where it should be (CameraStatus::implausible)
   stale_pose,          ///< nobody knows where the camera stood at the exposure
 };
-inline constexpr int kTimeStatusCount = 14;
+inline constexpr int kTimeStatusCount = 14;  ///< of them
 /// By enumerator.
 inline constexpr std::array<std::string_view, kTimeStatusCount> kTimeStatusNames = {
     "ok",
@@ -139,6 +139,7 @@ struct CameraState {
   CameraWatch watch = {};
 };
 
+/// What is known of a link.
 enum class LinkStatus : std::uint8_t {
   ok,             ///< there is a distance
   none_in_range,  ///< the link is seen, and nothing is within the range
