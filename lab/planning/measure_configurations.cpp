@@ -13,6 +13,7 @@
 #include "berth/pipeline/query.hpp"
 #include "berth/robot/primitives.hpp"
 #include "lab/measure/stopwatch.hpp"
+#include "lab/stream/configurations.hpp"
 #include "lab/stream/film.hpp"
 #include "lab/trust/trial_robots.hpp"
 #include "sim/random.hpp"
@@ -97,14 +98,10 @@ class Room {
 
  private:
   std::vector<double> draw(std::size_t count, bool is_anywhere) {
+    if (is_anywhere) return draw_configurations(robot_->model(), count, random_);
     std::vector<double> out;
     for (std::size_t i = 0; i < count; ++i) {
-      for (std::size_t j = 0; j < joints_.position.size(); ++j) {
-        const MovableJoint& joint = robot_->model().joints[j];
-        constexpr double kPi = 3.14;
-        out.push_back(is_anywhere ? random_(std::max(joint.lower, -kPi), std::min(joint.upper, kPi))
-                                  : joints_.position[j] + random_(-0.4, 0.4));
-      }
+      for (const double position : joints_.position) out.push_back(position + random_(-0.4, 0.4));
     }
     return out;
   }

@@ -12,7 +12,6 @@
 #include "berth/pipeline/query.hpp"
 #include "lab/measure/stopwatch.hpp"
 #include "lab/stream/film.hpp"
-#include "sim/random.hpp"
 
 namespace berth::lab {
 namespace {
@@ -50,18 +49,6 @@ FrameList frames_at(const Film& film, double time_s) {
   return frames;
 }
 
-std::vector<double> draw_configurations(const RobotModel& model, std::size_t count) {
-  constexpr double kTurn = 3.14;
-  sim::Random random(1);
-  std::vector<double> out;
-  for (std::size_t i = 0; i < count; ++i) {
-    for (const MovableJoint& joint : model.joints) {
-      out.push_back(random(std::max(joint.lower, -kTurn), std::min(joint.upper, kTurn)));
-    }
-  }
-  return out;
-}
-
 std::vector<JointState> states_of(const std::vector<double>& positions, std::size_t joints,
                                   std::size_t count) {
   std::vector<JointState> out;
@@ -87,6 +74,18 @@ bool is_wrong(Verdict verdict, const std::vector<WholeLinkDistance>& pose, const
 
 }  // namespace
 
+std::vector<double> draw_configurations(const RobotModel& model, std::size_t count,
+                                        sim::Random& random) {
+  constexpr double kTurn = 3.14;
+  std::vector<double> out;
+  for (std::size_t i = 0; i < count; ++i) {
+    for (const MovableJoint& joint : model.joints) {
+      out.push_back(random(std::max(joint.lower, -kTurn), std::min(joint.upper, kTurn)));
+    }
+  }
+  return out;
+}
+
 std::string run_configurations(const StreamSettings& stream,
                                const ConfigurationSettings& settings) {
   constexpr std::size_t kMostAhead = 200;
@@ -94,7 +93,9 @@ std::string run_configurations(const StreamSettings& stream,
   const Film film = film_of(stream);
   const FrameList frames = frames_at(film, common_time_s(film));
   const std::size_t joints = film.robot->model().joints.size();
-  const std::vector<double> positions = draw_configurations(film.robot->model(), settings.count);
+  sim::Random random(1);
+  const std::vector<double> positions =
+      draw_configurations(film.robot->model(), settings.count, random);
 
   // The second time, memory and what depends on the robot alone are there.
   ConfigurationCheck check(film.robot);

@@ -3,8 +3,11 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
+#include "berth/robot/robot_model.hpp"
 #include "lab/stream/stream.hpp"
+#include "sim/random.hpp"
 
 namespace berth::lab {
 
@@ -13,6 +16,11 @@ struct ConfigurationSettings {
   std::size_t count = 100'000;
   double margin_m = 0.03;
 };
+
+/// From all over the joints' limits, no joint turned by more than half a turn; one configuration
+/// after another.
+std::vector<double> draw_configurations(const RobotModel& model, std::size_t count,
+                                        sim::Random& random);
 
 /// How quickly one core says of configurations whether they are free in images of one time of
 /// what `stream` names, how quickly Request::ahead does, and whether both agree. Returns lines or

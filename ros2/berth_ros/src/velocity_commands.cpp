@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "berth/results/result_text.hpp"
+#include "berth/types/joint_state.hpp"
 
 namespace berth_ros {
 namespace {
@@ -85,8 +86,7 @@ void VelocityCommands::take(const Message& wanted) {
   heard_ = Clock::now();
   wanted_.clear();
   refused_.clear();
-  const bool is_finite =
-      std::ranges::all_of(wanted.data, [](double number) { return std::isfinite(number); });
+  const bool is_finite = berth::are_finite(wanted.data, wanted.data.size());
   if (wanted.data.size() == filter_.places.size() && is_finite) {
     wanted_ = wanted.data;
     return;

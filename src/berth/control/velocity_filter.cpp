@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "berth/control/half_spaces.hpp"
+#include "berth/types/joint_state.hpp"
 
 namespace berth {
 
@@ -60,16 +61,13 @@ const FilteredVelocity& VelocityFilter::update(const Result& result, const Joint
 }
 
 bool VelocityFilter::are_good(const JointMotion& joints) const {
-  const auto are_finite = [&](std::span<const double> all) {
-    return all.size() == out_.velocity.size() &&
-           std::ranges::all_of(all, [](double number) { return std::isfinite(number); });
-  };
+  const std::size_t count = out_.velocity.size();
   const bool are_weights_good =
       joints.weight.empty() ||
-      (are_finite(joints.weight) &&
+      (are_finite(joints.weight, count) &&
        std::ranges::all_of(joints.weight, [](double weight) { return weight > 0; }));
-  return are_weights_good && are_finite(joints.position) && are_finite(joints.velocity) &&
-         are_finite(joints.wanted);
+  return are_weights_good && are_finite(joints.position, count) &&
+         are_finite(joints.velocity, count) && are_finite(joints.wanted, count);
 }
 
 bool VelocityFilter::is_all_seen(const Result& result) {

@@ -36,7 +36,6 @@ void CandidateSearch::search(const FrameSet& frames, const RobotPose& pose, Mesh
 }
 
 void CandidateSearch::tell(const FrameSet& frames, Result& out) {
-  // NaN is farthest.
   const auto distance_m = [this](std::size_t i) {
     const SpacePair& pair = found_[i].nearest;
     return pair.is_known() ? pair.distance_m : std::numeric_limits<float>::infinity();

@@ -16,7 +16,7 @@ class CandidateSearch {
  public:
   explicit CandidateSearch(std::shared_ptr<const Robot> robot);
 
-  /// Searches each eighth of each link, for find() and for a copy that goes on from here.
+  /// Searches each eighth of each link, for tell() and for a copy that goes on from here.
   void search(const FrameSet& frames, const RobotPose& pose, MeshRequest request);
   /// Writes LinkResult::candidates, after search(); the links have their own pairs.
   void tell(const FrameSet& frames, Result& out);

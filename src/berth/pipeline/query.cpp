@@ -52,10 +52,7 @@ void begin_result(const Robot& robot, Result& result) {
     result.links[i].link = model.links[index].name;
     result.links[i].is_moved = model.is_moved(index);
     const std::size_t numbers = robot.settings().gradient ? model.joints.size() : 0;
-    LinkResult& link = result.links[i];
-    for (auto* gradient : {&link.gradient, &link.occupied.gradient, &link.known.gradient}) {
-      gradient->resize(numbers);
-    }
+    for (auto* gradient : result.links[i].gradients()) gradient->resize(numbers);
   }
   withhold(result);
 }

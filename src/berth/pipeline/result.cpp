@@ -45,9 +45,7 @@ void withhold(Result& result) {
     static_cast<SpacePair&>(link) = {};
     static_cast<SpacePair&>(link.occupied) = {};
     link.known = {.gradient = std::move(link.known.gradient)};
-    for (auto* gradient : {&link.gradient, &link.occupied.gradient, &link.known.gradient}) {
-      std::ranges::fill(*gradient, kNaN);
-    }
+    for (auto* gradient : link.gradients()) std::ranges::fill(*gradient, kNaN);
     link.candidates.clear();
     link.lower_bound_m = link.occupied.lower_bound_m = kNaN;
     link.status = LinkStatus::stale;

@@ -60,6 +60,10 @@ struct LinkResult : ToldPair {
   /// Nothing is known unless EvaluationSettings::visibility is set.
   LinkVisibility visibility;
 
+  /// Of the three pairs that each link has: ToldPair::gradient, KnownPair::gradient.
+  std::array<std::vector<float>*, 3> gradients() {
+    return {&gradient, &occupied.gradient, &known.gradient};
+  }
   bool has_distance() const { return !std::isnan(distance_m); }
   /// To what is occupied, unknown or known; NaN where none of them is within the range.
   float distance_to_all_m() const { return std::fmin(distance_m, known.distance_m); }

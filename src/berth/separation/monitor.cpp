@@ -32,11 +32,6 @@ double most_scale(double now_s, double per_s, SeparationMemory& before) {
   return risen < 1 ? risen : 1;
 }
 
-bool are_finite(std::span<const double> values, std::size_t count) {
-  return values.size() == count &&
-         std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
-}
-
 /// The first camera whose images cannot be relied on; -1: none.
 int lost_camera(std::span<const CameraResult> cameras) {
   for (std::size_t k = 0; k < cameras.size(); ++k) {
