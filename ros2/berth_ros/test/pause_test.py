@@ -1,9 +1,8 @@
 """Under a controller_manager: a trajectory pauses where a person comes near, goes on later, and comes to its goal. By the controller's
 speed_scaling_input, and retimed for a controller that has none."""
 import csv
-import importlib.util
 import os
-import pathlib
+import sys
 import tempfile
 import unittest
 
@@ -11,29 +10,24 @@ import launch_testing
 import launch_testing.actions
 import launch_testing.asserts
 import pytest
-from ament_index_python.packages import get_package_share_directory
 from launch import LaunchDescription
 from launch_ros.actions import Node
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from box_arm import arm_nodes  # noqa: E402
 
 # Three stops of a second, and as much again for people who walk up and away.
 TAKES_AT_MOST_S = 280
 
 
-def nodes_of(launch_file, is_retimed):
-    spec = importlib.util.spec_from_file_location("pause", launch_file)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module.nodes(is_retimed)
-
-
 @pytest.mark.launch_test
-@launch_testing.parametrize("is_retimed", [False, True])
-def generate_test_description(is_retimed):
-    share = pathlib.Path(get_package_share_directory("berth_ros"))
+@launch_testing.parametrize("controller", ["arm_controller", "plain_controller"])
+def generate_test_description(controller):
     out = tempfile.mkdtemp()
+    is_retimed = controller == "plain_controller"
     trajectory = Node(package="berth_ros", executable="pause_and_resume", output="screen",
                       parameters=[{"out": out, **({"action": "retime_trajectory/follow_joint_trajectory"} if is_retimed else {})}])
-    return LaunchDescription([*nodes_of(share / "launch" / "pause.launch.py", is_retimed), trajectory, launch_testing.actions.ReadyToTest()]), {
+    return LaunchDescription([*arm_nodes(controller), trajectory, launch_testing.actions.ReadyToTest()]), {
         "trajectory": trajectory, "out": out}
 
 
