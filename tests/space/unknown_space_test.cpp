@@ -50,6 +50,34 @@ TEST(UnknownSpace, CubesHoldWhatTheirPointsAre) {
   EXPECT_GT(empty, thinned(1000));
 }
 
+/// Pixels up to column 19 hide from 1 m to the environment at 1.5 m; those from 20 on hide nothing,
+/// and have no environment. A cube on their border that were in doubt behind 1.5 m would be so with
+/// all of its children, down to the smallest ones.
+TEST(UnknownSpace, CubesOnTheBorderOfAPixelThatHidesAreEmptyBehindTheEnvironment) {
+  const Camera camera{40, 30, 60, 60, 19, 14.5};
+  DepthImage depth_m(40, 30, kNoDepth), front_m(40, 30, kNoDepth);
+  ObstacleImage obstacles;
+  obstacles.fate = Image<PixelFate>(40, 30, PixelFate::no_reading);
+  for (int v = 0; v < 30; ++v) {
+    for (int u = 0; u <= 20; ++u) front_m(u, v) = 1.5f;
+    for (int u = 0; u <= 19; ++u) depth_m(u, v) = 1;
+    for (int u = 0; u <= 19; ++u) obstacles.fate(u, v) = PixelFate::obstacle;
+  }
+  obstacles.depth_m = depth_m;
+  CameraSpace seen;
+  build_camera_space(camera, depth_m, obstacles, {front_m, front_m}, {}, seen);
+  const PosedSpace posed{&seen, Pose::Identity(), 0};
+  UnknownSpace space;
+  space.assign({&posed, 1});
+  const auto may_be_unknown = [&](double z_m) {
+    const Cube child = cube_at({z_m * 0.5 / 60, 0, z_m}, 0);
+    const Cube cube{1, child.x / 4, child.y / 4, child.z / 4};
+    return (space.block(cube) >> (child.x % 4 + child.y % 4 * 4 + child.z % 4 * 16) & 1) != 0;
+  };
+  for (const double z_m : {1.1, 1.3, 1.49}) EXPECT_TRUE(may_be_unknown(z_m)) << z_m;
+  for (const double z_m : {0.9, 1.51, 1.7, 2.5}) EXPECT_FALSE(may_be_unknown(z_m)) << z_m;
+}
+
 TEST(UnknownSpace, BlocksAreKeptUntilTheNextViews) {
   MeshWorldSettings settings;
   const MeshWorld world = draw_mesh_world(settings, 1);

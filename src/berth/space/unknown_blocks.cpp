@@ -27,20 +27,34 @@ HWY_INLINE Lanes metres_of(Ints units) {
   return select(is_endless, Lanes(HUGE_VALF), depth_m);
 }
 
+/// Whether all of these cubes' pixels are looked at one by one.
+HWY_INLINE bool has_few_pixels(const Projection& cubes) {
+  return cubes.span < DepthWindows::kMostPixels;
+}
+
+/// Calls visit(places) with the place of a pixel of each cube in an image of so many columns, until
+/// each of its pixels had a turn.
+template <class Visit>
+HWY_INLINE void visit_pixels(const Projection& cubes, int columns, Visit visit) {
+  const IntTag ints;
+  for (int dv = 0; dv <= cubes.span; ++dv) {
+    const Ints row =
+        hn::Mul(hn::Min(hn::Add(cubes.v0, hn::Set(ints, dv)), cubes.v1), hn::Set(ints, columns));
+    for (int du = 0; du <= cubes.span; ++du) {
+      visit(hn::Add(row, hn::Min(hn::Add(cubes.u0, hn::Set(ints, du)), cubes.u1)));
+    }
+  }
+}
+
 /// The least of each cube's pixels.
 HWY_INLINE Ints least_of(const DepthWindows& windows, const Projection& cubes) {
   const IntTag ints;
   Ints all = hn::Set(ints, kEndlessUnits);
-  if (cubes.span < DepthWindows::kMostPixels) {
+  if (has_few_pixels(cubes)) {
     const DepthWindows::Level& image = windows.levels[0];
-    for (int dv = 0; dv <= cubes.span; ++dv) {
-      const Ints row = hn::Mul(hn::Min(hn::Add(cubes.v0, hn::Set(ints, dv)), cubes.v1),
-                               hn::Set(ints, image.columns));
-      for (int du = 0; du <= cubes.span; ++du) {
-        const Ints column = hn::Min(hn::Add(cubes.u0, hn::Set(ints, du)), cubes.u1);
-        all = hn::Min(all, gather(image.least.data(), hn::Add(row, column)));
-      }
-    }
+    visit_pixels(cubes, image.columns, [&](Ints places) HWY_ATTR {
+      all = hn::Min(all, gather(image.least.data(), places));
+    });
     return all;
   }
   const DepthWindows::Level& level = windows.level_for(cubes.span + 1);
@@ -67,10 +81,28 @@ HWY_INLINE Lanes least_of_m(const DepthWindows& windows, const Projection& cubes
   return metres_of(least_of(windows, cubes));
 }
 
-/// The greatest front of environment of each cube's pixels.
-HWY_INLINE Lanes front_of_m(const CameraSpace& space, const Projection& cubes) {
-  const Ints left = least_of(space.environment_front.left, cubes);
+/// What is left from a depth to kEndlessUnits, as the depth.
+HWY_INLINE Lanes ceiling_of_m(Ints left) {
   return metres_of(hn::Sub(hn::Set(IntTag(), kEndlessUnits), left));
+}
+
+/// The cubes that lie before the environment, as a whole or in part, where some pixel hides.
+HWY_INLINE std::uint64_t reach_before_environment(const CameraSpace& space,
+                                                  const Projection& cubes) {
+  const DepthWindows& left = space.environment_front.left;
+  if (!has_few_pixels(cubes)) {
+    return bits_of(Lanes(cubes.za) < ceiling_of_m(least_of(left, cubes)));
+  }
+  // Depth and front of the same pixel: with those of any two, cubes between one that hides and one
+  // whose environment is farther away would stay in doubt, however small they are.
+  const DepthWindows::Level& hidden = space.hidden_depth.levels[0];
+  std::uint64_t reach = 0;
+  visit_pixels(cubes, hidden.columns, [&](Ints places) HWY_ATTR {
+    const Lanes from_m = metres_of(gather(hidden.least.data(), places));
+    const Lanes front_m = ceiling_of_m(gather(left.levels[0].least.data(), places));
+    reach |= bits_of(both(Lanes(cubes.zb) > from_m, Lanes(cubes.za) < front_m));
+  });
+  return reach;
 }
 
 /// The cubes some of whose points the view may hide.
@@ -78,9 +110,7 @@ HWY_INLINE std::uint64_t hides_some(const CameraSpace& space, const Projection& 
   std::uint64_t hides = 0;
   if (cubes.meets != 0) {
     hides = cubes.meets & bits_of(Lanes(cubes.zb) > least_of_m(space.hidden_depth, cubes));
-    if (hides != 0 && space.has_environment) {
-      hides &= bits_of(Lanes(cubes.za) < front_of_m(space, cubes));
-    }
+    if (hides != 0 && space.has_environment) hides &= reach_before_environment(space, cubes);
   }
   if (cubes.through == 0) return hides;
   // Any pixel may see what reaches through the camera's plane.
