@@ -9,15 +9,9 @@
 #include "apps/support/command_options.hpp"
 #include "apps/support/program.hpp"
 #include "berth/pipeline/configuration_check.hpp"
-#include "berth/pipeline/observer.hpp"
-#include "berth/pipeline/query.hpp"
-#include "berth/robot/primitives.hpp"
 #include "lab/measure/stopwatch.hpp"
-#include "lab/stream/configurations.hpp"
-#include "lab/stream/film.hpp"
+#include "lab/planning/configuration_room.hpp"
 #include "lab/trust/trial_robots.hpp"
-#include "sim/random.hpp"
-#include "sim/sensor_model.hpp"
 
 namespace berth::lab {
 namespace {
@@ -25,26 +19,30 @@ namespace {
 constexpr std::array<double, 3> kMargins_m{0.01, 0.03, 0.1};
 /// Asked at 3 cm, of each kind, for the times and for what stays undecided.
 constexpr std::size_t kAsked = 20'000;
-/// Of a motion held against the exact search.
-constexpr int kPlaces = 20;
+/// Of these, by the exact search over its usual range.
+constexpr std::size_t kTimed = 20;
+/// Of a motion held against the exact search; the next ones where those before do not show what is
+/// near.
+constexpr std::array<std::size_t, 3> kPlaces{7, 61, 541};
 
 struct Options {
   std::filesystem::path robots;
-  std::uint32_t first = 1;
+  RoomView view;
   int rooms = 9;
-  int cameras = 3;
-  /// Configurations of each room, margin and kind, and motions of each room.
+  /// Configurations of each room, margin and kind, and motions of each room and margin.
   std::size_t exact = 100;
   std::size_t motions = 10;
-  bool has_errors = false;
   bool is_carrying = false;
 };
 
 /// What became of some rooms.
 struct Counts {
-  std::size_t held = 0, wrong_free = 0, wrong_near = 0;
-  std::size_t motions = 0, wrong_motions = 0;
+  /// What was decided and held against the exact search.
+  std::size_t asked = 0, held = 0, wrong_free = 0, wrong_near = 0;
+  std::size_t motions = 0, held_motions = 0, wrong_free_motions = 0, wrong_near_motions = 0;
   std::vector<double> prepare_ms, random_us, near_us, random_undecided, near_undecided, exact_ms;
+  /// Of what is undecided: the exact search alone, and resolve.
+  std::vector<double> alone_ms, resolve_ms;
 };
 
 double mean(const std::vector<double>& values) {
@@ -53,61 +51,39 @@ double mean(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-std::shared_ptr<const Robot> with_rod(const Robot& robot) {
-  Attachment rod;
-  rod.name = "rod";
-  rod.link = robot.model().links[robot.model().evaluated_links.back()].name;
-  rod.mesh_A = make_box(Eigen::Vector3d(0.03, 0.03, 0.3));
-  return attach(robot, rod);
-}
+/// Goes as far as tells whether something is within the margin: what is farther than this, to its
+/// tolerance, is not looked for.
+double range_at(double margin_m) { return margin_m + 0.002; }
 
-class Room {
+class Comparison {
  public:
-  Room(std::shared_ptr<const Robot> robot, const Options& options, std::uint32_t seed)
-      : robot_(options.is_carrying ? with_rod(*robot) : std::move(robot)),
-        check_(robot_),
-        query_(robot_),
-        random_(seed) {
-    CameraSettings settings;
-    settings.watch.min_at_robot = 0;
-    const Film film =
-        film_of_room(robot_, settings, {.seed = seed}, static_cast<std::size_t>(options.cameras));
-    for (const FilmedCamera& camera : film.cameras) {
-      (void)film.joints->at(camera.stamps_s.front(), kAnyGap, joints_);
-      DepthImage depth_m = camera.depth_m.front();
-      if (options.has_errors) sim::add_errors(sim::kKinectErrors, seed, depth_m);
-      auto frame = std::make_shared<Frame>();
-      Observer(camera.mounted).observe(depth_m, joints_, *frame);
-      frames_.push_back(std::move(frame));
-    }
-  }
+  Comparison(ConfigurationRoom room, std::size_t joints)
+      : room_(std::move(room)), joints_(joints), check_(room_.robot()) {}
 
   void measure(const Options& options, Counts& counts) {
-    check_.prepare(frames_);
+    check_.prepare(room_.frames());
     const Stopwatch preparing(CLOCK_THREAD_CPUTIME_ID);
-    check_.prepare(frames_);
+    check_.prepare(room_.frames());
     counts.prepare_ms.push_back(preparing.ms());
-    time(draw(kAsked, true), counts.random_us, counts.random_undecided);
-    time(draw(kAsked, false), counts.near_us, counts.near_undecided);
+    time(true, counts, counts.random_us, counts.random_undecided);
+    time(false, counts, counts.near_us, counts.near_undecided);
     for (const double margin_m : kMargins_m) {
+      ExactSearch exact(room_.robot(), room_.frames(), range_at(margin_m));
       for (const bool is_anywhere : {true, false})
-        hold(options.exact, margin_m, is_anywhere, counts);
+        hold(options.exact, margin_m, is_anywhere, exact, counts);
+      hold_motions(options.motions, margin_m, exact, counts);
     }
-    hold_motions(options.motions, counts);
   }
 
  private:
-  std::vector<double> draw(std::size_t count, bool is_anywhere) {
-    if (is_anywhere) return draw_configurations(robot_->model(), count, random_);
-    std::vector<double> out;
-    for (std::size_t i = 0; i < count; ++i) {
-      for (const double position : joints_.position) out.push_back(position + random_(-0.4, 0.4));
-    }
-    return out;
+  std::span<const double> part(std::span<const double> positions, std::size_t first,
+                               std::size_t count) const {
+    return positions.subspan(joints_ * first, joints_ * count);
   }
 
-  void time(const std::vector<double>& positions, std::vector<double>& us,
+  void time(bool is_anywhere, Counts& counts, std::vector<double>& us,
             std::vector<double>& undecided) {
+    const std::vector<double> positions = room_.draw(kAsked, is_anywhere);
     std::vector<Verdict> verdicts(kAsked);
     check_.ask(positions, {}, verdicts);
     const Stopwatch asking(CLOCK_THREAD_CPUTIME_ID);
@@ -115,66 +91,114 @@ class Room {
     us.push_back(1000 * asking.ms() / kAsked);
     undecided.push_back(static_cast<double>(std::ranges::count(verdicts, Verdict::undecided)) /
                         kAsked);
+    time_exact(positions, verdicts, counts);
   }
 
-  /// The least distance of all moved links, and the least bound.
-  std::array<double, 2> exact(std::vector<double> position) {
-    const JointState joints{0, std::move(position)};
-    std::array<double, 2> least{std::numeric_limits<double>::infinity(),
-                                std::numeric_limits<double>::infinity()};
-    for (const LinkResult& link : query_.ask({.frames = frames_, .joints = joints}).links) {
-      if (!link.is_moved) continue;
-      least[0] = std::fmin(least[0], link.distance_m);
-      least[1] = std::fmin(least[1], link.lower_bound_m);
+  void time_exact(std::span<const double> positions, const std::vector<Verdict>& verdicts,
+                  Counts& counts) {
+    const double range_m = room_.robot()->settings().distance.range_m;
+    ExactSearch any(room_.robot(), room_.frames(), range_m);
+    any.ask({});
+    const Stopwatch asking(CLOCK_THREAD_CPUTIME_ID);
+    any.ask(part(positions, 0, kTimed));
+    counts.exact_ms.push_back(asking.ms() / kTimed);
+
+    std::vector<double> open;
+    for (std::size_t i = 0; i < kAsked && open.size() < joints_ * kTimed; ++i) {
+      if (verdicts[i] != Verdict::undecided) continue;
+      const auto one = part(positions, i, 1);
+      open.insert(open.end(), one.begin(), one.end());
+    }
+    if (open.empty()) return;
+    const double count = static_cast<double>(open.size()) / static_cast<double>(joints_);
+    ExactSearch alone(room_.robot(), room_.frames(), range_m);
+    alone.ask({});
+    const Stopwatch searching(CLOCK_THREAD_CPUTIME_ID);
+    alone.ask(open);
+    counts.alone_ms.push_back(searching.ms() / count);
+    // So that neither begins with what another one found of unknown space.
+    check_.prepare(room_.frames());
+    std::vector<Verdict> resolved(static_cast<std::size_t>(count), Verdict::undecided);
+    const Stopwatch resolving(CLOCK_THREAD_CPUTIME_ID);
+    check_.resolve(open, {}, resolved);
+    counts.resolve_ms.push_back(resolving.ms() / count);
+  }
+
+  void hold(std::size_t count, double margin_m, bool is_anywhere, ExactSearch& exact,
+            Counts& counts) {
+    const std::vector<double> positions = room_.draw(count, is_anywhere);
+    std::vector<Verdict> verdicts(count);
+    check_.ask(positions, {.margin_m = margin_m}, verdicts);
+    counts.asked += count;
+    std::vector<double> decided;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (verdicts[i] == Verdict::undecided) continue;
+      const auto one = part(positions, i, 1);
+      decided.insert(decided.end(), one.begin(), one.end());
+    }
+    std::erase(verdicts, Verdict::undecided);
+    const std::vector<LeastDistance> found = exact.ask(decided);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      ++counts.held;
+      const bool is_wrong_free = verdicts[i] == Verdict::free && found[i].distance_m <= margin_m;
+      const bool is_wrong_near = verdicts[i] == Verdict::near && found[i].lower_bound_m > margin_m;
+      counts.wrong_free += is_wrong_free;
+      counts.wrong_near += is_wrong_near;
+      if (is_wrong_free || is_wrong_near) tell("configuration", margin_m, part(decided, i, 1));
+    }
+  }
+
+  /// So that it can be asked again.
+  static void tell(const char* what, double margin_m, std::span<const double> positions) {
+    fmt::print(stderr, "wrong {} at {} m: {}\n", what, margin_m, fmt::join(positions, " "));
+  }
+
+  void hold_motions(std::size_t count, double margin_m, ExactSearch& exact, Counts& counts) {
+    const std::vector<double> from = room_.draw(count, false);
+    std::vector<double> to = from;
+    for (double& q : to) q += room_.random()(-0.25, 0.25);
+    std::vector<Verdict> verdicts(count);
+    check_.ask_motions(from, to, {.margin_m = margin_m}, verdicts);
+    counts.motions += count;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (verdicts[i] == Verdict::undecided) continue;
+      ++counts.held_motions;
+      const auto begin = part(from, i, 1), end = part(to, i, 1);
+      LeastDistance least = least_on(begin, end, kPlaces.front(), exact);
+      const bool is_wrong_free = verdicts[i] == Verdict::free && least.distance_m <= margin_m;
+      bool is_wrong_near = verdicts[i] == Verdict::near;
+      for (std::size_t k = 0; is_wrong_near && k < kPlaces.size(); ++k) {
+        if (k > 0) least = least_on(begin, end, kPlaces[k], exact);
+        is_wrong_near = least.lower_bound_m > margin_m;
+      }
+      counts.wrong_free_motions += is_wrong_free;
+      counts.wrong_near_motions += is_wrong_near;
+      if (!is_wrong_free && !is_wrong_near) continue;
+      tell("motion from", margin_m, begin);
+      tell("motion to", margin_m, end);
+    }
+  }
+
+  static LeastDistance least_on(std::span<const double> from, std::span<const double> to,
+                                std::size_t places, ExactSearch& exact) {
+    std::vector<double> way;
+    for (std::size_t k = 0; k < places; ++k) {
+      for (std::size_t j = 0; j < from.size(); ++j) {
+        const double part = static_cast<double>(k) / static_cast<double>(places - 1);
+        way.push_back(from[j] + (to[j] - from[j]) * part);
+      }
+    }
+    LeastDistance least;
+    for (const LeastDistance& at : exact.ask(way)) {
+      least.distance_m = std::min(least.distance_m, at.distance_m);
+      least.lower_bound_m = std::min(least.lower_bound_m, at.lower_bound_m);
     }
     return least;
   }
 
-  void hold(std::size_t count, double margin_m, bool is_anywhere, Counts& counts) {
-    const std::vector<double> positions = draw(count, is_anywhere);
-    const std::size_t joints = joints_.position.size();
-    std::vector<Verdict> verdicts(count);
-    check_.ask(positions, {.margin_m = margin_m}, verdicts);
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto first = positions.begin() + static_cast<std::ptrdiff_t>(joints * i);
-      const Stopwatch asking(CLOCK_THREAD_CPUTIME_ID);
-      const auto [distance_m, bound_m] =
-          exact({first, first + static_cast<std::ptrdiff_t>(joints)});
-      counts.exact_ms.push_back(asking.ms());
-      ++counts.held;
-      counts.wrong_free += verdicts[i] == Verdict::free && distance_m <= margin_m;
-      counts.wrong_near += verdicts[i] == Verdict::near && bound_m > margin_m;
-    }
-  }
-
-  void hold_motions(std::size_t count, Counts& counts) {
-    const std::vector<double> from = draw(count, false);
-    std::vector<double> to = from;
-    for (double& q : to) q += random_(-0.25, 0.25);
-    std::vector<Verdict> verdicts(count);
-    check_.ask_motions(from, to, {}, verdicts);
-    const std::size_t joints = joints_.position.size();
-    for (std::size_t i = 0; i < count; ++i) {
-      ++counts.motions;
-      bool is_wrong = false;
-      for (int k = 0; verdicts[i] == Verdict::free && k <= kPlaces && !is_wrong; ++k) {
-        std::vector<double> at;
-        for (std::size_t j = 0; j < joints; ++j) {
-          const double begin = from[joints * i + j];
-          at.push_back(begin + (to[joints * i + j] - begin) * k / kPlaces);
-        }
-        is_wrong = exact(at)[0] <= 0.03;
-      }
-      counts.wrong_motions += is_wrong;
-    }
-  }
-
-  std::shared_ptr<const Robot> robot_;
+  ConfigurationRoom room_;
+  std::size_t joints_;
   ConfigurationCheck check_;
-  Query query_;
-  sim::Random random_;
-  JointState joints_;
-  std::vector<std::shared_ptr<const Frame>> frames_;
 };
 
 void run(const Options& options) {
@@ -187,23 +211,28 @@ void run(const Options& options) {
     settings.visibility = settings.distance.mean_direction = false;
     const auto robot = std::make_shared<const Robot>(
         robots[static_cast<std::size_t>(i) % robots.size()].model, settings);
-    const std::uint32_t seed = options.first + static_cast<std::uint32_t>(i);
-    Room(robot, options, seed).measure(options, counts);
-    fmt::print(stderr, "room {}: {} held, {} wrongly free, {} wrongly near\n", seed, counts.held,
-               counts.wrong_free, counts.wrong_near);
+    RoomView view = options.view;
+    view.seed += static_cast<std::uint32_t>(i);
+    Comparison({options.is_carrying ? with_rod(*robot) : robot, view}, robot->model().joints.size())
+        .measure(options, counts);
+    fmt::print(stderr, "room {}: {} held, {} wrongly free, {} wrongly near; {} motions, {}, {}\n",
+               view.seed, counts.held, counts.wrong_free, counts.wrong_near, counts.held_motions,
+               counts.wrong_free_motions, counts.wrong_near_motions);
   }
   fmt::print(
       "| rooms, cameras | the field [ms] | a configuration [us], anywhere; near | undecided at 3 "
-      "cm, "
-      "anywhere; near [%] | exact [ms] | held against it | wrongly free, near | motions, wrongly "
-      "free |\n| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
+      "cm, anywhere; near [%] | exact search [ms] | undecided: exact search, resolve [ms] | "
+      "configurations, held | wrongly free, near | motions, held | wrongly free, near |\n"
+      "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
   fmt::print(
-      "| {}, {}{}{} | {:.0f} | {:.2f}; {:.2f} | {:.1f}; {:.1f} | {:.1f} | {} | {}, {} | {}, {} |\n",
-      options.rooms, options.cameras, options.has_errors ? ", sensor model" : "",
+      "| {}, {}{}{} | {:.0f} | {:.2f}; {:.2f} | {:.1f}; {:.1f} | {:.1f} | {:.2f}, {:.2f} | {}, {} "
+      "| {}, {} | {}, {} | {}, {} |\n",
+      options.rooms, options.view.cameras, options.view.has_errors ? ", sensor model" : "",
       options.is_carrying ? ", carrying" : "", mean(counts.prepare_ms), mean(counts.random_us),
       mean(counts.near_us), 100 * mean(counts.random_undecided), 100 * mean(counts.near_undecided),
-      mean(counts.exact_ms), counts.held, counts.wrong_free, counts.wrong_near, counts.motions,
-      counts.wrong_motions);
+      mean(counts.exact_ms), mean(counts.alone_ms), mean(counts.resolve_ms), counts.asked,
+      counts.held, counts.wrong_free, counts.wrong_near, counts.motions, counts.held_motions,
+      counts.wrong_free_motions, counts.wrong_near_motions);
 }
 
 }  // namespace
@@ -215,20 +244,20 @@ int main(int argc, char** argv) {
   lab::Options options;
   program.add_option("--robots", options.robots, "a folder of robots, besides the bundled arm")
       ->check(CLI::ExistingDirectory);
-  program.add_option("--first", options.first, "the first room's seed")->capture_default_str();
+  program.add_option("--first", options.view.seed, "the first room's seed")->capture_default_str();
   program.add_option("--rooms", options.rooms, "how many")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
-  program.add_option("--cameras", options.cameras, "of each room")
+  program.add_option("--cameras", options.view.cameras, "of each room")
       ->check(CLI::Range(1, 4))
       ->capture_default_str();
   program.add_option("--exact", options.exact, "configurations of each room, margin and kind")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
-  program.add_option("--motions", options.motions, "of each room")
+  program.add_option("--motions", options.motions, "of each room and margin")
       ->check(CLI::Range(0, 1'000'000))
       ->capture_default_str();
-  program.add_flag("--errors", options.has_errors, "images of the sensor model");
+  program.add_flag("--errors", options.view.has_errors, "images of the sensor model");
   program.add_flag("--carrying", options.is_carrying, "the robot holds a rod");
   if (const auto status = app::parse_command_line(program, argc, argv)) return *status;
   return app::carry_out("measure_configurations", 0, [&] { lab::run(options); });

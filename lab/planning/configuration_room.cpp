@@ -1,0 +1,87 @@
+#include "lab/planning/configuration_room.hpp"
+
+#include "berth/pipeline/observer.hpp"
+#include "berth/robot/primitives.hpp"
+#include "lab/stream/configurations.hpp"
+#include "lab/stream/film.hpp"
+#include "sim/sensor_model.hpp"
+
+namespace berth::lab {
+namespace {
+
+std::shared_ptr<const Robot> within(const std::shared_ptr<const Robot>& robot, double range_m) {
+  EvaluationSettings settings = robot->settings();
+  settings.distance.range_m = range_m;
+  return with_settings(robot, settings);
+}
+
+LeastDistance least_of(const std::vector<WholeLinkDistance>& links, const RobotModel& model) {
+  LeastDistance least;
+  for (const WholeLinkDistance& link : links) {
+    if (!model.is_moved(model.evaluated_links[link.id - 1])) continue;
+    least.distance_m = std::fmin(least.distance_m, link.nearest.distance_m);
+    least.lower_bound_m = std::fmin(least.lower_bound_m, link.nearest.lower_bound_m);
+  }
+  return least;
+}
+
+}  // namespace
+
+std::shared_ptr<const Robot> with_rod(const Robot& robot) {
+  Attachment rod;
+  rod.name = "rod";
+  rod.link = robot.model().links[robot.model().evaluated_links.back()].name;
+  rod.mesh_A = make_box(Eigen::Vector3d(0.03, 0.03, 0.3));
+  return attach(robot, rod);
+}
+
+ConfigurationRoom::ConfigurationRoom(std::shared_ptr<const Robot> robot, const RoomView& view)
+    : robot_(std::move(robot)), random_(view.seed) {
+  CameraSettings settings;
+  settings.watch.min_at_robot = 0;
+  const Film film =
+      film_of_room(robot_, settings, {.seed = view.seed}, static_cast<std::size_t>(view.cameras));
+  JointState joints;
+  for (const FilmedCamera& camera : film.cameras) {
+    (void)film.joints->at(camera.stamps_s.front(), kAnyGap, joints);
+    DepthImage depth_m = camera.depth_m.front();
+    if (view.has_errors) sim::add_errors(sim::kKinectErrors, view.seed, depth_m);
+    auto frame = std::make_shared<Frame>();
+    Observer(camera.mounted).observe(depth_m, joints, *frame);
+    frames_.push_back(std::move(frame));
+  }
+  position_ = joints.position;
+}
+
+std::vector<double> ConfigurationRoom::draw(std::size_t count, bool is_anywhere) {
+  if (is_anywhere) return draw_configurations(robot_->model(), count, random_);
+  std::vector<double> out;
+  for (std::size_t i = 0; i < count; ++i) {
+    for (const double position : position_) out.push_back(position + random_(-0.4, 0.4));
+  }
+  return out;
+}
+
+std::vector<JointState> states_of(std::span<const double> positions, std::size_t joints) {
+  std::vector<JointState> out;
+  for (std::size_t first = 0; first < positions.size(); first += joints) {
+    const auto one = positions.subspan(first, joints);
+    out.push_back({0, {one.begin(), one.end()}});
+  }
+  return out;
+}
+
+ExactSearch::ExactSearch(const std::shared_ptr<const Robot>& robot, const FrameList& frames,
+                         double range_m)
+    : robot_(within(robot, range_m)), frames_(frames), query_(robot_) {}
+
+std::vector<LeastDistance> ExactSearch::ask(std::span<const double> positions) {
+  const std::vector<JointState> ahead = states_of(positions, robot_->model().joints.size());
+  std::vector<LeastDistance> out;
+  for (const auto& links : query_.ask({.frames = frames_, .ahead = ahead}).ahead.poses) {
+    out.push_back(least_of(links, robot_->model()));
+  }
+  return out;
+}
+
+}  // namespace berth::lab
