@@ -330,8 +330,14 @@ void ConfigurationCheck::resolve(std::span<const double> positions,
     const auto first = positions.begin() + static_cast<std::ptrdiff_t>(joints * i);
     asked.push_back({0, {first, first + static_cast<std::ptrdiff_t>(joints)}});
   }
-  LookAhead found;
-  LookAheadSearch(robot_).ask(state_->frames, asked, 0, found);
+  // No farther than tells on which side of the margins something is, and to the end.
+  DistanceSettings settings = robot_->settings().distance;
+  float most_m = 0;
+  for (const float margin_m : of_balls) most_m = std::fmax(most_m, margin_m);
+  settings.range_m = std::min(most_m + 0.001, kRange.most);
+  settings.deadline_us.reset();
+  std::vector<std::vector<WholeLinkDistance>> found;
+  LookAheadSearch(robot_).ask(state_->frames, asked, settings, found);
   KnownWorkspace workspace;
   for (std::size_t k = 0; k < open.size(); ++k) {
     bool is_free = true, is_near = false;
@@ -342,7 +348,7 @@ void ConfigurationCheck::resolve(std::span<const double> positions,
       is_free = !(nearest.lower_bound_m <= *margins.known_margin_m);
     }
     for (std::size_t l = 0; l < of_balls.size(); ++l) {
-      const SpacePair& nearest = found.poses[k][state_->balls.links[l].id - 1].nearest;
+      const SpacePair& nearest = found[k][state_->balls.links[l].id - 1].nearest;
       if (std::isnan(of_balls[l])) continue;
       is_near = is_near || nearest.distance_m <= of_balls[l];
       is_free = is_free && nearest.lower_bound_m > of_balls[l];

@@ -141,8 +141,8 @@ void LinkSearches::add_undecided(const FrameSet& frames, const RobotPose& pose, 
 }
 
 void LinkSearches::ask(const FrameSet& frames, const RobotPose& pose,
-                       std::vector<WholeLinkDistance>& out) {
-  search(frames, pose, request_of(robot_->settings().distance), out);
+                       const DistanceSettings& settings, std::vector<WholeLinkDistance>& out) {
+  search(frames, pose, request_of(settings), out);
 }
 
 void LinkSearches::ask(const FrameSet& frames, const RobotPose& pose, Clock::time_point begin,
@@ -315,16 +315,6 @@ void LinkSearches::tell_rejected(const FrameSet& frames, const RobotPose& pose, 
   }
 }
 
-namespace {
-
-bool is_nearer(const std::vector<WholeLinkDistance>& links, double limit_m) {
-  return std::any_of(links.begin(), links.end(), [limit_m](const WholeLinkDistance& link) {
-    return link.nearest.lower_bound_m < limit_m;
-  });
-}
-
-}  // namespace
-
 struct LookAheadSearch::Workers {
   explicit Workers(const std::shared_ptr<const Robot>& robot)
       : searches([robot] { return LinkSearches(robot); }) {}
@@ -337,21 +327,18 @@ LookAheadSearch::LookAheadSearch(std::shared_ptr<const Robot> robot)
 LookAheadSearch::~LookAheadSearch() = default;
 
 void LookAheadSearch::ask(const FrameSet& frames, std::span<const JointState> joints,
-                          double nearer_than_m, LookAhead& out) {
+                          const DistanceSettings& settings,
+                          std::vector<std::vector<WholeLinkDistance>>& out) {
   poses_.resize(joints.size());
   for (std::size_t i = 0; i < joints.size(); ++i) {
     forward_kinematics(robot_->model(), joints[i].position, poses_[i]);
   }
-  out.poses.resize(joints.size());
-  tbb::parallel_for(std::size_t{0}, out.poses.size(), [&](std::size_t i) {
+  out.resize(joints.size());
+  tbb::parallel_for(std::size_t{0}, out.size(), [&](std::size_t i) {
     // Else a waiting thread would begin another pose on top of this one, with its search.
     tbb::this_task_arena::isolate(
-        [&] { workers_->searches.local().ask(frames, poses_[i], out.poses[i]); });
+        [&] { workers_->searches.local().ask(frames, poses_[i], settings, out[i]); });
   });
-  const auto first = std::find_if(out.poses.begin(), out.poses.end(), [&](const auto& links) {
-    return is_nearer(links, nearer_than_m);
-  });
-  if (first != out.poses.end()) out.first_nearer = first - out.poses.begin();
 }
 
 }  // namespace berth

@@ -32,7 +32,8 @@ class LinkSearches {
            const std::stop_token& stop, Result& out);
 
   /// Distances alone, of one pose of many.
-  void ask(const FrameSet& frames, const RobotPose& pose, std::vector<WholeLinkDistance>& out);
+  void ask(const FrameSet& frames, const RobotPose& pose, const DistanceSettings& settings,
+           std::vector<WholeLinkDistance>& out);
 
   /// As Query::forget().
   void forget();
@@ -88,9 +89,9 @@ class LookAheadSearch {
   explicit LookAheadSearch(std::shared_ptr<const Robot> robot);
   ~LookAheadSearch();
 
-  /// At least one frame is used. Throws std::invalid_argument for wrong joints.
-  void ask(const FrameSet& frames, std::span<const JointState> joints, double nearer_than_m,
-           LookAhead& out);
+  /// LookAhead::poses. At least one frame is used. Throws std::invalid_argument for wrong joints.
+  void ask(const FrameSet& frames, std::span<const JointState> joints,
+           const DistanceSettings& settings, std::vector<std::vector<WholeLinkDistance>>& out);
 
  private:
   struct Workers;

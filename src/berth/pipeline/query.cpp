@@ -32,6 +32,12 @@ std::pair<bool, bool> use_of(const CameraState& camera) {
 
 bool is_unset(const std::optional<Pose>& X_WB) { return X_WB && !X_WB->matrix().allFinite(); }
 
+bool is_nearer(const std::vector<WholeLinkDistance>& links, double limit_m) {
+  return std::ranges::any_of(links, [limit_m](const WholeLinkDistance& link) {
+    return link.nearest.lower_bound_m < limit_m;
+  });
+}
+
 void require_length(double limit_m) {
   if (std::isfinite(limit_m) && limit_m >= 0) return;
   throw std::invalid_argument(fmt::format(
@@ -172,12 +178,14 @@ void Query::tell_cameras() {
 }
 
 void Query::tell_ahead(const Request& request) {
-  result_.ahead.first_nearer.reset();
-  if (request.ahead.empty() || result_.status == ResultStatus::stale) {
-    return result_.ahead.poses.clear();
-  }
+  auto& [poses, first_nearer] = result_.ahead;
+  first_nearer.reset();
+  if (request.ahead.empty() || result_.status == ResultStatus::stale) return poses.clear();
   if (!ahead_) ahead_ = std::make_unique<LookAheadSearch>(robot_);
-  ahead_->ask(*asked_, request.ahead, request.nearer_than_m, result_.ahead);
+  ahead_->ask(*asked_, request.ahead, robot_->settings().distance, poses);
+  const auto first = std::ranges::find_if(
+      poses, [&](const auto& links) { return is_nearer(links, request.nearer_than_m); });
+  if (first != poses.end()) first_nearer = first - poses.begin();
 }
 
 const Result& Query::ask(const Request& request) {
