@@ -9,20 +9,11 @@
 namespace berth::lab {
 namespace {
 
-std::shared_ptr<const Robot> within(const std::shared_ptr<const Robot>& robot, double range_m) {
-  EvaluationSettings settings = robot->settings();
-  settings.distance.range_m = range_m;
-  return with_settings(robot, settings);
-}
-
-LeastDistance least_of(const std::vector<WholeLinkDistance>& links, const RobotModel& model) {
-  LeastDistance least;
-  for (const WholeLinkDistance& link : links) {
-    if (!model.is_moved(model.evaluated_links[link.id - 1])) continue;
-    least.distance_m = std::fmin(least.distance_m, link.nearest.distance_m);
-    least.lower_bound_m = std::fmin(least.lower_bound_m, link.nearest.lower_bound_m);
-  }
-  return least;
+Verdict verdict_of(const std::vector<SpacePair>& links, double margin_m) {
+  const auto is_near = [&](const SpacePair& pair) { return pair.distance_m <= margin_m; };
+  const auto is_free = [&](const SpacePair& pair) { return pair.lower_bound_m > margin_m; };
+  if (std::ranges::any_of(links, is_near)) return Verdict::near;
+  return std::ranges::all_of(links, is_free) ? Verdict::free : Verdict::undecided;
 }
 
 }  // namespace
@@ -71,17 +62,30 @@ std::vector<JointState> states_of(std::span<const double> positions, std::size_t
   return out;
 }
 
-ExactSearch::ExactSearch(const std::shared_ptr<const Robot>& robot, const FrameList& frames,
-                         double range_m)
-    : robot_(within(robot, range_m)), frames_(frames), query_(robot_) {}
-
-std::vector<LeastDistance> ExactSearch::ask(std::span<const double> positions) {
-  const std::vector<JointState> ahead = states_of(positions, robot_->model().joints.size());
-  std::vector<LeastDistance> out;
+std::vector<std::vector<SpacePair>> ExactSearch::ask(std::span<const double> positions) {
+  const RobotModel& model = robot_->model();
+  const std::vector<JointState> ahead = states_of(positions, model.joints.size());
+  std::vector<std::vector<SpacePair>> out;
   for (const auto& links : query_.ask({.frames = frames_, .ahead = ahead}).ahead.poses) {
-    out.push_back(least_of(links, robot_->model()));
+    std::vector<SpacePair>& moved = out.emplace_back();
+    for (const WholeLinkDistance& link : links) {
+      if (model.is_moved(model.evaluated_links[link.id - 1])) moved.push_back(link.nearest);
+    }
   }
   return out;
+}
+
+std::shared_ptr<const Robot> MarginSearch::within(const std::shared_ptr<const Robot>& robot,
+                                                  double margin_m) {
+  EvaluationSettings settings = robot->settings();
+  settings.distance.range_m = margin_m + 0.002;
+  return with_settings(robot, settings);
+}
+
+std::vector<Verdict> MarginSearch::ask(std::span<const double> positions) {
+  std::vector<Verdict> verdicts;
+  for (const auto& links : search_.ask(positions)) verdicts.push_back(verdict_of(links, margin_m_));
+  return verdicts;
 }
 
 }  // namespace berth::lab

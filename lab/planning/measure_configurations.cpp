@@ -20,7 +20,9 @@ constexpr std::array<double, 3> kMargins_m{0.01, 0.03, 0.1};
 /// Asked at 3 cm, of each kind, for the times and for what stays undecided.
 constexpr std::size_t kAsked = 20'000;
 /// Of these, by the exact search over its usual range.
-constexpr std::size_t kTimed = 20;
+constexpr std::size_t kTimed = 10;
+/// Of a way that is looked ahead at.
+constexpr std::size_t kAhead = 50;
 /// Of a motion held against the exact search; the next ones where those before do not show what is
 /// near.
 constexpr std::array<std::size_t, 3> kPlaces{7, 61, 541};
@@ -43,6 +45,8 @@ struct Counts {
   std::vector<double> prepare_ms, random_us, near_us, random_undecided, near_undecided, exact_ms;
   /// Of what is undecided: the exact search alone, and resolve.
   std::vector<double> alone_ms, resolve_ms;
+  /// Of a whole way: by the exact search, and by a field, its verdicts and resolve.
+  std::vector<double> way_exact_ms, way_ms;
 };
 
 double mean(const std::vector<double>& values) {
@@ -51,9 +55,24 @@ double mean(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-/// Goes as far as tells whether something is within the margin: what is farther than this, to its
-/// tolerance, is not looked for.
-double range_at(double margin_m) { return margin_m + 0.002; }
+/// Straight in joint space.
+std::vector<double> way_of(std::span<const double> from, std::span<const double> to,
+                           std::size_t places) {
+  std::vector<double> way;
+  for (std::size_t k = 0; k < places; ++k) {
+    const double part = static_cast<double>(k) / static_cast<double>(places - 1);
+    for (std::size_t j = 0; j < from.size(); ++j) way.push_back(from[j] + (to[j] - from[j]) * part);
+  }
+  return way;
+}
+
+bool is_wrong_free(Verdict said, Verdict exact) {
+  return said == Verdict::free && exact == Verdict::near;
+}
+
+bool is_wrong_near(Verdict said, Verdict exact) {
+  return said == Verdict::near && exact == Verdict::free;
+}
 
 class Comparison {
  public:
@@ -67,8 +86,9 @@ class Comparison {
     counts.prepare_ms.push_back(preparing.ms());
     time(true, counts, counts.random_us, counts.random_undecided);
     time(false, counts, counts.near_us, counts.near_undecided);
+    time_way(counts);
     for (const double margin_m : kMargins_m) {
-      ExactSearch exact(room_.robot(), room_.frames(), range_at(margin_m));
+      MarginSearch exact(room_.robot(), room_.frames(), margin_m);
       for (const bool is_anywhere : {true, false})
         hold(options.exact, margin_m, is_anywhere, exact, counts);
       hold_motions(options.motions, margin_m, exact, counts);
@@ -96,8 +116,7 @@ class Comparison {
 
   void time_exact(std::span<const double> positions, const std::vector<Verdict>& verdicts,
                   Counts& counts) {
-    const double range_m = room_.robot()->settings().distance.range_m;
-    ExactSearch any(room_.robot(), room_.frames(), range_m);
+    ExactSearch any(room_.robot(), room_.frames());
     any.ask({});
     const Stopwatch asking(CLOCK_THREAD_CPUTIME_ID);
     any.ask(part(positions, 0, kTimed));
@@ -111,7 +130,7 @@ class Comparison {
     }
     if (open.empty()) return;
     const double count = static_cast<double>(open.size()) / static_cast<double>(joints_);
-    ExactSearch alone(room_.robot(), room_.frames(), range_m);
+    ExactSearch alone(room_.robot(), room_.frames());
     alone.ask({});
     const Stopwatch searching(CLOCK_THREAD_CPUTIME_ID);
     alone.ask(open);
@@ -124,7 +143,22 @@ class Comparison {
     counts.resolve_ms.push_back(resolving.ms() / count);
   }
 
-  void hold(std::size_t count, double margin_m, bool is_anywhere, ExactSearch& exact,
+  void time_way(Counts& counts) {
+    const std::vector<double> way = way_of(room_.draw(1, false), room_.draw(1, false), kAhead);
+    ExactSearch exact(room_.robot(), room_.frames());
+    exact.ask({});
+    const Stopwatch looking(CLOCK_THREAD_CPUTIME_ID);
+    exact.ask(way);
+    counts.way_exact_ms.push_back(looking.ms());
+    std::vector<Verdict> verdicts(kAhead);
+    const Stopwatch checking(CLOCK_THREAD_CPUTIME_ID);
+    check_.prepare(room_.frames());
+    check_.ask(way, {}, verdicts);
+    check_.resolve(way, {}, verdicts);
+    counts.way_ms.push_back(checking.ms());
+  }
+
+  void hold(std::size_t count, double margin_m, bool is_anywhere, MarginSearch& exact,
             Counts& counts) {
     const std::vector<double> positions = room_.draw(count, is_anywhere);
     std::vector<Verdict> verdicts(count);
@@ -137,14 +171,13 @@ class Comparison {
       decided.insert(decided.end(), one.begin(), one.end());
     }
     std::erase(verdicts, Verdict::undecided);
-    const std::vector<LeastDistance> found = exact.ask(decided);
+    const std::vector<Verdict> found = exact.ask(decided);
+    counts.held += found.size();
     for (std::size_t i = 0; i < found.size(); ++i) {
-      ++counts.held;
-      const bool is_wrong_free = verdicts[i] == Verdict::free && found[i].distance_m <= margin_m;
-      const bool is_wrong_near = verdicts[i] == Verdict::near && found[i].lower_bound_m > margin_m;
-      counts.wrong_free += is_wrong_free;
-      counts.wrong_near += is_wrong_near;
-      if (is_wrong_free || is_wrong_near) tell("configuration", margin_m, part(decided, i, 1));
+      counts.wrong_free += is_wrong_free(verdicts[i], found[i]);
+      counts.wrong_near += is_wrong_near(verdicts[i], found[i]);
+      if (is_wrong_free(verdicts[i], found[i]) || is_wrong_near(verdicts[i], found[i]))
+        tell("configuration", margin_m, part(decided, i, 1));
     }
   }
 
@@ -153,7 +186,7 @@ class Comparison {
     fmt::print(stderr, "wrong {} at {} m: {}\n", what, margin_m, fmt::join(positions, " "));
   }
 
-  void hold_motions(std::size_t count, double margin_m, ExactSearch& exact, Counts& counts) {
+  void hold_motions(std::size_t count, double margin_m, MarginSearch& exact, Counts& counts) {
     const std::vector<double> from = room_.draw(count, false);
     std::vector<double> to = from;
     for (double& q : to) q += room_.random()(-0.25, 0.25);
@@ -164,36 +197,27 @@ class Comparison {
       if (verdicts[i] == Verdict::undecided) continue;
       ++counts.held_motions;
       const auto begin = part(from, i, 1), end = part(to, i, 1);
-      LeastDistance least = least_on(begin, end, kPlaces.front(), exact);
-      const bool is_wrong_free = verdicts[i] == Verdict::free && least.distance_m <= margin_m;
-      bool is_wrong_near = verdicts[i] == Verdict::near;
-      for (std::size_t k = 0; is_wrong_near && k < kPlaces.size(); ++k) {
-        if (k > 0) least = least_on(begin, end, kPlaces[k], exact);
-        is_wrong_near = least.lower_bound_m > margin_m;
+      Verdict found = on_way(begin, end, kPlaces.front(), exact);
+      for (std::size_t k = 1; k < kPlaces.size() && is_wrong_near(verdicts[i], found); ++k) {
+        found = on_way(begin, end, kPlaces[k], exact);
       }
-      counts.wrong_free_motions += is_wrong_free;
-      counts.wrong_near_motions += is_wrong_near;
-      if (!is_wrong_free && !is_wrong_near) continue;
+      counts.wrong_free_motions += is_wrong_free(verdicts[i], found);
+      counts.wrong_near_motions += is_wrong_near(verdicts[i], found);
+      if (!is_wrong_free(verdicts[i], found) && !is_wrong_near(verdicts[i], found)) continue;
       tell("motion from", margin_m, begin);
       tell("motion to", margin_m, end);
     }
   }
 
-  static LeastDistance least_on(std::span<const double> from, std::span<const double> to,
-                                std::size_t places, ExactSearch& exact) {
-    std::vector<double> way;
-    for (std::size_t k = 0; k < places; ++k) {
-      for (std::size_t j = 0; j < from.size(); ++j) {
-        const double part = static_cast<double>(k) / static_cast<double>(places - 1);
-        way.push_back(from[j] + (to[j] - from[j]) * part);
-      }
-    }
-    LeastDistance least;
-    for (const LeastDistance& at : exact.ask(way)) {
-      least.distance_m = std::min(least.distance_m, at.distance_m);
-      least.lower_bound_m = std::min(least.lower_bound_m, at.lower_bound_m);
-    }
-    return least;
+  /// Near where one of the places is, free where all are.
+  static Verdict on_way(std::span<const double> from, std::span<const double> to,
+                        std::size_t places, MarginSearch& exact) {
+    const std::vector<Verdict> found = exact.ask(way_of(from, to, places));
+    const auto any = [&](Verdict verdict) {
+      return std::ranges::find(found, verdict) != found.end();
+    };
+    if (any(Verdict::near)) return Verdict::near;
+    return any(Verdict::undecided) ? Verdict::undecided : Verdict::free;
   }
 
   ConfigurationRoom room_;
@@ -221,18 +245,20 @@ void run(const Options& options) {
   }
   fmt::print(
       "| rooms, cameras | the field [ms] | a configuration [us], anywhere; near | undecided at 3 "
-      "cm, anywhere; near [%] | exact search [ms] | undecided: exact search, resolve [ms] | "
-      "configurations, held | wrongly free, near | motions, held | wrongly free, near |\n"
-      "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
+      "cm, anywhere; near [%] | exact search [ms] | undecided: exact search, resolve [ms] | a way "
+      "of 50: exact search, field and resolve [ms] | configurations, held | wrongly free, near | "
+      "motions, held | wrongly free, near |\n"
+      "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
   fmt::print(
-      "| {}, {}{}{} | {:.0f} | {:.2f}; {:.2f} | {:.1f}; {:.1f} | {:.1f} | {:.2f}, {:.2f} | {}, {} "
-      "| {}, {} | {}, {} | {}, {} |\n",
+      "| {}, {}{}{} | {:.0f} | {:.2f}; {:.2f} | {:.1f}; {:.1f} | {:.1f} | {:.2f}, {:.2f} | {:.0f}, "
+      "{:.0f} | {}, {} | {}, {} | {}, {} | {}, {} |\n",
       options.rooms, options.view.cameras, options.view.has_errors ? ", sensor model" : "",
       options.is_carrying ? ", carrying" : "", mean(counts.prepare_ms), mean(counts.random_us),
       mean(counts.near_us), 100 * mean(counts.random_undecided), 100 * mean(counts.near_undecided),
-      mean(counts.exact_ms), mean(counts.alone_ms), mean(counts.resolve_ms), counts.asked,
-      counts.held, counts.wrong_free, counts.wrong_near, counts.motions, counts.held_motions,
-      counts.wrong_free_motions, counts.wrong_near_motions);
+      mean(counts.exact_ms), mean(counts.alone_ms), mean(counts.resolve_ms),
+      mean(counts.way_exact_ms), mean(counts.way_ms), counts.asked, counts.held, counts.wrong_free,
+      counts.wrong_near, counts.motions, counts.held_motions, counts.wrong_free_motions,
+      counts.wrong_near_motions);
 }
 
 }  // namespace
