@@ -1,5 +1,5 @@
-// MotionBenchMaker's problems (Chamzas and others 2022), planned by OMPL on what three drawn
-// cameras see of each scene, and held against its exact geometry.
+// MotionBenchMaker's problems (Chamzas and others 2022), planned by OMPL on what drawn cameras
+// see of each scene, and held against its exact geometry.
 #include <fmt/format.h>
 #include <ompl/base/MotionValidator.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
@@ -32,12 +32,14 @@ namespace og = ompl::geometric;
 
 struct Options {
   fs::path problems, urdf;
-  int least = 1, most = 100;
+  int least = 1, most = 100, step = 1;
   double most_s = 5;
   double margin_m = 0.005;
   std::size_t random = 200;
   /// Links that may touch what they take: nobody asks about them.
   std::vector<std::string> without;
+  /// More cameras than three: where each is and where it looks, six numbers in the robot's root.
+  std::vector<double> cameras;
 };
 
 /// A problem's things around the robot's root, and where its joints start and have to go.
@@ -89,20 +91,28 @@ Problem read_problem(const fs::path& folder, int number, const RobotModel& model
   return problem;
 }
 
-/// Three cameras around the robot, in a room in which all rays end.
-std::vector<Pose> camera_poses() {
+Pose looking(const Eigen::Vector3d& at, const Eigen::Vector3d& to) {
+  const Eigen::Vector3d z = (to - at).normalized();
+  const Eigen::Vector3d x = z.cross(Eigen::Vector3d::UnitZ()).normalized();
+  Pose X_BC = Pose::Identity();
+  X_BC.linear().col(0) = x;
+  X_BC.linear().col(1) = z.cross(x);
+  X_BC.linear().col(2) = z;
+  X_BC.translation() = at;
+  return X_BC;
+}
+
+/// Three cameras around the robot, in a room in which all rays end, and those that are added.
+std::vector<Pose> camera_poses(const std::vector<double>& added) {
   std::vector<Pose> poses;
   for (int k = 0; k < 3; ++k) {
     const double angle_rad = 2 * std::numbers::pi * (k + 0.5) / 3;
-    const Eigen::Vector3d at(1.9 * std::cos(angle_rad), 1.9 * std::sin(angle_rad), 1.4);
-    const Eigen::Vector3d z = (Eigen::Vector3d(0, 0, 0.45) - at).normalized();
-    const Eigen::Vector3d x = z.cross(Eigen::Vector3d::UnitZ()).normalized();
-    Pose X_BC = Pose::Identity();
-    X_BC.linear().col(0) = x;
-    X_BC.linear().col(1) = z.cross(x);
-    X_BC.linear().col(2) = z;
-    X_BC.translation() = at;
-    poses.push_back(X_BC);
+    poses.push_back(
+        looking({1.9 * std::cos(angle_rad), 1.9 * std::sin(angle_rad), 1.4}, {0, 0, 0.45}));
+  }
+  for (std::size_t k = 0; k + 6 <= added.size(); k += 6) {
+    poses.push_back(looking({added[k], added[k + 1], added[k + 2]},
+                            {added[k + 3], added[k + 4], added[k + 5]}));
   }
   return poses;
 }
@@ -160,7 +170,7 @@ class Planner {
     settings.watch.min_at_robot = 0;
     frames_.clear();
     int number = 0;
-    for (const Pose& X_BC : camera_poses()) {
+    for (const Pose& X_BC : camera_poses(options_.cameras)) {
       const auto mounted = std::make_shared<const MountedCamera>(
           robot_,
           CameraMount{camera, robot_->model().links.front().name, X_BC,
@@ -303,7 +313,7 @@ void run(const Options& options) {
   for (const fs::path& kind : kinds) {
     Planner planner(robot, options);
     Counts c;
-    for (int i = options.least; i <= options.most; ++i) {
+    for (int i = options.least; i <= options.most; i += options.step) {
       planner.solve(read_problem(kind, i, robot.model), c);
     }
     fmt::print("| {} | {} | {}, {} | {} | {} | {:.1f} | {:.0f} | {} of {} | {} of {} |\n",
@@ -328,6 +338,13 @@ int main(int argc, char** argv) {
       ->check(CLI::ExistingFile);
   program.add_option("--least", options.least, "the first problem of each kind");
   program.add_option("--most", options.most, "the last one");
+  program.add_option("--step", options.step, "from one to the next")->check(CLI::Range(1, 1000));
+  program
+      .add_option("--camera", options.cameras,
+                  "one more than three: where it is and where it looks, in m; may stand five times")
+      ->expected(6)
+      ->type_name("X Y Z X Y Z")
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   program.add_option("--seconds", options.most_s, "to plan at most");
   program.add_option("--without", options.without, "links that are not asked about");
   program.add_option("--margin-m", options.margin_m, "from all that is seen or hidden");
