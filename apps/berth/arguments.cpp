@@ -19,6 +19,12 @@ std::string require_positive_finite(const std::string& text) {
   return value && *value > 0 ? "" : text + " is no finite number above 0";
 }
 
+std::string require_region_scale(const std::string& text) {
+  const std::optional<double> value = parse_finite(text);
+  const bool is_good = value && (*value == 0 || (*value >= 1 && *value <= 1000));
+  return is_good ? "" : text + " is neither 0 nor a number from 1 to 1000";
+}
+
 void add_format(CLI::App& command, const char* what, OutputFormat& format) {
   const std::map<std::string, OutputFormat> formats{{"table", OutputFormat::table},
                                                     {"json", OutputFormat::json}};
@@ -43,10 +49,8 @@ void add_scene(CLI::App& command, std::filesystem::path& scene) {
       ->type_name("SCENE.yaml");
 }
 
-void add_port(CLI::App& command, int& port) {
-  command.add_option("--port", port, "Port of the page; 0 takes any that is free (default: 8080)")
-      ->check(CLI::Range(0, 65535))
-      ->type_name("N");
+void add_port(CLI::App& command, int& port, const char* what) {
+  command.add_option("--port", port, what)->check(CLI::Range(0, 65535))->type_name("N");
 }
 
 }  // namespace
@@ -56,9 +60,9 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
   command.add_option("--picture", arguments.picture_folder, "Draw each frame into this folder")
       ->type_name("DIR");
   command
-      .add_option("--frame", arguments.picture_image,
-                  "Draw only each camera's image of this number, from 0")
-      ->needs("--picture")
+      .add_option("--frame", arguments.frame,
+                  "Only this frame: the number that stands in the table, from 0")
+      ->check(CLI::NonNegativeNumber)
       ->type_name("N");
   add_evaluation(command, arguments.evaluation);
   command
@@ -128,6 +132,7 @@ void add_calibrate_options(CLI::App& command, CalibrateArguments& arguments) {
                   "The scene with what was found; the scene itself is never changed")
       ->required()
       ->type_name("NEW.yaml");
+  command.add_flag("--force", arguments.force, "Overwrite NEW.yaml where it is there already");
   command
       .add_option("--report", arguments.report_folder,
                   "Folder for a page with pictures before and after")
@@ -139,12 +144,16 @@ void add_calibrate_options(CLI::App& command, CalibrateArguments& arguments) {
   command.add_flag("--background")
       ->description("Is always done: what the cameras see of the empty cell, as a PNG each");
   command
-      .add_option("--attached", arguments.attached,
-                  "Whether what the robot carries and its URDF does not have becomes a part of it; "
-                  "ask takes none where there is no terminal to ask at (default: ask)")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, AttachedChoice>{
-          {"ask", AttachedChoice::ask}, {"yes", AttachedChoice::yes}, {"no", AttachedChoice::no}}))
-      ->type_name("ask|yes|no");
+      .add_option_function<std::string>(
+          "--attached",
+          [&arguments](const std::string& choice) {
+            arguments.attached = choice == "yes"  ? AttachedChoice::yes
+                                 : choice == "no" ? AttachedChoice::no
+                                                  : AttachedChoice::ask;
+          },
+          "Whether what the robot carries and its URDF does not have becomes a part of it; "
+          "ask takes none where there is no terminal to ask at (default: ask)")
+      ->check(CLI::IsMember({"ask", "yes", "no"}));
   add_format(command, "A table for people, or one JSON object (default: table)", arguments.format);
   add_threads(command, arguments.threads);
   command.footer("Example:\n  berth calibrate scene.yaml --out calibrated.yaml --report report");
@@ -174,7 +183,7 @@ void add_evaluate_options(CLI::App& command, EvaluateArguments& arguments) {
       .add_option("--robot-region-scale", arguments.robot_region_scale,
                   "With a scene: what is not seen through the robot enlarged by this factor is "
                   "ignored, however near (the thesis: 6); 0 is off (default: 0)")
-      ->check(CLI::IsMember({0.0}) | CLI::Range(1.0, 1000.0))
+      ->check(require_region_scale)
       ->type_name("X");
   command.add_option("--repeat", arguments.repeat, "Evaluate so often, and tell the times")
       ->check(CLI::Range(1, 1000000000))
@@ -205,7 +214,7 @@ void add_evaluate_options(CLI::App& command, EvaluateArguments& arguments) {
 
 void add_view_options(CLI::App& command, ViewArguments& arguments) {
   add_scene(command, arguments.scene);
-  add_port(command, arguments.port);
+  add_port(command, arguments.port, "Port of the page; 0 takes any that is free (default: 8080)");
   command
       .add_option("--bind", arguments.bind,
                   "Address to serve at; with another one than this computer's own the printed "
@@ -268,7 +277,7 @@ void add_demo_options(CLI::App& command, DemoArguments& arguments) {
       ->type_name("DIR");
   CLI::Option* view =
       command.add_flag("--view", arguments.view, "Show the scene by a page, as berth view does");
-  add_port(command, arguments.port);
+  add_port(command, arguments.port, "With --view: port of the page (default: 8080)");
   command.get_option("--port")->needs(view);
   add_threads(command, arguments.threads);
   command.footer("Example:\n  berth demo --picture pictures");

@@ -32,8 +32,8 @@ struct RunArguments : CommonArguments {
   int repeat = 0;
   std::filesystem::path scene;
   std::filesystem::path picture_folder;
-  /// Of each camera's image of this number alone.
-  std::optional<std::size_t> picture_image;
+  /// The number of the only result that is wanted.
+  std::optional<std::size_t> frame;
 };
 
 struct RecordArguments {
@@ -64,6 +64,8 @@ struct CalibrateArguments {
   std::filesystem::path scene;
   std::filesystem::path out;
   std::filesystem::path report_folder;
+  /// Whether `out` may be there already.
+  bool force = false;
   bool joint_zeros = false;
   bool correct_depth = false;
   AttachedChoice attached = AttachedChoice::ask;

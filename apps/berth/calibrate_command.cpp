@@ -10,6 +10,7 @@
 #include "apps/berth/run_frames.hpp"
 #include "apps/support/interrupt.hpp"
 #include "apps/support/progress_bar.hpp"
+#include "berth/files/error.hpp"
 #include "berth/reports/calibration_report.hpp"
 #include "berth/scene/attach_parts.hpp"
 #include "berth/scene/calibrate_background.hpp"
@@ -21,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Before minutes of work, not after them.
-void require_place_for(const fs::path& out, const fs::path& scene) {
+void require_place_for(const fs::path& out, const fs::path& scene, bool may_overwrite) {
   std::error_code error;
   const fs::path folder = fs::absolute(out, error).parent_path();
   if (!fs::is_directory(folder, error)) {
@@ -30,15 +31,18 @@ void require_place_for(const fs::path& out, const fs::path& scene) {
                     "that is there",
                     out.string(), folder.string()));
   }
-  if (!fs::exists(out, error) || !fs::equivalent(scene, out, error)) return;
-  throw std::runtime_error(
-      fmt::format("{}: is the scene itself; expected another file for --out", out.string()));
+  if (!fs::exists(out, error)) return;
+  if (fs::equivalent(scene, out, error)) {
+    throw_bad_file({out}, "is the scene itself", "another file for --out");
+  }
+  if (!may_overwrite)
+    throw_bad_file({out}, "is there already", "another name for --out, or --force");
 }
 
 }  // namespace
 
 void calibrate_command(const CalibrateArguments& arguments) {
-  require_place_for(arguments.out, arguments.scene);
+  require_place_for(arguments.out, arguments.scene, arguments.force);
   const OpenScene scene = open_with_progress(read_scene_to_calibrate(arguments.scene),
                                              "read images", open_scene_with_images);
   const SceneCalibrationData material = make_calibration_data(scene);

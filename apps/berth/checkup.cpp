@@ -195,6 +195,24 @@ std::string next_for(const OpenScene& scene, const Seen& seen, const std::string
   return "Look at that camera's images: berth run " + scene.file.string() + " --picture pictures";
 }
 
+/// Links of which something is true too often, in one piece of advice.
+struct OftenLinks {
+  std::string names;   ///< "link2, link5"
+  std::string counts;  ///< "link2 in 3, link5 in 4 of 5 results"
+};
+
+OftenLinks often(const std::map<std::string, std::size_t>& links, std::size_t results) {
+  OftenLinks all;
+  for (const auto& [link, count] : links) {
+    if (percent_of(count, results) < 100 * (1 - kOftenSeen)) continue;
+    const char* before = all.names.empty() ? "" : ", ";
+    all.names += before + link;
+    all.counts += fmt::format("{}{} in {}", before, link, count);
+  }
+  all.counts += fmt::format(" of {} results", results);
+  return all;
+}
+
 std::vector<Finding> findings_of(const OpenScene& scene, const Seen& seen) {
   std::vector<Finding> all;
   for (const auto& [what, count] : seen.trouble) {
@@ -202,21 +220,17 @@ std::vector<Finding> findings_of(const OpenScene& scene, const Seen& seen) {
                    fmt::format("{} in {} of {} results", what, count, seen.results),
                    next_for(scene, seen, what)});
   }
-  for (const auto& [link, count] : seen.not_seen) {
-    if (percent_of(count, seen.results) < 100 * (1 - kOftenSeen)) continue;
-    all.push_back(
-        {Verdict::advice, "results",
-         fmt::format("no camera sees link {} in {} of {} results", link, count, seen.results),
-         "Move or add a camera that sees link " + link + "."});
+  const OftenLinks not_seen = often(seen.not_seen, seen.results);
+  if (!not_seen.names.empty()) {
+    all.push_back({Verdict::advice, "results", "no camera sees " + not_seen.counts,
+                   "Move or add a camera that sees " + not_seen.names + "."});
   }
-  for (const auto& [link, count] : seen.not_observed) {
-    if (percent_of(count, seen.results) < 100 * (1 - kOftenSeen)) continue;
-    all.push_back(
-        {Verdict::advice, "results",
-         fmt::format("no image shows most of the space around link {} in {} of {} results", link,
-                     count, seen.results),
-         "Turn or add a camera that sees the space around link " + link +
-             ", or write space.unobserved: unknown or ignore."});
+  const OftenLinks not_observed = often(seen.not_observed, seen.results);
+  if (!not_observed.names.empty()) {
+    all.push_back({Verdict::advice, "results",
+                   "no image shows most of the space around " + not_observed.counts,
+                   "Turn or add a camera that sees the space around " + not_observed.names +
+                       ", or write space.unobserved: unknown or ignore."});
   }
   for (const auto& [links, count] : seen.touching) {
     all.push_back({Verdict::advice, "known",

@@ -1,9 +1,13 @@
 #include "apps/berth/command_line.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -12,8 +16,35 @@
 #include "apps/berth/commands.hpp"
 #include "apps/support/command_options.hpp"
 #include "apps/support/program.hpp"
+#include "berth/files/edit_distance.hpp"
 
 namespace berth::app {
+namespace {
+
+/// Shows what an option takes as the manual page does, without CLI11's checks of it.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  std::string make_option_opts(const CLI::Option* option) const override {
+    const std::string value = value_of(*option);
+    return (value.empty() ? "" : " " + value) + (option->get_required() ? " REQUIRED" : "");
+  }
+};
+
+/// Throws where the first word is no command and no option.
+void require_command_named(const CLI::App& program, const std::string& word) {
+  if (word.starts_with("-")) return;
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands({})) {
+    if (command->get_name() == word) return;
+    if (!command->get_group().empty()) names.push_back(command->get_name());
+  }
+  const std::vector<std::string_view> known(names.begin(), names.end());
+  throw CLI::ValidationError(
+      word, fmt::format("no such command; expected {} (the nearest), or another of {}",
+                        nearest(word, known), fmt::join(known, ", ")));
+}
+
+}  // namespace
 
 int run_command_line(int argc, const char* const* argv) {
   CLI::App program(
@@ -24,6 +55,10 @@ int run_command_line(int argc, const char* const* argv) {
       "obstacle.");
   // None at all is found below: CLI11 would report that before an unknown word.
   program.require_subcommand(0, 1);
+  program.formatter(std::make_shared<HelpFormatter>());
+  program.preparse_callback([&](std::size_t) {
+    if (argc > 1) require_command_named(program, argv[1]);
+  });
   program.set_version_flag("--version", BERTH_VERSION);
   std::vector<std::pair<CLI::App*, std::function<int()>>> commands;
   const auto add = [&]<class Arguments>(const char* name, const char* what,

@@ -42,20 +42,23 @@ std::vector<std::string> words_of(const CLI::Option& option) {
   return words;
 }
 
-std::vector<std::string> names_of(const CLI::Option& option) {
-  std::vector<std::string> names;
-  for (const std::string& name : option.get_snames()) names.push_back("-" + name);
-  for (const std::string& name : option.get_lnames()) names.push_back("--" + name);
-  return names;
-}
+}  // namespace
 
-/// What stands behind the option's name, such as "FILE" or "table|json"; empty for a flag.
 std::string value_of(const CLI::Option& option) {
   if (option.get_items_expected_max() == 0) return "";
   const std::vector<std::string> words = words_of(option);
   if (!words.empty()) return fmt::format("{}", fmt::join(words, "|"));
   const std::string type = option.get_type_name();
   return type.substr(0, type.find_first_of(": "));
+}
+
+namespace {
+
+std::vector<std::string> names_of(const CLI::Option& option) {
+  std::vector<std::string> names;
+  for (const std::string& name : option.get_snames()) names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) names.push_back("--" + name);
+  return names;
 }
 
 /// As roff takes it: nothing in it is a request.

@@ -7,9 +7,13 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace berth::app {
+
+/// What stands behind the option's name, such as "FILE" or "table|json"; empty for a flag.
+std::string value_of(const CLI::Option& option);
 
 /// By file name: berth.1, and one for each command, such as berth-run.1.
 std::map<std::string, std::string> manual_pages(CLI::App& program);

@@ -18,6 +18,28 @@ const char* word_of(Verdict verdict) {
   return verdict == Verdict::ok ? "ok" : verdict == Verdict::advice ? "advice" : "wrong";
 }
 
+/// What is said of several cameras in the same words is said once: "watch, cameras left, right".
+std::vector<Finding> merged(const std::vector<Finding>& all) {
+  constexpr std::string_view kOne = ", camera ";
+  std::vector<Finding> kept;
+  for (const Finding& one : all) {
+    const std::size_t at = one.about.find(kOne);
+    const auto same = std::ranges::find_if(kept, [&](const Finding& earlier) {
+      return at != std::string::npos && earlier.verdict == one.verdict &&
+             earlier.text == one.text && earlier.next == one.next &&
+             earlier.about.starts_with(one.about.substr(0, at) + ", camera");
+    });
+    if (same == kept.end()) {
+      kept.push_back(one);
+      continue;
+    }
+    if (same->about.compare(at, kOne.size(), kOne) == 0)
+      same->about.insert(at + kOne.size() - 1, "s");
+    same->about += ", " + one.about.substr(at + kOne.size());
+  }
+  return kept;
+}
+
 /// Prints what each check finds, as soon as it is found.
 class Doctor {
  public:
@@ -45,7 +67,7 @@ class Doctor {
         progress.step();
       });
       progress.clear();
-      for (const Finding& one : found) take(one);
+      for (const Finding& one : merged(found)) take(one);
     } catch (const std::runtime_error& error) {
       progress.clear();
       const std::string text = error.what();

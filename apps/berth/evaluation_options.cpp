@@ -43,10 +43,14 @@ std::string default_text(const SettingRef& setting) {
 
 /// The setting's name as an option.
 std::string option_of(std::string_view name) {
-  if (name == "range_m") return "--range";
   std::string option = "--" + std::string(name);
   std::replace(option.begin(), option.end(), '_', '-');
   return option;
+}
+
+/// All names of the option: programs rely on --range, too.
+std::string options_of(std::string_view name) {
+  return option_of(name) + (name == "range_m" ? ",--range" : "");
 }
 
 /// The unit that the name ends in.
@@ -61,7 +65,7 @@ void add_setting(CLI::App& command, const SettingRef& setting, std::string_view 
   what = methods.empty() ? fmt::format("{}{}", char(std::toupper(what[0])), what.substr(1))
                          : fmt::format("{}: {}", methods, what);
   CLI::Option* option = command.add_option_function<std::string>(
-      option_of(setting.name),
+      options_of(setting.name),
       [&arguments, name = std::string(setting.name)](const std::string& text) {
         arguments.given[name] = text;
       },

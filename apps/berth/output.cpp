@@ -81,12 +81,18 @@ Output::Output(const CommonArguments& arguments) : format_(arguments.format) {
 void Output::write(const Result& result) {
   put(format_ == OutputFormat::table ? table_of(result, kMethodName, result_table(result))
                                      : result_json(result) + "\n");
+  ++count_;
 }
 
 void Output::write(const ImageResult& result) {
   put(format_ == OutputFormat::table
           ? table_of(result, name_of(result.method), image_result_table(result))
           : image_result_json(result) + "\n");
+  ++count_;
+}
+
+void Output::close(const std::string& sentence) {
+  if (format_ == OutputFormat::table) put(sentence + "\n");
 }
 
 void Output::put(const std::string& text) {
@@ -97,7 +103,6 @@ void Output::put(const std::string& text) {
     throw std::runtime_error(
         fmt::format("standard output: cannot be written to: {}", std::strerror(errno)));
   }
-  ++count_;
 }
 
 void Output::finish() {

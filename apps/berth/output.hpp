@@ -23,6 +23,8 @@ class Output {
   /// Throws std::runtime_error where it cannot be written.
   void write(const Result& result);
   void write(const ImageResult& result);
+  /// A sentence below the tables; none among lines of JSON.
+  void close(const std::string& sentence);
   /// The file holds what was written, also where that is not all there would have been.
   void finish();
   std::size_t count() const { return count_; }

@@ -33,18 +33,21 @@ std::string speed_text(const Result& result) {
   return ", speed: " + text.substr(0, text.find(':'));
 }
 
-void draw(const fs::path& folder, const OpenScene& scene, SceneRun& run, const Result& result) {
+/// The camera's newest image, with the result; nothing where it has none yet.
+void draw(const fs::path& folder, const OpenScene& scene, const SceneRun& run, std::size_t number,
+          const Result& result) {
+  const std::shared_ptr<const Frame> frame = run.frame(number);
+  if (!frame) return;
+  const OpenCamera& camera = scene.cameras[number];
   const std::string which =
-      scene.cameras.size() > 1 ? fmt::format(", camera {}", run.camera().source.name) : "";
-  const std::shared_ptr<const Frame> kept = run.frame();
-  const Frame& frame = *kept;
+      scene.cameras.size() > 1 ? fmt::format(", camera {}", camera.source.name) : "";
   const std::vector<PictureLink> links =
-      projected(run.camera().mounted->camera(), frame.X_BC, result.links);
+      projected(camera.mounted->camera(), frame->X_BC, result.links);
   write_picture(
-      folder_of(scene, run.camera(), folder) / fmt::format("frame_{:06}.png", run.frame_number()),
-      {run.sensor_depth_m(), &frame.robot, &frame.obstacles, &links, result.range_m,
-       fmt::format("{}{}, frame {}, {:.3f} s{}", scene.robot->model().name, which,
-                   run.frame_number(), frame.stamp_s, speed_text(result))});
+      folder_of(scene, camera, folder) / fmt::format("frame_{:06}.png", result.frame),
+      {run.sensor_depth_m(number), &frame->robot, &frame->obstacles, &links, result.range_m,
+       fmt::format("{}{}, frame {}, {:.3f} s{}", scene.robot->model().name, which, result.frame,
+                   frame->stamp_s, speed_text(result))});
 }
 
 void say(const OpenScene& scene, const std::string& text) {
@@ -133,24 +136,44 @@ void each_frame(const OpenScene& scene, SceneRun& run, const char* doing,
       scene, run.plausibility(), doing, [&run] { return run.next(); }, take);
 }
 
-void run_frames(const OpenScene& scene, const Pictures& pictures, int repeat,
+void run_frames(const OpenScene& scene, const WantedFrames& wanted, int repeat,
                 const std::function<void(const Result&)>& take) {
   SceneRun run(scene, stop_if_interrupted);
   run.stop_with(interruption());
-  const bool draws = !pictures.folder.empty();
-  if (draws) make_folders(scene, pictures.folder);
+  const bool draws = !wanted.folder.empty();
+  if (draws) make_folders(scene, wanted.folder);
   LateImplausible late(run);
   Result result;
-  each_frame(scene, run, "run", [&] {
+  bool is_done = false;
+  const auto next = [&] { return !is_done && run.next(); };
+  each_frame(scene, run.plausibility(), "run", next, [&] {
     if (run.begins_result()) {
       result = run.ask(repeat);
       stop_if_interrupted();
       late.update(scene, result);
-      take(result);
     }
-    const std::size_t image = run.frame_number();
-    if (draws && pictures.image.value_or(image) == image) draw(pictures.folder, scene, run, result);
+    is_done = wanted.only && *wanted.only == static_cast<std::size_t>(result.frame);
+    if (wanted.only && !is_done) return;
+    if (run.begins_result()) take(result);
+    for (std::size_t i = 0; draws && i < scene.cameras.size(); ++i) {
+      if (wanted.only || i == run.camera_number()) draw(wanted.folder, scene, run, i, result);
+    }
   });
+}
+
+bool ClosestApproach::update(const Result& result) {
+  const LinkResult* nearest = result.nearest_link();
+  if (!nearest || (least_m_ && *least_m_ <= nearest->distance_m)) return false;
+  least_m_ = nearest->distance_m;
+  where_ = fmt::format("frame {}, {:.3f} s: {}, {:.3f} m", result.frame, result.stamp_s,
+                       nearest->link, nearest->distance_m);
+  return true;
+}
+
+std::string ClosestApproach::text(const OpenScene& scene) const {
+  return least_m_
+             ? fmt::format("The closest approach in {} images is in {}", scene.frame_count, where_)
+             : fmt::format("No link has a distance in {} images", scene.frame_count);
 }
 
 }  // namespace berth::app

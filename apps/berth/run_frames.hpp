@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "apps/berth/arguments.hpp"
@@ -39,18 +40,31 @@ void each_frame(const OpenScene& scene, const std::vector<CameraPlausibility>& c
 void each_frame(const OpenScene& scene, SceneRun& run, const char* doing,
                 const std::function<void()>& take);
 
-/// Which pictures are drawn.
-struct Pictures {
-  /// Empty: none.
+struct WantedFrames {
+  /// Of pictures, which are named by the number of their result. Empty: none.
   std::filesystem::path folder;
-  /// Of each camera's image of this number; without it of each image.
-  std::optional<std::size_t> image = {};
+  /// The only result that is wanted, drawn in the newest image of each camera; without it each
+  /// result is, drawn in the image that it comes with.
+  std::optional<std::size_t> only = {};
 };
 
-/// All frames of a scene through the whole pipeline, each request asked so often (SceneRun::ask):
-/// `take` gets each result. Throws as SceneRun does,
+/// The frames of a scene through the whole pipeline, each request asked so often (SceneRun::ask):
+/// `take` gets each result that is wanted. Throws as SceneRun does,
 /// before anything is written.
-void run_frames(const OpenScene& scene, const Pictures& pictures, int repeat,
+void run_frames(const OpenScene& scene, const WantedFrames& wanted, int repeat,
                 const std::function<void(const Result&)>& take);
+
+/// Which of a scene's results has the least distance.
+class ClosestApproach {
+ public:
+  /// Whether it is nearer than all before.
+  bool update(const Result& result);
+  /// Such as "The closest approach in 101 images is in frame 48, 1.713 s: arm_link_7, 0.015 m".
+  std::string text(const OpenScene& scene) const;
+
+ private:
+  std::optional<float> least_m_;
+  std::string where_;
+};
 
 }  // namespace berth::app

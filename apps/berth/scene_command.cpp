@@ -1,7 +1,6 @@
 // run and filter: all frames of a scene.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <stdexcept>
 
 #include "apps/berth/commands.hpp"
@@ -27,25 +26,29 @@ void write_images(const fs::path& folder, const SceneRun& run, const Frame& fram
   write_depth_png(file("obstacle_depth"), frame.obstacles.depth_m, depth_scale_m);
 }
 
-/// Throws unless a camera has an image of this number.
-void require_image(const OpenScene& scene, std::size_t number) {
-  std::size_t most = 0;
-  for (const OpenCamera& camera : scene.cameras) most = std::max(most, camera.source.depth.size());
-  if (number < most) return;
+/// Throws unless the scene has a result of this number.
+void require_frame(const OpenScene& scene, std::size_t number) {
+  const std::size_t last = scene_steps(scene).back().result;
+  if (number <= last) return;
   throw std::invalid_argument(
-      fmt::format("--frame {}: there is no such image; expected 0 to {}", number, most - 1));
+      fmt::format("--frame {}: there is no such frame; expected 0 to {}", number, last));
 }
 
 }  // namespace
 
 void run_command(const RunArguments& arguments) {
   const OpenScene scene = open_scene_over(arguments.scene, arguments.evaluation);
-  if (arguments.picture_image) require_image(scene, *arguments.picture_image);
+  if (arguments.frame) require_frame(scene, *arguments.frame);
   Output output(arguments);
+  ClosestApproach closest;
   keep_what_is_done(arguments, output, [&] {
-    run_frames(scene, {arguments.picture_folder, arguments.picture_image}, arguments.repeat,
-               [&output](const Result& result) { output.write(result); });
+    run_frames(scene, {arguments.picture_folder, arguments.frame}, arguments.repeat,
+               [&](const Result& result) {
+                 output.write(result);
+                 closest.update(result);
+               });
   });
+  if (!arguments.frame) output.close(closest.text(scene));
   output.finish();
 }
 

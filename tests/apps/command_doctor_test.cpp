@@ -73,6 +73,26 @@ TEST(Doctor, AGoodSceneGetsAllChecksAndExitStatusZero) {
                "What to do next:\n1. ", "berth calibrate scene.yaml --out calibrated.yaml"});
 }
 
+TEST(Doctor, WhatIsSaidOfSeveralCamerasInTheSameWordsIsSaidOnce) {
+  const TemporaryFolder folder;
+  const std::string out = run_berth(folder.path(), {"doctor", kBundledData + "/scene.yaml"}).out;
+  for (const char* advice : {"no reading", "watch"}) {
+    const std::string line = fmt::format("advice  {}, camera", advice);
+    EXPECT_NE(out.find(line + "s camera, left, right: "), std::string::npos) << out;
+    EXPECT_EQ(out.find(line), out.rfind(line)) << out;
+  }
+  EXPECT_NE(out.find("detection, camera left: "), std::string::npos) << "in other words";
+}
+
+TEST(Doctor, LinksThatNobodySeesAreNamedInOneAdvice) {
+  DoctorsScene scene;
+  scene.more = "evaluation: {min_seen_share: 0.9}\n";  // one camera never sees so much of a link
+  const Outcome outcome = scene.doctor();
+  expect_text(outcome, {"advice  results: no camera sees arm_link_", ", arm_link_",
+                        " of 12 results", "Move or add a camera that sees arm_link_"});
+  EXPECT_EQ(outcome.out.find("Move or add"), outcome.out.rfind("Move or add"));
+}
+
 TEST(Doctor, AMissingImageIsNamedAndNothingMoreIsLookedAt) {
   DoctorsScene scene;
   scene.last_image = "nowhere.png";

@@ -138,8 +138,10 @@ TEST(Run, TableHasALineForEachLinkOfEachFrame) {
         "base", "upper", "lower", "finger", "plug", "not_seen"}) {
     EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
   }
-  // Per frame a title, the table's header, five links and an empty line.
-  EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 3 * 8);
+  // Per frame a title, the table's header, five links and an empty line; then one of them all.
+  EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 3 * 8 + 1);
+  EXPECT_NE(outcome.out.find("\nThe closest approach in 3 images is in frame "), std::string::npos)
+      << outcome.out;
 }
 
 TEST(Run, OutFileHoldsWhatElseWouldBePrinted) {
@@ -190,20 +192,49 @@ TEST(Run, SeveralCamerasGiveALineForEachStampAndAFolderOfPicturesEach) {
   EXPECT_TRUE(std::filesystem::exists(scene / "pictures/again/frame_000001.png"));
 }
 
-TEST(Run, OnePictureOfEachCameraIsDrawnOnRequest) {
-  CommandScene scene;
+/// A camera that exposes between the images of the first one.
+void add_camera_out_of_step(CommandScene& scene) {
   add_second_camera(scene);
-  const std::vector<Json> lines =
+  std::string& lines = scene.lines.more_cameras;
+  lines.replace(lines.find("[0, 1]"), 6, "[0.05, 1]");
+  scene.lines.more_camera = "stamps: [0, 1, 2]";
+}
+
+TEST(Run, OneFrameOnRequestIsThatOfTheWholeRunDrawnInEachCamera) {
+  CommandScene scene;
+  add_camera_out_of_step(scene);
+  const std::vector<Json> all = scene.json({"run", "scene.yaml"});
+  ASSERT_EQ(all.size(), 4U);
+  const std::vector<Json> one =
       scene.json({"run", "scene.yaml", "--picture", "pictures", "--frame", "1"});
-  EXPECT_EQ(lines.size(), 3U);
-  EXPECT_FALSE(std::filesystem::exists(scene / "pictures/front/frame_000000.png"));
-  EXPECT_TRUE(std::filesystem::exists(scene / "pictures/front/frame_000001.png"));
-  EXPECT_TRUE(std::filesystem::exists(scene / "pictures/again/frame_000001.png"));
-  EXPECT_FALSE(std::filesystem::exists(scene / "pictures/front/frame_000002.png"));
+  ASSERT_EQ(one.size(), 1U);
+  EXPECT_EQ(one[0], all[1]);
+  EXPECT_EQ(one[0]["cameras"][0]["frame"], 0);
+  for (const char* camera : {"front", "again"}) {
+    const auto folder = scene / "pictures" / camera;
+    EXPECT_TRUE(std::filesystem::exists(folder / "frame_000001.png")) << camera;
+    EXPECT_FALSE(std::filesystem::exists(folder / "frame_000000.png")) << camera;
+  }
+}
+
+TEST(Run, PicturesAreNumberedAsTheFramesOfTheTable) {
+  CommandScene scene;
+  add_camera_out_of_step(scene);
+  EXPECT_EQ(scene.berth({"run", "scene.yaml", "--picture", "pictures"}).exit_status, 0);
+  const std::vector<std::string> names = scene.all_names();
+  for (const char* name : {"front/frame_000000.png", "again/frame_000001.png",
+                           "front/frame_000002.png", "front/frame_000003.png"}) {
+    EXPECT_EQ(std::count(names.begin(), names.end(), std::string("pictures/") + name), 1) << name;
+  }
+  EXPECT_FALSE(std::filesystem::exists(scene / "pictures/front/frame_000001.png"));
+}
+
+TEST(Run, AFrameThatIsNotThereIsRefused) {
+  const CommandScene scene;
   const Outcome none = scene.berth({"run", "scene.yaml", "--picture", "pictures", "--frame", "3"});
   EXPECT_EQ(none.exit_status, 1);
   EXPECT_EQ(none.out, "");
-  EXPECT_NE(none.err.find("--frame 3: there is no such image; expected 0 to 2"), std::string::npos)
+  EXPECT_NE(none.err.find("--frame 3: there is no such frame; expected 0 to 2"), std::string::npos)
       << none.err;
 }
 
@@ -333,9 +364,12 @@ TEST(Demo, RunsTheBundledSceneAndDrawsIt) {
   EXPECT_NE(outcome.out.find(" ok "), std::string::npos);
   EXPECT_EQ(folder.names(), std::vector<std::string>{"berth_demo"});
   EXPECT_NE(outcome.out.find((folder / "berth_demo").string()), std::string::npos);
-  for (const char* camera : {"camera", "left", "right"}) {
-    const auto picture = folder / "berth_demo" / camera / "frame_000000.png";
-    EXPECT_TRUE(read_file_bytes(picture).starts_with("\x89PNG\r\n")) << camera;
+  EXPECT_NE(outcome.out.find("The closest approach in 101 images is in frame 48, 1.713 s:"),
+            std::string::npos);
+  for (const char* picture :
+       {"camera/frame_000000.png", "left/frame_000001.png", "camera/frame_000048.png"}) {
+    EXPECT_TRUE(read_file_bytes(folder / "berth_demo" / picture).starts_with("\x89PNG\r\n"))
+        << picture;
   }
 }
 

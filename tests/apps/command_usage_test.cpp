@@ -34,10 +34,13 @@ TEST(Usage, WrongCommandLineIsRefused) {
       {{"run", "scene.yaml", "--fast"}, "--fast"},
       {{"run", "scene.yaml", "--method", "exact"}, "--method"},
       {{"run", "scene.yaml", "--backend", "opengl"}, "--backend"},
-      {{"run", "scene.yaml", "--frame", "1"}, "--picture"},
+      {{"runn", "scene.yaml"},
+       "runn: no such command; expected run (the nearest), or another of demo"},
+      {{"run", "scene.yaml", "--frame", "-1"}, "--frame"},
       {{"evaluate", "scene.yaml", "--camera", "c"}, "--camera"},
       {evaluate_with({"--backend", "opengl"}), "--backend"},
       {{"run", "scene.yaml", "--range", "0"}, "--range"},
+      {{"run", "scene.yaml", "--range-m", "0"}, "--range-m"},
       {{"run", "scene.yaml", "--range", "near"}, "--range"},
       {{"run", "scene.yaml", "--range"}, "--range"},
       {{"run", "scene.yaml", "--tolerance-m", "-0.001"}, "--tolerance-m"},
@@ -53,6 +56,8 @@ TEST(Usage, WrongCommandLineIsRefused) {
       {{"evaluate", "--camera", "c", "--robot-depth", "r", "--link-ids", "i"}, "--obstacle-depth"},
       {evaluate_with({"--repeat", "0"}), "--repeat"},
       {evaluate_with({"--depth-scale", "0"}), "--depth-scale"},
+      {{"evaluate", "s.yaml", "--robot-region-scale", "0.5"},
+       "0.5 is neither 0 nor a number from 1 to 1000"},
       {evaluate_with({"--method", "nonsense"}), "nonsense"},
       {evaluate_with({"--visibility", "on"}), "scene excludes"},
       {evaluate_with({"--deadline-us"}), "--deadline-us"},
@@ -70,6 +75,8 @@ TEST(Usage, WrongCommandLineIsRefused) {
       {{"calibrate", "scene.yaml"}, "--out"},
       {{"calibrate", "--out", "new.yaml"}, "scene"},
       {{"calibrate", "scene.yaml", "--out"}, "--out"},
+      {{"calibrate", "s.yaml", "--out", "n.yaml", "--attached", "maybe"},
+       "maybe not in {ask,yes,no}"},
       {{"calibrate", "scene.yaml", "--out", "new.yaml", "--range", "1"}, "--range"},
       {{"calibrate", "scene.yaml", "--out", "new.yaml", "--format", "xml"}, "--format"},
       {{"calibrate", "scene.yaml", "--out", "new.yaml", "--threads", "0"}, "--threads"},
@@ -134,6 +141,20 @@ TEST(Usage, SettingsOfMethodsThatCompareImagesAreToldByEvaluateAlone) {
   EXPECT_NE(run.find("--tolerance-m"), std::string::npos);
   EXPECT_EQ(run.find("--search-pattern"), std::string::npos);
   EXPECT_NE(run_berth(folder / "", {"evaluate", "--help"}).out.find("--search-pattern"),
+            std::string::npos);
+}
+
+TEST(Usage, HelpShowsValuesWithoutTheOptionParsersChecks) {
+  const TemporaryFolder folder;
+  for (const char* command : {"run", "calibrate", "evaluate", "init", "demo"}) {
+    const std::string out = run_berth(folder / "", {command, "--help"}).out;
+    for (const char* leak : {"TEXT", "INT", "FLOAT", "->", ":{", "Excludes"}) {
+      EXPECT_EQ(out.find(leak), std::string::npos) << leak << " in\n" << out;
+    }
+  }
+  EXPECT_NE(run_berth(folder / "", {"calibrate", "--help"}).out.find("--attached ask|yes|no"),
+            std::string::npos);
+  EXPECT_NE(run_berth(folder / "", {"run", "--help"}).out.find("--range-m,--range M"),
             std::string::npos);
 }
 

@@ -145,6 +145,17 @@ TEST_F(RewrittenScene, ReadsBackWhatWasChangedAndAllElse) {
             (std::map<std::string, double>{{"j1", 1}, {"j2", 1.0 / 3}, {"j.3 x", -1e-5}}));
 }
 
+TEST_F(RewrittenScene, LeadsEditorsToTheSchemaFromItsNewPlace) {
+  const std::string line = "# yaml-language-server: $schema=";
+  for (const auto& [before, after] : {std::pair("schema.json", "../cell/schema.json"),
+                                      std::pair("/usr/share/s.json", "/usr/share/s.json"),
+                                      std::pair("https://a.org/s.json", "https://a.org/s.json")}) {
+    const fs::path scene = write(line + before + "\n" + scene_of(kBlockCamera));
+    const std::string text = rewritten_scene(scene, {}, new_file());
+    EXPECT_EQ(text.substr(0, text.find('\n')), line + after);
+  }
+}
+
 TEST_F(RewrittenScene, WritesOtherValuesAtTheirPlaces) {
   const std::string text = scene_of(kBlockCamera + kFlowCamera);
   SceneChange change;

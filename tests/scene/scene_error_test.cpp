@@ -79,7 +79,8 @@ end | joints: j\njoins: k | scene.yaml:9: joins: unknown key; expected joints (t
 end | joints: j\nself_filter: {tolerance: 1} | scene.yaml:9: self_filter.tolerance: unknown key; expected tolerance_m
 end | joints: j\nself_filter: | scene.yaml:9: self_filter: nothing; expected a map
 end | joints: j\nevaluation: {range: 1} | scene.yaml:9: evaluation.range: unknown key; expected range_m
-end | joints: j\nevaluation: {range_m: 1,5} | scene.yaml:9: evaluation.5: unknown key; expected a name; write 1.5 for 1,5
+end | joints: j\nevaluation: {range_m: 1,5} | scene.yaml:9: evaluation.range_m: 1,5; expected a finite number, with a point in place of the comma
+end | joints: j\nevaluation: {5} | scene.yaml:9: evaluation.5: unknown key
 end | joints: j\nevaluation:\n  range_m: 1,5 | range_m: 1,5; expected a finite number, with a point in place of the comma
 end | joints: j\nevaluation: {range_m: 0} | evaluation.range_m: 0; expected a number above 0
 end | joints: j\nevaluation: {range_m: -1} | evaluation.range_m: -1; expected a number above 0
@@ -114,7 +115,7 @@ end | joints: j\n  wrong: k | scene.yaml:9 ... expected valid YAML
     SCOPED_TRACE(scene.text());
     expect_parts(error_message([&] { read_text(scene); }), split(cells[2], " ... "));
   }
-  EXPECT_EQ(cases, 78);
+  EXPECT_EQ(cases, 79);
 }
 
 TEST(SceneErrors, RefusesANinthCamera) {

@@ -185,10 +185,19 @@ YamlMap::YamlMap(const YamlValue& value, const std::vector<std::string_view>& kn
   for (const auto& [key, entry] : entries_) {
     if (std::ranges::find(known, key) != known.end()) continue;
     if (std::ranges::find(unspoken, key) != unspoken.end()) continue;
-    if (parse_integer(key)) entry.fail("unknown key", "a name; write 1.5 for 1,5");
+    require_no_comma(key);
     entry.fail("unknown key", fmt::format("{} (the nearest), or another of {}", nearest(key, known),
                                           fmt::join(known, ", ")));
   }
+}
+
+void YamlMap::require_no_comma(std::string_view key) const {
+  const auto at = std::ranges::find(entries_, key, &std::pair<std::string, YamlValue>::first);
+  if (at == entries_.begin() || !parse_finite(std::string(key))) return;
+  const YamlValue& before = std::prev(at)->second;
+  if (before.is_list() || before.is_map()) return;
+  before.fail(fmt::format("{},{}", before.raw_text(), key),
+              "a finite number, with a point in place of the comma");
 }
 
 std::optional<YamlValue> YamlMap::find(std::string_view key) const {

@@ -71,6 +71,10 @@ class YamlMap {
   const FilePlace& place() const { return place_; }
 
  private:
+  /// In a map in braces `range_m: 1,5` is two entries: throws where this key is the part behind a
+  /// decimal comma.
+  void require_no_comma(std::string_view key) const;
+
   FilePlace place_;
   std::vector<std::pair<std::string, YamlValue>> entries_;
 };

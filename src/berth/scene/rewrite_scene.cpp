@@ -65,6 +65,19 @@ void move_paths(const YamlScalars& scene, const fs::path& from_file, const fs::p
   }
 }
 
+/// With the line that names the JSON Schema for editors, unless it is a URL, as it holds from the
+/// new place.
+std::string with_moved_schema(std::string text, const PathMove& move) {
+  constexpr std::string_view kLine = "# yaml-language-server: $schema=";
+  const std::size_t line = text.find(kLine);
+  if (line == std::string::npos) return text;
+  const std::size_t first = line + kLine.size();
+  const std::size_t length = std::min(text.find_first_of(" \t\r\n", first), text.size()) - first;
+  const std::string schema = text.substr(first, length);
+  if (schema.find("://") != std::string::npos) return text;
+  return text.replace(first, length, move.path(schema).string());
+}
+
 /// With ten decimals at most.
 std::string printed_number(double value) {
   std::string text = fmt::format("{:.10f}", value);
@@ -230,7 +243,8 @@ std::string rewritten_scene(const fs::path& scene_file, const SceneChange& chang
     changed[{"joint_offsets", joint}] = exact(offset);
   }
   for (const auto& [place, value] : change.values) changed[place] = value;
-  std::string new_text = edited_yaml(scene_file, text, changed);
+  std::string new_text =
+      with_moved_schema(edited_yaml(scene_file, text, changed), PathMove(scene_file, new_file));
   for (const SceneAttachmentChange& one : change.attached) {
     new_text = with_list_item(
         scene_file, new_text, "attached",

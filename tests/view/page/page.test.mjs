@@ -46,7 +46,7 @@ test("shows the bundled scene", async () => {
   const page = await open(berth.url);
   assert.equal(await page.locator("#links tbody tr").count(), 8);
   assert.match(await text(page, "#legend"), /\d{5,} readings, 70468 triangles/);
-  assert.match(await text(page, "#when"), /of 101/);
+  assert.match(await text(page, "#when"), /^frame 0: 0\.013 s, camera's image 0$/);
   await until(page, () => document.querySelector("#progress").classList.contains("done"));
   const drawn = await page.evaluate(() => {
     const canvas = document.querySelector("#canvas-image");
@@ -177,14 +177,14 @@ test("each question has its answer a click away", async () => {
   await isThere(page, "#link-details");
   assert.match(await text(page, "#said"), /^arm_link_\d: \d\.\d{3} m to /);
   await ask(4);
-  await until(page, () => /^49 of 101/.test(document.getElementById("when").textContent));
+  await until(page, () => /^frame 48: 1\.713 s, /.test(document.getElementById("when").textContent));
   assert.deepEqual(await active(), ["When was it nearest?"]);
   assert.match(await text(page, "#link-details"), /arm_link_7.*0\.015 m.*unknown/s);
   // The line ends in unknown space, which is drawn for that.
   assert.equal(await text(page, "#said"), "Nearest, at 1.713 s: arm_link_7: 0.015 m to unknown space; what is seen is 0.078 m away.");
   assert.ok(await page.isChecked("#layer-hidden"));
   await click(page, "#after");
-  await until(page, () => /^50 of 101/.test(document.getElementById("when").textContent));
+  await until(page, () => /^frame 49: /.test(document.getElementById("when").textContent));
   assert.deepEqual(await active(), []);
   await ask(5);
   assert.match(await text(page, "#legend"), /unknown space/);

@@ -104,7 +104,7 @@ function setShown(message: Shown): void {
     return;
   }
   const [which, frame, stamp_s] = scene!.steps[message.step];
-  byId("when").textContent = `${message.step + 1} of ${scene!.steps.length}: ${stamp_s.toFixed(3)} s, ${scene!.cameras[which].name} ${frame}`;
+  byId("when").textContent = `frame ${message.result.frame}: ${stamp_s.toFixed(3)} s, ${scene!.cameras[which].name}'s image ${frame}`;
   const scrub = byId<HTMLInputElement>("scrub");
   if (document.activeElement !== scrub || isPlaying) scrub.value = String(message.step);
   document.body.dataset.step = String(message.step);
