@@ -1,5 +1,5 @@
 # Thin fronts of CMake. Each target does all set-up that it needs, on a bare Debian 12 too.
-.PHONY: demo view opengl python test test-ros2 build bench figures lab study closed-loop bench-gpu sanitize sanitize-thinned fuzz trust berth_trust trust-distances trust-real-images trust-long-runs trust-sequences trust-streams trust-whole-robot trust-contact setup docs site release deb wheel test-debian13 test-arm64 ros-release lint format clean
+.PHONY: demo view opengl python test test-ros2 build bench figures lab study closed-loop bench-gpu sanitize sanitize-thinned fuzz trust berth_trust trust-distances trust-real-images trust-long-runs trust-sequences trust-streams trust-whole-robot trust-contact setup evidence docs site release deb wheel test-debian13 test-arm64 ros-release lint format clean
 
 # A fresh build folder is configured for berth alone, which needs the fewest packages. One that has more keeps it.
 product = test -e build/release/build.ninja || cmake --preset product
@@ -143,6 +143,10 @@ test-ros2:
 # All that the tests need.
 setup:
 	scripts/setup.sh packages.txt packages-opengl.txt packages-lab.txt packages-python.txt packages-view.txt packages-tests.txt
+
+# Runs the tests that docs/evidence.md names: build/evidence.md has their outcomes, the commit and the machine.
+evidence: build
+	scripts/evidence.py build/release
 
 # The API's pages: build/docs/html/index.html.
 docs:

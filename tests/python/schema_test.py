@@ -49,7 +49,7 @@ def test_bundled_scenes_and_the_documents_examples_are_scenes():
     scenes = [file.read_text() for file in (SOURCE / "data/bundled").glob("*.yaml") if not file.name.startswith("camera_info")]
     assert len(scenes) == 2 and all(text.startswith("# yaml-language-server: $schema=../schema/scene.json\n") for text in scenes)
     examples = re.findall(r"<!-- example: .*? -->\n```yaml\n(.*?)```", (SOURCE / "docs/scene.md").read_text(), re.S)
-    assert len(examples) == 5
+    assert len(examples) == 3
     for text in scenes + examples:
         assert why_not("scene", yaml.safe_load(text)) == []
 
