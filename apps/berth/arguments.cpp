@@ -66,12 +66,14 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
       ->type_name("N");
   add_evaluation(command, arguments.evaluation);
   command
-      .add_option("--repeat", arguments.repeat, "Repeat each request so often, and tell the times")
+      .add_option("--repeat", arguments.repeat, "Ask each request N times, and report the times")
       ->check(CLI::Range(1, 1000000000))
       ->type_name("N");
   add_output(command, arguments);
   command.footer(
-      "Example:\n  berth run scene.yaml --format json --out result.jsonl --picture pictures");
+      "Examples:\n  berth run scene.yaml --picture pictures\n  berth run scene.yaml --frame 48\n  "
+      "berth run scene.yaml "
+      "--format json --out result.jsonl");
 }
 
 void add_record_options(CLI::App& command, RecordArguments& arguments) {
@@ -107,8 +109,8 @@ void add_replay_options(CLI::App& command, ReplayArguments& arguments) {
              arguments.format);
   add_threads(command, arguments.threads);
   command.footer(
-      "Exit status 0: all results are the recorded ones to the last bit; 1: one is not, or the "
-      "recording is not whole, and it is told where.\nExample:\n  berth replay stop.mcap");
+      "Exit status 0: all results are the recorded ones to the last bit; 1: one differs, or the "
+      "recording is not whole, and the message says where.\nExample:\n  berth replay stop.mcap");
 }
 
 void add_filter_options(CLI::App& command, FilterArguments& arguments) {
@@ -142,7 +144,7 @@ void add_calibrate_options(CLI::App& command, CalibrateArguments& arguments) {
   command.add_flag("--correct-depth", arguments.correct_depth,
                    "Take the camera's depth error out of its readings from now on");
   command.add_flag("--background")
-      ->description("Is always done: what the cameras see of the empty cell, as a PNG each");
+      ->description("No effect: the empty cell that each camera sees is always written, as a PNG");
   command
       .add_option_function<std::string>(
           "--attached",
@@ -185,7 +187,7 @@ void add_evaluate_options(CLI::App& command, EvaluateArguments& arguments) {
                   "ignored, however near (the thesis: 6); 0 is off (default: 0)")
       ->check(require_region_scale)
       ->type_name("X");
-  command.add_option("--repeat", arguments.repeat, "Evaluate so often, and tell the times")
+  command.add_option("--repeat", arguments.repeat, "Evaluate N times, and report the times")
       ->check(CLI::Range(1, 1000000000))
       ->type_name("N");
   add_methods(command, arguments.method, arguments.evaluation);
@@ -264,7 +266,7 @@ void add_doctor_options(CLI::App& command, DoctorArguments& arguments) {
 }
 
 void add_schema_options(CLI::App& command, SchemaArguments& arguments) {
-  command.add_option("name", arguments.name, "Of what")
+  command.add_option("name", arguments.name, "Which schema")
       ->required()
       ->check(CLI::IsMember({"scene", "result", "calibration"}));
   command.footer("Example:\n  berth schema scene >scene.json");

@@ -48,11 +48,13 @@ void require_command_named(const CLI::App& program, const std::string& word) {
 
 int run_command_line(int argc, const char* const* argv) {
   CLI::App program(
-      "berth: how far each link of a robot is from the nearest thing that a depth camera sees.\n"
-      "Takes depth images, the robot's URDF and its joint angles; gives per link the least "
-      "distance, the two\n"
-      "closest points and the mean direction of what is near. What an obstacle hides counts as "
-      "obstacle.");
+      "berth: how far each link of a robot is from what depth cameras see, and from what they "
+      "cannot "
+      "see.\n"
+      "Takes depth images, the robot's URDF and its joint angles; gives per link both distances "
+      "with "
+      "a certified\n"
+      "lower bound, and the closest points.");
   // None at all is found below: CLI11 would report that before an unknown word.
   program.require_subcommand(0, 1);
   program.formatter(std::make_shared<HelpFormatter>());
@@ -78,8 +80,8 @@ int run_command_line(int argc, const char* const* argv) {
   add("run", "Run the frames of a scene through the whole pipeline", add_run_options, run_command);
   add("record", "Run a scene, and record what its monitor saw and said when it stopped the robot",
       add_record_options, record_command);
-  add("replay", "Do once more what was recorded, and tell whether the results are the same",
-      add_replay_options, replay_command);
+  add("replay", "Repeat a recording, and check that all results are the same", add_replay_options,
+      replay_command);
   add("filter", "Write the robot's depth, its link IDs and the obstacles as images",
       add_filter_options, filter_command);
   add("calibrate", "Find the cameras' poses and settings from images of the moving arm",
@@ -103,7 +105,7 @@ int run_command_line(int argc, const char* const* argv) {
   });
   program.footer(
       "Examples:\n  berth demo\n  berth init robot.urdf\n  berth doctor scene.yaml\n  berth run "
-      "scene.yaml --picture pictures\nberth COMMAND --help tells more.");
+      "scene.yaml --picture pictures\nberth COMMAND --help shows all options.");
 
   const auto require_command = [&] {
     if (program.get_subcommands().empty()) throw CLI::RequiredError("A command");
