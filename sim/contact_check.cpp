@@ -5,8 +5,6 @@
 namespace berth::sim {
 namespace {
 
-/// Arm and person come nearer by less than this.
-constexpr double kFastest_m_s = 5;
 /// FCL is asked at once where the least distance falls by more than this.
 constexpr double kFall_m = 0.02;
 
@@ -15,14 +13,14 @@ constexpr double kFall_m = 0.02;
 void ContactCheck::add(ContactSample sample) {
   const double at_least_m = clearance_.at_least(sample.pose, sample.X_BP);
   if (sample.fastest_m_s < kMoving_m_s) {
-    next_s_ = sample.time_s + std::max(0.0, at_least_m) / kFastest_m_s;
+    next_s_ = sample.time_s + std::max(0.0, at_least_m) / fastest_m_s_;
     if (at_least_m > 0 || has_touched_) return;
     has_touched_ = clearance_.at(sample.pose, sample.X_BP) <= 0;
     return;
   }
   if (at_least_m < least_moving_m_ - kFall_m) measure(sample);
   const double room_m = at_least_m - std::max(0.0, least_moving_m_);
-  next_s_ = sample.time_s + std::max(0.0, room_m) / kFastest_m_s;
+  next_s_ = sample.time_s + std::max(0.0, room_m) / fastest_m_s_;
   if (room_m < 0) open_.push_back({at_least_m, std::move(sample)});
 }
 

@@ -24,7 +24,9 @@ struct ContactSample {
 /// milliseconds, so it is asked where a bound does not decide.
 class ContactCheck {
  public:
-  explicit ContactCheck(const TrueClearance& clearance) : clearance_(clearance) {}
+  /// Arm and person come nearer by less than fastest_m_s.
+  explicit ContactCheck(const TrueClearance& clearance, double fastest_m_s = 5)
+      : clearance_(clearance), fastest_m_s_(fastest_m_s) {}
 
   /// Whether a sample of this time can add anything; if so, call add().
   bool is_due(double time_s) const { return time_s >= next_s_; }
@@ -46,6 +48,7 @@ class ContactCheck {
   void measure(const ContactSample& sample);
 
   const TrueClearance& clearance_;
+  double fastest_m_s_;
   std::vector<Open> open_;
   double next_s_ = 0;
   double least_moving_m_ = std::numeric_limits<double>::infinity();

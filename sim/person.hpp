@@ -14,6 +14,9 @@ inline constexpr double kThigh_m = 0.43, kShin_m = 0.42, kUpperArm_m = 0.30, kFo
 /// Trunk, head, arms, hands, legs and feet, each in its own frame.
 std::vector<TriangleMesh> make_person_meshes();
 
+/// Along z from the wrist, the palm across x.
+TriangleMesh make_hand();
+
 /// X_TP of each part, in the order of make_person_meshes().
 std::vector<Pose> person_kinematics(const PersonMotion& motion);
 

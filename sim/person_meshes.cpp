@@ -26,20 +26,6 @@ TriangleMesh make_head() {
   return head;
 }
 
-// Along z from the wrist, the palm across x.
-TriangleMesh make_hand() {
-  TriangleMesh hand;
-  append(hand, make_ellipsoid({0.042, 0.020, 0.056}, 32), translation(0, 0, 0.050));
-  for (int finger = 0; finger < 4; ++finger) {
-    const double x = -0.030 + 0.020 * finger;
-    append(hand, make_capsule(0.062 - 0.006 * std::abs(finger - 1.5), 0.0095, 0.0080, 16),
-           translation(x, 0, 0.092) * rotation(0.12 * (finger - 1.5), Eigen::Vector3d::UnitY()));
-  }
-  append(hand, make_capsule(0.060, 0.0120, 0.0095, 16),
-         translation(-0.034, 0, 0.035) * rotation(-0.75, Eigen::Vector3d::UnitY()));
-  return hand;
-}
-
 TriangleMesh make_foot() {
   TriangleMesh foot;
   append(foot, make_ellipsoid({0.135, 0.048, 0.042}, 32), translation(0.065, 0, -0.036));
@@ -61,6 +47,19 @@ TriangleMesh make_limb(double length_m, double r0_m, double bulge_m, double r1_m
 }
 
 }  // namespace
+
+TriangleMesh make_hand() {
+  TriangleMesh hand;
+  append(hand, make_ellipsoid({0.042, 0.020, 0.056}, 32), translation(0, 0, 0.050));
+  for (int finger = 0; finger < 4; ++finger) {
+    const double x = -0.030 + 0.020 * finger;
+    append(hand, make_capsule(0.062 - 0.006 * std::abs(finger - 1.5), 0.0095, 0.0080, 16),
+           translation(x, 0, 0.092) * rotation(0.12 * (finger - 1.5), Eigen::Vector3d::UnitY()));
+  }
+  append(hand, make_capsule(0.060, 0.0120, 0.0095, 16),
+         translation(-0.034, 0, 0.035) * rotation(-0.75, Eigen::Vector3d::UnitY()));
+  return hand;
+}
 
 std::vector<TriangleMesh> make_person_meshes() {
   const TriangleMesh upper_arm = make_limb(kUpperArm_m, 0.056, 0.050, 0.040);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "sim/person.hpp"
 #include "sim/random.hpp"
@@ -32,7 +33,7 @@ std::vector<Pose> nowhere(std::size_t meshes) {
   return std::vector<Pose>(meshes, X);
 }
 
-Visit::Visit(VisitKind kind, std::uint32_t seed)
+Visit::Visit(VisitKind kind, std::uint32_t seed, std::span<const Bvh> motions)
     : kind_(kind),
       person_(seed, kind == VisitKind::hands ? Reach::to_table : Reach::to_arm),
       second_(seed + 1000003) {
@@ -43,11 +44,18 @@ Visit::Visit(VisitKind kind, std::uint32_t seed)
   duration_s_ = person_.duration_s();
   if (kind == VisitKind::two) duration_s_ = std::max(duration_s_, second_.duration_s());
   if (kind == VisitKind::passing) duration_s_ = 2 * kFar_m / speed_m_s_;
+  if (kind != VisitKind::bvh) return;
+  if (motions.empty()) throw std::invalid_argument("people: bvh; expected motions with it");
+  measured_.emplace(motions, seed);
+  duration_s_ = measured_->duration_s();
 }
 
-double Visit::lead_s() const { return kLead_m / person_.speed_m_s(); }
+double Visit::lead_s() const {
+  return kLead_m / (measured_ ? measured_->speed_m_s() : person_.speed_m_s());
+}
 
 std::vector<TriangleMesh> Visit::meshes() const {
+  if (measured_) return measured_->meshes();
   if (kind_ == VisitKind::box) return {make_cuboid(Eigen::Vector3d::Constant(kBox_m))};
   std::vector<TriangleMesh> all = make_person_meshes();
   if (kind_ != VisitKind::two) return all;
@@ -70,6 +78,8 @@ std::vector<Pose> Visit::pose_at(double time_s) const {
       for (const Pose& X : person_at(second_, time_s)) all.push_back(X);
       return all;
     }
+    case VisitKind::bvh:
+      return measured_->pose_at(time_s);
     case VisitKind::reaching:
     case VisitKind::hands:
       break;

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
 #include "berth/robot/triangle_mesh.hpp"
 #include "sim/encounter.hpp"
+#include "sim/measured_person.hpp"
 
 namespace berth::sim {
 
@@ -18,14 +21,16 @@ enum class VisitKind {
   crouching,  ///< somebody walks up, crouches behind the table, and rises again
   box,        ///< a box slides in, and stays
   hands,      ///< somebody reaches in and puts a hand on the table where the gripper goes
+  bvh,        ///< a MeasuredPerson
 };
-inline constexpr std::array<std::string_view, 7> kVisitKindNames = {
-    "reaching", "beside", "passing", "two", "crouching", "box", "hands"};
+inline constexpr std::array<std::string_view, 8> kVisitKindNames = {
+    "reaching", "beside", "passing", "two", "crouching", "box", "hands", "bvh"};
 
-/// Depends on its seed and kind alone. Nobody is faster than 1.6 m/s.
+/// Depends on its arguments alone. Nobody is faster than 1.6 m/s, but for a MeasuredPerson.
 class Visit {
  public:
-  Visit(VisitKind kind, std::uint32_t seed);
+  /// `motions` outlive it; for VisitKind::bvh there is one at least.
+  Visit(VisitKind kind, std::uint32_t seed, std::span<const Bvh> motions = {});
 
   /// What there is; each in its own frame.
   std::vector<TriangleMesh> meshes() const;
@@ -47,6 +52,7 @@ class Visit {
   VisitKind kind_;
   Encounter person_;
   Encounter second_;
+  std::optional<MeasuredPerson> measured_;
   /// Of what is no Encounter: how far from the base it is, and how fast.
   double range_m_;
   double speed_m_s_;
