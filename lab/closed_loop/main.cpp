@@ -13,7 +13,9 @@
 #include "berth/files/file_bytes.hpp"
 #include "lab/closed_loop/cell.hpp"
 #include "lab/closed_loop/film.hpp"
+#include "lab/closed_loop/hand_speeds.hpp"
 #include "lab/closed_loop/table.hpp"
+#include "sim/motions.hpp"
 
 namespace berth::lab {
 namespace {
@@ -27,6 +29,8 @@ struct Options {
   std::filesystem::path csv;
   std::filesystem::path film;
   bool is_cost = false;
+  std::filesystem::path motions;
+  bool is_speeds = false;
 };
 
 std::vector<Policy> chosen_policies(const Options& options) {
@@ -70,7 +74,13 @@ void print_cost(int encounter, const SimulationSettings& simulation) {
   print_times("times the monitor alone", supervisor.monitor_us());
 }
 
-void run(const Options& options) {
+void run(Options options) {
+  const bool is_bvh = options.simulation.kind == sim::VisitKind::bvh;
+  if (is_bvh || options.is_speeds) {
+    options.simulation.motions =
+        std::make_shared<const std::vector<sim::Bvh>>(sim::read_motions(options.motions));
+  }
+  if (options.is_speeds) return fmt::print("{}", hand_speed_table(*options.simulation.motions));
   if (options.is_cost) return print_cost(options.first, options.simulation);
   if (!options.film.empty()) {
     const bool has_goals = options.policies == std::vector<std::string>{"filter"};
@@ -80,7 +90,7 @@ void run(const Options& options) {
   std::vector<std::vector<EncounterResult>> results;
   for (const Policy& policy : policies) results.push_back(run_encounters(policy, options));
   if (!options.csv.empty()) write_file_bytes(options.csv, encounter_csv(policies, results));
-  fmt::print("{}", encounter_table(policies, results));
+  fmt::print("{}\n{}", encounter_table(policies, results), census_table(policies, results));
 }
 
 }  // namespace
@@ -123,6 +133,10 @@ int main(int argc, char** argv) {
                   "seconds from an exposure until its image comes")
       ->check(CLI::Range(0.0, 0.5))
       ->capture_default_str();
+  program.add_option("--motions", options.motions,
+                     "a folder with the *.bvh files that --people bvh moves by");
+  program.add_flag("--speeds", options.is_speeds,
+                   "only how fast the hands are in the motions of --motions");
   program.add_option("--csv", options.csv, "a file for each encounter's figures");
   program.add_flag("--cost", options.is_cost,
                    "only what requests and monitor cost, in encounter --first");

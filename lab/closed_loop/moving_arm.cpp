@@ -34,6 +34,11 @@ void MovingArm::place() {
   full_m_s_ = fastest_at(plan_.velocity_rad_s);
 }
 
+void MovingArm::go_to(double phase_s) {
+  phase_s_ = phase_s;
+  place();
+}
+
 void MovingArm::step(double commanded_share, double step_s) {
   const double before_m_s = share_ * full_m_s_;
   phase_s_ += share_ * step_s;

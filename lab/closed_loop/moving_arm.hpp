@@ -21,6 +21,9 @@ class MovingArm {
   /// what it has, or 0, it stays on its way.
   void lead(const std::vector<double>& velocity_rad_s, double step_s);
 
+  /// Puts it at this place of its path.
+  void go_to(double phase_s);
+
   /// Where its path is, and how fast it would go there at full speed.
   const PathPoint& plan() const { return plan_; }
   const RobotPose& pose() const { return pose_; }

@@ -12,9 +12,28 @@ namespace {
 
 using Made = std::unique_ptr<Supervisor>;
 
+class AssumingSupervisor : public MonitorSupervisor {
+ public:
+  AssumingSupervisor(std::vector<int> cameras, const SeparationSettings& settings, ShownBy shown)
+      : MonitorSupervisor(std::move(cameras), settings, shown),
+        assumption_{settings, shown != ShownBy::formula} {}
+  std::optional<Assumption> assumption() const override { return assumption_; }
+
+ private:
+  Assumption assumption_;
+};
+
 Made monitor(std::vector<int> cameras, const SeparationSettings& settings,
              ShownBy shown = ShownBy::along_path) {
-  return std::make_unique<MonitorSupervisor>(std::move(cameras), settings, shown);
+  return std::make_unique<AssumingSupervisor>(std::move(cameras), settings, shown);
+}
+
+/// As makers of certified cameras have it: for a reaching arm, and C for what they detect.
+Made device(double hz, double intrusion_m, ShownBy shown) {
+  SeparationSettings settings = cell_separation(hz);
+  settings.human_speed_m_s = 2.0;
+  settings.intrusion_m = intrusion_m;
+  return monitor({0, 1, 2}, settings, shown);
 }
 
 Made three(SeparationSettings settings, void (*change)(SeparationSettings&)) {
@@ -44,6 +63,14 @@ const std::vector<Row>& rows() {
        [](double hz) {
          return monitor({0, 1, 2}, cell_separation(hz), ShownBy::formula);
        }},
+      {{"path_160", "v_h = 2.0 m/s and C = 160 mm, as of a certified camera that detects hands"},
+       [](double hz) { return device(hz, 0.16, ShownBy::along_path); }},
+      {{"formula_160", "the same by the formula"},
+       [](double hz) { return device(hz, 0.16, ShownBy::formula); }},
+      {{"path_300", "v_h = 2.0 m/s and C = 300 mm, of one that detects arms"},
+       [](double hz) { return device(hz, 0.3, ShownBy::along_path); }},
+      {{"formula_300", "the same by the formula"},
+       [](double hz) { return device(hz, 0.3, ShownBy::formula); }},
       {{"straight", "three cameras, the arm's way is not told: it goes straight on, and bends"},
        [](double hz) {
          return monitor({0, 1, 2}, cell_separation(hz), ShownBy::straight_on);

@@ -32,6 +32,19 @@ struct Command {
   std::optional<std::vector<double>> velocity_rad_s;
 };
 
+/// What the supervisor takes for granted.
+Assumption assumption_of(const Supervisor& supervisor, double request_hz) {
+  return supervisor.assumption().value_or(Assumption{cell_separation(request_hz)});
+}
+
+/// Arm and person come nearer by less than this.
+double fastest_m_s(sim::VisitKind kind) { return kind == sim::VisitKind::bvh ? 12 : 5; }
+
+std::span<const sim::Bvh> motions_of(const SimulationSettings& settings) {
+  if (!settings.motions) return {};
+  return *settings.motions;
+}
+
 double range_of(const std::vector<Pose>& X_BP) {
   double range_m = std::numeric_limits<double>::infinity();
   for (const Pose& X : X_BP) range_m = std::min(range_m, X.translation().head<2>().norm());
@@ -52,11 +65,13 @@ class Loop {
         supervisor_(supervisor),
         model_(cell_model()),
         names_(joint_names(model_)),
-        visit_(settings.kind, seed),
+        visit_(settings.kind, seed, motions_of(settings)),
         visitors_(visit_.meshes()),
         arm_(model_, visit_.first_phase()),
         clearance_(model_, visitors_),
-        check_(clearance_),
+        check_(clearance_, fastest_m_s(settings.kind)),
+        census_(model_, clearance_, assumption_of(supervisor, settings.request_hz),
+                settings.image_latency_s + 1 / settings.image_hz),
         known_(model_),
         sensors_(model_, visitors_, seed),
         joints_(model_, 500),
@@ -83,6 +98,7 @@ class Loop {
     result_.contact_m_s = std::max(check_.contact_m_s(), known_.contact_m_s());
     result_.has_touched = check_.has_touched() || known_.contact_m_s() > 0;
     result_.duration_s = steps * kStep_s;
+    result_.lost = census_.lost();
     const Progress progress = supervisor_.progress();
     result_.reached = progress.reached;
     result_.phase_s =
@@ -108,13 +124,14 @@ class Loop {
     last_s_ = first_s_ + present_s;
   }
 
-  bool is_anybody_there() const {
-    return settings_.presence > 0 && time_s_ >= first_s_ && time_s_ <= last_s_;
+  bool is_anybody_there(double time_s) const {
+    return settings_.presence > 0 && time_s >= first_s_ && time_s <= last_s_;
   }
 
-  std::vector<Pose> visitors() const {
-    if (!is_anybody_there()) return sim::nowhere(visitors_.size());
-    return visit_.pose_at(time_s_ - begins_s_);
+  std::vector<Pose> visitors(double after_s = 0) const {
+    const double time_s = time_s_ + after_s;
+    if (!is_anybody_there(time_s)) return sim::nowhere(visitors_.size());
+    return visit_.pose_at(time_s - begins_s_);
   }
 
   void step(std::vector<LoopSample>* samples) {
@@ -180,6 +197,11 @@ class Loop {
     if (is_after_fault && scale == 0 && std::isnan(result_.commanded_stop_s)) {
       result_.commanded_stop_s = time_s_ - settings_.fault_s;
     }
+    // An arm that leaves its path has no time that it would take at full speed.
+    if (!commands_.back().velocity_rad_s) {
+      census_.add(time_s_, 1 / settings_.request_hz, scale, supervisor_.cause(), arm_.phase_s(),
+                  [this](double after_s) { return visitors(after_s); });
+    }
     if (!samples) return;
     samples->push_back({time_s_, clearance_.at(arm_.pose(), X_BP), arm_.fastest_m_s(), scale});
   }
@@ -205,7 +227,7 @@ class Loop {
     }
     if (fastest_m_s >= sim::kMoving_m_s) known_.add(arm_.pose(), fastest_m_s);
     // Somebody who comes out of nowhere comes faster than the check's bounds allow for.
-    if (is_anybody_there() && check_.is_due(time_s_))
+    if (is_anybody_there(time_s_) && check_.is_due(time_s_))
       check_.add({time_s_, arm_.pose(), visitors(), fastest_m_s});
   }
 
@@ -218,6 +240,7 @@ class Loop {
   MovingArm arm_;
   sim::TrueClearance clearance_;
   sim::ContactCheck check_;
+  Census census_;
   sim::KnownCheck known_;
   CellSensors sensors_;
   JointBuffer joints_;

@@ -1,7 +1,7 @@
 // One encounter of arm and person, millisecond by millisecond.
 #pragma once
 
-#include "lab/closed_loop/moving_arm.hpp"
+#include "lab/closed_loop/census.hpp"
 #include "lab/closed_loop/supervisor.hpp"
 #include "sim/visit.hpp"
 
@@ -30,6 +30,8 @@ struct SimulationSettings {
   /// The kind of visit, and the share of the time in which somebody is there; 0: nobody ever.
   sim::VisitKind kind = sim::VisitKind::reaching;
   double presence = 1;
+  /// For VisitKind::bvh.
+  std::shared_ptr<const std::vector<sim::Bvh>> motions;
   /// At most so long; less where the encounter is over.
   double most_s = 60;
 };
@@ -50,6 +52,8 @@ struct EncounterResult {
   bool has_touched = false;
   /// The share of the time in which the arm stood still.
   double stopped_share = 0;
+  /// Empty for an arm that leaves its path.
+  LostTimes lost;
   /// When the first stop was commanded after the fault, and when the arm stood; NaN where never.
   double commanded_stop_s = std::numeric_limits<double>::quiet_NaN();
   double stopped_s = std::numeric_limits<double>::quiet_NaN();

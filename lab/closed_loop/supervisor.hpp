@@ -35,6 +35,13 @@ struct Progress {
   int reached = 0;
 };
 
+/// What a policy takes for granted of people, cameras and brake.
+struct Assumption {
+  SeparationSettings settings;
+  /// Whether everything has to be far enough from the arm's way until it stands; else S is needed.
+  bool is_along_path = false;
+};
+
 class Supervisor {
  public:
   virtual ~Supervisor() = default;
@@ -45,6 +52,10 @@ class Supervisor {
                    const JointBuffer& joints);
   /// Of the planned velocity, 0 to 1.
   virtual double scale(const Situation& situation) = 0;
+  /// What kept the last scale below 1, in a word.
+  virtual std::string_view cause() const { return "none"; }
+  /// None: the cell's, without a path.
+  virtual std::optional<Assumption> assumption() const { return {}; }
   /// Of each joint, after the last request; none: the arm keeps to its path.
   virtual std::optional<std::vector<double>> velocity_rad_s() const { return {}; }
   /// Where the arm leaves its path.
@@ -68,6 +79,7 @@ class FixedZone : public Supervisor {
     if (situation.person_range_m >= slow_m_) return 1;
     return std::min(1.0, slow_m_s_ / situation.full_m_s);
   }
+  std::string_view cause() const override { return "zone"; }
 
  private:
   double stop_m_;
@@ -93,6 +105,7 @@ class MonitorSupervisor : public Supervisor {
   void see(std::size_t which, const DepthImage& depth_m, double stamp_s,
            const JointBuffer& joints) override;
   double scale(const Situation& situation) override;
+  std::string_view cause() const override { return name_of(last().reason); }
   const Separation& last() const { return *result_->separation; }
   const std::shared_ptr<const Robot>& robot() const { return robot_; }
   const Result& result() const { return *result_; }

@@ -33,6 +33,33 @@ std::string row(const Policy& policy, const std::vector<EncounterResult>& result
                      100 * stopped_s / duration_s);
 }
 
+std::string census_rows(const Policy& policy, const std::vector<EncounterResult>& results) {
+  LostTimes all;
+  double all_s = 0, duration_s = 0;
+  for (const EncounterResult& result : results) {
+    duration_s += result.duration_s;
+    for (const auto& [cause, lost] : result.lost) {
+      LostTime& sum = all[cause];
+      sum.needed_s += lost.needed_s;
+      sum.allowed_s += lost.allowed_s;
+      sum.false_s += lost.false_s;
+      all_s += lost.sum_s();
+    }
+  }
+  std::vector<std::pair<std::string, LostTime>> causes(all.begin(), all.end());
+  std::ranges::sort(causes, std::ranges::greater(),
+                    [](const auto& cause) { return cause.second.sum_s(); });
+  std::string rows;
+  for (const auto& [cause, lost] : causes) {
+    constexpr double kLeast = 0.01;
+    if (lost.sum_s() < kLeast * all_s) continue;
+    rows += fmt::format("| {} | {} | {:.0f} % | {:.0f} % | {:.0f} % | {:.0f} % |\n", policy.name,
+                        cause, 100 * lost.sum_s() / duration_s, 100 * lost.needed_s / all_s,
+                        100 * lost.allowed_s / all_s, 100 * lost.false_s / all_s);
+  }
+  return rows;
+}
+
 }  // namespace
 
 std::string encounter_table(const std::vector<Policy>& policies,
@@ -46,16 +73,27 @@ std::string encounter_table(const std::vector<Policy>& policies,
   return table;
 }
 
+std::string census_table(const std::vector<Policy>& policies,
+                         const std::vector<std::vector<EncounterResult>>& results) {
+  std::string table =
+      "| policy | cause | lost, of all time | of what the policy loses: needed | allowed | false "
+      "|\n"
+      "| --- | --- | ---: | ---: | ---: | ---: |\n";
+  for (std::size_t i = 0; i < policies.size(); ++i) table += census_rows(policies[i], results[i]);
+  return table;
+}
+
 std::string encounter_csv(const std::vector<Policy>& policies,
                           const std::vector<std::vector<EncounterResult>>& results) {
   std::string csv =
       "policy,seed,duration_s,phase_s,least_moving_m,contact_m_s,has_touched,stopped_share,"
-      "least_known_m,reached\n";
+      "least_known_m,reached,cause,needed\n";
   for (std::size_t i = 0; i < policies.size(); ++i) {
     for (const EncounterResult& r : results[i]) {
-      csv += fmt::format("{},{},{:.3f},{:.4f},{:.5f},{:.5f},{:d},{:.4f},{:.5f},{}\n",
+      csv += fmt::format("{},{},{:.3f},{:.4f},{:.5f},{:.5f},{:d},{:.4f},{:.5f},{},{},{:.4f}\n",
                          policies[i].name, r.seed, r.duration_s, r.phase_s, r.least_moving_m,
-                         r.contact_m_s, r.has_touched, r.stopped_share, r.least_known_m, r.reached);
+                         r.contact_m_s, r.has_touched, r.stopped_share, r.least_known_m, r.reached,
+                         main_cause(r.lost), needed_share(r.lost));
     }
   }
   return csv;

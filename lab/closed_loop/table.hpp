@@ -12,6 +12,10 @@ namespace berth::lab {
 std::string encounter_table(const std::vector<Policy>& policies,
                             const std::vector<std::vector<EncounterResult>>& results);
 
+/// What each policy's lost time was for, by the causes that lost a hundredth of it or more.
+std::string census_table(const std::vector<Policy>& policies,
+                         const std::vector<std::vector<EncounterResult>>& results);
+
 /// One line for each encounter, with a header.
 std::string encounter_csv(const std::vector<Policy>& policies,
                           const std::vector<std::vector<EncounterResult>>& results);
