@@ -107,6 +107,12 @@ void add_stream_options(CLI::App& program, StreamSettings& stream) {
       ->type_name("X")
       ->needs(scene);
   program
+      .add_option("--plans", stream.plans_hz,
+                  "How often a second a planner makes a field meanwhile (default: never)")
+      ->check(CLI::Range(0.1, 100.0))
+      ->type_name("HZ")
+      ->needs(scene);
+  program
       .add_option("--record", stream.record,
                   "Record the stream as a black box does, and write a recording of its end here")
       ->type_name("FILE.mcap")

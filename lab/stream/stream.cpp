@@ -4,6 +4,7 @@
 #include <pthread.h>
 #include <sched.h>
 #include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 #include <chrono>
 #include <cmath>
@@ -15,8 +16,10 @@
 #include "berth/live/joint_intake.hpp"
 #include "berth/live/live_camera.hpp"
 #include "berth/live/live_space.hpp"
+#include "berth/pipeline/configuration_check.hpp"
 #include "berth/pipeline/query.hpp"
 #include "berth/record/recorder.hpp"
+#include "lab/stream/configurations.hpp"
 #include "lab/stream/film.hpp"
 #include "lab/stream/percentiles.hpp"
 #include "lab/stream/steps.hpp"
@@ -41,12 +44,13 @@ void use_cores(const cpu_set_t& cores) {
 /// The last core for requests, the others for making images ready; all for both where there is
 /// only one.
 struct Cores {
-  cpu_set_t of_requests, of_images;
+  cpu_set_t all, of_requests, of_images;
 
   Cores() {
     CPU_ZERO(&of_requests);
-    CPU_ZERO(&of_images);
-    (void)pthread_getaffinity_np(pthread_self(), sizeof(of_images), &of_images);
+    CPU_ZERO(&all);
+    (void)pthread_getaffinity_np(pthread_self(), sizeof(all), &all);
+    of_images = all;
     if (CPU_COUNT(&of_images) < 2) {
       of_requests = of_images;
       return;
@@ -68,6 +72,7 @@ struct Measured {
   std::mutex images_mutex;
   std::vector<double> image_ms;
   std::optional<RecorderCounts> recorded;
+  std::vector<double> plan_ms;
 };
 
 /// As a controller asks: a request has most of the time until the next one, unless the scene says
@@ -90,6 +95,7 @@ class Stream {
         count_(film.cameras.size()),
         space_(robot_, count_, joints_) {
     if (!settings.record.empty()) record();
+    if (settings.plans_hz > 0) check_ = std::make_unique<ConfigurationCheck>(film.robot);
     for (std::size_t k = 0; k < count_; ++k) {
       cameras_.push_back(std::make_unique<LiveCamera>(
           film.cameras[k].mounted, joints_, LiveCameraSettings{},
@@ -101,11 +107,14 @@ class Stream {
     }
   }
 
-  void run(const cpu_set_t& cores_of_requests) {
+  void run(const Cores& cores) {
     // The images of the first turn come after everybody is ready.
     play_ = {film_.joints->first_s(), film_.joints->last_s(), settings_.speed, now_s() + 0.2};
     std::jthread feeding([this](const std::stop_token& stop) { feed(stop); });
-    use_cores(cores_of_requests);
+    std::jthread planning;
+    if (settings_.plans_hz > 0)
+      planning = std::jthread([&](const std::stop_token& stop) { plan(stop, cores.all); });
+    use_cores(cores.of_requests);
     ask();
   }
 
@@ -156,6 +165,25 @@ class Stream {
     }
   }
 
+  /// As a sampling planner does, each time that it wants to know what is there now.
+  void plan(const std::stop_token& stop, const cpu_set_t& cores) {
+    use_cores(cores);
+    tbb::task_arena arena(CPU_COUNT(&cores));
+    sim::Random random(1);
+    const std::vector<double> positions =
+        draw_configurations(film_.robot->model(), kPlanned, random);
+    std::vector<Verdict> verdicts(kPlanned);
+    for (int i = 0; !stop.stop_requested(); ++i) {
+      sleep_until(play_.begin_s + i / settings_.plans_hz);
+      const std::shared_ptr<const PreparedSpace> space = space_.newest();
+      const double begin_s = now_s();
+      arena.execute([&] {
+        if (check_->prepare(space) != ResultStatus::stale) check_->ask(positions, {}, verdicts);
+      });
+      measured_.plan_ms.push_back(1000 * (now_s() - begin_s));
+    }
+  }
+
   void ask() {
     constexpr double kWarmUp_s = 1;
     std::vector<double> known_s(count_, 0);
@@ -192,12 +220,16 @@ class Stream {
     }
   }
 
+  static constexpr std::size_t kPlanned = 10'000;
+
   const Film& film_;
   const StreamSettings& settings_;
   JointIntake joints_;
   std::shared_ptr<const Robot> robot_;
   Query query_;
   std::optional<Recorder> recorder_;
+  /// Of the planner, where there is one.
+  std::unique_ptr<ConfigurationCheck> check_;
   std::size_t count_;
   LiveSpace space_;
   Measured measured_;
@@ -215,6 +247,7 @@ nlohmann::ordered_json json_of(const Measured& m) {
   out["exposure_to_answer_ms"] =
       percentiles(m.exposure_to_answer_ms, {{"p50", 0.5}, {"p99", 0.99}});
   out["gap_m"] = percentiles(m.gap_m, {{"p50", 0.5}, {"p99", 0.99}, {"max", 1}});
+  if (!m.plan_ms.empty()) out["plan_ms"] = percentiles(m.plan_ms, {{"p50", 0.5}, {"max", 1}});
   if (m.recorded) {
     out["recorded"] = {{"images", m.recorded->images},
                        {"requests", m.recorded->requests},
@@ -228,7 +261,7 @@ nlohmann::ordered_json in_real_time(const Film& film, const StreamSettings& sett
   const Cores cores;
   use_cores(cores.of_images);
   Stream stream(film, settings);
-  stream.run(cores.of_requests);
+  stream.run(cores);
   stream.finish();
   return json_of(stream.measured());
 }
@@ -237,8 +270,9 @@ nlohmann::ordered_json in_real_time(const Film& film, const StreamSettings& sett
 
 std::string run_stream(const StreamSettings& settings) {
   const Film film = film_of(settings);
-  // Each thread works alone, on the images' cores or on the requests'.
-  const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
+  // Each thread works alone, on the images' cores or on the requests', but for a planner's.
+  const std::size_t threads = settings.plans_hz > 0 ? std::thread::hardware_concurrency() : 1;
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
   const nlohmann::ordered_json out =
       settings.in_steps ? measure_steps(film, settings) : in_real_time(film, settings);
   if (settings.as_json) return out.dump() + "\n";

@@ -26,6 +26,9 @@ struct StreamSettings {
   double seconds = 10;
   /// How many times as fast as it was recorded.
   double speed = 3;
+  /// So often a second a planner makes a field of the newest images and asks about 10 000
+  /// configurations, on all cores; 0: nobody plans.
+  double plans_hz = 0;
   /// All of it is recorded, and a recording of the last seconds is written here; empty: nothing is.
   std::filesystem::path record = {};
   /// Not in real time: the processor time of each step.

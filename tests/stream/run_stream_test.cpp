@@ -62,6 +62,17 @@ TEST(RunStream, RecordsItselfWhereThatIsAskedFor) {
   EXPECT_EQ(folder.names(), std::vector<std::string>{"a.mcap"});
 }
 
+TEST(RunStream, APlannerAsksBesideIt) {
+  const StreamSettings settings{
+      .scene = kScene, .cameras = 1, .seconds = 0.5, .plans_hz = 10, .as_json = true};
+  const auto out = nlohmann::ordered_json::parse(run_stream(settings));
+  EXPECT_EQ(keys_of(out),
+            (std::vector<std::string>{"answers_per_s", "ok_share", "ask_us", "image_ms",
+                                      "exposure_to_answer_ms", "gap_m", "plan_ms"}));
+  expect_percentiles(out["plan_ms"], {"p50", "max"});
+  EXPECT_GT(out["plan_ms"]["max"].get<double>(), 1) << "no field was made";
+}
+
 TEST(RunStream, ItsTextHasALineForEach) {
   const std::string out = run_stream({.scene = kScene, .cameras = 1, .seconds = 0.1});
   EXPECT_EQ(out.find("answers_per_s: "), 0U);
