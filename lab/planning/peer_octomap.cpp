@@ -11,6 +11,8 @@
 namespace berth::lab {
 namespace {
 
+constexpr float kBehindRobot_m = 0.3f;
+
 class OctomapPeer : public PlanningPeer {
  public:
   OctomapPeer(const RobotModel& model, double resolution_m, bool is_unknown_occupied)
@@ -56,9 +58,12 @@ class OctomapPeer : public PlanningPeer {
     for_each_point(frame, frame.obstacles.depth_m, take);
     octomap::KeySet free, occupied;
     tree.computeDiscreteUpdate(cloud, at, free, occupied, -1);
-    // Rays that end on the robot clear, too, and fill nothing.
+    // Rays that end on the robot fill nothing, and clear as far behind it as in berth: else no
+    // place that it moves to would be known.
+    DepthImage behind_m = frame.robot.depth_m;
+    for (float& z_m : behind_m.pixels()) z_m += kBehindRobot_m;
     cloud.clear();
-    for_each_point(frame, frame.robot.depth_m, take);
+    for_each_point(frame, behind_m, take);
     octomap::KeySet before_robot, of_robot;
     tree.computeDiscreteUpdate(cloud, at, before_robot, of_robot, -1);
     for (const octomap::OcTreeKey& key : before_robot) free.insert(key);

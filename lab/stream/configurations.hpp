@@ -23,8 +23,9 @@ std::vector<double> draw_configurations(const RobotModel& model, std::size_t cou
                                         sim::Random& random);
 
 /// How quickly one core says of configurations whether they are free in images of one time of
-/// what `stream` names, how quickly Request::ahead does, and whether both agree. Returns lines or
-/// one JSON object. Throws as run_stream does.
+/// what `stream` names, how quickly Request::ahead does, whether both agree, and in what part of
+/// the exact search's time resolve decides the rest. Returns lines or one JSON object. Throws as
+/// run_stream does.
 std::string run_configurations(const StreamSettings& stream, const ConfigurationSettings& settings);
 
 }  // namespace berth::lab

@@ -114,6 +114,7 @@ TEST(RunConfigurations, TheExactSearchAgreesInTheSceneAndInARoom) {
     EXPECT_LT(json["undecided_share"], 0.5);
     EXPECT_GT(json["configurations_per_s"], json["ahead_per_s"]);
     EXPECT_GT(json["field_ms"], 0);
+    EXPECT_LT(json["resolve_by_exact"], 2);
   }
 }
 
