@@ -46,7 +46,7 @@ test("shows the bundled scene", async () => {
   const page = await open(berth.url);
   assert.equal(await page.locator("#links tbody tr").count(), 8);
   assert.match(await text(page, "#legend"), /\d{5,} readings, 70468 triangles/);
-  assert.match(await text(page, "#when"), /^frame 0: 0\.013 s, camera's image 0$/);
+  assert.match(await text(page, "#when"), /^frame 2: 0\.047 s, right's image 0$/);
   await until(page, () => document.querySelector("#progress").classList.contains("done"));
   const drawn = await page.evaluate(() => {
     const canvas = document.querySelector("#canvas-image");
