@@ -35,8 +35,9 @@ void require_place_for(const fs::path& out, const fs::path& scene, bool may_over
   if (fs::equivalent(scene, out, error)) {
     throw_bad_file({out}, "is the scene itself", "another file for --out");
   }
-  if (!may_overwrite)
-    throw_bad_file({out}, "is there already", "another name for --out, or --force");
+  // A name that mktemp made sure of has nothing to lose.
+  if (may_overwrite || (fs::is_regular_file(out, error) && fs::is_empty(out, error))) return;
+  throw_bad_file({out}, "is there already", "another name for --out, or --force");
 }
 
 }  // namespace
