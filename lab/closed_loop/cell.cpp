@@ -32,14 +32,17 @@ int speckle_px(const Camera& camera, double detection_m) {
 
 }  // namespace
 
-RobotModel cell_model() {
-  const std::string folder = BERTH_BUNDLED_ARM;
-  RobotSettings settings;
-  settings.urdf = folder + "/arm.urdf";
-  settings.package_paths["berth_arm"] = folder;
-  settings.environment_links = {"table", "floor"};
-  settings.urdf_text = cell_urdf(settings.urdf);
-  return load_robot(settings);
+const RobotModel& cell_model() {
+  static const RobotModel model = [] {
+    const std::string folder = BERTH_BUNDLED_ARM;
+    RobotSettings settings;
+    settings.urdf = folder + "/arm.urdf";
+    settings.package_paths["berth_arm"] = folder;
+    settings.environment_links = {"table", "floor"};
+    settings.urdf_text = cell_urdf(settings.urdf);
+    return load_robot(settings);
+  }();
+  return model;
 }
 
 std::vector<CellCamera> cell_cameras() {
@@ -73,10 +76,15 @@ double conforming_zone_m(double robot_m_s) {
 }
 
 std::shared_ptr<const Robot> cell_robot(std::optional<double> deadline_us) {
-  EvaluationSettings settings;
-  settings.distance.range_m = kCellRange_m;
-  settings.distance.deadline_us = deadline_us;
-  return std::make_shared<const Robot>(cell_model(), settings);
+  const auto make = [&] {
+    EvaluationSettings settings;
+    settings.distance.range_m = kCellRange_m;
+    settings.distance.deadline_us = deadline_us;
+    return std::make_shared<const Robot>(cell_model(), settings);
+  };
+  if (deadline_us) return make();
+  static const std::shared_ptr<const Robot> robot = make();
+  return robot;
 }
 
 std::vector<std::shared_ptr<const MountedCamera>> mounted_cell_cameras(

@@ -19,7 +19,7 @@ struct CellCamera {
 };
 
 /// Arm, table and floor; the latter two are environment. People are all that is not in the URDF.
-RobotModel cell_model();
+const RobotModel& cell_model();
 
 /// Those of the bundled scene.
 std::vector<CellCamera> cell_cameras();
@@ -52,7 +52,8 @@ inline constexpr double kArmFullSpeed_m_s = 1.45;
 /// How far distances are looked for: above what the arm needs at full speed.
 inline constexpr double kCellRange_m = 2;
 
-/// With berth's default settings but for the range, and a deadline where one is given.
+/// With berth's default settings but for the range, and a deadline where one is given. Without, it
+/// is the same one for all: so each encounter finds what others have asked of its links' fields.
 std::shared_ptr<const Robot> cell_robot(std::optional<double> deadline_us = {});
 
 /// Of these cameras, by their place in cell_cameras(). Settings are the defaults, but for d, and

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -24,8 +25,12 @@ class CellSensors {
 
  private:
   std::vector<CellCamera> cameras_;
-  /// Those of the model that have a mesh.
+  /// Those that a joint moves.
   std::vector<std::size_t> links_;
+  /// What stands still, and its images that were asked for: of each camera where it is, and bumped.
+  sim::MovingRayCaster still_;
+  std::vector<Pose> X_BS_;
+  std::vector<std::array<DepthImage, 2>> still_m_;
   sim::MovingRayCaster caster_;
   std::uint32_t seed_;
 };

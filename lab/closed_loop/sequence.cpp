@@ -136,7 +136,7 @@ class World {
     sim::MeshTree tree;
   };
   const std::vector<CellCamera>& cameras_;
-  RobotModel model_;
+  const RobotModel& model_;
   sim::Visit visit_;
   MovingArm arm_;
   /// People's parts, then things.

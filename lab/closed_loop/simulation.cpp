@@ -45,6 +45,12 @@ std::span<const sim::Bvh> motions_of(const SimulationSettings& settings) {
   return *settings.motions;
 }
 
+/// Of the cell, before anything was added to it.
+const sim::KnownCheck& empty_known_check() {
+  static const sim::KnownCheck check(cell_model());
+  return check;
+}
+
 double range_of(const std::vector<Pose>& X_BP) {
   double range_m = std::numeric_limits<double>::infinity();
   for (const Pose& X : X_BP) range_m = std::min(range_m, X.translation().head<2>().norm());
@@ -72,7 +78,7 @@ class Loop {
         check_(clearance_, fastest_m_s(settings.kind)),
         census_(model_, clearance_, assumption_of(supervisor, settings.request_hz),
                 settings.image_latency_s + 1 / settings.image_hz),
-        known_(model_),
+        known_(empty_known_check()),
         sensors_(model_, visitors_, seed),
         joints_(model_, 500),
         cameras_(supervisor.cameras()),
@@ -233,7 +239,7 @@ class Loop {
 
   SimulationSettings settings_;
   Supervisor& supervisor_;
-  RobotModel model_;
+  const RobotModel& model_;
   std::vector<std::string> names_;
   sim::Visit visit_;
   std::vector<TriangleMesh> visitors_;

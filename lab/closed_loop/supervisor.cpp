@@ -13,6 +13,7 @@ MonitorSupervisor::MonitorSupervisor(std::vector<int> cameras, const SeparationS
                                      ShownBy shown, std::optional<double> deadline_us)
     : robot_(cell_robot(deadline_us)),
       cameras_(std::move(cameras)),
+      pools_(cameras_.size()),
       frames_(cameras_.size()),
       loop_(robot_, {}, settings),
       shown_(shown) {
@@ -23,9 +24,9 @@ MonitorSupervisor::MonitorSupervisor(std::vector<int> cameras, const SeparationS
 
 void MonitorSupervisor::see(std::size_t which, const DepthImage& depth_m, double stamp_s,
                             const JointBuffer& joints) {
-  auto frame = std::make_shared<Frame>();
+  const std::shared_ptr<Frame> frame = pools_[which].take();
   observers_[which]->observe(depth_m, stamp_s, joints, *frame);
-  frames_[which] = std::move(frame);
+  frames_[which] = frame;
   if (!robot_->settings().distance.deadline_us) return;
   JointState now;
   if (joints.newest(now) != TimeStatus::ok) return;

@@ -126,6 +126,8 @@ class MonitorSupervisor : public Supervisor {
   std::shared_ptr<const Robot> robot_;
   std::vector<int> cameras_;
   std::vector<std::unique_ptr<Observer>> observers_;
+  /// Of each camera, whose frames keep what its environment is.
+  std::vector<FramePool> pools_;
   std::vector<std::shared_ptr<const Frame>> frames_;
   MonitorLoop loop_;
   ShownBy shown_;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 
 #include "berth/calibration/calibrate.hpp"
 #include "lab/closed_loop/cell.hpp"
@@ -12,6 +13,7 @@
 #include "lab/closed_loop/policies.hpp"
 #include "lab/closed_loop/simulation.hpp"
 #include "sim/contact_check.hpp"
+#include "sim/moving_ray_caster.hpp"
 #include "sim/person.hpp"
 
 namespace berth::lab {
@@ -39,7 +41,7 @@ TEST(ClosedLoop, NobodyIsFasterThanTheySay) {
 }
 
 TEST(ClosedLoop, TheArmsSpeedChangesNoFasterThanItsMotorsAllow) {
-  const RobotModel model = cell_model();
+  const RobotModel& model = cell_model();
   MovingArm arm(model, 0.1);
   // Speeds of points are computed in single precision, and divided by a millisecond here.
   constexpr double kRounding_m_s2 = 1e-3;
@@ -59,8 +61,55 @@ TEST(ClosedLoop, TheArmsSpeedChangesNoFasterThanItsMotorsAllow) {
   EXPECT_GT(fastest_m_s, 0.8);
 }
 
+TEST(ClosedLoop, ImagesBeforeWhatStandsStillAreThoseOfEverythingAtOnce) {
+  const RobotModel& model = cell_model();
+  const sim::Encounter encounter(2);
+  MovingArm arm(model, encounter.first_phase());
+  std::vector<TriangleMesh> meshes[2];
+  const auto poses_of = [&](bool is_moved) {
+    std::vector<Pose> X_BL;
+    for (std::size_t i = 0; i < model.links.size(); ++i) {
+      const bool is_wanted = model.is_moved(i) == is_moved && !model.links[i].mesh_L.empty();
+      if (is_wanted) X_BL.push_back(arm.pose().X_BL[i]);
+    }
+    return X_BL;
+  };
+  for (std::size_t i = 0; i < model.links.size(); ++i) {
+    const TriangleMesh& mesh_L = model.links[i].mesh_L;
+    if (!mesh_L.empty()) meshes[model.is_moved(i)].push_back(mesh_L);
+  }
+  for (const TriangleMesh& part : sim::make_person_meshes()) meshes[1].push_back(part);
+  std::vector<TriangleMesh> all = meshes[0];
+  all.insert(all.end(), meshes[1].begin(), meshes[1].end());
+  sim::MovingRayCaster at_once(all), still(meshes[0]), moving(meshes[1]);
+  int moved_px = 0;
+  for (int i = 0; i < 4; ++i) {
+    std::vector<Pose> X_BP = encounter.pose_at(encounter.duration_s() * (i + 1) / 5);
+    for (const CellCamera& camera : cell_cameras()) {
+      // A part around the camera, too.
+      if (i == 3) X_BP[0] = camera.X_BC;
+      for (int step = 0; step < 300; ++step) arm.step(1, 0.001);
+      std::vector<Pose> X_BM = poses_of(true);
+      X_BM.insert(X_BM.end(), X_BP.begin(), X_BP.end());
+      std::vector<Pose> X_BA = poses_of(false);
+      DepthImage depth_m = still.cast(camera.camera, camera.X_BC, X_BA);
+      const DepthImage still_m = depth_m;
+      moving.cast_before(camera.camera, camera.X_BC, X_BM, depth_m);
+      X_BA.insert(X_BA.end(), X_BM.begin(), X_BM.end());
+      const DepthImage expected_m = at_once.cast(camera.camera, camera.X_BC, X_BA);
+      for (int v = 0; v < depth_m.height(); ++v) {
+        for (int u = 0; u < depth_m.width(); ++u) {
+          ASSERT_EQ(std::bit_cast<int>(depth_m(u, v)), std::bit_cast<int>(expected_m(u, v)));
+          moved_px += depth_m(u, v) != still_m(u, v);
+        }
+      }
+    }
+  }
+  EXPECT_GT(moved_px, 100000);
+}
+
 TEST(ClosedLoop, TheContactCheckFindsWhatFclFindsAtEachStep) {
-  const RobotModel model = cell_model();
+  const RobotModel& model = cell_model();
   const sim::TrueClearance clearance(model, sim::make_person_meshes());
   const sim::Encounter encounter(2);
   MovingArm arm(model, encounter.first_phase());
@@ -139,7 +188,7 @@ TEST(ClosedLoop, NobodyIsThereForTheRestOfTheTime) {
 TEST(ClosedLoop, AConformingZoneIsLargerThanTheEncounters) {
   EXPECT_GT(conforming_zone_m(kArmFullSpeed_m_s), 2.2);
   EXPECT_LT(conforming_zone_m(0.25), conforming_zone_m(kArmFullSpeed_m_s));
-  const RobotModel model = cell_model();
+  const RobotModel& model = cell_model();
   MovingArm arm(model, 0);
   double reach_m = 0, fastest_m_s = 0;
   for (double t = 0; t < cycle_s(); t += 0.02) {

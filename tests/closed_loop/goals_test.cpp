@@ -27,7 +27,7 @@ TEST(Goals, AreReachedInAnEmptyRoom) {
 
 TEST(Goals, AreReachedBesideSomebodyWhoReachesInAndIsNotTouched) {
   // The check finds an arm that lies on its table.
-  const RobotModel model = cell_model();
+  const RobotModel& model = cell_model();
   sim::KnownCheck check(model);
   RobotPose pose;
   std::vector<double> position = stations_rad().front();
