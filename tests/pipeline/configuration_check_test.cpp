@@ -101,6 +101,20 @@ TEST_F(Configurations, VerdictsAreThoseOfTheExactSearch) {
   }
 }
 
+TEST_F(Configurations, ResolveGoesAsFarAsTheMarginWhateverARequestMay) {
+  EvaluationSettings settings = robot()->settings();
+  settings.distance.range_m = 0.01;
+  settings.distance.deadline_us = 1;
+  const SharedFrames frames = observe_all(3);
+  ConfigurationCheck check(with_settings(robot(), settings));
+  check.prepare(frames);
+  sim::Random random(4);
+  const Numbers positions = draw(20, random);
+  Verdicts verdicts(20, Verdict::undecided);
+  check.resolve(positions, {}, verdicts);
+  EXPECT_LE(count(verdicts, Verdict::undecided), 1U);
+}
+
 TEST_F(Configurations, AMotionIsFreeWhereEachOfItsConfigurationsIs) {
   const SharedFrames frames = observe_all(3);
   ConfigurationCheck check(robot());

@@ -66,7 +66,7 @@ class ConfigurationCheck {
   void ask_motions(std::span<const double> from, std::span<const double> to,
                    const ConfigurationMargins& margins, std::span<Verdict> verdicts) const;
 
-  /// Has the exact search decide what is undecided, a few milliseconds each. What is still
+  /// Has the exact search decide what is undecided, up to a millisecond each. What is still
   /// undecided then is as near to its margin as the distances' tolerance. Links' own margins count.
   void resolve(std::span<const double> positions, const ConfigurationMargins& margins,
                std::span<Verdict> verdicts) const;
