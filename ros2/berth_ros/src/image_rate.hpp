@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <string>
 
+#include "berth/live/live_camera.hpp"
+
 namespace berth_ros {
 
 /// How many images a second a camera sends, and how many arrive, by the stamps of those that do:
@@ -62,5 +64,18 @@ class ImageRate {
   double newest_s_ = 0;
   std::size_t count_ = 0;
 };
+
+/// Empty unless a tenth of a camera's images between two reports, and more than a hiccup, was
+/// dropped for newer ones.
+inline std::string overload_trouble(const berth::LiveCameraCounts& before,
+                                    const berth::LiveCameraCounts& now) {
+  constexpr std::int64_t kHiccup = 2;
+  const std::int64_t dropped = now.dropped - before.dropped;
+  const std::int64_t all = now.images - before.images + dropped;
+  if (dropped <= kHiccup || 10 * dropped < all) return "";
+  return std::to_string(dropped) + " of " + std::to_string(all) +
+         " images were dropped for newer ones: too much work for this computer, or joint states "
+         "come late (berth's ROS page, \"How fast\")";
+}
 
 }  // namespace berth_ros

@@ -170,7 +170,7 @@ std::shared_ptr<CallbackGate> LiveNode::gate() const {
 void LiveNode::make_cameras() {
   const std::vector<CameraSettings> cameras = settings_.cameras();
   const rclcpp::Time never(0, 0, get_clock()->get_clock_type());
-  reported_images_.assign(cameras.size(), 0);
+  reported_images_.assign(cameras.size(), {});
   reported_images_at_.assign(cameras.size(), never);
   {
     const std::lock_guard lock(mutex_);

@@ -214,7 +214,7 @@ class LiveNode : public rclcpp_lifecycle::LifecycleNode {
 #ifdef BERTH_ROS_MOVEIT
   std::optional<MoveItAttached> moveit_;
 #endif
-  std::vector<std::int64_t> reported_images_;
+  std::vector<berth::LiveCameraCounts> reported_images_;
   std::int64_t reported_joints_ = 0;
   rclcpp::Time reported_joints_at_;
   std::vector<rclcpp::Time> reported_images_at_;

@@ -186,8 +186,11 @@ void LiveNode::report_camera(std::size_t camera, DiagnosticStatusWrapper& status
 void LiveNode::report_input(std::size_t camera, DiagnosticStatusWrapper& status) {
   const CameraReport report = inputs_[camera]->report();
   const rclcpp::Time now = this->now();
-  status.add("images a second", rate_since(report.counts.images, now, reported_images_[camera],
-                                           reported_images_at_[camera]));
+  berth::LiveCameraCounts& before = reported_images_[camera];
+  const std::string overload = overload_trouble(before, report.counts);
+  status.add("images a second",
+             rate_since(report.counts.images, now, before.images, reported_images_at_[camera]));
+  before = report.counts;
   if (report.rate.is_known()) {
     status.add("images a second that the camera sends", report.rate.sent_hz());
     status.add("images a second that arrive", report.rate.arrived_hz());
@@ -205,7 +208,7 @@ void LiveNode::report_input(std::size_t camera, DiagnosticStatusWrapper& status)
   const double now_s = clock_.seconds(now);
   status.add("looked at over several images", explanations_->newest(camera).looks);
   const std::string trouble = camera_trouble(camera, report, robot, now_s);
-  const std::string lost = report.rate.trouble();
+  const std::string lost = report.rate.trouble().empty() ? overload : report.rate.trouble();
   if (trouble.empty()) {
     return lost.empty() ? status.summary(DiagnosticStatus::OK, "ok")
                         : status.summary(DiagnosticStatus::WARN, lost);

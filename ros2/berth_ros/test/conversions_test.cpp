@@ -163,6 +163,15 @@ TEST(ImageRate, TellsHowManyOfThoseThatWereSentArrive) {
   EXPECT_EQ(young.trouble(), "");
 }
 
+TEST(ImageRate, TellsThatImagesAreDroppedForNewerOnes) {
+  const berth::LiveCameraCounts before{.images = 100, .dropped = 5};
+  EXPECT_EQ(overload_trouble(before, {.images = 130, .dropped = 5}), "");
+  EXPECT_EQ(overload_trouble(before, {.images = 106, .dropped = 7}), "") << "a hiccup";
+  EXPECT_EQ(overload_trouble(before, {.images = 190, .dropped = 14}), "") << "below a tenth";
+  const std::string trouble = overload_trouble(before, {.images = 110, .dropped = 25});
+  EXPECT_TRUE(trouble.starts_with("20 of 30 images were dropped")) << trouble;
+}
+
 TEST(ImageRate, AClockThatJumpsLosesNoImage) {
   ImageRate rate;
   double stamp_s = 1.7e9;
