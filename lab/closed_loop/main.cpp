@@ -77,6 +77,9 @@ void print_cost(int encounter, const SimulationSettings& simulation) {
 void run(Options options) {
   const bool is_bvh = options.simulation.kind == sim::VisitKind::bvh;
   if (is_bvh || options.is_speeds) {
+    if (options.motions.empty()) {
+      throw std::invalid_argument("--motions: not given; expected a folder with *.bvh files");
+    }
     options.simulation.motions =
         std::make_shared<const std::vector<sim::Bvh>>(sim::read_motions(options.motions));
   }
