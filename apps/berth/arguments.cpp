@@ -134,7 +134,6 @@ void add_calibrate_options(CLI::App& command, CalibrateArguments& arguments) {
                   "The scene with what was found; the scene itself is never changed")
       ->required()
       ->type_name("NEW.yaml");
-  command.add_flag("--force", arguments.force, "Overwrite NEW.yaml where it is there already");
   command
       .add_option("--report", arguments.report_folder,
                   "Folder for a page with pictures before and after")

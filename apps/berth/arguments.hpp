@@ -64,8 +64,6 @@ struct CalibrateArguments {
   std::filesystem::path scene;
   std::filesystem::path out;
   std::filesystem::path report_folder;
-  /// Whether `out` may be there already.
-  bool force = false;
   bool joint_zeros = false;
   bool correct_depth = false;
   AttachedChoice attached = AttachedChoice::ask;

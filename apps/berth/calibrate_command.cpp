@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Before minutes of work, not after them.
-void require_place_for(const fs::path& out, const fs::path& scene, bool may_overwrite) {
+void require_place_for(const fs::path& out, const fs::path& scene) {
   std::error_code error;
   const fs::path folder = fs::absolute(out, error).parent_path();
   if (!fs::is_directory(folder, error)) {
@@ -31,19 +31,14 @@ void require_place_for(const fs::path& out, const fs::path& scene, bool may_over
                     "that is there",
                     out.string(), folder.string()));
   }
-  if (!fs::exists(out, error)) return;
-  if (fs::equivalent(scene, out, error)) {
-    throw_bad_file({out}, "is the scene itself", "another file for --out");
-  }
-  // A name that mktemp made sure of has nothing to lose.
-  if (may_overwrite || (fs::is_regular_file(out, error) && fs::is_empty(out, error))) return;
-  throw_bad_file({out}, "is there already", "another name for --out, or --force");
+  if (!fs::exists(out, error) || !fs::equivalent(scene, out, error)) return;
+  throw_bad_file({out}, "is the scene itself", "another file for --out");
 }
 
 }  // namespace
 
 void calibrate_command(const CalibrateArguments& arguments) {
-  require_place_for(arguments.out, arguments.scene, arguments.force);
+  require_place_for(arguments.out, arguments.scene);
   const OpenScene scene = open_with_progress(read_scene_to_calibrate(arguments.scene),
                                              "read images", open_scene_with_images);
   const SceneCalibrationData material = make_calibration_data(scene);

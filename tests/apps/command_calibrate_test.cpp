@@ -139,20 +139,6 @@ TEST(CalibrateCommand, TheSceneItselfIsRefusedBeforeAnyWork) {
   EXPECT_EQ(read_file_bytes(cell.scene()), before);
 }
 
-TEST(CalibrateCommand, WhatIsThereAlreadyIsOverwrittenByForceAlone) {
-  const DrawnCell cell = small_cell();
-  cell.write("new.yaml", "mine");
-  const std::vector<std::string> calibrate = {"calibrate", "cell/scene.yaml", "--out", "new.yaml"};
-  expect_refused(cell, calibrate,
-                 {"new.yaml: is there already; expected another name for --out, or --force"});
-  EXPECT_EQ(read_file_bytes(cell / "new.yaml"), "mine");
-  std::vector<std::string> by_force = calibrate;
-  by_force.push_back("--force");
-  const Outcome outcome = run_berth(cell.folder(), by_force);
-  EXPECT_EQ(outcome.exit_status, 0) << outcome.err;
-  EXPECT_NE(read_file_bytes(cell / "new.yaml").find("# Our cell."), std::string::npos);
-}
-
 TEST(CalibrateCommand, WhatCannotBeCalibratedIsRefusedAndNothingIsWritten) {
   const DrawnCell cell = small_cell();
   const auto calibrate = [](const std::string& scene) {
