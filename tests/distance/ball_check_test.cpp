@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/field_bounds.hpp"
 #include "tests/support/mesh_world.hpp"
 #include "tests/support/thinned.hpp"
 
@@ -41,7 +42,7 @@ TEST(BallCheck, IsWhatTheFieldSaysOfThePlace) {
   constexpr float kMargin_m = 0.03f, kRadius_m = 0.01f, kSlack_m = 3e-4f;
   const mesh::BallRobot robot = sliding_ball(kRadius_m);
   const std::vector<float> margins_m{kMargin_m};
-  const mesh::TurnedClearance none;
+  const mesh::FirstLinkBounds none;
   sim::Random random(1);
   int free = 0, near = 0;
   for (std::uint32_t seed = 0; seed < thinned(8u); ++seed) {
@@ -57,11 +58,11 @@ TEST(BallCheck, IsWhatTheFieldSaysOfThePlace) {
       const std::array<double, 3> position{p_B.x(), p_B.y(), p_B.z()};
       Verdict verdict{};
       mesh::check_configurations(request, position, {&verdict, 1});
-      const ClearanceField::Bounds bounds = field.at(p_B);
-      const float lower_m = bounds.lower_m - kRadius_m;
+      const double lower_m = lower_bound_m(field.grid(), p_B) - kRadius_m;
       ASSERT_TRUE(verdict != Verdict::free || lower_m > kMargin_m - kSlack_m) << p_B.transpose();
       ASSERT_TRUE(verdict == Verdict::free || lower_m < kMargin_m + kSlack_m) << p_B.transpose();
-      ASSERT_TRUE(verdict != Verdict::near || bounds.upper_m < kMargin_m + kSlack_m);
+      ASSERT_TRUE(verdict != Verdict::near ||
+                  upper_bound_m(field.grid(), p_B) < kMargin_m + kSlack_m);
       free += verdict == Verdict::free;
       near += verdict == Verdict::near;
     }
@@ -73,7 +74,7 @@ TEST(BallCheck, IsWhatTheFieldSaysOfThePlace) {
 TEST(BallCheck, AMotionThatIsFreeIsSoAtEachOfItsPlaces) {
   const mesh::BallRobot robot = sliding_ball(0.005f);
   const std::vector<float> margins_m{0.02f};
-  const mesh::TurnedClearance none;
+  const mesh::FirstLinkBounds none;
   const MeshWorld world = draw_mesh_world({}, 711);
   const PreparedWorld prepared(world);
   ClearanceField field;
@@ -88,7 +89,7 @@ TEST(BallCheck, AMotionThatIsFreeIsSoAtEachOfItsPlaces) {
     ++free;
     for (int k = 0; k <= 100; ++k) {
       const Eigen::Vector3d p_B = from + (to - from) * k / 100;
-      ASSERT_GT(field.at(p_B).lower_m, 0.02f + 0.005f - 3e-4f) << p_B.transpose();
+      ASSERT_GT(lower_bound_m(field.grid(), p_B), 0.02f + 0.005f - 3e-4f) << p_B.transpose();
     }
   }
   EXPECT_GT(free, 10);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "berth/pipeline/configuration_check.hpp"
 #include "berth/pipeline/frame_set.hpp"
 #include "berth/pipeline/observer.hpp"
 #include "berth/pipeline/prepared_space.hpp"
@@ -74,6 +75,32 @@ TEST(SteadyState, TheSameFramesAskedAgainAreNotAssembledAnew) {
   Observer(camera.mounted).observe(camera.read_depth(1), camera.at_exposure[1], observed[0]);
   query.ask({frames});
   EXPECT_NE(query.frames().space().serial_number(), assembled);
+}
+
+TEST(SteadyState, ManyConfigurationsAreAskedAboutWithoutAnAllocation) {
+  const OpenScene scene = open_scene(BERTH_SOURCE_DIR "/data/bundled/one_camera.yaml");
+  const OpenCamera& camera = scene.cameras.front();
+  Frame frame;
+  Observer(camera.mounted).observe(camera.read_depth(0), camera.at_exposure[0], frame);
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+  ConfigurationCheck check(scene.robot);
+  check.prepare(frame);
+  std::vector<double> positions, to;
+  for (const JointState& joints : camera.at_exposure) {
+    positions.insert(positions.end(), joints.position.begin(), joints.position.end());
+  }
+  for (const double position : positions) to.push_back(position + 0.1);
+  std::vector<Verdict> verdicts(camera.at_exposure.size());
+  const ConfigurationMargins margins{.known_margin_m = 0.01};
+  const auto ask = [&] {
+    check.ask(positions, margins, verdicts);
+    check.ask_motions(positions, to, margins, verdicts);
+  };
+  ask();
+  ask();
+  const std::size_t before = allocation_count();
+  for (int round = 0; round < 20; ++round) ask();
+  EXPECT_EQ(allocation_count(), before);
 }
 
 /// Spaces of cameras out of step, made ready one after the other, and requests that go on from

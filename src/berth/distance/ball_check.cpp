@@ -107,23 +107,31 @@ HWY_INLINE void place_frames(const BallRobot& robot, const std::vector<EightNumb
   }
 }
 
-/// The balls that are not certainly farther away than the margin.
-HWY_INLINE unsigned not_free(const ClearanceField::Grid& grid, const Places& p, Floats radius,
-                             Floats margin) {
+/// What the field says of some places: the square of the distance, in boxes, from below, and how
+/// it grows from node to node.
+struct FieldThere {
+  Floats squared;
+  Floats slope[3];
+  /// Elsewhere the nearest place in the grid has it.
+  hn::Mask<Tag> is_in;
+};
+
+HWY_INLINE FieldThere field_at(const ClearanceField::Grid& grid, const Places& p) {
   const Tag d;
   const IntTag ints;
   const Floats per_m = all(static_cast<float>(1 / ClearanceField::kCell_m));
-  const float* const low = grid.low_B_m.data();
   Floats cell[3], share[3];
-  hn::Mask<Tag> is_in = hn::Eq(per_m, per_m);
+  FieldThere out;
+  out.is_in = hn::Eq(per_m, per_m);
   const Floats of_B[3] = {p.x, p.y, p.z};
   for (int k = 0; k < 3; ++k) {
-    const Floats at = hn::Mul(hn::Sub(of_B[k], all(low[k])), per_m);
+    const Floats at = hn::Mul(hn::Sub(of_B[k], all(grid.low_B_m[k])), per_m);
     // The last node that has another one after it.
     const Floats last = all(static_cast<float>(grid.count[k] - 2));
     cell[k] = hn::Max(hn::Min(hn::Floor(at), last), all(0.0f));
     share[k] = hn::Sub(at, cell[k]);
-    is_in = hn::And(is_in, hn::And(hn::Ge(share[k], all(0.0f)), hn::Le(share[k], all(1.0f))));
+    out.is_in =
+        hn::And(out.is_in, hn::And(hn::Ge(share[k], all(0.0f)), hn::Le(share[k], all(1.0f))));
     share[k] = hn::Min(hn::Max(share[k], all(0.0f)), all(1.0f));
   }
   const int row = grid.count[0], layer = grid.count[0] * grid.count[1];
@@ -131,63 +139,87 @@ HWY_INLINE unsigned not_free(const ClearanceField::Grid& grid, const Places& p, 
                              hn::Add(hn::Mul(hn::ConvertTo(ints, cell[1]), all(row)),
                                      hn::Mul(hn::ConvertTo(ints, cell[2]), all(layer))));
   const auto* const pairs = reinterpret_cast<const std::int32_t*>(grid.squared);
+  const auto between = [&](Floats a, Floats b, int k)
+                           HWY_ATTR { return hn::MulAdd(share[k], hn::Sub(b, a), a); };
   // Two nodes beside one another in one number.
-  const auto along_x = [&](int further) HWY_ATTR {
+  Floats along_x[4], growth[4];
+  for (int i = 0; i < 4; ++i) {
+    const int further = (i & 1) * row + (i >> 1) * layer;
     const Ints both = hn::GatherOffset(ints, pairs, hn::ShiftLeft<1>(hn::Add(first, all(further))));
     const Floats a = hn::ConvertTo(d, hn::And(both, all(0xFFFF)));
     const Floats b = hn::ConvertTo(
         d,
         hn::BitCast(ints, hn::ShiftRight<16>(hn::BitCast(hn::RebindToUnsigned<IntTag>(), both))));
-    return hn::MulAdd(share[0], hn::Sub(b, a), a);
-  };
-  const Floats near_row = along_x(0), far_row = along_x(row);
-  const Floats near_above = along_x(layer), far_above = along_x(layer + row);
-  const Floats below = hn::MulAdd(share[1], hn::Sub(far_row, near_row), near_row);
-  const Floats above = hn::MulAdd(share[1], hn::Sub(far_above, near_above), near_above);
+    growth[i] = hn::Sub(b, a);
+    along_x[i] = hn::MulAdd(share[0], growth[i], a);
+  }
+  const Floats below = between(along_x[0], along_x[1], 1),
+               above = between(along_x[2], along_x[3], 1);
+  out.slope[0] = between(between(growth[0], growth[1], 1), between(growth[2], growth[3], 1), 2);
+  out.slope[1] = between(hn::Sub(along_x[1], along_x[0]), hn::Sub(along_x[3], along_x[2]), 2);
+  out.slope[2] = hn::Sub(above, below);
   const auto sag = [&](int k) HWY_ATTR { return hn::Mul(share[k], hn::Sub(all(1.0f), share[k])); };
   constexpr float kBoxes = 16, kRounding = 5e-3f;
-  const Floats squared =
-      hn::Sub(hn::NegMulAdd(all(kBoxes), hn::Add(sag(0), hn::Add(sag(1), sag(2))),
-                            hn::MulAdd(share[2], hn::Sub(above, below), below)),
-              all(kRounding));
-  const Floats need =
-      hn::Mul(hn::Add(radius, margin), all(static_cast<float>(1 / ClearanceField::kBox_m)));
-  const auto is_free = hn::And(is_in, hn::Gt(squared, hn::Mul(need, need)));
+  out.squared = hn::Sub(hn::NegMulAdd(all(kBoxes), hn::Add(sag(0), hn::Add(sag(1), sag(2))),
+                                      between(below, above, 2)),
+                        all(kRounding));
+  return out;
+}
+
+constexpr auto kPerBox_m = static_cast<float>(1 / ClearanceField::kBox_m);
+
+/// The balls that are not certainly farther away than the margin.
+HWY_INLINE unsigned not_free(const ClearanceField::Grid& grid, const Places& p, Floats radius,
+                             Floats margin) {
+  const FieldThere field = field_at(grid, p);
+  const Floats need = hn::Mul(hn::Add(radius, margin), all(kPerBox_m));
+  const auto is_free = hn::And(field.is_in, hn::Gt(field.squared, hn::Mul(need, need)));
   const auto is_none = hn::Lt(radius, all(0.0f));
   return kAllLanes & ~bits(hn::Or(is_free, is_none));
 }
 
 /// The points that are certainly no farther away than limit_m.
-HWY_INLINE unsigned near_points(const ClearanceField::Grid& grid, const Places& p, float limit_m,
-                                std::size_t size) {
+HWY_INLINE unsigned near_points(const ClearanceField::Grid& grid, const Places& p, float limit_m) {
   const Tag d;
   const IntTag ints;
-  const auto edge_m = static_cast<float>(ClearanceField::kCell_m) * static_cast<float>(1 << size);
-  const std::array<int, 3>& count = grid.point_count[size];
+  const FieldThere field = field_at(grid, p);
+  const float limit = limit_m * kPerBox_m;
+  const auto is_far = hn::And(field.is_in, hn::Gt(field.squared, all(limit * limit)));
+  if (hn::AllTrue(d, is_far)) return 0;
+  // Where the nearest box should be, and half a box farther.
+  const Floats* const slope = field.slope;
+  const Floats steep = hn::Sqrt(
+      hn::MulAdd(slope[0], slope[0], hn::MulAdd(slope[1], slope[1], hn::Mul(slope[2], slope[2]))));
+  const Floats way_m = hn::Mul(hn::Add(hn::Sqrt(hn::Max(field.squared, all(0.0f))), all(0.5f)),
+                               all(static_cast<float>(ClearanceField::kBox_m)));
+  const Floats per_slope = hn::Div(way_m, hn::Max(steep, all(1e-3f)));
+  constexpr auto kEdge_m = static_cast<float>(ClearanceField::kCell_m);
   const Floats of_B[3] = {p.x, p.y, p.z};
-  Ints cell[3];
-  // The eight cells whose common corner is nearest.
+  Floats cell[3];
+  // The eight cells whose common corner is nearest to it.
   for (int k = 0; k < 3; ++k) {
+    const Floats there = hn::NegMulAdd(slope[k], per_slope, of_B[k]);
     const Floats at =
-        hn::MulAdd(hn::Sub(of_B[k], all(grid.low_B_m[k])), all(1 / edge_m), all(-0.5f));
-    cell[k] = hn::ConvertTo(
-        ints, hn::Max(hn::Min(hn::Floor(at), all(static_cast<float>(count[k] - 2))), all(0.0f)));
+        hn::MulAdd(hn::Sub(there, all(grid.low_B_m[k])), all(1 / kEdge_m), all(-0.5f));
+    const Floats last = all(static_cast<float>(grid.count[k] - 2));
+    cell[k] = hn::Max(hn::Min(hn::Floor(at), last), all(0.0f));
   }
-  const Ints first =
-      hn::Add(cell[0], hn::Mul(hn::Add(cell[1], hn::Mul(cell[2], all(count[1]))), all(count[0])));
+  const int row = grid.count[0], layer = grid.count[0] * grid.count[1];
+  const Ints first = hn::Add(hn::ConvertTo(ints, cell[0]),
+                             hn::Add(hn::Mul(hn::ConvertTo(ints, cell[1]), all(row)),
+                                     hn::Mul(hn::ConvertTo(ints, cell[2]), all(layer))));
   constexpr auto kStep_m = static_cast<float>(Cube::kLeastEdge_m);
+  const auto* const points = reinterpret_cast<const std::int32_t*>(grid.point);
   Floats least = all(HUGE_VALF);
   for (int i = 0; i < 8; ++i) {
     const int odd[3] = {i & 1, i >> 1 & 1, i >> 2};
-    const int further = odd[0] + count[0] * (odd[1] + count[1] * odd[2]);
-    const Ints point =
-        hn::GatherIndex(ints, reinterpret_cast<const std::int32_t*>(grid.point[size]),
-                        hn::Add(first, all(further)));
+    const int further = odd[0] + row * odd[1] + layer * odd[2];
+    const Ints point = hn::GatherIndex(ints, points, hn::Add(first, all(further)));
     Floats squared = all(0.0f);
     for (int k = 0; k < 3; ++k) {
       const Ints steps = hn::And(hn::ShiftRightSame(point, 10 * k), all(1023));
       const Floats in_cell = hn::MulAdd(hn::ConvertTo(d, steps), all(kStep_m), all(kStep_m / 2));
-      const Floats low = hn::MulAdd(hn::ConvertTo(d, hn::Add(cell[k], all(odd[k]))), all(edge_m),
+      const Floats low = hn::MulAdd(hn::Add(cell[k], all(static_cast<float>(odd[k]))), all(kEdge_m),
                                     all(grid.low_B_m[k]));
       const Floats apart = hn::Sub(of_B[k], hn::Add(low, in_cell));
       squared = hn::MulAdd(apart, apart, squared);
@@ -216,18 +248,17 @@ struct Asked {
   int lane;
   /// How much farther than its margin each link has to be; null: no farther.
   const std::vector<EightNumbers>* moves_m;
-  /// Whether the exact search may be asked for links that one joint turns.
-  bool asks_turned;
+  /// Whether the exact search may be asked for links that one joint moves.
+  bool asks_first;
 
   float margin_m(std::size_t l) const { return margins_m[l]; }
   /// What has to be shown of it.
   float needed_m(std::size_t l) const {
     return margin_m(l) + (moves_m ? (*moves_m)[l].of[lane] : 0) + kFreeRounding_m;
   }
-  /// Whether an exact search shows it, of a link that one joint turns.
-  bool is_turned_free(std::size_t l) const {
+  LinkBounds first_link_bounds(std::size_t l) const {
     const std::size_t frame = request.robot.links[l].frame;
-    return request.turned_clearance_m(l, joints[frame].of[lane]) > needed_m(l);
+    return request.first_link_bounds(l, joints[frame].of[lane]);
   }
 };
 
@@ -246,13 +277,8 @@ HWY_INLINE bool has_near_point(const Asked& asked, const LinkPlace& X, std::size
                                const EightBalls& points) {
   const float limit_m = asked.margin_m(l) - asked.near_rounding_m;
   if (!(limit_m > 0)) return false;
-  // Small cells miss what is farther away than they are wide.
-  constexpr float kWide_m = 0.04f;
-  const std::size_t size = limit_m > kWide_m ? 1 : 0;
   for (int i = 0; i < 8; i += kWidth) {
-    const Places places = moved(X, points, i);
-    if (near_points(asked.grid, places, limit_m, 0) != 0) return true;
-    if (size > 0 && near_points(asked.grid, places, limit_m, size) != 0) return true;
+    if (near_points(asked.grid, moved(X, points, i), limit_m) != 0) return true;
   }
   return false;
 }
@@ -300,14 +326,19 @@ Verdict check_one(const Asked& asked) {
       if (has_near_point(asked, X, l, points)) return Verdict::near;
     }
   }
-  const auto is_turned = [&](const Left& one) {
-    return asked.request.robot.is_turned(links[one.link]);
-  };
   // The search is asked where nothing else is undecided.
-  const bool may_ask = asked.asks_turned && !is_full && std::all_of(left, left + count, is_turned);
-  const bool is_free = may_ask && std::all_of(left, left + count, [&](const Left& one) {
-                         return asked.is_turned_free(one.link);
-                       });
+  const auto is_first = [&](const Left& one) {
+    return asked.request.robot.is_first(links[one.link]);
+  };
+  if (!asked.asks_first || is_full || !std::all_of(left, left + count, is_first)) {
+    return Verdict::undecided;
+  }
+  bool is_free = true;
+  for (std::size_t i = 0; i < count; ++i) {
+    const LinkBounds exact = asked.first_link_bounds(left[i].link);
+    if (exact.upper_m <= asked.margin_m(left[i].link) - kNearRounding_m) return Verdict::near;
+    is_free = is_free && exact.lower_m > asked.needed_m(left[i].link);
+  }
   return is_free ? Verdict::free : Verdict::undecided;
 }
 
@@ -446,7 +477,7 @@ Asked asked_of(const BallRequest& request, const Scratch& scratch, std::size_t l
           scratch.joints,
           static_cast<int>(lane),
           moves_m,
-          static_cast<bool>(request.turned_clearance_m)};
+          static_cast<bool>(request.first_link_bounds)};
 }
 
 /// What a joint does to a frame: an angle near 0, as floats are finest there.

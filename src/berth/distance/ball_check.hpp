@@ -10,9 +10,16 @@
 
 namespace berth::mesh {
 
-/// Of each of BallRobot::links that one turning joint alone moves: nothing is nearer to it than
-/// this where the joint stands at that angle, in [-pi, pi]. Many threads may ask at a time.
-using TurnedClearance = std::function<float(std::size_t link, float angle)>;
+/// What is certain of a link: nothing is nearer than lower_m, and something no farther than
+/// upper_m.
+struct LinkBounds {
+  float lower_m = 0;
+  float upper_m = 0;
+};
+
+/// Of each of BallRobot::links that one joint alone moves, where that joint stands at that angle,
+/// in [-pi, pi], or place. Many threads may ask at a time.
+using FirstLinkBounds = std::function<LinkBounds(std::size_t link, float at)>;
 
 /// What is asked, of all configurations alike.
 struct BallRequest {
@@ -22,7 +29,7 @@ struct BallRequest {
   std::span<const float> margins_m;
   /// Asked where nothing else is undecided: such links often stand as near as they always do. May
   /// be empty.
-  const TurnedClearance& turned_clearance_m;
+  const FirstLinkBounds& first_link_bounds;
   /// The pairs that have to be farther apart than this, too; null: they are not asked about.
   const BallPairs* pairs = nullptr;
   float pairs_margin_m = 0;

@@ -41,10 +41,9 @@ struct BallRobot {
   std::vector<BallLink> links;
   int joint_count = 0;
 
-  /// Whether one turning joint alone moves it.
-  bool is_turned(const BallLink& link) const {
-    const BallFrame& frame = frames[static_cast<std::size_t>(link.frame)];
-    return frame.parent < 0 && !frame.is_slide;
+  /// Whether one joint alone moves it.
+  bool is_first(const BallLink& link) const {
+    return frames[static_cast<std::size_t>(link.frame)].parent < 0;
   }
 };
 

@@ -79,62 +79,75 @@ Reach reach_of(const RobotModel& model) {
   return reach;
 }
 
-/// What the exact search says of a link that one joint turns, at each of some angles: found where
-/// somebody asks for the first time, for all threads.
-class TurnedLink {
+/// What the exact search says of a link that one joint moves, at each of some of its places: found
+/// where somebody asks for the first time, for all threads.
+class FirstLink {
  public:
-  TurnedLink(const RobotModel& model, const mesh::BallLink& link)
-      : lever_m_(link.balls.centre_m.norm() + link.balls.radius_m) {
+  FirstLink(const RobotModel& model, const mesh::BallRobot& balls, const mesh::BallLink& link) {
     const std::size_t index = model.evaluated_links[link.id - 1];
     patches_.serial_number = mesh::next_serial_number();
     patches_.links.push_back(build_link_patches(model.links[index].mesh_L));
     patches_.links.back().link = index;
     joint_ = &model.links[moving_chain(model, index).back()].joint;
+    if (balls.frames[static_cast<std::size_t>(link.frame)].is_slide) {
+      // Limits are not enforced.
+      constexpr double kMost_m = 2, kBeyond_m = 0.5;
+      const MovableJoint& of = model.joints[*joint_->position_index];
+      const auto ends = std::minmax({number_of(std::max(of.lower - kBeyond_m, -kMost_m)),
+                                     number_of(std::min(of.upper + kBeyond_m, kMost_m))});
+      low_ = ends.first, high_ = ends.second;
+    } else {
+      lever_m_ = link.balls.centre_m.norm() + link.balls.radius_m;
+    }
   }
 
   void forget() {
-    for (std::atomic<float>& cell : cells_) cell.store(kNotAsked);
+    for (auto& cell : cells_) cell.store({kNotAsked, 0});
   }
 
-  float clearance_m(const RobotModel& model, const FrameSet& frames, float angle) {
-    const double place = (angle + std::numbers::pi) / kCell_rad;
-    const auto i = std::clamp<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(place), 0, kCells - 1);
-    std::atomic<float>& cell = cells_[static_cast<std::size_t>(i)];
-    if (const float known_m = cell.load(); !std::isnan(known_m)) return known_m;
-    const double middle_rad = (static_cast<double>(i) + 0.5) * kCell_rad - std::numbers::pi;
-    const float found_m = find(model, frames, middle_rad);
-    // What a float rounds an angle to may lie in the cell beside.
-    const double most_rad = kCell_rad / 2 + 1e-5;
-    const float clear_m = std::max(0.0f, found_m - static_cast<float>(lever_m_ * most_rad));
-    cell.store(clear_m);
-    return clear_m;
+  mesh::LinkBounds bounds(const RobotModel& model, const FrameSet& frames, float at) {
+    // What a float rounds to may lie beyond, or in the cell beside.
+    constexpr double kRounding = 1e-5;
+    if (!(low_ - kRounding < at && at < high_ + kRounding)) return {0, HUGE_VALF};
+    const double width = std::max((high_ - low_) / kCells, kRounding);
+    const auto i = std::clamp(static_cast<int>((at - low_) / width), 0, kCells - 1);
+    std::atomic<mesh::LinkBounds>& cell = cells_[static_cast<std::size_t>(i)];
+    if (const auto known = cell.load(); !std::isnan(known.lower_m)) return known;
+    mesh::LinkBounds found = find(model, frames, low_ + (i + 0.5) * width);
+    const auto moved_m = static_cast<float>(lever_m_ * (width / 2 + kRounding));
+    found = {std::max(0.0f, found.lower_m - moved_m), found.upper_m + moved_m};
+    cell.store(found);
+    return found;
   }
 
  private:
-  static constexpr std::ptrdiff_t kCells = 256;
-  static constexpr double kCell_rad = 2 * std::numbers::pi / kCells;
+  static constexpr int kCells = 256;
 
-  float find(const RobotModel& model, const FrameSet& frames, double angle) const {
+  double number_of(double position) const { return joint_->multiplier * position + joint_->offset; }
+  mesh::LinkBounds find(const RobotModel& model, const FrameSet& frames, double at) const {
     std::vector<double> positions(model.joints.size(), 0.0);
-    positions[*joint_->position_index] = (angle - joint_->offset) / joint_->multiplier;
+    positions[*joint_->position_index] = (at - joint_->offset) / joint_->multiplier;
     RobotPose pose;
     forward_kinematics(model, positions, pose);
     MeshWorkspace workspace;
     std::vector<WholeLinkDistance> out;
-    const MeshRequest request{.range_m = 0.25};
-    mesh_distances(patches_, pose, frames.space(), request, workspace, out);
-    float lower_m = out.front().nearest.lower_bound_m;
-    if (!frames.undecided().views().empty()) {
-      mesh_distances(patches_, pose, frames.undecided(), request, workspace, out);
-      lower_m = std::min(lower_m, out.front().nearest.lower_bound_m);
+    mesh::LinkBounds found{HUGE_VALF, HUGE_VALF};
+    for (const UnknownSpace* space : {&frames.space(), &frames.undecided()}) {
+      if (space->views().empty()) continue;
+      mesh_distances(patches_, pose, *space, {.range_m = 0.25}, workspace, out);
+      // NaN is no bound.
+      const float lower_m = std::max(0.0f, out.front().nearest.lower_bound_m);
+      found.lower_m = std::min(found.lower_m, lower_m);
+      found.upper_m = std::fmin(found.upper_m, out.front().nearest.distance_m);
     }
-    return lower_m;
+    return found;
   }
 
   const Joint* joint_;
-  double lever_m_;
+  /// Where the joint may stand, rad or m, and how far its link's points move by each of these.
+  double low_ = -std::numbers::pi, high_ = std::numbers::pi, lever_m_ = 1;
   RobotPatches patches_;
-  std::array<std::atomic<float>, kCells> cells_;
+  std::array<std::atomic<mesh::LinkBounds>, kCells> cells_;
 };
 
 void require_margin(double margin_m) {
@@ -151,19 +164,18 @@ struct ConfigurationCheck::State {
   FrameSet frames;
   ClearanceField field;
   bool is_known = false;
-  /// Of each of the balls' links; null unless one joint turns it.
-  std::vector<std::unique_ptr<TurnedLink>> turned;
-  mesh::TurnedClearance turned_clearance_m;
+  /// Of each of the balls' links; null unless one joint alone moves it.
+  std::vector<std::unique_ptr<FirstLink>> first;
+  mesh::FirstLinkBounds first_link_bounds;
   /// Made by the first request that needs them.
   std::once_flag pairs_made;
   mesh::BallPairs pairs;
 };
 
-/// What is handed to the check of balls.
-struct ConfigurationCheck::Asked {
-  std::vector<float> margins_m;
-  std::vector<std::vector<float>> still_margins_m;
-  mesh::BallRequest request;
+/// What the check of balls reads besides; a thread's own, so that asking allocates nothing.
+struct ConfigurationCheck::Margins {
+  std::vector<float> of_ids, of_balls;
+  std::vector<std::vector<float>> of_still;
 };
 
 ConfigurationCheck::ConfigurationCheck(std::shared_ptr<const Robot> robot)
@@ -171,12 +183,12 @@ ConfigurationCheck::ConfigurationCheck(std::shared_ptr<const Robot> robot)
   State& state = *state_;
   state.balls = mesh::build_ball_robot(robot_->model());
   for (const mesh::BallLink& link : state.balls.links) {
-    const bool is_turned = state.balls.is_turned(link);
-    state.turned.push_back(is_turned ? std::make_unique<TurnedLink>(robot_->model(), link)
-                                     : nullptr);
+    const bool is_first = state.balls.is_first(link);
+    state.first.push_back(is_first ? std::make_unique<FirstLink>(robot_->model(), state.balls, link)
+                                   : nullptr);
   }
-  state.turned_clearance_m = [this](std::size_t l, float angle) {
-    return state_->turned[l]->clearance_m(robot_->model(), state_->frames, angle);
+  state.first_link_bounds = [this](std::size_t l, float at) {
+    return state_->first[l]->bounds(robot_->model(), state_->frames, at);
   };
   state.reach = reach_of(robot_->model());
 }
@@ -193,8 +205,8 @@ ResultStatus ConfigurationCheck::prepare(const NewestFrames& frames, std::option
   if (state.frames.used().empty()) return ResultStatus::stale;
   state.field.build(state.frames.space(), state.frames.undecided(), state.reach.middle_B_m,
                     state.reach.radius_m);
-  for (const auto& turned : state.turned) {
-    if (turned) turned->forget();
+  for (const auto& first : state.first) {
+    if (first) first->forget();
   }
   state.is_known = true;
   const bool are_all =
@@ -217,14 +229,14 @@ void ConfigurationCheck::require(std::span<const double> positions, std::size_t 
       robot_->model().joints[at % joints].name, at / joints, *bad));
 }
 
-std::vector<float> ConfigurationCheck::of_balls(const ConfigurationMargins& margins) const {
+void ConfigurationCheck::find_margins(const ConfigurationMargins& margins, Margins& out) const {
   require_margin(margins.margin_m);
   if (margins.known_margin_m) require_margin(*margins.known_margin_m);
   const RobotModel& model = robot_->model();
-  std::vector<float> of_ids(model.evaluated_links.size(), static_cast<float>(margins.margin_m));
+  out.of_ids.assign(model.evaluated_links.size(), static_cast<float>(margins.margin_m));
   const auto of = [&](const std::string& name) -> float& {
-    for (std::size_t i = 0; i < of_ids.size(); ++i) {
-      if (model.links[model.evaluated_links[i]].name == name) return of_ids[i];
+    for (std::size_t i = 0; i < out.of_ids.size(); ++i) {
+      if (model.links[model.evaluated_links[i]].name == name) return out.of_ids[i];
     }
     throw std::invalid_argument(
         fmt::format("configurations: link \"{}\" is not known; expected one of {}", name,
@@ -235,46 +247,57 @@ std::vector<float> ConfigurationCheck::of_balls(const ConfigurationMargins& marg
     of(name) = static_cast<float>(margin_m);
   }
   for (const std::string& name : margins.without) of(name) = kNotAsked;
-  std::vector<float> of_balls;
-  for (const mesh::BallLink& link : state_->balls.links) of_balls.push_back(of_ids[link.id - 1]);
-  return of_balls;
+  out.of_balls.clear();
+  for (const mesh::BallLink& link : state_->balls.links) {
+    out.of_balls.push_back(out.of_ids[link.id - 1]);
+  }
 }
 
-ConfigurationCheck::Asked ConfigurationCheck::asked_of(const ConfigurationMargins& margins) const {
+template <class Check>
+void ConfigurationCheck::check_all(const ConfigurationMargins& margins, std::span<Verdict> verdicts,
+                                   const Check& check) const {
+  thread_local Margins found;
+  // A thread that waits for others may be given another question meanwhile.
+  Margins own;
+  std::swap(own, found);
+  find_margins(margins, own);
+  std::ranges::fill(verdicts, Verdict::undecided);
   State& state = *state_;
-  Asked out{of_balls(margins), {}, {state.balls, state.field.grid(), {}, state.turned_clearance_m}};
-  out.request.margins_m = out.margins_m;
-  if (!margins.known_margin_m) return out;
-  std::call_once(state.pairs_made, [&] {
-    state.pairs = mesh::build_ball_pairs(robot_->model(), robot_->known(), state.balls,
-                                         state.reach.middle_B_m, state.reach.radius_m);
-  });
-  const auto margin_m = static_cast<float>(*margins.known_margin_m);
-  for (const auto& still : state.pairs.still) {
-    std::vector<float>& of_links = out.still_margins_m.emplace_back();
-    for (const bool asks : still->asks) of_links.push_back(asks ? margin_m : kNotAsked);
+  mesh::BallRequest request{state.balls, state.field.grid(), own.of_balls, state.first_link_bounds};
+  if (margins.known_margin_m) {
+    std::call_once(state.pairs_made, [&] {
+      state.pairs = mesh::build_ball_pairs(robot_->model(), robot_->known(), state.balls,
+                                           state.reach.middle_B_m, state.reach.radius_m);
+    });
+    const auto margin_m = static_cast<float>(*margins.known_margin_m);
+    own.of_still.resize(state.pairs.still.size());
+    for (std::size_t i = 0; i < own.of_still.size(); ++i) {
+      own.of_still[i].clear();
+      for (const bool asks : state.pairs.still[i]->asks) {
+        own.of_still[i].push_back(asks ? margin_m : kNotAsked);
+      }
+    }
+    request.pairs = &state.pairs;
+    request.pairs_margin_m = margin_m;
+    request.still_margins_m = own.of_still;
   }
-  out.request.pairs = &state.pairs;
-  out.request.pairs_margin_m = margin_m;
-  out.request.still_margins_m = out.still_margins_m;
-  return out;
+  constexpr std::size_t kAtATime = 32;
+  if (state.is_known) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, verdicts.size(), kAtATime),
+                      [&](const auto& range) { check(request, range.begin(), range.size()); });
+  }
+  std::swap(own, found);
 }
 
 void ConfigurationCheck::ask(std::span<const double> positions, const ConfigurationMargins& margins,
                              std::span<Verdict> verdicts) const {
   require(positions, verdicts.size());
-  const Asked asked = asked_of(margins);
-  std::ranges::fill(verdicts, Verdict::undecided);
-  if (!state_->is_known) return;
-  const mesh::BallRequest& request = asked.request;
   const std::size_t joints = robot_->model().joints.size();
-  constexpr std::size_t kAtATime = 512;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, verdicts.size(), kAtATime),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      mesh::check_configurations(
-                          request, positions.subspan(joints * range.begin(), joints * range.size()),
-                          verdicts.subspan(range.begin(), range.size()));
-                    });
+  check_all(margins, verdicts,
+            [&](const mesh::BallRequest& request, std::size_t first, std::size_t count) {
+              mesh::check_configurations(request, positions.subspan(joints * first, joints * count),
+                                         verdicts.subspan(first, count));
+            });
 }
 
 void ConfigurationCheck::ask_motions(std::span<const double> from, std::span<const double> to,
@@ -289,15 +312,14 @@ void ConfigurationCheck::ask_motions(std::span<const double> from, std::span<con
         fmt::format("configurations: joint \"{}\" of motion {} goes by {}; expected at most {}",
                     all[k % all.size()].name, k / all.size(), to[k] - from[k], kMostMotion));
   }
-  const Asked asked = asked_of(margins);
-  std::ranges::fill(verdicts, Verdict::undecided);
-  if (!state_->is_known) return;
-  const mesh::BallRequest& request = asked.request;
   const std::size_t joints = robot_->model().joints.size();
-  tbb::parallel_for(std::size_t{0}, verdicts.size(), [&](std::size_t i) {
-    verdicts[i] = mesh::check_motion(request, from.subspan(joints * i, joints),
-                                     to.subspan(joints * i, joints), kLeastStep);
-  });
+  check_all(margins, verdicts,
+            [&](const mesh::BallRequest& request, std::size_t first, std::size_t count) {
+              for (std::size_t i = first; i < first + count; ++i) {
+                verdicts[i] = mesh::check_motion(request, from.subspan(joints * i, joints),
+                                                 to.subspan(joints * i, joints), kLeastStep);
+              }
+            });
 }
 
 KnownPair ConfigurationCheck::find_known(const JointState& joints,
@@ -319,7 +341,9 @@ void ConfigurationCheck::resolve(std::span<const double> positions,
                                  const ConfigurationMargins& margins,
                                  std::span<Verdict> verdicts) const {
   require(positions, verdicts.size());
-  const std::vector<float> of_balls = this->of_balls(margins);
+  Margins own;
+  find_margins(margins, own);
+  const std::vector<float>& of_balls = own.of_balls;
   if (!state_->is_known) return;
   const std::size_t joints = robot_->model().joints.size();
   std::vector<std::size_t> open;

@@ -75,9 +75,12 @@ class ConfigurationCheck {
 
  private:
   struct State;
-  struct Asked;
-  Asked asked_of(const ConfigurationMargins& margins) const;
-  std::vector<float> of_balls(const ConfigurationMargins& margins) const;
+  struct Margins;
+  void find_margins(const ConfigurationMargins& margins, Margins& out) const;
+  /// Hands parts of the verdicts to `check`, on all threads.
+  template <class Check>
+  void check_all(const ConfigurationMargins& margins, std::span<Verdict> verdicts,
+                 const Check& check) const;
   void require(std::span<const double> positions, std::size_t verdicts) const;
   /// The least of all links' distances, and of their bounds.
   KnownPair find_known(const JointState& joints, KnownWorkspace& workspace) const;

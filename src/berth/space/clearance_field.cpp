@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "berth/space/blocks.hpp"
@@ -12,7 +11,9 @@
 namespace berth {
 namespace {
 
-constexpr std::uint8_t kHidden = 1, kRead = 2;
+constexpr std::uint8_t kHidden = 1;
+/// Of the readings of a view; some share one.
+std::uint8_t kind_of(std::size_t view) { return static_cast<std::uint8_t>(2 << view % 7); }
 constexpr double kStep_m = mesh::Cube::kLeastEdge_m;
 constexpr int kStepsPerCell = 1 << 2 * ClearanceField::kCell;
 constexpr std::uint64_t kAllBoxes = ~std::uint64_t{0};
@@ -21,50 +22,6 @@ constexpr std::uint64_t kFirstX = 0x1111'1111'1111'1111u, kLastX = kFirstX << 3;
 constexpr std::uint64_t kFirstY = 0x000F'000F'000F'000Fu, kLastY = kFirstY << 12;
 constexpr std::uint64_t kFirstZ = 0xFFFF;
 
-/// A number of up to 31 for each of a cell's 16 columns, one byte each.
-using Columns = std::array<std::uint64_t, 2>;
-constexpr std::uint64_t kOnes = 0x0101'0101'0101'0101u;
-/// Of eight bits a byte each: 0 where the bit is set, else 0xFF.
-constexpr auto kUnset = [] {
-  std::array<std::uint64_t, 256> bytes{};
-  for (std::size_t i = 0; i < 256; ++i) {
-    for (std::size_t k = 0; k < 8; ++k) {
-      if ((i >> k & 1) == 0) bytes[i] |= std::uint64_t{0xFF} << 8 * k;
-    }
-  }
-  return bytes;
-}();
-
-/// Each number one more, but no more than kRangeBoxes, which is 31.
-std::uint64_t one_more(std::uint64_t columns) {
-  const std::uint64_t sum = columns + kOnes;
-  return sum - (sum >> 5 & kOnes);
-}
-
-/// Goes over the boxes of one cell, upwards or downwards: how far each column's last one is behind.
-void pass(std::uint64_t boxes, bool upwards, Columns& behind) {
-  for (int i = 0; i < 4; ++i) {
-    const std::uint64_t layer = boxes >> 16 * (upwards ? i : 3 - i);
-    for (std::size_t half = 0; half < 2; ++half) {
-      behind[half] = one_more(behind[half]) & kUnset[layer >> 8 * half & 255];
-    }
-  }
-}
-
-/// The four columns of one of its rows.
-std::uint32_t row_of(const Columns& columns, std::size_t row) {
-  return static_cast<std::uint32_t>(columns[row / 2] >> 32 * (row % 2));
-}
-
-/// A place in a cell of either size, in steps.
-std::uint32_t packed(const std::array<int, 3>& steps) {
-  return static_cast<std::uint32_t>(steps[0] | steps[1] << 10 | steps[2] << 20);
-}
-std::array<int, 3> unpacked(std::uint32_t point) {
-  return {static_cast<int>(point & 1023), static_cast<int>(point >> 10 & 1023),
-          static_cast<int>(point >> 20 & 1023)};
-}
-
 /// Whether it is occupied by what this view has read (D4).
 bool has_read(const FreeingCamera& view, const Eigen::Vector3d& p_B_m) {
   const Eigen::Vector3d p_C_m = view.X_CB * p_B_m;
@@ -72,16 +29,6 @@ bool has_read(const FreeingCamera& view, const Eigen::Vector3d& p_B_m) {
   if (!pixel) return false;
   const double depth_m = view.space->obstacle_depth_m(pixel->u, pixel->v);
   return depth_m <= p_C_m.z() && p_C_m.z() <= depth_m + view.space->settings.surface_thickness_m;
-}
-
-/// Visits the boxes of a row beside a node whose next box is number `at`, with their distances from
-/// it.
-template <class Take>
-void each_beside(int at, int count, const Take& take) {
-  for (int d = 0; d < ClearanceField::kRangeBoxes; ++d) {
-    if (at + d < count) take(at + d, d);
-    if (at - 1 - d >= 0) take(at - 1 - d, d);
-  }
 }
 
 }  // namespace
@@ -108,48 +55,43 @@ void ClearanceField::begin(const Eigen::Vector3d& middle_B_m, double reach_m) {
   const double half_m = outer_m();
   for (int k = 0; k < 3; ++k) {
     const double low_m = middle_B_m[k] - half_m - mesh::Cube::kCorner_m;
-    // Whole cells of twice the size, too.
-    first_[k] = 2 * static_cast<int>(std::floor(low_m / (2 * kCell_m)));
+    first_[k] = static_cast<int>(std::floor(low_m / kCell_m));
     count_[k] = 2 * static_cast<int>(std::ceil(half_m / kCell_m)) + 2;
-    half_count_[k] = count_[k] / 2;
     low_B_m_[k] = mesh::Cube::kCorner_m + first_[k] * kCell_m;
   }
+  count_[0] = (count_[0] + BoxGrid::kRow - 1) / BoxGrid::kRow * BoxGrid::kRow;
   const auto cells = static_cast<std::size_t>(count_[0]) * count_[1] * count_[2];
   may_.assign(cells, 0);
-  boxes_.assign(cells, 0);
-  point_[0].assign(cells, kNoPoint);
-  squared_.resize(cells + 2);
+  boxes_.resize(cells);
+  point_.assign(cells, kNoPoint);
 }
 
 void ClearanceField::build(const UnknownSpace& space, const UnknownSpace& undecided,
                            const Eigen::Vector3d& middle_B_m, double reach_m) {
   begin(middle_B_m, reach_m);
-  const mesh::Cube low = cube_of(0, 0, 0);
-  const mesh::Cube high = cube_of(count_[0] - 1, count_[1] - 1, count_[2] - 1);
-  constexpr int kUp = 2 * (mesh::Cube::kTopLevel - kCell);
-  for (int z = low.z >> kUp; z <= high.z >> kUp; ++z) {
-    for (int y = low.y >> kUp; y <= high.y >> kUp; ++y) {
-      for (int x = low.x >> kUp; x <= high.x >> kUp; ++x) {
-        find_hidden(space, {mesh::Cube::kTopLevel, x, y, z});
-      }
+  constexpr int kTop = kCell + 2, kUp = 2 * (kTop - kCell);
+  const auto last = [&](int k) { return (first_[k] + count_[k] - 1) >> kUp; };
+  tbb::parallel_for(first_[2] >> kUp, last(2) + 1, [&](int z) {
+    for (int y = first_[1] >> kUp; y <= last(1); ++y) {
+      for (int x = first_[0] >> kUp; x <= last(0); ++x) find_hidden(space, {kTop, x, y, z});
     }
-  }
+  });
   find_readings(space);
   find_readings(undecided);
   find_boxes(space, undecided);
-  find_hidden_points(space);
   measure();
 }
 
 void ClearanceField::measure() {
-  merge_points();
-  measure_columns();
-  tbb::parallel_for(0, count_[2], [this](int z) { measure_layer(z); });
+  const BoxGrid grid{count_, boxes_.data(), (middle_B_m_ - low_B_m_) / kCell_m,
+                     reach_m_ / kCell_m + 2};
+  distances_.find(grid, squared_);
 }
 
 void ClearanceField::build(std::span<const TriangleMesh> surfaces_B,
                            const Eigen::Vector3d& middle_B_m, double reach_m) {
   begin(middle_B_m, reach_m);
+  std::ranges::fill(boxes_, 0);
   for (const TriangleMesh& mesh_B : surfaces_B) {
     for (const auto& [a, b, c] : mesh_B.triangles) {
       add_triangle({mesh_B.vertices_m[a].cast<double>(), mesh_B.vertices_m[b].cast<double>(),
@@ -161,7 +103,7 @@ void ClearanceField::build(std::span<const TriangleMesh> surfaces_B,
   // It stays as it is: what it was made with may go.
   std::vector<std::uint8_t>().swap(may_);
   std::vector<std::uint64_t>().swap(boxes_);
-  std::vector<std::uint8_t>().swap(along_z_);
+  distances_ = {};
 }
 
 void ClearanceField::add_triangle(const std::array<Eigen::Vector3d, 3>& corners_B_m) {
@@ -247,61 +189,95 @@ void ClearanceField::find_hidden(const UnknownSpace& space, const mesh::Cube& cu
   for (int k = 0; k < 3; ++k) {
     if ((at[k] + 1) << up <= first_[k] || at[k] << up >= first_[k] + count_[k]) return;
   }
-  const double half_m = cube.edge_m() / 2;
-  if (is_beyond(cube.corner_m().array() + half_m, half_m)) return;
   if (cube.level == kCell) {
-    may_[place(cube.x - first_[0], cube.y - first_[1], cube.z - first_[2])] |= kHidden;
+    may_[place(cube.x - first_[0], cube.y - first_[1], cube.z - first_[2])] = kHidden;
     return;
   }
+  const double half_m = cube.edge_m() / 2;
+  if (is_beyond(cube.corner_m().array() + half_m, half_m)) return;
   for (std::uint64_t left = space.find_block(cube); left != 0; left &= left - 1) {
     find_hidden(space, cube.child(__builtin_ctzll(left)));
   }
 }
 
 void ClearanceField::find_readings(const UnknownSpace& space) {
-  for (const FreeingCamera& view : space.views()) {
+  constexpr int kBlock_px = 4;
+  for (std::size_t k = 0; k < space.views().size(); ++k) {
+    const FreeingCamera& view = space.views()[k];
     const DepthView depth_m = view.space->obstacle_depth_m;
-    for (int v = 0; v < depth_m.height; ++v) {
-      // Where the reading before this one was marked: most are in the same cells.
-      std::array<Cell, 4> last{};
-      for (int u = 0; u < depth_m.width; ++u) {
-        if (!std::isnan(depth_m(u, v))) add_reading(view, u, v, depth_m(u, v), last);
+    for (int v = 0; v < depth_m.height; v += kBlock_px) {
+      for (int u = 0; u < depth_m.width; u += kBlock_px) {
+        add_readings(view, kind_of(k),
+                     {u, v, std::min(u + kBlock_px, depth_m.width),
+                      std::min(v + kBlock_px, depth_m.height)});
       }
     }
   }
 }
 
-void ClearanceField::add_reading(const FreeingCamera& view, int u, int v, float depth_m,
-                                 std::array<Cell, 4>& last) {
+void ClearanceField::add_readings(const FreeingCamera& view, std::uint8_t kind,
+                                  const PixelRect& pixels) {
   const Camera& camera = view.space->camera;
+  const DepthView depth_m = view.space->obstacle_depth_m;
   const double thickness_m = view.space->settings.surface_thickness_m;
-  const Eigen::Vector3d ray_B = view.X_BC.linear() * point_at(camera, u, v, 1);
-  const Eigen::Vector3d near_B_m = view.X_BC.translation() + depth_m * ray_B;
-  const double most_m = outer_m() + thickness_m * ray_B.norm();
-  if ((near_B_m - middle_B_m_).squaredNorm() > most_m * most_m) return;
-  // Two halves of the block that the pixel measured, each in a box.
-  const double wide_m = (depth_m + thickness_m) / std::min(camera.fx_px, camera.fy_px);
-  const Eigen::Vector3d half_B_m = thickness_m / 4 * ray_B.cwiseAbs();
-  std::array<Cell, 4> cells;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const Eigen::Vector3d p_B_m = near_B_m + thickness_m * (i == 0 ? 0.25 : 0.75) * ray_B;
-    cells[2 * i] = cell_of((p_B_m - half_B_m).array() - wide_m);
-    cells[2 * i + 1] = cell_of((p_B_m + half_B_m).array() + wide_m);
+  float least_m = std::numeric_limits<float>::infinity(), most_m = 0;
+  Pixel nearest;
+  for (int v = pixels.v_begin; v < pixels.v_end; ++v) {
+    for (int u = pixels.u_begin; u < pixels.u_end; ++u) {
+      const float here_m = depth_m(u, v);
+      if (here_m < least_m) least_m = here_m, nearest = {u, v};
+      if (here_m > most_m) most_m = here_m;
+    }
   }
-  if (cells == last) return;
-  last = cells;
-  for (std::size_t i = 0; i < 2; ++i) mark_read(cells[2 * i], cells[2 * i + 1]);
+  if (!(least_m <= most_m)) return;
+  const auto ray = [&](double u, double v) -> Eigen::Vector3d {
+    return view.X_BC.linear() *
+           Eigen::Vector3d((u - camera.cx_px) / camera.fx_px, (v - camera.cy_px) / camera.fy_px, 1);
+  };
+  const Eigen::Vector3d ray_B = ray(nearest.u, nearest.v), eye_B_m = view.X_BC.translation();
+  // A few pixels wide, it lies in the ball about its nearest reading that reaches its farthest.
+  const double deep_m = most_m + thickness_m - least_m, far_m = most_m + thickness_m;
+  const double wide_m = 8 * far_m / std::min(camera.fx_px, camera.fy_px);
+  if (is_beyond(eye_B_m + least_m * ray_B, deep_m * ray_B.norm() + wide_m)) return;
+  // Slices of depth, as thick as cells, and which of them have something.
+  constexpr int kMostSlices = 64;
+  const int slices = std::clamp(static_cast<int>(std::ceil(deep_m / kCell_m)), 1, kMostSlices);
+  const double thick_m = deep_m / slices;
+  std::uint64_t filled = 0;
+  for (int v = pixels.v_begin; v < pixels.v_end; ++v) {
+    for (int u = pixels.u_begin; u < pixels.u_end; ++u) {
+      const double from_m = depth_m(u, v) - least_m;
+      if (std::isnan(from_m)) continue;
+      const int first = std::min(static_cast<int>(from_m / thick_m), slices - 1);
+      const int last = std::min(static_cast<int>((from_m + thickness_m) / thick_m), slices - 1);
+      filled |= (~std::uint64_t{0} >> (63 - (last - first))) << first;
+    }
+  }
+  constexpr double kRounding_px = 1e-3, kRounding_m = 1e-5;
+  const double u0 = pixels.u_begin - 0.5 - kRounding_px, u1 = pixels.u_end - 0.5 + kRounding_px;
+  const double v0 = pixels.v_begin - 0.5 - kRounding_px, v1 = pixels.v_end - 0.5 + kRounding_px;
+  const std::array<Eigen::Vector3d, 4> rays_B{ray(u0, v0), ray(u1, v0), ray(u0, v1), ray(u1, v1)};
+  for (; filled != 0; filled &= filled - 1) {
+    const int i = __builtin_ctzll(filled);
+    Eigen::AlignedBox3d box_B_m;
+    for (const Eigen::Vector3d& corner_B : rays_B) {
+      box_B_m.extend(eye_B_m + (least_m + i * thick_m - kRounding_m) * corner_B);
+      box_B_m.extend(eye_B_m + (least_m + (i + 1) * thick_m + kRounding_m) * corner_B);
+    }
+    mark_read(kind, cell_of(box_B_m.min()), cell_of(box_B_m.max()));
+  }
   // A little behind the front: rounded to a step, it may not be occupied before it.
   constexpr double kBehind_m = 0.001;
-  const Eigen::Vector3d point_B_m = near_B_m + std::min(kBehind_m, thickness_m / 2) * ray_B;
+  const Eigen::Vector3d point_B_m =
+      eye_B_m + (least_m + std::min(kBehind_m, thickness_m / 2)) * ray_B;
   take_point(point_B_m, [&](const Eigen::Vector3d& p_B_m) { return has_read(view, p_B_m); });
 }
 
-void ClearanceField::mark_read(const Cell& low, const Cell& high) {
+void ClearanceField::mark_read(std::uint8_t kind, const Cell& low, const Cell& high) {
   for (int z = std::max(0, low[2]); z <= std::min(high[2], count_[2] - 1); ++z) {
     for (int y = std::max(0, low[1]); y <= std::min(high[1], count_[1] - 1); ++y) {
       for (int x = std::max(0, low[0]); x <= std::min(high[0], count_[0] - 1); ++x) {
-        may_[place(x, y, z)] |= kRead;
+        may_[place(x, y, z)] |= kind;
       }
     }
   }
@@ -311,7 +287,7 @@ template <class Holds>
 bool ClearanceField::take_point(const Eigen::Vector3d& p_B_m, const Holds& holds) {
   const Cell cell = cell_of(p_B_m);
   if (!has(cell)) return false;
-  std::uint32_t& point = point_[0][place(cell[0], cell[1], cell[2])];
+  std::uint32_t& point = point_[place(cell[0], cell[1], cell[2])];
   if (point != kNoPoint) return true;
   Cell steps;
   Eigen::Vector3d rounded_B_m;
@@ -321,242 +297,97 @@ bool ClearanceField::take_point(const Eigen::Vector3d& p_B_m, const Holds& holds
     rounded_B_m[k] = low_B_m_[k] + cell[k] * kCell_m + (steps[k] + 0.5) * kStep_m;
   }
   if (!holds(rounded_B_m)) return false;
-  point = packed(steps);
+  point = static_cast<std::uint32_t>(steps[0] | steps[1] << 10 | steps[2] << 20);
   return true;
 }
 
-bool ClearanceField::is_inside(int x, int y, int z) const {
-  for (int i = 0; i < 27; ++i) {
-    const Cell at{x + i % 3 - 1, y + i / 3 % 3 - 1, z + i / 9 - 1};
-    if (has(at) && (may_[place(at[0], at[1], at[2])] & kHidden) == 0) return false;
+void ClearanceField::find_inside(int y, int z, std::vector<std::uint8_t>& inside) const {
+  const auto count = static_cast<std::size_t>(count_[0]);
+  // Of each column of nine cells, and a column beyond each end.
+  inside.assign(count + 2, kHidden);
+  std::uint8_t* const columns = inside.data();
+  for (int i = 0; i < 9; ++i) {
+    const int beside_y = y + i % 3 - 1, beside_z = z + i / 3 - 1;
+    if (!has({0, beside_y, beside_z})) continue;
+    const std::uint8_t* const row = &may_[place(0, beside_y, beside_z)];
+    for (std::size_t x = 0; x < count; ++x) columns[x + 1] &= row[x];
   }
-  return true;
+  // From below, so that what is read has not been written yet.
+  for (std::size_t x = 0; x < count; ++x) columns[x] &= columns[x + 1] & columns[x + 2];
+}
+
+std::uint64_t ClearanceField::boxes_with_readings(const UnknownSpace& space, std::size_t at,
+                                                  const mesh::Cube& cube) const {
+  std::uint64_t boxes = 0;
+  for (std::size_t k = 0; k < space.views().size() && boxes != kAllBoxes; ++k) {
+    if ((may_[at] & kind_of(k)) == 0) continue;
+    boxes |= mesh::find_occupied(space.views().subspan(k, 1), cube);
+  }
+  return boxes;
 }
 
 void ClearanceField::find_boxes(const UnknownSpace& space, const UnknownSpace& undecided) {
   tbb::parallel_for(0, count_[2], [&](int z) {
+    std::vector<std::uint8_t> inside;
     for (int y = 0; y < count_[1]; ++y) {
+      find_inside(y, z, inside);
       for (int x = 0; x < count_[0]; ++x) {
         const std::size_t at = place(x, y, z);
+        boxes_[at] = 0;
         if (may_[at] == 0) continue;
         // Where no place is asked about, the cell as a whole will do.
         const Eigen::Vector3d p_B_m =
             low_B_m_ + kCell_m * Eigen::Vector3d(x + 0.5, y + 0.5, z + 0.5);
-        if ((p_B_m - middle_B_m_).norm() > reach_m_ + kCell_m || is_inside(x, y, z)) {
-          boxes_[at] = kAllBoxes;
+        boxes_[at] = kAllBoxes;
+        if ((p_B_m - middle_B_m_).squaredNorm() > (reach_m_ + kCell_m) * (reach_m_ + kCell_m)) {
           continue;
         }
         const mesh::Cube cube = cube_of(x, y, z);
-        if ((may_[at] & kHidden) != 0) boxes_[at] = space.find_block(cube);
-        if ((may_[at] & kRead) == 0 || boxes_[at] == kAllBoxes) continue;
-        boxes_[at] |= mesh::find_occupied(space.views(), cube);
-        boxes_[at] |= mesh::find_occupied(undecided.views(), cube);
+        if (inside[x] == 0) {
+          boxes_[at] = (may_[at] & kHidden) != 0 ? space.find_block(cube) : 0;
+          if (boxes_[at] != kAllBoxes) boxes_[at] |= boxes_with_readings(space, at, cube);
+          if (boxes_[at] != kAllBoxes) boxes_[at] |= boxes_with_readings(undecided, at, cube);
+        } else if (((x | y | z) & 1) != 0) {
+          // Among the cells around any place one has a point then.
+          continue;
+        }
+        if ((may_[at] & kHidden) != 0) find_hidden_point(space, {x, y, z});
       }
     }
   });
 }
 
-void ClearanceField::find_hidden_points(const UnknownSpace& space) {
-  const auto is_hidden = [&](const Eigen::Vector3d& p_B_m) {
-    return space.hiding_pixel(p_B_m).has_value();
+void ClearanceField::find_hidden_point(const UnknownSpace& space, const Cell& cell) {
+  const auto [x, y, z] = cell;
+  const std::size_t at = place(x, y, z);
+  if (point_[at] != kNoPoint) return;
+  const Eigen::Vector3d low_B_m = low_B_m_ + kCell_m * Eigen::Vector3d(x, y, z);
+  const auto takes = [&](const Eigen::Vector3d& in_cell_m) {
+    return take_point(low_B_m + in_cell_m, [&](const Eigen::Vector3d& p_B_m) {
+      return space.hiding_pixel(p_B_m).has_value();
+    });
   };
-  tbb::parallel_for(0, count_[2], [&](int z) {
-    for (int y = 0; y < count_[1]; ++y) {
-      for (int x = 0; x < count_[0]; ++x) {
-        const std::size_t at = place(x, y, z);
-        if ((may_[at] & kHidden) == 0 || point_[0][at] != kNoPoint) continue;
-        const Eigen::Vector3d low_B_m = low_B_m_ + kCell_m * Eigen::Vector3d(x, y, z);
-        if (take_point(low_B_m.array() + kCell_m / 2, is_hidden)) continue;
-        // One box in each direction from the middle, where it may hold something.
-        for (int i = 0; i < 8; ++i) {
-          const int bx = i & 1 ? 3 : 0, by = i & 2 ? 3 : 0, bz = i & 4 ? 3 : 0;
-          if ((boxes_[at] >> (16 * bz + 4 * by + bx) & 1) == 0) continue;
-          const Eigen::Vector3d in_cell(bx + 0.5, by + 0.5, bz + 0.5);
-          if (take_point(low_B_m + kBox_m * in_cell, is_hidden)) break;
-        }
-      }
-    }
-  });
-}
-
-void ClearanceField::merge_points() {
-  point_[1].assign(static_cast<std::size_t>(half_count_[0]) * half_count_[1] * half_count_[2],
-                   kNoPoint);
-  for (int z = 0; z < count_[2]; ++z) {
-    for (int y = 0; y < count_[1]; ++y) {
-      for (int x = 0; x < count_[0]; ++x) {
-        const std::uint32_t point = point_[0][place(x, y, z)];
-        if (point == kNoPoint) continue;
-        const auto row = static_cast<std::size_t>(z / 2) * half_count_[1] + y / 2;
-        Cell steps = unpacked(point);
-        const Cell odd{x & 1, y & 1, z & 1};
-        for (int k = 0; k < 3; ++k) steps[k] += odd[k] * kStepsPerCell;
-        point_[1][row * half_count_[0] + x / 2] = packed(steps);
-      }
-    }
-  }
-}
-
-void ClearanceField::measure_columns() {
-  const std::size_t width = 4 * static_cast<std::size_t>(count_[0]);
-  const std::size_t layer = width * 4 * count_[1];
-  along_z_.assign(layer * count_[2], 0);
-  tbb::parallel_for(0, count_[1], [&](int y) {
-    const auto [begin, end] = near_cells(0, y);
-    // What lies beyond the grid counts as occupied.
-    std::vector<Columns> behind(count_[0], Columns{});
-    const auto rows_at = [&](int z) {
-      return &along_z_[layer * z + 4 * static_cast<std::size_t>(y) * width];
-    };
-    const auto [bottom, top] = near_cells(2, y);
-    for (int z = bottom; z < top; ++z) {
-      std::uint8_t* const rows = rows_at(z);
-      for (int x = begin; x < end; ++x) {
-        for (std::size_t row = 0; row < 4; ++row) {
-          const std::uint32_t four = row_of(behind[x], row);
-          std::memcpy(rows + row * width + 4 * x, &four, 4);
-        }
-        pass(boxes_[place(x, y, z)], true, behind[x]);
-      }
-    }
-    std::ranges::fill(behind, Columns{});
-    for (int z = top - 1; z >= bottom; --z) {
-      std::uint8_t* const rows = rows_at(z);
-      for (int x = begin; x < end; ++x) {
-        pass(boxes_[place(x, y, z)], false, behind[x]);
-        for (std::size_t row = 0; row < 4; ++row) {
-          const std::uint32_t four = row_of(behind[x], row);
-          std::array<std::uint8_t, 4> bytes;
-          std::memcpy(bytes.data(), &four, 4);
-          std::uint8_t* const out = rows + row * width + 4 * x;
-          for (std::size_t k = 0; k < 4; ++k) out[k] = std::min(out[k], bytes[k]);
-        }
-      }
-    }
-  });
-}
-
-std::array<int, 2> ClearanceField::in_ball(int axis, double most_m, double a_m, double b_m) const {
-  const double square_m2 = most_m * most_m - a_m * a_m - b_m * b_m;
-  if (square_m2 <= 0) return {0, 0};
-  const double half_m = std::sqrt(square_m2), to_middle_m = middle_B_m_[axis] - low_B_m_[axis];
-  return {std::max(0, static_cast<int>((to_middle_m - half_m) / kCell_m)),
-          std::min(count_[axis], static_cast<int>((to_middle_m + half_m) / kCell_m) + 2)};
-}
-
-std::array<int, 2> ClearanceField::near_cells(int axis, int y) const {
-  const double y_m = low_B_m_.y() + kCell_m * (y + 0.5) - middle_B_m_.y();
-  return in_ball(axis, outer_m(), y_m, 0);
-}
-
-std::array<int, 2> ClearanceField::asked_nodes(int y, int z) const {
-  // A place lies between nodes that are a cell farther off at most.
-  const Eigen::Vector3d row_m = low_B_m_ + kCell_m * Eigen::Vector3d(0, y, z) - middle_B_m_;
-  return in_ball(0, reach_m_ + 2 * kCell_m, row_m.y(), row_m.z());
-}
-
-void ClearanceField::measure_layer(int z) {
-  using Squares = std::vector<std::int16_t>;
-  // Signed: the oldest instruction sets have the lesser of two such numbers alone.
-  constexpr std::int16_t kMost = kRangeBoxes * kRangeBoxes;
-  const auto [low, high] = in_ball(2, reach_m_ + 2 * kCell_m, 0, 0);
-  if (z < low || z >= high) {
-    std::fill_n(&squared_[place(0, 0, z)], count_[0] * count_[1], std::uint16_t{0});
+  const std::uint64_t boxes = boxes_[at];
+  if (boxes == kAllBoxes) {
+    takes(Eigen::Vector3d::Constant(kCell_m / 2));
     return;
   }
-  const int width = 4 * count_[0], height = 4 * count_[1];
-  const std::uint8_t* const along_z = &along_z_[static_cast<std::size_t>(width) * height * z];
-  Squares layer(static_cast<std::size_t>(width) * height);
-  std::vector<bool> is_empty(static_cast<std::size_t>(height));
-  for (int y = 0; y < height; ++y) {
-    std::int16_t least = kMost;
-    for (int x = 0; x < width; ++x) {
-      const std::size_t at = static_cast<std::size_t>(y) * width + x;
-      layer[at] = static_cast<std::int16_t>(along_z[at] * along_z[at]);
-      least = std::min(least, layer[at]);
+  // One box in each layer: first of those beside free ones, for what is near to be found near.
+  const std::uint64_t inner = boxes & (boxes << 1 | kFirstX) & (boxes >> 1 | kLastX) &
+                              (boxes << 4 | kFirstY) & (boxes >> 4 | kLastY) &
+                              (boxes << 16 | kFirstZ) & (boxes >> 16 | ~(kAllBoxes >> 16));
+  for (const std::uint64_t some : {boxes & ~inner, inner}) {
+    for (int i = 0; i < 4; ++i) {
+      const std::uint64_t layer = some >> 16 * i & kFirstZ;
+      if (layer == 0) continue;
+      const int first = __builtin_ctzll(layer);
+      if (takes(kBox_m * Eigen::Vector3d((first & 3) + 0.5, (first >> 2) + 0.5, i + 0.5))) return;
     }
-    is_empty[y] = least == kMost;
   }
-  // Of one row of nodes: each column by itself, in four parts, so that a part has one number for
-  // each node.
-  std::array<Squares, 4> column;
-  for (Squares& part : column) part.resize(count_[0]);
-  Squares row(width);
-  for (int y = 0; y < count_[1]; ++y) {
-    std::uint16_t* const out = &squared_[place(0, y, z)];
-    const auto [begin, end] = asked_nodes(y, z);
-    if (begin >= end) {
-      std::fill_n(out, count_[0], std::uint16_t{0});
-      continue;
-    }
-    std::ranges::fill(row, kMost);
-    each_beside(4 * y, height, [&](int at, int d) {
-      if (is_empty[at]) return;
-      const auto square = static_cast<std::int16_t>(d * d);
-      const std::int16_t* const from = &layer[static_cast<std::size_t>(at) * width];
-      for (int x = 0; x < width; ++x) {
-        row[x] = std::min(row[x], static_cast<std::int16_t>(from[x] + square));
-      }
-    });
-    for (int x = 0; x < width; ++x) column[x & 3][x >> 2] = row[x];
-    Squares least(count_[0], kMost);
-    for (int d = 0; d < kRangeBoxes; ++d) {
-      const auto square = static_cast<std::int16_t>(d * d);
-      // Boxes d behind each node, and d before it.
-      const std::int16_t* const behind = column[d & 3].data();
-      const std::int16_t* const before = column[3 - (d & 3)].data();
-      const int far = d >> 2;
-      for (int x = begin; x < std::min(end, count_[0] - far); ++x) {
-        least[x] = std::min(least[x], static_cast<std::int16_t>(behind[x + far] + square));
-      }
-      for (int x = std::max(begin, far + 1); x < end; ++x) {
-        least[x] = std::min(least[x], static_cast<std::int16_t>(before[x - far - 1] + square));
-      }
-    }
-    // Of what is farther from the middle, nobody asks and nothing is known.
-    std::fill_n(out, count_[0], std::uint16_t{0});
-    std::copy(least.begin() + begin, least.begin() + end, out + begin);
-  }
-}
-
-ClearanceField::Bounds ClearanceField::at(const Eigen::Vector3d& p_B_m) const {
-  const Cell cell = cell_of(p_B_m);
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  for (int k = 0; k < 3; ++k) {
-    if (cell[k] < 0 || cell[k] + 1 >= count_[k]) return {0, kInfinity};
-  }
-  const Eigen::Vector3d t =
-      (p_B_m - low_B_m_) / kCell_m - Eigen::Vector3d(cell[0], cell[1], cell[2]);
-  double squared = -16 * t.dot(Eigen::Vector3d::Ones() - t);
-  for (int i = 0; i < 8; ++i) {
-    const int x = i & 1, y = i >> 1 & 1, z = i >> 2;
-    const double share =
-        (x ? t.x() : 1 - t.x()) * (y ? t.y() : 1 - t.y()) * (z ? t.z() : 1 - t.z());
-    squared += share * squared_[place(cell[0] + x, cell[1] + y, cell[2] + z)];
-  }
-  double upper_m = kInfinity;
-  for (int i = 0; i < 27; ++i) {
-    const Cell beside{cell[0] + i % 3 - 1, cell[1] + i / 3 % 3 - 1, cell[2] + i / 9 - 1};
-    if (!has(beside)) continue;
-    const std::uint32_t point = point_[0][place(beside[0], beside[1], beside[2])];
-    if (point == kNoPoint) continue;
-    const Cell steps = unpacked(point);
-    Eigen::Vector3d q_B_m;
-    for (int k = 0; k < 3; ++k) {
-      q_B_m[k] = low_B_m_[k] + beside[k] * kCell_m + (steps[k] + 0.5) * kStep_m;
-    }
-    upper_m = std::min(upper_m, (q_B_m - p_B_m).norm());
-  }
-  return {static_cast<float>(kBox_m * std::sqrt(std::max(0.0, squared))),
-          static_cast<float>(upper_m)};
 }
 
 ClearanceField::Grid ClearanceField::grid() const {
-  return {low_B_m_.cast<float>(),
-          count_,
-          squared_.data(),
-          {point_[0].data(), point_[1].data()},
-          {count_, half_count_}};
+  return {low_B_m_.cast<float>(), count_, squared_.data(), point_.data()};
 }
 
 }  // namespace berth

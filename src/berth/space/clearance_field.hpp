@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "berth/robot/triangle_mesh.hpp"
+#include "berth/space/box_distances.hpp"
 #include "berth/space/unknown_space.hpp"
 
 namespace berth {
@@ -23,8 +24,7 @@ class ClearanceField {
   static constexpr int kBox = 3, kCell = 4;  ///< Cube::level of the boxes, and from node to node
   static constexpr double kBox_m = 0.0064, kCell_m = 0.0256;
   /// What is farther away counts as so far.
-  static constexpr int kRangeBoxes = 31;
-  static constexpr double kRange_m = kRangeBoxes * kBox_m;
+  static constexpr double kRange_m = BoxDistances::kRange * kBox_m;
 
   /// Of all places no farther than reach_m from the middle; beside them nothing is known. What
   /// `undecided` has read counts, too. Reuses its memory. Nobody may ask meanwhile.
@@ -35,14 +35,6 @@ class ClearanceField {
   void build(std::span<const TriangleMesh> surfaces_B, const Eigen::Vector3d& middle_B_m,
              double reach_m);
 
-  /// Nothing is nearer to the place than lower_m, and something certainly is no farther than
-  /// upper_m, which is infinite where that is not known.
-  struct Bounds {
-    float lower_m = 0;
-    float upper_m = 0;
-  };
-  Bounds at(const Eigen::Vector3d& p_B_m) const;
-
   /// What vector code reads: all of the grid.
   struct Grid {
     Eigen::Vector3f low_B_m;
@@ -50,10 +42,9 @@ class ClearanceField {
     /// Of each node the square of a lower bound, in boxes; x first, then y. Two numbers more
     /// follow.
     const std::uint16_t* squared = nullptr;
-    /// Of each cell of 25.6 mm, and of 51.2 mm: a point's place in it, in 0.1 mm, ten bits for each
-    /// coordinate, x lowest; kNoPoint where none is known.
-    std::array<const std::uint32_t*, 2> point = {};
-    std::array<std::array<int, 3>, 2> point_count = {};
+    /// Of each cell a point's place in it, in 0.1 mm, ten bits for each coordinate, x lowest;
+    /// kNoPoint where none is known.
+    const std::uint32_t* point = nullptr;
   };
   static constexpr std::uint32_t kNoPoint = ~std::uint32_t{0};
   Grid grid() const;
@@ -83,25 +74,17 @@ class ClearanceField {
   bool is_beyond(const Eigen::Vector3d& p_B_m, double half_m) const;
   void find_hidden(const UnknownSpace& space, const mesh::Cube& cube);
   void find_readings(const UnknownSpace& space);
-  void add_reading(const FreeingCamera& view, int u, int v, float depth_m,
-                   std::array<Cell, 4>& last);
-  void mark_read(const Cell& low, const Cell& high);
+  void add_readings(const FreeingCamera& view, std::uint8_t kind, const PixelRect& pixels);
+  void mark_read(std::uint8_t kind, const Cell& low, const Cell& high);
   /// Whether there is a point of the cell that this one lies in: itself, rounded, if that holds.
   template <class Holds>
   bool take_point(const Eigen::Vector3d& p_B_m, const Holds& holds);
+  /// Of a row of cells whether they and all around them may hold hidden space.
+  void find_inside(int y, int z, std::vector<std::uint8_t>& inside) const;
   void find_boxes(const UnknownSpace& space, const UnknownSpace& undecided);
-  bool is_inside(int x, int y, int z) const;
-  void find_hidden_points(const UnknownSpace& space);
-  void merge_points();
-  void measure_columns();
-  /// Where a row along an axis, a and b beside the middle, enters a ball about it, and before where
-  /// it has left it again.
-  std::array<int, 2> in_ball(int axis, double most_m, double a_m, double b_m) const;
-  /// Of the cells with this y those along an axis that nodes may have to know of, and of a row's
-  /// nodes those between which places may lie.
-  std::array<int, 2> near_cells(int axis, int y) const;
-  std::array<int, 2> asked_nodes(int y, int z) const;
-  void measure_layer(int z);
+  std::uint64_t boxes_with_readings(const UnknownSpace& space, std::size_t at,
+                                    const mesh::Cube& cube) const;
+  void find_hidden_point(const UnknownSpace& space, const Cell& cell);
 
   /// The number of the first cell among all cubes.
   std::array<int, 3> first_ = {};
@@ -109,13 +92,12 @@ class ClearanceField {
   Eigen::Vector3d low_B_m_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d middle_B_m_ = Eigen::Vector3d::Zero();
   double reach_m_ = 0;
-  /// Of each cell: whether it may hold hidden space, readings; and which of its boxes do.
+  /// Of each cell: whether it may hold hidden space, and readings of which views; and which of its
+  /// boxes do.
   std::vector<std::uint8_t> may_;
   std::vector<std::uint64_t> boxes_;
-  std::array<std::vector<std::uint32_t>, 2> point_;
-  std::array<int, 3> half_count_ = {};
-  /// Of each column of boxes, at the height of each layer of nodes: boxes to the nearest one.
-  std::vector<std::uint8_t> along_z_;
+  std::vector<std::uint32_t> point_;
+  BoxDistances distances_;
   std::vector<std::uint16_t> squared_;
 };
 
