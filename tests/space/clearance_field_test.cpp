@@ -37,6 +37,11 @@ class FieldWorld {
     MeshWorldSettings settings;
     settings.views = 1 + static_cast<int>(seed % 4);
     settings.hides_otherwise = seed % 2 == 1;
+    if (seed % 3 == 0) {
+      // What is occupied is thicker than cells, and than a few pixels are wide.
+      settings.width_px = 320, settings.height_px = 240;
+      settings.space.surface_thickness_m = 0.1;
+    }
     return settings;
   }
 
@@ -56,7 +61,19 @@ TEST(ClearanceField, NothingIsNearerThanItsLowerBound) {
     std::vector<Eigen::Vector3d> there_m;
     for (int i = 0; i < 60'000; ++i) {
       const Eigen::Vector3d p_B = sim::draw_point(random, 0.8);
-      if (world.is_there(p_B)) there_m.push_back(p_B);
+      if (!world.is_there(p_B)) continue;
+      there_m.push_back(p_B);
+      // No node around it may take it for farther away.
+      const ClearanceField::Grid grid = world.field().grid();
+      for (int k = 0; k < 8; ++k) {
+        const Eigen::Array3i node = cell_of(grid, p_B) + Eigen::Array3i(k & 1, k >> 1 & 1, k >> 2);
+        if (!has(grid, node)) continue;
+        const Eigen::Vector3d node_B_m =
+            grid.low_B_m.cast<double>() + ClearanceField::kCell_m * node.cast<double>().matrix();
+        const double told_m =
+            ClearanceField::kBox_m * std::sqrt(grid.squared[place_of(grid, node)]);
+        ASSERT_LE(told_m, (node_B_m - p_B).norm() + 1e-6) << p_B.transpose();
+      }
     }
     for (int i = 0; i < 400; ++i) {
       const Eigen::Vector3d p_B = sim::draw_point(random, 0.4);
