@@ -21,10 +21,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<std::int16_t, 32>;
 using Squares = hn::Vec<Tag>;
 constexpr int kWidth = static_cast<int>(hn::MaxLanes(Tag()));
-constexpr int kRange = BoxDistances::kRange;
-constexpr std::int16_t kMost = kRange * kRange;
+constexpr int kRangeBoxes = BoxDistances::kRangeBoxes;
+constexpr std::int16_t kMost = kRangeBoxes * kRangeBoxes;
 /// In cells.
-constexpr int kReach = (kRange + 1) / 4;
+constexpr int kReach = (kRangeBoxes + 1) / 4;
 constexpr double kNear = kReach + 2;
 
 /// The squares of the distances of boxes that lie k cells beside a node: those of a cell of which
@@ -96,12 +96,13 @@ HWY_INLINE bool find_along_x(const std::uint64_t* boxes, BoxGrid::Row row, int c
   std::fill(out, out + 16 * count, kMost);
   for (int i = 0; i < 16; ++i) {
     for (const bool is_upwards : {true, false}) {
-      int apart = kRange;
+      int apart = kRangeBoxes;
       for (int n = 4 * row.begin; n < 4 * row.end; ++n) {
         const int box = is_upwards ? n : 4 * (row.end + row.begin) - 1 - n;
         std::int16_t& at = out[4 * box + i];
         if (is_upwards && box % 4 == 0) at = std::min(at, static_cast<std::int16_t>(apart * apart));
-        apart = (boxes[box / 4] >> (4 * i + box % 4) & 1) != 0 ? 0 : std::min(apart + 1, kRange);
+        apart =
+            (boxes[box / 4] >> (4 * i + box % 4) & 1) != 0 ? 0 : std::min(apart + 1, kRangeBoxes);
         if (!is_upwards && box % 4 == 0) {
           at = std::min(at, static_cast<std::int16_t>(apart * apart));
         }
@@ -118,12 +119,12 @@ HWY_INLINE bool find_along_x(const std::uint64_t* boxes, BoxGrid::Row row, int c
   const hn::FixedTag<std::uint64_t, 2> words;
   const hn::FixedTag<std::int16_t, 8> d16;
   // By four boxes' bits: how many lie before the first, and behind the last.
-  alignas(16) static constexpr std::uint8_t kFirst[16] = {kRange, 0, 1, 0, 2, 0, 1, 0,
-                                                          3,      0, 1, 0, 2, 0, 1, 0};
-  alignas(16) static constexpr std::uint8_t kLast[16] = {kRange, 3, 2, 2, 1, 1, 1, 1,
-                                                         0,      0, 0, 0, 0, 0, 0, 0};
+  alignas(16) static constexpr std::uint8_t kFirst[16] = {kRangeBoxes, 0, 1, 0, 2, 0, 1, 0,
+                                                          3,           0, 1, 0, 2, 0, 1, 0};
+  alignas(16) static constexpr std::uint8_t kLast[16] = {kRangeBoxes, 3, 2, 2, 1, 1, 1, 1,
+                                                         0,           0, 0, 0, 0, 0, 0, 0};
   const auto first = hn::Load(d, kFirst), last = hn::Load(d, kLast);
-  const auto most = hn::Set(d, std::uint8_t{kRange}), four = hn::Set(d, std::uint8_t{4});
+  const auto most = hn::Set(d, std::uint8_t{kRangeBoxes}), four = hn::Set(d, std::uint8_t{4});
   const auto fours_of = [&](int x) HWY_ATTR {
     const auto word = hn::BitCast(d, hn::Set(words, boxes[x]));
     const auto low = hn::And(word, hn::Set(d, std::uint8_t{15}));

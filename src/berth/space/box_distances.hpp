@@ -31,10 +31,11 @@ struct BoxGrid {
 class BoxDistances {
  public:
   /// What is farther away counts as so far, in boxes.
-  static constexpr int kRange = 31;
+  static constexpr int kRangeBoxes = 31;
 
   /// Of each node the square of its distance to the nearest box, in boxes; 0 where nobody asks. Two
-  /// numbers more follow. Boxes more than kRange and two cells away from the ball are not needed.
+  /// numbers more follow. Boxes more than kRangeBoxes and two cells away from the ball are not
+  /// needed.
   void find(const BoxGrid& grid, std::vector<std::uint16_t>& squared);
 
  private:

@@ -24,7 +24,7 @@ class ClearanceField {
   static constexpr int kBox = 3, kCell = 4;  ///< Cube::level of the boxes, and from node to node
   static constexpr double kBox_m = 0.0064, kCell_m = 0.0256;
   /// What is farther away counts as so far.
-  static constexpr double kRange_m = BoxDistances::kRange * kBox_m;
+  static constexpr double kRange_m = BoxDistances::kRangeBoxes * kBox_m;
 
   /// Of all places no farther than reach_m from the middle; beside them nothing is known. What
   /// `undecided` has read counts, too. Reuses its memory. Nobody may ask meanwhile.
