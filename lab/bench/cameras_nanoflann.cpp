@@ -1,28 +1,13 @@
-#include <nanoflann.hpp>
-
 #include "lab/bench/cameras_peer.hpp"
 #include "lab/bench/cameras_points.hpp"
 #include "lab/bench/closest_so_far.hpp"
 #include "lab/bench/coarse_robot.hpp"
+#include "lab/measure/point_tree.hpp"
 
 namespace berth::lab {
 namespace {
 
-/// As for one camera.
-constexpr std::size_t kCamerasLeafPoints = 32;
 constexpr float kSampleStep_m = 0.005f;
-
-/// Points as nanoflann wants to see them.
-struct CamerasCloud {
-  std::vector<Eigen::Vector3f> points_B_m;
-
-  std::size_t kdtree_get_point_count() const { return points_B_m.size(); }
-  float kdtree_get_pt(std::size_t i, std::size_t axis) const { return points_B_m[i][axis]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
 
 float longest_edge_m(const TriangleMesh& mesh) {
   float longest_m = 0;
@@ -60,12 +45,12 @@ class CamerasNanoflann : public CamerasPeer {
   }
 
   void build(const WholeRobotScene& scene) override {
-    cloud_.points_B_m.clear();
+    tree_.points_m().clear();
     for (const CameraImages& view : scene.views) {
       for_each_reading(scene.camera, view,
-                       [&](const Eigen::Vector3f& p_B_m) { cloud_.points_B_m.push_back(p_B_m); });
+                       [&](const Eigen::Vector3f& p_B_m) { tree_.points_m().push_back(p_B_m); });
     }
-    tree_.buildIndex();
+    tree_.build();
   }
 
   std::vector<std::optional<double>> ask(const WholeRobotScene& scene, double range_m) override {
@@ -75,7 +60,7 @@ class CamerasNanoflann : public CamerasPeer {
       ClosestSoFar closest{static_cast<float>(range_m * range_m)};
       for (const Eigen::Vector3f& p_L_m : samples_L_m_[i]) {
         const Eigen::Vector3f p_B_m = X_BL * p_L_m;
-        tree_.findNeighbors(closest, p_B_m.data(), nanoflann::SearchParams());
+        tree_.find(p_B_m.data(), closest);
       }
       distances_m.push_back(closest.found ? std::optional<double>(std::sqrt(closest.squared_m2))
                                           : std::nullopt);
@@ -84,13 +69,9 @@ class CamerasNanoflann : public CamerasPeer {
   }
 
  private:
-  using Metric = nanoflann::L2_Simple_Adaptor<float, CamerasCloud>;
-
   std::vector<std::size_t> links_;
   std::vector<std::vector<Eigen::Vector3f>> samples_L_m_;
-  CamerasCloud cloud_;
-  nanoflann::KDTreeSingleIndexAdaptor<Metric, CamerasCloud, 3> tree_{
-      3, cloud_, nanoflann::KDTreeSingleIndexAdaptorParams(kCamerasLeafPoints)};
+  PointTree<Eigen::Vector3f> tree_;
 };
 
 }  // namespace

@@ -1,9 +1,12 @@
 #include "lab/planning/configuration_room.hpp"
 
+#include <tbb/global_control.h>
+
 #include "berth/pipeline/observer.hpp"
 #include "berth/robot/primitives.hpp"
 #include "lab/stream/configurations.hpp"
 #include "lab/stream/film.hpp"
+#include "lab/trust/trial_robots.hpp"
 #include "sim/sensor_model.hpp"
 
 namespace berth::lab {
@@ -17,6 +20,33 @@ Verdict verdict_of(const std::vector<SpacePair>& links, double margin_m) {
 }
 
 }  // namespace
+
+void add_room_options(CLI::App& program, RoomOptions& options) {
+  program.add_option("--robots", options.robots, "a folder of robots, besides the bundled arm")
+      ->check(CLI::ExistingDirectory);
+  program.add_option("--first", options.view.seed, "the first room's seed")->capture_default_str();
+  program.add_option("--rooms", options.rooms, "how many")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  program.add_option("--cameras", options.view.cameras, "of each room")
+      ->check(CLI::Range(1, 4))
+      ->capture_default_str();
+}
+
+void for_each_room(const RoomOptions& options,
+                   const std::function<void(const std::shared_ptr<const Robot>& robot,
+                                            const RoomView& view)>& take) {
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  EvaluationSettings settings;
+  settings.visibility = settings.distance.mean_direction = false;
+  const std::vector<TrialRobot> robots = load_trial_robots(options.robots);
+  for (int i = 0; i < options.rooms; ++i) {
+    const TrialRobot& robot = robots[static_cast<std::size_t>(i) % robots.size()];
+    RoomView view = options.view;
+    view.seed += static_cast<std::uint32_t>(i);
+    take(std::make_shared<const Robot>(robot.model, settings), view);
+  }
+}
 
 std::shared_ptr<const Robot> with_rod(const Robot& robot) {
   Attachment rod;

@@ -1,7 +1,10 @@
 // Configurations in a drawn room, and what the exact search says of them.
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -40,6 +43,21 @@ class ConfigurationRoom {
   std::vector<double> position_;
   FrameList frames_;
 };
+
+/// Rooms one after another, with a folder's robots in turn.
+struct RoomOptions {
+  std::filesystem::path robots;
+  /// The first room's.
+  RoomView view;
+  int rooms = 11;
+};
+
+void add_room_options(CLI::App& program, RoomOptions& options);
+
+/// On one core, since times are to be those of one. Throws as load_trial_robots.
+void for_each_room(const RoomOptions& options,
+                   const std::function<void(const std::shared_ptr<const Robot>& robot,
+                                            const RoomView& view)>& take);
 
 /// The robot holding a rod of 30 cm.
 std::shared_ptr<const Robot> with_rod(const Robot& robot);

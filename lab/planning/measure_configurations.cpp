@@ -1,7 +1,6 @@
 // Many configurations of drawn rooms: how quickly, how many stay undecided, and whether the exact
 // search says the same.
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <CLI/CLI.hpp>
 #include <array>
@@ -11,7 +10,6 @@
 #include "berth/pipeline/configuration_check.hpp"
 #include "lab/measure/stopwatch.hpp"
 #include "lab/planning/configuration_room.hpp"
-#include "lab/trust/trial_robots.hpp"
 
 namespace berth::lab {
 namespace {
@@ -27,10 +25,7 @@ constexpr std::size_t kAhead = 50;
 /// near.
 constexpr std::array<std::size_t, 3> kPlaces{7, 61, 541};
 
-struct Options {
-  std::filesystem::path robots;
-  RoomView view;
-  int rooms = 9;
+struct Options : RoomOptions {
   /// Configurations of each room, margin and kind, and motions of each room and margin.
   std::size_t exact = 100;
   std::size_t motions = 10;
@@ -226,23 +221,14 @@ class Comparison {
 };
 
 void run(const Options& options) {
-  // Times are those of one core.
-  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   Counts counts;
-  const std::vector<TrialRobot> robots = load_trial_robots(options.robots);
-  for (int i = 0; i < options.rooms; ++i) {
-    EvaluationSettings settings;
-    settings.visibility = settings.distance.mean_direction = false;
-    const auto robot = std::make_shared<const Robot>(
-        robots[static_cast<std::size_t>(i) % robots.size()].model, settings);
-    RoomView view = options.view;
-    view.seed += static_cast<std::uint32_t>(i);
+  for_each_room(options, [&](const std::shared_ptr<const Robot>& robot, const RoomView& view) {
     Comparison({options.is_carrying ? with_rod(*robot) : robot, view}, robot->model().joints.size())
         .measure(options, counts);
     fmt::print(stderr, "room {}: {} held, {} wrongly free, {} wrongly near; {} motions, {}, {}\n",
                view.seed, counts.held, counts.wrong_free, counts.wrong_near, counts.held_motions,
                counts.wrong_free_motions, counts.wrong_near_motions);
-  }
+  });
   fmt::print(
       "| rooms, cameras | the field [ms] | a configuration [us], anywhere; near | undecided at 3 "
       "cm, anywhere; near [%] | exact search [ms] | undecided: exact search, resolve [ms] | a way "
@@ -268,15 +254,8 @@ int main(int argc, char** argv) {
   using namespace berth;
   CLI::App program("Holds ConfigurationCheck against the exact search, in drawn rooms.");
   lab::Options options;
-  program.add_option("--robots", options.robots, "a folder of robots, besides the bundled arm")
-      ->check(CLI::ExistingDirectory);
-  program.add_option("--first", options.view.seed, "the first room's seed")->capture_default_str();
-  program.add_option("--rooms", options.rooms, "how many")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
-  program.add_option("--cameras", options.view.cameras, "of each room")
-      ->check(CLI::Range(1, 4))
-      ->capture_default_str();
+  options.rooms = 9;
+  lab::add_room_options(program, options);
   program.add_option("--exact", options.exact, "configurations of each room, margin and kind")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();

@@ -1,6 +1,5 @@
 // Many configurations of drawn rooms beside what else a planner could ask.
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <CLI/CLI.hpp>
 
@@ -9,15 +8,11 @@
 #include "berth/pipeline/configuration_check.hpp"
 #include "lab/measure/stopwatch.hpp"
 #include "lab/planning/planning_peer.hpp"
-#include "lab/trust/trial_robots.hpp"
 
 namespace berth::lab {
 namespace {
 
-struct Options {
-  std::filesystem::path robots;
-  RoomView view;
-  int rooms = 11;
+struct Options : RoomOptions {
   std::size_t count = 200;
   double margin_m = 0.03;
 };
@@ -147,19 +142,11 @@ class Comparison {
 };
 
 void run(const Options& options) {
-  // Times are those of one core.
-  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   Comparison comparison(options);
-  const std::vector<TrialRobot> robots = load_trial_robots(options.robots);
-  for (int i = 0; i < options.rooms; ++i) {
-    EvaluationSettings settings;
-    settings.visibility = settings.distance.mean_direction = false;
-    const TrialRobot& robot = robots[static_cast<std::size_t>(i) % robots.size()];
-    RoomView view = options.view;
-    view.seed += static_cast<std::uint32_t>(i);
-    comparison.add({std::make_shared<const Robot>(robot.model, settings), view});
+  for_each_room(options, [&](const std::shared_ptr<const Robot>& robot, const RoomView& view) {
+    comparison.add({robot, view});
     fmt::print(stderr, "room {}\n", view.seed);
-  }
+  });
   comparison.print();
 }
 
@@ -170,15 +157,7 @@ int main(int argc, char** argv) {
   using namespace berth;
   CLI::App program("Asks ConfigurationCheck and its peers about the same configurations.");
   lab::Options options;
-  program.add_option("--robots", options.robots, "a folder of robots, besides the bundled arm")
-      ->check(CLI::ExistingDirectory);
-  program.add_option("--first", options.view.seed, "the first room's seed")->capture_default_str();
-  program.add_option("--rooms", options.rooms, "how many")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
-  program.add_option("--cameras", options.view.cameras, "of each room")
-      ->check(CLI::Range(1, 4))
-      ->capture_default_str();
+  lab::add_room_options(program, options);
   program.add_option("--count", options.count, "configurations of each room, anywhere and near")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();

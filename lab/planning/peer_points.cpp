@@ -1,25 +1,10 @@
-#include <nanoflann.hpp>
-
 #include "berth/distance/link_balls.hpp"
 #include "berth/pipeline/mounted_camera.hpp"
+#include "lab/measure/point_tree.hpp"
 #include "lab/planning/planning_peer.hpp"
 
 namespace berth::lab {
 namespace {
-
-constexpr std::size_t kLeafPoints = 32;
-
-/// Points as nanoflann wants to see them.
-struct Cloud {
-  std::vector<Eigen::Vector3f> points_B_m;
-
-  std::size_t kdtree_get_point_count() const { return points_B_m.size(); }
-  float kdtree_get_pt(std::size_t i, std::size_t axis) const { return points_B_m[i][axis]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
 
 /// Ends the search with the first point that is near enough.
 struct AnyWithin {
@@ -48,13 +33,13 @@ class PointsPeer : public PlanningPeer {
   std::string name() const override { return "nanoflann k-d tree, our balls (as CAPT)"; }
 
   void build(const FrameList& frames, const Eigen::AlignedBox3d&) override {
-    cloud_.points_B_m.clear();
+    tree_.points_m().clear();
     for (const auto& frame : frames) {
       for_each_point(*frame, frame->obstacles.depth_m, [&](const Eigen::Vector3d& p_B_m) {
-        cloud_.points_B_m.push_back(p_B_m.cast<float>());
+        tree_.points_m().push_back(p_B_m.cast<float>());
       });
     }
-    tree_.buildIndex();
+    tree_.build();
   }
 
   void ask(std::span<const double> positions, double margin_m,
@@ -86,19 +71,15 @@ class PointsPeer : public PlanningPeer {
     const Eigen::Vector3f at_B_m = X_BL * Eigen::Vector3f(balls.x_m[i], balls.y_m[i], balls.z_m[i]);
     const float within_m = balls.radius_m[i] + margin_m;
     AnyWithin any{within_m * within_m};
-    tree_.findNeighbors(any, at_B_m.data(), nanoflann::SearchParams());
+    tree_.find(at_B_m.data(), any);
     return any.found;
   }
-
-  using Metric = nanoflann::L2_Simple_Adaptor<float, Cloud>;
 
   const RobotModel& model_;
   std::vector<std::size_t> links_;
   std::vector<mesh::LinkBalls> balls_;
   RobotPose pose_;
-  Cloud cloud_;
-  nanoflann::KDTreeSingleIndexAdaptor<Metric, Cloud, 3> tree_{
-      3, cloud_, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafPoints)};
+  PointTree<Eigen::Vector3f> tree_;
 };
 
 }  // namespace
